@@ -1,0 +1,8 @@
+//! kempe: planar multibody mechanics.
+//!
+//! Modules depend on each other in one direction only:
+//! `math ← expression ← elements ← model ← equations ← analyses ← case`;
+//! `solve` and `integrate` know no mechanics. See `ARCHITECTURE.md`.
+#![forbid(unsafe_code)]
+
+pub mod math;

@@ -1,0 +1,149 @@
+//! First derivatives by dual numbers: x + Σ xₖ εₖ with εₖ εₗ = 0.
+
+use super::real::{Lift, Real};
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A value with its derivatives by `N` seeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual<const N: usize, S = f64> {
+    /// The value.
+    pub value: S,
+    /// The derivative by each seed.
+    pub slope: [S; N],
+}
+
+impl<const N: usize, S: Real> Dual<N, S> {
+    /// The variable that seed `k` stands for.
+    pub fn variable(value: S, k: usize) -> Self {
+        let mut slope = [S::zero(); N];
+        slope[k] = S::one();
+        Self { value, slope }
+    }
+
+    /// f(x) given f and f′ at the value: the chain rule.
+    fn chain(self, f: S, df: S) -> Self {
+        Self { value: f, slope: self.slope.map(|d| df * d) }
+    }
+}
+
+impl<const N: usize, S: Real> Lift<S> for Dual<N, S> {
+    fn lift(s: S) -> Self {
+        Self { value: s, slope: [S::zero(); N] }
+    }
+}
+
+fn zip<const N: usize, S: Copy>(a: [S; N], b: [S; N], f: impl Fn(S, S) -> S) -> [S; N] {
+    std::array::from_fn(|k| f(a[k], b[k]))
+}
+
+impl<const N: usize, S: Real> Add for Dual<N, S> {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Self { value: self.value + o.value, slope: zip(self.slope, o.slope, |a, b| a + b) }
+    }
+}
+impl<const N: usize, S: Real> Sub for Dual<N, S> {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        Self { value: self.value - o.value, slope: zip(self.slope, o.slope, |a, b| a - b) }
+    }
+}
+impl<const N: usize, S: Real> Mul for Dual<N, S> {
+    type Output = Self;
+    fn mul(self, o: Self) -> Self {
+        Self {
+            value: self.value * o.value,
+            slope: zip(self.slope, o.slope, |a, b| a * o.value + self.value * b),
+        }
+    }
+}
+impl<const N: usize, S: Real> Div for Dual<N, S> {
+    type Output = Self;
+    fn div(self, o: Self) -> Self {
+        let value = self.value / o.value;
+        Self { value, slope: zip(self.slope, o.slope, |a, b| (a - value * b) / o.value) }
+    }
+}
+impl<const N: usize, S: Real> Neg for Dual<N, S> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { value: -self.value, slope: self.slope.map(|d| -d) }
+    }
+}
+impl<const N: usize, S: Real> AddAssign for Dual<N, S> {
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+impl<const N: usize, S: Real> SubAssign for Dual<N, S> {
+    fn sub_assign(&mut self, o: Self) {
+        *self = *self - o;
+    }
+}
+
+impl<const N: usize, S: Real> Real for Dual<N, S> {
+    fn constant(x: f64) -> Self {
+        Self::lift(S::constant(x))
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        let (s, c) = self.value.sin_cos();
+        (self.chain(s, c), self.chain(c, -s))
+    }
+    fn sqrt(self) -> Self {
+        let r = self.value.sqrt();
+        self.chain(r, S::constant(0.5) / r)
+    }
+    fn exp(self) -> Self {
+        let e = self.value.exp();
+        self.chain(e, e)
+    }
+    fn ln(self) -> Self {
+        self.chain(self.value.ln(), S::one() / self.value)
+    }
+    fn asin(self) -> Self {
+        let x = self.value;
+        self.chain(x.asin(), S::one() / (S::one() - x * x).sqrt())
+    }
+    fn atan(self) -> Self {
+        let x = self.value;
+        self.chain(x.atan(), S::one() / (S::one() + x * x))
+    }
+    fn atan2(self, x: Self) -> Self {
+        let (a, b) = (self.value, x.value);
+        let r2 = a * a + b * b;
+        Self { value: a.atan2(b), slope: zip(self.slope, x.slope, |da, db| (b * da - a * db) / r2) }
+    }
+    fn sinh(self) -> Self {
+        self.chain(self.value.sinh(), self.value.cosh())
+    }
+    fn cosh(self) -> Self {
+        self.chain(self.value.cosh(), self.value.sinh())
+    }
+    fn tanh(self) -> Self {
+        let t = self.value.tanh();
+        self.chain(t, S::one() - t * t)
+    }
+    fn powc(self, exponent: f64) -> Self {
+        if exponent == 0.0 {
+            return Self::one();
+        }
+        let slope = S::constant(exponent) * self.value.powc(exponent - 1.0);
+        self.chain(self.value.powc(exponent), slope)
+    }
+    fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
+        let c = condition.value;
+        Self {
+            value: S::select(c, positive.value, otherwise.value),
+            slope: zip(positive.slope, otherwise.slope, |a, b| S::select(c, a, b)),
+        }
+    }
+    fn floor(self) -> Self {
+        Self::lift(self.value.floor())
+    }
+    fn least_magnitude(self) -> f64 {
+        self.value.least_magnitude()
+    }
+    fn is_finite(self) -> bool {
+        self.value.is_finite() && self.slope.iter().all(|d| d.is_finite())
+    }
+}

@@ -1,0 +1,177 @@
+//! Time derivatives to second order by truncated Taylor series.
+//!
+//! With q as the jet (q, q̇, 0) and t as (t, 1, 0), the jet of Φ(q, t) is (Φ, Φ_q q̇ + Φ_t, -γ): the
+//! right sides ν and γ of the velocity and acceleration equations (Haug 3.6.10, 3.6.11) without a
+//! formula of their own.
+
+use super::real::{Lift, Real};
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A quantity with its first and second time derivative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jet<S = f64> {
+    /// The value.
+    pub value: S,
+    /// First time derivative.
+    pub rate: S,
+    /// Second time derivative.
+    pub second: S,
+}
+
+impl<S: Real> Jet<S> {
+    /// A quantity with known time derivatives.
+    pub fn new(value: S, rate: S, second: S) -> Self {
+        Self { value, rate, second }
+    }
+
+    /// f(x) given f, f′ and f″ at the value (Faà di Bruno to second order).
+    fn chain(self, f: S, df: S, ddf: S) -> Self {
+        Self::new(f, df * self.rate, ddf * self.rate * self.rate + df * self.second)
+    }
+
+    /// 1/x.
+    fn recip(self) -> Self {
+        let r = S::one() / self.value;
+        let r2 = r * r;
+        self.chain(r, -r2, S::constant(2.0) * r2 * r)
+    }
+}
+
+impl<S: Real> Lift<S> for Jet<S> {
+    fn lift(s: S) -> Self {
+        Self::new(s, S::zero(), S::zero())
+    }
+}
+
+impl<S: Real> Add for Jet<S> {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Self::new(self.value + o.value, self.rate + o.rate, self.second + o.second)
+    }
+}
+impl<S: Real> Sub for Jet<S> {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        Self::new(self.value - o.value, self.rate - o.rate, self.second - o.second)
+    }
+}
+impl<S: Real> Mul for Jet<S> {
+    type Output = Self;
+    fn mul(self, o: Self) -> Self {
+        let cross = self.rate * o.rate;
+        Self::new(
+            self.value * o.value,
+            self.rate * o.value + self.value * o.rate,
+            self.second * o.value + cross + cross + self.value * o.second,
+        )
+    }
+}
+impl<S: Real> Div for Jet<S> {
+    type Output = Self;
+    #[allow(clippy::suspicious_arithmetic_impl)] // x/y as x · (1/y): one chain rule instead of two
+    fn div(self, o: Self) -> Self {
+        self * o.recip()
+    }
+}
+impl<S: Real> Neg for Jet<S> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::new(-self.value, -self.rate, -self.second)
+    }
+}
+impl<S: Real> AddAssign for Jet<S> {
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+impl<S: Real> SubAssign for Jet<S> {
+    fn sub_assign(&mut self, o: Self) {
+        *self = *self - o;
+    }
+}
+
+impl<S: Real> Real for Jet<S> {
+    fn constant(x: f64) -> Self {
+        Self::lift(S::constant(x))
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        let (s, c) = self.value.sin_cos();
+        (self.chain(s, c, -s), self.chain(c, -s, -c))
+    }
+    fn sqrt(self) -> Self {
+        let r = self.value.sqrt();
+        let d = S::constant(0.5) / r;
+        self.chain(r, d, -(d / (S::constant(2.0) * self.value)))
+    }
+    fn exp(self) -> Self {
+        let e = self.value.exp();
+        self.chain(e, e, e)
+    }
+    fn ln(self) -> Self {
+        let r = S::one() / self.value;
+        self.chain(self.value.ln(), r, -(r * r))
+    }
+    fn asin(self) -> Self {
+        let x = self.value;
+        let w = S::one() / (S::one() - x * x);
+        let d = w.sqrt();
+        self.chain(x.asin(), d, x * w * d)
+    }
+    fn atan(self) -> Self {
+        let x = self.value;
+        let w = S::one() / (S::one() + x * x);
+        self.chain(x.atan(), w, -(S::constant(2.0) * x * w * w))
+    }
+    fn atan2(self, x: Self) -> Self {
+        // θ̇ = (x ẏ - y ẋ) / r², differentiated once more
+        let (a, b) = (self, x);
+        let r2 = a.value * a.value + b.value * b.value;
+        let rate = (b.value * a.rate - a.value * b.rate) / r2;
+        let dr2 = S::constant(2.0) * (a.value * a.rate + b.value * b.rate);
+        let second = (b.value * a.second - a.value * b.second - rate * dr2) / r2;
+        Self::new(a.value.atan2(b.value), rate, second)
+    }
+    fn sinh(self) -> Self {
+        let (s, c) = (self.value.sinh(), self.value.cosh());
+        self.chain(s, c, s)
+    }
+    fn cosh(self) -> Self {
+        let (s, c) = (self.value.sinh(), self.value.cosh());
+        self.chain(c, s, c)
+    }
+    fn tanh(self) -> Self {
+        let t = self.value.tanh();
+        let d = S::one() - t * t;
+        self.chain(t, d, -(S::constant(2.0) * t * d))
+    }
+    fn powc(self, exponent: f64) -> Self {
+        if exponent == 0.0 {
+            return Self::one();
+        }
+        let p = S::constant(exponent);
+        let first = p * self.value.powc(exponent - 1.0);
+        let second = if exponent == 1.0 {
+            S::zero()
+        } else {
+            p * S::constant(exponent - 1.0) * self.value.powc(exponent - 2.0)
+        };
+        self.chain(self.value.powc(exponent), first, second)
+    }
+    fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
+        let c = condition.value;
+        Self::new(
+            S::select(c, positive.value, otherwise.value),
+            S::select(c, positive.rate, otherwise.rate),
+            S::select(c, positive.second, otherwise.second),
+        )
+    }
+    fn floor(self) -> Self {
+        Self::lift(self.value.floor())
+    }
+    fn least_magnitude(self) -> f64 {
+        self.value.least_magnitude()
+    }
+    fn is_finite(self) -> bool {
+        self.value.is_finite() && self.rate.is_finite() && self.second.is_finite()
+    }
+}

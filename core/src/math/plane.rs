@@ -1,0 +1,219 @@
+//! Geometry of the plane (Haug 2.4): A(φ) = [cos φ, -sin φ; sin φ, cos φ], B(φ) = dA/dφ.
+//!
+//! A global vector ([`Vec2`]) and a body-fixed one ([`Local`]) are different types; only a
+//! [`Rotation`] turns one into the other, so a forgotten A(φ) does not compile.
+
+use super::real::{Lift, Real};
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// A vector in the global frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vec2<S = f64> {
+    /// Component along global x.
+    pub x: S,
+    /// Component along global y.
+    pub y: S,
+}
+
+/// A vector in a body frame: s′.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Local<S = f64> {
+    /// Component along the body's x axis.
+    pub x: S,
+    /// Component along the body's y axis.
+    pub y: S,
+}
+
+macro_rules! vector {
+    ($V:ident) => {
+        impl<S: Real> $V<S> {
+            /// From components.
+            pub fn new(x: S, y: S) -> Self {
+                Self { x, y }
+            }
+            /// The null vector.
+            pub fn zero() -> Self {
+                Self::new(S::zero(), S::zero())
+            }
+            /// Scalar product.
+            pub fn dot(self, o: Self) -> S {
+                self.x * o.x + self.y * o.y
+            }
+            /// z component of the vector product.
+            pub fn cross(self, o: Self) -> S {
+                self.x * o.y - self.y * o.x
+            }
+            /// The vector turned by +90°: (-y, x).
+            pub fn perp(self) -> Self {
+                Self::new(-self.y, self.x)
+            }
+            /// Length.
+            pub fn norm(self) -> S {
+                self.dot(self).sqrt()
+            }
+            /// Multiplied by a scalar.
+            pub fn scale(self, k: S) -> Self {
+                Self::new(self.x * k, self.y * k)
+            }
+            /// The same vector over a scalar that contains this one.
+            pub fn lift<T: Lift<S>>(self) -> $V<T> {
+                $V { x: T::lift(self.x), y: T::lift(self.y) }
+            }
+        }
+        impl<S: Real> Add for $V<S> {
+            type Output = Self;
+            fn add(self, o: Self) -> Self {
+                Self::new(self.x + o.x, self.y + o.y)
+            }
+        }
+        impl<S: Real> Sub for $V<S> {
+            type Output = Self;
+            fn sub(self, o: Self) -> Self {
+                Self::new(self.x - o.x, self.y - o.y)
+            }
+        }
+        impl<S: Real> Neg for $V<S> {
+            type Output = Self;
+            fn neg(self) -> Self {
+                Self::new(-self.x, -self.y)
+            }
+        }
+    };
+}
+vector!(Vec2);
+vector!(Local);
+
+/// The rotation A(φ).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation<S = f64> {
+    /// cos φ.
+    pub cos: S,
+    /// sin φ.
+    pub sin: S,
+}
+
+impl<S: Real> Rotation<S> {
+    /// A(φ).
+    pub fn new(angle: S) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        Self { cos, sin }
+    }
+    /// Aᵀ v: a global vector seen from the body.
+    pub fn inverse(self, v: Vec2<S>) -> Local<S> {
+        Local::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x)
+    }
+}
+
+impl<S: Real> Mul<Local<S>> for Rotation<S> {
+    type Output = Vec2<S>;
+    fn mul(self, s: Local<S>) -> Vec2<S> {
+        Vec2::new(self.cos * s.x - self.sin * s.y, self.sin * s.x + self.cos * s.y)
+    }
+}
+
+/// Where a body frame stands: its origin r, its angle φ, and A(φ).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose<S = f64> {
+    /// Origin of the body frame, m.
+    pub r: Vec2<S>,
+    /// Angle of the body frame, rad, continuous (not modulo 2π).
+    pub angle: S,
+    /// A(φ).
+    pub rotation: Rotation<S>,
+}
+
+impl<S: Real> Pose<S> {
+    /// From coordinates.
+    pub fn new(x: S, y: S, angle: S) -> Self {
+        Self { r: Vec2::new(x, y), angle, rotation: Rotation::new(angle) }
+    }
+    /// The pose of ground.
+    pub fn identity() -> Self {
+        Self {
+            r: Vec2::zero(),
+            angle: S::zero(),
+            rotation: Rotation { cos: S::one(), sin: S::zero() },
+        }
+    }
+    /// A s′: a body-fixed vector in the global frame.
+    pub fn global(&self, s: Local<S>) -> Vec2<S> {
+        self.rotation * s
+    }
+    /// r + A s′: a point of the body in the global frame (Haug 2.4.8).
+    pub fn point(&self, s: Local<S>) -> Vec2<S> {
+        self.r + self.rotation * s
+    }
+}
+
+/// How a body frame moves: velocity of its origin and angular velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twist<S = f64> {
+    /// Velocity of the frame's origin, m/s.
+    pub velocity: Vec2<S>,
+    /// Angular velocity, rad/s.
+    pub omega: S,
+}
+
+impl<S: Real> Twist<S> {
+    /// At rest.
+    pub fn zero() -> Self {
+        Self { velocity: Vec2::zero(), omega: S::zero() }
+    }
+}
+
+/// Position and velocity of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion<S = f64> {
+    /// Where it is.
+    pub pose: Pose<S>,
+    /// How it moves.
+    pub twist: Twist<S>,
+}
+
+impl<S: Real> Motion<S> {
+    /// Velocity of a body-fixed point: ṙ + B s′ φ̇ (Haug 2.6.4).
+    pub fn point_velocity(&self, s: Local<S>) -> Vec2<S> {
+        self.twist.velocity + self.pose.global(s).perp().scale(self.twist.omega)
+    }
+}
+
+/// A force and a torque on a body, reduced to the origin of its frame, in global components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench<S = f64> {
+    /// Force, N.
+    pub force: Vec2<S>,
+    /// Torque about the frame's origin, N·m.
+    pub torque: S,
+}
+
+impl<S: Real> Wrench<S> {
+    /// No force, no torque.
+    pub fn zero() -> Self {
+        Self { force: Vec2::zero(), torque: S::zero() }
+    }
+    /// A torque alone.
+    pub fn torque(torque: S) -> Self {
+        Self { force: Vec2::zero(), torque }
+    }
+    /// A force at the arm `arm` (global components, from the frame's origin).
+    pub fn at(arm: Vec2<S>, force: Vec2<S>) -> Self {
+        Self { force, torque: arm.cross(force) }
+    }
+    /// Power on a moving body, W.
+    pub fn power(self, twist: Twist<S>) -> S {
+        self.force.dot(twist.velocity) + self.torque * twist.omega
+    }
+}
+
+impl<S: Real> Neg for Wrench<S> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { force: -self.force, torque: -self.torque }
+    }
+}
+impl<S: Real> Add for Wrench<S> {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Self { force: self.force + o.force, torque: self.torque + o.torque }
+    }
+}

@@ -1,0 +1,177 @@
+//! What a scalar must do to carry the mechanics.
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A scalar: a real number, or a real number that carries something more (derivatives, other designs).
+///
+/// Domain errors follow `f64`: they give NaN, never a panic.
+pub trait Real:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+{
+    /// A constant: no derivatives, the same in every lane.
+    fn constant(x: f64) -> Self;
+
+    /// (sin x, cos x), x in rad.
+    fn sin_cos(self) -> (Self, Self);
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// eˣ.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Inverse sine, in [-π/2, π/2].
+    fn asin(self) -> Self;
+    /// Inverse tangent, in (-π/2, π/2).
+    fn atan(self) -> Self;
+    /// Angle of the vector (`x`, `self`), in (-π, π].
+    fn atan2(self, x: Self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// x to a constant power.
+    fn powc(self, exponent: f64) -> Self;
+    /// `positive` where `condition` > 0, else `otherwise`; decided lane by lane.
+    fn select(condition: Self, positive: Self, otherwise: Self) -> Self;
+    /// Largest integer not above x; derivatives are zero.
+    fn floor(self) -> Self;
+
+    /// Smallest |x| over the lanes; derivatives are ignored. Pivots are judged by it.
+    fn least_magnitude(self) -> f64;
+    /// Whether every part, derivatives included, is finite.
+    fn is_finite(self) -> bool;
+
+    /// Zero.
+    fn zero() -> Self {
+        Self::constant(0.0)
+    }
+    /// One.
+    fn one() -> Self {
+        Self::constant(1.0)
+    }
+    /// Sine.
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+    /// Cosine.
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+    /// Tangent.
+    fn tan(self) -> Self {
+        let (s, c) = self.sin_cos();
+        s / c
+    }
+    /// Inverse cosine, in [0, π].
+    fn acos(self) -> Self {
+        Self::constant(std::f64::consts::FRAC_PI_2) - self.asin()
+    }
+    /// x to a variable power, x > 0.
+    fn pow(self, exponent: Self) -> Self {
+        (exponent * self.ln()).exp()
+    }
+    /// |x|; the derivative at 0 is -1.
+    fn abs(self) -> Self {
+        Self::select(self, self, -self)
+    }
+    /// The larger of two.
+    fn max(self, other: Self) -> Self {
+        Self::select(self - other, self, other)
+    }
+    /// The smaller of two.
+    fn min(self, other: Self) -> Self {
+        Self::select(self - other, other, self)
+    }
+}
+
+impl Real for f64 {
+    fn constant(x: f64) -> Self {
+        x
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        f64::sin_cos(self)
+    }
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    fn exp(self) -> Self {
+        f64::exp(self)
+    }
+    fn ln(self) -> Self {
+        f64::ln(self)
+    }
+    fn asin(self) -> Self {
+        f64::asin(self)
+    }
+    fn acos(self) -> Self {
+        f64::acos(self)
+    }
+    fn atan(self) -> Self {
+        f64::atan(self)
+    }
+    fn atan2(self, x: Self) -> Self {
+        f64::atan2(self, x)
+    }
+    fn sinh(self) -> Self {
+        f64::sinh(self)
+    }
+    fn cosh(self) -> Self {
+        f64::cosh(self)
+    }
+    fn tanh(self) -> Self {
+        f64::tanh(self)
+    }
+    fn powc(self, exponent: f64) -> Self {
+        // powi is exact for the small integers of polynomial laws; powf may not be
+        if exponent.fract() == 0.0 && exponent.abs() <= 16.0 {
+            f64::powi(self, exponent as i32)
+        } else {
+            f64::powf(self, exponent)
+        }
+    }
+    fn pow(self, exponent: Self) -> Self {
+        f64::powf(self, exponent)
+    }
+    fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
+        if condition > 0.0 {
+            positive
+        } else {
+            otherwise
+        }
+    }
+    fn floor(self) -> Self {
+        f64::floor(self)
+    }
+    fn least_magnitude(self) -> f64 {
+        f64::abs(self)
+    }
+    fn is_finite(self) -> bool {
+        f64::is_finite(self)
+    }
+}
+
+/// A scalar that contains `S`: a quantity over `S` can be used where `Self` is computed.
+pub trait Lift<S: Real>: Real {
+    /// `s` as a constant of `Self`.
+    fn lift(s: S) -> Self;
+}
+
+impl<S: Real> Lift<S> for S {
+    fn lift(s: S) -> Self {
+        s
+    }
+}
