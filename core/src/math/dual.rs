@@ -1,5 +1,7 @@
 //! First derivatives by dual numbers: x + Σ xₖ εₖ with εₖ εₗ = 0.
 
+#![allow(clippy::suspicious_arithmetic_impl)] // product and quotient rule
+
 use super::real::{Lift, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -59,7 +61,6 @@ impl<const N: usize, S: Real> Mul for Dual<N, S> {
 }
 impl<const N: usize, S: Real> Div for Dual<N, S> {
     type Output = Self;
-    #[allow(clippy::suspicious_arithmetic_impl)] // the quotient rule needs all three operations
     fn div(self, o: Self) -> Self {
         let value = self.value / o.value;
         Self { value, slope: zip(self.slope, o.slope, |a, b| (a - value * b) / o.value) }
