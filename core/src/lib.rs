@@ -5,4 +5,7 @@
 //! `solve` and `integrate` know no mechanics. See `ARCHITECTURE.md`.
 #![forbid(unsafe_code)]
 
+pub mod elements;
+pub mod expression;
 pub mod math;
+pub mod model;

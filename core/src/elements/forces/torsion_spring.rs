@@ -1,0 +1,47 @@
+//! Rotational spring-damper (Haug 6.2.18): a torque by the relative angle and its rate.
+//!
+//! θ = φⱼ - φᵢ, continuous, never modulo 2π. Torque on j: -k (θ - θ₀) - c θ̇; opposite on i.
+//! V = ½ k (θ - θ₀)². All real θ.
+
+use crate::elements::{element, Action, BodyId, Force, Nature, Part, Situation};
+use crate::math::{Real, Wrench};
+
+element! {
+    /// Rotational spring-damper: torque on j is -stiffness (θ - free_angle) - damping θ̇ with
+    /// θ = angle_j - angle_i, continuous; opposite on i (Haug 6.2.18).
+    TorsionSpring, "torsion_spring" {
+        /// Body i.
+        i: body,
+        /// Body j.
+        j: body,
+        /// Torque per angle.
+        stiffness: law [N*m/rad] = 0.0,
+        /// Torque per angular velocity.
+        damping: law [N*m*s/rad] = 0.0,
+        /// Relative angle without torque.
+        free_angle: law [rad] = 0.0,
+    }
+}
+
+impl Force<2> for TorsionSpring {
+    const PARTS: [Part; 2] = [
+        Part { name: "stiffness", nature: Nature::Conservative },
+        Part { name: "damping", nature: Nature::Dissipative },
+    ];
+
+    fn ends<S>(e: &TorsionSpring<S>) -> [BodyId; 2] {
+        [e.i, e.j]
+    }
+
+    fn action<S: Real>(e: &TorsionSpring<S>, at: &Situation<S>) -> [Action<S>; 2] {
+        let stretch = at.j.pose.angle - at.i.pose.angle - e.free_angle;
+        let rate = at.j.twist.omega - at.i.twist.omega;
+        [-(e.stiffness * stretch), -(e.damping * rate)]
+            .map(|torque| Action { on_i: Wrench::torque(-torque), on_j: Wrench::torque(torque) })
+    }
+
+    fn potential<S: Real>(e: &TorsionSpring<S>, at: &Situation<S>) -> S {
+        let stretch = at.j.pose.angle - at.i.pose.angle - e.free_angle;
+        S::constant(0.5) * e.stiffness * stretch * stretch
+    }
+}

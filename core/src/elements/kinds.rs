@@ -1,0 +1,182 @@
+//! Kinds of fields: what an element may hold, and how each is read and carried between scalars.
+
+use super::declare::Field;
+use crate::expression::Tape;
+use crate::math::{Local, Pose, Real, Twist};
+
+/// A body of a model: 0 is ground, moving bodies count from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BodyId(pub usize);
+
+impl BodyId {
+    /// The body with zero columns.
+    pub const GROUND: Self = Self(0);
+
+    /// Whether this is ground.
+    pub fn is_ground(self) -> bool {
+        self == Self::GROUND
+    }
+}
+
+/// A point fixed in a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointOn<S = f64> {
+    /// The body.
+    pub body: BodyId,
+    /// s′, from the origin of the body frame, m.
+    pub s: Local<S>,
+}
+
+/// A coordinate of a body or its rate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinate {
+    /// Position of the frame's origin, m.
+    X,
+    /// Position of the frame's origin, m.
+    Y,
+    /// Angle of the frame, rad.
+    Angle,
+    /// Velocity of the frame's origin, m/s.
+    Vx,
+    /// Velocity of the frame's origin, m/s.
+    Vy,
+    /// Angular velocity, rad/s.
+    Omega,
+}
+
+impl Coordinate {
+    /// All, in the order of their index.
+    pub const ALL: [Self; 6] = [Self::X, Self::Y, Self::Angle, Self::Vx, Self::Vy, Self::Omega];
+
+    /// The name in files, expressions and Python.
+    pub fn name(self) -> &'static str {
+        ["x", "y", "angle", "vx", "vy", "omega"][self as usize]
+    }
+    /// SI unit.
+    pub fn unit(self) -> &'static str {
+        ["m", "m", "rad", "m/s", "m/s", "rad/s"][self as usize]
+    }
+    /// From its name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|c| c.name() == name)
+    }
+    /// Whether it is a velocity.
+    pub fn is_rate(self) -> bool {
+        self as usize >= 3
+    }
+    /// Index 0 to 2 within the body's columns.
+    pub fn column(self) -> usize {
+        self as usize % 3
+    }
+    /// Its value on a body.
+    pub fn of<S: Real>(self, pose: &Pose<S>, twist: &Twist<S>) -> S {
+        match self {
+            Self::X => pose.r.x,
+            Self::Y => pose.r.y,
+            Self::Angle => pose.angle,
+            Self::Vx => twist.velocity.x,
+            Self::Vy => twist.velocity.y,
+            Self::Omega => twist.omega,
+        }
+    }
+}
+
+/// A coordinate of one body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CoordinateOf {
+    /// The body.
+    pub body: BodyId,
+    /// Which coordinate.
+    pub coordinate: Coordinate,
+}
+
+/// What may stand in a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Name of a body.
+    Body,
+    /// `body.point`.
+    Point,
+    /// `body.x`, `body.y` or `body.angle`.
+    Coordinate,
+    /// Number or expression in the parameters.
+    Number,
+    /// Number or expression in the parameters, `t` and the state.
+    Law,
+    /// Two numbers.
+    Pair,
+}
+
+/// Where fields are read from; it keeps the reports of what is wrong with them.
+pub trait Source {
+    /// A body by name.
+    fn body(&mut self, field: &Field) -> Option<BodyId>;
+    /// A named point of a body.
+    fn point(&mut self, field: &Field) -> Option<PointOn<Tape>>;
+    /// A coordinate of a moving body.
+    fn coordinate(&mut self, field: &Field) -> Option<CoordinateOf>;
+    /// A formula in the parameters.
+    fn number(&mut self, field: &Field) -> Option<Tape>;
+    /// A formula in the parameters, time and state.
+    fn law(&mut self, field: &Field) -> Option<Tape>;
+    /// Two formulas in the parameters.
+    fn pair(&mut self, field: &Field) -> Option<[Tape; 2]>;
+}
+
+/// A kind of field.
+pub trait Kind {
+    /// What the element holds over the scalar `S`.
+    type Over<S>;
+    /// What may stand in the file.
+    const SHAPE: Shape;
+    /// Reads one field.
+    fn read(source: &mut dyn Source, field: &Field) -> Option<Self::Over<Tape>>;
+    /// Carries it to another scalar.
+    fn map<S, T>(value: &Self::Over<S>, f: &mut dyn FnMut(&S) -> T) -> Self::Over<T>;
+}
+
+macro_rules! kind {
+    ($(#[$doc:meta])* $kind:ident, $Shape:ident, $S:ident => $Over:ty, |$v:ident, $f:ident| $map:expr) => {
+        $(#[$doc])*
+        #[allow(non_camel_case_types)] // stands for a type in `element!`, written like a word
+        #[derive(Clone, Copy, Debug)]
+        pub enum $kind {}
+        impl Kind for $kind {
+            type Over<$S> = $Over;
+            const SHAPE: Shape = Shape::$Shape;
+            fn read(source: &mut dyn Source, field: &Field) -> Option<Self::Over<Tape>> {
+                source.$kind(field)
+            }
+            fn map<S, T>($v: &Self::Over<S>, $f: &mut dyn FnMut(&S) -> T) -> Self::Over<T> {
+                $map
+            }
+        }
+    };
+}
+
+kind!(
+    /// A body.
+    body, Body, S => BodyId, |v, _f| *v
+);
+kind!(
+    /// A point of a body.
+    point, Point, S => PointOn<S>, |v, f| PointOn {
+        body: v.body, s: Local { x: f(&v.s.x), y: f(&v.s.y) }
+    }
+);
+kind!(
+    /// A coordinate of a body.
+    coordinate, Coordinate, S => CoordinateOf, |v, _f| *v
+);
+kind!(
+    /// A constant.
+    number, Number, S => S, |v, f| f(v)
+);
+kind!(
+    /// A quantity that may depend on time and state.
+    law, Law, S => S, |v, f| f(v)
+);
+kind!(
+    /// Two constants.
+    pair, Pair, S => [S; 2], |v, f| [f(&v[0]), f(&v[1])]
+);

@@ -1,0 +1,75 @@
+//! A model as written: names, numbers and formulas as text, in the order of the file.
+
+/// A value as it stands in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A name or a formula.
+    Text(String),
+    /// true or false.
+    Flag(bool),
+    /// A list.
+    List(Vec<Value>),
+    /// Keys with values, in order.
+    Table(Vec<(String, Value)>),
+}
+
+impl Value {
+    /// What a reader of the file would call it.
+    pub fn noun(&self) -> &'static str {
+        match self {
+            Self::Number(_) => "a number",
+            Self::Text(_) => "a text",
+            Self::Flag(_) => "true or false",
+            Self::List(_) => "a list",
+            Self::Table(_) => "a table",
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(x: f64) -> Self {
+        Self::Number(x)
+    }
+}
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_string())
+    }
+}
+
+/// A named thing with its fields: a body, a joint, a force, an analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Its name.
+    pub name: String,
+    /// Its fields as written, `type` among them.
+    pub fields: Vec<(String, Value)>,
+}
+
+impl Entry {
+    /// A field by key.
+    pub fn get(&self, key: &str) -> Option<&Value> {
+        self.fields.iter().find(|(k, _)| k == key).map(|(_, v)| v)
+    }
+}
+
+/// A model as written. Order is order in q and Φ.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Definition {
+    /// What it is.
+    pub title: Option<String>,
+    /// Acceleration of free fall, two numbers or formulas, m/s²; none means zero.
+    pub gravity: Option<Value>,
+    /// Named parameters: numbers or formulas in other parameters.
+    pub parameters: Vec<(String, Value)>,
+    /// Bodies; an entry `ground` holds the points of ground.
+    pub bodies: Vec<Entry>,
+    /// Joints.
+    pub joints: Vec<Entry>,
+    /// Drivers.
+    pub drivers: Vec<Entry>,
+    /// Forces.
+    pub forces: Vec<Entry>,
+}

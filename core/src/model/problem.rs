@@ -1,0 +1,62 @@
+//! What is wrong with a definition, where, and what to do.
+
+use std::fmt;
+use std::ops::Range;
+
+/// One fault of a definition. A reader of a file adds line and column from the path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// Keys from the top of the file, such as `bodies`, `crank`, `mass`; list indices as digits.
+    pub path: Vec<String>,
+    /// What is wrong, naming value and requirement.
+    pub message: String,
+    /// What to do, if that can be said.
+    pub hint: Option<String>,
+    /// The faulty bytes within the value at `path`, if it is a text and only part of it is wrong.
+    pub within: Option<Range<usize>>,
+    /// Whether the key is wrong, not its value.
+    pub at_key: bool,
+}
+
+impl Problem {
+    /// A fault of the value at `path`.
+    pub fn at<P: AsRef<str>>(path: &[P], message: impl Into<String>) -> Self {
+        Self {
+            path: path.iter().map(|p| p.as_ref().to_string()).collect(),
+            message: message.into(),
+            hint: None,
+            within: None,
+            at_key: false,
+        }
+    }
+    /// With advice.
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+    /// With advice, if there is any.
+    pub fn maybe_hint(mut self, hint: Option<String>) -> Self {
+        self.hint = self.hint.or(hint);
+        self
+    }
+    /// Only these bytes of the value.
+    pub fn within(mut self, span: Range<usize>) -> Self {
+        self.within = Some(span);
+        self
+    }
+    /// The key itself is wrong.
+    pub fn at_key(mut self) -> Self {
+        self.at_key = true;
+        self
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.path.join("."), self.message)?;
+        match &self.hint {
+            Some(hint) => write!(f, "; {hint}"),
+            None => Ok(()),
+        }
+    }
+}
