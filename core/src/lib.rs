@@ -5,4 +5,5 @@
 //! `solve` and `integrate` know no mechanics. See `ARCHITECTURE.md`.
 #![forbid(unsafe_code)]
 
+pub mod expression;
 pub mod math;
