@@ -11,8 +11,11 @@
 //! name       = part {"." part}          L1, t, pi, crank.omega, `my body`.omega
 //! ```
 //!
-//! A text that is nothing but a number may carry a unit (`30 deg`, `-5 kN`, see [`unit`]); an
+//! A text that is nothing but a number may carry a unit (`30 deg`, `-5 kN`, see [`mod@unit`]); an
 //! expression never does. Everything is in SI units and radians.
+//!
+//! A power with a constant exponent (`x^2`, `x^(3/2)`) is defined as in `f64`. Where the exponent
+//! is a parameter or varies, its derivatives exist for x > 0 only.
 //!
 //! ```
 //! use kempe::expression::{Expression, Scope};

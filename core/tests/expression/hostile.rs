@@ -34,7 +34,9 @@ fn wide_texts_are_read() {
 #[test]
 fn open_operands_are_bounded() {
     let open = |count: usize| format!("{}a{}", "a+(".repeat(count - 1), ")".repeat(count - 1));
-    assert_eq!(super::value(&open(MAX_OPERANDS)), 2.0 * MAX_OPERANDS as f64);
+    for count in 1..=MAX_OPERANDS {
+        assert_eq!(super::value(&open(count)), 2.0 * count as f64);
+    }
     let message = error(&open(MAX_OPERANDS + 1)).message;
     assert_eq!(message, "the expression holds more than 32 operands open at this point");
 }
