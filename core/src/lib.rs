@@ -5,7 +5,10 @@
 //! `solve` and `integrate` know no mechanics. See `ARCHITECTURE.md`.
 #![forbid(unsafe_code)]
 
+pub mod analyses;
 pub mod elements;
+pub mod equations;
 pub mod expression;
 pub mod math;
 pub mod model;
+pub mod solve;

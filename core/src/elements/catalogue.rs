@@ -77,6 +77,10 @@ macro_rules! constraints {
             pub fn ends(&self) -> [BodyId; 2] {
                 match self { $($(Self::$Name(e) => <$Name>::ends(e),)+)+ }
             }
+            /// Whether the joint points of i and j coincide.
+            pub fn pins(&self) -> bool {
+                match self { $($(Self::$Name(_) => <$Name>::PINS,)+)+ }
+            }
             /// Names and units of the equations.
             pub fn equations(&self) -> Vec<Equation> {
                 match self { $($(Self::$Name(e) => <$Name>::equations(e).to_vec(),)+)+ }

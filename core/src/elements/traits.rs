@@ -35,6 +35,9 @@ pub struct Attachment<S = f64> {
 
 /// A joint or driver with `M` equations Φ(qᵢ, qⱼ, t) = 0.
 pub trait Joint<const M: usize>: Element {
+    /// Whether the joint points of i and j coincide: what assembly walks along to place bodies.
+    const PINS: bool = false;
+
     /// Bodies i and j; ground where a body is missing.
     fn ends<S>(e: &Self::Over<S>) -> [BodyId; 2];
 

@@ -132,6 +132,16 @@ impl<const N: usize, S: Real> Real for Dual<N, S> {
         let slope = S::constant(exponent) * self.value.powc(exponent - 1.0);
         self.chain(self.value.powc(exponent), slope)
     }
+    fn pow(self, exponent: Self) -> Self {
+        let (x, y) = (self.value, exponent.value);
+        let value = x.pow(y);
+        let (by_x, by_y) = (y * x.pow(y - S::one()), value * x.ln());
+        // ln x exists only for x > 0, but a constant exponent does not need it
+        let slope = zip(self.slope, exponent.slope, |dx, dy| {
+            by_x * dx + S::select(dy * dy, by_y * dy, S::zero())
+        });
+        Self { value, slope }
+    }
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
         let c = condition.value;
         Self {

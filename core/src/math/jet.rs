@@ -157,6 +157,20 @@ impl<S: Real> Real for Jet<S> {
         };
         self.chain(self.value.powc(exponent), first, second)
     }
+    fn pow(self, exponent: Self) -> Self {
+        let (x, y) = (self.value, exponent.value);
+        let (one, value) = (S::one(), x.pow(y));
+        let constant =
+            self.chain(value, y * x.pow(y - one), y * (y - one) * x.pow(y - one - one));
+        // ln x exists only for x > 0, but a constant exponent does not need it
+        let varying = (exponent * self.ln()).exp();
+        let varies = exponent.rate * exponent.rate + exponent.second * exponent.second;
+        Self::new(
+            value,
+            S::select(varies, varying.rate, constant.rate),
+            S::select(varies, varying.second, constant.second),
+        )
+    }
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
         let c = condition.value;
         Self::new(

@@ -1,7 +1,19 @@
-//! Models: as written ([`Definition`]) and as numbers ([`Model`]).
+//! Models: as written ([`Definition`]), linked ([`Blueprint`]) and as numbers ([`Model`]).
 
+mod blueprint;
+mod bodies;
+mod checks;
 mod definition;
+mod layout;
+mod link;
+#[allow(clippy::module_inception)] // the model of the module `model`
+mod model;
+mod parameters;
 mod problem;
 
+pub use blueprint::{build, Blueprint};
 pub use definition::{Definition, Entry, Value};
+pub use layout::{columns, Block, Layout, Slots};
+pub use link::{did_you_mean, Reach, Scope};
+pub use model::{variable, Body, ConstraintItem, Dependence, ForceItem, Model};
 pub use problem::Problem;

@@ -14,7 +14,7 @@ element! {
         /// Driven coordinate, as `body.x`, `body.y` or `body.angle`.
         coordinate: coordinate,
         /// Its value, m or rad; may use `t` and the positions of other bodies.
-        value: law [m or rad],
+        value: law [m|rad],
     }
 }
 

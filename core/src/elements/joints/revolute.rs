@@ -19,6 +19,8 @@ element! {
 }
 
 impl Joint<2> for Revolute {
+    const PINS: bool = true;
+
     fn ends<S>(e: &Revolute<S>) -> [BodyId; 2] {
         [e.i.body, e.j.body]
     }

@@ -1,0 +1,6 @@
+//! Assembly.
+mod dyad;
+mod placement;
+mod wishes;
+pub use placement::{place, Placement};
+pub use wishes::Wishes;

@@ -1,0 +1,276 @@
+//! First positions of all bodies, by walking the joints from ground and closing dyads.
+//!
+//! A body is placed as soon as what is known of it suffices: its angle and one pin, or two pins, or
+//! as a dyad with a neighbour (two bodies pinned to each other and to placed bodies: the
+//! intersection of two circles, with two closures). Where nothing suffices a coordinate is taken
+//! from the guess, or tried over the circle. Choices that no guess decides are numbered, so that a
+//! caller can go through all of them.
+
+use super::dyad::{close, Closure};
+use super::wishes::{nearest_turn, Wishes};
+use crate::elements::{BodyId, Side};
+use crate::math::{Local, Pose, Vec2};
+use crate::model::Model;
+
+/// Two points that coincide.
+#[derive(Clone, Copy, Debug)]
+struct Pin {
+    constraint: usize,
+    ends: [BodyId; 2],
+    s: [Local; 2],
+}
+
+/// A pin seen from one of its bodies.
+#[derive(Clone, Copy, Debug)]
+struct Leg {
+    constraint: usize,
+    own: Local,
+    other: usize,
+    at_other: Local,
+}
+
+/// Two bodies closed as a dyad.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dyad {
+    /// The two bodies.
+    pub bodies: [usize; 2],
+    /// The joint between them.
+    pub joint: usize,
+    /// Joints that carry them.
+    pub anchors: [usize; 2],
+    /// Whether the other closure is a different position.
+    pub has_other: bool,
+}
+
+/// A dyad whose circles do not meet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gap {
+    /// The two bodies.
+    pub bodies: [usize; 2],
+    /// The joint between them.
+    pub joint: usize,
+    /// By how much the bodies together are too short (> 0) or their difference too long (< 0), m.
+    pub missing: f64,
+}
+
+/// Positions for all bodies, and how they were found.
+#[derive(Clone, Debug, Default)]
+pub struct Placement {
+    /// Coordinates, shape (n_q).
+    pub q: Vec<f64>,
+    /// Dyads, in the order of their closing.
+    pub dyads: Vec<Dyad>,
+    /// Dyads that did not close.
+    pub gaps: Vec<Gap>,
+    /// How many options each undecided choice had.
+    pub options: Vec<usize>,
+}
+
+/// Angles tried for a body of which nothing is known, in this order.
+const TRIED_DEG: [f64; 12] =
+    [0.0, 90.0, 45.0, 135.0, -45.0, 180.0, -90.0, -135.0, 20.0, 110.0, -70.0, -160.0];
+
+struct Placer<'a> {
+    wishes: &'a Wishes,
+    legs: Vec<Vec<Leg>>,
+    poses: Vec<Option<Pose>>,
+    choices: &'a [usize],
+    result: Placement,
+}
+
+/// Places all bodies; undecided choice k takes option `choices[k]`, or the first.
+pub fn place(model: &Model, wishes: &Wishes, choices: &[usize]) -> Placement {
+    let mut placer = Placer {
+        wishes,
+        legs: legs(model),
+        poses: vec![None; model.bodies.len()],
+        choices,
+        result: Placement::default(),
+    };
+    placer.poses[0] = Some(Pose::identity());
+    while let Some(first) = placer.poses.iter().position(Option::is_none) {
+        let placed = (first..placer.poses.len()).filter(|b| placer.follow(*b)).count();
+        if placed == 0 && !placer.close_dyads() {
+            placer.assume(first);
+        }
+    }
+    let poses = placer.poses.iter().skip(1).flatten();
+    placer.result.q = poses.flat_map(|p| [p.r.x, p.r.y, p.angle]).collect();
+    placer.result
+}
+
+fn legs(model: &Model) -> Vec<Vec<Leg>> {
+    let mut legs = vec![Vec::new(); model.bodies.len()];
+    for (constraint, item) in model.constraints.iter().enumerate() {
+        let ends = item.element.ends();
+        if !item.element.pins() || ends[0] == ends[1] {
+            continue;
+        }
+        let s = [Side::I, Side::J].map(|side| item.element.attachment(side).s);
+        let pin = Pin { constraint, ends, s };
+        for (own, other) in [(0, 1), (1, 0)] {
+            legs[pin.ends[own].0].push(Leg {
+                constraint: pin.constraint,
+                own: pin.s[own],
+                other: pin.ends[other].0,
+                at_other: pin.s[other],
+            });
+        }
+    }
+    legs
+}
+
+fn direction<V: Into<(f64, f64)>>(v: V) -> f64 {
+    let (x, y) = v.into();
+    y.atan2(x)
+}
+
+impl Placer<'_> {
+    /// Where a pin of body `b` must be, if its other body is placed.
+    fn target(&self, leg: &Leg) -> Option<Vec2> {
+        self.poses[leg.other].as_ref().map(|pose| pose.point(leg.at_other))
+    }
+
+    fn carried(&self, b: usize) -> impl Iterator<Item = (Leg, Vec2)> + '_ {
+        self.legs[b].iter().filter_map(|leg| Some((*leg, self.target(leg)?)))
+    }
+
+    fn put(&mut self, b: usize, pose: Pose) {
+        self.poses[b] = Some(pose);
+    }
+
+    /// With its angle known and pinned at `leg` to `target`.
+    fn hang(&mut self, b: usize, leg: &Leg, target: Vec2, angle: f64) {
+        let mut pose = Pose::new(0.0, 0.0, angle);
+        pose.r = target - pose.global(leg.own);
+        self.put(b, pose);
+    }
+
+    /// Places a body of which enough is known; false if not, or if it stands already.
+    fn follow(&mut self, b: usize) -> bool {
+        if self.poses[b].is_some() {
+            return false;
+        }
+        let hard = self.wishes.hard[b];
+        let pins: Vec<(Leg, Vec2)> = self.carried(b).take(8).collect();
+        let apart = |p: &&(Leg, Vec2)| (p.0.own - pins[0].0.own).norm() > 0.0;
+        match (hard, pins.as_slice()) {
+            ([Some(x), Some(y), Some(angle)], _) => self.put(b, Pose::new(x, y, angle)),
+            ([_, _, Some(angle)], [(leg, target), ..]) => self.hang(b, leg, *target, angle),
+            (_, [(leg, target), rest @ ..]) => {
+                let Some((second, at)) = rest.iter().find(apart) else { return false };
+                let (own, global) = (second.own - leg.own, *at - *target);
+                let angle = direction((global.x, global.y)) - direction((own.x, own.y));
+                self.hang(b, leg, *target, self.wishes.nearest_turn(b, angle));
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// Closes every dyad that can be closed now.
+    fn close_dyads(&mut self) -> bool {
+        let mut any = false;
+        for b in 1..self.poses.len() {
+            if self.poses[b].is_some() {
+                continue;
+            }
+            let Some((anchor, at)) = self.carried(b).next() else { continue };
+            let dyad = self.legs[b].iter().find_map(|joint| {
+                let free = self.poses[joint.other].is_none() && joint.other != b;
+                let (far, far_at) = self.carried(joint.other).next().filter(|_| free)?;
+                Some((*joint, far, far_at))
+            });
+            if let Some((joint, far, far_at)) = dyad {
+                any |= self.close_dyad([b, joint.other], joint, [(anchor, at), (far, far_at)]);
+            }
+        }
+        any
+    }
+
+    fn close_dyad(&mut self, bodies: [usize; 2], joint: Leg, carried: [(Leg, Vec2); 2]) -> bool {
+        let at_joint = [joint.own, joint.at_other];
+        let arms = [0, 1].map(|k| at_joint[k] - carried[k].0.own);
+        let (closures, missing) =
+            match close(carried[0].1, arms[0].norm(), carried[1].1, arms[1].norm()) {
+                Closure::Two(a, b) => (vec![a, b], None),
+                Closure::One(a, missing) => (vec![a], missing),
+                Closure::Undetermined => return false,
+            };
+        let angles: Vec<[f64; 2]> = closures
+            .iter()
+            .map(|p| [0, 1].map(|k| self.dyad_angle(bodies[k], *p - carried[k].1, arms[k])))
+            .collect();
+        let chosen = match closures.len() {
+            1 => 0,
+            _ => self.decide(bodies, &angles),
+        };
+        for k in [0, 1] {
+            self.hang(bodies[k], &carried[k].0, carried[k].1, angles[chosen][k]);
+        }
+        let joint = joint.constraint;
+        if let Some(missing) = missing {
+            self.result.gaps.push(Gap { bodies, joint, missing });
+        }
+        self.result.dyads.push(Dyad {
+            bodies,
+            joint,
+            anchors: [carried[0].0.constraint, carried[1].0.constraint],
+            has_other: closures.len() == 2,
+        });
+        true
+    }
+
+    /// Angle of a body whose arm must point along `global`.
+    fn dyad_angle(&self, b: usize, global: Vec2, arm: Local) -> f64 {
+        if arm.norm() == 0.0 {
+            return self.wishes.value(b, 2).unwrap_or(0.0);
+        }
+        let angle = direction((global.x, global.y)) - direction((arm.x, arm.y));
+        self.wishes.nearest_turn(b, angle)
+    }
+
+    /// Which of two closures: the one nearer to the guess, else an undecided choice.
+    fn decide(&mut self, bodies: [usize; 2], angles: &[[f64; 2]]) -> usize {
+        let distance = |pair: &[f64; 2]| -> Option<f64> {
+            let squares = bodies.iter().zip(pair).filter_map(|(b, angle)| {
+                let soft = self.wishes.soft[*b][2]?;
+                Some((nearest_turn(*angle, soft) - soft).powi(2))
+            });
+            squares.reduce(|a, b| a + b)
+        };
+        match (distance(&angles[0]), distance(&angles[1])) {
+            (Some(a), Some(b)) => usize::from(b < a),
+            _ => self.choose(2),
+        }
+    }
+
+    fn choose(&mut self, options: usize) -> usize {
+        let k = self.result.options.len();
+        self.result.options.push(options);
+        self.choices.get(k).copied().unwrap_or(0)
+    }
+
+    /// Where nothing suffices: a guess is taken as it stands, or an angle is tried.
+    fn assume(&mut self, first: usize) {
+        let open = |b: &usize| self.poses[*b].is_none();
+        let all = first..self.poses.len();
+        let pinned = |b: &usize| self.carried(*b).next().is_some();
+        let guessed = |b: &usize| self.wishes.value(*b, 2).is_some();
+        let b = all.clone().filter(open).find(|b| pinned(b) && guessed(b));
+        let b = b.or_else(|| all.clone().filter(open).find(|b| self.wishes.pose(*b).is_some()));
+        let b = b.or_else(|| all.clone().filter(open).find(pinned)).unwrap_or(first);
+        let angle = match self.wishes.value(b, 2) {
+            Some(angle) => angle,
+            None => TRIED_DEG[self.choose(TRIED_DEG.len())].to_radians(),
+        };
+        let pin = self.carried(b).next();
+        match pin {
+            Some((leg, target)) => self.hang(b, &leg, target, angle),
+            None => {
+                let [x, y] = [0, 1].map(|c| self.wishes.value(b, c).unwrap_or(0.0));
+                self.put(b, Pose::new(x, y, angle));
+            }
+        }
+    }
+}

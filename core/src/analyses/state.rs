@@ -1,0 +1,14 @@
+//! A state of a model: plain data.
+
+/// Time, coordinates, velocities, and the first-order states that elements own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates x, y, angle of each moving body, shape (n_q).
+    pub q: Vec<f64>,
+    /// Their rates, shape (n_q).
+    pub v: Vec<f64>,
+    /// First-order states of elements; empty for most models.
+    pub z: Vec<f64>,
+}

@@ -1,0 +1,169 @@
+//! Φ, Φ_q, Φ̇ and γ of all joints and drivers (Haug 3.6).
+//!
+//! A constraint whose fields are constant is evaluated as its element states it. One with a law of
+//! time or state takes the derived path: duals over each body it touches, and a jet in time, with
+//! the law evaluated on the same scalar.
+
+use super::laws::{self, Laws};
+use crate::elements::{jets, moving, seeded, BodyId, Coordinate, Rows, MOST_EQUATIONS};
+use crate::math::{Dual, Jet, Lift, Motion, Pose, Real};
+use crate::model::{Block, ConstraintItem, Model};
+
+/// Φ(q, t), shape (m).
+pub fn residual<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, out: &mut [S]) {
+    for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
+        let [i, j] = item.element.ends().map(|b| &motions[b.0].pose);
+        let out = &mut out[slots.rows.clone()];
+        match &item.law {
+            None => item.element.residual(i, j, t, out),
+            Some(law) => {
+                let values = laws::at(&model.parameters, motions, t);
+                law.map(&mut |tape| tape.evaluate(&values)).residual(i, j, t, out);
+            }
+        }
+    }
+}
+
+/// Stored entries of Φ_q, in the order of the layout.
+pub fn jacobian<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, entries: &mut [S]) {
+    for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
+        let m = slots.rows.len();
+        if item.law.is_some() {
+            for block in &slots.blocks {
+                law_block(model, item, motions, t, block, &mut entries[block.first..][..3 * m]);
+            }
+            continue;
+        }
+        let ends = item.element.ends();
+        let [i, j] = ends.map(|b| &motions[b.0].pose);
+        let mut rows = [[S::zero(); 6]; MOST_EQUATIONS];
+        item.element.jacobian(i, j, t, &mut rows[..m]);
+        for block in &slots.blocks {
+            let out = &mut entries[block.first..][..3 * m];
+            let (is_i, is_j) = (ends[0] == block.body, ends[1] == block.body);
+            for (row, out) in rows[..m].iter().zip(out.chunks_exact_mut(3)) {
+                for (c, out) in out.iter_mut().enumerate() {
+                    // a joint of a body with itself adds up both columns
+                    *out = match (is_i, is_j) {
+                        (true, false) => row[c],
+                        (false, true) => row[3 + c],
+                        _ => row[c] + row[3 + c],
+                    };
+                }
+            }
+        }
+    }
+}
+
+/// Derivatives of a constraint with a law by the coordinates of one body.
+fn law_block<S: Real>(
+    model: &Model<S>,
+    item: &ConstraintItem<S>,
+    motions: &[Motion<S>],
+    t: S,
+    block: &Block,
+    out: &mut [S],
+) {
+    type D<S> = Dual<3, S>;
+    let pose = |body: BodyId| -> Pose<D<S>> {
+        let pose = &motions[body.0].pose;
+        if body == block.body {
+            seeded(pose, 0)
+        } else {
+            lifted(pose)
+        }
+    };
+    let t = D::lift(t);
+    let coordinate = |body: BodyId, c: Coordinate| -> D<S> {
+        c.of(&pose(body), &crate::math::Twist::zero())
+    };
+    let values = Laws { parameters: &model.parameters, t, coordinate };
+    let Some(law) = &item.law else { return };
+    let element = law.map(&mut |tape| tape.evaluate(&values));
+    let [i, j] = element.ends().map(pose);
+    let mut phi = [D::<S>::zero(); MOST_EQUATIONS];
+    let m = out.len() / 3;
+    element.residual(&i, &j, t, &mut phi[..m]);
+    for (phi, out) in phi[..m].iter().zip(out.chunks_exact_mut(3)) {
+        out.copy_from_slice(&phi.slope);
+    }
+}
+
+fn lifted<S: Real>(pose: &Pose<S>) -> Pose<Dual<3, S>> {
+    Pose {
+        r: pose.r.lift(),
+        angle: Lift::lift(pose.angle),
+        rotation: crate::math::Rotation {
+            cos: Lift::lift(pose.rotation.cos),
+            sin: Lift::lift(pose.rotation.sin),
+        },
+    }
+}
+
+/// Φ, Φ_q q̇ + Φ_t, and γ, each of shape (m).
+pub fn velocity_terms<S: Real>(
+    model: &Model<S>,
+    motions: &[Motion<S>],
+    t: S,
+    residual: &mut [S],
+    rate: &mut [S],
+    gamma: &mut [S],
+) {
+    for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
+        let rows = slots.rows.clone();
+        let out = Rows {
+            residual: &mut residual[rows.clone()],
+            rate: &mut rate[rows.clone()],
+            gamma: &mut gamma[rows],
+        };
+        let [i, j] = item.element.ends().map(|b| &motions[b.0]);
+        let Some(law) = &item.law else {
+            item.element.velocity_terms(i, j, t, out);
+            continue;
+        };
+        let time = Jet::new(t, S::one(), S::zero());
+        let coordinate = |body: BodyId, c: Coordinate| -> Jet<S> {
+            let motion = &motions[body.0];
+            let [position, rate] = [c.column(), c.column() + 3]
+                .map(|k| Coordinate::ALL[k].of(&motion.pose, &motion.twist));
+            Jet::new(position, rate, S::zero())
+        };
+        let values = Laws { parameters: &model.parameters, t: time, coordinate };
+        let element = law.map(&mut |tape| tape.evaluate(&values));
+        jets(&element, &moving(i), &moving(j), time, out);
+    }
+}
+
+/// ν = -Φ_t: the right side of Φ_q q̇ = ν (Haug 3.6.10), shape (m).
+pub fn nu<S: Real>(model: &Model<S>, q: &[S], t: S) -> Vec<S> {
+    let m = model.layout.n_rows;
+    let (mut phi, mut rate, mut gamma) = (vec![S::zero(); m], vec![S::zero(); m], vec![S::zero(); m]);
+    let motions = super::kinematics::at_rest(q);
+    velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+    rate.into_iter().map(|r| -r).collect()
+}
+
+/// y += Φ_qᵀ λ, shape (n_q).
+pub fn add_transposed<S: Real>(model: &Model<S>, entries: &[S], lam: &[S], y: &mut [S]) {
+    for slots in &model.layout.constraints {
+        for block in &slots.blocks {
+            let columns = &mut y[crate::model::columns(block.body)];
+            for (row, entries) in slots.rows.clone().zip(entries[block.first..].chunks_exact(3)) {
+                for (y, e) in columns.iter_mut().zip(entries) {
+                    *y += *e * lam[row];
+                }
+            }
+        }
+    }
+}
+
+/// Φ_q x of one constraint's rows into `out`, shape (equations).
+pub fn times<S: Real>(model: &Model<S>, k: usize, entries: &[S], x: &[S], out: &mut [S]) {
+    out.fill(S::zero());
+    for block in &model.layout.constraints[k].blocks {
+        let columns = &x[crate::model::columns(block.body)];
+        for (out, entries) in out.iter_mut().zip(entries[block.first..].chunks_exact(3)) {
+            *out += entries[0] * columns[0] + entries[1] * columns[1] + entries[2] * columns[2];
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Energies and the powers that change their sum.
+//!
+//! Balance: T + V + dissipated - work of drivers - work of applied forces is constant.
+
+use super::{forces, mass};
+use crate::elements::Nature;
+use crate::math::{Motion, Real};
+use crate::model::Model;
+
+/// Kinetic energy ½ q̇ᵀ M q̇, J.
+pub fn kinetic<S: Real>(model: &Model<S>, motions: &[Motion<S>]) -> S {
+    let mut twice = S::zero();
+    for (body, motion) in model.bodies.iter().zip(motions).skip(1) {
+        let v = [motion.twist.velocity.x, motion.twist.velocity.y, motion.twist.omega];
+        let p = mass::block(body, motion).times(v);
+        twice += v[0] * p[0] + v[1] * p[1] + v[2] * p[2];
+    }
+    S::constant(0.5) * twice
+}
+
+/// Potential energy of gravity (zero at the global origin) and of the forces, J.
+pub fn potential<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S) -> S {
+    let mut sum = S::zero();
+    for (body, motion) in model.bodies.iter().zip(motions).skip(1) {
+        sum -= body.mass * model.gravity.dot(motion.pose.point(body.center));
+    }
+    for item in &model.forces {
+        sum += forces::potential(item, motions, t);
+    }
+    sum
+}
+
+/// Powers that the energy balance integrates, W.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Powers<S = f64> {
+    /// Lost in dampers and friction.
+    pub dissipated: S,
+    /// Put in by drivers: -λᵀ Φ_q q̇ over their rows.
+    pub drivers: S,
+    /// Put in by forces that are neither conservative nor dissipative.
+    pub applied: S,
+}
+
+/// Powers of the forces; that of the drivers is left at zero, see
+/// [`Workspace::powers`](super::Workspace::powers).
+pub fn powers<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S) -> Powers<S> {
+    let (mut dissipated, mut applied) = (S::zero(), S::zero());
+    for item in &model.forces {
+        let parts = item.element.parts();
+        forces::each_power(model, item, motions, t, |part, power| {
+            match (item.law.is_some(), parts[part].nature) {
+                (false, Nature::Conservative) => {}
+                (_, Nature::Dissipative) => dissipated -= power,
+                _ => applied += power, // a law of time or state: no potential keeps its work
+            }
+        });
+    }
+    Powers { dissipated, drivers: S::zero(), applied }
+}

@@ -1,0 +1,21 @@
+//! Poses and twists of all bodies from q and q̇.
+
+use crate::math::{Motion, Pose, Real, Twist, Vec2};
+
+/// Motion of every body, ground first, from q (3 n_b) and v (3 n_b). No allocation if `out` has
+/// held as many bodies before.
+pub fn motions<S: Real>(q: &[S], v: &[S], out: &mut Vec<Motion<S>>) {
+    out.clear();
+    out.push(Motion { pose: Pose::identity(), twist: Twist::zero() });
+    out.extend(q.chunks_exact(3).zip(v.chunks_exact(3)).map(|(q, v)| Motion {
+        pose: Pose::new(q[0], q[1], q[2]),
+        twist: Twist { velocity: Vec2::new(v[0], v[1]), omega: v[2] },
+    }));
+}
+
+/// Motion of every body at rest.
+pub fn at_rest<S: Real>(q: &[S]) -> Vec<Motion<S>> {
+    let mut out = Vec::with_capacity(q.len() / 3 + 1);
+    motions(q, &vec![S::zero(); q.len()], &mut out);
+    out
+}

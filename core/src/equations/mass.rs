@@ -1,0 +1,40 @@
+//! The mass matrix, one symmetric 3 × 3 block for each body (Haug 6.2.8 with the frame off the
+//! mass centre).
+//!
+//! With c the mass centre and b = B c′ = (A c′)⊥:  M = [m I, m b; m bᵀ, J + m |c′|²].
+
+use crate::math::{Motion, Real, Vec2};
+use crate::model::Body;
+
+/// The four numbers that a block holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassBlock<S = f64> {
+    /// m, kg.
+    pub mass: S,
+    /// m b: coupling of translation and rotation, kg·m.
+    pub coupling: Vec2<S>,
+    /// Moment of inertia about the frame's origin, kg·m².
+    pub inertia: S,
+}
+
+/// The block of a body at a pose.
+pub fn block<S: Real>(body: &Body<S>, motion: &Motion<S>) -> MassBlock<S> {
+    let arm = motion.pose.global(body.center);
+    MassBlock {
+        mass: body.mass,
+        coupling: arm.perp().scale(body.mass),
+        inertia: body.inertia + body.mass * body.center.dot(body.center),
+    }
+}
+
+impl<S: Real> MassBlock<S> {
+    /// M x for x = (x, y, φ) of the body.
+    pub fn times(&self, x: [S; 3]) -> [S; 3] {
+        let b = self.coupling;
+        [
+            self.mass * x[0] + b.x * x[2],
+            self.mass * x[1] + b.y * x[2],
+            b.x * x[0] + b.y * x[1] + self.inertia * x[2],
+        ]
+    }
+}

@@ -1,0 +1,16 @@
+//! The equations of planar mechanics, one file per concept, over any scalar.
+//!
+//! Functions of a [`Model`](crate::model::Model) and plain slices; scratch is a [`Workspace`].
+
+pub mod augmented;
+pub mod constraints;
+pub mod energy;
+pub mod forces;
+pub mod kinematics;
+mod laws;
+pub mod mass;
+pub mod motion;
+pub mod reactions;
+
+pub use laws::{at, Laws};
+pub use motion::{Gains, Singular, Workspace};

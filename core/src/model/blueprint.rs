@@ -1,0 +1,127 @@
+//! A model over formulas: the definition with all names linked, before numbers are put in.
+
+use super::bodies;
+use super::definition::{Definition, Entry, Value};
+use super::link::{Linker, Scope};
+use super::model::{Body, Model};
+use super::problem::Problem;
+use super::{checks, parameters};
+use crate::elements::{BodyId, Constraint, CoordinateOf, ForceElement, Group};
+use crate::expression::Tape;
+use std::sync::Arc;
+
+/// What the file says, linked: elements over [`Tape`].
+#[derive(Clone, Debug)]
+pub struct Blueprint {
+    /// What it is.
+    pub title: String,
+    /// Names of the parameters.
+    pub parameters: Vec<String>,
+    /// Acceleration of free fall.
+    pub gravity: [Tape; 2],
+    /// Bodies; index 0 is ground.
+    pub bodies: Vec<Body<Tape>>,
+    /// Joints, then drivers.
+    pub constraints: Vec<(String, Group, Constraint<Tape>)>,
+    /// Forces.
+    pub forces: Vec<(String, ForceElement<Tape>)>,
+}
+
+/// Links a definition and puts numbers in. `overrides` replace parameters by name.
+///
+/// All faults are reported at once.
+pub fn build(
+    definition: &Definition,
+    overrides: &[(String, Value)],
+) -> Result<Model, Vec<Problem>> {
+    let mut problems = Vec::new();
+    let values = parameters::values(definition, overrides, &mut problems);
+    let scope = Scope::new(definition);
+    let gravity = gravity(definition, &scope, &mut problems);
+    let bodies = bodies::read(definition, &scope, &mut problems);
+    let mut blueprint = Blueprint {
+        title: definition.title.clone().unwrap_or_default(),
+        parameters: scope.parameters.clone(),
+        gravity,
+        bodies,
+        constraints: Vec::new(),
+        forces: Vec::new(),
+    };
+    for (group, entries) in [
+        (Group::Joints, &definition.joints),
+        (Group::Drivers, &definition.drivers),
+        (Group::Forces, &definition.forces),
+    ] {
+        for entry in entries {
+            blueprint.link(group, entry, &scope, &mut problems);
+        }
+    }
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let model = Model::new(&Arc::new(blueprint), &values);
+    checks::numbers(&model, &mut problems);
+    if problems.is_empty() {
+        Ok(model)
+    } else {
+        Err(problems)
+    }
+}
+
+fn gravity(definition: &Definition, scope: &Scope, problems: &mut Vec<Problem>) -> [Tape; 2] {
+    let path = ["gravity".to_string()];
+    let none = || [Tape::from(0.0), Tape::from(0.0)];
+    match &definition.gravity {
+        None => none(),
+        Some(value) => scope.pair(value, &path, "m/s^2", problems).unwrap_or_else(none),
+    }
+}
+
+impl Blueprint {
+    fn link(
+        &mut self,
+        group: Group,
+        entry: &Entry,
+        scope: &Scope,
+        problems: &mut Vec<Problem>,
+    ) {
+        let Some(Value::Text(kind)) = entry.get("type") else {
+            let message = format!("this {} has no type", group.singular());
+            problems.push(Problem::at(&[group.section(), &entry.name], message));
+            return;
+        };
+        let mut linker = Linker::new(group, entry, scope, &self.bodies, problems);
+        let known = if group == Group::Forces {
+            ForceElement::read(kind, &mut linker)
+                .map(|e| self.forces.extend(e.map(|e| (entry.name.clone(), e))))
+        } else {
+            let read = Constraint::read(group, kind, &mut linker);
+            read.map(|e| self.constraints.extend(e.map(|e| (entry.name.clone(), group, e))))
+        };
+        if known.is_none() {
+            let path = [group.section(), &entry.name, "type"];
+            let message = format!("there is no {} of type '{kind}'", group.singular());
+            problems.push(Problem::at(&path, message));
+        }
+    }
+
+    /// The same mechanism with further drivers that hold coordinates at given values: what
+    /// assembly solves.
+    pub fn holding(&self, held: &[(String, CoordinateOf, f64)]) -> Self {
+        let mut extended = self.clone();
+        for (name, coordinate, value) in held {
+            let driver = crate::elements::drivers::CoordinateDriver {
+                coordinate: *coordinate,
+                value: Tape::from(*value),
+            };
+            let driver = Constraint::CoordinateDriver(driver);
+            extended.constraints.push((name.clone(), Group::Drivers, driver));
+        }
+        extended
+    }
+
+    /// A body by name.
+    pub fn body(&self, name: &str) -> Option<BodyId> {
+        self.bodies.iter().position(|b| b.name == name).map(BodyId)
+    }
+}

@@ -1,0 +1,260 @@
+//! Bodies from their definition: the general body, the uniform slender bar, ground.
+//!
+//! A bar is shorthand: it becomes a general body whose numbers are formulas in its own, such as
+//! J = m L²/12, so that nothing after this file knows bars.
+
+use super::definition::{Definition, Entry, Value};
+use super::link::{Reach, Scope};
+use super::model::Body;
+use super::problem::Problem;
+use crate::expression::{Expression, Tape};
+use crate::math::Local;
+
+/// Reads all bodies; index 0 is ground. A faulty body is kept with stand-in numbers, so that
+/// references to it are not reported as well.
+pub fn read(
+    definition: &Definition,
+    scope: &Scope,
+    problems: &mut Vec<Problem>,
+) -> Vec<Body<Tape>> {
+    let ground = Entry { name: "ground".to_string(), fields: Vec::new() };
+    let written = definition.bodies.iter().find(|b| b.name == "ground").unwrap_or(&ground);
+    let moving = definition.bodies.iter().filter(|b| b.name != "ground");
+    std::iter::once(Reader { entry: written, scope, problems }.ground())
+        .chain(moving.map(|entry| Reader { entry, scope, problems }.moving()))
+        .collect()
+}
+
+struct Reader<'a> {
+    entry: &'a Entry,
+    scope: &'a Scope,
+    problems: &'a mut Vec<Problem>,
+}
+
+/// A named point as two formulas, as text.
+struct Written {
+    name: String,
+    x: String,
+    y: String,
+}
+
+impl Reader<'_> {
+    fn ground(&mut self) -> Body<Tape> {
+        Body { points: self.points(), ..self.blank("ground") }
+    }
+
+    fn moving(&mut self) -> Body<Tape> {
+        match self.entry.get("type") {
+            Some(Value::Text(kind)) if kind == "bar" => self.bar(),
+            Some(Value::Text(kind)) if kind == "body" => self.general(),
+            None => self.general(),
+            _ => {
+                self.report("type", "must be 'bar' or 'body'");
+                self.blank("body")
+            }
+        }
+    }
+
+    fn blank(&self, kind: &'static str) -> Body<Tape> {
+        let zero = || Tape::from(0.0);
+        let moving = Tape::from(if kind == "ground" { 0.0 } else { 1.0 });
+        Body {
+            name: self.entry.name.clone(),
+            kind,
+            mass: moving.clone(),
+            inertia: moving,
+            center: Local { x: zero(), y: zero() },
+            points: Vec::new(),
+            drawn: None,
+        }
+    }
+
+    fn general(&mut self) -> Body<Tape> {
+        let mut body = self.blank("body");
+        body.mass = self.number("mass", "kg").unwrap_or(body.mass);
+        body.inertia = self.number("inertia", "kg*m^2").unwrap_or(body.inertia);
+        if let Some(value) = self.entry.get("center") {
+            let path = self.path("center");
+            if let Some([x, y]) = self.scope.pair(value, &path, "m", self.problems) {
+                body.center = Local { x, y };
+            }
+        }
+        body.points = self.points();
+        if self.entry.get("through").is_some() {
+            let through = self.written("through");
+            self.place(&mut body, &through);
+        }
+        body
+    }
+
+    /// A uniform slender bar: frame at its centre, x along it, J = m L²/12.
+    fn bar(&mut self) -> Body<Tape> {
+        let mut body = self.blank("bar");
+        body.mass = self.number("mass", "kg").unwrap_or(body.mass);
+        let through = self.written("through");
+        let length = match (self.entry.get("length"), through.as_slice()) {
+            (Some(value), _) if self.number("length", "m").is_some() => term(value),
+            (Some(_), _) => return body,
+            (None, [a, b, ..]) => distance(a, b),
+            (None, _) => {
+                self.missing("a bar needs 'length' and 'ends', or 'through' with two points");
+                return body;
+            }
+        };
+        if let Some(mass) = self.entry.get("mass").filter(|_| self.sound(&length)) {
+            body.inertia = self.compose(&format!("{}*{length}^2/12", term(mass)));
+        }
+        let ends = self.ends(&through);
+        for (name, sign) in ends.iter().zip(["-", ""]) {
+            let x = self.compose(&format!("{sign}{length}/2"));
+            body.points.push((name.clone(), Local { x, y: Tape::from(0.0) }));
+        }
+        body.points.extend(self.points());
+        if !through.is_empty() {
+            self.place(&mut body, &through);
+        }
+        body
+    }
+
+    fn ends(&mut self, through: &[Written]) -> Vec<String> {
+        match self.entry.get("ends") {
+            Some(Value::List(items)) => {
+                let names: Vec<String> = items.iter().filter_map(text).collect();
+                if names.len() != 2 || items.len() != 2 || names[0] == names[1] {
+                    self.report("ends", "must name two different points, such as [\"A\", \"B\"]");
+                    return Vec::new();
+                }
+                names
+            }
+            Some(_) => {
+                self.report("ends", "must be a list of two names, such as [\"A\", \"B\"]");
+                Vec::new()
+            }
+            None if through.len() >= 2 => Vec::new(), // `place` names them
+            None => {
+                self.missing("'ends' is missing: the names of the two ends, such as [\"A\", \"B\"]");
+                Vec::new()
+            }
+        }
+    }
+
+    /// Puts a body where it was drawn: origin midway between the first two points, x axis from the
+    /// first to the second; every point drawn becomes a point of the body.
+    fn place(&mut self, body: &mut Body<Tape>, through: &[Written]) {
+        let [a, b, ..] = through else {
+            self.report("through", "needs at least two points");
+            return;
+        };
+        let (mx, my) = (format!("({}+{})/2", a.x, b.x), format!("({}+{})/2", a.y, b.y));
+        let (dx, dy) = (format!("({}-{})", b.x, a.x), format!("({}-{})", b.y, a.y));
+        let length = distance(a, b);
+        let drawn = [mx.clone(), my.clone(), format!("atan2({dy},{dx})")];
+        body.drawn = Some(drawn.map(|text| self.compose(&text)));
+        for p in through {
+            if body.points.iter().any(|(name, _)| *name == p.name) {
+                continue;
+            }
+            let (px, py) = (format!("({}-({mx}))", p.x), format!("({}-({my}))", p.y));
+            let x = self.compose(&format!("({px}*{dx}+{py}*{dy})/{length}"));
+            let y = self.compose(&format!("({dx}*{py}-{dy}*{px})/{length}"));
+            body.points.push((p.name.clone(), Local { x, y }));
+        }
+    }
+
+    /// The points as formulas.
+    fn points(&mut self) -> Vec<(String, Local<Tape>)> {
+        let written = self.written("points");
+        let local = |w: Written, this: &mut Self| {
+            let (x, y) = (this.compose(&w.x), this.compose(&w.y));
+            (w.name, Local { x, y })
+        };
+        written.into_iter().map(|w| local(w, self)).collect()
+    }
+
+    /// A table of points as text; checked, so that composed formulas cannot fail for its sake.
+    fn written(&mut self, key: &str) -> Vec<Written> {
+        let mut points = Vec::new();
+        let items = match self.entry.get(key) {
+            None => return points,
+            Some(Value::Table(items)) => items,
+            Some(other) => {
+                let form = "{ A = [0, 0], B = [1, 0] }";
+                self.report(key, &format!("must be a table such as {form}, not {}", other.noun()));
+                return points;
+            }
+        };
+        for (name, value) in items {
+            let path: Vec<String> = self.path(key).into_iter().chain([name.clone()]).collect();
+            if let (Some(_), Value::List(xy)) =
+                (self.scope.pair(value, &path, "m", self.problems), value)
+            {
+                points.push(Written { name: name.clone(), x: term(&xy[0]), y: term(&xy[1]) });
+            }
+        }
+        points
+    }
+
+    fn number(&mut self, key: &str, unit: &str) -> Option<Tape> {
+        match self.entry.get(key) {
+            Some(value) => {
+                let path = self.path(key);
+                self.scope.formula(value, &path, unit, Reach::Parameters, self.problems)
+            }
+            None => {
+                self.missing(&format!("'{key}' is missing"));
+                None
+            }
+        }
+    }
+
+    fn sound(&self, text: &str) -> bool {
+        Expression::parse(text).is_ok()
+    }
+
+    /// A formula put together here; it can only fail by becoming too long.
+    fn compose(&mut self, text: &str) -> Tape {
+        let path = self.path("type");
+        let value = Value::Text(text.to_string());
+        let tape =
+            self.scope.formula(&value, &path[..2], "", Reach::Parameters, self.problems);
+        tape.unwrap_or_else(|| Tape::from(0.0))
+    }
+
+    fn path(&self, key: &str) -> [String; 3] {
+        ["bodies".to_string(), self.entry.name.clone(), key.to_string()]
+    }
+
+    fn report(&mut self, key: &str, message: &str) {
+        self.problems.push(Problem::at(&self.path(key), message));
+    }
+
+    fn missing(&mut self, message: &str) {
+        self.problems.push(Problem::at(&["bodies", &self.entry.name], message));
+    }
+}
+
+fn text(value: &Value) -> Option<String> {
+    match value {
+        Value::Text(text) => Some(text.clone()),
+        _ => None,
+    }
+}
+
+/// A value as a term of a longer formula. A quantity with a unit cannot stand there, its number can.
+fn term(value: &Value) -> String {
+    match value {
+        Value::Number(x) => format!("({x:?})"),
+        Value::Text(text) => match Expression::parse(text) {
+            Ok(e) if e.dimension().is_some() => match e.compile(&[""; 0]).map(|t| t.constant()) {
+                Ok(Some(x)) => format!("({x:?})"),
+                _ => format!("({text})"),
+            },
+            _ => format!("({text})"),
+        },
+        _ => "0".to_string(),
+    }
+}
+
+fn distance(a: &Written, b: &Written) -> String {
+    format!("hypot({}-{},{}-{})", b.x, a.x, b.y, a.y)
+}

@@ -1,0 +1,62 @@
+//! Numbers of a model that cannot be right.
+
+use super::model::{Body, Model};
+use super::problem::Problem;
+
+/// Reports bodies without mass, inertia or extent, and everything that is not finite.
+pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
+    for body in &model.bodies {
+        finite_points(body, problems);
+        if body.name != "ground" {
+            positive(body, problems);
+        }
+    }
+    for (k, g) in [model.gravity.x, model.gravity.y].into_iter().enumerate() {
+        if !g.is_finite() {
+            problems.push(Problem::at(&["gravity", &k.to_string()], format!("{g}; must be finite")));
+        }
+    }
+    for item in model.constraints.iter().filter(|c| c.law.is_none()) {
+        let section = item.group.section();
+        item.element.map(&mut |x| check(&[section, &item.name], *x, problems));
+    }
+    for item in model.forces.iter().filter(|f| f.law.is_none()) {
+        item.element.map(&mut |x| check(&["forces", &item.name], *x, problems));
+    }
+}
+
+fn check(path: &[&str], x: f64, problems: &mut Vec<Problem>) {
+    if !x.is_finite() {
+        problems.push(Problem::at(path, format!("a value becomes {x}; must be finite")));
+    }
+}
+
+fn positive(body: &Body, problems: &mut Vec<Problem>) {
+    let path = |key: &str| ["bodies".to_string(), body.name.clone(), key.to_string()];
+    if !(body.mass.is_finite() && body.mass > 0.0) {
+        problems.push(Problem::at(&path("mass"), format!("{} kg; must be > 0", body.mass)));
+        return; // what follows from the mass need not be told
+    }
+    if body.kind == "bar" {
+        let length = body.points.first().map_or(f64::NAN, |(_, s)| -2.0 * s.x);
+        if !(length.is_finite() && length > 0.0) {
+            let key = if body.drawn.is_some() { "through" } else { "length" };
+            problems.push(Problem::at(&path(key), format!("{length} m; must be > 0")));
+        }
+    } else if !(body.inertia.is_finite() && body.inertia > 0.0) {
+        let message = format!("{} kg·m²; must be > 0", body.inertia);
+        problems.push(Problem::at(&path("inertia"), message));
+    }
+    if !(body.center.x.is_finite() && body.center.y.is_finite()) {
+        problems.push(Problem::at(&path("center"), "must be finite"));
+    }
+}
+
+fn finite_points(body: &Body, problems: &mut Vec<Problem>) {
+    for (name, s) in &body.points {
+        if !(s.x.is_finite() && s.y.is_finite()) {
+            let path = ["bodies", &body.name, "points", name];
+            problems.push(Problem::at(&path, format!("({}, {}); must be finite", s.x, s.y)));
+        }
+    }
+}

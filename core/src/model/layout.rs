@@ -1,0 +1,82 @@
+//! Index ranges: which columns a body owns, which rows and Jacobian entries a constraint owns.
+//!
+//! Φ_q is stored by constraint: for each moving body that a constraint touches a dense block of
+//! (equations × 3) entries, row by row. Ground owns no columns.
+
+use crate::elements::BodyId;
+use std::ops::Range;
+
+/// One block of Φ_q: the equations of a constraint by the coordinates of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// The moving body.
+    pub body: BodyId,
+    /// Index of the block's first entry; entry (row r, column c) is `first + 3 r + c`.
+    pub first: usize,
+}
+
+/// Rows and blocks of one constraint.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Slots {
+    /// Rows of Φ.
+    pub rows: Range<usize>,
+    /// Blocks of Φ_q, bodies i and j first, then bodies that only a law names.
+    pub blocks: Vec<Block>,
+}
+
+/// All index ranges of a model.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Layout {
+    /// Number of coordinates, three for each moving body.
+    pub n_q: usize,
+    /// Number of constraint equations.
+    pub n_rows: usize,
+    /// Number of stored entries of Φ_q.
+    pub n_entries: usize,
+    /// One for each constraint.
+    pub constraints: Vec<Slots>,
+}
+
+/// Columns of a body; empty for ground.
+pub fn columns(body: BodyId) -> Range<usize> {
+    match body.0 {
+        0 => 0..0,
+        k => 3 * (k - 1)..3 * k,
+    }
+}
+
+impl Layout {
+    /// For `n_bodies` moving bodies and constraints given by (equations, bodies touched).
+    pub fn new(n_bodies: usize, constraints: impl Iterator<Item = (usize, Vec<BodyId>)>) -> Self {
+        let mut layout = Self { n_q: 3 * n_bodies, ..Self::default() };
+        for (m, bodies) in constraints {
+            let rows = layout.n_rows..layout.n_rows + m;
+            layout.n_rows = rows.end;
+            let mut blocks: Vec<Block> = Vec::new();
+            for body in bodies {
+                if !body.is_ground() && blocks.iter().all(|b| b.body != body) {
+                    blocks.push(Block { body, first: layout.n_entries });
+                    layout.n_entries += 3 * m;
+                }
+            }
+            layout.constraints.push(Slots { rows, blocks });
+        }
+        layout
+    }
+
+    /// Position (row, column) of every stored entry of Φ_q, in storage order.
+    pub fn positions(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.constraints.iter().flat_map(|slots| {
+            slots.blocks.iter().flat_map(|block| {
+                let cells = move |row| columns(block.body).map(move |column| (row, column));
+                slots.rows.clone().flat_map(cells)
+            })
+        })
+    }
+
+    /// The constraint that owns a row of Φ, and the equation's index within it.
+    pub fn owner(&self, row: usize) -> (usize, usize) {
+        let k = self.constraints.partition_point(|slots| slots.rows.end <= row);
+        (k, row - self.constraints[k].rows.start)
+    }
+}

@@ -1,0 +1,296 @@
+//! From the text of a field to what it means: names become indices, text becomes formulas.
+
+use super::definition::{Definition, Entry, Value};
+use super::model::Body;
+use super::problem::Problem;
+use crate::elements::{BodyId, Coordinate, CoordinateOf, Default, Field, Group, PointOn, Source};
+use crate::expression::unit::Unit;
+use crate::expression::{suggest, Expression, ExpressionError, Names, Symbol, Tape};
+
+/// The names that formulas may use.
+#[derive(Clone, Debug)]
+pub struct Scope {
+    /// Parameters, in order.
+    pub parameters: Vec<String>,
+    /// Bodies; index 0 is ground.
+    pub bodies: Vec<String>,
+}
+
+/// How much a formula may depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// Parameters only.
+    Parameters,
+    /// Parameters, time and state.
+    State,
+}
+
+struct Visible<'a>(&'a Scope, Reach);
+
+impl Names for Visible<'_> {
+    fn resolve(&self, name: &str) -> Option<Symbol> {
+        let scope = self.0;
+        if let Some(k) = scope.parameters.iter().position(|p| p == name) {
+            return Some(Symbol::Parameter(k));
+        }
+        if self.1 == Reach::Parameters {
+            return None;
+        }
+        if name == "t" {
+            return Some(Symbol::Time);
+        }
+        let (body, coordinate) = name.rsplit_once('.')?;
+        let body = scope.bodies.iter().position(|b| b == body).filter(|k| *k > 0)?;
+        Some(Symbol::Variable(6 * body + Coordinate::named(coordinate)? as usize))
+    }
+
+    fn known(&self) -> Vec<String> {
+        let mut known = self.0.parameters.clone();
+        if self.1 == Reach::State {
+            known.push("t".to_string());
+            for body in &self.0.bodies[1..] {
+                known.extend(Coordinate::ALL.map(|c| format!("{body}.{}", c.name())));
+            }
+        }
+        known
+    }
+}
+
+impl Scope {
+    /// The names of a definition.
+    pub fn new(definition: &Definition) -> Self {
+        let moving = definition.bodies.iter().filter(|b| b.name != "ground");
+        Self {
+            parameters: definition.parameters.iter().map(|(name, _)| name.clone()).collect(),
+            bodies: std::iter::once("ground".to_string())
+                .chain(moving.map(|b| b.name.clone()))
+                .collect(),
+        }
+    }
+
+    /// A formula from a number or a text; reports a fault at `path`.
+    pub fn formula(
+        &self,
+        value: &Value,
+        path: &[String],
+        unit: &str,
+        reach: Reach,
+        problems: &mut Vec<Problem>,
+    ) -> Option<Tape> {
+        let text = match value {
+            Value::Number(x) if x.is_finite() => return Some(Tape::from(*x)),
+            Value::Number(x) => {
+                problems.push(Problem::at(path, format!("{x} is not a number to compute with")));
+                return None;
+            }
+            Value::Text(text) => text,
+            other => {
+                let message = format!("must be a number or a formula, not {}", other.noun());
+                problems.push(Problem::at(path, message));
+                return None;
+            }
+        };
+        let parsed = Expression::parse(text).and_then(|e| {
+            check_unit(&e, unit)?;
+            e.compile(&Visible(self, reach))
+        });
+        parsed
+            .map_err(|fault| {
+                let at = Problem::at(path, fault.message).within(fault.span);
+                problems.push(at.maybe_hint(fault.hint.or(self.out_of_reach(text, reach))));
+            })
+            .ok()
+    }
+
+    fn out_of_reach(&self, text: &str, reach: Reach) -> Option<String> {
+        let wide = Expression::parse(text).and_then(|e| e.compile(&Visible(self, Reach::State)));
+        (reach == Reach::Parameters && wide.is_ok())
+            .then(|| "only laws of drivers and forces may use t and the state".to_string())
+    }
+
+    /// Two formulas in the parameters.
+    pub fn pair(
+        &self,
+        value: &Value,
+        path: &[String],
+        unit: &str,
+        problems: &mut Vec<Problem>,
+    ) -> Option<[Tape; 2]> {
+        match value {
+            Value::List(items) if items.len() == 2 => {
+                let mut at = |k: usize| {
+                    let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
+                    self.formula(&items[k], &path, unit, Reach::Parameters, problems)
+                };
+                let (x, y) = (at(0), at(1));
+                Some([x?, y?])
+            }
+            Value::List(items) => {
+                let message = format!("must hold two numbers, not {}", items.len());
+                problems.push(Problem::at(path, message));
+                None
+            }
+            other => {
+                let message = format!("must be a list of two numbers, not {}", other.noun());
+                problems.push(Problem::at(path, message));
+                None
+            }
+        }
+    }
+}
+
+/// Reads the fields of one element.
+pub struct Linker<'a> {
+    section: &'static str,
+    entry: &'a Entry,
+    scope: &'a Scope,
+    bodies: &'a [Body<Tape>],
+    problems: &'a mut Vec<Problem>,
+}
+
+impl<'a> Linker<'a> {
+    /// For an entry of a section.
+    pub fn new(
+        group: Group,
+        entry: &'a Entry,
+        scope: &'a Scope,
+        bodies: &'a [Body<Tape>],
+        problems: &'a mut Vec<Problem>,
+    ) -> Self {
+        Self { section: group.section(), entry, scope, bodies, problems }
+    }
+
+    fn path(&self, field: &Field) -> [String; 3] {
+        [self.section.to_string(), self.entry.name.clone(), field.name.to_string()]
+    }
+
+    fn report<T>(&mut self, field: &Field, message: String, hint: Option<String>) -> Option<T> {
+        self.problems.push(Problem::at(&self.path(field), message).maybe_hint(hint));
+        None
+    }
+
+    fn missing<T>(&mut self, field: &Field) -> Option<T> {
+        let path = [self.section, &self.entry.name];
+        self.problems.push(Problem::at(&path, format!("'{}' is missing", field.name)));
+        None
+    }
+
+    fn text(&mut self, field: &Field) -> Option<&'a str> {
+        match self.entry.get(field.name) {
+            Some(Value::Text(text)) => Some(text),
+            Some(other) => {
+                let message = format!("must be a name, not {}", other.noun());
+                self.report(field, message, None)
+            }
+            None => self.missing(field),
+        }
+    }
+
+    /// A body by name, with a report that suggests one.
+    fn find(&mut self, field: &Field, name: &str) -> Option<BodyId> {
+        if let Some(k) = self.bodies.iter().position(|b| b.name == name) {
+            return Some(BodyId(k));
+        }
+        let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).collect();
+        let message = format!("unknown body '{name}'");
+        self.report(field, message, did_you_mean(name, &names, "bodies"))
+    }
+
+    /// `body.word`, with the body looked up.
+    fn split(&mut self, field: &Field, form: &str) -> Option<(BodyId, &'a str)> {
+        let text = self.text(field)?;
+        match text.rsplit_once('.') {
+            Some((body, word)) => Some((self.find(field, body)?, word)),
+            None => {
+                let message = format!("'{text}' must have the form {form}");
+                self.report(field, message, None)
+            }
+        }
+    }
+
+    fn formula(&mut self, field: &Field, reach: Reach) -> Option<Tape> {
+        match (self.entry.get(field.name), field.default) {
+            (Some(value), _) => {
+                let path = self.path(field);
+                self.scope.formula(value, &path, &field.unit, reach, self.problems)
+            }
+            (None, Some(Default::Number(x))) => Some(Tape::from(x)),
+            (None, _) => self.missing(field),
+        }
+    }
+}
+
+/// A unit written behind a number must be one of the field's.
+fn check_unit(e: &Expression, unit: &str) -> Result<(), ExpressionError> {
+    let Some(dimension) = e.dimension() else { return Ok(()) };
+    let fits = |u: &str| Unit::parse(u).is_ok_and(|u| u.dimension == dimension);
+    if unit.is_empty() || unit.split('|').any(fits) {
+        return Ok(());
+    }
+    let message = format!("'{}' is not a quantity in {}", e.text().trim(), unit.replace('|', " or "));
+    Err(ExpressionError::new(0..e.text().len(), message))
+}
+
+/// "did you mean …", or the list of what there is.
+pub fn did_you_mean(word: &str, known: &[&str], plural: &str) -> Option<String> {
+    match suggest::closest(word, known.iter().copied()) {
+        Some(best) => Some(format!("did you mean '{best}'?")),
+        None if known.is_empty() => Some(format!("there are no {plural}")),
+        None if known.len() <= 12 => Some(format!("the {plural} are: {}", known.join(", "))),
+        None => None,
+    }
+}
+
+impl Source for Linker<'_> {
+    fn body(&mut self, field: &Field) -> Option<BodyId> {
+        let name = self.text(field)?;
+        self.find(field, name)
+    }
+
+    fn point(&mut self, field: &Field) -> Option<PointOn<Tape>> {
+        let (body, name) = self.split(field, "body.point")?;
+        let owner = &self.bodies[body.0];
+        if let Some(s) = owner.point(name) {
+            return Some(PointOn { body, s: s.clone() });
+        }
+        let names: Vec<&str> = owner.points.iter().map(|(n, _)| n.as_str()).collect();
+        let plural = format!("points of {}", owner.name);
+        let hint = did_you_mean(name, &names, &plural);
+        let message = format!("body '{}' has no point '{name}'", owner.name);
+        self.report(field, message, hint)
+    }
+
+    fn coordinate(&mut self, field: &Field) -> Option<CoordinateOf> {
+        let (body, name) = self.split(field, "body.x, body.y or body.angle")?;
+        match Coordinate::named(name) {
+            _ if body.is_ground() => {
+                self.report(field, "ground does not move".to_string(), None)
+            }
+            Some(coordinate) if !coordinate.is_rate() => Some(CoordinateOf { body, coordinate }),
+            _ => {
+                let message = format!("'{name}' is not one of x, y, angle");
+                let hint = did_you_mean(name, &["x", "y", "angle"], "coordinates");
+                self.report(field, message, hint)
+            }
+        }
+    }
+
+    fn number(&mut self, field: &Field) -> Option<Tape> {
+        self.formula(field, Reach::Parameters)
+    }
+
+    fn law(&mut self, field: &Field) -> Option<Tape> {
+        self.formula(field, Reach::State)
+    }
+
+    fn pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
+        match (self.entry.get(field.name), field.default) {
+            (Some(value), _) => {
+                let path = self.path(field);
+                self.scope.pair(value, &path, &field.unit, self.problems)
+            }
+            (None, Some(Default::Pair(p))) => Some(p.map(Tape::from)),
+            (None, _) => self.missing(field),
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Values of the named parameters, which may be formulas in each other.
+
+use super::definition::{Definition, Value};
+use super::problem::Problem;
+use crate::expression::parameters::Parameters;
+use crate::expression::Expression;
+
+/// Evaluates all parameters in the order of their dependence.
+///
+/// `overrides` replace parameters by name. Faults are reported; a faulty parameter is NaN.
+pub fn values(
+    definition: &Definition,
+    overrides: &[(String, Value)],
+    problems: &mut Vec<Problem>,
+) -> Vec<f64> {
+    let names: Vec<&str> = definition.parameters.iter().map(|(name, _)| name.as_str()).collect();
+    for (name, _) in overrides {
+        if !names.contains(&name.as_str()) {
+            let known = super::link::did_you_mean(name, &names, "parameters");
+            let message = format!("there is no parameter '{name}' to set");
+            problems.push(Problem::at(&["parameters"], message).maybe_hint(known));
+        }
+    }
+    let mut formulas = Vec::new();
+    for (name, written) in &definition.parameters {
+        let given = overrides.iter().rev().find(|(n, _)| n == name).map_or(written, |(_, v)| v);
+        match formula(given) {
+            Ok(e) => formulas.push((name.as_str(), e)),
+            Err(problem) => problems.push(Problem {
+                path: vec!["parameters".to_string(), name.clone()],
+                ..problem
+            }),
+        }
+    }
+    if formulas.len() < names.len() {
+        return vec![f64::NAN; names.len()];
+    }
+    evaluate(&names, &formulas, problems)
+}
+
+fn formula(value: &Value) -> Result<Expression, Problem> {
+    let nowhere: [&str; 0] = [];
+    match value {
+        Value::Number(x) if x.is_finite() => Expression::number(*x)
+            .map_err(|fault| Problem::at(&nowhere, fault.message)),
+        Value::Number(x) => {
+            Err(Problem::at(&nowhere, format!("{x} is not a number to compute with")))
+        }
+        Value::Text(text) => Expression::parse(text).map_err(|fault| {
+            Problem::at(&nowhere, fault.message).within(fault.span).maybe_hint(fault.hint)
+        }),
+        other => {
+            let message = format!("must be a number or a formula, not {}", other.noun());
+            Err(Problem::at(&nowhere, message))
+        }
+    }
+}
+
+fn evaluate(
+    names: &[&str],
+    formulas: &[(&str, Expression)],
+    problems: &mut Vec<Problem>,
+) -> Vec<f64> {
+    let compiled = match Parameters::compile(formulas) {
+        Ok(compiled) => compiled,
+        Err(fault) => {
+            let at = Problem::at(&["parameters", fault.name.as_str()], fault.error.message);
+            problems.push(at.within(fault.error.span).maybe_hint(fault.error.hint));
+            return vec![f64::NAN; names.len()];
+        }
+    };
+    let values = compiled.evaluate(|_| None);
+    for (name, x) in names.iter().zip(&values).filter(|(_, x)| !f64::is_finite(**x)) {
+        problems.push(Problem::at(&["parameters", name], format!("becomes {x}; must be finite")));
+    }
+    values
+}
