@@ -5,5 +5,6 @@
 //! `solve` and `integrate` know no mechanics. See `ARCHITECTURE.md`.
 #![forbid(unsafe_code)]
 
+pub mod integrate;
 pub mod math;
 pub mod solve;
