@@ -9,6 +9,7 @@ pub mod analyses;
 pub mod elements;
 pub mod equations;
 pub mod expression;
+pub mod integrate;
 pub mod math;
 pub mod model;
 pub mod solve;

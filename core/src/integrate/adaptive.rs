@@ -1,0 +1,320 @@
+//! The loop of every embedded Runge–Kutta pair: try, judge, accept or shorten.
+//!
+//! Step for step the control of `scipy.integrate.solve_ivp`, so that counts of steps can be compared.
+
+use super::arguments::{check_problem, not_negative, positive, refusal, Refused};
+use super::contract::{Ended, Flow, Observer, Statistics, Step, System};
+use super::dense::Dense;
+use super::failure::{Cause, Failure};
+use super::rate::{all_finite, Rate, Trouble};
+use super::step_size::{initial_step, least_step, probing_step, scaled_norm, StepSize};
+
+/// Absolute tolerance: one for all components, or one each (for the controlled ones at least).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Atol {
+    /// The same for every component.
+    Scalar(f64),
+    /// One for each controlled component.
+    Each(Vec<f64>),
+}
+
+/// Options every pair has.
+pub(super) struct Options<'a> {
+    /// Relative tolerance, as it is used.
+    pub rtol: f64,
+    pub atol: &'a Atol,
+    pub max_step: f64,
+    pub first_step: Option<f64>,
+    pub max_steps: Option<usize>,
+}
+
+impl Options<'_> {
+    fn check(&self, controlled: usize, interval: f64) -> Result<(), Refused> {
+        not_negative("rtol", self.rtol)?;
+        match self.atol {
+            Atol::Scalar(atol) => not_negative("atol", *atol)?,
+            Atol::Each(atol) => {
+                if atol.len() != controlled {
+                    return Err(("atol", atol.len() as f64, "one for each controlled component"));
+                }
+                atol.iter().try_for_each(|&a| not_negative("atol", a))?;
+            }
+        }
+        positive("max_step", self.max_step)?;
+        if let Some(h) = self.first_step {
+            positive("first_step", h)?;
+            if h > interval && interval > 0.0 {
+                return Err(("first_step", h, "at most |t_end - t0|"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// An embedded pair that has the derivative at the end of a step as its last stage.
+pub(super) trait EmbeddedPair {
+    /// Order of the error estimate.
+    const ERROR_ORDER: i32;
+    /// Number of stages, the derivative at the end included.
+    const STAGES: usize;
+    /// Degree of the continuous extension.
+    const DEGREE: usize;
+    /// STAGES + 1 rows of its table; the last, 3θ² - 2θ³, bends it to a projected end.
+    const TABLE: &'static [f64];
+
+    /// Stages 2 to the last, of which the first is given, in rows of `k`; the state at `t_new` into
+    /// `y_new`. `work` is scratch as long as y.
+    fn advance<Y: System>(
+        rate: &mut Rate<'_, Y>,
+        span: (f64, f64),
+        y: &[f64],
+        k: &mut [f64],
+        work: &mut [f64],
+        y_new: &mut [f64],
+    ) -> Result<(), Trouble<Y::Stop>>;
+
+    /// √(mean (errorᵢ / (atolᵢ + rtol max(|yᵢ|, |y_newᵢ|)))²) over as many components as `atol` has.
+    fn error_norm(h: f64, k: &[f64], y: &[f64], y_new: &[f64], rtol: f64, atol: &[f64]) -> f64;
+}
+
+/// What one accepted step needs, taken once.
+struct Work {
+    /// Stages, then the jump of a projection over h, then the derivative after a projection.
+    k: Vec<f64>,
+    y_new: Vec<f64>,
+    /// Arguments of stages; the state before a projection.
+    trial: Vec<f64>,
+    atol: Vec<f64>,
+}
+
+impl Work {
+    fn new<P: EmbeddedPair>(n: usize, controlled: usize, atol: &Atol) -> Self {
+        let atol = match atol {
+            Atol::Scalar(atol) => vec![*atol; controlled],
+            Atol::Each(atol) => atol.clone(),
+        };
+        Self { k: vec![0.0; (P::STAGES + 2) * n], y_new: vec![0.0; n], trial: vec![0.0; n], atol }
+    }
+}
+
+/// An integration under way.
+struct Run<'a, Y, P> {
+    rate: Rate<'a, Y>,
+    options: &'a Options<'a>,
+    n: usize,
+    t: f64,
+    t_end: f64,
+    direction: f64,
+    steps: usize,
+    rejected: usize,
+    work: Work,
+    pair: std::marker::PhantomData<P>,
+}
+
+/// Integrates with the pair `P`; the body of [`Method::integrate`](super::Method::integrate).
+pub(super) fn integrate<P: EmbeddedPair, Y: System, O: Observer>(
+    options: &Options<'_>,
+    system: &mut Y,
+    (t0, t_end): (f64, f64),
+    y: &mut [f64],
+    observer: &mut O,
+) -> Result<Statistics, Failure<Y::Stop>> {
+    let (n, controlled) = (system.len(), system.controlled());
+    let checked =
+        check_problem(t0, t_end, y, n).and_then(|()| options.check(controlled, (t_end - t0).abs()));
+    let mut run = Run::<Y, P> {
+        rate: Rate { system, evaluations: 0 },
+        options,
+        n,
+        t: t0,
+        t_end,
+        direction: (t_end - t0).signum(),
+        steps: 0,
+        rejected: 0,
+        work: Work::new::<P>(n, controlled, options.atol),
+        pair: std::marker::PhantomData,
+    };
+    let outcome = match checked {
+        Ok(()) => run.go(y, observer),
+        Err(refused) => Err(refusal(refused)),
+    };
+    let statistics = run.statistics(outcome.as_ref().copied().unwrap_or(Ended::Stopped));
+    match outcome {
+        Ok(_) => Ok(statistics),
+        Err(cause) => Err(Failure { cause, t: run.t, y: y.to_vec(), statistics }),
+    }
+}
+
+impl<Y: System, P: EmbeddedPair> Run<'_, Y, P> {
+    fn statistics(&self, ended: Ended) -> Statistics {
+        Statistics {
+            steps: self.steps,
+            rejected: self.rejected,
+            evaluations: self.rate.evaluations,
+            ended,
+            t: self.t,
+        }
+    }
+
+    fn go<O: Observer>(
+        &mut self,
+        y: &mut [f64],
+        observer: &mut O,
+    ) -> Result<Ended, Cause<Y::Stop>> {
+        if self.t == self.t_end {
+            return Ok(Ended::Reached);
+        }
+        self.rate.at(self.t, y, &mut self.work.k[..self.n]).map_err(hard)?;
+        let first = match self.options.first_step {
+            Some(h) => h,
+            None => self.first_step(y)?,
+        };
+        let mut size = StepSize::new(first, P::ERROR_ORDER);
+        while self.t != self.t_end {
+            if self.options.max_steps.is_some_and(|most| self.steps >= most) {
+                return Err(Cause::MaxSteps { steps: self.steps });
+            }
+            let t_new = self.accepted_step(y, &mut size)?;
+            if self.finish(t_new, y, observer)? == Flow::Stop {
+                return Ok(Ended::Stopped);
+            }
+        }
+        Ok(Ended::Reached)
+    }
+
+    /// Hairer's choice of the first step, at the cost of one evaluation.
+    fn first_step(&mut self, y: &[f64]) -> Result<f64, Cause<Y::Stop>> {
+        let interval = (self.t_end - self.t).abs();
+        let most = interval.min(self.options.max_step);
+        let Work { k, trial, atol, .. } = &mut self.work;
+        if atol.is_empty() {
+            return Ok(most);
+        }
+        let (f0, rest) = k.split_at_mut(self.n);
+        let f1 = &mut rest[..self.n];
+        let rtol = self.options.rtol;
+        let scale = |i: usize| atol[i] + rtol * y[i].abs();
+        let controlled = 0..atol.len();
+        let d0 = scaled_norm(controlled.clone().map(|i| (y[i], scale(i))));
+        let d1 = scaled_norm(controlled.clone().map(|i| (f0[i], scale(i))));
+        let h0 = probing_step(d0, d1, interval);
+        for ((trial, y), f) in trial.iter_mut().zip(y).zip(f0.iter()) {
+            *trial = y + h0 * self.direction * f;
+        }
+        match self.rate.at(self.t + h0 * self.direction, trial, f1) {
+            Ok(()) => {}
+            // the probe left the domain: begin with it as a step, which rejection shortens
+            Err(Trouble::NotFinite(_)) => return Ok(h0.min(most)),
+            Err(Trouble::Stop(stop)) => return Err(Cause::System(stop)),
+        }
+        let d2 = scaled_norm(controlled.map(|i| (f1[i] - f0[i], scale(i)))) / h0;
+        Ok(initial_step(h0, d1, d2, P::ERROR_ORDER).min(most))
+    }
+
+    /// Tries steps until one is accepted; its end is in `y_new` and the last stage. Returns its time.
+    fn accepted_step(&mut self, y: &[f64], size: &mut StepSize) -> Result<f64, Cause<Y::Stop>> {
+        let t = self.t;
+        let least = least_step(t, self.direction);
+        size.begin(least, self.options.max_step);
+        let mut not_finite = None;
+        loop {
+            if size.size < least {
+                return Err(match not_finite {
+                    Some(t) => Cause::NotFinite { t },
+                    None => Cause::StepTooSmall { t, h: size.size },
+                });
+            }
+            let mut t_new = t + size.size * self.direction;
+            if self.direction * (t_new - self.t_end) > 0.0 {
+                t_new = self.t_end;
+            }
+            let h = t_new - t;
+            match self.attempt(t_new, y) {
+                Ok(norm) if norm < 1.0 => {
+                    size.accept(h.abs(), norm);
+                    return Ok(t_new);
+                }
+                Ok(norm) => {
+                    not_finite = None;
+                    size.reject(h.abs(), norm);
+                }
+                Err(Trouble::NotFinite(at)) => {
+                    not_finite = Some(at);
+                    size.reject(h.abs(), f64::NAN);
+                }
+                Err(Trouble::Stop(stop)) => return Err(Cause::System(stop)),
+            }
+            self.rejected += 1;
+        }
+    }
+
+    /// The error norm of a step to `t_new`.
+    fn attempt(&mut self, t_new: f64, y: &[f64]) -> Result<f64, Trouble<Y::Stop>> {
+        let Work { k, y_new, trial, atol } = &mut self.work;
+        let stages = &mut k[..P::STAGES * self.n];
+        P::advance(&mut self.rate, (self.t, t_new), y, stages, trial, y_new)?;
+        if !all_finite(y_new) {
+            return Err(Trouble::NotFinite(t_new));
+        }
+        Ok(P::error_norm(t_new - self.t, stages, y, y_new, self.options.rtol, atol))
+    }
+
+    /// Offers the accepted state to the system and the step to the observer, and moves on.
+    fn finish<O: Observer>(
+        &mut self,
+        t_new: f64,
+        y: &mut [f64],
+        observer: &mut O,
+    ) -> Result<Flow, Cause<Y::Stop>> {
+        let projected = self.project(t_new)?;
+        let n = self.n;
+        let Work { k, y_new, .. } = &self.work;
+        let (rows, last) = match projected {
+            false => (P::STAGES, P::STAGES - 1),
+            true => (P::STAGES + 1, P::STAGES + 1),
+        };
+        let step = Step {
+            t_old: self.t,
+            t: t_new,
+            y_old: y,
+            y: y_new,
+            dy_old: &k[..n],
+            dy: &k[last * n..][..n],
+            dense: Dense::new(&k[..rows * n], n, P::TABLE, P::DEGREE),
+        };
+        let flow = observer.step(&step);
+        y.copy_from_slice(y_new);
+        self.work.k.copy_within(last * n..(last + 1) * n, 0);
+        self.t = t_new;
+        self.steps += 1;
+        Ok(flow)
+    }
+
+    /// Lets the system change the accepted state; if it does, the jump and the new derivative go into
+    /// the rows after the stages.
+    fn project(&mut self, t_new: f64) -> Result<bool, Cause<Y::Stop>> {
+        let Work { k, y_new, trial, .. } = &mut self.work;
+        trial.copy_from_slice(y_new);
+        if !self.rate.system.accepted(t_new, y_new).map_err(Cause::System)? {
+            return Ok(false);
+        }
+        if !all_finite(y_new) {
+            return Err(Cause::NotFinite { t: t_new });
+        }
+        let h = t_new - self.t;
+        let (jump, dy) = k[P::STAGES * self.n..].split_at_mut(self.n);
+        for ((jump, new), old) in jump.iter_mut().zip(y_new.iter()).zip(trial.iter()) {
+            *jump = (new - old) / h;
+        }
+        self.rate.at(t_new, y_new, dy).map_err(hard)?;
+        Ok(true)
+    }
+}
+
+/// Trouble at a state that no shorter step can avoid.
+fn hard<E>(trouble: Trouble<E>) -> Cause<E> {
+    match trouble {
+        Trouble::NotFinite(t) => Cause::NotFinite { t },
+        Trouble::Stop(stop) => Cause::System(stop),
+    }
+}

@@ -1,0 +1,47 @@
+//! What is refused before the first evaluation, with the name of the argument.
+
+use super::failure::Cause;
+
+/// A refused argument: name, value, what it must be.
+pub(super) type Refused = (&'static str, f64, &'static str);
+
+pub(super) fn refusal<E>((name, value, must): Refused) -> Cause<E> {
+    Cause::Argument { name, value, must }
+}
+
+/// Times and initial state.
+pub(super) fn check_problem(t0: f64, t_end: f64, y: &[f64], len: usize) -> Result<(), Refused> {
+    finite("t0", t0)?;
+    finite("t_end", t_end)?;
+    finite("t_end - t0", t_end - t0)?;
+    if y.len() != len {
+        return Err(("y0", y.len() as f64, "as long as the system"));
+    }
+    y.iter().try_for_each(|&value| finite("y0", value))
+}
+
+pub(super) fn finite(name: &'static str, value: f64) -> Result<(), Refused> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err((name, value, "finite"))
+    }
+}
+
+/// Infinity is positive; NaN is not.
+pub(super) fn positive(name: &'static str, value: f64) -> Result<(), Refused> {
+    if value > 0.0 {
+        Ok(())
+    } else {
+        Err((name, value, "> 0"))
+    }
+}
+
+pub(super) fn not_negative(name: &'static str, value: f64) -> Result<(), Refused> {
+    finite(name, value)?;
+    if value >= 0.0 {
+        Ok(())
+    } else {
+        Err((name, value, ">= 0"))
+    }
+}

@@ -1,0 +1,137 @@
+//! What a system, an observer and a method promise each other.
+
+use super::dense::Dense;
+use super::failure::Failure;
+
+/// A first-order system y′ = f(t, y).
+pub trait System {
+    /// Why the system cannot go on; passed through untouched.
+    type Stop;
+
+    /// Number of components of y.
+    fn len(&self) -> usize;
+
+    /// Whether y has no components.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// How many components, from the first, enter the error norm; the others are quadratures, carried
+    /// along without influence on the steps.
+    fn controlled(&self) -> usize {
+        self.len()
+    }
+
+    /// dy = f(t, y); both of length [`System::len`].
+    ///
+    /// # Errors
+    /// Ends the integration at once. A trial state that is merely too far off should yield NaN
+    /// instead: an adaptive method then tries a shorter step.
+    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop>;
+
+    /// Called with every accepted state, before the observer. May change y (projection onto a
+    /// manifold) and then returns true: the derivative is evaluated afresh, and the continuous
+    /// extension of the step is bent to end in the changed y.
+    ///
+    /// # Errors
+    /// Ends the integration; the step is not counted.
+    fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
+        let _ = (t, y);
+        Ok(false)
+    }
+}
+
+/// Whether to go on after a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// Go on.
+    Continue,
+    /// End here; a normal outcome.
+    Stop,
+}
+
+/// Sees every accepted step.
+pub trait Observer {
+    /// Takes what it needs from the step; nothing of it outlives the call.
+    fn step(&mut self, step: &Step<'_>) -> Flow;
+}
+
+impl<F: FnMut(&Step<'_>) -> Flow> Observer for F {
+    fn step(&mut self, step: &Step<'_>) -> Flow {
+        self(step)
+    }
+}
+
+/// An accepted step, from `t_old` to `t` (which is earlier when integrating backward).
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    /// Time at the beginning.
+    pub t_old: f64,
+    /// Time at the end.
+    pub t: f64,
+    /// State at the beginning.
+    pub y_old: &'a [f64],
+    /// State at the end.
+    pub y: &'a [f64],
+    /// Derivative at the beginning.
+    pub dy_old: &'a [f64],
+    /// Derivative at the end.
+    pub dy: &'a [f64],
+    /// The continuous extension.
+    pub dense: Dense<'a>,
+}
+
+impl Step<'_> {
+    /// The state at a `time` within the step, into `out` (length of y).
+    pub fn interpolate(&self, time: f64, out: &mut [f64]) {
+        let h = self.t - self.t_old;
+        self.dense.evaluate(self.y_old, h, (time - self.t_old) / h, out);
+    }
+
+    /// Coefficients b of y(θ) = y_old + h Σₖ bₖ θᵏ, k = 1…[`Dense::degree`], θ = (t - t_old) / h: into
+    /// `out`, row-major (len of y) × degree.
+    pub fn coefficients(&self, out: &mut [f64]) {
+        self.dense.coefficients(out);
+    }
+}
+
+/// How an integration that did not fail ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// At t_end.
+    Reached,
+    /// By the observer.
+    Stopped,
+}
+
+/// What an integration took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Rejected steps.
+    pub rejected: usize,
+    /// Evaluations of f.
+    pub evaluations: usize,
+    /// How it ended; of a failure, not meaningful beyond "not at t_end".
+    pub ended: Ended,
+    /// Time reached.
+    pub t: f64,
+}
+
+/// A scheme with its options.
+pub trait Method {
+    /// Integrates from `t0` to `t_end`, forward or backward, in place: `y` holds the state at `t0` and
+    /// afterwards the last accepted one, of a failure too. With `t_end == t0` nothing is evaluated.
+    ///
+    /// # Errors
+    /// [`Failure`], with the time and the state reached.
+    fn integrate<Y: System, O: Observer>(
+        &self,
+        system: &mut Y,
+        t0: f64,
+        t_end: f64,
+        y: &mut [f64],
+        observer: &mut O,
+    ) -> Result<Statistics, Failure<Y::Stop>>;
+}

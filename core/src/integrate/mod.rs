@@ -1,0 +1,39 @@
+//! Initial value problems y′ = f(t, y), without mechanics.
+//!
+//! A [`Method`] advances a [`System`] and shows every accepted [`Step`] to an [`Observer`]; a step
+//! carries its own continuous extension, from which output at given times and events are taken.
+//!
+//! A new scheme is one file: options as a struct with [`Method`]. It evaluates through `rate`, offers
+//! each accepted state to [`System::accepted`], builds its [`Dense`] from stages and a table, and
+//! takes no memory per step. An embedded pair implements `EmbeddedPair` and shares `adaptive`.
+//!
+//! | file | concept |
+//! |---|---|
+//! | `contract` | what a system, an observer and a method promise each other |
+//! | `failure` | how an integration ends early |
+//! | `arguments` | what is refused before the first evaluation |
+//! | `rate` | counted, checked evaluations |
+//! | `dense` | the continuous extension of a step |
+//! | `step_size` | choice of the step from the error estimate |
+//! | `adaptive` | the loop of every embedded pair |
+//! | `rk45`, `rk4` | schemes |
+//! | `events` | where a function of the state changes sign |
+
+mod adaptive;
+mod arguments;
+mod contract;
+mod dense;
+mod events;
+mod failure;
+mod rate;
+mod rk4;
+mod rk45;
+mod step_size;
+
+pub use adaptive::Atol;
+pub use contract::{Ended, Flow, Method, Observer, Statistics, Step, System};
+pub use dense::Dense;
+pub use events::{locate, Direction};
+pub use failure::{Cause, Failure};
+pub use rk4::Rk4;
+pub use rk45::Rk45;

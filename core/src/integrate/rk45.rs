@@ -1,0 +1,184 @@
+//! Dormand–Prince 5(4): explicit, adaptive, local extrapolation, continuous extension of order 4.
+//!
+//! Pair: Dormand and Prince, *A family of embedded Runge–Kutta formulae*, J. Comput. Appl. Math. 6
+//! (1980) 19. Extension: Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135,
+//! with the optimal c₆. Control: that of `scipy.integrate.RK45`.
+
+use super::adaptive::{integrate, Atol, EmbeddedPair, Options};
+use super::contract::{Method, Observer, Statistics, System};
+use super::failure::Failure;
+use super::rate::{Rate, Trouble};
+
+/// Smallest relative tolerance in use: below it, rounding is all that is estimated.
+const MIN_RTOL: f64 = 100.0 * f64::EPSILON;
+
+/// Dormand–Prince 5(4) with its options.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rk45 {
+    /// Relative tolerance; raised to [`Rk45::rtol_used`].
+    pub rtol: f64,
+    /// Absolute tolerance, in the units of y; a component that stays zero needs one above 0.
+    pub atol: Atol,
+    /// Largest step.
+    pub max_step: f64,
+    /// First step; chosen if `None`.
+    pub first_step: Option<f64>,
+    /// Largest number of accepted steps.
+    pub max_steps: Option<usize>,
+}
+
+impl Default for Rk45 {
+    /// rtol 1e-3, atol 1e-6, no bounds.
+    fn default() -> Self {
+        Self {
+            rtol: 1e-3,
+            atol: Atol::Scalar(1e-6),
+            max_step: f64::INFINITY,
+            first_step: None,
+            max_steps: None,
+        }
+    }
+}
+
+impl Rk45 {
+    /// With the given tolerances and no bounds.
+    pub fn new(rtol: f64, atol: f64) -> Self {
+        Self { rtol, atol: Atol::Scalar(atol), ..Self::default() }
+    }
+
+    /// The relative tolerance in use: `rtol`, or 100 ε ≈ 2.2e-14 if that is larger.
+    pub fn rtol_used(&self) -> f64 {
+        if self.rtol >= 0.0 && self.rtol < MIN_RTOL {
+            MIN_RTOL
+        } else {
+            self.rtol
+        }
+    }
+}
+
+impl Method for Rk45 {
+    fn integrate<Y: System, O: Observer>(
+        &self,
+        system: &mut Y,
+        t0: f64,
+        t_end: f64,
+        y: &mut [f64],
+        observer: &mut O,
+    ) -> Result<Statistics, Failure<Y::Stop>> {
+        let options = Options {
+            rtol: self.rtol_used(),
+            atol: &self.atol,
+            max_step: self.max_step,
+            first_step: self.first_step,
+            max_steps: self.max_steps,
+        };
+        integrate::<DormandPrince, Y, O>(&options, system, (t0, t_end), y, observer)
+    }
+}
+
+struct DormandPrince;
+
+const C: [f64; 5] = [1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0];
+const A2: [f64; 1] = [1.0 / 5.0];
+const A3: [f64; 2] = [3.0 / 40.0, 9.0 / 40.0];
+const A4: [f64; 3] = [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0];
+const A5: [f64; 4] = [19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0];
+const A6: [f64; 5] =
+    [9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0];
+/// The fifth-order solution, without its zero second weight.
+const B: [f64; 5] = [35.0 / 384.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0];
+/// Fourth- minus fifth-order solution, without the zero second weight.
+const E: [f64; 6] = [
+    -71.0 / 57600.0,
+    71.0 / 16695.0,
+    -71.0 / 1920.0,
+    17253.0 / 339200.0,
+    -22.0 / 525.0,
+    1.0 / 40.0,
+];
+/// Coefficients of θ … θ⁴ of each stage, and of the jump of a projection.
+#[rustfmt::skip]
+const P: [f64; 32] = [
+    1.0, -8048581381.0 / 2820520608.0, 8663915743.0 / 2820520608.0, -12715105075.0 / 11282082432.0,
+    0.0, 0.0, 0.0, 0.0,
+    0.0, 131558114200.0 / 32700410799.0, -68118460800.0 / 10900136933.0, 87487479700.0 / 32700410799.0,
+    0.0, -1754552775.0 / 470086768.0, 14199869525.0 / 1410260304.0, -10690763975.0 / 1880347072.0,
+    0.0, 127303824393.0 / 49829197408.0, -318862633887.0 / 49829197408.0, 701980252875.0 / 199316789632.0,
+    0.0, -282668133.0 / 205662961.0, 2019193451.0 / 616988883.0, -1453857185.0 / 822651844.0,
+    0.0, 40617522.0 / 29380423.0, -110615467.0 / 29380423.0, 69997945.0 / 29380423.0,
+    0.0, 3.0, -2.0, 0.0,
+];
+
+/// out = y + h Σₛ aₛ kₛ, one pass over the components.
+#[inline(always)]
+fn combine<const S: usize>(y: &[f64], h: f64, a: [f64; S], k: [&[f64]; S], out: &mut [f64]) {
+    let n = out.len();
+    let y = &y[..n];
+    let k = k.map(|k| &k[..n]); // equal lengths: no bounds checks below
+    for i in 0..n {
+        let mut sum = a[0] * k[0][i];
+        for s in 1..S {
+            sum += a[s] * k[s][i];
+        }
+        out[i] = y[i] + h * sum;
+    }
+}
+
+/// The stages in rows of `k`.
+#[inline(always)]
+fn rows(k: &[f64], n: usize) -> [&[f64]; 7] {
+    std::array::from_fn(|s| &k[s * n..(s + 1) * n])
+}
+
+impl EmbeddedPair for DormandPrince {
+    const ERROR_ORDER: i32 = 4;
+    const STAGES: usize = 7;
+    const DEGREE: usize = 4;
+    const TABLE: &'static [f64] = &P;
+
+    fn advance<Y: System>(
+        rate: &mut Rate<'_, Y>,
+        (t, t_new): (f64, f64),
+        y: &[f64],
+        k: &mut [f64],
+        work: &mut [f64],
+        y_new: &mut [f64],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        let (n, h) = (y.len(), t_new - t);
+        for stage in 1..6 {
+            let [k1, k2, k3, k4, k5, ..] = rows(k, n);
+            match stage {
+                1 => combine(y, h, A2, [k1], work),
+                2 => combine(y, h, A3, [k1, k2], work),
+                3 => combine(y, h, A4, [k1, k2, k3], work),
+                4 => combine(y, h, A5, [k1, k2, k3, k4], work),
+                _ => combine(y, h, A6, [k1, k2, k3, k4, k5], work),
+            }
+            rate.at(t + C[stage - 1] * h, work, &mut k[stage * n..(stage + 1) * n])?;
+        }
+        let [k1, _, k3, k4, k5, k6, _] = rows(k, n);
+        combine(y, h, B, [k1, k3, k4, k5, k6], y_new);
+        rate.at(t_new, y_new, &mut k[6 * n..7 * n])
+    }
+
+    fn error_norm(h: f64, k: &[f64], y: &[f64], y_new: &[f64], rtol: f64, atol: &[f64]) -> f64 {
+        let controlled = atol.len();
+        if controlled == 0 {
+            return 0.0;
+        }
+        let [k1, _, k3, k4, k5, k6, k7] = rows(k, y.len()).map(|k| &k[..controlled]);
+        let (y, y_new) = (&y[..controlled], &y_new[..controlled]);
+        let mut sum = 0.0;
+        for i in 0..controlled {
+            let slope = E[0] * k1[i]
+                + E[1] * k3[i]
+                + E[2] * k4[i]
+                + E[3] * k5[i]
+                + E[4] * k6[i]
+                + E[5] * k7[i];
+            let scaled = h * slope / (atol[i] + rtol * y[i].abs().max(y_new[i].abs()));
+            sum += scaled * scaled;
+        }
+        (sum / controlled as f64).sqrt()
+    }
+}

@@ -1,0 +1,17 @@
+//! Linear and nonlinear algebra without mechanics.
+//!
+//! | file | concept |
+//! |---|---|
+//! | `order` | in which order unknowns are eliminated |
+//! | `symbolic` | the pattern of a factor, worked out once |
+//! | `ldlt` | numbers: A = L D Lᵀ and A x = b, without allocation |
+//! | `newton` | damped Newton and Gauss–Newton iteration |
+//! | `rank` | numerical rank, dependent rows and left null vectors |
+
+mod ldlt;
+mod order;
+mod symbolic;
+
+pub use ldlt::{Factor, ZeroPivot, PIVOT_TOLERANCE};
+pub use order::bodies_first;
+pub use symbolic::Symbolic;
