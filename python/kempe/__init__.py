@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from kempe._version import __version__
 
 if TYPE_CHECKING:
+    from kempe import errors as errors
     from kempe.errors import AssemblyError as AssemblyError
     from kempe.errors import FileError as FileError
     from kempe.errors import IntegrationError as IntegrationError
@@ -42,7 +43,9 @@ def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"module 'kempe' has no attribute {name!r}")
     home = _HOME[name]
-    value = getattr(import_module(f"kempe.{home}"), name) if home else import_module(f"kempe.{name}")
+    value = (
+        getattr(import_module(f"kempe.{home}"), name) if home else import_module(f"kempe.{name}")
+    )
     globals()[name] = value
     return value
 

@@ -16,6 +16,7 @@ app = typer.Typer(
     name="kempe",
     help="Planar multibody mechanics: assembly, kinematics, dynamics and joint reactions.",
     no_args_is_help=True,
+    add_completion=False,
     pretty_exceptions_enable=False,
 )
 
