@@ -20,7 +20,7 @@ CLASSES = [
     "InternalError",
 ]
 
-#: How to call each guarded entry point. It will panic before it looks at its arguments, so that they
+#: How to call each guarded entry point. It panics before it looks at its arguments, so that they
 #: need only be of the right type.
 CALLS: dict[str, Callable[[], object]] = {
     "version": _core.version,
