@@ -154,7 +154,7 @@ def test_one_waits_while_another_sets_up(bare: Path) -> None:
         waiting.wait(timeout=1.5)
     shutil.rmtree(bare / ".venv.lock")
     _, told = waiting.communicate(timeout=10)
-    assert f"waiting for another set-up (process {os.getpid()})" in told
+    assert f"waiting for another set-up (process {os.getpid()};" in told
     assert waiting.returncode == SETUP_FAILED
 
 
