@@ -371,7 +371,7 @@ fn crossings(direction: Direction, span: (f64, f64), level: f64) -> Vec<f64> {
         }
         Flow::Continue
     };
-    let method = Rk45 { max_step: 0.02, ..Rk45::new(1e-12, 1e-14) };
+    let method = Rk45 { max_step: 0.01, ..Rk45::new(1e-12, 1e-14) };
     let mut y = [span.0.cos(), -span.0.sin()];
     method.integrate(&mut system, span.0, span.1, &mut y, &mut observer).unwrap();
     found
@@ -390,7 +390,7 @@ fn events_are_located() {
     let backward = crossings(Direction::Any, (20.0, 0.0), 0.5);
     assert_eq!(backward.len(), 7);
     assert!(backward.windows(2).all(|w| w[0] > w[1]));
-    assert!((backward[6] - PI / 3.0).abs() < 1e-12);
+    assert!((backward[6] - PI / 3.0).abs() < 1e-12, "{:e}", backward[6] - PI / 3.0);
 }
 
 /// A single step of y′ = 1 from -1 to 1, so that y = t.
@@ -422,7 +422,7 @@ fn hard_roots_are_bracketed_in_few_evaluations() {
             };
             let t = locate(step, &mut [0.0], g, Direction::Rising, 1e-12).unwrap();
             assert!((0.3 - 1e-15..=0.3 + 1.1e-12).contains(&t), "{k}: {:e}", t - 0.3);
-            assert!(count <= 2 + 42, "{k}: {count} evaluations");
+            assert!(count <= 2 + 2 * 41, "{k}: {count} evaluations");
             if [0, 4, 5].contains(&k) {
                 assert!(count <= 16, "{k}: {count} evaluations of a smooth function");
             }

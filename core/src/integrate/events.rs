@@ -1,9 +1,8 @@
 //! Where a function of the state changes sign within a step.
 //!
-//! The root is bracketed by the ends of the step and closed in by the ITP method (Oliveira and
-//! Takahashi, *An enhancement of the bisection method average performance preserving minmax
-//! optimality*, ACM Trans. Math. Softw. 47 (2020) 5): superlinear for smooth functions, never slower
-//! than bisection by more than one iteration.
+//! The root is bracketed by the ends of the step and closed in by the method of Chandrupatla (*A new
+//! hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without using
+//! derivatives*, Adv. Eng. Softw. 28 (1997) 145): inverse quadratic where that is safe, else bisection.
 
 use super::contract::Step;
 
@@ -63,56 +62,48 @@ pub fn locate(
     Some(t)
 }
 
-/// Times and values around a root: below zero at the old side, above at the new one, which may be the
-/// earlier when integrating backward.
+/// A time and the value there, positive on the side of the new sign.
+type Point = (f64, f64);
+
+/// Times around a root: below zero at the old side, not below at the new one, which may be the earlier
+/// when integrating backward.
 struct Bracket {
-    old: (f64, f64),
-    new: (f64, f64),
+    old: Point,
+    new: Point,
 }
 
 impl Bracket {
     /// Closes in until the sides are `tolerance` apart; returns the new side.
     fn close(mut self, tolerance: f64, mut g: impl FnMut(f64) -> f64) -> f64 {
-        let width = (self.new.0 - self.old.0).abs();
-        let bisections = (width / tolerance).log2().ceil().max(0.0);
-        let k1 = 0.2 / width;
-        let mut j = 0.0;
-        while (self.new.0 - self.old.0).abs() > tolerance {
-            // how far the point may stay from the middle for bisection to keep its promise
-            let reach = 0.5 * tolerance * (bisections + 1.0 - j).exp2();
-            let t = self.point(k1, reach, tolerance);
-            if t == self.old.0 || t == self.new.0 {
-                break;
+        let mut part = 0.5;
+        let (mut a, mut b) = (self.new, self.old);
+        while (b.0 - a.0).abs() > tolerance {
+            let t = a.0 + part * (b.0 - a.0);
+            let latest = (t, g(t));
+            if latest.1 == 0.0 {
+                return t;
             }
-            let value = g(t);
-            if value < 0.0 {
-                self.old = (t, value);
-            } else {
-                self.new = (t, value); // zero and NaN end on the far side
-            }
-            j += 1.0;
+            // NaN counts as the new sign
+            let old_side = latest.1 < 0.0;
+            let replaced = if old_side { self.old } else { self.new };
+            let kept = if old_side { self.new } else { self.old };
+            *(if old_side { &mut self.old } else { &mut self.new }) = latest;
+            (a, b) = (latest, kept);
+            // half the tolerance past an estimate, so that both sides close in on the root
+            let least = 0.5 * tolerance / (b.0 - a.0).abs();
+            part = inverse_quadratic(a, b, replaced).unwrap_or(0.5).max(least).min(1.0 - least);
         }
         self.new.0
     }
+}
 
-    /// Interpolate by the secant, truncate towards the middle, project into reach of it.
-    fn point(&self, k1: f64, reach: f64, tolerance: f64) -> f64 {
-        let (a, b) = (self.old, self.new);
-        let width = b.0 - a.0;
-        let middle = a.0 + 0.5 * width;
-        let secant = a.0 + width * (a.1 / (a.1 - b.1));
-        if !secant.is_finite() {
-            return middle;
-        }
-        // half the tolerance past the secant, so that both sides close in on a root
-        let push = (k1 * width * width).max(0.5 * tolerance);
-        let away = middle - secant;
-        let truncated = if push <= away.abs() { secant + push.copysign(away) } else { middle };
-        let room = (reach - 0.5 * width.abs()).max(0.0);
-        if (truncated - middle).abs() <= room {
-            truncated
-        } else {
-            middle - room.copysign(away)
-        }
-    }
+/// Where, from a (0) to b (1), the inverse quadratic through a, b and c is zero; `None` unless it is
+/// monotonic in between.
+fn inverse_quadratic(a: Point, b: Point, c: Point) -> Option<f64> {
+    let xi = (a.0 - b.0) / (c.0 - b.0);
+    let phi = (a.1 - b.1) / (c.1 - b.1);
+    let safe = phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi;
+    let part = a.1 / (b.1 - a.1) * c.1 / (b.1 - c.1)
+        + (c.0 - a.0) / (b.0 - a.0) * a.1 / (c.1 - a.1) * b.1 / (c.1 - b.1);
+    (safe && part.is_finite()).then_some(part)
 }

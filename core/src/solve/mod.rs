@@ -9,9 +9,13 @@
 //! | `rank` | numerical rank, dependent rows and left null vectors |
 
 mod ldlt;
+pub mod newton;
 mod order;
+mod rank;
 mod symbolic;
 
 pub use ldlt::{Factor, ZeroPivot, PIVOT_TOLERANCE};
+pub use newton::Newton;
 pub use order::bodies_first;
+pub use rank::{normalize_rows, rank, Rank, RANK_TOLERANCE};
 pub use symbolic::Symbolic;

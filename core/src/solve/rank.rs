@@ -1,0 +1,156 @@
+//! Numerical rank of a dense matrix, its independent rows and its left null vectors.
+//!
+//! Householder QR with pivoting on the rows, Aᵀ P = Q R (Golub and Van Loan, *Matrix Computations*, 4th
+//! ed., 5.4.2), with one change: of the rows that are still long enough the *earliest* is taken, not
+//! the longest, so that of two joints that say the same the later one is named dependent. A y with
+//! yᵀ A = 0 then is P [-R₁₁⁻¹ R₁₂; 1], made orthonormal; its nonzero components are all the rows that
+//! take part in the dependence.
+//!
+//! Rows should have comparable length ([`normalize_rows`]). The cost is O(m n rank).
+
+/// Relative tolerance for rows of length 1 whose entries carry rounding errors only.
+pub const RANK_TOLERANCE: f64 = 1e-9;
+
+/// Part of the largest remainder a row must keep to be taken before longer ones.
+const LONG_ENOUGH: f64 = 0.1;
+
+/// What is known of the rows of a matrix.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rank {
+    /// Numerical rank.
+    pub rank: usize,
+    /// Independent rows, in the order they were taken; length rank.
+    pub independent: Vec<usize>,
+    /// The other rows, ascending.
+    pub dependent: Vec<usize>,
+    /// Orthonormal basis of the left null space, (m - rank) vectors of length m; the k-th has its part
+    /// in `dependent[k]` and in none of the later ones.
+    pub left_null: Vec<Vec<f64>>,
+    /// |r_kk|: what was left of each independent row when it was taken; of the order of the singular
+    /// values, but not sorted.
+    pub kept: Vec<f64>,
+    /// What was left of the largest dependent row, 0 without any.
+    pub dropped: f64,
+}
+
+impl Rank {
+    /// Smallest remainder kept over largest dropped: large if the rank is beyond doubt (infinite at
+    /// full rank or with exact dependence), near 1 if the tolerance decided it.
+    pub fn gap(&self) -> f64 {
+        let least = self.kept.iter().copied().fold(f64::INFINITY, f64::min);
+        least / self.dropped
+    }
+}
+
+/// Divides each row of the row-major `matrix` with `columns` columns by its Euclidean length and returns
+/// the lengths; a row of zeros stays.
+///
+/// # Panics
+/// If the matrix has no whole number of rows.
+pub fn normalize_rows(matrix: &mut [f64], columns: usize) -> Vec<f64> {
+    count_rows(matrix, columns);
+    let rows = matrix.chunks_exact_mut(columns.max(1));
+    rows.map(|row| {
+        let length = length(row);
+        if length > 0.0 {
+            row.iter_mut().for_each(|a| *a /= length);
+        }
+        length
+    })
+    .collect()
+}
+
+/// Rank of the row-major `matrix` with `columns` columns: rows whose remainder is at most `tolerance`
+/// times the length of the longest row are dependent (default: [`RANK_TOLERANCE`]).
+///
+/// # Panics
+/// If the matrix has no whole number of rows, or an entry is not finite.
+pub fn rank(matrix: &[f64], columns: usize, tolerance: f64) -> Rank {
+    assert!(matrix.iter().all(|a| a.is_finite()), "a finite matrix");
+    let m = count_rows(matrix, columns);
+    let mut rows: Vec<Vec<f64>> =
+        matrix.chunks_exact(columns.max(1)).map(<[f64]>::to_vec).collect();
+    let bound = tolerance * rows.iter().map(|row| length(row)).fold(0.0, f64::max);
+    let mut left: Vec<usize> = (0..m).collect();
+    let (mut independent, mut kept, mut dropped) = (vec![], vec![], 0.0);
+    while !left.is_empty() {
+        let k = independent.len();
+        let remainder: Vec<f64> = left.iter().map(|&i| length(&rows[i][k..])).collect();
+        let largest = remainder.iter().copied().fold(0.0, f64::max);
+        if largest <= bound {
+            dropped = largest;
+            break;
+        }
+        let at = remainder.iter().position(|&r| r >= LONG_ENOUGH * largest).unwrap_or(0);
+        let pivot = left.remove(at);
+        reflect(&mut rows, pivot, &left, k);
+        kept.push(rows[pivot][k].abs());
+        independent.push(pivot);
+    }
+    let left_null = left_null(&rows, &independent, &left);
+    Rank { rank: independent.len(), independent, dependent: left, left_null, kept, dropped }
+}
+
+fn count_rows(matrix: &[f64], columns: usize) -> usize {
+    if columns == 0 {
+        assert!(matrix.is_empty(), "no entries without columns");
+        return 0;
+    }
+    assert_eq!(matrix.len() % columns, 0, "whole rows");
+    matrix.len() / columns
+}
+
+/// Euclidean length, without overflow or underflow.
+fn length(x: &[f64]) -> f64 {
+    let largest = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    if largest == 0.0 {
+        return 0.0;
+    }
+    largest * x.iter().map(|v| (v / largest) * (v / largest)).sum::<f64>().sqrt()
+}
+
+/// The reflection that leaves of row `pivot` only component k beyond the first k, done to the `left`.
+fn reflect(rows: &mut [Vec<f64>], pivot: usize, left: &[usize], k: usize) {
+    let mut v = rows[pivot][k..].to_vec();
+    let beta = -length(&v).copysign(v[0]);
+    v[0] -= beta;
+    let scale = length(&v);
+    v.iter_mut().for_each(|a| *a /= scale);
+    for &i in left {
+        let tail = &mut rows[i][k..];
+        let twice = 2.0 * dot(tail, &v);
+        tail.iter_mut().zip(&v).for_each(|(a, v)| *a -= twice * v);
+    }
+    rows[pivot][k..].fill(0.0);
+    rows[pivot][k] = beta;
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// For each dependent row d the y with y_d = 1 and, over the independent rows, R₁₁ y = -r_d; then
+/// Gram–Schmidt, twice for orthogonality to rounding.
+fn left_null(rows: &[Vec<f64>], independent: &[usize], dependent: &[usize]) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = Vec::with_capacity(dependent.len());
+    for &d in dependent {
+        let mut y = vec![0.0; rows.len()];
+        y[d] = 1.0;
+        for k in (0..independent.len()).rev() {
+            // row k of R₁₁ is component k of the independent rows from the k-th on
+            let later: f64 = independent[k + 1..].iter().map(|&i| rows[i][k] * y[i]).sum();
+            let i = independent[k];
+            y[i] = -(rows[d][k] + later) / rows[i][k];
+        }
+        for _ in 0..2 {
+            for earlier in &basis {
+                let part = dot(&y, earlier);
+                y.iter_mut().zip(earlier).for_each(|(y, e)| *y -= part * e);
+            }
+            let size = length(&y);
+            y.iter_mut().for_each(|y| *y /= size);
+        }
+        basis.push(y);
+    }
+    basis
+}
