@@ -176,6 +176,10 @@ macro_rules! forces {
                     }
                 })+ }
             }
+            /// The relative angle at which a rotational spring is relaxed.
+            pub fn free_angle(&self) -> Option<S> {
+                match self { $(Self::$Name(e) => <$Name>::free_angle(e),)+ }
+            }
             /// Potential energy of the conservative parts, J.
             pub fn potential(&self, at: &Situation<S>) -> S {
                 match self { $(Self::$Name(e) => <$Name>::potential(e, at),)+ }

@@ -119,6 +119,13 @@ pub trait Force<const P: usize>: Element {
     /// The wrench of each part on both bodies.
     fn action<S: Real>(e: &Self::Over<S>, at: &Situation<S>) -> [Action<S>; P];
 
+    /// The relative angle φⱼ - φᵢ at which a rotational spring is relaxed: what whole turns are
+    /// counted from at assembly.
+    fn free_angle<S: Real>(e: &Self::Over<S>) -> Option<S> {
+        let _ = e;
+        None
+    }
+
     /// Potential energy of the conservative parts, J.
     fn potential<S: Real>(e: &Self::Over<S>, at: &Situation<S>) -> S {
         let _ = (e, at);

@@ -32,7 +32,8 @@ impl<S: Real> Augmented<S> {
         let (n_q, n) = (layout.n_q, layout.n_q + layout.n_rows);
         let mut entries = Vec::new();
         for body in 1..model.bodies.len() {
-            let [x, y, angle]: [usize; 3] = std::array::from_fn(|c| columns(BodyId(body)).start + c);
+            let [x, y, angle]: [usize; 3] =
+                std::array::from_fn(|c| columns(BodyId(body)).start + c);
             entries.extend([(x, x), (y, y), (angle, angle), (angle, x), (angle, y)]);
         }
         let n_w = entries.len();
@@ -75,10 +76,12 @@ impl<S: Real> Augmented<S> {
         &self.values[self.n_w..self.values.len() - self.n_rows]
     }
 
-    /// Sets the damping μ.
-    pub fn set_damping(&mut self, mu: S) {
+    /// Sets the damping μ, one for each row.
+    pub fn set_damping(&mut self, mu: impl IntoIterator<Item = S>) {
         let start = self.values.len() - self.n_rows;
-        self.values[start..].fill(-mu);
+        for (value, mu) in self.values[start..].iter_mut().zip(mu) {
+            *value = -mu;
+        }
     }
 
     /// Factorises.

@@ -74,9 +74,8 @@ fn law_block<S: Real>(
         }
     };
     let t = D::lift(t);
-    let coordinate = |body: BodyId, c: Coordinate| -> D<S> {
-        c.of(&pose(body), &crate::math::Twist::zero())
-    };
+    let coordinate =
+        |body: BodyId, c: Coordinate| -> D<S> { c.of(&pose(body), &crate::math::Twist::zero()) };
     let values = Laws { parameters: &model.parameters, t, coordinate };
     let Some(law) = &item.law else { return };
     let element = law.map(&mut |tape| tape.evaluate(&values));
@@ -137,7 +136,8 @@ pub fn velocity_terms<S: Real>(
 /// ν = -Φ_t: the right side of Φ_q q̇ = ν (Haug 3.6.10), shape (m).
 pub fn nu<S: Real>(model: &Model<S>, q: &[S], t: S) -> Vec<S> {
     let m = model.layout.n_rows;
-    let (mut phi, mut rate, mut gamma) = (vec![S::zero(); m], vec![S::zero(); m], vec![S::zero(); m]);
+    let (mut phi, mut rate, mut gamma) =
+        (vec![S::zero(); m], vec![S::zero(); m], vec![S::zero(); m]);
     let motions = super::kinematics::at_rest(q);
     velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
     rate.into_iter().map(|r| -r).collect()

@@ -26,11 +26,7 @@ pub fn generalized<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, out: 
 }
 
 /// Weight, and the centrifugal force m A c′ φ̇² of a mass centre off the frame's origin.
-fn gravity_and_inertia<S: Real>(
-    model: &Model<S>,
-    body: &Body<S>,
-    motion: &Motion<S>,
-) -> Wrench<S> {
+fn gravity_and_inertia<S: Real>(model: &Model<S>, body: &Body<S>, motion: &Motion<S>) -> Wrench<S> {
     let arm = motion.pose.global(body.center);
     let weight = model.gravity.scale(body.mass);
     let omega = motion.twist.omega;

@@ -39,8 +39,13 @@ pub struct Workspace<S = f64> {
     pub matrix: Augmented<S>,
     /// Right side, then solution (q̈, λ).
     solution: Vec<S>,
+    /// Correction of the solution where the matrix is damped.
+    correction: Option<Vec<S>>,
     n_q: usize,
 }
+
+/// Damping of redundant rows, relative to the largest compliance 1/m.
+const REDUNDANT: f64 = 1e-10;
 
 impl<S: Real> Workspace<S> {
     /// All memory that evaluations of this model need.
@@ -53,8 +58,18 @@ impl<S: Real> Workspace<S> {
             gamma: vec![S::zero(); m],
             matrix: Augmented::new(model),
             solution: vec![S::zero(); n + m],
+            correction: None,
             n_q: n,
         }
+    }
+
+    /// Accepts redundant constraints: the multipliers become the smallest that carry the loads.
+    pub fn allow_redundancy(&mut self, model: &Model<S>) {
+        let compliance = |b: &crate::model::Body<S>| S::one() / b.mass;
+        let largest = model.bodies[1..].iter().map(compliance).fold(S::zero(), S::max);
+        let mu = largest * S::constant(REDUNDANT);
+        self.matrix.set_damping((0..model.layout.n_rows).map(|_| mu));
+        self.correction = Some(vec![S::zero(); self.solution.len()]);
     }
 
     /// Solves the equations of motion at a state; then [`a`](Self::a), [`lam`](Self::lam).
@@ -82,8 +97,34 @@ impl<S: Real> Workspace<S> {
         for (k, right) in lower.iter_mut().enumerate() {
             *right = self.gamma[k] - damping * self.rate[k] - stiffness * self.residual[k];
         }
-        self.matrix.solve(&mut self.solution);
+        let Some(mut correction) = self.correction.take() else {
+            self.matrix.solve(&mut self.solution);
+            return Ok(());
+        };
+        self.solve_damped(model, &mut correction);
+        self.correction = Some(correction);
         Ok(())
+    }
+
+    /// Solves with the damped matrix and brings Φ_q q̈ back to the right side: the method of
+    /// multipliers, whose error falls by the damping in each of its steps.
+    fn solve_damped(&mut self, model: &Model<S>, correction: &mut [S]) {
+        let n = self.n_q;
+        let wanted = self.solution[n..].to_vec();
+        self.matrix.solve(&mut self.solution);
+        for _ in 0..2 {
+            correction[..n].fill(S::zero());
+            let a = &self.solution[..n];
+            for (k, slots) in model.layout.constraints.iter().enumerate() {
+                let rows = &mut correction[n + slots.rows.start..n + slots.rows.end];
+                constraints::times(model, k, self.matrix.jacobian(), a, rows);
+            }
+            for (r, wanted) in correction[n..].iter_mut().zip(&wanted) {
+                *r = *wanted - *r;
+            }
+            self.matrix.solve(correction);
+            self.solution.iter_mut().zip(correction.iter()).for_each(|(x, dx)| *x += *dx);
+        }
     }
 
     /// q̈, shape (n_q).

@@ -149,3 +149,20 @@ impl From<f64> for Tape {
         Self { code: vec![Instruction::Constant(x)], operands: 1, symbols: Vec::new() }
     }
 }
+
+impl Tape {
+    /// The law position + rate (t - t0).
+    pub fn line(position: f64, rate: f64, t0: f64) -> Self {
+        use super::operation::Binary::{Add, Multiply};
+        let code = vec![
+            Instruction::Load(Symbol::Time),
+            Instruction::Constant(-t0),
+            Instruction::Binary(Add),
+            Instruction::Constant(rate),
+            Instruction::Binary(Multiply),
+            Instruction::Constant(position),
+            Instruction::Binary(Add),
+        ];
+        Self { code, operands: 2, symbols: vec![Symbol::Time] }
+    }
+}

@@ -160,8 +160,7 @@ impl<S: Real> Real for Jet<S> {
     fn pow(self, exponent: Self) -> Self {
         let (x, y) = (self.value, exponent.value);
         let (one, value) = (S::one(), x.pow(y));
-        let constant =
-            self.chain(value, y * x.pow(y - one), y * (y - one) * x.pow(y - one - one));
+        let constant = self.chain(value, y * x.pow(y - one), y * (y - one) * x.pow(y - one - one));
         // ln x exists only for x > 0, but a constant exponent does not need it
         let varying = (exponent * self.ln()).exp();
         let varies = exponent.rate * exponent.rate + exponent.second * exponent.second;

@@ -78,13 +78,7 @@ fn gravity(definition: &Definition, scope: &Scope, problems: &mut Vec<Problem>) 
 }
 
 impl Blueprint {
-    fn link(
-        &mut self,
-        group: Group,
-        entry: &Entry,
-        scope: &Scope,
-        problems: &mut Vec<Problem>,
-    ) {
+    fn link(&mut self, group: Group, entry: &Entry, scope: &Scope, problems: &mut Vec<Problem>) {
         let Some(Value::Text(kind)) = entry.get("type") else {
             let message = format!("this {} has no type", group.singular());
             problems.push(Problem::at(&[group.section(), &entry.name], message));
@@ -105,14 +99,14 @@ impl Blueprint {
         }
     }
 
-    /// The same mechanism with further drivers that hold coordinates at given values: what
+    /// The same mechanism with further drivers that make coordinates follow given laws: what
     /// assembly solves.
-    pub fn holding(&self, held: &[(String, CoordinateOf, f64)]) -> Self {
+    pub fn holding(&self, held: &[(String, CoordinateOf, Tape)]) -> Self {
         let mut extended = self.clone();
         for (name, coordinate, value) in held {
             let driver = crate::elements::drivers::CoordinateDriver {
                 coordinate: *coordinate,
-                value: Tape::from(*value),
+                value: value.clone(),
             };
             let driver = Constraint::CoordinateDriver(driver);
             extended.constraints.push((name.clone(), Group::Drivers, driver));

@@ -132,7 +132,9 @@ impl Reader<'_> {
             }
             None if through.len() >= 2 => Vec::new(), // `place` names them
             None => {
-                self.missing("'ends' is missing: the names of the two ends, such as [\"A\", \"B\"]");
+                self.missing(
+                    "'ends' is missing: the names of the two ends, such as [\"A\", \"B\"]",
+                );
                 Vec::new()
             }
         }
@@ -215,8 +217,7 @@ impl Reader<'_> {
     fn compose(&mut self, text: &str) -> Tape {
         let path = self.path("type");
         let value = Value::Text(text.to_string());
-        let tape =
-            self.scope.formula(&value, &path[..2], "", Reach::Parameters, self.problems);
+        let tape = self.scope.formula(&value, &path[..2], "", Reach::Parameters, self.problems);
         tape.unwrap_or_else(|| Tape::from(0.0))
     }
 

@@ -13,7 +13,8 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
     }
     for (k, g) in [model.gravity.x, model.gravity.y].into_iter().enumerate() {
         if !g.is_finite() {
-            problems.push(Problem::at(&["gravity", &k.to_string()], format!("{g}; must be finite")));
+            problems
+                .push(Problem::at(&["gravity", &k.to_string()], format!("{g}; must be finite")));
         }
     }
     for item in model.constraints.iter().filter(|c| c.law.is_none()) {

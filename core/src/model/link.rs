@@ -227,7 +227,8 @@ fn check_unit(e: &Expression, unit: &str) -> Result<(), ExpressionError> {
     if unit.is_empty() || unit.split('|').any(fits) {
         return Ok(());
     }
-    let message = format!("'{}' is not a quantity in {}", e.text().trim(), unit.replace('|', " or "));
+    let message =
+        format!("'{}' is not a quantity in {}", e.text().trim(), unit.replace('|', " or "));
     Err(ExpressionError::new(0..e.text().len(), message))
 }
 
@@ -263,9 +264,7 @@ impl Source for Linker<'_> {
     fn coordinate(&mut self, field: &Field) -> Option<CoordinateOf> {
         let (body, name) = self.split(field, "body.x, body.y or body.angle")?;
         match Coordinate::named(name) {
-            _ if body.is_ground() => {
-                self.report(field, "ground does not move".to_string(), None)
-            }
+            _ if body.is_ground() => self.report(field, "ground does not move".to_string(), None),
             Some(coordinate) if !coordinate.is_rate() => Some(CoordinateOf { body, coordinate }),
             _ => {
                 let message = format!("'{name}' is not one of x, y, angle");

@@ -26,10 +26,8 @@ pub fn values(
         let given = overrides.iter().rev().find(|(n, _)| n == name).map_or(written, |(_, v)| v);
         match formula(given) {
             Ok(e) => formulas.push((name.as_str(), e)),
-            Err(problem) => problems.push(Problem {
-                path: vec!["parameters".to_string(), name.clone()],
-                ..problem
-            }),
+            Err(problem) => problems
+                .push(Problem { path: vec!["parameters".to_string(), name.clone()], ..problem }),
         }
     }
     if formulas.len() < names.len() {
@@ -41,8 +39,9 @@ pub fn values(
 fn formula(value: &Value) -> Result<Expression, Problem> {
     let nowhere: [&str; 0] = [];
     match value {
-        Value::Number(x) if x.is_finite() => Expression::number(*x)
-            .map_err(|fault| Problem::at(&nowhere, fault.message)),
+        Value::Number(x) if x.is_finite() => {
+            Expression::number(*x).map_err(|fault| Problem::at(&nowhere, fault.message))
+        }
         Value::Number(x) => {
             Err(Problem::at(&nowhere, format!("{x} is not a number to compute with")))
         }

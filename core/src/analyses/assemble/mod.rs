@@ -1,6 +1,205 @@
-//! Assembly.
+//! Assembly: a consistent state from what is set, guessed, drawn and driven.
+//!
+//! Bodies are placed by walking the joints ([`place`]), closed by Newton–Raphson on Φ with the rows
+//! of drivers and of `set` ([`Closing`]), turned by whole turns to relax springs, and given the
+//! consistent velocities nearest to those asked for. What is consistent already is left alone.
+
+mod closing;
 mod dyad;
+mod failure;
 mod placement;
+mod report;
+mod request;
+mod turns;
+mod velocities;
 mod wishes;
-pub use placement::{place, Placement};
+
+pub use closing::{size, Closing};
+pub use failure::{Failure, Fault};
+pub use placement::{place, Dyad, Gap, Placement};
+pub use report::{Mode, Report};
+pub use request::{wishes, Request, Wish};
 pub use wishes::Wishes;
+
+use super::{mobility, State};
+use crate::elements::CoordinateOf;
+use crate::model::Model;
+use crate::solve::newton::Record;
+use std::sync::Arc;
+
+/// Most placements that are looked at.
+const MOST_PLACEMENTS: usize = 256;
+/// Most placements from which Newton is tried.
+const MOST_TRIES: usize = 16;
+/// How far a given pose may be from what is set before bodies are placed anew, rad.
+const NEAR: f64 = 0.35;
+
+/// Assembles a mechanism.
+///
+/// # Errors
+/// [`Failure`] if it cannot close, if rates contradict the constraints, or if constraints repeat
+/// each other and that is not allowed.
+pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box<Failure>> {
+    let asked = asked(model, request);
+    let extended = holding(model, request);
+    let mut closing = Closing::new(&extended, request.t);
+    let (mut q, iterations) = close(model, request, &asked, &mut closing)?;
+    let mut report = Report { iterations, ..Report::default() };
+    if request.state.is_none() {
+        report.warnings = turns::relax(model, &asked, &mut q);
+    }
+    let mobility = mobility(model, request.t, &q);
+    if !mobility.redundant.is_empty() && !request.allow_redundancy {
+        return Err(Box::new(failure::redundant(model, &mobility)));
+    }
+    report.degrees_of_freedom = mobility.degrees_of_freedom;
+    for group in &mobility.singular {
+        let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+        report.warnings.push(format!(
+            "this is a singular position: the constraints {} depend on each other here",
+            names.join(", ")
+        ));
+    }
+    let v = velocities(model, request, &q)?;
+    describe(model, &asked, &q, &mut report);
+    Ok((State { t: request.t, q, v, z: Vec::new() }, report))
+}
+
+/// Drivers and `set` are hard; drawn poses, `guess` and a given state are soft.
+fn asked(model: &Model, request: &Request) -> Wishes {
+    let mut asked = Wishes::of(model, request.t);
+    if let Some(state) = &request.state {
+        for (k, q) in state.q.chunks_exact(3).enumerate() {
+            asked.soft[k + 1] = [Some(q[0]), Some(q[1]), Some(q[2])];
+            asked.turn[k + 1] = true;
+        }
+    }
+    for wish in request.guess.iter().filter(|w| !w.coordinate.is_rate()) {
+        asked.soft[wish.body.0][wish.coordinate.column()] = Some(wish.value);
+        asked.turn[wish.body.0] |= wish.coordinate.column() == 2;
+    }
+    for wish in request.set.iter().filter(|w| !w.coordinate.is_rate()) {
+        asked.hard[wish.body.0][wish.coordinate.column()] = Some(wish.value);
+        asked.turn[wish.body.0] |= wish.coordinate.column() == 2;
+    }
+    for (hard, turn) in asked.hard.iter().zip(&mut asked.turn) {
+        *turn |= hard[2].is_some();
+    }
+    asked
+}
+
+/// The model with a driver for each coordinate that is set.
+pub fn holding(model: &Model, request: &Request) -> Model {
+    let positions = request.set.iter().filter(|w| !w.coordinate.is_rate());
+    let held: Vec<_> = positions.map(|w| held(model, w, w.value.into())).collect();
+    let blueprint = model.blueprint.holding(&held);
+    Model::new(&Arc::new(blueprint), &model.parameters)
+}
+
+fn held(
+    model: &Model,
+    wish: &Wish,
+    value: crate::expression::Tape,
+) -> (String, CoordinateOf, crate::expression::Tape) {
+    let position = crate::elements::Coordinate::ALL[wish.coordinate.column()];
+    let name = format!("set {}", model.bodies[wish.body.0].name);
+    (name, CoordinateOf { body: wish.body, coordinate: position }, value)
+}
+
+/// The first position, in the order of preference, from which the mechanism closes.
+fn close(
+    model: &Model,
+    request: &Request,
+    asked: &Wishes,
+    closing: &mut Closing<'_>,
+) -> Result<(Vec<f64>, Vec<Record>), Box<Failure>> {
+    if let Some(mut q) = given(asked) {
+        let (history, closed) = closing.close(&mut q);
+        if closed {
+            return Ok((q, history));
+        }
+    }
+    let placements = placements(model, asked);
+    for placement in placements.iter().take(MOST_TRIES) {
+        let mut q = placement.q.clone();
+        let (history, closed) = closing.close(&mut q);
+        if closed {
+            return Ok((q, history));
+        }
+    }
+    let best = placements.first().map_or(&[] as &[f64], |p| &p.q);
+    let mut q = best.to_vec();
+    closing.close(&mut q);
+    let gap = placements.first().and_then(|p| p.gaps.first());
+    Err(Box::new(failure::open(closing.model(), request, closing, &q, gap)))
+}
+
+/// The whole position, if every coordinate is asked for and what is hard lies near what is soft.
+fn given(asked: &Wishes) -> Option<Vec<f64>> {
+    let near = |b: usize| match (asked.hard[b][2], asked.soft[b][2]) {
+        (Some(hard), Some(soft)) => (hard - soft).abs() < NEAR,
+        _ => true,
+    };
+    let poses: Option<Vec<[f64; 3]>> =
+        (1..asked.soft.len()).map(|b| asked.pose(b).filter(|_| near(b))).collect();
+    poses.map(|poses| poses.into_iter().flatten().collect())
+}
+
+/// Placements through all undecided choices, those without gaps first.
+fn placements(model: &Model, asked: &Wishes) -> Vec<Placement> {
+    let mut choices: Vec<usize> = Vec::new();
+    let mut found = Vec::new();
+    for _ in 0..MOST_PLACEMENTS {
+        let placement = place(model, asked, &choices);
+        choices.resize(placement.options.len(), 0);
+        let options = placement.options.clone();
+        let closes = placement.gaps.is_empty();
+        found.push(placement);
+        // one that closes by construction needs no rival, unless Newton refuses it
+        if closes && found.iter().filter(|p| p.gaps.is_empty()).count() >= MOST_TRIES {
+            break;
+        }
+        // the next combination: the last choice that still has an option
+        let Some(last) = (0..options.len()).rev().find(|k| choices[*k] + 1 < options[*k]) else {
+            break;
+        };
+        choices.truncate(last + 1);
+        choices[last] += 1;
+    }
+    found.sort_by_key(|p| !p.gaps.is_empty()); // stable: order of preference is kept
+    found
+}
+
+/// Velocities from the guess, made consistent; rates that are set are held as drivers.
+fn velocities(model: &Model, request: &Request, q: &[f64]) -> Result<Vec<f64>, Box<Failure>> {
+    let mut v = match &request.state {
+        Some(state) => state.v.clone(),
+        None => vec![0.0; q.len()],
+    };
+    let mut drivers = Vec::new();
+    for wish in request.guess.iter().chain(&request.set).filter(|w| w.coordinate.is_rate()) {
+        v[3 * (wish.body.0 - 1) + wish.coordinate.column()] = wish.value;
+    }
+    for wish in request.set.iter().filter(|w| w.coordinate.is_rate()) {
+        let position = q[3 * (wish.body.0 - 1) + wish.coordinate.column()];
+        let law = crate::expression::Tape::line(position, wish.value, request.t);
+        drivers.push(held(model, wish, law));
+    }
+    let extended = Model::new(&Arc::new(model.blueprint.holding(&drivers)), &model.parameters);
+    let left = velocities::project(&extended, request.t, q, &mut v);
+    if left > 1e-8 {
+        return Err(Box::new(failure::rates(model, request)));
+    }
+    Ok(v)
+}
+
+/// Says which assembly mode was taken.
+fn describe(model: &Model, asked: &Wishes, q: &[f64], report: &mut Report) {
+    let mut taken = asked.clone();
+    for (k, q) in q.chunks_exact(3).enumerate() {
+        taken.soft[k + 1] = [Some(q[0]), Some(q[1]), Some(q[2])];
+    }
+    let placement = place(model, &taken, &[]);
+    report.modes = report::modes(model, &placement.dyads, q);
+    report.alternatives = 2_usize.saturating_pow(report.modes.len() as u32) - 1;
+}

@@ -40,6 +40,10 @@ impl Force<2> for TorsionSpring {
             .map(|torque| Action { on_i: Wrench::torque(-torque), on_j: Wrench::torque(torque) })
     }
 
+    fn free_angle<S: Real>(e: &TorsionSpring<S>) -> Option<S> {
+        Some(e.free_angle)
+    }
+
     fn potential<S: Real>(e: &TorsionSpring<S>, at: &Situation<S>) -> S {
         let stretch = at.j.pose.angle - at.i.pose.angle - e.free_angle;
         S::constant(0.5) * e.stiffness * stretch * stretch

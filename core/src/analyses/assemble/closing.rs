@@ -1,0 +1,149 @@
+//! Closing a mechanism: Newton–Raphson on Φ(q, t) = 0 with the rows of drivers and of `set`.
+//!
+//! Each step solves [W Φ_qᵀ; Φ_q -μ I]: the smallest step where coordinates are left free, Newton's
+//! own where Φ_q is square, a damped least-squares step where μ > 0. Lengths are measured by the
+//! size of the mechanism, so that metres and radians can be compared.
+
+use crate::equations::augmented::Augmented;
+use crate::equations::{constraints, kinematics};
+use crate::model::Model;
+use crate::solve::newton::{Damping, Equations, Newton, Options, Outcome, Record};
+
+/// Largest scaled residual of a consistent position.
+pub const TOLERANCE: f64 = 1e-12;
+/// Damping where a row of Φ_q depends on the others: far below the tolerance, enough for a pivot.
+const REDUNDANT: f64 = 1e-9;
+
+/// The position equations of a model at a fixed time.
+pub struct Closing<'a> {
+    model: &'a Model,
+    t: f64,
+    matrix: Augmented,
+    /// Size of the mechanism, m.
+    pub size: f64,
+    /// Scale of each row: the size for lengths, 1 for angles.
+    scales: Vec<f64>,
+    weights: Vec<f64>,
+    solution: Vec<f64>,
+}
+
+/// The size of a mechanism: the largest distance of a point from the origin of its frame, m.
+pub fn size(model: &Model) -> f64 {
+    let points = model.bodies.iter().flat_map(|b| &b.points);
+    let largest = points.map(|(_, s)| s.norm()).fold(0.0, f64::max);
+    if largest > 0.0 {
+        largest
+    } else {
+        1.0
+    }
+}
+
+impl<'a> Closing<'a> {
+    /// For a model at time `t`.
+    pub fn new(model: &'a Model, t: f64) -> Self {
+        let size = size(model);
+        let units = model.constraints.iter().flat_map(|c| c.equations.iter().map(|e| e.unit));
+        let scales: Vec<f64> = units.map(|unit| if unit == "m" { size } else { 1.0 }).collect();
+        let (n, m) = (model.layout.n_q, model.layout.n_rows);
+        let inverse = 1.0 / (size * size);
+        let weights = (0..n).map(|k| if k % 3 == 2 { 1.0 } else { inverse }).collect();
+        let matrix = Augmented::new(model);
+        Self { model, t, matrix, size, scales, weights, solution: vec![0.0; n + m] }
+    }
+
+    /// The model that is closed, drivers for `set` included.
+    pub fn model(&self) -> &'a Model {
+        self.model
+    }
+
+    /// Improves `q` until it satisfies the constraints; a `q` that does is returned untouched.
+    /// Gives the iterations and whether it closed.
+    pub fn close(&mut self, q: &mut [f64]) -> (Vec<Record>, bool) {
+        let mut newton = Newton::new();
+        let mut options = Options {
+            residual_tolerance: TOLERANCE,
+            step_tolerance: 1e-7,
+            max_iterations: 60,
+            damping: Damping::Halving { most: 12 },
+        };
+        let start = q.to_vec();
+        let mut outcome = newton.solve(self, q, &options);
+        let mut history = newton.history().to_vec();
+        if outcome != Ok(Outcome::Converged) {
+            q.copy_from_slice(&start);
+            options.damping = Damping::Levenberg { initial: 1e-2, most: 24 };
+            options.max_iterations = 200;
+            outcome = newton.solve(self, q, &options);
+            history = newton.history().to_vec();
+        }
+        let small = history.last().is_some_and(|r| r.residual_norm <= 1e3 * TOLERANCE);
+        (history, outcome == Ok(Outcome::Converged) || small)
+    }
+
+    /// Φ at `q`, in m and rad.
+    pub fn phi(&self, q: &[f64]) -> Vec<f64> {
+        let mut phi = vec![0.0; self.model.layout.n_rows];
+        constraints::residual(self.model, &kinematics::at_rest(q), self.t, &mut phi);
+        phi
+    }
+
+    fn factor(&mut self, levenberg: f64) -> bool {
+        let damping = levenberg * levenberg;
+        self.matrix.set_damping(self.scales.iter().map(|s| damping * s * s));
+        self.matrix.factor().is_ok()
+    }
+}
+
+impl Equations for Closing<'_> {
+    type Stop = std::convert::Infallible;
+
+    fn unknowns(&self) -> usize {
+        self.model.layout.n_q
+    }
+
+    fn equations(&self) -> usize {
+        self.model.layout.n_rows
+    }
+
+    fn residual(&mut self, q: &[f64], out: &mut [f64]) -> Result<(), Self::Stop> {
+        constraints::residual(self.model, &kinematics::at_rest(q), self.t, out);
+        for (r, s) in out.iter_mut().zip(&self.scales) {
+            *r /= s;
+        }
+        Ok(())
+    }
+
+    fn step(
+        &mut self,
+        q: &[f64],
+        residual: &[f64],
+        levenberg: f64,
+        step: &mut [f64],
+    ) -> Result<(), Self::Stop> {
+        let motions = kinematics::at_rest(q);
+        self.matrix.set_weights(&self.weights);
+        constraints::jacobian(self.model, &motions, self.t, self.matrix.jacobian_mut());
+        if !self.factor(levenberg) && !self.factor(levenberg.max(REDUNDANT.sqrt())) {
+            step.fill(f64::NAN);
+            return Ok(());
+        }
+        let (upper, lower) = self.solution.split_at_mut(step.len());
+        upper.fill(0.0);
+        for ((x, r), s) in lower.iter_mut().zip(residual).zip(&self.scales) {
+            *x = -r * s;
+        }
+        self.matrix.solve(&mut self.solution);
+        step.copy_from_slice(&self.solution[..step.len()]);
+        Ok(())
+    }
+
+    /// Largest component: what the user reads as the gap.
+    fn residual_norm(&self, residual: &[f64]) -> f64 {
+        residual.iter().map(|r| r * r).sum::<f64>().sqrt()
+    }
+
+    fn step_norm(&self, _: &[f64], step: &[f64]) -> f64 {
+        let weighted = step.iter().zip(&self.weights).map(|(s, w)| s * s * w);
+        weighted.sum::<f64>().sqrt()
+    }
+}

@@ -1,0 +1,227 @@
+//! Why a mechanism cannot be assembled, in terms of the mechanism.
+
+use super::closing::Closing;
+use super::placement::Gap;
+use super::request::{Request, Wish};
+use crate::analyses::Mobility;
+use crate::elements::Constraint;
+use crate::model::Model;
+use std::collections::VecDeque;
+use std::fmt;
+
+/// What went wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// The positions asked for cannot be reached.
+    Open,
+    /// The rates asked for contradict each other or the constraints.
+    Rates,
+    /// Constraints repeat each other.
+    Redundant,
+}
+
+/// An assembly that failed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// What went wrong.
+    pub fault: Fault,
+    /// The joint or driver at which it shows.
+    pub name: String,
+    /// The gap that remains there, m; zero where that has no meaning.
+    pub gap: f64,
+    /// In words.
+    pub message: String,
+    /// What to do.
+    pub hint: String,
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}; {}", self.message, self.hint)
+    }
+}
+
+/// The loop does not close; `q` is as near as it gets.
+pub(super) fn open(
+    model: &Model,
+    request: &Request,
+    closing: &Closing<'_>,
+    q: &[f64],
+    gap: Option<&Gap>,
+) -> Failure {
+    match gap {
+        Some(gap) => dyad_open(model, request, gap),
+        None => stays_open(model, request, &closing.phi(q)),
+    }
+}
+
+fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
+    let joint = &model.constraints[gap.joint].name;
+    let [a, b] = gap.bodies.map(|k| model.bodies[k].name.as_str());
+    let missing = gap.missing.abs();
+    let (fault, hint) = if gap.missing > 0.0 {
+        (
+            format!("the links are short by {missing:.3} m at joint {joint}"),
+            format!("lengthen {a} or {b}, or bring the pins that carry them nearer"),
+        )
+    } else {
+        (
+            format!("one link is too long for the other by {missing:.3} m at joint {joint}"),
+            format!(
+                "make {a} and {b} more alike in length, or move the pins that carry them apart"
+            ),
+        )
+    };
+    let loop_ = loop_through(model, gap.joint).unwrap_or_else(|| format!("{a}-{b}"));
+    let set = asked(model, &request.set);
+    let change = if set.is_empty() { String::new() } else { ", or change what is set".to_string() };
+    Failure {
+        fault: Fault::Open,
+        name: joint.clone(),
+        gap: missing,
+        message: format!("the loop {loop_} cannot close: {set}{fault}"),
+        hint: format!("{hint}{change}"),
+    }
+}
+
+fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
+    let mut worst = (0, 0.0);
+    let mut total = 0.0;
+    for (k, slots) in model.layout.constraints.iter().enumerate() {
+        let gap = phi[slots.rows.clone()].iter().map(|r| r * r).sum::<f64>().sqrt();
+        if model.constraints[k].equations[0].unit == "m" {
+            total += gap; // of a stretched loop the gaps of its joints add up to what is missing
+        }
+        if gap > worst.1 {
+            worst = (k, gap);
+        }
+    }
+    let name = model.constraints[worst.0].name.clone();
+    let around = match loop_through(model, worst.0) {
+        Some(loop_) => format!("the loop {loop_}"),
+        None => "the mechanism".to_string(),
+    };
+    let set = asked(model, &request.set);
+    let gap = if total > 0.0 { total } else { worst.1 };
+    let unit = model.constraints[worst.0].equations[0].unit;
+    let message = if unit == "m" {
+        format!("{around} cannot close: {set}the joints stay open by {gap:.3} m in all, most at joint {name}")
+    } else {
+        format!("{around} cannot close: {set}{name} is missed by {:.3} {unit}", worst.1)
+    };
+    let hint = "give a guess nearer to the position meant, change what is set, or change lengths";
+    Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string() }
+}
+
+/// "with crank.angle = 70° ", or nothing.
+fn asked(model: &Model, set: &[Wish]) -> String {
+    if set.is_empty() {
+        return String::new();
+    }
+    let one = |wish: &Wish| {
+        let name = format!("{}.{}", model.bodies[wish.body.0].name, wish.coordinate.name());
+        match wish.coordinate.unit() {
+            "rad" => format!("{name} = {}°", trimmed(wish.value.to_degrees())),
+            unit => format!("{name} = {} {unit}", trimmed(wish.value)),
+        }
+    };
+    format!("with {} ", set.iter().map(one).collect::<Vec<_>>().join(", "))
+}
+
+/// Six significant digits without trailing zeros.
+fn trimmed(x: f64) -> String {
+    let rounded = format!("{x:.6}").parse::<f64>().unwrap_or(x);
+    format!("{rounded}")
+}
+
+/// Names of the joints around the shortest loop through a joint, from the first of the file.
+pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
+    let [from, to] = model.constraints[joint].element.ends().map(|b| b.0);
+    let mut via: Vec<Option<(usize, usize)>> = vec![None; model.bodies.len()];
+    let mut queue = VecDeque::from([to]);
+    while let Some(body) = queue.pop_front() {
+        for (k, item) in model.constraints.iter().enumerate() {
+            let [i, j] = item.element.ends().map(|b| b.0);
+            let held = matches!(item.element, Constraint::CoordinateDriver(_));
+            let next = if i == body { j } else { i };
+            let joins = k != joint && !held && (i == body || j == body) && i != j;
+            if joins && next != to && via[next].is_none() {
+                via[next] = Some((k, body));
+                queue.push_back(next);
+            }
+        }
+    }
+    let mut loop_ = vec![joint];
+    let mut body = from;
+    while body != to {
+        let (k, next) = via[body]?;
+        loop_.push(k);
+        body = next;
+    }
+    let first = loop_.iter().enumerate().min_by_key(|(_, k)| **k).map_or(0, |(at, _)| at);
+    loop_.rotate_left(first);
+    if loop_.len() > 2 && loop_[1] > loop_[loop_.len() - 1] {
+        loop_[1..].reverse();
+    }
+    let names: Vec<&str> = loop_.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+    Some(names.join("-"))
+}
+
+/// The rates asked for cannot be had.
+pub(super) fn rates(model: &Model, request: &Request) -> Failure {
+    let set: Vec<Wish> = request.set.iter().filter(|w| w.coordinate.is_rate()).cloned().collect();
+    let name = set.first().map_or(String::new(), |w| model.bodies[w.body.0].name.clone());
+    Failure {
+        fault: Fault::Rates,
+        name,
+        gap: 0.0,
+        message: format!(
+            "{}the velocities contradict the constraints or each other",
+            asked(model, &set)
+        ),
+        hint: "set no more rates than there are degrees of freedom".to_string(),
+    }
+}
+
+/// Constraints repeat each other.
+pub(super) fn redundant(model: &Model, mobility: &Mobility) -> Failure {
+    let group = mobility.redundant.first().cloned().unwrap_or_default();
+    let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+    let last = names.last().copied().unwrap_or_default();
+    let message = twin(model, &group).unwrap_or_else(|| {
+        format!(
+            "the constraints {} depend on each other: {} of their equations add{} nothing",
+            names.join(", "),
+            mobility.redundant.len(),
+            if mobility.redundant.len() == 1 { "s" } else { "" },
+        )
+    });
+    let which = if names.len() == 2 { "one" } else { "one of them, or free one of its directions" };
+    Failure {
+        fault: Fault::Redundant,
+        name: last.to_string(),
+        gap: 0.0,
+        message,
+        hint: format!("remove {which}, or pass redundancy='allow'"),
+    }
+}
+
+/// "joint D2 repeats joint D: both fix point rocker.D to ground".
+fn twin(model: &Model, group: &[usize]) -> Option<String> {
+    let [first, second] = group else { return None };
+    let [a, b] = [*first, *second].map(|k| &model.constraints[k]);
+    let (kind, other) = (a.group.singular(), b.group.singular());
+    let mut message = format!("{other} {} repeats {kind} {}", b.name, a.name);
+    if let (Constraint::Revolute(p), Constraint::Revolute(q)) = (&a.element, &b.element) {
+        let name = |body: crate::elements::BodyId, s: &crate::math::Local| {
+            let body = &model.bodies[body.0];
+            let point = body.points.iter().find(|(_, at)| at == s);
+            point.map(|(point, _)| format!("{}.{point}", body.name))
+        };
+        if let (true, Some(moving)) = (p.j == q.j || p.j == q.i, name(p.j.body, &p.j.s)) {
+            let held = &model.bodies[p.i.body.0].name;
+            message.push_str(&format!(": both fix point {moving} to {held}"));
+        }
+    }
+    Some(message)
+}

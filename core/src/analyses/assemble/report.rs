@@ -1,0 +1,59 @@
+//! What an assembly tells about itself.
+
+use super::placement::Dyad;
+use crate::elements::Side;
+use crate::equations::kinematics;
+use crate::math::{Motion, Vec2};
+use crate::model::Model;
+use crate::solve::newton::Record;
+
+/// Which of its two closures a dyad took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// The two bodies.
+    pub bodies: [String; 2],
+    /// The joint between them.
+    pub joint: String,
+    /// The joints that carry them.
+    pub anchors: [String; 2],
+    /// Whether the joint lies to the left of the line from the first to the second anchor.
+    pub left: bool,
+}
+
+/// The course and the result of an assembly.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Newton's iterations, the start first; residuals relative to the size of the mechanism.
+    pub iterations: Vec<Record>,
+    /// Degrees of freedom of the model, drivers counted as constraints.
+    pub degrees_of_freedom: usize,
+    /// The assembly mode: the closure of each dyad.
+    pub modes: Vec<Mode>,
+    /// How many other combinations of closures there are, reachable or not.
+    pub alternatives: usize,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// The closures of dyads at a position.
+pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<Mode> {
+    let motions = kinematics::at_rest(q);
+    let name = |k: usize| model.constraints[k].name.clone();
+    let of = |dyad: &Dyad| {
+        let [p1, p2] = dyad.anchors.map(|k| point(model, &motions, k));
+        let joint = point(model, &motions, dyad.joint);
+        Mode {
+            bodies: dyad.bodies.map(|b| model.bodies[b].name.clone()),
+            joint: name(dyad.joint),
+            anchors: dyad.anchors.map(name),
+            left: (p2 - p1).cross(joint - p1) > 0.0,
+        }
+    };
+    dyads.iter().filter(|d| d.has_other).map(of).collect()
+}
+
+fn point(model: &Model, motions: &[Motion], constraint: usize) -> Vec2 {
+    let element = &model.constraints[constraint].element;
+    let [i, _] = element.ends();
+    motions[i.0].pose.point(element.attachment(Side::I).s)
+}

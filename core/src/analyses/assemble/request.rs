@@ -1,0 +1,99 @@
+//! What is asked of an assembly.
+
+use crate::analyses::State;
+use crate::elements::{BodyId, Coordinate};
+use crate::equations::at;
+use crate::model::{did_you_mean, Model, Problem, Reach, Scope, Value};
+
+/// A value asked for a coordinate or a rate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wish {
+    /// The moving body.
+    pub body: BodyId,
+    /// Coordinate or rate.
+    pub coordinate: Coordinate,
+    /// m, rad, m/s or rad/s.
+    pub value: f64,
+}
+
+/// All that is asked of an assembly.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Request {
+    /// Held exactly.
+    pub set: Vec<Wish>,
+    /// Approached.
+    pub guess: Vec<Wish>,
+    /// A whole state as guess.
+    pub state: Option<State>,
+    /// Time, s.
+    pub t: f64,
+    /// Whether redundant constraints are accepted.
+    pub allow_redundancy: bool,
+}
+
+/// Reads wishes such as ("crank.angle", "70*deg"); `section` is `set` or `guess`.
+///
+/// # Errors
+/// Every faulty wish, with its path in a file.
+pub fn wishes(
+    model: &Model,
+    section: &str,
+    written: &[(String, Value)],
+) -> Result<Vec<Wish>, Vec<Problem>> {
+    let mut problems = Vec::new();
+    let mut found = Vec::new();
+    for (key, value) in written {
+        let path = ["start".to_string(), section.to_string(), key.clone()];
+        let Some((body, coordinate)) = named(model, key, &path, &mut problems) else { continue };
+        let scope = Scope {
+            parameters: model.blueprint.parameters.clone(),
+            bodies: vec!["ground".to_string()],
+        };
+        let unit = coordinate.unit();
+        let tape = scope.formula(value, &path, unit, Reach::Parameters, &mut problems);
+        let Some(tape) = tape else { continue };
+        let value = tape.evaluate(&at(&model.parameters, &[], 0.0));
+        if value.is_finite() {
+            found.push(Wish { body, coordinate, value });
+        } else {
+            problems.push(Problem::at(&path, format!("becomes {value}; must be finite")));
+        }
+    }
+    if problems.is_empty() {
+        Ok(found)
+    } else {
+        Err(problems)
+    }
+}
+
+fn named(
+    model: &Model,
+    key: &str,
+    path: &[String],
+    problems: &mut Vec<Problem>,
+) -> Option<(BodyId, Coordinate)> {
+    let fault = |message: String, hint: Option<String>| {
+        Problem::at(path, message).maybe_hint(hint).at_key()
+    };
+    let Some((body, coordinate)) = key.rsplit_once('.') else {
+        let message = format!("'{key}' must have the form body.coordinate, such as crank.angle");
+        problems.push(fault(message, None));
+        return None;
+    };
+    let names: Vec<&str> = model.bodies[1..].iter().map(|b| b.name.as_str()).collect();
+    let id = model.body(body).filter(|id| !id.is_ground());
+    if id.is_none() {
+        let message = match body {
+            "ground" => "ground does not move".to_string(),
+            _ => format!("unknown body '{body}'"),
+        };
+        problems.push(fault(message, did_you_mean(body, &names, "bodies")));
+    }
+    let found = Coordinate::named(coordinate);
+    if found.is_none() {
+        let known = Coordinate::ALL.map(Coordinate::name);
+        let hint = did_you_mean(coordinate, &known, "coordinates and rates");
+        problems.push(fault(format!("'{coordinate}' is no coordinate of a body"), hint));
+    }
+    Some((id?, found?))
+}

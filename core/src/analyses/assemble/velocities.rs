@@ -1,0 +1,64 @@
+//! Consistent velocities: of all q̇ with Φ_q q̇ = ν the one nearest to the velocities given, by kinetic
+//! energy of the difference.
+
+use super::closing::size;
+use crate::equations::augmented::Augmented;
+use crate::equations::{constraints, kinematics};
+use crate::math::Motion;
+use crate::model::Model;
+
+/// Largest velocity residual that is left alone, relative to what it is computed from.
+const TOLERANCE: f64 = 1e-12;
+
+/// Makes `v` consistent at `q`; one that is consistent is left untouched. Gives the largest part of
+/// Φ_q q̇ - ν that remains, relative; not near zero if the rates asked for contradict each other.
+pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
+    let m = model.layout.n_rows;
+    let mut motions = Vec::new();
+    kinematics::motions(q, v, &mut motions);
+    let rate = velocity_residual(model, t, &motions);
+    let scale = scale(model, v, &rate);
+    let largest = |rate: &[f64]| rate.iter().fold(0.0, |a: f64, r| a.max(r.abs())) / scale;
+    if largest(&rate) <= TOLERANCE {
+        return 0.0;
+    }
+    let mut matrix = Augmented::new(model);
+    matrix.set_mass(model, &motions);
+    constraints::jacobian(model, &motions, t, matrix.jacobian_mut());
+    if matrix.factor().is_err() {
+        let compliance = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
+        matrix.set_damping((0..m).map(|_| 1e-10 * compliance));
+        if matrix.factor().is_err() {
+            return f64::INFINITY;
+        }
+    }
+    for _ in 0..2 {
+        kinematics::motions(q, v, &mut motions);
+        let rate = velocity_residual(model, t, &motions);
+        let mut x = vec![0.0; v.len()];
+        x.extend(rate.iter().map(|r| -r));
+        matrix.solve(&mut x);
+        v.iter_mut().zip(&x).for_each(|(v, dv)| *v += dv);
+    }
+    kinematics::motions(q, v, &mut motions);
+    largest(&velocity_residual(model, t, &motions))
+}
+
+/// Φ_q q̇ + Φ_t.
+fn velocity_residual(model: &Model, t: f64, motions: &[Motion]) -> Vec<f64> {
+    let m = model.layout.n_rows;
+    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+    constraints::velocity_terms(model, motions, t, &mut phi, &mut rate, &mut gamma);
+    rate
+}
+
+fn scale(model: &Model, v: &[f64], rate: &[f64]) -> f64 {
+    let size = size(model);
+    let fastest = v
+        .iter()
+        .enumerate()
+        .map(|(k, v)| if k % 3 == 2 { v.abs() * size } else { v.abs() })
+        .fold(0.0, f64::max);
+    let wanted = rate.iter().fold(0.0, |a: f64, r| a.max(r.abs()));
+    fastest.max(wanted).max(f64::MIN_POSITIVE)
+}

@@ -1,0 +1,112 @@
+//! Forward dynamics: the motion of a mechanism under forces, from a consistent state.
+
+mod failure;
+mod options;
+mod output;
+mod system;
+
+pub use failure::{Failure, Reason};
+pub use options::{Options, Output, Scheme, Stabilization};
+pub use output::{Dense, Trajectory, ENERGIES};
+
+use super::State;
+use crate::equations::{Singular, Workspace};
+use crate::integrate::{self, Ended, Flow, Method, Step};
+use crate::model::Model;
+use output::Recorder;
+use std::time::Instant;
+use system::{Equations, WORKS};
+
+/// What an integration took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Rejected steps.
+    pub rejected: usize,
+    /// Evaluations of the equations of motion, without those for the output.
+    pub evaluations: usize,
+    /// Factorisations of the augmented matrix, with those for the output.
+    pub factorisations: usize,
+    /// Wall time, s.
+    pub seconds: f64,
+}
+
+/// The outcome of forward dynamics.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Reported states.
+    pub trajectory: Trajectory,
+    /// Continuous extension, if it was asked for.
+    pub dense: Option<Dense>,
+    /// What it took.
+    pub statistics: Statistics,
+    /// Whether t_end was reached; otherwise the observer stopped it.
+    pub reached: bool,
+}
+
+/// Integrates the equations of motion from `start` to `options.t_end`.
+///
+/// `watch` sees the time after each step and may stop the run.
+///
+/// # Errors
+/// [`Failure`], with everything computed so far.
+pub fn dynamics(
+    model: &Model,
+    start: &State,
+    options: &Options,
+    mut watch: impl FnMut(f64) -> Flow,
+) -> Result<Run, Box<Failure>> {
+    let clock = Instant::now();
+    let mut system = Equations { model, workspace: Workspace::new(model), gains: options.gains() };
+    if options.allow_redundancy {
+        system.workspace.allow_redundancy(model);
+    }
+    let (t0, t_end) = (start.t, options.t_end);
+    let mut recorder = Recorder::new(model, options.output, t0, t_end, options.dense_output);
+    let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();
+    y.resize(y.len() + WORKS, 0.0);
+    recorder.report(t0, &y);
+    let mut observer = |step: &Step<'_>| {
+        recorder.step(step);
+        watch(step.t)
+    };
+    let outcome = match &options.scheme {
+        Scheme::Rk45(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
+        Scheme::Rk4(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
+    };
+    finish(model, system.workspace, recorder, outcome, clock)
+}
+
+fn finish(
+    model: &Model,
+    mut workspace: Workspace,
+    recorder: Recorder<'_>,
+    outcome: Result<integrate::Statistics, integrate::Failure<(f64, Singular)>>,
+    clock: Instant,
+) -> Result<Run, Box<Failure>> {
+    let Recorder { mut trajectory, dense, .. } = recorder;
+    let reported = trajectory.evaluate(model, &mut workspace);
+    let (n, m) = (model.layout.n_q, model.layout.n_rows);
+    let rows = trajectory.a.len() / n.max(1);
+    trajectory.truncate(rows.min(trajectory.t.len()), n, m);
+    let took = match &outcome {
+        Ok(statistics) => *statistics,
+        Err(failure) => failure.statistics,
+    };
+    let statistics = Statistics {
+        steps: took.steps,
+        rejected: took.rejected,
+        evaluations: took.evaluations,
+        factorisations: took.evaluations + rows,
+        seconds: clock.elapsed().as_secs_f64(),
+    };
+    let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached);
+    let run = Run { trajectory, dense, statistics, reached };
+    let reason = match (outcome, reported) {
+        (Ok(_), Ok(())) => return Ok(run),
+        (Err(failure), _) => Reason::from_integrator(model, failure),
+        (_, Err((t, singular))) => Reason::singular(model, t, singular),
+    };
+    Err(Box::new(Failure { reason, run }))
+}

@@ -1,0 +1,158 @@
+//! What forward dynamics reports: states at chosen times, with accelerations, multipliers, energies.
+
+use super::options::Output;
+use crate::equations::{energy, kinematics, Gains, Singular, Workspace};
+use crate::integrate::Step;
+use crate::math::Motion;
+use crate::model::Model;
+
+/// Number of columns of [`Trajectory::energy`].
+pub const ENERGIES: usize = 5;
+
+/// Reported states, time first; row k of each table belongs to `t[k]`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trajectory {
+    /// Times, s.
+    pub t: Vec<f64>,
+    /// Coordinates, rows of n_q.
+    pub q: Vec<f64>,
+    /// Velocities, rows of n_q.
+    pub v: Vec<f64>,
+    /// Accelerations at the reported state, without stabilization, rows of n_q.
+    pub a: Vec<f64>,
+    /// Multipliers at the reported state, without stabilization, rows of n_rows.
+    pub lam: Vec<f64>,
+    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces, J.
+    pub energy: Vec<f64>,
+}
+
+/// The continuous extension of every step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Dense {
+    /// Step boundaries, one more than steps.
+    pub t: Vec<f64>,
+    /// y at the start of each step, rows of n_y.
+    pub y: Vec<f64>,
+    /// Coefficients of θ … θᵈ, for each step n_y rows of d.
+    pub c: Vec<f64>,
+    /// d.
+    pub degree: usize,
+}
+
+/// Collects the output while the integrator runs.
+pub(super) struct Recorder<'a> {
+    model: &'a Model,
+    output: Output,
+    t0: f64,
+    t_end: f64,
+    next: usize,
+    y: Vec<f64>,
+    motions: Vec<Motion>,
+    pub trajectory: Trajectory,
+    pub dense: Option<Dense>,
+}
+
+impl<'a> Recorder<'a> {
+    pub fn new(model: &'a Model, output: Output, t0: f64, t_end: f64, keep_dense: bool) -> Self {
+        Self {
+            model,
+            output,
+            t0,
+            t_end,
+            next: 1,
+            y: vec![0.0; 2 * model.layout.n_q + super::system::WORKS],
+            motions: Vec::new(),
+            trajectory: Trajectory::default(),
+            dense: keep_dense.then(|| Dense { t: vec![t0], ..Dense::default() }),
+        }
+    }
+
+    /// Reports a state given as (q, v, works).
+    pub fn report(&mut self, t: f64, y: &[f64]) {
+        let n = self.model.layout.n_q;
+        let (q, v, works) = (&y[..n], &y[n..2 * n], &y[2 * n..]);
+        kinematics::motions(q, v, &mut self.motions);
+        let kinetic = energy::kinetic(self.model, &self.motions);
+        let potential = energy::potential(self.model, &self.motions, t);
+        self.trajectory.t.push(t);
+        self.trajectory.q.extend_from_slice(q);
+        self.trajectory.v.extend_from_slice(v);
+        self.trajectory.energy.extend([kinetic, potential]);
+        self.trajectory.energy.extend_from_slice(works);
+    }
+
+    /// Reports whatever falls into a step.
+    pub fn step(&mut self, step: &Step<'_>) {
+        if let Some(dense) = &mut self.dense {
+            let degree = step.dense.degree();
+            let first = dense.c.len();
+            dense.degree = degree;
+            dense.t.push(step.t);
+            dense.y.extend_from_slice(step.y_old);
+            dense.c.resize(first + degree * step.y.len(), 0.0);
+            step.coefficients(&mut dense.c[first..]);
+        }
+        let Output::Every(h) = self.output else {
+            self.report(step.t, step.y);
+            return;
+        };
+        let mut y = std::mem::take(&mut self.y);
+        while let Some(t) = self.next_time(h, step.t) {
+            step.interpolate(t, &mut y);
+            self.report(t, &y);
+        }
+        self.y = y;
+        if step.t == self.t_end && self.trajectory.t.last() != Some(&step.t) {
+            self.report(step.t, step.y);
+        }
+    }
+
+    /// The next time of the grid if it has been reached: t₀ + k h by multiplication, without drift.
+    fn next_time(&mut self, h: f64, reached: f64) -> Option<f64> {
+        let direction = (self.t_end - self.t0).signum();
+        let mut t = self.t0 + direction * self.next as f64 * h;
+        // a grid point that misses t_end by rounding only is t_end
+        if (t - self.t_end).abs() <= 1e-9 * h {
+            t = self.t_end;
+        }
+        let past = |a: f64, b: f64| direction * (a - b) > 0.0;
+        if past(t, reached) || past(t, self.t_end) {
+            return None;
+        }
+        self.next += 1;
+        Some(t)
+    }
+}
+
+impl Trajectory {
+    /// Fills accelerations and multipliers at every reported state, by γ, never γ̂.
+    ///
+    /// # Errors
+    /// The first time at which the equations of motion are singular; what comes before is filled.
+    pub fn evaluate(
+        &mut self,
+        model: &Model,
+        workspace: &mut Workspace,
+    ) -> Result<(), (f64, Singular)> {
+        let n = model.layout.n_q;
+        for (k, &t) in self.t.iter().enumerate().skip(self.a.len() / n.max(1)) {
+            let row = k * n..(k + 1) * n;
+            let (q, v) = (&self.q[row.clone()], &self.v[row]);
+            let gains = Gains::default();
+            workspace.accelerate(model, t, q, v, gains).map_err(|singular| (t, singular))?;
+            self.a.extend_from_slice(workspace.a());
+            self.lam.extend_from_slice(workspace.lam());
+        }
+        Ok(())
+    }
+
+    /// Keeps the first `count` rows.
+    pub fn truncate(&mut self, count: usize, n_q: usize, n_rows: usize) {
+        self.t.truncate(count);
+        self.q.truncate(count * n_q);
+        self.v.truncate(count * n_q);
+        self.a.truncate(count * n_q);
+        self.lam.truncate(count * n_rows);
+        self.energy.truncate(count * ENERGIES);
+    }
+}

@@ -1,0 +1,117 @@
+//! Degrees of freedom and redundant constraints.
+//!
+//! Rank is judged by the row-scaled Φ_q. A deficiency that vanishes at a neighbouring admissible
+//! position is a singular position that the mechanism passes; one that stays is redundancy. Its left
+//! null vectors name all joints that take part.
+
+use super::assemble::Closing;
+use crate::equations::augmented::Augmented;
+use crate::equations::{constraints, kinematics};
+use crate::model::Model;
+use crate::solve::{normalize_rows, rank, Rank, RANK_TOLERANCE};
+
+/// Part of a left null vector below which a row does not take part.
+const PART: f64 = 1e-6;
+/// Pivots that kept this much of their magnitude leave no doubt about the rank.
+const BEYOND_DOUBT: f64 = 1e-7;
+/// Size of the excursion to a neighbouring position, rad.
+const EXCURSION: f64 = 3e-3;
+
+/// How a mechanism can move at a position.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mobility {
+    /// Coordinates less independent constraints.
+    pub degrees_of_freedom: usize,
+    /// Independent constraint equations.
+    pub rank: usize,
+    /// Groups of constraints (indices) that repeat each other, one for each dependent equation.
+    pub redundant: Vec<Vec<usize>>,
+    /// Groups that are dependent at this position only.
+    pub singular: Vec<Vec<usize>>,
+}
+
+/// Mobility at an assembled position.
+pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
+    let (n, m) = (model.layout.n_q, model.layout.n_rows);
+    if beyond_doubt(model, t, q) {
+        let degrees_of_freedom = n - m;
+        return Mobility { degrees_of_freedom, rank: m, redundant: vec![], singular: vec![] };
+    }
+    let here = dense_rank(model, t, q);
+    let mut redundant = groups(model, &here);
+    let mut singular = Vec::new();
+    if !redundant.is_empty() {
+        let near = neighbour(model, t, q).map(|q| dense_rank(model, t, &q));
+        if let Some(near) = near.filter(|near| near.rank > here.rank) {
+            singular = std::mem::replace(&mut redundant, groups(model, &near));
+        }
+    }
+    Mobility { degrees_of_freedom: n - here.rank, rank: here.rank, redundant, singular }
+}
+
+/// Whether the sparse factorisation alone shows full rank: linear in the size of the model.
+fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
+    if model.layout.n_rows > model.layout.n_q {
+        return false;
+    }
+    let mut matrix = Augmented::new(model);
+    let motions = kinematics::at_rest(q);
+    matrix.set_weights(&vec![1.0; q.len()]);
+    constraints::jacobian(model, &motions, t, matrix.jacobian_mut());
+    matrix.factor().is_ok() && matrix.cancellation().is_none_or(|(_, kept)| kept > BEYOND_DOUBT)
+}
+
+/// Φ_q as a dense row-major matrix, shape (n_rows, n_q).
+pub fn dense_jacobian(model: &Model, t: f64, q: &[f64]) -> Vec<f64> {
+    let mut entries = vec![0.0; model.layout.n_entries];
+    constraints::jacobian(model, &kinematics::at_rest(q), t, &mut entries);
+    let n = model.layout.n_q;
+    let mut dense = vec![0.0; model.layout.n_rows * n];
+    for ((row, column), entry) in model.layout.positions().zip(entries) {
+        dense[row * n + column] = entry;
+    }
+    dense
+}
+
+fn dense_rank(model: &Model, t: f64, q: &[f64]) -> Rank {
+    let n = model.layout.n_q;
+    let mut dense = dense_jacobian(model, t, q);
+    // metres and radians become comparable by the size of the mechanism
+    let size = super::assemble::size(model);
+    for (k, entry) in dense.iter_mut().enumerate() {
+        if k % n % 3 != 2 {
+            *entry *= size;
+        }
+    }
+    normalize_rows(&mut dense, n);
+    rank(&dense, n, RANK_TOLERANCE)
+}
+
+fn groups(model: &Model, rank: &Rank) -> Vec<Vec<usize>> {
+    let of = |y: &Vec<f64>| {
+        let rows = y.iter().enumerate().filter(|(_, part)| part.abs() > PART);
+        let mut group: Vec<usize> = rows.map(|(row, _)| model.layout.owner(row).0).collect();
+        group.dedup();
+        group
+    };
+    let mut groups: Vec<Vec<usize>> = rank.left_null.iter().map(of).collect();
+    groups.dedup();
+    groups
+}
+
+/// A position a little way along an admissible motion, if there is one.
+fn neighbour(model: &Model, t: f64, q: &[f64]) -> Option<Vec<f64>> {
+    let mut closing = Closing::new(model, t);
+    let size = closing.size;
+    // fixed numbers without pattern, so that no symmetry of the mechanism survives
+    let excursion =
+        |k: usize| EXCURSION * ((12.9898 * (k as f64 + 1.0)).sin() * 43758.5453).fract();
+    let mut near: Vec<f64> = q
+        .iter()
+        .enumerate()
+        .map(|(k, q)| q + excursion(k) * if k % 3 == 2 { 1.0 } else { size })
+        .collect();
+    let (_, closed) = closing.close(&mut near);
+    let moved = q.iter().zip(&near).skip(2).step_by(3).any(|(a, b)| (a - b).abs() > 1e-5);
+    (closed && moved).then_some(near)
+}
