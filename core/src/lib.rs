@@ -5,6 +5,8 @@
 //! `solve` and `integrate` know no mechanics. See `ARCHITECTURE.md`.
 #![forbid(unsafe_code)]
 
+pub mod analyses;
+pub mod case;
 pub mod elements;
 pub mod expression;
 pub mod math;
