@@ -40,7 +40,12 @@ fn number(name: &'static str, unit: &str, default: impl Into<Default>, doc: &str
 fn dynamics() -> Table {
     let mut fields = vec![
         Field::required("t_end", Shape::Number, "s", "Time at which the simulation ends."),
-        number("t_start", "s", Default::Absent, "Time at which it starts; else that of the state it starts from."),
+        number(
+            "t_start",
+            "s",
+            Default::Absent,
+            "Time at which it starts; else that of the state it starts from.",
+        ),
     ];
     fields.extend(output_fields());
     fields.extend([
@@ -115,7 +120,8 @@ fn baumgarte() -> Options {
         number("alpha", "1/s", 10.0, "Factor of the rate of the constraints, as 2 alpha."),
         number("beta", "1/s", 200.0, "Factor of the constraints, as beta^2."),
     ];
-    let doc = "Stabilization of Baumgarte (Haug 7.3.8): gamma - 2 alpha (Phi_q v + Phi_t) - beta^2 Phi.";
+    let doc =
+        "Stabilization of Baumgarte (Haug 7.3.8): gamma - 2 alpha (Phi_q v + Phi_t) - beta^2 Phi.";
     Options { class: "Baumgarte", table: Table { name: "baumgarte", doc: doc.to_string(), fields } }
 }
 

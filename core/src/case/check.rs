@@ -11,7 +11,15 @@ use crate::expression::suggest::did_you_mean;
 use crate::model::{body_tables, Entry, Problem, Value};
 
 const SECTIONS: [&str; 10] = [
-    "kempe", "title", "gravity", "parameters", "bodies", "joints", "drivers", "forces", "start",
+    "kempe",
+    "title",
+    "gravity",
+    "parameters",
+    "bodies",
+    "joints",
+    "drivers",
+    "forces",
+    "start",
     "analyses",
 ];
 
@@ -31,7 +39,11 @@ pub(super) fn case(root: &Table) -> Result<Case, Vec<Problem>> {
         report.within(key, |report| section(report, key, node, &mut case, &mut namespace));
     }
     let problems = report.finish();
-    if problems.is_empty() { Ok(case) } else { Err(problems) }
+    if problems.is_empty() {
+        Ok(case)
+    } else {
+        Err(problems)
+    }
 }
 
 fn section(

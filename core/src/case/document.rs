@@ -20,7 +20,8 @@ impl Document {
     pub(super) fn parse(text: &str, format: Format) -> Result<Self, Vec<Diagnostic>> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.len() > MOST_BYTES {
-            let message = format!("text is {} bytes long; at most {MOST_BYTES} are read", text.len());
+            let message =
+                format!("text is {} bytes long; at most {MOST_BYTES} are read", text.len());
             return Err(vec![Diagnostic::new(text, 0..0, message)]);
         }
         let mut faults = Faults::default();

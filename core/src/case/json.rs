@@ -159,7 +159,10 @@ impl Reader<'_, '_> {
             "Infinity" | "inf" => number("inf", false),
             _ => {
                 let place = start..self.at;
-                return Err((place, format!("'{}' is no value; a text stands in double quotes", super::shown(word))));
+                return Err((
+                    place,
+                    format!("'{}' is no value; a text stands in double quotes", super::shown(word)),
+                ));
             }
         })
     }

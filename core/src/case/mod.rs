@@ -23,8 +23,8 @@ mod write;
 mod write_json;
 mod write_toml;
 
-pub use diagnostic::Diagnostic;
 use diagnostic::shown;
+pub use diagnostic::Diagnostic;
 pub use document::Document;
 pub use schema::schema;
 pub use tree::{MOST_DEPTH, MOST_VALUES};

@@ -49,10 +49,8 @@ fn object(properties: Fields, required: &[&str]) -> Fields {
 
 /// An object of values of one kind by name.
 fn by_name(value: Value) -> Value {
-    let names = vec![
-        field("pattern", text("^[^.\\p{Cc}]+$")),
-        field("maxLength", Value::Number(200.0)),
-    ];
+    let names =
+        vec![field("pattern", text("^[^.\\p{Cc}]+$")), field("maxLength", Value::Number(200.0))];
     let mut object = typed("object");
     object.push(field("propertyNames", Value::Table(names)));
     object.push(field("additionalProperties", value));
@@ -92,11 +90,13 @@ fn sections() -> Fields {
 /// `body.coordinate`, or a table for each body.
 fn by_coordinate() -> Value {
     let mut object = typed("object");
-    let nested = vec![field("type", text("object")), field("additionalProperties", reference("number"))];
+    let nested =
+        vec![field("type", text("object")), field("additionalProperties", reference("number"))];
     let choice = vec![reference("number"), Value::Table(nested)];
     let value = Value::Table(vec![field("anyOf", Value::List(choice))]);
     object.push(field("additionalProperties", value));
-    object.push(field("description", text("Coordinates and rates x y angle vx vy omega of bodies.")));
+    object
+        .push(field("description", text("Coordinates and rates x y angle vx vy omega of bodies.")));
     Value::Table(object)
 }
 

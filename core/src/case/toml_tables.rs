@@ -142,9 +142,7 @@ fn put(table: &mut Table, mut keys: Vec<Key>, span: Range<usize>, data: Data) ->
     if !keys.is_empty() && matches!(table.origin, Origin::Inline | Origin::Header) {
         return Err(twice(&keys[keys.len() - 1]));
     }
-    table
-        .insert(key, Node { key: place.clone(), span, data })
-        .map_err(|key| twice(&(key, place)))
+    table.insert(key, Node { key: place.clone(), span, data }).map_err(|key| twice(&(key, place)))
 }
 
 fn make(root: &mut Table, path: &[Key], span: Range<usize>, of_list: bool) -> Result<(), Fault> {
@@ -170,7 +168,8 @@ fn make(root: &mut Table, path: &[Key], span: Range<usize>, of_list: bool) -> Re
             Ok(())
         }
         (Some(Node { data: Data::List(items), .. }), true)
-            if !items.is_empty() && items.iter().all(by_header) => {
+            if !items.is_empty() && items.iter().all(by_header) =>
+        {
             items.push(Node { key: place, span, data: fresh() });
             Ok(())
         }

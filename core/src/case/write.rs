@@ -26,7 +26,10 @@ fn tree(case: &Case) -> Vec<(String, Value)> {
     };
     add("parameters", model.parameters.clone());
     for (section, entries) in sections(case) {
-        add(section, entries.iter().map(|e| (e.name.clone(), Value::Table(e.fields.clone()))).collect());
+        add(
+            section,
+            entries.iter().map(|e| (e.name.clone(), Value::Table(e.fields.clone()))).collect(),
+        );
         if section == "forces" {
             add("start", start(case));
         }
@@ -76,5 +79,9 @@ pub(super) fn digits(x: f64) -> String {
         return plain;
     }
     let exponent = format!("{x:e}");
-    if exponent.len() < plain.len() || size > 9.0e15 { exponent } else { plain }
+    if exponent.len() < plain.len() || size > 9.0e15 {
+        exponent
+    } else {
+        plain
+    }
 }

@@ -37,7 +37,11 @@ fn fields(out: &mut String, fields: &[(String, Value)]) {
 /// A key, in quotes where it needs them.
 fn key(name: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    if !name.is_empty() && name.chars().all(bare) { name.to_string() } else { quoted(name) }
+    if !name.is_empty() && name.chars().all(bare) {
+        name.to_string()
+    } else {
+        quoted(name)
+    }
 }
 
 fn inline(value: &Value) -> String {
@@ -50,7 +54,8 @@ fn inline(value: &Value) -> String {
         }
         Value::Table(entries) if entries.is_empty() => "{}".to_string(),
         Value::Table(entries) => {
-            let entry = |(name, value): &(String, Value)| format!("{} = {}", key(name), inline(value));
+            let entry =
+                |(name, value): &(String, Value)| format!("{} = {}", key(name), inline(value));
             format!("{{ {} }}", entries.iter().map(entry).collect::<Vec<_>>().join(", "))
         }
     }

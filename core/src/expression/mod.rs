@@ -1,23 +1,48 @@
-//! stub
-use crate::math::Real;
-#[derive(Clone, Debug)]
-pub struct Tape;
-pub trait Values<S> {
-    fn parameter(&self, k: usize) -> S;
-    fn time(&self) -> S;
-    fn variable(&self, k: usize) -> S;
-}
-impl Tape {
-    pub fn evaluate<S: Real>(&self, _v: &impl Values<S>) -> S {
-        S::zero()
-    }
-    pub fn symbols(&self) -> &[Symbol] {
-        &[]
-    }
-}
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Symbol {
-    Parameter(usize),
-    Time,
-    Variable(usize),
-}
+//! Expressions: text → syntax tree → tape → value on any [`Real`](crate::math::Real).
+//!
+//! ```text
+//! expression = sum                      a comparison may stand only as the condition of `if`
+//! comparison = sum ("<" | "<=" | ">" | ">=") sum
+//! sum        = product {("+" | "-") product}
+//! product    = unary {("*" | "/") unary}
+//! unary      = ("-" | "+") unary | power
+//! power      = primary ["^" unary]      so -2^2 = -4, 2^-1 = 0.5, 2^3^2 = 2^9
+//! primary    = number | name | function "(" arguments ")" | "(" comparison ")"
+//! name       = part {"." part}          L1, t, pi, crank.omega, `my body`.omega
+//! ```
+//!
+//! A text that is nothing but a number may carry a unit (`30 deg`, `-5 kN`, see [`mod@unit`]); an
+//! expression never does. Everything is in SI units and radians.
+//!
+//! A power with a constant exponent (`x^2`, `x^(3/2)`) is defined as in `f64`. Where the exponent
+//! is a parameter or varies, its derivatives exist for x > 0 only.
+//!
+//! ```
+//! use kempe::expression::{Expression, Scope};
+//! let law = Expression::parse("-k*(x - L0)^3")?;
+//! let tape = law.compile(&["k", "x", "L0"])?;
+//! let values = Scope { parameters: &[2.0, 1.5, 1.0], time: 0.0, variables: &[] };
+//! assert_eq!(tape.evaluate(&values), -0.25);
+//! # Ok::<(), kempe::expression::ExpressionError>(())
+//! ```
+
+mod compile;
+mod error;
+mod lexer;
+mod names;
+mod operation;
+pub mod parameters;
+mod parser;
+mod print;
+mod quantity;
+pub mod suggest;
+mod tape;
+mod text;
+mod tree;
+pub mod unit;
+
+pub use error::ExpressionError;
+pub use names::{is_identifier, is_reserved, Names, Symbol};
+pub use operation::{Function, FUNCTIONS};
+pub use tape::{Scope, Tape, Values};
+pub use text::{Expression, MAX_DEPTH, MAX_LENGTH, MAX_OPERANDS};

@@ -1,0 +1,159 @@
+//! Syntax tree → tape: names become symbols, constant parts become numbers.
+
+use super::names::constant;
+use super::operation::Relation;
+use super::suggest::did_you_mean;
+use super::tape::{Instruction, Scope};
+use super::tree::{Kind, Node};
+use super::{ExpressionError, Names, Symbol, Tape, MAX_OPERANDS};
+use crate::math::Real;
+use std::ops::Range;
+
+/// Compiles a tree that was read from `text`.
+pub(super) fn compile<N: Names + ?Sized>(
+    text: &str,
+    nodes: &[Node],
+    names: &N,
+) -> Result<Tape, ExpressionError> {
+    let tape = Tape { code: Vec::with_capacity(nodes.len()), operands: 0, symbols: Vec::new() };
+    let mut compiler = Compiler { text, tape, depth: 0, conditions: Vec::new() };
+    for node in nodes {
+        compiler.node(node, names)?;
+    }
+    Ok(compiler.tape)
+}
+
+struct Compiler<'a> {
+    text: &'a str,
+    tape: Tape,
+    /// Operands on the stack after the last instruction.
+    depth: usize,
+    /// Relations whose `if` has not come yet.
+    conditions: Vec<Relation>,
+}
+
+impl Compiler<'_> {
+    fn node<N: Names + ?Sized>(&mut self, node: &Node, names: &N) -> Result<(), ExpressionError> {
+        use super::operation::Binary;
+        let instruction = match &node.kind {
+            Kind::Number(value) => Instruction::Constant(*value),
+            Kind::Name(name) => self.name(name, node.span.clone(), names)?,
+            Kind::Unary(operation) => Instruction::Unary(*operation),
+            Kind::Binary(Binary::Power) => self.power(),
+            Kind::Binary(operation) => Instruction::Binary(*operation),
+            Kind::Compare(relation) => {
+                self.conditions.push(*relation);
+                Instruction::Binary(Binary::Subtract)
+            }
+            Kind::If => match self.conditions.pop() {
+                Some(relation) => Instruction::Choose(relation),
+                None => unreachable!("the parser lets no `if` pass without a condition"),
+            },
+        };
+        self.emit(instruction, &node.span)
+    }
+
+    fn name<N: Names + ?Sized>(
+        &mut self,
+        name: &str,
+        span: Range<usize>,
+        names: &N,
+    ) -> Result<Instruction, ExpressionError> {
+        if let Some(value) = constant(name) {
+            return Ok(Instruction::Constant(value));
+        }
+        let symbol = names.resolve(name).ok_or_else(|| unknown(name, span, names))?;
+        if !self.tape.symbols.contains(&symbol) {
+            self.tape.symbols.push(symbol);
+        }
+        Ok(Instruction::Load(symbol))
+    }
+
+    /// x^p: a constant exponent is taken from the tape into the instruction, which then is
+    /// defined for x ≤ 0 as well.
+    fn power(&mut self) -> Instruction {
+        match self.tape.code.last() {
+            Some(&Instruction::Constant(exponent)) => {
+                self.tape.code.pop();
+                self.depth -= 1;
+                Instruction::PowerConstant(exponent)
+            }
+            _ => Instruction::Binary(super::operation::Binary::Power),
+        }
+    }
+
+    fn emit(
+        &mut self,
+        instruction: Instruction,
+        span: &Range<usize>,
+    ) -> Result<(), ExpressionError> {
+        let code = &mut self.tape.code;
+        code.push(instruction);
+        self.depth = self.depth + 1 - instruction.operands();
+        self.tape.operands = self.tape.operands.max(self.depth);
+        if self.tape.operands > MAX_OPERANDS {
+            return Err(too_many_operands(span));
+        }
+        // a constant operand is one instruction, so all operands are constant if and only if the
+        // instructions just before are
+        let first = code.len() - 1 - instruction.operands();
+        let operands = &code[first..code.len() - 1];
+        if !operands.is_empty() && operands.iter().all(|i| matches!(i, Instruction::Constant(_))) {
+            let value = fold(&code[first..]);
+            self.require_finite(value, span)?;
+            self.tape.code.truncate(first);
+            self.tape.code.push(Instruction::Constant(value));
+        }
+        Ok(())
+    }
+
+    fn require_finite(&self, value: f64, span: &Range<usize>) -> Result<(), ExpressionError> {
+        if Real::is_finite(value) {
+            return Ok(());
+        }
+        let is = if value.is_nan() { "is not a real number" } else { "is not finite" };
+        let words: Vec<_> = self.text[span.clone()].split_whitespace().collect();
+        let part = words.join(" ");
+        let message = match part.chars().count() {
+            0..=60 => format!("{part} {is}"),
+            _ => format!("this constant {is}"),
+        };
+        Err(ExpressionError::new(span.clone(), message))
+    }
+}
+
+/// The value of a piece of tape without symbols, by the evaluation that it replaces.
+fn fold(code: &[Instruction]) -> f64 {
+    let tape = Tape { code: code.to_vec(), operands: code.len(), symbols: Vec::new() };
+    tape.evaluate(&Scope { parameters: &[], time: f64::NAN, variables: &[] })
+}
+
+fn too_many_operands(span: &Range<usize>) -> ExpressionError {
+    let message =
+        format!("the expression holds more than {MAX_OPERANDS} operands open at this point");
+    ExpressionError::new(span.clone(), message)
+        .hint("give its parts names of their own as parameters".to_string())
+}
+
+fn unknown<N: Names + ?Sized>(name: &str, span: Range<usize>, names: &N) -> ExpressionError {
+    if name == "t" {
+        return ExpressionError::new(span, "the time t has no meaning here");
+    }
+    let known = names.known();
+    let hint = match name.to_ascii_lowercase().as_str() {
+        "inf" | "infinity" | "nan" => Some("a number must be finite".to_string()),
+        "time" if names.resolve("t") == Some(Symbol::Time) => Some("the time is 't'".to_string()),
+        _ => coordinates(name, &known)
+            .or_else(|| did_you_mean(name, known.iter().map(String::as_str).chain(["pi", "deg"])))
+            .or_else(|| coordinates(name.rsplit_once('.')?.0, &known)),
+    };
+    ExpressionError::new(span, format!("unknown name '{name}'")).hint(hint)
+}
+
+/// What is known of `body`, if it is one.
+fn coordinates(body: &str, known: &[String]) -> Option<String> {
+    let prefix = format!("{body}.");
+    let owned: Vec<_> =
+        known.iter().filter(|other| other.starts_with(&prefix)).take(8).cloned().collect();
+    (!owned.is_empty()).then(|| format!("known are {}", owned.join(", ")))
+}

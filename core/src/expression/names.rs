@@ -1,0 +1,71 @@
+//! Which names an expression may use, and what they stand for.
+
+use super::operation::FUNCTIONS;
+
+/// What a name in an expression stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Symbol {
+    /// The named parameter with this index.
+    Parameter(usize),
+    /// The time `t`, s.
+    Time,
+    /// The state variable with this index, such as `crank.omega`; the caller numbers them.
+    Variable(usize),
+}
+
+/// The names that an expression may use where it stands.
+pub trait Names {
+    /// The meaning of `name`: `"L1"`, `"t"`, `"crank.omega"`. Backticks are already removed.
+    ///
+    /// Where the time has no meaning, `"t"` is `None`. `pi` and `deg` are never asked for.
+    fn resolve(&self, name: &str) -> Option<Symbol>;
+
+    /// Every name that [`resolve`](Names::resolve) knows, for suggestions.
+    fn known(&self) -> Vec<String>;
+}
+
+/// A list of names is a list of parameters.
+impl<T: AsRef<str>> Names for [T] {
+    fn resolve(&self, name: &str) -> Option<Symbol> {
+        self.iter().position(|known| known.as_ref() == name).map(Symbol::Parameter)
+    }
+    fn known(&self) -> Vec<String> {
+        self.iter().map(|name| name.as_ref().to_string()).collect()
+    }
+}
+
+impl<T: AsRef<str>, const N: usize> Names for [T; N] {
+    fn resolve(&self, name: &str) -> Option<Symbol> {
+        self.as_slice().resolve(name)
+    }
+    fn known(&self) -> Vec<String> {
+        self.as_slice().known()
+    }
+}
+
+/// The value of a constant of the language: `pi`, and `deg` = π/180.
+pub(super) fn constant(name: &str) -> Option<f64> {
+    match name {
+        "pi" => Some(std::f64::consts::PI),
+        "deg" => Some(std::f64::consts::PI / 180.0),
+        _ => None,
+    }
+}
+
+/// Whether nothing in a model may bear this name: `t pi deg ground` and the functions.
+pub fn is_reserved(name: &str) -> bool {
+    matches!(name, "t" | "pi" | "deg" | "ground") || FUNCTIONS.iter().any(|f| f.name == name)
+}
+
+/// Whether an expression may use the name without backticks: `[A-Za-z_][A-Za-z0-9_]*`.
+pub fn is_identifier(name: &str) -> bool {
+    name.starts_with(is_name_start) && name.chars().all(is_name_part)
+}
+
+pub(super) fn is_name_start(c: char) -> bool {
+    c.is_ascii_alphabetic() || c == '_'
+}
+
+pub(super) fn is_name_part(c: char) -> bool {
+    c.is_ascii_alphanumeric() || c == '_'
+}

@@ -1,0 +1,171 @@
+//! Parameters that refer to other parameters: the order in which they can be evaluated.
+
+use super::{is_identifier, is_reserved, Expression, ExpressionError, Names, Scope, Symbol, Tape};
+use crate::math::Real;
+use std::collections::HashMap;
+use std::fmt;
+
+/// What is wrong with the definition of a parameter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ParameterError {
+    /// Index of the parameter in the list.
+    pub parameter: usize,
+    /// Its name.
+    pub name: String,
+    /// What is wrong; the span is in the text of its expression, and covers all of it where the
+    /// name is at fault.
+    pub error: ExpressionError,
+}
+
+impl fmt::Display for ParameterError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "parameter '{}': {}", self.name, self.error)
+    }
+}
+
+impl std::error::Error for ParameterError {}
+
+/// Compiled definitions of parameters, in an order in which they can be evaluated.
+#[derive(Clone, Debug)]
+pub struct Parameters {
+    tapes: Vec<Tape>,
+    order: Vec<usize>,
+}
+
+impl Parameters {
+    /// Compiles definitions, each a name and an expression in the other parameters.
+    ///
+    /// # Errors
+    /// A name that is reserved, not an identifier or used twice; an expression that does not
+    /// compile (the time and the state have no meaning here); definitions in a circle.
+    pub fn compile<N: AsRef<str>>(definitions: &[(N, Expression)]) -> Result<Self, ParameterError> {
+        let names = index(definitions)?;
+        let mut tapes = Vec::with_capacity(definitions.len());
+        for (k, (_, expression)) in definitions.iter().enumerate() {
+            let tape = expression.compile(&names).map_err(|error| at(definitions, k, error))?;
+            tapes.push(tape);
+        }
+        let order = order(&tapes).map_err(|circle| circular(definitions, &circle))?;
+        Ok(Self { tapes, order })
+    }
+
+    /// Indices of the definitions: each after those that it refers to, otherwise as written.
+    pub fn order(&self) -> &[usize] {
+        &self.order
+    }
+
+    /// The values of all parameters, in the order of the definitions.
+    ///
+    /// Where `given(k)` has a value it replaces definition `k`, and what refers to it follows: a
+    /// sweep, or a design derivative. Domain errors give NaN.
+    pub fn evaluate<S: Real>(&self, given: impl Fn(usize) -> Option<S>) -> Vec<S> {
+        let mut values = vec![S::zero(); self.tapes.len()];
+        for &k in &self.order {
+            let scope = Scope { parameters: &values, time: S::zero(), variables: &[] };
+            values[k] = given(k).unwrap_or_else(|| self.tapes[k].evaluate(&scope));
+        }
+        values
+    }
+}
+
+/// The order of evaluation alone: see [`Parameters::compile`], which also fails for the same reasons.
+///
+/// # Errors
+/// As [`Parameters::compile`].
+pub fn resolve<N: AsRef<str>>(
+    definitions: &[(N, Expression)],
+) -> Result<Vec<usize>, ParameterError> {
+    Parameters::compile(definitions).map(|parameters| parameters.order)
+}
+
+/// The names of the definitions.
+struct Index<'a>(HashMap<&'a str, usize>);
+
+impl Names for Index<'_> {
+    fn resolve(&self, name: &str) -> Option<Symbol> {
+        self.0.get(name).copied().map(Symbol::Parameter)
+    }
+    fn known(&self) -> Vec<String> {
+        let mut known: Vec<_> = self.0.iter().map(|(name, k)| (*k, name.to_string())).collect();
+        known.sort();
+        known.into_iter().map(|(_, name)| name).collect()
+    }
+}
+
+fn at<N: AsRef<str>>(
+    definitions: &[(N, Expression)],
+    parameter: usize,
+    error: ExpressionError,
+) -> ParameterError {
+    ParameterError { parameter, name: definitions[parameter].0.as_ref().to_string(), error }
+}
+
+fn index<N: AsRef<str>>(definitions: &[(N, Expression)]) -> Result<Index<'_>, ParameterError> {
+    let mut names = HashMap::with_capacity(definitions.len());
+    for (k, (name, expression)) in definitions.iter().enumerate() {
+        let name = name.as_ref();
+        let message = if !is_identifier(name) {
+            "a parameter's name must be letters, digits and '_', and not begin with a digit"
+        } else if is_reserved(name) {
+            "this name is reserved"
+        } else if names.insert(name, k).is_some() {
+            "this parameter is defined twice"
+        } else {
+            continue;
+        };
+        let span = 0..expression.text().len();
+        return Err(at(definitions, k, ExpressionError::new(span, message)));
+    }
+    Ok(Index(names))
+}
+
+/// Depth-first order; a circle comes back as the indices along it, the first one not repeated.
+fn order(tapes: &[Tape]) -> Result<Vec<usize>, Vec<usize>> {
+    #[derive(Clone, Copy, PartialEq)]
+    enum Mark {
+        New,
+        Open,
+        Done,
+    }
+    let needs: Vec<Vec<usize>> = tapes.iter().map(|tape| tape.parameters().collect()).collect();
+    let mut marks = vec![Mark::New; tapes.len()];
+    let mut order = Vec::with_capacity(tapes.len());
+    for root in 0..tapes.len() {
+        // the open parameters, each with how many of its needs are looked at: no recursion, because
+        // a chain may be as long as the list
+        let mut path = if marks[root] == Mark::New { vec![(root, 0)] } else { Vec::new() };
+        while let Some((k, looked_at)) = path.last_mut() {
+            marks[*k] = Mark::Open;
+            match needs[*k].get(*looked_at) {
+                None => {
+                    marks[*k] = Mark::Done;
+                    order.push(*k);
+                    path.pop();
+                }
+                Some(&next) => {
+                    *looked_at += 1;
+                    match marks[next] {
+                        Mark::Done => {}
+                        Mark::New => path.push((next, 0)),
+                        Mark::Open => {
+                            let circle = path.iter().map(|(k, _)| *k);
+                            return Err(circle.skip_while(|k| *k != next).collect());
+                        }
+                    }
+                }
+            }
+        }
+    }
+    Ok(order)
+}
+
+fn circular<N: AsRef<str>>(definitions: &[(N, Expression)], circle: &[usize]) -> ParameterError {
+    let names: Vec<&str> =
+        circle.iter().chain(&circle[..1]).map(|k| definitions[*k].0.as_ref()).collect();
+    let message = match names.len() {
+        2 => format!("the parameter refers to itself: {}", names.join(" → ")),
+        _ => format!("parameters refer to each other in a circle: {}", names.join(" → ")),
+    };
+    let span = 0..definitions[circle[0]].1.text().len();
+    at(definitions, circle[0], ExpressionError::new(span, message))
+}

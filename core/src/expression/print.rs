@@ -1,0 +1,101 @@
+//! Syntax tree → the shortest text that reads as the same tree.
+//!
+//! No spaces and no needless parentheses, so the result is never longer or deeper than what the
+//! tree was read from, and always readable again.
+
+use super::operation::{Binary, Call, Unary};
+use super::tree::{Kind, Node};
+
+/// How tightly the outermost operation of a text binds, after the rules of the grammar.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Binding {
+    Comparison,
+    Sum,
+    Product,
+    Unary,
+    Power,
+    Primary,
+}
+
+struct Piece {
+    text: String,
+    binding: Binding,
+}
+
+impl Piece {
+    fn new(text: String, binding: Binding) -> Self {
+        Self { text, binding }
+    }
+
+    /// The text as an operand where the grammar wants at least `binding`.
+    fn at_least(self, binding: Binding) -> String {
+        if self.binding < binding {
+            format!("({})", self.text)
+        } else {
+            self.text
+        }
+    }
+}
+
+/// Writes a tree that was read from `text`; numbers and names stay as they were written.
+pub(super) fn print(text: &str, nodes: &[Node]) -> String {
+    let mut pieces: Vec<Piece> = Vec::new();
+    for node in nodes {
+        let count = match node.kind {
+            Kind::Number(_) | Kind::Name(_) => 0,
+            Kind::Unary(_) => 1,
+            Kind::Binary(_) | Kind::Compare(_) => 2,
+            Kind::If => 3,
+        };
+        let operands = pieces.split_off(pieces.len() - count);
+        pieces.push(piece(node, &text[node.span.clone()], operands));
+    }
+    pieces.into_iter().map(|piece| piece.text).collect()
+}
+
+fn piece(node: &Node, written: &str, operands: Vec<Piece>) -> Piece {
+    match &node.kind {
+        Kind::Number(_) | Kind::Name(_) => Piece::new(written.to_string(), Binding::Primary),
+        Kind::Unary(Unary::Negate) => {
+            Piece::new(join("-", operands, &[Binding::Unary]), Binding::Unary)
+        }
+        Kind::Unary(operation) => call(Call::Unary(*operation), operands),
+        Kind::Binary(operation) => match infix(*operation) {
+            Some((own, left, right)) => {
+                Piece::new(join(operation.mark(), operands, &[left, right]), own)
+            }
+            None => call(Call::Binary(*operation), operands),
+        },
+        Kind::Compare(relation) => {
+            let text = join(relation.mark(), operands, &[Binding::Sum, Binding::Sum]);
+            Piece::new(text, Binding::Comparison)
+        }
+        Kind::If => call(Call::If, operands),
+    }
+}
+
+/// Binding of an operator and of its operands; `None` for a function.
+fn infix(operation: Binary) -> Option<(Binding, Binding, Binding)> {
+    use Binding::{Power, Primary, Product, Sum, Unary};
+    match operation {
+        Binary::Add | Binary::Subtract => Some((Sum, Sum, Product)),
+        Binary::Multiply | Binary::Divide => Some((Product, Product, Unary)),
+        Binary::Power => Some((Power, Primary, Unary)),
+        Binary::Atan2 | Binary::Min | Binary::Max | Binary::Hypot => None,
+    }
+}
+
+/// A sign before its operand, or an operator between its two.
+fn join(mark: &str, operands: Vec<Piece>, bindings: &[Binding]) -> String {
+    let mut texts: Vec<_> =
+        operands.into_iter().zip(bindings).map(|(piece, least)| piece.at_least(*least)).collect();
+    if texts.len() == 1 {
+        texts.insert(0, String::new());
+    }
+    texts.join(mark)
+}
+
+fn call(function: Call, operands: Vec<Piece>) -> Piece {
+    let arguments: Vec<_> = operands.into_iter().map(|piece| piece.text).collect();
+    Piece::new(format!("{}({})", function.name(), arguments.join(",")), Binding::Primary)
+}

@@ -1,0 +1,84 @@
+//! A number with a unit, as a whole text: `30 deg`, `-5 kN`.
+
+use super::lexer::{Lexer, TokenKind};
+use super::names::is_name_part;
+use super::tree::{Kind, Node};
+use super::unit::{atom, Unit};
+use super::ExpressionError;
+
+/// Reads `["-" | "+"] number unit`; `None` if the text is something else.
+///
+/// What begins like one but goes on (`30 deg + 1`) is an error here; a number followed by a name
+/// that is no unit (`2 pi`) is left to the parser, which knows better what is wrong with it.
+pub(super) fn read(text: &str) -> Result<Option<(Node, Unit)>, ExpressionError> {
+    let Some((value, end)) = signed_number(text) else { return Ok(None) };
+    let written = text[end..].trim();
+    if !written.starts_with(|c: char| c.is_alphabetic() || c == '°') {
+        return Ok(None);
+    }
+    let start = end + text[end..].len() - text[end..].trim_start().len();
+    match Unit::parse(written) {
+        Ok(unit) => match unit.scale(value) {
+            Some(si) => {
+                let span = 0..text.trim_end().len();
+                Ok(Some((Node { kind: Kind::Number(si), span }, unit)))
+            }
+            None => Err(ExpressionError::new(
+                0..text.len(),
+                "the quantity is too large or too small for a number in SI units",
+            )),
+        },
+        Err(_) if continues(written) => Err(continued(text, start)),
+        Err(error) if is_meant_as_unit(written, &error) => {
+            let span = start + error.span.start..start + error.span.end;
+            Err(ExpressionError { span, ..error })
+        }
+        Err(_) => Ok(None),
+    }
+}
+
+/// The number at the beginning, with its sign, and where it ends.
+fn signed_number(text: &str) -> Option<(f64, usize)> {
+    let mut lexer = Lexer::new(text);
+    let mut token = lexer.next().ok()?;
+    let sign = match token.kind {
+        TokenKind::Mark('-') => -1.0,
+        TokenKind::Mark('+') | TokenKind::Number(_) => 1.0,
+        _ => return None,
+    };
+    if let TokenKind::Mark(_) = token.kind {
+        token = lexer.next().ok()?;
+    }
+    match token.kind {
+        TokenKind::Number(value) => Some((sign * value, lexer.position)),
+        _ => None,
+    }
+}
+
+fn first_word(written: &str) -> &str {
+    let end = written.find(|c: char| !is_name_part(c) && !c.is_alphabetic() && c != '°');
+    &written[..end.unwrap_or(written.len())]
+}
+
+/// Whether a unit is followed by more of an expression.
+fn continues(written: &str) -> bool {
+    atom(first_word(written)).is_some()
+        && written.contains(['+', '(', ')', ',', '<', '>', ' ', '-'])
+}
+
+fn continued(text: &str, start: usize) -> ExpressionError {
+    let word = first_word(&text[start..]);
+    let hint = match word {
+        "deg" => "in an expression, write 30*deg",
+        _ => "in an expression, write numbers in SI units",
+    };
+    let span = start..start + word.len();
+    ExpressionError::new(span, "a unit may follow only a number that stands alone")
+        .hint(hint.to_string())
+}
+
+/// Whether the word after the number is, or is nearly, a unit.
+fn is_meant_as_unit(written: &str, error: &ExpressionError) -> bool {
+    let word = first_word(written);
+    atom(word).is_some() || (error.hint.is_some() && word == written)
+}

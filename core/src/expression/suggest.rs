@@ -1,0 +1,44 @@
+//! "Did you mean": the known word nearest to one that is not known.
+
+/// Words beyond this length suggest nothing: the comparison is quadratic.
+const LONGEST: usize = 100;
+
+/// The candidate nearest to `word`, if one is near enough to be meant.
+///
+/// Nearness is the Damerau–Levenshtein distance (insertions, deletions, substitutions and swaps of
+/// neighbours) without regard to case; at most a third of the longer word may differ, so that `L4`
+/// does not suggest `L1`. The first of equally near candidates wins.
+pub fn closest<T: AsRef<str>>(
+    word: &str,
+    candidates: impl IntoIterator<Item = T>,
+) -> Option<String> {
+    let wanted = word.to_lowercase();
+    let length = wanted.chars().count();
+    if length > LONGEST {
+        return None;
+    }
+    let mut best: Option<(usize, String)> = None;
+    for candidate in candidates {
+        let candidate = candidate.as_ref();
+        let lower = candidate.to_lowercase();
+        let other = lower.chars().count();
+        let limit = length.max(other) / 3;
+        // the distance is at least the difference in length: spares the quadratic comparison
+        if length.abs_diff(other) > limit {
+            continue;
+        }
+        let distance = strsim::osa_distance(&wanted, &lower);
+        if distance <= limit && best.as_ref().is_none_or(|(least, _)| distance < *least) {
+            best = Some((distance, candidate.to_string()));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// The hint that goes with [`closest`]: "did you mean 'crank'?".
+pub fn did_you_mean<T: AsRef<str>>(
+    word: &str,
+    candidates: impl IntoIterator<Item = T>,
+) -> Option<String> {
+    closest(word, candidates).map(|candidate| format!("did you mean '{candidate}'?"))
+}

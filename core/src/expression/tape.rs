@@ -1,0 +1,144 @@
+//! A compiled expression: instructions for a stack of operands.
+
+use super::operation::{Binary, Relation, Unary};
+use super::{Symbol, MAX_OPERANDS};
+use crate::math::Real;
+
+/// One step of an evaluation. Operands are on the stack, the last one on top.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Instruction {
+    /// Pushes a constant.
+    Constant(f64),
+    /// Pushes the value of a symbol.
+    Load(Symbol),
+    /// Replaces one operand.
+    Unary(Unary),
+    /// Replaces two operands.
+    Binary(Binary),
+    /// Replaces x by xᵖ.
+    PowerConstant(f64),
+    /// Replaces (left - right, a, b) by a or b.
+    Choose(Relation),
+}
+
+impl Instruction {
+    /// How many operands it takes; it leaves one.
+    pub fn operands(self) -> usize {
+        match self {
+            Self::Constant(_) | Self::Load(_) => 0,
+            Self::Unary(_) | Self::PowerConstant(_) => 1,
+            Self::Binary(_) => 2,
+            Self::Choose(_) => 3,
+        }
+    }
+}
+
+/// Where the values of the symbols come from.
+pub trait Values<S> {
+    /// The parameter with index `k`.
+    fn parameter(&self, k: usize) -> S;
+    /// The time, s.
+    fn time(&self) -> S;
+    /// The state variable with index `k`.
+    fn variable(&self, k: usize) -> S;
+}
+
+/// Values in slices: `parameters[k]` for [`Symbol::Parameter`], `variables[k]` for
+/// [`Symbol::Variable`]. An index outside its slice panics.
+#[derive(Clone, Copy, Debug)]
+pub struct Scope<'a, S> {
+    /// Values of the parameters.
+    pub parameters: &'a [S],
+    /// The time, s.
+    pub time: S,
+    /// Values of the state variables.
+    pub variables: &'a [S],
+}
+
+impl<S: Real> Values<S> for Scope<'_, S> {
+    fn parameter(&self, k: usize) -> S {
+        self.parameters[k]
+    }
+    fn time(&self) -> S {
+        self.time
+    }
+    fn variable(&self, k: usize) -> S {
+        self.variables[k]
+    }
+}
+
+/// A compiled expression.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tape {
+    pub(super) code: Vec<Instruction>,
+    /// Most operands on the stack at a time, at most [`MAX_OPERANDS`].
+    pub(super) operands: usize,
+    pub(super) symbols: Vec<Symbol>,
+}
+
+impl Tape {
+    /// The value of the expression, with whatever the scalar carries (derivatives, lanes).
+    ///
+    /// Nothing is allocated. Outside the domain of a function the value is NaN, never a panic.
+    pub fn evaluate<S: Real>(&self, values: &impl Values<S>) -> S {
+        // a large stack of large scalars costs more to clear than a short expression to evaluate
+        if self.operands <= 8 {
+            self.run::<S, 8>(values)
+        } else {
+            self.run::<S, MAX_OPERANDS>(values)
+        }
+    }
+
+    fn run<S: Real, const DEPTH: usize>(&self, values: &impl Values<S>) -> S {
+        let mut stack = [S::zero(); DEPTH];
+        let mut top = 0; // first free place
+        for instruction in &self.code {
+            let first = top - instruction.operands();
+            stack[first] = match *instruction {
+                Instruction::Constant(value) => S::constant(value),
+                Instruction::Load(Symbol::Parameter(k)) => values.parameter(k),
+                Instruction::Load(Symbol::Time) => values.time(),
+                Instruction::Load(Symbol::Variable(k)) => values.variable(k),
+                Instruction::Unary(operation) => operation.apply(stack[first]),
+                Instruction::Binary(operation) => operation.apply(stack[first], stack[first + 1]),
+                Instruction::PowerConstant(exponent) => stack[first].powc(exponent),
+                Instruction::Choose(relation) => {
+                    relation.choose(stack[first], stack[first + 1], stack[first + 2])
+                }
+            };
+            top = first + 1;
+        }
+        stack[0]
+    }
+
+    /// The symbols that the expression uses, each once, in order of appearance.
+    pub fn symbols(&self) -> &[Symbol] {
+        &self.symbols
+    }
+
+    /// The indices of the parameters that the expression uses, each once.
+    pub fn parameters(&self) -> impl Iterator<Item = usize> + '_ {
+        self.symbols.iter().filter_map(|symbol| match symbol {
+            Symbol::Parameter(k) => Some(*k),
+            Symbol::Time | Symbol::Variable(_) => None,
+        })
+    }
+
+    /// Whether the value may change with the time.
+    pub fn uses_time(&self) -> bool {
+        self.symbols.contains(&Symbol::Time)
+    }
+
+    /// Whether the value may change with the state.
+    pub fn uses_state(&self) -> bool {
+        self.symbols.iter().any(|symbol| matches!(symbol, Symbol::Variable(_)))
+    }
+
+    /// The value, if it depends on nothing.
+    pub fn constant(&self) -> Option<f64> {
+        match self.code[..] {
+            [Instruction::Constant(value)] => Some(value),
+            _ => None,
+        }
+    }
+}

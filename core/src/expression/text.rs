@@ -1,0 +1,101 @@
+//! An expression as written.
+
+use super::compile::compile;
+use super::unit::Dimension;
+use super::{parser, print, quantity, tree::Node};
+use super::{ExpressionError, Names, Tape};
+use std::fmt;
+
+/// The longest text that is read, bytes. Each node of the tree takes at least one, so this bounds
+/// the tree as well.
+pub const MAX_LENGTH: usize = 4096;
+/// The deepest nesting of parentheses, calls, signs and powers that is read.
+pub const MAX_DEPTH: usize = 64;
+/// The largest number of operands that may wait for their operation at a time.
+pub const MAX_OPERANDS: usize = 32;
+
+/// An expression: its text, and the syntax tree read from it.
+///
+/// Equal expressions have equal trees and equal [`dimension`](Expression::dimension); spaces and
+/// superfluous parentheses do not count. `Display` writes the tree back in its shortest form, which
+/// reads as an equal expression; [`text`](Expression::text) is what was written.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    text: String,
+    nodes: Vec<Node>,
+    dimension: Option<Dimension>,
+}
+
+impl Expression {
+    /// Reads an expression, or a number with a unit. Names are not looked up yet.
+    ///
+    /// # Errors
+    /// The first thing in the text that is not of the language, or a text beyond [`MAX_LENGTH`] or
+    /// [`MAX_DEPTH`].
+    pub fn parse(text: &str) -> Result<Self, ExpressionError> {
+        if text.len() > MAX_LENGTH {
+            let message =
+                format!("the expression has {} bytes; at most {MAX_LENGTH} are read", text.len());
+            return Err(ExpressionError::new(0..text.len(), message)
+                .hint("give its parts names of their own as parameters".to_string()));
+        }
+        let (nodes, dimension) = match quantity::read(text)? {
+            Some((node, unit)) => (vec![node], Some(unit.dimension)),
+            None => (parser::parse(text)?, None),
+        };
+        Ok(Self { text: text.to_string(), nodes, dimension })
+    }
+
+    /// A number as an expression; its text reads back as the same number.
+    ///
+    /// # Errors
+    /// NaN and infinities.
+    pub fn number(value: f64) -> Result<Self, ExpressionError> {
+        if !value.is_finite() {
+            return Err(ExpressionError::new(0..0, format!("{value} is not a finite number")));
+        }
+        Self::parse(&format!("{value:?}"))
+    }
+
+    /// The text as it was written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The dimension of the unit behind a bare number; `None` where no unit was written, and the
+    /// value is then in the SI unit of the place where it stands.
+    pub fn dimension(&self) -> Option<Dimension> {
+        self.dimension
+    }
+
+    /// Looks up the names and prepares the expression for evaluation; constants are folded.
+    ///
+    /// # Errors
+    /// An unknown name; a constant part that is not finite (`1/0`, `sqrt(-1)`); an expression that
+    /// needs more than [`MAX_OPERANDS`].
+    pub fn compile<N: Names + ?Sized>(&self, names: &N) -> Result<Tape, ExpressionError> {
+        compile(&self.text, &self.nodes, names)
+    }
+}
+
+impl PartialEq for Expression {
+    fn eq(&self, other: &Self) -> bool {
+        self.nodes == other.nodes && self.dimension == other.dimension
+    }
+}
+
+impl fmt::Display for Expression {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.dimension {
+            Some(_) => f.write_str(self.text.trim()),
+            None => f.write_str(&print::print(&self.text, &self.nodes)),
+        }
+    }
+}
+
+impl std::str::FromStr for Expression {
+    type Err = ExpressionError;
+    fn from_str(text: &str) -> Result<Self, ExpressionError> {
+        Self::parse(text)
+    }
+}

@@ -1,0 +1,38 @@
+//! The syntax tree, kept in postorder: operands stand before their operation.
+//!
+//! So reading, printing and compiling are single passes, and no shape of the tree, however lopsided,
+//! can overflow the call stack.
+
+use super::operation::{Binary, Relation, Unary};
+use std::ops::Range;
+
+/// One node, with the bytes of the text that it and its operands were read from.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub kind: Kind,
+    pub span: Range<usize>,
+}
+
+/// What a node is; operations take as many of the preceding subtrees as they have operands.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Kind {
+    /// A number, SI.
+    Number(f64),
+    /// A name without its backticks.
+    Name(String),
+    /// An operation on one operand.
+    Unary(Unary),
+    /// An operation on two operands.
+    Binary(Binary),
+    /// A condition on two operands; the first operand of an [`If`](Kind::If), nothing else.
+    Compare(Relation),
+    /// The choice (condition, a, b).
+    If,
+}
+
+/// Spans do not count: `a+b` and `a + (b)` are the same tree.
+impl PartialEq for Node {
+    fn eq(&self, other: &Self) -> bool {
+        self.kind == other.kind
+    }
+}
