@@ -75,7 +75,7 @@ pub(super) fn start(case: &Case) -> Vec<(String, Value)> {
 pub(super) fn digits(x: f64) -> String {
     let plain = format!("{x}");
     let size = x.abs();
-    if !x.is_finite() || size == 0.0 || (1e-3..1e6).contains(&size) {
+    if !x.is_finite() || size == 0.0 || (1e-3..1e4).contains(&size) {
         return plain;
     }
     let exponent = format!("{x:e}");
