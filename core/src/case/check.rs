@@ -1,14 +1,15 @@
 //! The structure of a case: sections, names, types, fields.
 
+use super::bodies::Bodies;
 use super::names::{self, Namespace};
 use super::report::Report;
 use super::shapes::{number, shape, wrong};
 use super::tree::{Data, Node, Table};
-use super::{bodies, fields, start, Case, FORMAT_VERSION};
+use super::{fields, start, Case, FORMAT_VERSION};
 use crate::analyses::analysis_tables;
 use crate::elements::{catalogue, Group, Shape, Table as Declaration};
 use crate::expression::suggest::did_you_mean;
-use crate::model::{body_tables, Entry, Problem, Value};
+use crate::model::{Entry, Problem, Value};
 
 const SECTIONS: [&str; 10] = [
     "kempe",
@@ -23,10 +24,10 @@ const SECTIONS: [&str; 10] = [
     "analyses",
 ];
 
-/// The case that a tree holds, or all problems of its structure.
-pub(super) fn case(root: &Table) -> Result<Case, Vec<Problem>> {
+/// The case that a tree holds, which is complete if there are no problems of its structure.
+pub(super) fn case(root: &Table) -> (Case, Vec<Problem>) {
     if let Some(problem) = newer(root) {
-        return Err(vec![problem]);
+        return (Case::default(), vec![problem]);
     }
     let mut report = Report::default();
     version(&mut report, root);
@@ -38,12 +39,7 @@ pub(super) fn case(root: &Table) -> Result<Case, Vec<Problem>> {
     for (key, node) in &root.entries {
         report.within(key, |report| section(report, key, node, &mut case, &mut namespace));
     }
-    let problems = report.finish();
-    if problems.is_empty() {
-        Ok(case)
-    } else {
-        Err(problems)
-    }
+    (case, report.finish())
 }
 
 fn section(
@@ -66,10 +62,10 @@ fn section(
         }
         "parameters" => model.parameters = parameters(report, node),
         "bodies" => {
-            let known = body_tables();
+            let bodies = Bodies::declared();
             model.bodies = entries(report, node, |report, name, table| {
                 namespace.take(report, name, "body");
-                bodies::check(report, name, table, &known);
+                bodies.check(report, name, table);
             });
         }
         "joints" => model.joints = elements(report, node, Group::Joints, namespace),
@@ -78,7 +74,15 @@ fn section(
         "start" => case.start = start::read(report, node),
         "analyses" => case.analyses = analyses(report, node),
         _ => {
-            report.unknown_key(format!("unknown key '{}'", super::shown(key)), key, &SECTIONS);
+            let message = format!("unknown key '{}'", super::shown(key));
+            // the singular of a section, or a part of its name
+            match SECTIONS.iter().find(|s| key.len() > 2 && s.get(..3) == key.get(..3)) {
+                Some(meant) => {
+                    let hint = format!("did you mean '{meant}'?");
+                    report.add(report.here(message).at_key().hint(hint));
+                }
+                None => report.unknown_key(message, key, &SECTIONS),
+            }
         }
     }
 }
@@ -96,7 +100,8 @@ fn newer(root: &Table) -> Option<Problem> {
 fn version(report: &mut Report, root: &Table) {
     let hint = format!("write `kempe = {FORMAT_VERSION}` as the first line");
     report.within("kempe", |report| match root.get("kempe").map(|node| (&node.data, node)) {
-        None => report.add(report.here("missing: the version of the format").hint(hint)),
+        None => report
+            .add(report.here("missing; a case begins with the version of its format").hint(hint)),
         Some((Data::Number(x), _)) if *x == f64::from(FORMAT_VERSION) => {}
         Some((Data::Number(x), _)) => {
             let message = format!("there is no format {x}; this kempe reads {FORMAT_VERSION}");
@@ -153,7 +158,10 @@ fn entries(
     mut check: impl FnMut(&mut Report, &str, &Table),
 ) -> Vec<Entry> {
     let Data::Table(section) = &node.data else {
-        wrong(report, node, "a table of named tables");
+        let problem = report.here(format!("{}; must be a table of named tables", node.noun()));
+        if !matches!(node.data, Data::Refused(_)) {
+            report.add(problem.hint(format!("write [{}.NAME] for each", report.key())));
+        }
         return Vec::new();
     };
     let mut found = Vec::with_capacity(section.entries.len());

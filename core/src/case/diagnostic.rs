@@ -30,7 +30,8 @@ pub struct Diagnostic {
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.path.is_empty() {
-            let path: Vec<String> = self.path.iter().map(|key| shown(key)).collect();
+            let part = |key: &String| if key.is_empty() { "\"\"".to_string() } else { shown(key) };
+            let path: Vec<String> = self.path.iter().map(part).collect();
             write!(f, "{}: ", path.join("."))?;
         }
         write!(f, "{} (line {}, column {})", self.message, self.line, self.column)?;
@@ -54,7 +55,9 @@ const MOST_SHOWN: usize = 80;
 impl Diagnostic {
     /// Of some bytes of a text.
     pub(super) fn new(text: &str, place: Range<usize>, message: String) -> Self {
-        let start = boundary(text, place.start);
+        // what is missing at the end is shown after the last word
+        let last = text.trim_end().len();
+        let start = boundary(text, place.start).min(last);
         let end = boundary(text, place.end.max(start));
         let line_start = text[..start].rfind('\n').map_or(0, |k| k + 1);
         let line_end = text[start..].find('\n').map_or(text.len(), |k| start + k);

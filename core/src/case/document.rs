@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::diagnostic::Diagnostic;
-use super::fault::Faults;
+use super::fault::{Fault, Faults};
 use super::tree::{Data, Node, Table};
 use super::{json, toml, Format, MOST_BYTES};
 use crate::model::{Problem, Value};
@@ -16,12 +16,15 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads the syntax. Errors: all faults of syntax that the reader could tell apart.
-    pub(super) fn parse(text: &str, format: Format) -> Result<Self, Vec<Diagnostic>> {
+    /// Reads the syntax; with the document, the keys that are given twice.
+    /// Errors: all faults of syntax that the reader could tell apart, one for each line.
+    pub(super) fn parse(
+        text: &str,
+        format: Format,
+    ) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.len() > MOST_BYTES {
-            let message =
-                format!("text is {} bytes long; at most {MOST_BYTES} are read", text.len());
+            let message = format!("{} bytes; at most {MOST_BYTES} are read", text.len());
             return Err(vec![Diagnostic::new(text, 0..0, message)]);
         }
         let mut faults = Faults::default();
@@ -29,13 +32,16 @@ impl Document {
             Format::Toml => toml::parse(text, &mut faults),
             Format::Json => json::parse(text, &mut faults),
         };
-        if faults.0.is_empty() {
-            let root = Node { key: 0..0, span: 0..0, data: Data::Table(table) };
-            return Ok(Self { text: text.to_string(), root });
-        }
+        let sound = faults.sound();
         faults.0.sort_by_key(|fault| (fault.place.start, fault.place.end));
-        faults.0.dedup_by(|a, b| a.place == b.place && a.message == b.message);
-        Err(faults.0.into_iter().map(|f| Diagnostic::new(text, f.place, f.message)).collect())
+        let mut found: Vec<Diagnostic> =
+            faults.0.into_iter().map(|fault| of_fault(text, fault)).collect();
+        if !sound {
+            found.dedup_by_key(|fault| fault.line);
+            return Err(found);
+        }
+        let root = Node { key: 0..0, span: 0..0, data: Data::Table(table) };
+        Ok((Self { text: text.to_string(), root }, found))
     }
 
     /// The top of the tree.
@@ -64,7 +70,7 @@ impl Document {
     pub(super) fn place(&self, problem: &Problem) -> Range<usize> {
         let mut node = &self.root;
         for key in &problem.path {
-            match node.child(key) {
+            match node.child(key).or_else(|| dotted(node, key)) {
                 Some(child) => node = child,
                 None => return node.key.clone(),
             }
@@ -88,4 +94,19 @@ impl Document {
         let first = node.span.start + 1;
         first + part.start..first + part.end
     }
+}
+
+/// A key with a dot that the file has as a table within a table.
+fn dotted<'n>(node: &'n Node, key: &str) -> Option<&'n Node> {
+    let (outer, inner) = key.split_once('.')?;
+    node.child(outer)?.child(inner)
+}
+
+fn of_fault(text: &str, fault: Fault) -> Diagnostic {
+    let mut found = Diagnostic::new(text, fault.place, fault.message);
+    found.hint = fault.earlier.and_then(|earlier| {
+        let line = Diagnostic::new(text, earlier, String::new()).line;
+        (line != found.line).then(|| format!("it stands in line {line} already"))
+    });
+    found
 }

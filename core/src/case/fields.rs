@@ -4,7 +4,7 @@ use super::report::{among, Report};
 use super::shapes::{shape, wrong};
 use super::tree::{Data, Table};
 use crate::analyses::analysis_tables;
-use crate::elements::{catalogue, Table as Declaration};
+use crate::elements::{catalogue, Field, Table as Declaration};
 use crate::expression::suggest::did_you_mean;
 use crate::model::body_tables;
 
@@ -20,7 +20,9 @@ pub(super) fn declared<'d>(
     let Some(node) = table.get("type") else {
         if absent.is_none() {
             let problem = report.within("type", |report| report.here("missing"));
-            report.add(problem.hint(among("write type = one of", &names)));
+            let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+            let quoted: Vec<&str> = quoted.iter().map(String::as_str).collect();
+            report.add(problem.hint(among("write type =", &quoted)));
         }
         return absent;
     };
@@ -70,12 +72,17 @@ pub(super) fn check(report: &mut Report, table: &Table, declared: &Declaration, 
         if table.get(field.name).is_none() {
             report.within(field.name, |report| {
                 let message = format!("missing; {} needs it", declared.name);
-                report.add(report.here(message).hint(first_line(&field.doc)));
+                report.add(report.here(message).hint(meaning(field)));
             });
         }
     }
 }
 
-fn first_line(doc: &str) -> &str {
-    doc.lines().next().unwrap_or_default()
+/// What a field is, with its unit.
+fn meaning(field: &Field) -> String {
+    let words = field.doc.lines().next().unwrap_or_default().trim_end_matches('.');
+    match field.unit.as_str() {
+        "" => format!("{}: {words}", field.name),
+        unit => format!("{}: {words} ({unit})", field.name),
+    }
 }

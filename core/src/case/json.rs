@@ -113,8 +113,8 @@ impl Reader<'_, '_> {
             }
             self.blanks();
             let (span, data) = self.value(depth + 1)?;
-            if let Err(key) = table.insert(key, Node { key: place.clone(), span, data }) {
-                self.faults.push(place, format!("key '{}' is given twice", super::shown(&key)));
+            if let Err(fault) = table.insert(key, Node { key: place, span, data }) {
+                self.faults.add(fault);
             }
             self.blanks();
             if self.next_if('}') {

@@ -73,24 +73,27 @@ pub struct Start {
 /// Errors: every fault of syntax; or else, every fault of structure: unknown or missing keys,
 /// wrong shapes, names that cannot be; sorted by place, at most [`MOST_REPORTED`].
 pub fn read(text: &str, format: Format) -> Result<(Case, Document), Vec<Diagnostic>> {
-    let document = Document::parse(text, format)?;
-    match check::case(document.root()) {
-        Ok(case) => Ok((case, document)),
-        Err(mut problems) => {
-            problems.sort_by_key(|problem| document.place(problem).start);
-            Err(problems.iter().map(|problem| document.diagnose(problem)).collect())
-        }
+    let (document, mut found) = Document::parse(text, format)?;
+    let (case, problems) = check::case(document.root());
+    found.extend(problems.iter().map(|problem| document.diagnose(problem)));
+    if found.is_empty() {
+        return Ok((case, document));
     }
+    found.sort_by_key(|fault| (fault.line, fault.column));
+    found.truncate(MOST_REPORTED);
+    Err(found)
 }
 
 /// The values of any text in order, without regard to what a case may hold.
 ///
 /// Errors: faults of syntax; values that no case may hold, such as dates and numbers not finite.
 pub fn parse_tree(text: &str, format: Format) -> Result<Value, Vec<Diagnostic>> {
-    let document = Document::parse(text, format)?;
+    let (document, mut found) = Document::parse(text, format)?;
     let refused = check::refused(document.root());
-    match refused.is_empty() {
-        true => Ok(document.value()),
-        false => Err(refused.iter().map(|problem| document.diagnose(problem)).collect()),
+    found.extend(refused.iter().map(|problem| document.diagnose(problem)));
+    if found.is_empty() {
+        Ok(document.value())
+    } else {
+        Err(found)
     }
 }

@@ -22,6 +22,10 @@ impl Report {
     pub(super) fn here(&self, message: impl Into<String>) -> Problem {
         Problem::at(&self.path, message)
     }
+    /// The key of the present value.
+    pub(super) fn key(&self) -> &str {
+        self.path.last().map_or("", String::as_str)
+    }
     /// Reports a problem; those beyond [`MOST_REPORTED`](super::MOST_REPORTED) are dropped.
     pub(super) fn add(&mut self, problem: Problem) {
         if self.problems.len() < super::MOST_REPORTED {

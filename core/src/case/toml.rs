@@ -53,9 +53,7 @@ fn message(error: &ParseError) -> String {
 fn word(expected: &Expected) -> String {
     match expected {
         Expected::Literal("\n") => "the end of the line".to_string(),
-        Expected::Literal(literal) => {
-            format!("{literal:?}").replace("\\\"", "\"").replace("\"\"\"", "'\"'")
-        }
+        Expected::Literal(literal) => format!("'{literal}'"),
         Expected::Description(words) => (*words).to_string(),
         _ => "something else".to_string(),
     }

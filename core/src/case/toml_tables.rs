@@ -19,7 +19,7 @@ pub(super) struct Builder {
     keys: Vec<Key>,
     open: Vec<Open>,
     values: usize,
-    faults: Vec<Fault>,
+    faults: Faults,
 }
 
 /// A list or an inline table of which the end is not yet seen.
@@ -31,16 +31,10 @@ struct Open {
 
 impl Builder {
     pub(super) fn finish(self, faults: &mut Faults) -> Table {
-        for fault in self.faults {
-            faults.push(fault.place, fault.message);
+        for fault in self.faults.0 {
+            faults.add(fault);
         }
         self.root
-    }
-
-    fn fault(&mut self, place: Range<usize>, message: String) {
-        if self.faults.len() < super::MOST_REPORTED {
-            self.faults.push(Fault { place, message });
-        }
     }
 
     pub(super) fn open_header(&mut self, start: usize) {
@@ -74,13 +68,13 @@ impl Builder {
     pub(super) fn place(&mut self, span: Range<usize>, data: Data) {
         self.values += 1;
         if self.values == MOST_VALUES + 1 {
-            self.fault(span.clone(), too_many());
+            self.faults.push(span.clone(), too_many());
         }
         if self.values > MOST_VALUES {
             return;
         }
         if self.depth() > MOST_DEPTH {
-            return self.fault(span, too_deep());
+            return self.faults.push(span, too_deep());
         }
         if let Some(Open { data: Data::List(items), .. }) = self.open.last_mut() {
             items.push(Node { key: span.clone(), span, data });
@@ -112,7 +106,7 @@ impl Builder {
             }
         };
         if let Err(fault) = put(table, keys, span, data) {
-            self.fault(fault.place, fault.message);
+            self.faults.add(fault);
         }
     }
 
@@ -123,7 +117,7 @@ impl Builder {
         let path = std::mem::take(&mut self.keys);
         let span = self.header_start..end;
         if path.len() > MOST_DEPTH - 1 {
-            return self.fault(span, too_deep());
+            return self.faults.push(span, too_deep());
         }
         self.values += 1;
         if self.values > MOST_VALUES {
@@ -131,49 +125,46 @@ impl Builder {
         }
         match make(&mut self.root, &path, span, of_list) {
             Ok(()) => self.header = Some(path),
-            Err(fault) => self.fault(fault.place, fault.message),
+            Err(fault) => self.faults.add(fault),
         }
     }
 }
 
 fn put(table: &mut Table, mut keys: Vec<Key>, span: Range<usize>, data: Data) -> Result<(), Fault> {
-    let Some((key, place)) = keys.pop() else { return Ok(()) };
+    let Some((name, key)) = keys.pop() else { return Ok(()) };
     let table = descend(table, &keys, Origin::Dotted)?;
-    if !keys.is_empty() && matches!(table.origin, Origin::Inline | Origin::Header) {
-        return Err(twice(&keys[keys.len() - 1]));
+    match keys.last() {
+        // a table with a header of its own is not extended by dotted keys
+        Some((outer, place)) if table.origin == Origin::Header => {
+            Err(Fault::twice(outer, place.clone(), place.clone()))
+        }
+        _ => table.insert(name, Node { key, span, data }),
     }
-    table.insert(key, Node { key: place.clone(), span, data }).map_err(|key| twice(&(key, place)))
 }
 
 fn make(root: &mut Table, path: &[Key], span: Range<usize>, of_list: bool) -> Result<(), Fault> {
     let Some((last, outer)) = path.split_last() else { return Ok(()) };
     let table = descend(root, outer, Origin::Implied)?;
-    let (name, place) = last.clone();
+    let (name, key) = last.clone();
     let fresh = || Data::Table(Table::of(Origin::Header));
-    match (table.get_mut(&name), of_list) {
-        (None, false) => {
-            let node = Node { key: place, span, data: fresh() };
-            table.insert(name, node).map_err(|_| twice(last))
+    match table.get_mut(&name) {
+        None if of_list => {
+            let item = Node { key: key.clone(), span: span.clone(), data: fresh() };
+            table.insert(name, Node { key, span, data: Data::List(vec![item]) })
         }
-        (None, true) => {
-            let item = Node { key: place.clone(), span: span.clone(), data: fresh() };
-            let node = Node { key: place, span, data: Data::List(vec![item]) };
-            table.insert(name, node).map_err(|_| twice(last))
-        }
-        (Some(Node { data: Data::Table(old), key, span: old_span }), false)
-            if old.origin == Origin::Implied =>
-        {
-            old.origin = Origin::Header;
-            (*key, *old_span) = (place, span);
-            Ok(())
-        }
-        (Some(Node { data: Data::List(items), .. }), true)
-            if !items.is_empty() && items.iter().all(by_header) =>
-        {
-            items.push(Node { key: place, span, data: fresh() });
-            Ok(())
-        }
-        (Some(_), _) => Err(twice(last)),
+        None => table.insert(name, Node { key, span, data: fresh() }),
+        Some(old) => match &mut old.data {
+            Data::Table(implied) if !of_list && implied.origin == Origin::Implied => {
+                implied.origin = Origin::Header;
+                (old.key, old.span) = (key, span);
+                Ok(())
+            }
+            Data::List(items) if of_list && !items.is_empty() && items.iter().all(by_header) => {
+                items.push(Node { key, span, data: fresh() });
+                Ok(())
+            }
+            _ => Err(Fault::twice(&name, key, old.key.clone())),
+        },
     }
 }
 
@@ -183,26 +174,19 @@ fn by_header(item: &Node) -> bool {
 
 /// The table at a path, made where it is absent; the last one of a list of tables.
 fn descend<'t>(mut table: &'t mut Table, path: &[Key], by: Origin) -> Result<&'t mut Table, Fault> {
-    for part in path {
-        let (key, place) = part;
-        if table.get(key).is_none() {
-            let data = Data::Table(Table::of(by));
-            let node = Node { key: place.clone(), span: place.clone(), data };
-            table.insert(key.clone(), node).map_err(|_| twice(part))?;
-        }
-        let node = table.get_mut(key).ok_or_else(|| twice(part))?;
+    for (name, key) in path {
+        let absent =
+            || Node { key: key.clone(), span: key.clone(), data: Data::Table(Table::of(by)) };
+        let node = table.get_or_insert(name, absent);
+        let fault = || Fault::twice(name, key.clone(), node.key.clone());
         table = match &mut node.data {
             Data::Table(next) if next.origin != Origin::Inline => next,
             Data::List(items) if by == Origin::Implied => match items.last_mut() {
                 Some(Node { data: Data::Table(next), .. }) if next.origin == Origin::Header => next,
-                _ => return Err(twice(part)),
+                _ => return Err(fault()),
             },
-            _ => return Err(twice(part)),
+            _ => return Err(fault()),
         };
     }
     Ok(table)
-}
-
-fn twice((key, place): &Key) -> Fault {
-    Fault { place: place.clone(), message: format!("key '{}' is given twice", super::shown(key)) }
 }

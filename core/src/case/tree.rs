@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use super::fault::Fault;
 use crate::model::Value;
 
 /// Deepest nesting of values that is read.
@@ -72,14 +73,23 @@ impl Table {
     pub(super) fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
         self.index.get(key).map(|&k| &mut self.entries[k].1)
     }
-    /// Adds an entry; gives the key back if there is one already.
-    pub(super) fn insert(&mut self, key: String, node: Node) -> Result<(), String> {
-        if self.index.contains_key(&key) {
-            return Err(key);
+    /// Adds an entry, unless there is one already.
+    pub(super) fn insert(&mut self, key: String, node: Node) -> Result<(), Fault> {
+        if let Some(earlier) = self.get(&key) {
+            return Err(Fault::twice(&key, node.key, earlier.key.clone()));
         }
         self.index.insert(key.clone(), self.entries.len());
         self.entries.push((key, node));
         Ok(())
+    }
+    /// The value of a key, made if there is none.
+    pub(super) fn get_or_insert(&mut self, key: &str, make: impl FnOnce() -> Node) -> &mut Node {
+        let next = self.entries.len();
+        let at = *self.index.entry(key.to_string()).or_insert(next);
+        if at == next {
+            self.entries.push((key.to_string(), make()));
+        }
+        &mut self.entries[at].1
     }
 }
 
@@ -125,14 +135,14 @@ impl Table {
 
 /// A number from the digits of a file, or why it is refused.
 pub(super) fn number(digits: &str, whole: bool) -> Data {
-    const EXACT: f64 = 9_007_199_254_740_992.0; // 2^53
+    const EXACT: i64 = 1 << 53;
+    let exact = || digits.parse::<i64>().is_ok_and(|n| (-EXACT..=EXACT).contains(&n));
     match digits.parse::<f64>() {
-        Ok(x) if x.is_nan() => Data::Refused("nan is not a number; must be finite".to_string()),
-        Ok(x) if x.is_infinite() && digits.contains(['i', 'I']) => {
-            Data::Refused(format!("{digits} is not finite; must be a finite number"))
+        Ok(x) if !x.is_finite() && digits.contains(['n', 'N']) => {
+            Data::Refused(format!("{digits}; must be a finite number"))
         }
         Ok(x) if x.is_infinite() => Data::Refused("number is too large".to_string()),
-        Ok(x) if whole && x.abs() > EXACT => Data::Refused(
+        Ok(_) if whole && !exact() => Data::Refused(
             "integer is beyond 2^53 and would be rounded; write it with an exponent".to_string(),
         ),
         Ok(x) => Data::Number(x),
