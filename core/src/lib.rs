@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 pub mod analyses;
+pub mod case;
 pub mod elements;
 pub mod equations;
 pub mod expression;

@@ -11,6 +11,12 @@ pub enum Default {
     Number(f64),
     /// Two numbers.
     Pair([f64; 2]),
+    /// true or false.
+    Flag(bool),
+    /// The options of this type, each with its own default.
+    Type(&'static str),
+    /// Nothing: the field may be left out.
+    Absent,
 }
 
 impl From<f64> for Default {
@@ -37,6 +43,23 @@ pub struct Field {
     pub default: Option<Default>,
     /// One sentence.
     pub doc: String,
+}
+
+impl Field {
+    /// A field that must be given.
+    pub fn required(name: &'static str, shape: Shape, unit: &str, doc: &str) -> Self {
+        Self { name, shape, unit: unit.to_string(), default: None, doc: doc.to_string() }
+    }
+    /// A field with a default; [`Default::Absent`] if it may be left out.
+    pub fn optional(
+        name: &'static str,
+        shape: Shape,
+        unit: &str,
+        default: Default,
+        doc: &str,
+    ) -> Self {
+        Self { default: Some(default), ..Self::required(name, shape, unit, doc) }
+    }
 }
 
 /// The declaration of an element as data.

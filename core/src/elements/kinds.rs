@@ -105,6 +105,20 @@ pub enum Shape {
     Law,
     /// Two numbers.
     Pair,
+    /// Names of points with two numbers each.
+    Points,
+    /// Two names.
+    Names,
+    /// One name.
+    Name,
+    /// true or false.
+    Flag,
+    /// A whole number from 1.
+    Count,
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// A table of the family of options of this name, chosen by its `type`.
+    Options(&'static str),
 }
 
 /// Where fields are read from; it keeps the reports of what is wrong with them.

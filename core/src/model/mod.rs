@@ -2,6 +2,7 @@
 
 mod blueprint;
 mod bodies;
+mod body_fields;
 mod checks;
 mod definition;
 mod layout;
@@ -12,6 +13,7 @@ mod parameters;
 mod problem;
 
 pub use blueprint::{build, Blueprint};
+pub use body_fields::body_tables;
 pub use definition::{Definition, Entry, Value};
 pub use layout::{columns, Block, Layout, Slots};
 pub use link::{did_you_mean, Reach, Scope};

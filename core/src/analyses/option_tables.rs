@@ -1,0 +1,132 @@
+//! Which options the analyses have, as data: for the reader of files, the schema, Python and docs.
+
+use crate::elements::{Default, Field, Shape, Table};
+
+/// One set of options of a family.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Name of the class in Python.
+    pub class: &'static str,
+    /// The `type` in the file, and the options.
+    pub table: Table,
+}
+
+/// Sets of options of which an analysis takes one, such as the methods of integration.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// The name by which [`Shape::Options`] refers to it.
+    pub name: &'static str,
+    /// The sets to choose from.
+    pub options: Vec<Options>,
+}
+
+/// The analyses, by the `type` in the file.
+pub fn analysis_tables() -> Vec<Table> {
+    vec![dynamics()]
+}
+
+/// The families of options that analyses refer to.
+pub fn option_families() -> Vec<Family> {
+    vec![
+        Family { name: "method", options: vec![rk45(), rk4()] },
+        Family { name: "stabilization", options: vec![baumgarte(), none()] },
+    ]
+}
+
+fn number(name: &'static str, unit: &str, default: impl Into<Default>, doc: &str) -> Field {
+    Field::optional(name, Shape::Number, unit, default.into(), doc)
+}
+
+fn dynamics() -> Table {
+    let mut fields = vec![
+        Field::required("t_end", Shape::Number, "s", "Time at which the simulation ends."),
+        number(
+            "t_start",
+            "s",
+            Default::Absent,
+            "Time at which it starts; else that of the state it starts from.",
+        ),
+    ];
+    fields.extend(output_fields());
+    fields.extend([
+        Field::optional("method", Shape::Options("method"), "", Default::Type("rk45"), "Method of integration."),
+        Field::optional(
+            "stabilization",
+            Shape::Options("stabilization"),
+            "",
+            Default::Type("baumgarte"),
+            "What keeps the constraints from drifting.",
+        ),
+        Field::optional("max_steps", Shape::Count, "", Default::Number(1e6), "Most steps before the solver gives up."),
+        Field::optional(
+            "from",
+            Shape::Name,
+            "",
+            Default::Absent,
+            "Where it starts: \"start\" or the name of an earlier analysis; else where the analysis before it ended.",
+        ),
+    ]);
+    Table {
+        name: "dynamics",
+        doc: "Motion under forces, by integration of the equations of motion.".to_string(),
+        fields,
+    }
+}
+
+fn output_fields() -> [Field; 3] {
+    [
+        number(
+            "output_step",
+            "s",
+            Default::Absent,
+            "Time between the reported states; if absent, the steps of the solver are reported.",
+        ),
+        Field::optional(
+            "output",
+            Shape::Word(&["steps"]),
+            "",
+            Default::Absent,
+            "\"steps\" says that the steps of the solver are reported; not together with output_step.",
+        ),
+        Field::optional(
+            "dense_output",
+            Shape::Flag,
+            "",
+            Default::Flag(false),
+            "Whether the solution can be evaluated at any time.",
+        ),
+    ]
+}
+
+fn rk45() -> Options {
+    let fields = vec![
+        number("rtol", "", 1e-6, "Relative tolerance of one step."),
+        number("atol", "", 1e-9, "Absolute tolerance of one step, in the units of the state."),
+        number("first_step", "s", Default::Absent, "First step; else the solver chooses it."),
+        number("max_step", "s", Default::Absent, "Largest step; else without limit."),
+    ];
+    let doc = "Explicit Runge-Kutta method of order 5(4) of Dormand and Prince (1980), with step control.";
+    Options { class: "RK45", table: Table { name: "rk45", doc: doc.to_string(), fields } }
+}
+
+fn rk4() -> Options {
+    let fields = vec![Field::required("step", Shape::Number, "s", "Step.")];
+    let doc = "Classical Runge-Kutta method of order 4 with a constant step.";
+    Options { class: "RK4", table: Table { name: "rk4", doc: doc.to_string(), fields } }
+}
+
+fn baumgarte() -> Options {
+    let fields = vec![
+        number("alpha", "1/s", 10.0, "Factor of the rate of the constraints, as 2 alpha."),
+        number("beta", "1/s", 200.0, "Factor of the constraints, as beta^2."),
+    ];
+    let doc =
+        "Stabilization of Baumgarte (Haug 7.3.8): gamma - 2 alpha (Phi_q v + Phi_t) - beta^2 Phi.";
+    Options { class: "Baumgarte", table: Table { name: "baumgarte", doc: doc.to_string(), fields } }
+}
+
+fn none() -> Options {
+    let doc = "No stabilization: the constraints drift with the error of integration.";
+    let table = Table { name: "none", doc: doc.to_string(), fields: Vec::new() };
+    Options { class: "NoStabilization", table }
+}

@@ -1,0 +1,47 @@
+//! The structure of a body.
+
+use super::fields;
+use super::report::Report;
+use super::tree::Table;
+use crate::elements::Table as Declaration;
+use crate::model::body_tables;
+
+/// The declarations of bodies.
+pub(super) struct Bodies {
+    ground: Option<Declaration>,
+    /// All that a `type` may name.
+    typed: Vec<Declaration>,
+}
+
+impl Bodies {
+    pub(super) fn declared() -> Self {
+        let (ground, typed): (Vec<_>, Vec<_>) =
+            body_tables().into_iter().partition(|table| table.name == "ground");
+        Self { ground: ground.into_iter().next(), typed }
+    }
+
+    /// Checks the present table as the body of this name.
+    pub(super) fn check(&self, report: &mut Report, name: &str, table: &Table) {
+        if let ("ground", Some(ground)) = (name, &self.ground) {
+            return fields::check(report, table, ground, false);
+        }
+        let general = self.typed.iter().find(|d| d.name == "body");
+        let declared = fields::declared(report, table, &self.typed, "body", general);
+        let Some(declared) = declared else { return };
+        fields::check(report, table, declared, true);
+        if declared.name == "bar" {
+            bar(report, table);
+        }
+    }
+}
+
+/// A bar has a length or two points.
+fn bar(report: &mut Report, table: &Table) {
+    if table.get("length").is_none() && table.get("through").is_none() {
+        report.within("length", |report| {
+            let hint = "give length and ends, or where two points stand: \
+                        through = { A = [0, 0], B = [1, 2] }";
+            report.add(report.here("missing; bar needs its length or two points").hint(hint));
+        });
+    }
+}

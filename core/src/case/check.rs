@@ -1,0 +1,226 @@
+//! The structure of a case: sections, names, types, fields.
+
+use super::bodies::Bodies;
+use super::names::{self, Namespace};
+use super::report::Report;
+use super::shapes::{number, shape, wrong};
+use super::tree::{Data, Node, Table};
+use super::{fields, start, Case, FORMAT_VERSION};
+use crate::analyses::analysis_tables;
+use crate::elements::{catalogue, Group, Shape, Table as Declaration};
+use crate::expression::suggest::did_you_mean;
+use crate::model::{Entry, Problem, Value};
+
+const SECTIONS: [&str; 10] = [
+    "kempe",
+    "title",
+    "gravity",
+    "parameters",
+    "bodies",
+    "joints",
+    "drivers",
+    "forces",
+    "start",
+    "analyses",
+];
+
+/// The case that a tree holds, which is complete if there are no problems of its structure.
+pub(super) fn case(root: &Table) -> (Case, Vec<Problem>) {
+    if let Some(problem) = newer(root) {
+        return (Case::default(), vec![problem]);
+    }
+    let mut report = Report::default();
+    version(&mut report, root);
+    for problem in refused(root) {
+        report.add(problem);
+    }
+    let mut case = Case::default();
+    let mut namespace = Namespace::default();
+    for (key, node) in &root.entries {
+        report.within(key, |report| section(report, key, node, &mut case, &mut namespace));
+    }
+    (case, report.finish())
+}
+
+fn section(
+    report: &mut Report,
+    key: &str,
+    node: &Node,
+    case: &mut Case,
+    namespace: &mut Namespace,
+) {
+    let model = &mut case.definition;
+    match key {
+        "kempe" => {}
+        "title" => match &node.data {
+            Data::Text(title) => model.title = Some(title.clone()),
+            _ => wrong(report, node, "a text"),
+        },
+        "gravity" => {
+            shape(report, node, Shape::Pair);
+            model.gravity = Some(node.value());
+        }
+        "parameters" => model.parameters = parameters(report, node),
+        "bodies" => {
+            let bodies = Bodies::declared();
+            model.bodies = entries(report, node, |report, name, table| {
+                namespace.take(report, name, "body");
+                bodies.check(report, name, table);
+            });
+        }
+        "joints" => model.joints = elements(report, node, Group::Joints, namespace),
+        "drivers" => model.drivers = elements(report, node, Group::Drivers, namespace),
+        "forces" => model.forces = elements(report, node, Group::Forces, namespace),
+        "start" => case.start = start::read(report, node),
+        "analyses" => case.analyses = analyses(report, node),
+        _ => {
+            let message = format!("unknown key '{}'", super::shown(key));
+            // the singular of a section, or a part of its name
+            match SECTIONS.iter().find(|s| key.len() > 2 && s.get(..3) == key.get(..3)) {
+                Some(meant) => {
+                    let hint = format!("did you mean '{meant}'?");
+                    report.add(report.here(message).at_key().hint(hint));
+                }
+                None => report.unknown_key(message, key, &SECTIONS),
+            }
+        }
+    }
+}
+
+fn newer(root: &Table) -> Option<Problem> {
+    match root.get("kempe")?.data {
+        Data::Number(x) if x > f64::from(FORMAT_VERSION) && x.fract() == 0.0 => {
+            let message = format!("this file is format {x}; this kempe reads {FORMAT_VERSION}");
+            Some(Problem::at(&["kempe"], message).hint("update kempe"))
+        }
+        _ => None,
+    }
+}
+
+fn version(report: &mut Report, root: &Table) {
+    let hint = format!("write `kempe = {FORMAT_VERSION}` as the first line");
+    report.within("kempe", |report| match root.get("kempe").map(|node| (&node.data, node)) {
+        None => report
+            .add(report.here("missing; a case begins with the version of its format").hint(hint)),
+        Some((Data::Number(x), _)) if *x == f64::from(FORMAT_VERSION) => {}
+        Some((Data::Number(x), _)) => {
+            let message = format!("there is no format {x}; this kempe reads {FORMAT_VERSION}");
+            report.add(report.here(message).hint(hint));
+        }
+        Some((_, node)) => wrong(report, node, &format!("the number {FORMAT_VERSION}")),
+    });
+}
+
+/// All values that no case may hold.
+pub(super) fn refused(root: &Table) -> Vec<Problem> {
+    let mut report = Report::default();
+    refused_in(&mut report, root);
+    report.finish()
+}
+
+fn refused_in(report: &mut Report, table: &Table) {
+    for (key, node) in &table.entries {
+        report.within(key, |report| refused_at(report, node));
+    }
+}
+
+fn refused_at(report: &mut Report, node: &Node) {
+    match &node.data {
+        Data::Refused(reason) => report.say(reason.clone()),
+        Data::Table(table) => refused_in(report, table),
+        Data::List(items) => {
+            for (k, item) in items.iter().enumerate() {
+                report.within(&k.to_string(), |report| refused_at(report, item));
+            }
+        }
+        _ => {}
+    }
+}
+
+fn parameters(report: &mut Report, node: &Node) -> Vec<(String, Value)> {
+    let Data::Table(table) = &node.data else {
+        wrong(report, node, "a table of names and numbers");
+        return Vec::new();
+    };
+    for (name, value) in &table.entries {
+        report.within(name, |report| {
+            names::unreserved_key(report, name);
+            number(report, value);
+        });
+    }
+    table.values()
+}
+
+/// Named tables, each checked.
+fn entries(
+    report: &mut Report,
+    node: &Node,
+    mut check: impl FnMut(&mut Report, &str, &Table),
+) -> Vec<Entry> {
+    let Data::Table(section) = &node.data else {
+        let problem = report.here(format!("{}; must be a table of named tables", node.noun()));
+        if !matches!(node.data, Data::Refused(_)) {
+            report.add(problem.hint(format!("write [{}.NAME] for each", report.key())));
+        }
+        return Vec::new();
+    };
+    let mut found = Vec::with_capacity(section.entries.len());
+    for (name, node) in &section.entries {
+        report.within(name, |report| match &node.data {
+            Data::Table(table) => {
+                check(report, name, table);
+                found.push(Entry { name: name.clone(), fields: table.values() });
+            }
+            _ => wrong(report, node, "a table with fields"),
+        });
+    }
+    found
+}
+
+fn elements(
+    report: &mut Report,
+    node: &Node,
+    group: Group,
+    namespace: &mut Namespace,
+) -> Vec<Entry> {
+    let known: Vec<Declaration> =
+        catalogue().into_iter().filter(|(g, _)| *g == group).map(|(_, table)| table).collect();
+    entries(report, node, |report, name, table| {
+        namespace.take(report, name, group.singular());
+        if let Some(declared) = fields::declared(report, table, &known, group.singular(), None) {
+            fields::check(report, table, declared, true);
+        }
+    })
+}
+
+fn analyses(report: &mut Report, node: &Node) -> Vec<Entry> {
+    let known = analysis_tables();
+    let mut earlier: Vec<String> = vec!["start".to_string()];
+    entries(report, node, |report, name, table| {
+        match name {
+            "start" => report.say_of_key("'start' is where a case starts and cannot be a name"),
+            _ => names::key(report, name),
+        }
+        if let Some(declared) = fields::declared(report, table, &known, "analysis", None) {
+            fields::check(report, table, declared, true);
+        }
+        from(report, table, &earlier);
+        if table.get("output").is_some() && table.get("output_step").is_some() {
+            report.within("output", |report| report.say("not together with output_step; keep one"));
+        }
+        earlier.push(name.to_string());
+    })
+}
+
+/// `from` must name the start or an earlier analysis.
+fn from(report: &mut Report, table: &Table, earlier: &[String]) {
+    let Some(Node { data: Data::Text(name), .. }) = table.get("from") else { return };
+    if !earlier.contains(name) {
+        let hint = did_you_mean(name, earlier)
+            .unwrap_or_else(|| "write \"start\" or the name of an earlier analysis".to_string());
+        report.within("from", |report| {
+            let message = format!("no earlier analysis '{}'", super::shown(name));
+            report.add(report.here(message).hint(hint));
+        });
+    }
+}

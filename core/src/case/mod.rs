@@ -1,0 +1,99 @@
+//! Text of a case ↔ [`Case`]: strings in, strings out, with positions and suggestions.
+//!
+//! A case is a model, a start and any number of analyses, in TOML or JSON. [`read`] reports all
+//! faults of the structure at once; faults of the mechanics come from elsewhere as
+//! [`Problem`](crate::model::Problem)s, and [`Document::diagnose`] says where in the text they are.
+
+mod bodies;
+mod check;
+mod diagnostic;
+mod document;
+mod fault;
+mod fields;
+mod json;
+mod names;
+mod report;
+mod schema;
+mod shapes;
+mod start;
+mod toml;
+mod toml_tables;
+mod tree;
+mod write;
+mod write_json;
+mod write_toml;
+
+use diagnostic::shown;
+pub use diagnostic::Diagnostic;
+pub use document::Document;
+pub use schema::schema;
+pub use tree::{MOST_DEPTH, MOST_VALUES};
+pub use write::write;
+
+use crate::model::{Definition, Entry, Value};
+
+/// The version of the format that is read and written: `kempe = 1`.
+pub const FORMAT_VERSION: u32 = 1;
+/// Most bytes of a text that are read: 16 MiB.
+pub const MOST_BYTES: usize = 16 << 20;
+/// Most faults that are reported.
+pub const MOST_REPORTED: usize = 100;
+
+/// How a case is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// TOML 1.0.
+    Toml,
+    /// JSON, RFC 8259.
+    Json,
+}
+
+/// A model as written, where it starts, and what is asked of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Case {
+    /// The model.
+    pub definition: Definition,
+    /// Where assembly starts.
+    pub start: Start,
+    /// Analyses, in order.
+    pub analyses: Vec<Entry>,
+}
+
+/// Coordinates and rates for the assembly; keys are `body.coordinate`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Start {
+    /// Those that are prescribed.
+    pub set: Vec<(String, Value)>,
+    /// Those that are guessed.
+    pub guess: Vec<(String, Value)>,
+}
+
+/// Reads a case.
+///
+/// Errors: every fault of syntax; or else, every fault of structure: unknown or missing keys,
+/// wrong shapes, names that cannot be; sorted by place, at most [`MOST_REPORTED`].
+pub fn read(text: &str, format: Format) -> Result<(Case, Document), Vec<Diagnostic>> {
+    let (document, mut found) = Document::parse(text, format)?;
+    let (case, problems) = check::case(document.root());
+    found.extend(problems.iter().map(|problem| document.diagnose(problem)));
+    if found.is_empty() {
+        return Ok((case, document));
+    }
+    found.sort_by_key(|fault| (fault.line, fault.column));
+    found.truncate(MOST_REPORTED);
+    Err(found)
+}
+
+/// The values of any text in order, without regard to what a case may hold.
+///
+/// Errors: faults of syntax; values that no case may hold, such as dates and numbers not finite.
+pub fn parse_tree(text: &str, format: Format) -> Result<Value, Vec<Diagnostic>> {
+    let (document, mut found) = Document::parse(text, format)?;
+    let refused = check::refused(document.root());
+    found.extend(refused.iter().map(|problem| document.diagnose(problem)));
+    if found.is_empty() {
+        Ok(document.value())
+    } else {
+        Err(found)
+    }
+}

@@ -1,0 +1,74 @@
+//! Which names things may have.
+
+use std::collections::HashMap;
+
+use super::report::Report;
+
+/// Words that mean something else in formulas and references.
+const RESERVED: [&str; 4] = ["t", "pi", "deg", "ground"];
+/// Most characters of a name.
+const MOST_CHARACTERS: usize = 200;
+
+/// Why a text cannot be a name.
+fn fault(name: &str) -> Option<String> {
+    if name.trim().is_empty() {
+        return Some("a name must not be empty".to_string());
+    }
+    if name.contains('.') {
+        return Some("a name must not contain '.', which separates body and point".to_string());
+    }
+    if name.chars().any(char::is_control) {
+        return Some("a name must not contain control characters or line breaks".to_string());
+    }
+    let length = name.chars().count();
+    (length > MOST_CHARACTERS)
+        .then(|| format!("a name of {length} characters; at most {MOST_CHARACTERS} are allowed"))
+}
+
+/// Checks a name which is the present key.
+pub(super) fn key(report: &mut Report, name: &str) {
+    if let Some(message) = fault(name) {
+        report.say_of_key(message);
+    }
+}
+
+/// Checks a name which is the present value.
+pub(super) fn value(report: &mut Report, name: &str) {
+    if let Some(message) = fault(name) {
+        report.say(message);
+    }
+}
+
+/// Checks the present key as the name of a parameter or an element.
+pub(super) fn unreserved_key(report: &mut Report, name: &str) {
+    if RESERVED.contains(&name) {
+        let problem = report.here(format!("'{name}' is reserved and cannot be a name"));
+        report.add(problem.at_key().hint("t pi deg ground mean something else; take another name"));
+    } else {
+        key(report, name);
+    }
+}
+
+/// The namespace that bodies, joints, drivers and forces share.
+#[derive(Default)]
+pub(super) struct Namespace(HashMap<String, &'static str>);
+
+impl Namespace {
+    /// Checks the present key, the name of a `singular`, and takes it.
+    pub(super) fn take(&mut self, report: &mut Report, name: &str, singular: &'static str) {
+        if singular == "body" && name == "ground" {
+            return;
+        }
+        unreserved_key(report, name);
+        match self.0.get(name) {
+            None => {
+                self.0.insert(name.to_string(), singular);
+            }
+            Some(other) => {
+                let message = format!("'{}' is already the name of a {other}", super::shown(name));
+                let hint = "bodies, joints, drivers and forces share one namespace";
+                report.add(report.here(message).at_key().hint(hint));
+            }
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! The problems found so far, and the path of the value that is looked at.
+
+use crate::expression::suggest::did_you_mean;
+use crate::model::Problem;
+
+/// Collects problems during one walk through a tree.
+#[derive(Default)]
+pub(super) struct Report {
+    path: Vec<String>,
+    problems: Vec<Problem>,
+}
+
+impl Report {
+    /// Looks at the value of a key of the present value.
+    pub(super) fn within<T>(&mut self, key: &str, look: impl FnOnce(&mut Self) -> T) -> T {
+        self.path.push(key.to_string());
+        let result = look(self);
+        self.path.pop();
+        result
+    }
+    /// A problem of the present value, not yet reported.
+    pub(super) fn here(&self, message: impl Into<String>) -> Problem {
+        Problem::at(&self.path, message)
+    }
+    /// The key of the present value.
+    pub(super) fn key(&self) -> &str {
+        self.path.last().map_or("", String::as_str)
+    }
+    /// Reports a problem; those beyond [`MOST_REPORTED`](super::MOST_REPORTED) are dropped.
+    pub(super) fn add(&mut self, problem: Problem) {
+        if self.problems.len() < super::MOST_REPORTED {
+            self.problems.push(problem);
+        }
+    }
+    /// Reports a problem of the present value.
+    pub(super) fn say(&mut self, message: impl Into<String>) {
+        self.add(self.here(message));
+    }
+    /// Reports a problem of the key of the present value.
+    pub(super) fn say_of_key(&mut self, message: impl Into<String>) {
+        self.add(self.here(message).at_key());
+    }
+    /// Reports a key that is not among the known ones: suggests the nearest, or names them all.
+    pub(super) fn unknown_key(&mut self, message: impl Into<String>, key: &str, known: &[&str]) {
+        let hint = did_you_mean(key, known).unwrap_or_else(|| among("it may have", known));
+        self.add(self.here(message).at_key().hint(hint));
+    }
+    pub(super) fn finish(self) -> Vec<Problem> {
+        self.problems
+    }
+}
+
+/// "it may have a, b or c".
+pub(super) fn among(words: &str, known: &[&str]) -> String {
+    match known.split_last() {
+        None => format!("{words} nothing"),
+        Some((last, [])) => format!("{words} {last}"),
+        Some((last, others)) => format!("{words} {} or {last}", others.join(", ")),
+    }
+}

@@ -1,0 +1,132 @@
+//! TOML → [`Table`] with places. Syntax is read by `toml_parser`, which goes on after an error.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use toml_parser::decoder::{Encoding, ScalarKind};
+use toml_parser::parser::{parse_document, EventReceiver, RecursionGuard, ValidateWhitespace};
+use toml_parser::{ErrorSink, Expected, ParseError, Source, Span};
+
+use super::fault::Faults;
+use super::toml_tables::Builder;
+use super::tree::{number, Data, Table, MOST_DEPTH};
+
+/// Reads a text; all faults of syntax, or the tree.
+pub(super) fn parse(text: &str, faults: &mut Faults) -> Table {
+    let source = Source::new(text);
+    let tokens = source.lex().into_vec();
+    let mut events = Events { source, builder: Builder::default(), joined: false };
+    let mut errors = Vec::new();
+    let mut sink = |error: ParseError| {
+        if errors.len() < super::MOST_REPORTED {
+            errors.push(error);
+        }
+    };
+    let mut checked = ValidateWhitespace::new(&mut events, source);
+    let mut guarded = RecursionGuard::new(&mut checked, MOST_DEPTH as u32);
+    parse_document(&tokens, &mut guarded, &mut sink);
+    for error in errors {
+        let place = error.unexpected().or(error.context()).map_or(0..0, range);
+        faults.push(place, message(&error));
+    }
+    events.builder.finish(faults)
+}
+
+fn range(span: Span) -> Range<usize> {
+    span.start()..span.end()
+}
+
+/// What is wrong, in the words of the parser and what it expected.
+fn message(error: &ParseError) -> String {
+    let mut text = error.description().to_string();
+    if text.starts_with("cannot recurse") {
+        text = super::tree::too_deep();
+    }
+    let expected: Vec<String> = error.expected().unwrap_or_default().iter().map(word).collect();
+    if !expected.is_empty() {
+        text.push_str("; expected ");
+        text.push_str(&expected.join(" or "));
+    }
+    text
+}
+
+fn word(expected: &Expected) -> String {
+    match expected {
+        Expected::Literal("\n") => "the end of the line".to_string(),
+        Expected::Literal(literal) => format!("'{literal}'"),
+        Expected::Description(words) => (*words).to_string(),
+        _ => "something else".to_string(),
+    }
+}
+
+/// Turns what the parser sees into tables.
+struct Events<'s> {
+    source: Source<'s>,
+    builder: Builder,
+    /// Whether the next key continues a dotted one.
+    joined: bool,
+}
+
+impl Events<'_> {
+    fn decoded(&self, span: Span, encoding: Option<Encoding>, error: &mut dyn ErrorSink) -> Data {
+        let Some(raw) = self.source.get(span) else { return Data::Refused("nothing".to_string()) };
+        let raw = toml_parser::Raw::new_unchecked(raw.as_str(), encoding, span);
+        let mut text = Cow::Borrowed("");
+        match raw.decode_scalar(&mut text, error) {
+            ScalarKind::String => Data::Text(text.into_owned()),
+            ScalarKind::Boolean(flag) => Data::Flag(flag),
+            ScalarKind::DateTime => Data::Refused("a date is no value of a case".to_string()),
+            ScalarKind::Float => number(&text, false),
+            ScalarKind::Integer(radix) if radix.value() == 10 => number(&text, true),
+            ScalarKind::Integer(radix) => match u64::from_str_radix(&text, radix.value()) {
+                Ok(x) => number(&x.to_string(), true),
+                Err(_) => number("1e17", true), // so many digits that it is beyond 2^53
+            },
+        }
+    }
+}
+
+impl EventReceiver for Events<'_> {
+    fn std_table_open(&mut self, span: Span, _: &mut dyn ErrorSink) {
+        self.joined = false;
+        self.builder.open_header(span.start());
+    }
+    fn std_table_close(&mut self, span: Span, _: &mut dyn ErrorSink) {
+        self.builder.close_header(span.end(), false);
+    }
+    fn array_table_open(&mut self, span: Span, error: &mut dyn ErrorSink) {
+        self.std_table_open(span, error);
+    }
+    fn array_table_close(&mut self, span: Span, _: &mut dyn ErrorSink) {
+        self.builder.close_header(span.end(), true);
+    }
+    fn inline_table_open(&mut self, span: Span, _: &mut dyn ErrorSink) -> bool {
+        self.builder.open(span.start(), Data::Table(Table::default()));
+        true
+    }
+    fn inline_table_close(&mut self, span: Span, _: &mut dyn ErrorSink) {
+        self.builder.close(span.end());
+    }
+    fn array_open(&mut self, span: Span, _: &mut dyn ErrorSink) -> bool {
+        self.builder.open(span.start(), Data::List(Vec::new()));
+        true
+    }
+    fn array_close(&mut self, span: Span, _: &mut dyn ErrorSink) {
+        self.builder.close(span.end());
+    }
+    fn simple_key(&mut self, span: Span, kind: Option<Encoding>, error: &mut dyn ErrorSink) {
+        let Some(raw) = self.source.get(span) else { return };
+        let raw = toml_parser::Raw::new_unchecked(raw.as_str(), kind, span);
+        let mut key = Cow::Borrowed("");
+        raw.decode_key(&mut key, error);
+        let joined = std::mem::take(&mut self.joined);
+        self.builder.key(key.into_owned(), range(span), joined);
+    }
+    fn key_sep(&mut self, _: Span, _: &mut dyn ErrorSink) {
+        self.joined = true;
+    }
+    fn scalar(&mut self, span: Span, kind: Option<Encoding>, error: &mut dyn ErrorSink) {
+        let data = self.decoded(span, kind, error);
+        self.builder.place(range(span), data);
+    }
+}

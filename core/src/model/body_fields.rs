@@ -1,0 +1,84 @@
+//! Which fields a body may have, as data: for the reader of files, the schema, Python and the model.
+
+use crate::elements::{Default, Field, Shape, Table};
+
+/// The types of bodies: `body` (the type if none is written), `bar`, and `ground`, which is not
+/// written as a type but is the body of that name.
+pub fn body_tables() -> Vec<Table> {
+    vec![body(), bar(), ground()]
+}
+
+fn points() -> Field {
+    let doc = "Named points, each [x, y] in the frame of the body.";
+    Field::optional("points", Shape::Points, "m", Default::Absent, doc)
+}
+
+fn through() -> Field {
+    let doc = "Where named points of the body stand in the global frame when assembly starts, \
+               each [x, y]. A bar with two of them needs no length and no ends.";
+    Field::optional("through", Shape::Points, "m", Default::Absent, doc)
+}
+
+fn mass() -> Field {
+    Field::required("mass", Shape::Number, "kg", "Mass.")
+}
+
+fn body() -> Table {
+    Table {
+        name: "body",
+        doc: "A rigid body of any form.".to_string(),
+        fields: vec![
+            mass(),
+            Field::required(
+                "inertia",
+                Shape::Number,
+                "kg*m^2",
+                "Moment of inertia about the mass centre.",
+            ),
+            Field::optional(
+                "center",
+                Shape::Pair,
+                "m",
+                Default::Pair([0.0, 0.0]),
+                "Mass centre, [x, y] in the frame of the body.",
+            ),
+            points(),
+            through(),
+        ],
+    }
+}
+
+fn bar() -> Table {
+    Table {
+        name: "bar",
+        doc: "A uniform slender bar: frame at its centre, x along it, inertia mass length^2/12."
+            .to_string(),
+        fields: vec![
+            mass(),
+            Field::optional(
+                "length",
+                Shape::Number,
+                "m",
+                Default::Absent,
+                "Length; without it, the distance of the two points of `through`.",
+            ),
+            Field::optional(
+                "ends",
+                Shape::Names,
+                "",
+                Default::Absent,
+                "Names of the points at (-length/2, 0) and (length/2, 0).",
+            ),
+            through(),
+            points(),
+        ],
+    }
+}
+
+fn ground() -> Table {
+    Table {
+        name: "ground",
+        doc: "What does not move; its frame is the global frame.".to_string(),
+        fields: vec![points()],
+    }
+}
