@@ -5,7 +5,7 @@ use super::shapes::{shape, wrong};
 use super::tree::{Data, Table};
 use crate::analyses::analysis_tables;
 use crate::elements::{catalogue, Field, Table as Declaration};
-use crate::expression::suggest::did_you_mean;
+use crate::expression::suggest::{closest, did_you_mean};
 use crate::model::body_tables;
 
 /// The declaration that the `type` of the present table names.
@@ -58,6 +58,7 @@ pub(super) fn check(report: &mut Report, table: &Table, declared: &Declaration, 
     if typed {
         known.push("type");
     }
+    let mut meant = Vec::new(); // by keys that are misspelt: these are not missing as well
     for (key, node) in &table.entries {
         report.within(key, |report| match declared.fields.iter().find(|f| f.name == key) {
             Some(field) => shape(report, node, field.shape),
@@ -65,11 +66,12 @@ pub(super) fn check(report: &mut Report, table: &Table, declared: &Declaration, 
             None => {
                 let message = format!("unknown field '{}' of {}", super::shown(key), declared.name);
                 report.unknown_key(message, key, &known);
+                meant.extend(closest(key, &known));
             }
         });
     }
     for field in declared.fields.iter().filter(|f| f.default.is_none()) {
-        if table.get(field.name).is_none() {
+        if table.get(field.name).is_none() && !meant.iter().any(|key| key == field.name) {
             report.within(field.name, |report| {
                 let message = format!("missing; {} needs it", declared.name);
                 report.add(report.here(message).hint(meaning(field)));

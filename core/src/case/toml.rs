@@ -39,6 +39,9 @@ fn range(span: Span) -> Range<usize> {
 /// What is wrong, in the words of the parser and what it expected.
 fn message(error: &ParseError) -> String {
     let mut text = error.description().to_string();
+    if text.starts_with("string values") && error.unexpected().is_none_or(|span| span.is_empty()) {
+        return "the value is missing".to_string();
+    }
     if text.starts_with("cannot recurse") {
         text = super::tree::too_deep();
     }
