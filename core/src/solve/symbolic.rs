@@ -7,7 +7,6 @@
 
 /// Up to this many rows a column lists its products one by one, above it runs of neighbouring products:
 /// a list is fastest for the short columns of mechanisms, runs vectorise and save memory for long ones.
-/// A power of two.
 pub(super) const SHORT: usize = 8;
 
 /// A product of rows a < b of a short column, and where it lands in the lower part.
