@@ -10,7 +10,7 @@
 //!
 //! [`bodies_first`]: super::bodies_first
 
-use super::symbolic::{Symbolic, SHORT};
+use super::symbolic::{Product, Run, Symbolic, SHORT};
 use crate::math::Real;
 
 /// Smallest ratio of a pivot to the magnitudes cancelled in it that is still trusted.
@@ -37,16 +37,18 @@ impl std::error::Error for ZeroPivot {}
 /// The numbers of one factorisation; all memory is taken in [`Factor::new`].
 #[derive(Clone, Debug)]
 pub struct Factor<S> {
-    /// D, then L below the diagonal, column by column. Length n + fill.
+    /// D, then the lower part of L D, column by column: length n + fill.
     entries: Vec<S>,
-    /// 1 / D.
+    /// The lower part of L: length fill.
+    lower: Vec<S>,
+    /// 1 / D, in the numbering of the caller.
     inverse: Vec<S>,
     /// |a| + Σ |l² d| of each pivot.
     magnitude: Vec<S>,
     /// |pivot| / magnitude, least over the lanes, in elimination order.
     ratio: Vec<f64>,
-    /// A column of L while its products are subtracted; elsewhere a residual.
-    work: Vec<S>,
+    /// The residual of a refinement.
+    residual: Vec<S>,
 }
 
 impl<S: Real> Factor<S> {
@@ -55,10 +57,11 @@ impl<S: Real> Factor<S> {
         let n = symbolic.n;
         Self {
             entries: vec![S::zero(); n + symbolic.fill()],
+            lower: vec![S::zero(); symbolic.fill()],
             inverse: vec![S::zero(); n],
             magnitude: vec![S::zero(); n],
             ratio: vec![0.0; n],
-            work: vec![S::zero(); n],
+            residual: vec![S::zero(); n],
         }
     }
 
@@ -70,11 +73,38 @@ impl<S: Real> Factor<S> {
     ///
     /// # Panics
     /// If `values` has another length than the entries, or the factor is of another pattern.
+    #[inline(never)] // on its own it keeps its addresses in registers: a third faster
     pub fn factor(&mut self, symbolic: &Symbolic, values: &[S]) -> Result<(), ZeroPivot> {
         self.assemble(symbolic, values);
-        for k in 0..symbolic.n {
-            let inverse = self.pivot(symbolic, k)?;
-            self.eliminate(symbolic, k, inverse);
+        // slices taken once: the compiler need not fear that a store moves them
+        let n = symbolic.n;
+        let (diagonal, below) = self.entries.split_at_mut(n);
+        let (scaled, inverse) = (&mut self.lower[..], &mut self.inverse[..n]);
+        let (magnitude, ratio) = (&mut self.magnitude[..n], &mut self.ratio[..n]);
+        for (k, (column, &unknown)) in symbolic.columns.iter().zip(&symbolic.order).enumerate() {
+            let d = diagonal[k];
+            ratio[k] = (d / magnitude[k]).least_magnitude();
+            let reciprocal = S::one() / d;
+            if !(ratio[k] > PIVOT_TOLERANCE && d.is_finite() && reciprocal.is_finite()) {
+                return Err(ZeroPivot { index: unknown as usize, ratio: ratio[k] });
+            }
+            inverse[unknown as usize] = reciprocal;
+            let range = column.start as usize..column.end as usize;
+            let (w, l) = (&below[range.clone()], &mut scaled[range.clone()]);
+            for ((&w, l), &j) in w.iter().zip(l).zip(&symbolic.row[range.clone()]) {
+                *l = w * reciprocal;
+                let square = w * *l;
+                diagonal[j as usize] -= square;
+                magnitude[j as usize] += square.abs();
+            }
+            let updates = column.first_update as usize..column.end_update as usize;
+            if range.len() <= SHORT {
+                subtract_products(&symbolic.products[updates], scaled, below);
+            } else {
+                let (w, tail) = below[range.start..].split_at_mut(range.len());
+                let runs = &symbolic.runs[updates];
+                subtract_runs(w, &scaled[range.clone()], runs, range.end, tail);
+            }
         }
         Ok(())
     }
@@ -91,68 +121,23 @@ impl<S: Real> Factor<S> {
         }
     }
 
-    /// Judges pivot k and returns its reciprocal.
-    #[inline(always)]
-    fn pivot(&mut self, symbolic: &Symbolic, k: usize) -> Result<S, ZeroPivot> {
-        let d = self.entries[k];
-        let ratio = (d / self.magnitude[k]).least_magnitude();
-        self.ratio[k] = ratio;
-        let inverse = S::one() / d;
-        if !(ratio > PIVOT_TOLERANCE && d.is_finite() && inverse.is_finite()) {
-            return Err(ZeroPivot { index: symbolic.order[k] as usize, ratio });
-        }
-        self.inverse[k] = inverse;
-        Ok(inverse)
-    }
-
-    /// Scales column k to L and subtracts its products from the columns after it.
-    #[inline(always)]
-    fn eliminate(&mut self, symbolic: &Symbolic, k: usize, inverse: S) {
-        let range = symbolic.range(k);
-        let (diagonal, lower) = self.entries.split_at_mut(symbolic.n);
-        let (head, tail) = lower.split_at_mut(range.end);
-        let column = &mut head[range.start..];
-        let rows = &symbolic.row[range];
-        let scaled = &mut self.work[..column.len()];
-        for (l, &w) in scaled.iter_mut().zip(column.iter()) {
-            *l = w * inverse;
-        }
-        for ((&w, &l), &j) in column.iter().zip(scaled.iter()).zip(rows) {
-            let product = w * l;
-            diagonal[j as usize] -= product;
-            self.magnitude[j as usize] += product.abs();
-        }
-        let update = &symbolic.update[symbolic.update_start[k]..symbolic.update_start[k + 1]];
-        if column.len() <= SHORT {
-            subtract_places(column, scaled, update, tail);
-        } else {
-            subtract_runs(column, scaled, update, tail);
-        }
-        column.copy_from_slice(scaled);
-    }
-
     /// Solves A x = `rhs` in place, in the numbering of the caller.
     ///
     /// # Panics
     /// If `rhs` has not length n.
+    #[inline(never)]
     pub fn solve(&self, symbolic: &Symbolic, rhs: &mut [S]) {
-        let n = symbolic.n;
-        assert_eq!(rhs.len(), n, "one right side for each unknown");
-        let lower = &self.entries[n..];
-        for (k, &i) in symbolic.order.iter().enumerate() {
-            let x = rhs[i as usize];
-            let range = symbolic.range(k);
-            for (&l, &j) in lower[range.clone()].iter().zip(&symbolic.unknown[range]) {
-                rhs[j as usize] -= l * x;
-            }
+        assert_eq!(rhs.len(), symbolic.n, "one right side for each unknown");
+        for (&(k, j), &l) in symbolic.unknowns.iter().zip(&self.lower) {
+            let x = rhs[k as usize];
+            rhs[j as usize] -= l * x;
         }
-        for (k, &i) in symbolic.order.iter().enumerate().rev() {
-            let mut x = rhs[i as usize] * self.inverse[k];
-            let range = symbolic.range(k);
-            for (&l, &j) in lower[range.clone()].iter().zip(&symbolic.unknown[range]) {
-                x -= l * rhs[j as usize];
-            }
-            rhs[i as usize] = x;
+        for (x, &inverse) in rhs.iter_mut().zip(&self.inverse) {
+            *x = *x * inverse;
+        }
+        for (&(k, j), &l) in symbolic.unknowns.iter().zip(&self.lower).rev() {
+            let x = rhs[j as usize];
+            rhs[k as usize] -= l * x;
         }
     }
 
@@ -161,14 +146,14 @@ impl<S: Real> Factor<S> {
     /// # Panics
     /// If a length does not fit the pattern.
     pub fn refine(&mut self, symbolic: &Symbolic, values: &[S], rhs: &[S], x: &mut [S]) {
-        let mut residual = std::mem::take(&mut self.work);
+        let mut residual = std::mem::take(&mut self.residual);
         residual.copy_from_slice(rhs);
         symbolic.subtract_product(values, x, &mut residual);
         self.solve(symbolic, &mut residual);
         for (x, &correction) in x.iter_mut().zip(&residual) {
             *x += correction;
         }
-        self.work = residual;
+        self.residual = residual;
     }
 
     /// The unknown whose pivot was cancelled most, and its ratio |pivot| / (|a| + Σ |l² d|): 1 means
@@ -184,26 +169,24 @@ impl<S: Real> Factor<S> {
     }
 }
 
-/// Products of a short column: each has its place.
+/// Subtracts the products of a short column from the columns after it.
 #[inline(always)]
-fn subtract_places<S: Real>(column: &[S], scaled: &[S], places: &[u32], tail: &mut [S]) {
-    let mut place = places.iter();
-    for (a, &w) in column.iter().enumerate() {
-        for (&l, &at) in scaled[a + 1..].iter().zip(place.by_ref()) {
-            tail[at as usize] -= w * l;
-        }
+fn subtract_products<S: Real>(products: &[Product], scaled: &[S], below: &mut [S]) {
+    for product in products {
+        let (w, l) = (below[product.a as usize], scaled[product.b as usize]);
+        below[product.target as usize] -= w * l;
     }
 }
 
-/// Products of a long column: runs of neighbours.
-fn subtract_runs<S: Real>(column: &[S], scaled: &[S], runs: &[u32], tail: &mut [S]) {
-    let mut run = runs.chunks_exact(2);
-    for (a, &w) in column.iter().enumerate() {
+/// Subtracts the products of a long column from the columns after it, which begin at position `end`.
+fn subtract_runs<S: Real>(w: &[S], scaled: &[S], runs: &[Run], end: usize, tail: &mut [S]) {
+    let mut runs = runs.iter();
+    for (a, &w) in w.iter().enumerate() {
         let mut rest = &scaled[a + 1..];
         while !rest.is_empty() {
-            let Some(&[first, length]) = run.next() else { return };
-            let (now, later) = rest.split_at(length as usize);
-            let target = &mut tail[first as usize..][..now.len()];
+            let Some(run) = runs.next() else { return };
+            let (now, later) = rest.split_at(run.length as usize);
+            let target = &mut tail[run.target as usize - end..][..now.len()];
             for (t, &l) in target.iter_mut().zip(now) {
                 *t -= w * l;
             }

@@ -1,0 +1,163 @@
+//! Every way an integration fails.
+
+use super::*;
+use kempe::integrate::{Atol, Cause, Rk4, Rk45};
+
+fn cause(outcome: Outcome) -> Cause<String> {
+    outcome.unwrap_err().cause
+}
+
+fn refused(outcome: Outcome) -> &'static str {
+    let failure = outcome.unwrap_err();
+    assert_eq!(failure.statistics.evaluations, 0);
+    match failure.cause {
+        Cause::Argument { name, .. } => name,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn arguments_are_refused_by_name() {
+    let good = Rk45::default();
+    let with = |method: Rk45, span: (f64, f64), y0: [f64; 2]| {
+        refused(run(&method, plain(2, oscillator), span, &mut y0.clone()))
+    };
+    let (span, y0) = ((0.0, 1.0), [1.0, 0.0]);
+    for bad in [f64::NAN, f64::INFINITY] {
+        assert_eq!(with(good.clone(), (bad, 1.0), y0), "t0");
+        assert_eq!(with(good.clone(), (0.0, bad), y0), "t_end");
+        assert_eq!(with(good.clone(), span, [1.0, bad]), "y0");
+        assert_eq!(with(Rk45::new(bad, 1e-6), span, y0), "rtol");
+        assert_eq!(with(Rk45::new(1e-3, bad), span, y0), "atol");
+    }
+    assert_eq!(with(Rk45::new(-1e-3, 1e-6), span, y0), "rtol");
+    assert_eq!(with(Rk45::new(1e-3, -1e-6), span, y0), "atol");
+    let each = |atol: &[f64]| Rk45 { atol: Atol::Each(atol.to_vec()), ..good.clone() };
+    assert_eq!(with(each(&[1e-6, -1.0]), span, y0), "atol");
+    assert_eq!(with(each(&[1e-6]), span, y0), "atol");
+    for bad in [0.0, -1.0, f64::NAN] {
+        assert_eq!(with(Rk45 { max_step: bad, ..good.clone() }, span, y0), "max_step");
+        assert_eq!(with(Rk45 { first_step: Some(bad), ..good.clone() }, span, y0), "first_step");
+        let fixed = run(&Rk4::new(bad), plain(2, oscillator), span, &mut y0.clone());
+        assert_eq!(refused(fixed), "step");
+    }
+    assert_eq!(with(Rk45 { first_step: Some(2.0), ..good }, span, y0), "first_step");
+    for bad in [f64::INFINITY, 1e-20] {
+        let fixed = run(&Rk4::new(bad), plain(2, oscillator), span, &mut y0.clone());
+        assert_eq!(refused(fixed), "step");
+    }
+    assert_eq!(refused(run(&Rk4::new(0.1), plain(2, oscillator), span, &mut [1.0])), "y0");
+}
+
+#[test]
+fn a_tolerance_below_rounding_is_raised() {
+    assert_eq!(Rk45::new(0.0, 1e-12).rtol_used(), 100.0 * f64::EPSILON);
+    assert_eq!(Rk45::new(1e-9, 1e-12).rtol_used(), 1e-9);
+    let raised = run(&Rk45::new(0.0, 0.0), plain(1, relaxation), (0.0, 0.01), &mut [0.5]).unwrap();
+    let same = Rk45::new(100.0 * f64::EPSILON, 0.0);
+    assert_eq!(raised, run(&same, plain(1, relaxation), (0.0, 0.01), &mut [0.5]).unwrap());
+}
+
+#[test]
+fn a_singularity_makes_the_step_too_small() {
+    // y' = y² from 1 has a pole at t = 1
+    let square = |_: f64, y: &[f64], dy: &mut [f64]| dy[0] = y[0] * y[0];
+    let failure =
+        run(&Rk45::new(1e-6, 1e-9), plain(1, square), (0.0, 2.0), &mut [1.0]).unwrap_err();
+    let Cause::StepTooSmall { t, h } = failure.cause else { panic!("{:?}", failure.cause) };
+    assert!((t - 1.0).abs() < 1e-4 && h < 1e-14, "{t} {h}");
+    assert_eq!((failure.t, failure.statistics.t), (t, t));
+    assert!(failure.y[0] > 1e4 && failure.statistics.steps > 50);
+}
+
+/// y′ = 1 until t = 1, not a number after.
+fn half_defined(t: f64, _: &[f64], dy: &mut [f64]) {
+    dy[0] = if t <= 1.0 { 1.0 } else { f64::NAN };
+}
+
+#[test]
+fn a_derivative_that_is_not_finite_is_named_with_its_time() {
+    let mut y = [0.0];
+    let failure =
+        run(&Rk45::new(1e-3, 1e-6), plain(1, half_defined), (0.0, 2.0), &mut y).unwrap_err();
+    let Cause::NotFinite { t } = failure.cause else { panic!("{:?}", failure.cause) };
+    assert!(t > 1.0 && t < 1.0 + 1e-14, "{t:e}");
+    assert!(failure.t <= 1.0 && failure.t > 1.0 - 1e-14, "steps shrink up to the edge");
+    assert_eq!(failure.y, y);
+    assert!((y[0] - failure.t).abs() < 1e-14);
+
+    let failure = run(&Rk4::new(0.3), plain(1, half_defined), (0.0, 2.0), &mut [0.0]).unwrap_err();
+    assert!(matches!(failure.cause, Cause::NotFinite { t } if (t - 1.05).abs() < 1e-12));
+    assert_eq!(failure.statistics.steps, 3);
+
+    let never = |_: f64, _: &[f64], dy: &mut [f64]| dy[0] = f64::INFINITY;
+    let at_once = run(&Rk45::default(), plain(1, never), (0.5, 2.0), &mut [0.0]);
+    assert_eq!(cause(at_once), Cause::NotFinite { t: 0.5 });
+}
+
+#[test]
+fn a_trial_outside_the_domain_only_shortens_the_step() {
+    // y' = -sqrt(y), not a number below 0; ends before it gets there
+    let root = |_: f64, y: &[f64], dy: &mut [f64]| dy[0] = -y[0].sqrt();
+    let method = Rk45 { first_step: Some(1.9), ..Rk45::new(1e-2, 1e-4) };
+    let mut y = [1.0];
+    let done = run(&method, plain(1, root), (0.0, 1.9), &mut y).unwrap();
+    assert!(done.rejected > 0);
+    assert!((y[0] - 0.05_f64.powi(2)).abs() < 1e-3, "{}", y[0]);
+}
+
+#[test]
+fn the_number_of_steps_can_be_bounded() {
+    let most = Rk45 { max_steps: Some(5), ..Rk45::new(1e-6, 1e-9) };
+    let failure = run(&most, plain(2, van_der_pol), (0.0, 20.0), &mut [2.0, 0.0]).unwrap_err();
+    assert_eq!(failure.cause, Cause::MaxSteps { steps: 5 });
+    assert_eq!(failure.statistics.steps, 5);
+    assert!(failure.t > 0.0);
+    let most = Rk4 { step: 0.1, max_steps: Some(5) };
+    let outcome = run(&most, plain(2, oscillator), (0.0, 1.0), &mut [2.0, 0.0]);
+    assert_eq!(cause(outcome), Cause::MaxSteps { steps: 5 });
+    let enough = Rk4 { step: 0.1, max_steps: Some(10) };
+    assert!(run(&enough, plain(2, oscillator), (0.0, 1.0), &mut [2.0, 0.0]).is_ok());
+}
+
+/// y′ = 1 that stops for good past t = 1, in the rate or at acceptance.
+struct Stops {
+    in_rate: bool,
+}
+
+impl System for Stops {
+    type Stop = String;
+    fn len(&self) -> usize {
+        1
+    }
+    fn rate(&mut self, t: f64, _: &[f64], dy: &mut [f64]) -> Result<(), String> {
+        dy[0] = 1.0;
+        if self.in_rate && t > 1.0 {
+            Err("the crank locks".into())
+        } else {
+            Ok(())
+        }
+    }
+    fn accepted(&mut self, t: f64, _: &mut [f64]) -> Result<bool, String> {
+        if !self.in_rate && t > 1.0 {
+            Err("the crank locks".into())
+        } else {
+            Ok(false)
+        }
+    }
+}
+
+#[test]
+fn a_system_that_stops_is_a_failure_at_once() {
+    for in_rate in [true, false] {
+        for method in [0.3, 0.4] {
+            let outcome = run(&Rk4::new(method), Stops { in_rate }, (0.0, 2.0), &mut [0.0]);
+            assert_eq!(cause(outcome), Cause::System("the crank locks".into()));
+        }
+        let method = Rk45 { max_step: 0.3, ..Rk45::default() };
+        let failure = run(&method, Stops { in_rate }, (0.0, 2.0), &mut [0.0]).unwrap_err();
+        assert_eq!(failure.to_string(), "the crank locks");
+        assert!(failure.t <= 1.0 && failure.t > 0.6);
+        assert_eq!(failure.statistics.rejected, 0);
+    }
+}
