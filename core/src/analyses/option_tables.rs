@@ -57,7 +57,7 @@ fn dynamics() -> Table {
             Default::Type("baumgarte"),
             "What keeps the constraints from drifting.",
         ),
-        Field::optional("max_steps", Shape::Count, "", Default::Number(1e6), "Most steps before the solver gives up."),
+        Field::optional("max_steps", Shape::Count, "", Default::Absent, "Most steps before the solver gives up; else without limit."),
         Field::optional(
             "from",
             Shape::Name,
@@ -92,7 +92,7 @@ fn output_fields() -> [Field; 3] {
             "dense_output",
             Shape::Flag,
             "",
-            Default::Flag(false),
+            Default::Flag(true),
             "Whether the solution can be evaluated at any time.",
         ),
     ]

@@ -3,11 +3,13 @@
 mod failure;
 mod options;
 mod output;
+mod read;
 mod system;
 
 pub use failure::{Failure, Reason};
 pub use options::{Options, Output, Scheme, Stabilization};
 pub use output::{Dense, Trajectory, ENERGIES};
+pub use read::read;
 
 use super::State;
 use crate::equations::{Singular, Workspace};
@@ -75,7 +77,7 @@ pub fn dynamics(
         Scheme::Rk45(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Rk4(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
     };
-    finish(model, system.workspace, recorder, outcome, clock)
+    finish(model, system.workspace, recorder, outcome, (clock, watch))
 }
 
 fn finish(
@@ -83,13 +85,13 @@ fn finish(
     mut workspace: Workspace,
     recorder: Recorder<'_>,
     outcome: Result<integrate::Statistics, integrate::Failure<(f64, Singular)>>,
-    clock: Instant,
+    (clock, watch): (Instant, impl FnMut(f64) -> Flow),
 ) -> Result<Run, Box<Failure>> {
     let Recorder { mut trajectory, dense, .. } = recorder;
-    let reported = trajectory.evaluate(model, &mut workspace);
+    let reported = trajectory.evaluate(model, &mut workspace, watch);
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
-    let rows = trajectory.a.len() / n.max(1);
-    trajectory.truncate(rows.min(trajectory.t.len()), n, m);
+    let rows = if n == 0 { trajectory.t.len() } else { trajectory.a.len() / n };
+    trajectory.truncate(rows, n, m);
     let took = match &outcome {
         Ok(statistics) => *statistics,
         Err(failure) => failure.statistics,
@@ -101,10 +103,11 @@ fn finish(
         factorisations: took.evaluations + rows,
         seconds: clock.elapsed().as_secs_f64(),
     };
-    let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached);
+    let reached =
+        outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached) && reported == Ok(Flow::Continue);
     let run = Run { trajectory, dense, statistics, reached };
     let reason = match (outcome, reported) {
-        (Ok(_), Ok(())) => return Ok(run),
+        (Ok(_), Ok(_)) => return Ok(run),
         (Err(failure), _) => Reason::from_integrator(model, failure),
         (_, Err((t, singular))) => Reason::singular(model, t, singular),
     };

@@ -2,7 +2,7 @@
 
 use super::options::Output;
 use crate::equations::{energy, kinematics, Gains, Singular, Workspace};
-use crate::integrate::Step;
+use crate::integrate::{Flow, Step};
 use crate::math::Motion;
 use crate::model::Model;
 
@@ -125,7 +125,8 @@ impl<'a> Recorder<'a> {
 }
 
 impl Trajectory {
-    /// Fills accelerations and multipliers at every reported state, by γ, never γ̂.
+    /// Fills accelerations and multipliers at every reported state, by γ, never γ̂. `watch` may end
+    /// it early.
     ///
     /// # Errors
     /// The first time at which the equations of motion are singular; what comes before is filled.
@@ -133,9 +134,13 @@ impl Trajectory {
         &mut self,
         model: &Model,
         workspace: &mut Workspace,
-    ) -> Result<(), (f64, Singular)> {
+        mut watch: impl FnMut(f64) -> Flow,
+    ) -> Result<Flow, (f64, Singular)> {
         let n = model.layout.n_q;
-        for (k, &t) in self.t.iter().enumerate().skip(self.a.len() / n.max(1)) {
+        for (k, &t) in self.t.iter().enumerate() {
+            if watch(t) == Flow::Stop {
+                return Ok(Flow::Stop);
+            }
             let row = k * n..(k + 1) * n;
             let (q, v) = (&self.q[row.clone()], &self.v[row]);
             let gains = Gains::default();
@@ -143,7 +148,7 @@ impl Trajectory {
             self.a.extend_from_slice(workspace.a());
             self.lam.extend_from_slice(workspace.lam());
         }
-        Ok(())
+        Ok(Flow::Continue)
     }
 
     /// Keeps the first `count` rows.

@@ -1,0 +1,138 @@
+//! Options of forward dynamics from a file or from Python. The structure has been checked before by
+//! the tables of options; here values are put in.
+
+use super::options::{Options, Output, Scheme, Stabilization};
+use crate::equations::{at, Gains};
+use crate::integrate::{Atol, Rk4, Rk45};
+use crate::model::{Model, Problem, Reach, Scope, Value};
+
+/// Reads the fields of an analysis of type `dynamics`; `path` is where it stands in the file.
+///
+/// # Errors
+/// Every value that cannot be right, with its path.
+pub fn read(
+    model: &Model,
+    fields: &[(String, Value)],
+    path: &[String],
+) -> Result<Options, Vec<Problem>> {
+    let bodies = vec!["ground".to_string()];
+    let scope = Scope { parameters: model.blueprint.parameters.clone(), bodies };
+    let mut problems = Vec::new();
+    let mut reader = Reader { model, scope, fields, path: path.to_vec(), problems: &mut problems };
+    let options = reader.options();
+    if problems.is_empty() {
+        Ok(options)
+    } else {
+        Err(problems)
+    }
+}
+
+struct Reader<'a> {
+    model: &'a Model,
+    scope: Scope,
+    fields: &'a [(String, Value)],
+    path: Vec<String>,
+    problems: &'a mut Vec<Problem>,
+}
+
+impl<'a> Reader<'a> {
+    fn options(&mut self) -> Options {
+        let mut options = Options::new(self.number("t_end", "s").unwrap_or(f64::NAN));
+        if let Some(h) = self.positive("output_step", "s") {
+            options.output = Output::Every(h);
+        }
+        if let Some(Value::Flag(keep)) = self.get("dense_output") {
+            options.dense_output = *keep;
+        }
+        if let Some(Value::Text(word)) = self.get("redundancy") {
+            options.allow_redundancy = word == "allow";
+        }
+        let max_steps = self.positive("max_steps", "").map(|n| n as usize);
+        options.scheme = self.inside("method", |reader, kind| reader.scheme(kind, max_steps));
+        options.stabilization =
+            self.inside("stabilization", |reader, kind| reader.stabilization(kind));
+        options
+    }
+
+    fn scheme(&mut self, kind: &str, max_steps: Option<usize>) -> Scheme {
+        if kind == "rk4" {
+            let step = self.positive("step", "s").unwrap_or(f64::NAN);
+            return Scheme::Rk4(Rk4 { step, max_steps });
+        }
+        Scheme::Rk45(Rk45 {
+            rtol: self.not_negative("rtol", "").unwrap_or(1e-6),
+            atol: Atol::Scalar(self.not_negative("atol", "").unwrap_or(1e-9)),
+            first_step: self.positive("first_step", "s"),
+            max_step: self.positive("max_step", "s").unwrap_or(f64::INFINITY),
+            max_steps,
+        })
+    }
+
+    fn stabilization(&mut self, kind: &str) -> Stabilization {
+        if kind == "none" {
+            return Stabilization::None;
+        }
+        Stabilization::Baumgarte(Gains {
+            alpha: self.not_negative("alpha", "1/s").unwrap_or(10.0),
+            beta: self.not_negative("beta", "1/s").unwrap_or(200.0),
+        })
+    }
+
+    /// Reads the table of options under `key`, whose `type` is given to `read`.
+    fn inside<T>(&mut self, key: &str, read: impl FnOnce(&mut Reader<'_>, &str) -> T) -> T {
+        let (kind, fields) = match self.get(key) {
+            Some(Value::Table(fields)) => (field(fields, "type"), fields.as_slice()),
+            Some(text @ Value::Text(_)) => (Some(text), &[][..]),
+            _ => (None, &[][..]),
+        };
+        let kind = match kind {
+            Some(Value::Text(kind)) => kind.as_str(),
+            _ => "",
+        };
+        let mut path = self.path.clone();
+        path.push(key.to_string());
+        let scope = self.scope.clone();
+        read(&mut Reader { fields, path, scope, model: self.model, problems: self.problems }, kind)
+    }
+
+    fn get(&self, key: &str) -> Option<&'a Value> {
+        field(self.fields, key)
+    }
+
+    fn number(&mut self, key: &str, unit: &str) -> Option<f64> {
+        let value = field(self.fields, key)?;
+        let mut path = self.path.clone();
+        path.push(key.to_string());
+        let reach = Reach::Parameters;
+        let tape = self.scope.formula(value, &path, unit, reach, self.problems)?;
+        let x = tape.evaluate(&at(&self.model.parameters, &[], 0.0));
+        if !x.is_finite() {
+            self.problems.push(Problem::at(&path, format!("becomes {x}; must be finite")));
+            return None;
+        }
+        Some(x)
+    }
+
+    fn checked(&mut self, key: &str, unit: &str, good: fn(f64) -> bool, must: &str) -> Option<f64> {
+        let x = self.number(key, unit)?;
+        if good(x) {
+            return Some(x);
+        }
+        let path: Vec<String> = self.path.iter().cloned().chain([key.to_string()]).collect();
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        self.problems.push(Problem::at(&path, format!("{x}{unit}; must be {must}")));
+        None
+    }
+
+    fn positive(&mut self, key: &str, unit: &str) -> Option<f64> {
+        self.checked(key, unit, |x| x > 0.0, "> 0")
+    }
+
+    fn not_negative(&mut self, key: &str, unit: &str) -> Option<f64> {
+        self.checked(key, unit, |x| x >= 0.0, ">= 0")
+    }
+}
+
+fn field<'a>(fields: &'a [(String, Value)], key: &str) -> Option<&'a Value> {
+    fields.iter().find(|(k, _)| k == key).map(|(_, v)| v)
+}
