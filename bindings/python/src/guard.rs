@@ -22,7 +22,27 @@ use pyo3::prelude::*;
 use crate::errors::{Failure, Kind};
 
 /// The one list of guarded entry points, in the order of their appearance.
-pub const ENTRIES: &[&str] = &["version", "_raise"];
+pub const ENTRIES: &[&str] = &[
+    "version",
+    "catalogue",
+    "schema",
+    "is_reserved",
+    "Case",
+    "Case.tree",
+    "Case.write",
+    "Case.model",
+    "Case.check",
+    "Case.analyses",
+    "Model.describe",
+    "assemble",
+    "dynamics",
+    "evaluate",
+    "residual",
+    "reaction",
+    "force",
+    "matrices",
+    "_raise",
+];
 
 /// The entry point that is to panic at its next call, and a flag that makes asking for it cheap.
 static VICTIM: Mutex<Option<String>> = Mutex::new(None);

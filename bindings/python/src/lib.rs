@@ -5,8 +5,15 @@
 //! `kempe.errors` and never a Rust panic.
 #![forbid(unsafe_code)]
 
+mod assemble;
+mod case;
+mod convert;
+mod dynamics;
 mod errors;
+mod evaluate;
 mod guard;
+mod model;
+mod tables;
 
 use guard::guard;
 use pyo3::prelude::*;
@@ -15,6 +22,24 @@ use pyo3::prelude::*;
 #[pyfunction]
 fn version() -> PyResult<&'static str> {
     guard("version", || Ok(env!("CARGO_PKG_VERSION")))
+}
+
+/// What may stand in a case, as JSON.
+#[pyfunction]
+fn catalogue() -> PyResult<String> {
+    guard("catalogue", || Ok(tables::all()))
+}
+
+/// JSON Schema of a case.
+#[pyfunction]
+fn schema() -> PyResult<String> {
+    guard("schema", || Ok(kempe::case::schema()))
+}
+
+/// Whether a name belongs to the language of expressions.
+#[pyfunction]
+fn is_reserved(name: &str) -> PyResult<bool> {
+    guard("is_reserved", || Ok(kempe::expression::is_reserved(name)))
 }
 
 /// Names of all guarded entry points, for the test that walks over them.
@@ -40,7 +65,20 @@ fn _raise(py: Python<'_>, kind: &str, message: &str) -> PyResult<()> {
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     guard::quiet_inside();
+    module.add_class::<case::PyCase>()?;
+    module.add_class::<model::PyModel>()?;
+    module.add_class::<dynamics::PyRun>()?;
     module.add_function(wrap_pyfunction!(version, module)?)?;
+    module.add_function(wrap_pyfunction!(catalogue, module)?)?;
+    module.add_function(wrap_pyfunction!(schema, module)?)?;
+    module.add_function(wrap_pyfunction!(is_reserved, module)?)?;
+    module.add_function(wrap_pyfunction!(assemble::assemble, module)?)?;
+    module.add_function(wrap_pyfunction!(dynamics::dynamics, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::residual, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::reaction, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::force, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::matrices, module)?)?;
     module.add_function(wrap_pyfunction!(_entries, module)?)?;
     module.add_function(wrap_pyfunction!(_inject_panic, module)?)?;
     module.add_function(wrap_pyfunction!(_raise, module)?)?;

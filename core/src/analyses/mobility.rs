@@ -6,7 +6,7 @@
 
 use super::assemble::Closing;
 use crate::equations::augmented::Augmented;
-use crate::equations::{constraints, kinematics};
+use crate::equations::{self, constraints, kinematics};
 use crate::model::Model;
 use crate::solve::{normalize_rows, rank, Rank, RANK_TOLERANCE};
 
@@ -61,21 +61,9 @@ fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
     matrix.factor().is_ok() && matrix.cancellation().is_none_or(|(_, kept)| kept > BEYOND_DOUBT)
 }
 
-/// Φ_q as a dense row-major matrix, shape (n_rows, n_q).
-pub fn dense_jacobian(model: &Model, t: f64, q: &[f64]) -> Vec<f64> {
-    let mut entries = vec![0.0; model.layout.n_entries];
-    constraints::jacobian(model, &kinematics::at_rest(q), t, &mut entries);
-    let n = model.layout.n_q;
-    let mut dense = vec![0.0; model.layout.n_rows * n];
-    for ((row, column), entry) in model.layout.positions().zip(entries) {
-        dense[row * n + column] = entry;
-    }
-    dense
-}
-
 fn dense_rank(model: &Model, t: f64, q: &[f64]) -> Rank {
     let n = model.layout.n_q;
-    let mut dense = dense_jacobian(model, t, q);
+    let mut dense = equations::dense::jacobian(model, &kinematics::at_rest(q), t);
     // metres and radians become comparable by the size of the mechanism
     let size = super::assemble::size(model);
     for (k, entry) in dense.iter_mut().enumerate() {

@@ -6,6 +6,6 @@ mod mobility;
 mod option_tables;
 mod state;
 
-pub use mobility::{dense_jacobian, mobility, Mobility};
+pub use mobility::{mobility, Mobility};
 pub use option_tables::{analysis_tables, option_families, Family, Options};
 pub use state::State;

@@ -4,6 +4,7 @@
 
 pub mod augmented;
 pub mod constraints;
+pub mod dense;
 pub mod energy;
 pub mod forces;
 pub mod kinematics;

@@ -1,0 +1,86 @@
+//! Assembly as Python sees it.
+
+use crate::case::{raise_plain, tree};
+use crate::convert::{number, state, Row};
+use crate::errors::{Failure, Kind};
+use crate::guard::guard;
+use crate::model::PyModel;
+use kempe::analyses::assemble::{self as core, Fault, Report, Request, Wish};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use serde_json::{json, Value};
+
+/// Time, q, v, and the report as JSON.
+type Assembled<'py> = (f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, String);
+
+/// Wishes from a JSON text.
+pub fn wishes(py: Python<'_>, model: &PyModel, section: &str, text: &str) -> PyResult<Vec<Wish>> {
+    core::wishes(&model.model, section, &tree(py, text)?).map_err(|mut found| {
+        for problem in &mut found {
+            problem.path.remove(0); // "start" is a section of files
+        }
+        raise_plain(py, Kind::Model, &found)
+    })
+}
+
+/// Puts a mechanism together.
+#[pyfunction]
+#[pyo3(signature = (model, set, guess, t, q, v, redundancy))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn assemble<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    set: &str,
+    guess: &str,
+    t: f64,
+    q: Option<Row<'py>>,
+    v: Option<Row<'py>>,
+    redundancy: &str,
+) -> PyResult<Assembled<'py>> {
+    guard("assemble", || {
+        let given = match (q, v) {
+            (Some(q), Some(v)) => Some(state(py, &model.model, t, &q, &v)?),
+            _ => None,
+        };
+        let request = Request {
+            set: wishes(py, model, "set", set)?,
+            guess: wishes(py, model, "guess", guess)?,
+            state: given,
+            t: number(py, "t", t)?,
+            allow_redundancy: redundancy == "allow",
+        };
+        let core_model = std::sync::Arc::clone(&model.model);
+        let outcome = py.detach(|| core::assemble(&core_model, &request));
+        let (state, report) = outcome.map_err(|failure| raise(py, &failure))?;
+        let (q, v) = (state.q.into_pyarray(py), state.v.into_pyarray(py));
+        Ok((state.t, q, v, describe(&report).to_string()))
+    })
+}
+
+fn raise(py: Python<'_>, failure: &core::Failure) -> PyErr {
+    let kind = match failure.fault {
+        Fault::Redundant => Kind::Redundancy,
+        Fault::Open | Fault::Rates => Kind::Assembly,
+    };
+    let error = Failure::new(kind, failure.message.clone()).hint(failure.hint.clone());
+    let named = if failure.name.is_empty() { error } else { error.name(failure.name.clone()) };
+    named.raise(py)
+}
+
+fn describe(report: &Report) -> Value {
+    let iterations = report
+        .iterations
+        .iter()
+        .map(|r| json!({ "residual": r.residual_norm, "step": r.step_norm, "damping": r.damping }));
+    let modes = report.modes.iter().map(|m| {
+        let side = if m.left { "left" } else { "right" };
+        json!({ "bodies": m.bodies, "joint": m.joint, "anchors": m.anchors, "side": side })
+    });
+    json!({
+        "iterations": iterations.collect::<Vec<_>>(),
+        "degrees_of_freedom": report.degrees_of_freedom,
+        "modes": modes.collect::<Vec<_>>(),
+        "alternatives": report.alternatives,
+        "warnings": report.warnings,
+    })
+}

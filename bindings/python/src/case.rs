@@ -1,0 +1,155 @@
+//! A case as Python sees it: text in, text out, and the compiled model.
+
+use crate::errors::{Failure, Kind, Problem};
+use crate::guard::guard;
+use crate::model::PyModel;
+use kempe::case::{self, Case, Diagnostic, Document, Format};
+use kempe::model::{self, Value};
+use pyo3::prelude::*;
+use serde_json::json;
+
+/// Text of a case, checked for its structure.
+#[pyclass(name = "Case", module = "kempe._core", frozen)]
+pub struct PyCase {
+    case: Case,
+    document: Document,
+    origin: Option<String>,
+}
+
+fn format_named(py: Python<'_>, name: &str) -> PyResult<Format> {
+    match name {
+        "toml" => Ok(Format::Toml),
+        "json" => Ok(Format::Json),
+        _ => {
+            Err(Failure::new(Kind::File, format!("format '{name}'; must be toml or json"))
+                .raise(py))
+        }
+    }
+}
+
+/// A fault for Python: with its place in a file, or by path alone where there is no file.
+fn problem(diagnostic: &Diagnostic, origin: Option<&str>) -> Problem {
+    let path = diagnostic.path.join(".");
+    if origin.is_some() {
+        let position = Some((diagnostic.line, diagnostic.column));
+        return Problem { message: diagnostic.to_string(), path, position };
+    }
+    let hint = diagnostic.hint.as_ref().map(|hint| format!("; {hint}")).unwrap_or_default();
+    let place = if path.is_empty() { String::new() } else { format!("{path}: ") };
+    Problem { message: format!("{place}{}{hint}", diagnostic.message), path, position: None }
+}
+
+/// All faults as one exception.
+pub fn raise(py: Python<'_>, kind: Kind, found: &[Diagnostic], origin: Option<&str>) -> PyErr {
+    let problems: Vec<Problem> = found.iter().map(|d| problem(d, origin)).collect();
+    let texts: Vec<&str> = problems.iter().map(|p| p.message.as_str()).collect();
+    let text = texts.join("\n");
+    let message = match origin {
+        Some(origin) if found.len() == 1 => format!("{origin}: {text}"),
+        Some(origin) => format!("{origin}: {} problems\n{text}", found.len()),
+        None => text,
+    };
+    let name = found.first().and_then(|d| d.path.get(1).cloned()).unwrap_or_default();
+    Failure::new(kind, message).name(name).problems(problems).raise(py)
+}
+
+/// Faults that have no text behind them, as one exception.
+pub fn raise_plain(py: Python<'_>, kind: Kind, found: &[model::Problem]) -> PyErr {
+    let problem = |p: &model::Problem| Problem {
+        message: p.to_string(),
+        path: p.path.join("."),
+        position: None,
+    };
+    let problems: Vec<Problem> = found.iter().map(problem).collect();
+    let texts: Vec<&str> = problems.iter().map(|p| p.message.as_str()).collect();
+    Failure::new(kind, texts.join("\n")).problems(problems).raise(py)
+}
+
+/// The value of a JSON text that the front wrote.
+pub fn tree(py: Python<'_>, text: &str) -> PyResult<Vec<(String, Value)>> {
+    match case::parse_tree(text, Format::Json) {
+        Ok(Value::Table(fields)) => Ok(fields),
+        Ok(_) => Ok(Vec::new()),
+        Err(found) => Err(raise(py, Kind::Model, &found, None)),
+    }
+}
+
+impl PyCase {
+    /// Faults with their places in this text.
+    fn raise(&self, py: Python<'_>, kind: Kind, found: &[model::Problem]) -> PyErr {
+        let mut found: Vec<Diagnostic> = found.iter().map(|p| self.document.diagnose(p)).collect();
+        found.sort_by_key(|d| (d.line, d.column));
+        raise(py, kind, &found, self.origin.as_deref())
+    }
+}
+
+#[pymethods]
+impl PyCase {
+    #[new]
+    #[pyo3(signature = (text, format, origin))]
+    fn new(py: Python<'_>, text: &str, format: &str, origin: Option<String>) -> PyResult<Self> {
+        guard("Case", || {
+            let kind = if origin.is_some() { Kind::File } else { Kind::Model };
+            let format = format_named(py, format)?;
+            let (case, document) = case::read(text, format)
+                .map_err(|found| raise(py, kind, &found, origin.as_deref()))?;
+            Ok(Self { case, document, origin })
+        })
+    }
+
+    /// JSON of the case, structured as the file, order kept.
+    fn tree(&self) -> PyResult<String> {
+        guard("Case.tree", || Ok(case::write(&self.case, Format::Json)))
+    }
+
+    /// The case as "toml" or "json" text.
+    fn write(&self, py: Python<'_>, format: &str) -> PyResult<String> {
+        guard("Case.write", || Ok(case::write(&self.case, format_named(py, format)?)))
+    }
+
+    /// Compiles the model with other parameters.
+    fn model(&self, py: Python<'_>, overrides: &str) -> PyResult<PyModel> {
+        guard("Case.model", || {
+            let overrides = tree(py, overrides)?;
+            let model = model::build(&self.case.definition, &overrides)
+                .map_err(|found| self.raise(py, Kind::Model, &found))?;
+            Ok(PyModel::new(model))
+        })
+    }
+
+    /// Raises what is wrong with start and analyses, with places in the text.
+    fn check(&self, py: Python<'_>, model: &PyModel) -> PyResult<()> {
+        guard("Case.check", || {
+            let mut found = Vec::new();
+            let start = &self.case.start;
+            for (section, wishes) in [("set", &start.set), ("guess", &start.guess)] {
+                let read = kempe::analyses::assemble::wishes(&model.model, section, wishes);
+                found.extend(read.err().unwrap_or_default());
+            }
+            for entry in &self.case.analyses {
+                let path = ["analyses".to_string(), entry.name.clone()];
+                let read = kempe::analyses::dynamics::read(&model.model, &entry.fields, &path);
+                found.extend(read.err().unwrap_or_default());
+            }
+            if found.is_empty() {
+                return Ok(());
+            }
+            Err(self.raise(py, Kind::Model, &found))
+        })
+    }
+
+    /// Names, types and starts of the analyses, as JSON.
+    fn analyses(&self) -> PyResult<String> {
+        guard("Case.analyses", || {
+            let text = |value: Option<&Value>| match value {
+                Some(Value::Text(text)) => json!(text),
+                _ => json!(null),
+            };
+            let all = self.case.analyses.iter().map(|entry| {
+                let (kind, from) = (text(entry.get("type")), text(entry.get("from")));
+                json!({ "name": entry.name, "type": kind, "from": from })
+            });
+            Ok(all.collect::<serde_json::Value>().to_string())
+        })
+    }
+}

@@ -1,0 +1,81 @@
+//! Arrays in and out, checked: shapes and finiteness are told by name.
+
+use crate::errors::{Failure, Kind};
+use kempe::analyses::State;
+use kempe::model::Model;
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+/// One row of numbers from Python.
+pub type Row<'py> = PyReadonlyArray1<'py, f64>;
+/// Rows of numbers from Python, time first.
+pub type Rows<'py> = PyReadonlyArray2<'py, f64>;
+
+/// A refusal of an argument.
+pub fn refuse(py: Python<'_>, name: &str, message: String) -> PyErr {
+    Failure::new(Kind::Model, format!("{name}: {message}")).name(name).raise(py)
+}
+
+/// A finite row of the expected length.
+pub fn row(py: Python<'_>, name: &str, given: &Row<'_>, length: usize) -> PyResult<Vec<f64>> {
+    let values = given.as_array().to_vec();
+    if values.len() != length {
+        return Err(refuse(py, name, format!("{} numbers; must be {length}", values.len())));
+    }
+    finite(py, name, values)
+}
+
+/// A finite number.
+pub fn number(py: Python<'_>, name: &str, value: f64) -> PyResult<f64> {
+    finite(py, name, vec![value]).map(|_| value)
+}
+
+fn finite(py: Python<'_>, name: &str, values: Vec<f64>) -> PyResult<Vec<f64>> {
+    match values.iter().position(|x| !x.is_finite()) {
+        None => Ok(values),
+        Some(k) => Err(refuse(py, name, format!("number {k} is {}; must be finite", values[k]))),
+    }
+}
+
+/// Finite rows of the expected width, one for each time.
+pub fn rows(
+    py: Python<'_>,
+    name: &str,
+    given: &Rows<'_>,
+    (count, width): (usize, usize),
+) -> PyResult<Vec<f64>> {
+    let array = given.as_array();
+    if array.dim() != (count, width) {
+        let (rows, columns) = array.dim();
+        let message = format!("shape ({rows}, {columns}); must be ({count}, {width})");
+        return Err(refuse(py, name, message));
+    }
+    finite(py, name, array.iter().copied().collect())
+}
+
+/// A state of a model.
+pub fn state(py: Python<'_>, model: &Model, t: f64, q: &Row<'_>, v: &Row<'_>) -> PyResult<State> {
+    let n = model.layout.n_q;
+    let (q, v) = (row(py, "q", q, n)?, row(py, "v", v, n)?);
+    Ok(State { t: number(py, "t", t)?, q, v, z: Vec::new() })
+}
+
+/// A table of `width` columns.
+pub fn table<'py>(
+    py: Python<'py>,
+    values: Vec<f64>,
+    (count, width): (usize, usize),
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let array = Array2::from_shape_vec((count, width), values);
+    let array = array.map_err(|e| {
+        Failure::new(Kind::Internal, format!("table of {count} × {width}: {e}")).raise(py)
+    })?;
+    Ok(array.into_pyarray(py))
+}
+
+/// Forgets that an array may be written.
+pub fn frozen<'py>(array: Bound<'py, PyArray2<f64>>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    array.try_readwrite().map(|guard| guard.make_nonwriteable()).ok();
+    Ok(array)
+}

@@ -1,0 +1,180 @@
+//! Forward dynamics as Python sees it: without the interpreter's lock, interruptible, with progress.
+
+use crate::case::raise_plain;
+use crate::convert::{frozen, state, table, Row};
+use crate::errors::{Failure, Kind};
+use crate::guard::guard;
+use crate::model::PyModel;
+use kempe::analyses::dynamics as core;
+use kempe::case::{self, Format};
+use kempe::integrate::Flow;
+use numpy::ndarray::Array3;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
+use pyo3::prelude::*;
+use serde_json::json;
+use std::time::{Duration, Instant};
+
+/// Time between looks at signals and calls of `progress`.
+const GLANCE: Duration = Duration::from_millis(40);
+/// Steps between looks at the clock: a large model takes milliseconds for one.
+const STEPS: u32 = 4;
+
+/// What an integration gave.
+#[pyclass(name = "Run", module = "kempe._core", frozen, get_all)]
+pub struct PyRun {
+    t: Py<PyArray1<f64>>,
+    q: Py<PyArray2<f64>>,
+    v: Py<PyArray2<f64>>,
+    a: Py<PyArray2<f64>>,
+    lam: Py<PyArray2<f64>>,
+    energy: Py<PyArray2<f64>>,
+    dense_t: Option<Py<PyArray1<f64>>>,
+    dense_y: Option<Py<PyArray2<f64>>>,
+    dense_c: Option<Py<PyArray3<f64>>>,
+    status: &'static str,
+    message: String,
+    statistics: String,
+}
+
+impl PyRun {
+    fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {
+        let (n, m) = (model.model.layout.n_q, model.model.layout.n_rows);
+        let core::Trajectory { t, q, v, a, lam, energy } = run.trajectory;
+        let count = t.len();
+        let rows = |values, width| frozen(table(py, values, (count, width))?).map(Bound::unbind);
+        let (dense_t, dense_y, dense_c) = match run.dense {
+            Some(dense) => dense_arrays(py, dense, 2 * n + 3)?,
+            None => (None, None, None),
+        };
+        let s = run.statistics;
+        let statistics = json!({
+            "steps": s.steps,
+            "rejected": s.rejected,
+            "evaluations": s.evaluations,
+            "factorisations": s.factorisations,
+            "seconds": s.seconds,
+        });
+        Ok(Self {
+            t: t.into_pyarray(py).unbind(),
+            q: rows(q, n)?,
+            v: rows(v, n)?,
+            a: rows(a, n)?,
+            lam: rows(lam, m)?,
+            energy: rows(energy, core::ENERGIES)?,
+            dense_t,
+            dense_y,
+            dense_c,
+            status: if run.reached { "reached" } else { "stopped" },
+            message: message.to_string(),
+            statistics: statistics.to_string(),
+        })
+    }
+}
+
+type DenseArrays =
+    (Option<Py<PyArray1<f64>>>, Option<Py<PyArray2<f64>>>, Option<Py<PyArray3<f64>>>);
+
+fn dense_arrays(py: Python<'_>, dense: core::Dense, n_y: usize) -> PyResult<DenseArrays> {
+    let steps = dense.t.len() - 1;
+    let shape = (steps, n_y, dense.degree);
+    let c = Array3::from_shape_vec(shape, dense.c).map_err(|e| {
+        Failure::new(Kind::Internal, format!("coefficients of shape {shape:?}: {e}")).raise(py)
+    })?;
+    Ok((
+        Some(dense.t.into_pyarray(py).unbind()),
+        Some(frozen(table(py, dense.y, (steps, n_y))?)?.unbind()),
+        Some(c.into_pyarray(py).unbind()),
+    ))
+}
+
+/// Looks at signals and reports progress, rarely enough to cost nothing.
+struct Watch<'a> {
+    progress: Option<&'a Py<PyAny>>,
+    last: Instant,
+    steps: u32,
+    raised: Option<PyErr>,
+}
+
+impl Watch<'_> {
+    fn look(&mut self, t: f64) -> Flow {
+        self.steps += 1;
+        if self.steps < STEPS || self.last.elapsed() < GLANCE {
+            return Flow::Continue;
+        }
+        self.steps = 0;
+        self.last = Instant::now();
+        let outcome = Python::attach(|py| {
+            py.check_signals()?;
+            self.progress.map_or(Ok(()), |call| call.call1(py, (t,)).map(|_| ()))
+        });
+        match outcome {
+            Ok(()) => Flow::Continue,
+            Err(error) => {
+                self.raised = Some(error);
+                Flow::Stop
+            }
+        }
+    }
+}
+
+/// Simulates the motion from a state.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, options, progress))]
+pub fn dynamics(
+    py: Python<'_>,
+    model: &PyModel,
+    t: f64,
+    q: Row<'_>,
+    v: Row<'_>,
+    options: &str,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<PyRun> {
+    guard("dynamics", || {
+        let start = state(py, &model.model, t, &q, &v)?;
+        let options = read_options(py, model, options)?;
+        let core_model = std::sync::Arc::clone(&model.model);
+        let mut watch =
+            Watch { progress: progress.as_ref(), last: Instant::now(), steps: 0, raised: None };
+        let outcome =
+            py.detach(|| core::dynamics(&core_model, &start, &options, |t| watch.look(t)));
+        match (outcome, watch.raised) {
+            (Ok(run), None) => PyRun::new(py, model, run, "t_end was reached"),
+            (Ok(run), Some(error)) => {
+                let run = PyRun::new(py, model, run, "interrupted")?;
+                error.value(py).setattr("run", run)?;
+                Err(error)
+            }
+            (Err(failure), _) => Err(raise(py, model, *failure)?),
+        }
+    })
+}
+
+/// Options in the form of a file: `{"t_end": 15, "method": {"type": "rk45", …}, …}`.
+fn read_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<core::Options> {
+    let written = format!("{{\"kempe\": 1, \"analyses\": {{\"dynamics\": {text}}}}}");
+    let (case, _) = case::read(&written, Format::Json).map_err(|mut found| {
+        found.iter_mut().for_each(|d| drop(d.path.drain(..d.path.len().min(2))));
+        crate::case::raise(py, Kind::Model, &found, None)
+    })?;
+    let fields = case.analyses.first().map_or(&[][..], |entry| &entry.fields);
+    core::read(&model.model, fields, &[]).map_err(|found| raise_plain(py, Kind::Model, &found))
+}
+
+fn raise(py: Python<'_>, model: &PyModel, failure: core::Failure) -> PyResult<PyErr> {
+    let message = failure.reason.to_string();
+    let run = Py::new(py, PyRun::new(py, model, failure.run, &message)?)?;
+    let error = match failure.reason {
+        core::Reason::Option { .. } => Failure::new(Kind::Model, message),
+        core::Reason::Singular { t, name, .. } => {
+            Failure::new(Kind::Singularity, message).name(name).at(t).hint(
+                "look at the solution so far; change the start, or add what decides the motion here",
+            )
+        }
+        core::Reason::Integration { t, hint, .. } => {
+            Failure::new(Kind::Integration, message).at(t).hint(hint)
+        }
+    };
+    let error = error.raise(py);
+    error.value(py).setattr("run", run)?;
+    Ok(error)
+}

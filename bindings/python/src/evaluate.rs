@@ -1,0 +1,248 @@
+//! Equations evaluated at given states.
+
+use crate::assemble::wishes;
+use crate::convert::{refuse, rows, state, table, Row, Rows};
+use crate::errors::{Failure, Kind};
+use crate::guard::guard;
+use crate::model::PyModel;
+use kempe::analyses::assemble::{holding, Request};
+use kempe::elements::{BodyId, Side};
+use kempe::equations::reactions::{self, Frame};
+use kempe::equations::{constraints, forces, kinematics, Gains, Workspace};
+use kempe::math::{Motion, Wrench};
+use kempe::model::Model;
+use numpy::{PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+type Table<'py> = Bound<'py, PyArray2<f64>>;
+
+/// States as rows.
+struct States {
+    t: Vec<f64>,
+    q: Vec<f64>,
+    v: Vec<f64>,
+}
+
+impl States {
+    fn read(
+        py: Python<'_>,
+        model: &Model,
+        t: &Row<'_>,
+        q: &Rows<'_>,
+        v: &Rows<'_>,
+    ) -> PyResult<Self> {
+        let t = t.as_array().to_vec();
+        let shape = (t.len(), model.layout.n_q);
+        Ok(Self { q: rows(py, "q", q, shape)?, v: rows(py, "v", v, shape)?, t })
+    }
+
+    /// Gives the motion of all bodies at each state.
+    fn each(&self, model: &Model, mut visit: impl FnMut(usize, f64, &[Motion])) {
+        let n = model.layout.n_q;
+        let mut motions = Vec::new();
+        for (k, &t) in self.t.iter().enumerate() {
+            let row = k * n..(k + 1) * n;
+            kinematics::motions(&self.q[row.clone()], &self.v[row], &mut motions);
+            visit(k, t, &motions);
+        }
+    }
+}
+
+/// Accelerations and multipliers at states, with γ, not γ̂.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, redundancy))]
+pub fn evaluate<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    redundancy: &str,
+) -> PyResult<(Table<'py>, Table<'py>)> {
+    guard("evaluate", || {
+        let model = &*model.model;
+        let states = States::read(py, model, &t, &q, &v)?;
+        let (n, m, count) = (model.layout.n_q, model.layout.n_rows, states.t.len());
+        let (mut a, mut lam) = (Vec::new(), Vec::new());
+        let mut workspace = Workspace::new(model);
+        if redundancy == "allow" {
+            workspace.allow_redundancy(model);
+        }
+        for (k, &t) in states.t.iter().enumerate() {
+            let row = k * n..(k + 1) * n;
+            let (q, v) = (&states.q[row.clone()], &states.v[row]);
+            workspace.accelerate(model, t, q, v, Gains::default()).map_err(|_| {
+                let message = format!("singular position at t = {t:.6} s");
+                Failure::new(Kind::Singularity, message).at(t).raise(py)
+            })?;
+            a.extend_from_slice(workspace.a());
+            lam.extend_from_slice(workspace.lam());
+        }
+        Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?))
+    })
+}
+
+/// Φ and Φ_q q̇ + Φ_t at states.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v))]
+pub fn residual<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+) -> PyResult<(Table<'py>, Table<'py>)> {
+    guard("residual", || {
+        let model = &*model.model;
+        let states = States::read(py, model, &t, &q, &v)?;
+        let shape = (states.t.len(), model.layout.n_rows);
+        let (mut phi, mut rate) = (vec![0.0; shape.0 * shape.1], vec![0.0; shape.0 * shape.1]);
+        let mut gamma = vec![0.0; shape.1];
+        states.each(model, |k, t, motions| {
+            let row = k * shape.1..(k + 1) * shape.1;
+            let (phi, rate) = (&mut phi[row.clone()], &mut rate[row]);
+            constraints::velocity_terms(model, motions, t, phi, rate, &mut gamma);
+        });
+        Ok((table(py, phi, shape)?, table(py, rate, shape)?))
+    })
+}
+
+fn frame_named(py: Python<'_>, name: &str) -> PyResult<Frame> {
+    match name {
+        "global" => Ok(Frame::Global),
+        "body" => Ok(Frame::Body),
+        "joint" => Ok(Frame::Joint),
+        _ => Err(refuse(py, "frame", format!("'{name}'; must be 'global', 'body' or 'joint'"))),
+    }
+}
+
+fn side(py: Python<'_>, model: &Model, ends: [BodyId; 2], owner: &str, on: &str) -> PyResult<Side> {
+    let [i, j] = ends.map(|b| model.bodies[b.0].name.as_str());
+    if on == j {
+        Ok(Side::J)
+    } else if on == i {
+        Ok(Side::I)
+    } else {
+        Err(refuse(py, "on", format!("'{on}' is not a body of {owner}; it joins {i} and {j}")))
+    }
+}
+
+fn unknown(py: Python<'_>, what: &str, name: &str) -> PyErr {
+    refuse(py, name, format!("there is no {what} of this name"))
+}
+
+/// Force, and torque about the joint point, of a joint or driver on a body.
+#[pyfunction]
+#[pyo3(signature = (model, joint, on, frame, t, q, lam))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn reaction<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    joint: &str,
+    on: &str,
+    frame: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+    lam: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("reaction", || {
+        let model = &*model.model;
+        let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
+        let frame = frame_named(py, frame)?;
+        let side = side(py, model, model.constraints[k].element.ends(), joint, on)?;
+        let states = States::read(py, model, &t, &q, &q)?;
+        let m = model.layout.n_rows;
+        let lam = rows(py, "lam", &lam, (states.t.len(), m))?;
+        let own = model.layout.constraints[k].rows.clone();
+        let mut out = Vec::with_capacity(3 * states.t.len());
+        states.each(model, |at, t, motions| {
+            let lam = &lam[at * m..][own.clone()];
+            let w = reactions::reaction(model, k, side, frame, motions, t, lam);
+            out.extend([w.force.x, w.force.y, w.torque]);
+        });
+        table(py, out, (states.t.len(), 3))
+    })
+}
+
+/// Force, and torque about the body's origin, of a force element or one of its parts on a body.
+#[pyfunction]
+#[pyo3(signature = (model, name, on, part, frame, t, q, v))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn force<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    name: &str,
+    on: &str,
+    part: Option<&str>,
+    frame: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("force", || {
+        let model = &*model.model;
+        let k = model.force(name).ok_or_else(|| unknown(py, "force", name))?;
+        let item = &model.forces[k];
+        let in_body = frame_named(py, frame)? != Frame::Global;
+        let side = side(py, model, item.element.ends(), name, on)?;
+        let wanted = match part {
+            None => None,
+            Some(part) => {
+                let found = item.element.parts().iter().position(|p| p.name == part);
+                Some(found.ok_or_else(|| unknown(py, "part", part))?)
+            }
+        };
+        let states = States::read(py, model, &t, &q, &v)?;
+        let mut out = Vec::with_capacity(3 * states.t.len());
+        states.each(model, |_, t, motions| {
+            let mut sum = Wrench::zero();
+            let mut body = BodyId::GROUND;
+            forces::each_action(model, item, motions, t, |part, [i, j], action| {
+                let (at, wrench) = match side {
+                    Side::I => (i, action.on_i),
+                    Side::J => (j, action.on_j),
+                };
+                body = at;
+                if wanted.is_none_or(|wanted| wanted == part) {
+                    sum = sum + wrench;
+                }
+            });
+            let turned = motions[body.0].pose.rotation.inverse(sum.force);
+            let force = if in_body { [turned.x, turned.y] } else { [sum.force.x, sum.force.y] };
+            out.extend([force[0], force[1], sum.torque]);
+        });
+        table(py, out, (states.t.len(), 3))
+    })
+}
+
+/// The matrices and right sides of the equations at a state; `set` adds driver rows as in assembly.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, set))]
+pub fn matrices<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: f64,
+    q: Row<'py>,
+    v: Row<'py>,
+    set: &str,
+) -> PyResult<Bound<'py, PyDict>> {
+    guard("matrices", || {
+        let state = state(py, &model.model, t, &q, &v)?;
+        let set = wishes(py, model, "set", set)?;
+        let extended = holding(&model.model, &Request { set, t, ..Request::default() });
+        let all = kempe::equations::dense::matrices(&extended, t, &state.q, &state.v);
+        let (n, m) = (extended.layout.n_q, extended.layout.n_rows);
+        let out = PyDict::new(py);
+        out.set_item("M", table(py, all.mass, (n, n))?)?;
+        out.set_item("Phi_q", table(py, all.jacobian, (m, n))?)?;
+        out.set_item("kkt", table(py, all.kkt, (n + m, n + m))?)?;
+        let columns = [("Phi", all.phi), ("nu", all.nu), ("gamma", all.gamma), ("Q", all.forces)];
+        for (name, column) in columns {
+            let length = column.len();
+            let column = table(py, column, (1, length))?.reshape([length])?;
+            out.set_item(name, column)?;
+        }
+        Ok(out)
+    })
+}

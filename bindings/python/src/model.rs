@@ -1,0 +1,88 @@
+//! A compiled model, and what it holds as JSON.
+
+use crate::guard::guard;
+use kempe::elements::Side;
+use kempe::math::Local;
+use kempe::model::{Body, ConstraintItem, ForceItem, Model};
+use pyo3::prelude::*;
+use serde_json::{json, Map, Value};
+use std::sync::Arc;
+
+/// A compiled model: immutable.
+#[pyclass(name = "Model", module = "kempe._core", frozen)]
+pub struct PyModel {
+    /// The model.
+    pub model: Arc<Model>,
+}
+
+impl PyModel {
+    /// Of a model of the core.
+    pub fn new(model: Model) -> Self {
+        Self { model: Arc::new(model) }
+    }
+}
+
+#[pymethods]
+impl PyModel {
+    /// What the model holds, in numbers, as JSON.
+    fn describe(&self) -> PyResult<String> {
+        guard("Model.describe", || Ok(describe(&self.model).to_string()))
+    }
+}
+
+fn pair(s: &Local) -> Value {
+    json!([s.x, s.y])
+}
+
+fn describe(model: &Model) -> Value {
+    let names = &model.blueprint.parameters;
+    let parameters: Map<String, Value> =
+        names.iter().zip(&model.parameters).map(|(n, x)| (n.clone(), json!(x))).collect();
+    let rows = model.layout.constraints.iter().map(|slots| &slots.rows);
+    json!({
+        "title": model.blueprint.title,
+        "gravity": [model.gravity.x, model.gravity.y],
+        "parameters": parameters,
+        "n_q": model.layout.n_q,
+        "n_rows": model.layout.n_rows,
+        "bodies": model.bodies.iter().map(body).collect::<Vec<_>>(),
+        "constraints": model.constraints.iter().zip(rows)
+            .map(|(item, rows)| constraint(model, item, rows)).collect::<Vec<_>>(),
+        "forces": model.forces.iter().map(|item| force(model, item)).collect::<Vec<_>>(),
+    })
+}
+
+fn body(body: &Body) -> Value {
+    let points: Map<String, Value> =
+        body.points.iter().map(|(name, s)| (name.clone(), pair(s))).collect();
+    json!({
+        "name": body.name,
+        "type": body.kind,
+        "mass": body.mass,
+        "inertia": body.inertia,
+        "center": pair(&body.center),
+        "points": points,
+    })
+}
+
+fn constraint(model: &Model, item: &ConstraintItem, rows: &std::ops::Range<usize>) -> Value {
+    let [i, j] = item.element.ends().map(|b| model.bodies[b.0].name.as_str());
+    let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.unit });
+    json!({
+        "name": item.name,
+        "group": item.group.section(),
+        "type": item.element.kind(),
+        "i": i,
+        "j": j,
+        "point_i": pair(&item.element.attachment(Side::I).s),
+        "point_j": pair(&item.element.attachment(Side::J).s),
+        "rows": [rows.start, rows.end],
+        "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
+    })
+}
+
+fn force(model: &Model, item: &ForceItem) -> Value {
+    let [i, j] = item.element.ends().map(|b| model.bodies[b.0].name.as_str());
+    let parts: Vec<&str> = item.element.parts().iter().map(|p| p.name).collect();
+    json!({ "name": item.name, "type": item.element.kind(), "i": i, "j": j, "parts": parts })
+}

@@ -1,0 +1,63 @@
+//! The declarations of elements, bodies and options as JSON.
+
+use kempe::analyses::{analysis_tables, option_families};
+use kempe::elements::{catalogue, Default, Field, Group, Shape, Table};
+use kempe::model::body_tables;
+use serde_json::{json, Map, Value};
+
+fn default(field: &Field) -> Value {
+    match field.default {
+        None => Value::Null,
+        Some(Default::Absent) => json!({ "absent": true }),
+        Some(Default::Number(x)) => json!(x),
+        Some(Default::Pair(p)) => json!(p),
+        Some(Default::Flag(flag)) => json!(flag),
+        Some(Default::Type(name)) => json!(name),
+    }
+}
+
+fn shape(shape: Shape) -> Value {
+    match shape {
+        Shape::Word(words) => json!({ "words": words }),
+        Shape::Options(family) => json!({ "options": family }),
+        plain => json!(format!("{plain:?}").to_lowercase()),
+    }
+}
+
+fn field(field: &Field) -> Value {
+    json!({
+        "name": field.name,
+        "shape": shape(field.shape),
+        "unit": field.unit,
+        "required": field.default.is_none(),
+        "default": default(field),
+        "doc": field.doc,
+    })
+}
+
+fn table(table: &Table) -> Value {
+    let fields: Vec<Value> = table.fields.iter().map(field).collect();
+    json!({ "name": table.name, "doc": table.doc, "fields": fields })
+}
+
+/// Everything that may stand in a case, by section.
+pub fn all() -> String {
+    let mut sections = Map::new();
+    sections.insert("bodies".into(), body_tables().iter().map(table).collect());
+    for group in [Group::Joints, Group::Drivers, Group::Forces] {
+        let tables = catalogue();
+        let own = tables.iter().filter(|(g, _)| *g == group).map(|(_, t)| table(t));
+        sections.insert(group.section().into(), own.collect());
+    }
+    for family in option_families() {
+        let options = family.options.iter().map(|options| {
+            let mut value = table(&options.table);
+            value["class"] = json!(options.class);
+            value
+        });
+        let plural = format!("{}s", family.name);
+        sections.insert(plural, options.collect());
+    }
+    sections.insert("analyses".into(), analysis_tables().iter().map(table).collect());
+    Value::Object(sections).to_string()
+}

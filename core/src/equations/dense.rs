@@ -1,0 +1,84 @@
+//! The matrices of the equations in full, for people to look at.
+
+use super::{constraints, forces, kinematics, mass};
+use crate::math::Motion;
+use crate::model::{columns, Model};
+
+/// Matrices row by row, and right sides, at one state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Matrices {
+    /// M, (n_q, n_q).
+    pub mass: Vec<f64>,
+    /// Φ, (n_rows).
+    pub phi: Vec<f64>,
+    /// Φ_q, (n_rows, n_q).
+    pub jacobian: Vec<f64>,
+    /// ν = -Φ_t, (n_rows).
+    pub nu: Vec<f64>,
+    /// γ, (n_rows).
+    pub gamma: Vec<f64>,
+    /// Q, (n_q).
+    pub forces: Vec<f64>,
+    /// The augmented matrix of (6.3.18), (n_q + n_rows, n_q + n_rows).
+    pub kkt: Vec<f64>,
+}
+
+/// All matrices at a state.
+pub fn matrices(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Matrices {
+    let (n, m) = (model.layout.n_q, model.layout.n_rows);
+    let mut motions = Vec::new();
+    kinematics::motions(q, v, &mut motions);
+    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+    constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+    let mut q_forces = vec![0.0; n];
+    forces::generalized(model, &motions, t, &mut q_forces);
+    let mass = mass_matrix(model, &motions);
+    let jacobian = jacobian(model, &motions, t);
+    let kkt = augmented(&mass, &jacobian, n, m);
+    let nu = constraints::nu(model, q, t);
+    Matrices { mass, phi, jacobian, nu, gamma, forces: q_forces, kkt }
+}
+
+/// Φ_q, row by row, shape (n_rows, n_q).
+pub fn jacobian(model: &Model, motions: &[Motion], t: f64) -> Vec<f64> {
+    let n = model.layout.n_q;
+    let mut entries = vec![0.0; model.layout.n_entries];
+    constraints::jacobian(model, motions, t, &mut entries);
+    let mut full = vec![0.0; model.layout.n_rows * n];
+    for ((row, column), entry) in model.layout.positions().zip(entries) {
+        full[row * n + column] = entry;
+    }
+    full
+}
+
+fn mass_matrix(model: &Model, motions: &[Motion]) -> Vec<f64> {
+    let n = model.layout.n_q;
+    let mut full = vec![0.0; n * n];
+    for (k, (body, motion)) in model.bodies.iter().zip(motions).enumerate().skip(1) {
+        let block = mass::block(body, motion);
+        let own = columns(crate::elements::BodyId(k));
+        for (c, column) in own.clone().enumerate() {
+            let unit = std::array::from_fn(|k| if k == c { 1.0 } else { 0.0 });
+            for (row, entry) in own.clone().zip(block.times(unit)) {
+                full[row * n + column] = entry;
+            }
+        }
+    }
+    full
+}
+
+fn augmented(mass: &[f64], jacobian: &[f64], n: usize, m: usize) -> Vec<f64> {
+    let size = n + m;
+    let mut full = vec![0.0; size * size];
+    for row in 0..n {
+        full[row * size..row * size + n].copy_from_slice(&mass[row * n..(row + 1) * n]);
+    }
+    for row in 0..m {
+        for column in 0..n {
+            let entry = jacobian[row * n + column];
+            full[(n + row) * size + column] = entry;
+            full[column * size + n + row] = entry;
+        }
+    }
+    full
+}
