@@ -1,0 +1,161 @@
+//! Errors on their way to Python: a [`Failure`] is filled here and raised as a class of
+//! `kempe.errors`, which is imported only when there is something to raise.
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+/// The closed set of exceptions; each is a class of `kempe.errors`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The model, or the file it was read from, is wrong.
+    Model,
+    /// The mechanism cannot be put together.
+    Assembly,
+    /// Some constraints repeat others, everywhere.
+    Redundancy,
+    /// The mechanism stands in a position where the task has no unique answer.
+    Singularity,
+    /// The integrator could not go on.
+    Integration,
+    /// A file cannot be read or written.
+    File,
+    /// A fault in kempe itself.
+    Internal,
+}
+
+impl Kind {
+    const ALL: [Self; 7] = [
+        Self::Model,
+        Self::Assembly,
+        Self::Redundancy,
+        Self::Singularity,
+        Self::Integration,
+        Self::File,
+        Self::Internal,
+    ];
+
+    /// Name of the class in `kempe.errors`.
+    pub const fn class(self) -> &'static str {
+        match self {
+            Self::Model => "ModelError",
+            Self::Assembly => "AssemblyError",
+            Self::Redundancy => "RedundancyError",
+            Self::Singularity => "SingularityError",
+            Self::Integration => "IntegrationError",
+            Self::File => "FileError",
+            Self::Internal => "InternalError",
+        }
+    }
+}
+
+/// One of possibly many things that are wrong with a model or a file.
+#[derive(Clone, Debug, Default)]
+pub struct Problem {
+    /// What is wrong, and what to do.
+    pub message: String,
+    /// Where in the model, such as `joints.C.i`; empty where that has no meaning.
+    pub path: String,
+    /// Line and column in the file, from 1; `None` for a model built in Python.
+    pub position: Option<(usize, usize)>,
+}
+
+/// An error with all it knows; [`Failure::raise`] makes the Python exception of it.
+#[derive(Debug)]
+pub struct Failure {
+    kind: Kind,
+    message: String,
+    name: Option<String>,
+    t: Option<f64>,
+    hint: Option<String>,
+    problems: Vec<Problem>,
+    solution: Option<Py<PyAny>>,
+}
+
+impl Failure {
+    /// A failure that says only `message`.
+    pub fn new(kind: Kind, message: impl Into<String>) -> Self {
+        let message = message.into();
+        Self { kind, message, name: None, t: None, hint: None, problems: vec![], solution: None }
+    }
+
+    /// The joint or body at fault.
+    pub fn name(mut self, name: impl Into<String>) -> Self {
+        self.name = Some(name.into());
+        self
+    }
+
+    /// The time of the failure, s.
+    pub const fn at(mut self, t: f64) -> Self {
+        self.t = Some(t);
+        self
+    }
+
+    /// What the user can do about it.
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// Everything that is wrong, in the order of the file.
+    pub fn problems(mut self, problems: Vec<Problem>) -> Self {
+        self.problems = problems;
+        self
+    }
+
+    /// What had been computed before the failure; only an `IntegrationError` keeps it.
+    pub fn solution(mut self, solution: Py<PyAny>) -> Self {
+        self.solution = Some(solution);
+        self
+    }
+
+    /// The Python exception, or the reason why it could not be made.
+    pub fn raise(self, py: Python<'_>) -> PyErr {
+        self.exception(py).map_or_else(|error| error, PyErr::from_value)
+    }
+
+    fn exception(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        let module = py.import("kempe.errors")?;
+        let keywords = PyDict::new(py);
+        keywords.set_item("name", self.name)?;
+        keywords.set_item("t", self.t)?;
+        keywords.set_item("hint", self.hint)?;
+        keywords.set_item("problems", problems(&module, self.problems)?)?;
+        if self.kind == Kind::Integration {
+            keywords.set_item("solution", self.solution)?;
+        }
+        module.getattr(self.kind.class())?.call((self.message,), Some(&keywords))
+    }
+}
+
+fn problems<'py>(
+    module: &Bound<'py, PyModule>,
+    list: Vec<Problem>,
+) -> PyResult<Bound<'py, PyTuple>> {
+    let class = module.getattr("Problem")?;
+    let made: PyResult<Vec<_>> = list
+        .into_iter()
+        .map(|Problem { message, path, position }| {
+            let (line, column) = position.unzip();
+            class.call1((message, path, line, column))
+        })
+        .collect();
+    PyTuple::new(module.py(), made?)
+}
+
+/// A failure of the class named `kind` with every attribute filled, for the tests in Python.
+///
+/// # Errors
+/// `ValueError` where there is no such class.
+pub fn sample(kind: &str, message: &str) -> PyResult<Failure> {
+    let known = Kind::ALL.into_iter().find(|known| known.class() == kind);
+    let kind = known.ok_or_else(|| PyValueError::new_err(format!("no error class '{kind}'")))?;
+    let problem = Problem {
+        message: "not a number".into(),
+        path: "bodies.crank.mass".into(),
+        position: Some((7, 8)),
+    };
+    let failure = Failure::new(kind, message).name("crank").at(1.5).hint("do this");
+    let partial = Python::attach(|py| PyTuple::empty(py).into_any().unbind());
+    Ok(failure.problems(vec![problem]).solution(partial))
+}

@@ -1,0 +1,109 @@
+//! The wall between Rust and Python: a panic on this side is an `InternalError` on that side.
+//!
+//! An entry point is one line:
+//!
+//! ```ignore
+//! fn dynamics(…) -> PyResult<…> {
+//!     guard("dynamics", || …)
+//! }
+//! ```
+//!
+//! and its name stands in [`ENTRIES`], which a test walks over, making each of them panic.
+
+use std::any::Any;
+use std::cell::{Cell, RefCell};
+use std::panic::{catch_unwind, set_hook, take_hook, AssertUnwindSafe};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, Once, PoisonError};
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::errors::{Failure, Kind};
+
+/// The one list of guarded entry points, in the order of their appearance.
+pub const ENTRIES: &[&str] = &["version", "_raise"];
+
+/// The entry point that is to panic at its next call, and a flag that makes asking for it cheap.
+static VICTIM: Mutex<Option<String>> = Mutex::new(None);
+static ARMED: AtomicBool = AtomicBool::new(false);
+
+thread_local! {
+    /// How many guards are open on this thread; a panic is silent while there is one.
+    static DEPTH: Cell<usize> = const { Cell::new(0) };
+    /// Where the last silent panic happened, as `file:line`.
+    static PLACE: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// Runs `body`; a panic in it becomes an `InternalError` that carries the panic's message.
+///
+/// State behind `&mut` that a panic left half-changed must not be used again: entry points hand
+/// their scratch in by value or build it anew, which is why `AssertUnwindSafe` is right here.
+pub fn guard<T>(entry: &'static str, body: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+    DEPTH.set(DEPTH.get() + 1);
+    let outcome = catch_unwind(AssertUnwindSafe(|| {
+        assert!(ENTRIES.contains(&entry), "entry point '{entry}' is not in the list of guard.rs");
+        panic_if_armed(entry);
+        body()
+    }));
+    DEPTH.set(DEPTH.get() - 1);
+    outcome.unwrap_or_else(|payload| Err(internal_error(entry, payload.as_ref())))
+}
+
+/// Makes the next guard of `entry` panic, or none for `None`.
+///
+/// # Errors
+/// `ValueError` where there is no such entry point.
+pub fn arm(entry: Option<&str>) -> PyResult<()> {
+    if let Some(name) = entry.filter(|name| !ENTRIES.contains(name)) {
+        return Err(PyValueError::new_err(format!("no entry point '{name}'")));
+    }
+    *VICTIM.lock().unwrap_or_else(PoisonError::into_inner) = entry.map(str::to_owned);
+    ARMED.store(entry.is_some(), Ordering::Release);
+    Ok(())
+}
+
+/// Keeps panics inside a guard off the standard error stream; others are printed as before.
+///
+/// The hook belongs to this extension's own copy of the Rust runtime, so that no other
+/// extension in the process is touched.
+pub fn quiet_inside() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let loud = take_hook();
+        set_hook(Box::new(move |info| {
+            if DEPTH.get() == 0 {
+                return loud(info);
+            }
+            let place = info.location().map(|at| format!("{}:{}", at.file(), at.line()));
+            PLACE.set(place);
+        }));
+    });
+}
+
+fn panic_if_armed(entry: &str) {
+    if !ARMED.load(Ordering::Acquire) {
+        return;
+    }
+    let mut victim = VICTIM.lock().unwrap_or_else(PoisonError::into_inner);
+    if victim.as_deref() == Some(entry) {
+        *victim = None;
+        ARMED.store(false, Ordering::Release);
+        drop(victim);
+        panic!("injected panic in '{entry}'");
+    }
+}
+
+fn internal_error(entry: &str, payload: &(dyn Any + Send)) -> PyErr {
+    let text = payload
+        .downcast_ref::<&str>()
+        .map(|text| (*text).to_owned())
+        .or_else(|| payload.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "panic without a message".to_owned());
+    let place = PLACE.take().map(|at| format!(" ({at})")).unwrap_or_default();
+    Python::attach(|py| {
+        Failure::new(Kind::Internal, format!("{entry}: {text}{place}"))
+            .hint("this is a fault in kempe, not in your model; please report it with the model")
+            .raise(py)
+    })
+}

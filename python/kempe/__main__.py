@@ -1,0 +1,8 @@
+"""``python -m kempe`` is the command line."""
+
+import sys
+
+from kempe.cli import main
+
+if __name__ == "__main__":
+    sys.exit(main())

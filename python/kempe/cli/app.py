@@ -1,0 +1,68 @@
+"""The commands, and the way from an error to a message and an exit code."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import typer
+from rich.console import Console
+from rich.text import Text
+
+from kempe import errors
+from kempe._version import __version__
+from kempe.cli import exit_codes
+
+app = typer.Typer(
+    name="kempe",
+    help="Planar multibody mechanics: assembly, kinematics, dynamics and joint reactions.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+#: First match wins, so a class stands before its base.
+_CODES: tuple[tuple[type[errors.KempeError], int], ...] = (
+    (errors.ModelError, exit_codes.BAD_INPUT),
+    (errors.FileError, exit_codes.FILE),
+    (errors.InternalError, exit_codes.INTERNAL),
+    (errors.KempeError, exit_codes.MECHANICS),
+)
+
+
+def _print_version(asked: bool) -> None:
+    if asked:
+        print(f"kempe {__version__}")
+        raise typer.Exit(exit_codes.OK)
+
+
+@app.callback()
+def _options(
+    version: bool = typer.Option(
+        False, "--version", "-V", callback=_print_version, is_eager=True, help="Show the version."
+    ),
+) -> None:
+    """Options that stand before the command."""
+
+
+def run(words: Sequence[str]) -> int:
+    """Run one command line; an error of kempe is told on stderr, in words, not as a traceback."""
+    try:
+        app(args=list(words), prog_name="kempe")
+    except SystemExit as end:
+        return end.code if isinstance(end.code, int) else exit_codes.OK
+    except errors.KempeError as error:
+        _tell(error)
+        return exit_code(error)
+    return exit_codes.OK
+
+
+def exit_code(error: errors.KempeError) -> int:
+    """The exit code that belongs to an error."""
+    return next(code for kind, code in _CODES if isinstance(error, kind))
+
+
+def _tell(error: errors.KempeError) -> None:
+    console = Console(stderr=True, highlight=False, soft_wrap=True)
+    console.print(Text.assemble(("error: ", "bold red"), str(error)))
+    for problem in error.problems:
+        console.print(Text(f"  {problem}"))

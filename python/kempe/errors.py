@@ -1,0 +1,116 @@
+"""The closed set of exceptions that kempe raises.
+
+Every error says which joint or body, when, and what to do about it::
+
+    try:
+        sol = kp.dynamics(m, start, t_end=15)
+    except kp.IntegrationError as error:
+        print(error.name, error.t, error.hint)
+        sol = error.solution  # what was computed until then
+
+The compiled core raises these same classes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One of possibly many things that are wrong with a model or a file.
+
+    Attributes:
+        message: what is wrong, and what to do.
+        path: where in the model, such as ``joints.C.i``; may be empty.
+        line: line in the file, from 1; None for a model built in Python.
+        column: column in the file, from 1; None for a model built in Python.
+    """
+
+    message: str
+    path: str = ""
+    line: int | None = None
+    column: int | None = None
+
+    def __str__(self) -> str:
+        where = f"{self.path}: " if self.path else ""
+        if self.line is None:
+            return f"{where}{self.message}"
+        column = "" if self.column is None else f", column {self.column}"
+        return f"{where}{self.message} (line {self.line}{column})"
+
+
+class KempeError(Exception):
+    """Base of all errors of kempe.
+
+    Attributes:
+        name: the joint or body at fault, or None.
+        t: the time of the failure in s, or None.
+        hint: what to do about it, or None.
+        problems: all that is wrong, in the order of the file; may be empty.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        name: str | None = None,
+        t: float | None = None,
+        hint: str | None = None,
+        problems: tuple[Problem, ...] = (),
+    ) -> None:
+        super().__init__(message)
+        self.name = name
+        self.t = t
+        self.hint = hint
+        self.problems = problems
+
+    def __str__(self) -> str:
+        message = super().__str__()
+        return f"{message}; {self.hint}" if self.hint else message
+
+
+class ModelError(KempeError):
+    """The model, or the file it was read from, is wrong."""
+
+
+class AssemblyError(KempeError):
+    """The mechanism cannot be put together."""
+
+
+class RedundancyError(KempeError):
+    """Some constraints repeat others in every position."""
+
+
+class SingularityError(KempeError):
+    """In this position the task has no unique answer, as in a dead point."""
+
+
+class IntegrationError(KempeError):
+    """The integrator could not go on.
+
+    Attributes:
+        solution: what was computed before the failure, or None.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        name: str | None = None,
+        t: float | None = None,
+        hint: str | None = None,
+        problems: tuple[Problem, ...] = (),
+        solution: Any = None,
+    ) -> None:
+        super().__init__(message, name=name, t=t, hint=hint, problems=problems)
+        self.solution = solution
+
+
+class FileError(KempeError):
+    """A file cannot be read or written."""
+
+
+class InternalError(KempeError):
+    """A fault in kempe itself; please report it."""

@@ -1,0 +1,19 @@
+"""Where the sources are."""
+
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+CORE = ROOT / "core" / "src"
+PACKAGE = ROOT / "python" / "kempe"
+
+#: Folders with code written by hand, for the tests that read all of it.
+CODE = [
+    ROOT / name
+    for name in ("core", "bindings", "python", "tests", "tools", "benchmarks", "examples")
+]
+
+
+def sources(*suffixes: str) -> list[Path]:
+    """All source files of the repository with one of the suffixes, without build products."""
+    found = [path for folder in CODE for suffix in suffixes for path in folder.rglob(f"*{suffix}")]
+    return sorted(path for path in found if not {"target", "__pycache__"} & set(path.parts))

@@ -1,0 +1,69 @@
+"""The modules of the core depend on each other in one direction only."""
+
+from pathlib import Path
+
+import pytest
+from house.places import CORE
+from house.rust_source import modules_named
+
+LAYERS = ["math", "expression", "elements", "model", "equations", "stabilize", "analyses", "case"]
+
+#: Module → the modules it may name. Numerical methods know no mechanics.
+MAY_USE = {name: set(LAYERS[: at + 1]) for at, name in enumerate(LAYERS)}
+MAY_USE |= {"solve": {"math", "solve"}, "integrate": {"math", "integrate"}}
+for _mechanics in ("equations", "stabilize", "analyses", "case"):
+    MAY_USE[_mechanics] |= {"solve"}
+for _driver in ("analyses", "case"):
+    MAY_USE[_driver] |= {"integrate"}
+
+
+def module_of(path: Path) -> tuple[str, ...]:
+    parts = path.relative_to(CORE).with_suffix("").parts
+    return parts[:-1] if parts[-1] == "mod" else parts
+
+
+def wrong_arrows(module: tuple[str, ...], text: str) -> set[str]:
+    return modules_named(text, module) - MAY_USE[module[0]]
+
+
+@pytest.mark.parametrize(
+    "path",
+    [path for path in sorted(CORE.rglob("*.rs")) if path.name != "lib.rs"],
+    ids=lambda path: str(path.relative_to(CORE)),
+)
+def test_a_file_of_the_core_names_only_what_is_below_it(path: Path) -> None:
+    module = module_of(path)
+    assert module[0] in MAY_USE, "a new module of the core needs its place in MAY_USE"
+    assert not wrong_arrows(module, path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize(
+    ("module", "text", "wrong"),
+    [
+        (("math", "dual"), "use super::real::Real;", set()),
+        (("math", "dual"), "use super::super::model::Model;", {"model"}),
+        (("math",), "mod tests { use super::*; use super::real::Real; }", set()),
+        (("math",), "mod tests { use super::super::case::read; }", {"case"}),
+        (("solve", "ldlt"), "use crate::{math::{Real, Dual}, model::Model};", {"model"}),
+        (
+            ("integrate", "rk45"),
+            "use crate::math::Real; fn f() { crate::solve::newton(); }",
+            {"solve"},
+        ),
+        (
+            ("integrate", "rk45"),
+            '// crate::case\nlet s = "crate::model"; /* crate::model */',
+            set(),
+        ),
+        (("elements", "joints"), "crate::element! { x }", set()),
+        (
+            ("model",),
+            "pub use self::layout::Layout; pub use crate::equations::mass;",
+            {"equations"},
+        ),
+        (("equations", "mass"), "use crate::Model;", {"Model"}),
+        (("case", "read"), "use crate::model::Model; use crate::solve::Ldlt;", set()),
+    ],
+)
+def test_a_wrong_arrow_is_seen(module: tuple[str, ...], text: str, wrong: set[str]) -> None:
+    assert wrong_arrows(module, text) == wrong
