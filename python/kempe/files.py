@@ -15,8 +15,8 @@ from typing import BinaryIO
 
 from kempe.errors import FileError
 
-#: A case is written by hand or by a program for a person; more than this is a mistake.
-LARGEST_TEXT = 32 * 1024 * 1024
+#: A case is written by hand or by a program for a person; the core reads no more than this.
+LARGEST_TEXT = 16 * 1024 * 1024
 
 _REMEDIES: tuple[tuple[type[OSError], str, str], ...] = (
     (FileNotFoundError, "does not exist", "check the name"),

@@ -41,7 +41,7 @@ def number(value: object, path: str) -> float | str:
         refuse(path, "a Python function cannot stand in a model; write the formula as text")
     if isinstance(value, bool) or not isinstance(value, Real):
         refuse(path, f"{value!r} is not a real number or the text of a formula")
-    if isinstance(value, Integral) and abs(value) <= _LARGEST_EXACT_INTEGER:
+    if isinstance(value, Integral) and abs(int(value)) <= _LARGEST_EXACT_INTEGER:
         return int(value)
     return _finite(value, path)
 
