@@ -17,6 +17,7 @@ from kempe.names import unknown
 from kempe.options import Dynamics
 from kempe.solution import Solution
 from kempe.state import State
+from kempe.tree import core_case
 from kempe.values import Number, numbers
 
 FORMATS = {".toml": "toml", ".json": "json"}
@@ -189,7 +190,7 @@ class Case:
         files.write_text(path, self._core().write(_format(path, "write")))
 
     def _core(self) -> _core.Case:
-        return _core.Case(json.dumps(self.tree(), allow_nan=False), "json", None)
+        return core_case(self.tree())
 
     def __repr__(self) -> str:
         names = ", ".join(self._entries) or "none"

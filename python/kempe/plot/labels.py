@@ -32,19 +32,19 @@ def label_directions(anchors: Floats, segments: Floats) -> Floats:
 def _best(anchor: Floats, points: Sequence[Floats], segments: Floats) -> Floats:
     """The direction with the most room, up to twice the distance of the name."""
     units = np.column_stack([np.cos(_DIRECTIONS), np.sin(_DIRECTIONS)])
-    room = np.full(len(units), 2.0)
-    for k, place in enumerate(anchor + 1.2 * units):
-        for point in points:
-            room[k] = min(room[k], float(np.hypot(*(place - point))))
-        for begin, end in segments:
-            room[k] = min(room[k], distance(place, begin, end))
+    dots = np.array(points).reshape(-1, 1, 2)
+    lines = np.concatenate([segments, np.concatenate([dots, dots], axis=1)])
+    room = np.minimum(distances(anchor + 1.2 * units, lines).min(axis=1, initial=2.0), 2.0)
     best: Floats = units[int(room.argmax())]
     return best
 
 
-def distance(place: Floats, begin: Floats, end: Floats) -> float:
-    """Distance of a point from a line segment."""
-    along = end - begin
-    square = float(along @ along)
-    share = 0.0 if square == 0.0 else float(np.clip((place - begin) @ along / square, 0.0, 1.0))
-    return float(np.hypot(*(place - begin - share * along)))
+def distances(places: Floats, segments: Floats) -> Floats:
+    """Distances of points (n, 2) from line segments (m, 2, 2), (n, m)."""
+    begin, along = segments[:, 0], segments[:, 1] - segments[:, 0]
+    away = places[:, None] - begin
+    square = np.einsum("mk,mk->m", along, along)
+    share = np.einsum("nmk,mk->nm", away, along) / np.where(square > 0.0, square, 1.0)
+    gap = away - np.clip(share, 0.0, 1.0)[..., None] * along
+    found: Floats = np.hypot(gap[..., 0], gap[..., 1])
+    return found

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 #: Distance of a name from its joint, as a share of the width of the drawing.
 _NAME_DISTANCE = 0.035
 _MARGIN = 0.12
+_MOST_IN_LEGEND = 12
 
 
 def linkage(solution: Solution, ax: Axes | None = None) -> Axes:
@@ -40,11 +41,11 @@ def linkage(solution: Solution, ax: Axes | None = None) -> Axes:
     _draw_joints(axes, last, "black")
     scale = _frame(axes, [first, last])
     _draw_ground(axes, last, scale)
-    _draw_names(axes, last, scale)
+    _draw_names(axes, first, last, scale)
     axes.set_title(style.verbatim(solution.model.title))
+    _draw_legend(axes, first, last)
     axes.set_xlabel("x / m")
     axes.set_ylabel("y / m")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
     return axes
 
 
@@ -67,16 +68,12 @@ def joint_point(state: State, info: ConstraintInfo) -> Floats:
 def _draw_bodies(axes: Axes, state: State, *, earlier: bool) -> None:
     for name, info in state.model.bodies.items():
         corners = outline(state, name)
-        label = f"{info.number} {name}" if not earlier else "_nolegend_"
-        if earlier and info.number == 1:
-            label = f"at t = {float(state.t):g} s"
         axes.plot(
             corners[:, 0],
             corners[:, 1],
             color=style.EARLIER if earlier else style.colour(info.number),
             linewidth=2.0 if earlier else 3.0,
             solid_capstyle="round",
-            label=style.verbatim(label),
             zorder=1 if earlier else 2,
         )
 
@@ -98,11 +95,11 @@ def _draw_ground(axes: Axes, state: State, scale: float) -> None:
         axes.plot([x - 2 * half, x + 2 * half], [y - height] * 2, color=style.GROUND, zorder=3)
 
 
-def _draw_names(axes: Axes, state: State, scale: float) -> None:
+def _draw_names(axes: Axes, first: State, state: State, scale: float) -> None:
     names = list(state.model.joints)
     anchors = _joint_places(state)
     step = _NAME_DISTANCE * scale
-    lines = [outline(state, name) for name in state.model.bodies]
+    lines = [outline(drawn, name) for drawn in (first, state) for name in state.model.bodies]
     pins = [  # a name must not lie on the triangle under its joint
         np.array([place, place - [0.0, step]])
         for place, info in zip(anchors, state.model.joints.values(), strict=True)
@@ -114,6 +111,21 @@ def _draw_names(axes: Axes, state: State, scale: float) -> None:
         x, y = anchor + step * direction
         text = style.verbatim(name)
         axes.text(x, y, text, ha="center", va="center", fontsize=11, zorder=5, clip_on=False)
+
+
+def _draw_legend(axes: Axes, first: State, last: State) -> None:
+    """Which time is grey and which is not, and the bodies by number, if they are few."""
+    from matplotlib.lines import Line2D
+
+    times = [(style.EARLIER, 2.0, first.t), ("black", 3.0, last.t)]
+    marks = [Line2D([], [], color=c, linewidth=w, label=f"t = {float(t):g} s") for c, w, t in times]
+    if len(last.model.bodies) <= _MOST_IN_LEGEND:
+        for name, info in last.model.bodies.items():
+            label = style.verbatim(f"{info.number} {name}")
+            marks.append(
+                Line2D([], [], color=style.colour(info.number), linewidth=3.0, label=label)
+            )
+    axes.legend(handles=marks, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
 
 def _joint_places(state: State) -> Floats:
