@@ -98,7 +98,7 @@ take_lock() {
             break_lock "$owner"
             continue
         fi
-        [ -n "$told" ] || say "waiting for another set-up (process ${owner:-unknown})"
+        [ -n "$told" ] || say "waiting for another set-up (process ${owner:-unknown}; if there is none, delete .venv.lock)"
         told=yes
         sleep 1
     done

@@ -60,5 +60,7 @@ def test_a_long_rust_function_is_seen() -> None:
 
 
 def test_a_declaration_without_a_body_is_no_function() -> None:
-    text = "trait T {\n    fn norm(x: [f64; 3]) -> f64;\n    fn zero() -> f64 {\n        0.0\n    }\n}\n"
+    text = (
+        "trait T {\n    fn norm(x: [f64; 3]) -> f64;\n    fn zero() -> f64 {\n        0.0\n    }\n}"
+    )
     assert functions(text) == [Function("zero", 3)]

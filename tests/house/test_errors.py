@@ -1,0 +1,103 @@
+"""Errors of the core arrive in Python whole, and a panic arrives as InternalError."""
+
+import pickle
+import re
+from collections.abc import Callable
+
+import kempe
+import pytest
+from house.places import ROOT
+from kempe import _core
+from kempe.errors import IntegrationError, InternalError, KempeError, ModelError, Problem
+
+CLASSES = [
+    "ModelError",
+    "AssemblyError",
+    "RedundancyError",
+    "SingularityError",
+    "IntegrationError",
+    "FileError",
+    "InternalError",
+]
+
+#: How to call each guarded entry point. It panics before it looks at its arguments, so that they
+#: need only be of the right type.
+CALLS: dict[str, Callable[[], object]] = {
+    "version": _core.version,
+    "_raise": lambda: _core._raise("ModelError", "wrong"),
+}
+
+
+def test_the_set_of_errors_is_closed() -> None:
+    assert sorted(kind.__name__ for kind in KempeError.__subclasses__()) == sorted(CLASSES)
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_an_error_of_the_core_keeps_all_it_knows(name: str) -> None:
+    with pytest.raises(getattr(kempe, name)) as caught:
+        _core._raise(name, "what is wrong")
+    error = caught.value
+    assert type(error).__name__ == name
+    assert (error.name, error.t, error.hint) == ("crank", 1.5, "do this")
+    assert error.problems == (Problem("not a number", "bodies.crank.mass", 7, 8),)
+    assert str(error) == "what is wrong; do this"
+    assert getattr(error, "solution", None) == (() if name == "IntegrationError" else None)
+
+
+def test_an_error_survives_pickling() -> None:
+    error = IntegrationError(
+        "stuck", name="crank", t=2.0, hint="a", problems=(Problem("b"),), solution=3
+    )
+    copy = pickle.loads(pickle.dumps(error))
+    assert (type(copy), copy.args, vars(copy)) == (IntegrationError, ("stuck",), vars(error))
+
+
+@pytest.mark.parametrize(
+    ("problem", "text"),
+    [
+        (Problem("must be > 0"), "must be > 0"),
+        (Problem("must be > 0", "bodies.crank.mass"), "bodies.crank.mass: must be > 0"),
+        (Problem("must be > 0", "bodies.crank.mass", 7), "bodies.crank.mass: must be > 0 (line 7)"),
+        (Problem("not TOML", line=7, column=8), "not TOML (line 7, column 8)"),
+    ],
+)
+def test_a_problem_tells_where_it_is(problem: Problem, text: str) -> None:
+    assert str(problem) == text
+
+
+def test_every_entry_point_is_in_the_list_of_calls() -> None:
+    assert sorted(CALLS) == sorted(_core._entries())
+
+
+def test_every_guard_in_the_sources_is_an_entry_point() -> None:
+    text = "".join(path.read_text("utf-8") for path in (ROOT / "bindings").rglob("*.rs"))
+    code = re.sub(r"//[^\n]*", "", text)
+    assert sorted(re.findall(r'\bguard\(\s*"(\w+)"', code)) == sorted(_core._entries())
+
+
+@pytest.mark.parametrize("entry", sorted(CALLS))
+def test_a_panic_is_an_internal_error(entry: str, capfd: pytest.CaptureFixture[str]) -> None:
+    _core._inject_panic(entry)
+    with pytest.raises(InternalError, match=rf"^{entry}: injected panic in '{entry}' \(.+:\d+\)"):
+        CALLS[entry]()
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_panic_harms_only_the_call_it_is_meant_for() -> None:
+    _core._inject_panic("version")
+    with pytest.raises(ModelError):
+        CALLS["_raise"]()
+    with pytest.raises(InternalError):
+        _core.version()
+    assert _core.version() == kempe.__version__
+
+
+def test_an_injected_panic_can_be_taken_back() -> None:
+    _core._inject_panic("version")
+    _core._inject_panic(None)
+    assert _core.version() == kempe.__version__
+
+
+def test_an_unknown_entry_point_is_refused() -> None:
+    with pytest.raises(ValueError, match="no entry point 'nowhere'"):
+        _core._inject_panic("nowhere")

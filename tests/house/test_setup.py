@@ -1,0 +1,186 @@
+"""`./kempe` and `./test`: quick when there is nothing to do, clear when something is missing."""
+
+import os
+import shutil
+import stat
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import kempe
+import pytest
+from house.places import ROOT
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="./kempe is a script for POSIX shells")
+
+SETUP_FAILED = 5
+TOOLS = "sh dirname cat cksum find sort mkdir rm mv tail sleep env"
+
+
+def run(command: Sequence[str | Path], **options: Any) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(command, capture_output=True, text=True, check=False, **options)
+
+
+def seconds(command: Sequence[str | Path], cwd: Path) -> float:
+    begin = time.perf_counter()
+    assert run(command, cwd=cwd).returncode == 0
+    return time.perf_counter() - begin
+
+
+def test_the_version_comes_at_once(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "kempe", "--version"]
+    assert run(command, cwd=tmp_path).stdout == f"kempe {kempe.__version__}\n"
+    assert median(seconds(command, tmp_path) for _ in range(5)) < 0.2
+
+
+def test_a_second_start_has_nothing_to_do(tmp_path: Path) -> None:
+    command = [ROOT / "kempe", "--version"]
+    first = run(command, cwd=tmp_path)
+    assert (first.returncode, first.stdout) == (0, f"kempe {kempe.__version__}\n")
+    again = run(command, cwd=tmp_path)
+    assert (again.returncode, again.stderr) == (0, "")
+    assert median(seconds(command, tmp_path) for _ in range(5)) < 1.0
+
+
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="Python 3.10 cannot be told so")
+def test_no_module_is_taken_from_where_the_user_stands(tmp_path: Path) -> None:
+    (tmp_path / "dataclasses.py").write_text("raise SystemExit('this is not the right one')")
+    plain = run([sys.executable, "-m", "kempe", "--help"], cwd=tmp_path)
+    assert "this is not the right one" in plain.stderr
+    assert run([ROOT / "kempe", "--help"], cwd=tmp_path).returncode == 0
+
+
+@pytest.fixture
+def bare(tmp_path: Path) -> Path:
+    """A copy of the scripts in a folder with a space, beside a `bin` with what every system has."""
+    root = tmp_path / "my kempe"
+    (root / "tools").mkdir(parents=True)
+    for name in (
+        "kempe",
+        "tools/setup.sh",
+        "tools/requirements.py",
+        "pyproject.toml",
+        "constraints.txt",
+    ):
+        shutil.copy(ROOT / name, root / name)
+    (tmp_path / "bin").mkdir()
+    for name in TOOLS.split():
+        (tmp_path / "bin" / name).symlink_to(shutil.which(name) or pytest.fail(f"no {name} here"))
+    return root
+
+
+def program(folder: Path, name: str, body: str) -> None:
+    path = folder / name
+    path.write_text(f"#!/bin/sh\n{body}\n")
+    path.chmod(path.stat().st_mode | stat.S_IXUSR)
+
+
+def start(root: Path, **environment: str) -> subprocess.CompletedProcess[str]:
+    paths = {"PATH": str(root.parent / "bin"), "HOME": str(root.parent)}
+    return run([root / "kempe", "--version"], env=paths | environment, cwd=root.parent)
+
+
+OLD_PYTHON = "case $2 in *version_info*) exit 1 ;; esac"
+NO_VENV = "case $2 in *venv*) exit 1 ;; esac"
+
+
+@pytest.mark.parametrize(
+    ("programs", "environment", "told"),
+    [
+        ({}, {}, "no C linker (cc) found: install one"),
+        ({"cc": ""}, {}, "Rust (cargo) not found: install it"),
+        (
+            {"cc": "", "cargo": "echo cargo 1.63.0"},
+            {},
+            "Rust 1.85 or later is needed, found cargo 1.63.0",
+        ),
+        (
+            {"cc": "", "cargo": "echo cargo 1.99.0"},
+            {},
+            "Python 3.10 or later not found: install it",
+        ),
+        (
+            {"cc": "", "cargo": "echo cargo 1.99.0", "python3": OLD_PYTHON},
+            {},
+            "Python 3.10 or later not found: install it",
+        ),
+        (
+            {"cc": "", "cargo": "echo cargo 1.99.0", "python3": ""},
+            {"PYTHON": "python9"},
+            "PYTHON=python9 is not Python 3.10 or later",
+        ),
+        (
+            {"cc": "", "cargo": "echo cargo 1.99.0", "python3.12": NO_VENV},
+            {},
+            "python3.12 has no venv module: install it",
+        ),
+    ],
+)
+def test_what_is_missing_is_told_in_one_line(
+    bare: Path, programs: dict[str, str], environment: dict[str, str], told: str
+) -> None:
+    for name, body in programs.items():
+        program(bare.parent / "bin", name, body)
+    done = start(bare, **environment)
+    assert done.returncode == SETUP_FAILED
+    assert done.stdout == ""
+    assert done.stderr.startswith(f"kempe: {told}")
+    assert done.stderr.count("\n") == 1
+    assert not (bare / ".venv.lock").exists()
+
+
+def test_the_lock_of_a_dead_process_is_taken_over(bare: Path) -> None:
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    (bare / ".venv.lock").mkdir()
+    (bare / ".venv.lock" / "pid").write_text(f"{dead.pid}\n")
+    done = start(bare)
+    assert done.returncode == SETUP_FAILED
+    assert "no C linker" in done.stderr
+    assert not list(bare.glob(".venv.lock*"))
+
+
+def test_one_waits_while_another_sets_up(bare: Path) -> None:
+    (bare / ".venv.lock").mkdir()
+    (bare / ".venv.lock" / "pid").write_text(f"{os.getpid()}\n")
+    command = [str(bare / "kempe"), "--version"]
+    paths = {"PATH": str(bare.parent / "bin"), "HOME": str(bare.parent)}
+    waiting = subprocess.Popen(command, env=paths, stderr=subprocess.PIPE, text=True)
+    with pytest.raises(subprocess.TimeoutExpired):
+        waiting.wait(timeout=1.5)
+    shutil.rmtree(bare / ".venv.lock")
+    _, told = waiting.communicate(timeout=10)
+    assert f"waiting for another set-up (process {os.getpid()};" in told
+    assert waiting.returncode == SETUP_FAILED
+
+
+def test_only_one_holds_the_lock_at_a_time(bare: Path) -> None:
+    script = """
+        ROOT=$1; . "$ROOT/tools/setup.sh"
+        for turn in 1 2 3; do
+            take_lock
+            mkdir "$ROOT/inside" || exit 1
+            rmdir "$ROOT/inside"
+            release_lock
+        done
+    """
+    command = ["sh", "-c", script, "sh", str(bare)]
+    racing = [subprocess.Popen(command, stderr=subprocess.DEVNULL) for _ in range(4)]
+    assert [process.wait(timeout=60) for process in racing] == [0] * 4
+
+
+def test_a_failing_step_shows_why_and_leaves_no_stamp(bare: Path) -> None:
+    folder = bare.parent / "bin"
+    program(folder, "cc", "")
+    program(folder, "cargo", "echo cargo 1.99.0")
+    program(folder, "python3", 'case "$*" in *"-m venv"*) echo "the disk is full"; exit 1 ;; esac')
+    done = start(bare)
+    assert done.returncode == SETUP_FAILED
+    assert "the disk is full" in done.stderr
+    assert f"making .venv failed; all of its output is in {bare}/.venv.log" in done.stderr
+    assert not list(bare.glob(".venv*/stamp*"))
+    assert not list(bare.glob(".venv.lock*"))
