@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import zipfile
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,17 @@ from kempe.solution import REACHED, Solution
 KIND = "kempe solution"
 #: Version of this layout.
 LAYOUT = 1
+
+#: What numpy raises for what is no archive of arrays; the last two for a file of a single array.
+_UNREADABLE = (
+    zipfile.BadZipFile,
+    zlib.error,
+    ValueError,
+    KeyError,
+    EOFError,
+    TypeError,
+    AttributeError,
+)
 
 
 @dataclass(frozen=True)
@@ -99,12 +111,12 @@ def load_solution(path: Path | str) -> Solution:
 
 def _read(path: Path | str) -> tuple[dict[str, Any], dict[str, Floats]]:
     try:
-        with np.load(path, allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
+        with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as stored:
+            arrays = {name: stored[name] for name in stored.files}
         about = json.loads(str(arrays.pop("about")))
     except OSError as error:
         raise files.trouble(path, "read", error) from error
-    except (zipfile.BadZipFile, ValueError, KeyError, EOFError, AttributeError) as error:
+    except _UNREADABLE as error:
         raise _foreign(path, "torn, or no solution of kempe") from error
     if not isinstance(about, dict):
         raise _foreign(path, "it holds something else")
