@@ -13,6 +13,16 @@ from kempe._version import __version__
 
 if TYPE_CHECKING:
     from kempe import errors as errors
+    from kempe import plot as plot
+    from kempe.analyses import AssemblyWarning as AssemblyWarning
+    from kempe.analyses import assemble as assemble
+    from kempe.analyses import dynamics as dynamics
+    from kempe.archive import load_solution as load_solution
+    from kempe.case import Case as Case
+    from kempe.case import Results as Results
+    from kempe.case import Start as Start
+    from kempe.case import load as load
+    from kempe.energy import Energy as Energy
     from kempe.errors import AssemblyError as AssemblyError
     from kempe.errors import FileError as FileError
     from kempe.errors import IntegrationError as IntegrationError
@@ -21,18 +31,50 @@ if TYPE_CHECKING:
     from kempe.errors import ModelError as ModelError
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
+    from kempe.matrices import Matrices as Matrices
+    from kempe.model import Model as Model
+    from kempe.motion import Motion as Motion
+    from kempe.options import RK4 as RK4
+    from kempe.options import RK45 as RK45
+    from kempe.options import Baumgarte as Baumgarte
+    from kempe.options import Dynamics as Dynamics
+    from kempe.options import NoStabilization as NoStabilization
+    from kempe.solution import Solution as Solution
+    from kempe.state import AssemblyReport as AssemblyReport
+    from kempe.state import State as State
 
 #: Public name → the module of kempe that holds it; "" means that the name is a module itself.
 _HOME = {
     "AssemblyError": "errors",
+    "AssemblyReport": "state",
+    "AssemblyWarning": "analyses",
+    "Baumgarte": "options",
+    "Case": "case",
+    "Dynamics": "options",
+    "Energy": "energy",
     "FileError": "errors",
     "IntegrationError": "errors",
     "InternalError": "errors",
     "KempeError": "errors",
+    "Matrices": "matrices",
+    "Model": "model",
     "ModelError": "errors",
+    "Motion": "motion",
+    "NoStabilization": "options",
+    "RK4": "options",
+    "RK45": "options",
     "RedundancyError": "errors",
+    "Results": "case",
     "SingularityError": "errors",
+    "Solution": "solution",
+    "Start": "case",
+    "State": "state",
+    "assemble": "analyses",
+    "dynamics": "analyses",
     "errors": "",
+    "load": "case",
+    "load_solution": "archive",
+    "plot": "",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604

@@ -1,6 +1,182 @@
-"""The compiled core, as Python sees it."""
+"""The compiled core, as Python sees it.
 
-def version() -> str: ...
+Bulk data are NumPy arrays (float64, C order), time first; structured data are JSON texts. Bodies
+are numbered with ground as 0; moving body k owns the columns 3 (k - 1) to 3 k of q.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+_F = NDArray[np.float64]
+
+def version() -> str:
+    """Version of the compiled core."""
+
+def catalogue() -> str:
+    """What may stand in a case, as JSON.
+
+    ``{"bodies": [table], "joints": …, "drivers": …, "forces": …, "methods": …,
+    "stabilizations": …, "analyses": …}`` with ``table = {"name", "doc", "fields": [{"name",
+    "shape", "unit", "default", "doc"}]}``; shapes are body, point, coordinate, number, law, pair
+    and others.
+    """
+
+def schema() -> str:
+    """JSON Schema of a case."""
+
+def is_reserved(name: str) -> bool:
+    """Whether a name belongs to the language of expressions (``t pi deg ground``)."""
+
+class Case:
+    """Text of a case, checked for its structure."""
+
+    def __init__(self, text: str, format: str, origin: str | None) -> None:  # noqa: A002
+        """Read a text.
+
+        Args:
+            text: the case.
+            format: "toml" or "json".
+            origin: name of the file for messages; None for a case built in Python, whose messages
+                give paths without line and column.
+
+        Raises:
+            FileError: with all ``problems``.
+        """
+
+    def tree(self) -> str:
+        """JSON of the case, structured as the file, order kept."""
+
+    def write(self, format: str) -> str:  # noqa: A002
+        """The case as "toml" or "json" text."""
+
+    def model(self, overrides: str) -> Model:
+        """Compile the model with other parameters, ``{"k": 2e6, "c": "k/100"}``.
+
+        Raises:
+            ModelError: with all ``problems``.
+        """
+
+    def analyses(self) -> str:
+        """``[{"name", "type", "from": null | "start" | name}, …]`` in order."""
+
+class Model:
+    """A compiled model: immutable."""
+
+    def describe(self) -> str:
+        """What the model holds, in numbers, as JSON.
+
+        ``{"title", "gravity": [x, y], "parameters": {…}, "n_q", "n_rows",
+        "bodies": [{"name", "type", "mass", "inertia", "center": [x, y], "points": {"B": [x, y]}}],
+        "constraints": [{"name", "group": "joints" | "drivers", "type", "i", "j",
+        "point_i": [x, y], "point_j": [x, y], "rows": [start, stop],
+        "equations": [{"name", "unit"}]}],
+        "forces": [{"name", "type", "i", "j", "parts": ["stiffness", "damping"]}]}``; the first
+        body is ground.
+        """
+
+class Run:
+    """What an integration gave."""
+
+    t: _F
+    """(n_t,), s."""
+    q: _F
+    """(n_t, n_q)."""
+    v: _F
+    """(n_t, n_q)."""
+    a: _F
+    """(n_t, n_q)."""
+    lam: _F
+    """(n_t, n_rows)."""
+    energy: _F
+    """(n_t, 5), J: kinetic, potential, dissipated, work of drivers, work of applied forces."""
+    dense_t: _F | None
+    """(k + 1,), s: the boundaries of the steps."""
+    dense_y: _F | None
+    """(k, n_y): y = [q, v, quadratures] at the start of each step."""
+    dense_c: _F | None
+    """(k, n_y, 4): y(t_old + θ h) = y_old + h Σ_k c[:, k] θ^(k + 1)."""
+    status: str
+    """"reached" or "stopped"."""
+    message: str
+    statistics: str
+    """JSON: ``{"steps", "rejected", "evaluations", "factorisations", "seconds"}``."""
+
+def assemble(
+    model: Model,
+    set: str,  # noqa: A002
+    guess: str,
+    t: float,
+    q: _F | None,
+    v: _F | None,
+) -> tuple[float, _F, _F, str]:
+    """Put a mechanism together.
+
+    Args:
+        model: the mechanism.
+        set: coordinates and rates that are to hold, JSON ``{"crank.angle": "70*deg"}``.
+        guess: the same for those that may move.
+        t: time, s.
+        q: a whole configuration as guess, (n_q,).
+        v: the velocities that go with it, (n_q,).
+
+    Returns:
+        t, q, v and a report as JSON: ``{"iterations": [{"residual", "step"}],
+        "degrees_of_freedom", "modes": [{"bodies", "joint", "side": "left" | "right"}],
+        "alternatives": int, "warnings": [text]}``.
+
+    Raises:
+        AssemblyError, RedundancyError, ModelError.
+    """
+
+def dynamics(
+    model: Model,
+    t: float,
+    q: _F,
+    v: _F,
+    options: str,
+    progress: Callable[[float], None] | None,
+) -> Run:
+    """Simulate the motion from a state.
+
+    Args:
+        model: the mechanism.
+        t: time of the state, s.
+        q: (n_q,).
+        v: (n_q,).
+        options: JSON, as in a file without the ``type``.
+        progress: called now and then with the time reached, s.
+
+    Raises:
+        IntegrationError: with ``run``, what was computed before. ``KeyboardInterrupt`` has it too.
+    """
+
+def evaluate(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
+    """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂."""
+
+def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
+    """Φ and Φ_q q̇ + Φ_t at states, (n_t, n_rows) each."""
+
+def reaction(model: Model, joint: str, on: str, frame: str, t: _F, q: _F, lam: _F) -> _F:
+    """Force and torque about the joint point of a joint on a body: (n_t, 3), N and N·m."""
+
+def force(
+    model: Model, name: str, on: str, part: str | None, frame: str, t: _F, q: _F, v: _F
+) -> _F:
+    """Force and torque about the body's origin of a force element on a body: (n_t, 3)."""
+
+def matrices(model: Model, t: float, q: _F, v: _F, set: str) -> dict[str, _F]:  # noqa: A002
+    """``M``, ``Phi``, ``Phi_q``, ``nu``, ``gamma``, ``Q`` and ``kkt`` at a state.
+
+    Args:
+        model: the mechanism.
+        t: time, s.
+        q: (n_q,).
+        v: (n_q,).
+        set: further driver rows, as in ``assemble``.
+    """
+
 def _entries() -> list[str]: ...
 def _inject_panic(entry: str | None) -> None: ...
 def _raise(kind: str, message: str) -> None: ...

@@ -11,6 +11,8 @@ from rich.text import Text
 from kempe import errors
 from kempe._version import __version__
 from kempe.cli import exit_codes
+from kempe.cli.check import check as check_command
+from kempe.cli.run import run as run_command
 
 app = typer.Typer(
     name="kempe",
@@ -19,6 +21,8 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
+app.command("run")(run_command)
+app.command("check")(check_command)
 
 #: First match wins, so a class stands before its base.
 _CODES: tuple[tuple[type[errors.KempeError], int], ...] = (
@@ -57,7 +61,12 @@ def run(words: Sequence[str]) -> int:
 
 
 def exit_code(error: errors.KempeError) -> int:
-    """The exit code that belongs to an error."""
+    """The exit code that belongs to an error.
+
+    A file that could be read but holds something wrong is bad input: it has ``problems``.
+    """
+    if isinstance(error, errors.FileError) and error.problems:
+        return exit_codes.BAD_INPUT
     return next(code for kind, code in _CODES if isinstance(error, kind))
 
 

@@ -1,0 +1,145 @@
+"""What a user asks for: functions of a model, a state and options."""
+
+from __future__ import annotations
+
+import json
+import warnings
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from kempe import _core
+from kempe.compiled import CompiledModel
+from kempe.errors import IntegrationError, ModelError
+from kempe.model import Model
+from kempe.options import RK45, Baumgarte, Dynamics, Option, core_options
+from kempe.solution import Solution
+from kempe.state import AssemblyReport, State
+from kempe.values import Number, number, numbers
+
+Progress: TypeAlias = "Callable[[float], None]"
+Coordinates: TypeAlias = "Mapping[str, float | str]"
+
+
+class AssemblyWarning(UserWarning):
+    """A mechanism went together, but not as one would expect."""
+
+
+def assemble(
+    model: Model | CompiledModel,
+    set: Coordinates | None = None,  # noqa: A002
+    guess: Coordinates | State | None = None,
+    t: float = 0.0,
+) -> State:
+    """Put a mechanism together.
+
+    Args:
+        model: the mechanism.
+        set: coordinates and rates that are to hold: ``{"crank.angle": "70*deg"}``, m, rad, per s.
+        guess: the same for those that may move; may be partial, absent, or a whole state.
+        t: time, s.
+
+    Returns:
+        The state, with ``report``.
+
+    Raises:
+        AssemblyError: the mechanism does not close; the message tells where it stays open.
+        RedundancyError: a joint repeats another.
+        ModelError: the model is wrong, or ``set`` or ``guess`` names what it does not have.
+    """
+    compiled = compiled_model(model)
+    held = json.dumps(numbers(set or {}, "set"), allow_nan=False)
+    q = v = None
+    if isinstance(guess, State):
+        _refuse_foreign(compiled, guess)
+        q, v, hint = np.array(guess.q), np.array(guess.v), "{}"
+    else:
+        hint = json.dumps(numbers(guess or {}, "guess"), allow_nan=False)
+    at = _time(t)
+    t_found, q_found, v_found, told = _core.assemble(compiled.core, held, hint, at, q, v)
+    report = AssemblyReport.from_json(told)
+    for text in report.warnings:
+        warnings.warn(text, AssemblyWarning, stacklevel=2)
+    return State(compiled, t_found, q_found, v_found, report)
+
+
+def dynamics(
+    model: Model | CompiledModel,
+    start: State,
+    *,
+    t_end: Number,
+    output_step: Number | None = None,
+    method: Option = RK45(),  # noqa: B008 - frozen
+    stabilization: Option | None = Baumgarte(),  # noqa: B008 - frozen
+    max_steps: int | None = None,
+    dense_output: bool = True,
+    progress: Progress | None = None,
+) -> Solution:
+    """Simulate the motion from a state.
+
+    Args:
+        model: the mechanism.
+        start: where it starts; ``assemble`` gives one.
+        t_end: time at which it ends, s.
+        output_step: time between outputs, s; every step when None.
+        method: the integrator.
+        stabilization: of the constraints; none at all when None.
+        max_steps: it gives up after that many steps; what the core finds enough when None.
+        dense_output: whether to keep the interpolant between the steps, for ``sol(t)``.
+        progress: called now and then with the time reached, s.
+
+    Raises:
+        IntegrationError: it cannot go on; ``solution`` holds what was computed. An interruption
+            (``KeyboardInterrupt``) has ``solution`` too.
+        ModelError: an option is wrong.
+    """
+    compiled = compiled_model(model)
+    asked = Dynamics(t_end, output_step, method, stabilization, max_steps, dense_output)
+    entry = asked.tree()
+    case = json.dumps({**json.loads(compiled.case), "analyses": {asked.name: entry}})
+    return simulate(CompiledModel(compiled.core, case), start, entry, progress)
+
+
+def simulate(
+    model: CompiledModel, start: State, entry: Mapping[str, Any], progress: Progress | None
+) -> Solution:
+    """Simulate by an entry of a case, as ``dynamics`` does by arguments."""
+    if not isinstance(start, State):
+        raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) gives one")
+    _refuse_foreign(model, start)
+    options = json.dumps(core_options(entry), allow_nan=False)
+    try:
+        run = _core.dynamics(model.core, float(start.t), start.q, start.v, options, progress)
+    except (IntegrationError, KeyboardInterrupt) as error:
+        partial = getattr(error, "run", None)
+        if partial is not None:
+            error.solution = Solution(model, partial)  # type: ignore[union-attr]
+        raise
+    return Solution(model, run)
+
+
+def compiled_model(model: Model | CompiledModel) -> CompiledModel:
+    """The model in numbers."""
+    if isinstance(model, CompiledModel):
+        return model
+    if isinstance(model, Model):
+        return model.compile()
+    raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) makes one")
+
+
+def _time(t: float) -> float:
+    value = number(t, "t")
+    if isinstance(value, str):
+        raise ModelError(f"t: {value!r} is not a number")
+    return float(value)
+
+
+def _refuse_foreign(model: CompiledModel, state: State) -> None:
+    """A state of the same bodies serves, whatever the numbers in the model."""
+    if list(state.model.bodies) != list(model.bodies):
+        raise ModelError(
+            f"the state is of bodies {', '.join(state.model.bodies)}; "
+            f"the model has {', '.join(model.bodies)}",
+            hint="assemble this model",
+        )

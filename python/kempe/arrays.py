@@ -1,0 +1,28 @@
+"""Arrays that cannot be written to: a result is what was computed."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats: TypeAlias = NDArray[np.float64]
+
+
+def fixed(values: Any) -> Floats:
+    """The values as a read-only float64 array in C order; shares memory where it can."""
+    view: Floats = np.asarray(values, dtype=np.float64, order="C").view()
+    view.flags.writeable = False
+    return view
+
+
+def rotated(angle: Floats, s: tuple[float, float]) -> tuple[Floats, Floats]:
+    """A(φ) s for a vector s fixed in a body: its global components."""
+    cos, sin = np.cos(angle), np.sin(angle)
+    return cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]
+
+
+def pairs(x: Floats, y: Floats) -> Floats:
+    """Two components side by side, (…, 2)."""
+    return fixed(np.stack([x, y], axis=-1))

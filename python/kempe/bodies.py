@@ -1,0 +1,66 @@
+"""Bodies as they are written: the slender bar and the general body."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+from kempe.element import Element
+from kempe.values import Number, Pair, Points
+
+
+@dataclass(frozen=True)
+class Bar(Element):
+    """Uniform slender bar: its frame at its centre, x along it, inertia mass·length²/12.
+
+    Attributes:
+        mass: kg.
+        length: m; may be left out where ``through`` gives both ends.
+        ends: names of the points at (-length/2, 0) and (length/2, 0).
+        through: two named points where they stand, global, m; places the bar for the assembly.
+        points: further named points in the frame of the bar, m.
+    """
+
+    mass: Number
+    length: Number | None = None
+    ends: Sequence[str] | None = None
+    through: Points | None = None
+    points: Points | None = None
+    section: ClassVar[str] = "bodies"
+    kind: ClassVar[str] = "bar"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "mass": "number",
+        "length": "number",
+        "ends": "names",
+        "through": "points",
+        "points": "points",
+    }
+
+
+@dataclass(frozen=True)
+class Body(Element):
+    """General rigid body.
+
+    Attributes:
+        mass: kg.
+        inertia: about the mass centre, kg·m².
+        center: mass centre in the body's frame, m.
+        points: named points in the body's frame, m.
+        through: two named points where they stand, global, m; places the body for the assembly.
+    """
+
+    mass: Number
+    inertia: Number
+    center: Pair = (0.0, 0.0)
+    points: Points | None = None
+    through: Points | None = None
+    section: ClassVar[str] = "bodies"
+    kind: ClassVar[str] = "body"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "mass": "number",
+        "inertia": "number",
+        "center": "pair",
+        "points": "points",
+        "through": "points",
+    }

@@ -1,0 +1,262 @@
+"""A case: a model, a start and any number of analyses; what a file holds."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from kempe import _core, files
+from kempe.analyses import Coordinates, Progress, assemble, simulate
+from kempe.compiled import CompiledModel
+from kempe.errors import FileError, ModelError
+from kempe.model import Model
+from kempe.names import unknown
+from kempe.options import Dynamics
+from kempe.solution import Solution
+from kempe.state import State
+from kempe.tree import core_case
+from kempe.values import Number, numbers
+
+FORMATS = {".toml": "toml", ".json": "json"}
+
+#: What carries out an analysis, by its ``type``.
+_Runner = Callable[[CompiledModel, State, Mapping[str, Any], "Progress | None"], Solution]
+_RUNNERS: dict[str, _Runner] = {"dynamics": simulate}
+
+
+@dataclass(frozen=True)
+class Start:
+    """How the mechanism is put together before the first analysis.
+
+    Attributes:
+        set: coordinates and rates that are to hold, m, rad and per s.
+        guess: the same for those that may move.
+    """
+
+    set: Coordinates = field(default_factory=dict)
+    guess: Coordinates = field(default_factory=dict)
+
+    def tree(self) -> dict[str, Any]:
+        """The section ``start`` as in a file."""
+        held, hint = numbers(self.set, "start.set"), numbers(self.guess, "start.guess")
+        return {key: value for key, value in (("set", held), ("guess", hint)) if value}
+
+
+class Results(Mapping[str, Solution]):
+    """Solutions of a case: by name, or by position as in a list."""
+
+    def __init__(self, solutions: Mapping[str, Solution]) -> None:
+        self._solutions = dict(solutions)
+
+    def __getitem__(self, key: str | int) -> Solution:
+        """A solution by the name of its analysis or by its position.
+
+        Raises:
+            ModelError: there is no analysis of that name; it is a ``KeyError`` too.
+            IndexError: there are not so many.
+        """
+        if isinstance(key, int):
+            return list(self._solutions.values())[key]
+        if key not in self._solutions:
+            raise unknown("analysis", key, self._solutions)
+        return self._solutions[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._solutions)
+
+    def __len__(self) -> int:
+        return len(self._solutions)
+
+    def __repr__(self) -> str:
+        lines = [f"  {name}: {solution!r}" for name, solution in self.items()]
+        return "\n".join(["<Results", *lines]) + ">"
+
+
+class Case:
+    """A model, a start and analyses, each of which starts where the one before it ended.
+
+    Args:
+        model: the mechanism.
+        start: a ``Start``, or a mapping with ``set`` and ``guess``.
+        analyses: ``Dynamics`` and the like, in order; or a mapping of names to entries as in a
+            file.
+
+    Attributes:
+        model: the mechanism.
+
+    Raises:
+        FileError, ModelError: with all that is wrong.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        start: Start | Mapping[str, Coordinates] | None = None,
+        analyses: Sequence[Dynamics] | Mapping[str, Mapping[str, Any]] = (),
+    ) -> None:
+        if not isinstance(model, Model):
+            raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) makes one")
+        self.model = model
+        self._start = _start(start)
+        self._entries = _entries(analyses)
+        self._core()  # tells now what is wrong with the structure
+
+    @classmethod
+    def _loaded(cls, core: _core.Case) -> Case:
+        tree = json.loads(core.tree())
+        case = cls.__new__(cls)
+        case.model = Model.from_tree(tree, core)
+        case._start = _start(tree.get("start"))
+        case._entries = dict(tree.get("analyses", {}))
+        return case
+
+    @property
+    def analyses(self) -> Mapping[str, Mapping[str, Any]]:
+        """The analyses by name, as in a file; a copy."""
+        return {name: dict(entry) for name, entry in self._entries.items()}
+
+    def tree(self) -> dict[str, Any]:
+        """The case as nested mappings, structured as a file; a copy."""
+        start = self._start.tree()
+        tree = self.model.tree()
+        tree |= {"start": start} if start else {}
+        tree |= {"analyses": self.analyses} if self._entries else {}
+        return tree
+
+    def start(self) -> State:
+        """The assembled mechanism.
+
+        Raises:
+            AssemblyError: it does not close.
+        """
+        return assemble(self.model, self._start.set, self._start.guess)
+
+    @property
+    def held(self) -> Mapping[str, Number]:
+        """The coordinates and rates that hold at the start."""
+        return dict(self._start.set)
+
+    def run(self, progress: Progress | None = None) -> Results:
+        """Carry out all analyses, in order.
+
+        Args:
+            progress: called now and then with the time reached, s.
+
+        Raises:
+            KempeError: an analysis failed; an IntegrationError has its ``solution``.
+        """
+        return Results(dict(self.each(progress)))
+
+    def each(
+        self, progress: Progress | None = None, start: State | None = None
+    ) -> Iterator[tuple[str, Solution]]:
+        """Carry out the analyses one by one and give each as soon as it is there.
+
+        Args:
+            progress: called now and then with the time reached, s.
+            start: the assembled mechanism; assembled here when None.
+        """
+        compiled = self.model.compile()
+        model = CompiledModel(compiled.core, json.dumps(self.tree()))
+        state = start or self.start()
+        ends = {"start": state}
+        for analysis in json.loads(self._core().analyses()):
+            name, after = analysis["name"], analysis.get("from")
+            begin = state if after is None else ends[after]
+            solution = _RUNNERS[analysis["type"]](model, begin, self._entries[name], progress)
+            yield name, solution
+            state = ends[name] = solution.final
+
+    def with_analysis(self, name: str, **changes: Any) -> Case:
+        """The same case with some fields of one analysis changed, as ``t_end=30``.
+
+        Raises:
+            ModelError: there is no analysis of that name, or a field is not what it must be.
+        """
+        if name not in self._entries:
+            raise unknown("analysis", name, self._entries)
+        entries = {**self._entries, name: {**self._entries[name], **changes}}
+        return Case(self.model, self._start, entries)
+
+    def save(self, path: Path | str) -> None:
+        """Write the case as TOML or JSON, by the suffix of the name; nothing is lost.
+
+        Raises:
+            FileError: the file cannot be written; an old one is then left as it was.
+        """
+        files.write_text(path, self._core().write(_format(path, "write")))
+
+    def _core(self) -> _core.Case:
+        return core_case(self.tree())
+
+    def __repr__(self) -> str:
+        names = ", ".join(self._entries) or "none"
+        return f"<Case {self.model.title!r}; analyses: {names}>"
+
+
+def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) -> Case:
+    """Read a case from a file, TOML or JSON by the suffix of its name.
+
+    Args:
+        path: the file.
+        parameters: other values for some of its parameters.
+
+    Raises:
+        FileError: the file cannot be read, or is not a case; with all ``problems``.
+        ModelError: the model is wrong; with all ``problems``, each with line and column.
+    """
+    form = _format(path, "read")
+    core = _core.Case(files.read_text(path), form, str(path))
+    case = Case._loaded(core)
+    if parameters:
+        case.model = case.model.with_parameters(parameters)
+    case.model.compile()
+    return case
+
+
+def _format(path: Path | str, doing: str) -> str:
+    suffix = Path(path).suffix.lower()
+    if suffix in FORMATS:
+        return FORMATS[suffix]
+    if Path(path).is_dir():
+        raise files.trouble(path, doing, IsADirectoryError())
+    raise FileError(f"cannot {doing} {path}: the name must end in .toml or .json", name=str(path))
+
+
+def _start(start: Start | Mapping[str, Coordinates] | None) -> Start:
+    if isinstance(start, Start):
+        return start
+    given = dict(start or {})
+    for key in given:
+        if key not in ("set", "guess"):
+            raise unknown("key of start", key, ["set", "guess"])
+    return Start(_flat(given.get("set", {})), _flat(given.get("guess", {})))
+
+
+def _flat(coordinates: Mapping[str, Any]) -> dict[str, Any]:
+    """``{"crank": {"angle": 1}}``, which a dotted key means in TOML, as ``{"crank.angle": 1}``."""
+    flat: dict[str, Any] = {}
+    for key, value in coordinates.items():
+        nested = value.items() if isinstance(value, Mapping) else ()
+        flat |= {f"{key}.{name}": entry for name, entry in nested} or {key: value}
+    return flat
+
+
+def _entries(
+    analyses: Sequence[Dynamics] | Mapping[str, Mapping[str, Any]],
+) -> dict[str, dict[str, Any]]:
+    if isinstance(analyses, Mapping):
+        return {name: dict(entry) for name, entry in analyses.items()}
+    entries: dict[str, dict[str, Any]] = {}
+    for analysis in analyses:
+        if not isinstance(analysis, Dynamics):
+            raise ModelError(f"{analysis!r} is not an analysis", hint="kp.Dynamics(…) makes one")
+        if analysis.name in entries:
+            raise ModelError(
+                f"analyses.{analysis.name}: the name is taken", hint="give name= to each"
+            )
+        entries[analysis.name] = analysis.tree()
+    return entries

@@ -1,0 +1,22 @@
+"""``kempe check`` tells whether a case is right and its mechanism goes together."""
+
+from __future__ import annotations
+
+from rich.text import Text
+
+from kempe.cli.arguments import File, Settings, assembled, read_case
+from kempe.cli.console import answers
+
+
+def check(file: File, settings: Settings = None) -> None:
+    """Read a case, put its mechanism together and show it; simulate nothing."""
+    from kempe.cli.mechanism import show_configuration, show_mechanism
+
+    case = read_case(file, settings)
+    state = assembled(case)
+    console = answers()
+    show_mechanism(console, state)
+    show_configuration(console, state)
+    analyses = ", ".join(f"{name} ({entry['type']})" for name, entry in case.analyses.items())
+    console.print()
+    console.print(Text(f"{file} is right; analyses: {analyses or 'none'}"))

@@ -1,0 +1,82 @@
+"""Prints the summary of a solution."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+from rich.console import Console
+from rich.text import Text
+
+from kempe.cli.console import figure, heading, table
+
+
+def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
+    """Peaks, energy balance, settling and cost of one analysis."""
+    span = summary["time"]
+    told = f"{name}: {figure(span['start'])} to {figure(span['end'])} s"
+    heading(console, f"{told}, {span['outputs']} outputs")
+    console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
+    _show_peaks(console, summary["peaks"])
+    _show_accuracy(console, summary)
+    _show_settling(console, summary["settling"])
+    cost = summary["statistics"]
+    console.print()
+    counts = f"{cost['steps']} steps, {cost['rejected']} rejected"
+    work = f"{cost['evaluations']} evaluations, {cost['factorisations']} factorisations"
+    console.print(Text(f"  {counts}, {work}, {cost['seconds']:.3g} s"))
+
+
+def _show_peaks(console: Console, peaks: dict[str, Any]) -> None:
+    if peaks["reactions"]:
+        heading(console, "Largest reactions")
+        table(
+            console,
+            ("joint", "on", "force / N", "at / s", "torque / N m", "at / s"),
+            ((r["joint"], r["on"], *_numbers(r)) for r in peaks["reactions"]),
+            left=2,
+        )
+    if peaks["forces"]:
+        heading(console, "Largest forces")
+        table(
+            console,
+            ("force", "on", "force / N", "at / s", "torque / N m", "at / s", "torque of parts"),
+            ((f["name"], f["on"], *_numbers(f), _parts(f)) for f in peaks["forces"]),
+            left=2,
+        )
+
+
+def _numbers(peak: dict[str, Any]) -> Iterable[str]:
+    return (figure(peak[key]) for key in ("force", "force_at", "torque", "torque_at"))
+
+
+def _parts(force: dict[str, Any]) -> str:
+    return ", ".join(f"{part} {figure(peak)}" for part, peak in force["torque_by_part"].items())
+
+
+def _show_accuracy(console: Console, summary: dict[str, Any]) -> None:
+    heading(console, "Accuracy")
+    worst, energy = summary["peaks"]["residual"], summary["energy"]
+    if worst is not None:
+        value = f"{worst['value']:.3g} {worst['unit']}"
+        told = f"largest residual {value} in {worst['equation']} at {figure(worst['at'])} s"
+        console.print(Text(f"  {told}"))
+    kinetic = f"largest kinetic energy {figure(energy['largest_kinetic'])} J"
+    console.print(
+        Text(f"  energy balance within {energy['largest_imbalance']:.2g} of the {kinetic}")
+    )
+
+
+def _show_settling(console: Console, settling: list[dict[str, Any]]) -> None:
+    heading(console, "Settling, angle within 0.5 % of its largest deviation from the end")
+    rows = []
+    for body in settling:
+        if not body["moves"]:
+            told = "does not turn"
+        elif body["time"] is None:
+            told = "does not settle"
+        else:
+            told = f"{figure(body['time'])} s"
+        rows.append((body["body"], told, f"{figure(math.degrees(body['angle']))}°"))
+    table(console, ("body", "settled at", "last angle"), rows)

@@ -1,0 +1,87 @@
+"""Prints the mechanism, its initial configuration and the Jacobian there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from rich.console import Console
+from rich.text import Text
+
+from kempe.cli.console import figure, heading, table
+
+if TYPE_CHECKING:
+    from kempe.matrices import Matrices
+    from kempe.state import State
+    from kempe.values import Number
+
+#: A wider Jacobian is not read by anyone.
+WIDEST = 30
+
+
+def show_mechanism(console: Console, state: State) -> None:
+    """Bodies, joints, drivers, forces and degrees of freedom."""
+    model = state.model
+    console.print(Text(model.title or "untitled", style="bold"))
+    heading(console, "Bodies")
+    bodies = [
+        (str(b.number), b.name, b.type, figure(b.mass), figure(b.inertia))
+        for b in model.bodies.values()
+    ]
+    table(console, ("", "name", "type", "mass / kg", "inertia / kg m²"), bodies, left=3)
+    for title, elements in (
+        ("Joints", model.joints),
+        ("Drivers", model.drivers),
+        ("Forces", model.forces),
+    ):
+        if elements:
+            heading(console, title)
+            rows = [(e.name, e.type, e.i, e.j) for e in elements.values()]
+            table(console, ("name", "type", "body i", "body j"), rows, left=4)
+    free = state.matrices().degrees_of_freedom
+    console.print()
+    counts = f"{model.n_q} coordinates, {model.n_rows} constraint equations"
+    console.print(Text(f"  {counts}, {free} degree{'' if free == 1 else 's'} of freedom"))
+
+
+def show_configuration(console: Console, state: State) -> None:
+    """Where the bodies are at the start, and how they were put there."""
+    heading(console, f"Initial configuration, t = {figure(float(state.t))} s")
+    rows = []
+    for name in state.model.bodies:
+        body = state.body(name)
+        place = (body.x, body.y, np.degrees(body.angle), body.vx, body.vy, body.omega)
+        rows.append((name, *(figure(float(value)) for value in place)))
+    header = ("body", "x / m", "y / m", "angle / °", "vx / m/s", "vy / m/s", "omega / rad/s")
+    table(console, header, rows)
+    if state.report is not None:
+        for line in str(state.report).splitlines():
+            console.print(Text(f"  {line}", style="yellow" if line.startswith("warning") else ""))
+
+
+def show_jacobian(console: Console, state: State, held: Mapping[str, Number]) -> None:
+    """Φ_q at the start with rows joint.equation and columns body.coordinate.
+
+    The coordinates that are held for the assembly have a row each.
+    """
+    positions = {name: value for name, value in held.items() if name in state.model.column_names()}
+    found = state.matrices(positions)
+    rows, columns = found.Phi_q.shape
+    heading(console, f"Jacobian Φ_q at the start, {rows} × {columns}")
+    if columns > WIDEST:
+        console.print(Text(f"  not shown: more than {WIDEST} columns"))
+        return
+    table(console, ("", *found.columns), _cells(found))
+
+
+def _cells(found: Matrices) -> list[tuple[str, ...]]:
+    return [
+        (label, *(_entry(value) for value in row))
+        for label, row in zip(found.rows, found.Phi_q.tolist(), strict=True)
+    ]
+
+
+def _entry(value: float) -> str:
+    """Entries that are zero for good are dots, so that the pattern is seen."""
+    return "·" if value == 0.0 else f"{value:.4f}".rstrip("0").rstrip(".")

@@ -1,0 +1,128 @@
+"""``kempe run``: everything that a case asks for, told in the order in which one wants to know."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.text import Text
+
+from kempe.cli.arguments import File, Settings, assembled, number_or_formula, read_case
+from kempe.cli.clock import Clock
+from kempe.cli.console import answers, heading, remarks
+from kempe.errors import IntegrationError, ModelError
+
+if TYPE_CHECKING:
+    from kempe.case import Case
+    from kempe.solution import Solution
+    from kempe.state import State
+
+
+def run(  # noqa: PLR0917 - typer tells options from arguments by their annotations
+    file: File,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="Folder for results; out/<FILE> if absent."),
+    ] = None,
+    settings: Settings = None,
+    t_end: Annotated[
+        str | None, typer.Option("--t-end", help="Another end of the last analysis, s.")
+    ] = None,
+    quiet: Annotated[
+        bool, typer.Option("--quiet", "-q", help="Write files, print nothing.")
+    ] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the summary as JSON and nothing else.")
+    ] = False,
+) -> None:
+    """Put a mechanism together, carry out its analyses and write the results."""
+    case = _with_end(read_case(file, settings), t_end)
+    if not case.analyses:
+        raise ModelError(f"{file} asks for no analysis", hint="add one, as [analyses.release]")
+    state = assembled(case)
+    console = answers(silent=quiet or as_json)
+    _show_start(console, case, state)
+    told = _Told(console, output or Path("out") / file.stem, apart=len(case.analyses) > 1)
+    try:
+        for name, solution in _solutions(case, state, Clock(silent=quiet or as_json)):
+            told.finish(name, solution)
+    except (IntegrationError, KeyboardInterrupt) as error:
+        _keep_partial(told, error, list(case.analyses))
+        raise
+    finally:
+        if as_json:
+            print(json.dumps({"analyses": told.summaries}, indent=2, ensure_ascii=False))
+
+
+@dataclass
+class _Told:
+    """What has been finished: summaries printed, files written.
+
+    Attributes:
+        console: where to print.
+        folder: where the files go.
+        apart: whether every analysis has a folder of its own.
+        summaries: by analysis, each with its files.
+    """
+
+    console: Console
+    folder: Path
+    apart: bool
+    summaries: dict[str, Any] = field(default_factory=dict)
+
+    def finish(self, name: str, solution: Solution) -> None:
+        from kempe.cli.findings import show_findings
+        from kempe.cli.results import write_results
+        from kempe.report import summary
+
+        found = summary(solution)
+        show_findings(self.console, name, found)
+        folder = self.folder / name if self.apart else self.folder
+        written = write_results(solution, found, folder)
+        self.summaries[name] = {**found, "files": [str(path) for path in written]}
+        heading(self.console, "Files")
+        for path in written:
+            self.console.print(Text(f"  {path}"))
+
+
+def _with_end(case: Case, t_end: str | None) -> Case:
+    if t_end is None or not case.analyses:
+        return case
+    return case.with_analysis(list(case.analyses)[-1], t_end=number_or_formula(t_end))
+
+
+def _show_start(console: Console, case: Case, state: State) -> None:
+    from kempe.cli.mechanism import show_configuration, show_jacobian, show_mechanism
+
+    show_mechanism(console, state)
+    show_configuration(console, state)
+    show_jacobian(console, state, case.held)
+
+
+def _solutions(case: Case, state: State, clock: Clock) -> Iterator[tuple[str, Solution]]:
+    """The solutions as they come, with the clock shown while each is computed."""
+    each = case.each(clock, state)
+    for name, entry in case.analyses.items():
+        end = entry.get("t_end")
+        with clock.running(name, None, end if isinstance(end, int | float) else None):
+            done = next(each)
+        yield done
+
+
+def _keep_partial(told: _Told, error: BaseException, names: list[str]) -> None:
+    """Write what was computed before the failure, and say so."""
+    partial = getattr(error, "solution", None)
+    name = names[len(told.summaries)]
+    console = remarks()
+    if isinstance(error, KeyboardInterrupt):
+        console.print(Text("interrupted"))
+    if partial is None:
+        return
+    told.finish(name, partial)
+    reached = f"{float(partial.t[-1]):g} s"
+    console.print(Text(f"the solution until {reached} is in {told.summaries[name]['files'][0]}"))

@@ -1,0 +1,235 @@
+"""A model in numbers: what the core made of it, immutable, with what it holds by name."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from types import MappingProxyType
+from typing import Any
+
+from kempe import _core
+from kempe.names import unknown
+
+COORDINATES = ("x", "y", "angle")
+RATES = ("vx", "vy", "omega")
+ACCELERATIONS = ("ax", "ay", "alpha")
+
+Vector = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class BodyInfo:
+    """A body in numbers.
+
+    Attributes:
+        name: its name.
+        type: how it was written.
+        number: 0 for ground; moving bodies count from 1.
+        mass: kg.
+        inertia: about the mass centre, kg·m².
+        center: mass centre in the body's frame, m.
+        points: named points in the body's frame, m.
+    """
+
+    name: str
+    type: str
+    number: int
+    mass: float
+    inertia: float
+    center: Vector
+    points: Mapping[str, Vector]
+
+    @property
+    def columns(self) -> slice:
+        """Where its coordinates are in q; empty for ground."""
+        return slice(max(0, 3 * self.number - 3), 3 * self.number)
+
+
+@dataclass(frozen=True)
+class ConstraintInfo:
+    """A joint or a driver in numbers.
+
+    Attributes:
+        name: its name.
+        group: "joints" or "drivers".
+        type: such as "revolute".
+        i, j: the bodies that it joins.
+        point_i, point_j: the joint's point in the frame of each body, m.
+        rows: where its equations are in Φ and λ.
+        equations: names and units of the equations.
+    """
+
+    name: str
+    group: str
+    type: str
+    i: str
+    j: str
+    point_i: Vector
+    point_j: Vector
+    rows: slice
+    equations: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
+class ForceInfo:
+    """A force element.
+
+    Attributes:
+        name: its name.
+        type: such as "torsion_spring".
+        i, j: the bodies it acts on.
+        parts: names of its parts, such as "stiffness" and "damping".
+    """
+
+    name: str
+    type: str
+    i: str
+    j: str
+    parts: tuple[str, ...]
+
+
+class CompiledModel:
+    """A model in numbers; made by ``Model.compile()``.
+
+    Attributes:
+        core: the model in the core.
+        case: JSON of the case that it can be compiled from again.
+    """
+
+    def __init__(self, core: _core.Model, case: str) -> None:
+        self.core = core
+        self.case = case
+        self._about: dict[str, Any] = json.loads(core.describe())
+
+    @classmethod
+    def from_case(cls, case: str) -> CompiledModel:
+        """Compile the model of a case given as JSON."""
+        return cls(_core.Case(case, "json", None).model("{}"), case)
+
+    @property
+    def title(self) -> str:
+        """What it is."""
+        return self._about["title"] or ""
+
+    @property
+    def gravity(self) -> Vector:
+        """Acceleration of free fall, m/s²."""
+        return _vector(self._about["gravity"])
+
+    @property
+    def parameters(self) -> Mapping[str, float]:
+        """Values of the parameters."""
+        return MappingProxyType(self._about["parameters"])
+
+    @property
+    def n_q(self) -> int:
+        """Number of coordinates: 3 for each moving body."""
+        return int(self._about["n_q"])
+
+    @property
+    def n_rows(self) -> int:
+        """Number of constraint equations."""
+        return int(self._about["n_rows"])
+
+    @cached_property
+    def all_bodies(self) -> Mapping[str, BodyInfo]:
+        """Ground and the moving bodies, in the order of q."""
+        infos = (_body(number, entry) for number, entry in enumerate(self._about["bodies"]))
+        return MappingProxyType({info.name: info for info in infos})
+
+    @cached_property
+    def bodies(self) -> Mapping[str, BodyInfo]:
+        """The moving bodies, in the order of q."""
+        return MappingProxyType({k: b for k, b in self.all_bodies.items() if b.number})
+
+    @cached_property
+    def constraints(self) -> Mapping[str, ConstraintInfo]:
+        """Joints and drivers, in the order of Φ."""
+        infos = map(_constraint, self._about["constraints"])
+        return MappingProxyType({info.name: info for info in infos})
+
+    @property
+    def joints(self) -> Mapping[str, ConstraintInfo]:
+        """The joints, in the order of Φ."""
+        return self._group("joints")
+
+    @property
+    def drivers(self) -> Mapping[str, ConstraintInfo]:
+        """The drivers, in the order of Φ."""
+        return self._group("drivers")
+
+    @cached_property
+    def forces(self) -> Mapping[str, ForceInfo]:
+        """The force elements."""
+        infos = map(_force, self._about["forces"])
+        return MappingProxyType({info.name: info for info in infos})
+
+    def body(self, name: str) -> BodyInfo:
+        """A body by name, ground among them.
+
+        Raises:
+            ModelError: there is no such body.
+        """
+        if name not in self.all_bodies:
+            raise unknown("body", name, self.all_bodies)
+        return self.all_bodies[name]
+
+    def column_names(self) -> list[str]:
+        """Names of the coordinates in the order of q, such as ``crank.angle``."""
+        return [f"{body}.{name}" for body in self.bodies for name in COORDINATES]
+
+    def row_names(self) -> list[str]:
+        """Names of the constraint equations in the order of Φ, such as ``A.x``."""
+        return [f"{c.name}.{name}" for c in self.constraints.values() for name, _ in c.equations]
+
+    def row_units(self) -> list[str]:
+        """Units of the constraint equations in the order of Φ: m or rad."""
+        return [unit for c in self.constraints.values() for _, unit in c.equations]
+
+    def names(self) -> Iterator[str]:
+        """Everything that a result can be asked for by name."""
+        yield from self.all_bodies
+        yield from self.constraints
+        yield from self.forces
+
+    def _group(self, group: str) -> Mapping[str, ConstraintInfo]:
+        return MappingProxyType({k: c for k, c in self.constraints.items() if c.group == group})
+
+
+def _vector(two: list[float] | None) -> Vector:
+    x, y = two or (0.0, 0.0)
+    return float(x), float(y)
+
+
+def _body(number: int, entry: dict[str, Any]) -> BodyInfo:
+    points = {name: _vector(point) for name, point in entry["points"].items()}
+    return BodyInfo(
+        name=entry["name"],
+        type=entry["type"] or "",
+        number=number,
+        mass=float(entry["mass"] or 0.0),
+        inertia=float(entry["inertia"] or 0.0),
+        center=_vector(entry["center"]),
+        points=MappingProxyType(points),
+    )
+
+
+def _constraint(entry: dict[str, Any]) -> ConstraintInfo:
+    return ConstraintInfo(
+        name=entry["name"],
+        group=entry["group"],
+        type=entry["type"],
+        i=entry["i"],
+        j=entry["j"],
+        point_i=_vector(entry["point_i"]),
+        point_j=_vector(entry["point_j"]),
+        rows=slice(*entry["rows"]),
+        equations=tuple((equation["name"], equation["unit"]) for equation in entry["equations"]),
+    )
+
+
+def _force(entry: dict[str, Any]) -> ForceInfo:
+    name, kind, parts = entry["name"], entry["type"], tuple(entry["parts"])
+    return ForceInfo(name=name, type=kind, i=entry["i"], j=entry["j"], parts=parts)

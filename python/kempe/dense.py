@@ -1,0 +1,50 @@
+"""The motion between the steps: the integrator's own interpolant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kempe.arrays import Floats
+from kempe.errors import ModelError
+
+
+@dataclass(frozen=True)
+class DenseOutput:
+    """y(t_old + θ h) = y_old + h Σ_k c_k θ^(k+1) in every step, with y = [q, v, quadratures].
+
+    Attributes:
+        t: boundaries of the k steps, (k + 1,), s.
+        y: y at the start of each step, (k, n_y).
+        c: coefficients, (k, n_y, 4).
+    """
+
+    t: Floats
+    y: Floats
+    c: Floats
+
+    def __call__(self, t: Floats) -> Floats:
+        """State y at times of any shape, (…, n_y).
+
+        Raises:
+            ModelError: a time lies outside of the simulated interval, or is NaN.
+        """
+        self._refuse_outside(t)
+        step = np.clip(np.searchsorted(self.t, t, side="right") - 1, 0, len(self.y) - 1)
+        h = self.t[step + 1] - self.t[step]
+        theta = ((t - self.t[step]) / h)[..., None]
+        total = np.zeros((*np.shape(t), self.y.shape[1]))
+        for k in reversed(range(self.c.shape[2])):  # Horner
+            total = (total + self.c[step, :, k]) * theta
+        return np.asarray(self.y[step] + h[..., None] * total, dtype=np.float64)
+
+    def _refuse_outside(self, t: Floats) -> None:
+        slack = 1e-12 * max(abs(self.t[0]), abs(self.t[-1]))
+        inside = (t >= self.t[0] - slack) & (t <= self.t[-1] + slack)
+        if not np.all(inside):
+            wrong = float(np.extract(~inside, t)[0])
+            raise ModelError(
+                f"t = {wrong:g} s is outside of the solution, {self.t[0]:g} to {self.t[-1]:g} s",
+                t=wrong,
+            )

@@ -1,0 +1,47 @@
+"""What all entries of a model have in common: a name, a section of the file, checked fields."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields
+from typing import Any, ClassVar
+
+from kempe.values import CHECKS, reference
+
+
+@dataclass(frozen=True)
+class Element:
+    """An entry of a model as it is written; its fields are checked when it is made.
+
+    Attributes:
+        name: its name in the model.
+        section: the section of the file, such as ``joints``.
+        kind: the ``type`` in the file, such as ``revolute``.
+        shapes: what may stand in each field.
+
+    Raises:
+        ModelError: a field holds what it cannot hold; the message names it.
+    """
+
+    name: str
+    section: ClassVar[str]
+    kind: ClassVar[str]
+    shapes: ClassVar[Mapping[str, str]]
+
+    def __post_init__(self) -> None:
+        """Reduce every given field to what a file can hold."""
+        reference(self.name, f"name of a {self.kind}")
+        for field, shape in self.shapes.items():
+            value = getattr(self, field)
+            if value is not None:
+                checked = CHECKS[shape](value, f"{self.section}.{self.name}.{field}")
+                object.__setattr__(self, field, checked)
+
+    def tree(self) -> dict[str, Any]:
+        """The entry as in a file: the type and the fields that differ from their defaults."""
+        entry: dict[str, Any] = {"type": self.kind}
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if field.name != "name" and (field.default is MISSING or value != field.default):
+                entry[field.name] = value
+        return entry

@@ -1,0 +1,112 @@
+"""Reading and writing of files: whole or not at all, and errors that say what to do.
+
+A file is written beside its place under another name, flushed to the disk and then moved over the
+old one, so that a reader sees the old or the new content and never a part (POSIX rename).
+"""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import BinaryIO
+
+from kempe.errors import FileError
+
+#: A case is written by hand or by a program for a person; the core reads no more than this.
+LARGEST_TEXT = 16 * 1024 * 1024
+
+_REMEDIES: tuple[tuple[type[OSError], str, str], ...] = (
+    (FileNotFoundError, "does not exist", "check the name"),
+    (IsADirectoryError, "is a folder", "name a file in it"),
+    (NotADirectoryError, "lies in something that is not a folder", "check the path"),
+    (FileExistsError, "exists and is not a folder", "choose another place"),
+    (PermissionError, "is not permitted", "check its permissions"),
+)
+
+
+def trouble(path: Path | str, doing: str, error: OSError) -> FileError:
+    """The ``FileError`` for an error of the operating system.
+
+    Args:
+        path: the file.
+        doing: what was tried, such as "read".
+        error: what the system said.
+    """
+    for kind, what, remedy in _REMEDIES:
+        if isinstance(error, kind):
+            return FileError(f"cannot {doing} {path}: it {what}", name=str(path), hint=remedy)
+    reason = error.strerror or str(error)
+    return FileError(f"cannot {doing} {path}: {reason}", name=str(path), hint="check the disk")
+
+
+def read_text(path: Path | str) -> str:
+    """The text of a UTF-8 file.
+
+    Raises:
+        FileError: missing, a folder, not permitted, too large or not UTF-8.
+    """
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(LARGEST_TEXT + 1)
+    except OSError as error:
+        raise trouble(path, "read", error) from error
+    except ValueError as error:  # a NUL character in the name
+        raise FileError(f"cannot read {path!r}: {error}", hint="check the name") from error
+    if len(data) > LARGEST_TEXT:
+        megabytes = LARGEST_TEXT // 2**20
+        raise FileError(f"cannot read {path}: larger than {megabytes} MiB", hint="is it a case?")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FileError(
+            f"cannot read {path}: not UTF-8 text (byte {error.start})",
+            name=str(path),
+            hint="save it as UTF-8",
+        ) from error
+
+
+@contextmanager
+def writing(path: Path | str) -> Iterator[BinaryIO]:
+    """A binary file that appears at ``path`` when the block ends well, and not otherwise.
+
+    Missing folders are made. A symbolic link stays one: what it points to is replaced.
+
+    Raises:
+        FileError: the file cannot be written.
+    """
+    target = Path(os.path.realpath(path))
+    draft = target.with_name(f".{target.name}.{secrets.token_hex(4)}.part")
+    try:
+        if target.is_dir():
+            raise IsADirectoryError(target)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with draft.open("xb") as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        _keep_mode(target, draft)
+        draft.replace(target)
+    except OSError as error:
+        raise trouble(path, "write", error) from error
+    finally:
+        with suppress(OSError):
+            draft.unlink()
+
+
+def _keep_mode(target: Path, draft: Path) -> None:
+    """Give the new file the permissions of the one that it replaces."""
+    with suppress(FileNotFoundError):
+        draft.chmod(target.stat().st_mode & 0o7777)
+
+
+def write_text(path: Path | str, text: str) -> None:
+    """Write UTF-8 text, whole or not at all.
+
+    Raises:
+        FileError: the file cannot be written.
+    """
+    with writing(path) as file:
+        file.write(text.encode("utf-8"))

@@ -1,0 +1,263 @@
+"""The model as it is written in Python: bodies, joints, drivers and forces, by name."""
+
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from kempe import _core
+from kempe.bodies import Bar, Body
+from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
+from kempe.element import Element
+from kempe.elements import E, ElementMethods
+from kempe.tree import core_case
+from kempe.values import Number, Pair, Points, numbers, pair, points, refuse
+
+#: Version of the format of a case.
+FORMAT = 1
+SECTIONS = ("bodies", "joints", "drivers", "forces")
+
+
+class Ground:
+    """The body that does not move; its frame is the global one."""
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+
+    def points(self, **points: Pair) -> None:
+        """Name points of ground: ``m.ground.points(A=(0, 0), D=("G", 0))``, m.
+
+        Raises:
+            ModelError: a point has that name already, or is not two numbers or formulas.
+        """
+        self._model._ground_points(points)
+
+    def __repr__(self) -> str:
+        return f"ground of {self._model!r}"
+
+
+class Model(ElementMethods):
+    """A planar mechanism, built step by step.
+
+    ::
+
+        m = kp.Model("pendulum", gravity=(0, -9.81), parameters={"L": 1})
+        m.ground.points(A=(0, 0))
+        m.bar("rod", mass=2, length="L", ends=("A", "B"))
+        m.revolute("A", "ground.A", "rod.A")
+
+    Numbers are in SI units, angles in rad, and may be formulas in the parameters as text. The order
+    of the calls is the order in q and Φ. Joints, drivers and forces are added by the method named
+    as their type, which ``kempe.elements`` lists.
+
+    Args:
+        title: what it is.
+        gravity: acceleration of free fall, m/s²; none by default.
+        parameters: named numbers, or formulas in other parameters.
+
+    Raises:
+        ModelError: a value cannot stand where it stands; the message names the field.
+    """
+
+    def __init__(
+        self,
+        title: str = "",
+        *,
+        gravity: Pair = (0.0, 0.0),
+        parameters: Mapping[str, Number] | None = None,
+    ) -> None:
+        if not isinstance(title, str):
+            refuse("title", f"{title!r} is not a text")
+        self._tree: dict[str, Any] = {
+            "kempe": FORMAT,
+            "title": title,
+            "gravity": pair(gravity, "gravity"),
+            "parameters": numbers(parameters or {}, "parameters"),
+            **{section: {} for section in SECTIONS},
+        }
+        self._source: tuple[_core.Case, dict[str, float | str]] | None = None
+        self._compiled: CompiledModel | None = None
+
+    # --- writing ----------------------------------------------------------------------------------
+
+    @property
+    def ground(self) -> Ground:
+        """The body that does not move."""
+        return Ground(self)
+
+    def bar(
+        self,
+        name: str,
+        *,
+        mass: Number,
+        length: Number | None = None,
+        ends: tuple[str, str] | None = None,
+        through: Points | None = None,
+        points: Points | None = None,
+    ) -> Bar:
+        """Add a uniform slender bar: frame at its centre, x along it, inertia mass·length²/12.
+
+        Args:
+            name: its name.
+            mass: kg.
+            length: m; may be left out where ``through`` gives both ends.
+            ends: names of the points at (-length/2, 0) and (length/2, 0).
+            through: two named points where they stand, global, m: ``{"B": (3.4, 9.4), …}``.
+            points: further named points in the frame of the bar, m.
+        """
+        return self._add(Bar(name, mass, length, ends, through, points))
+
+    def body(
+        self,
+        name: str,
+        *,
+        mass: Number,
+        inertia: Number,
+        center: Pair = (0.0, 0.0),
+        points: Points | None = None,
+        through: Points | None = None,
+    ) -> Body:
+        """Add a rigid body.
+
+        Args:
+            name: its name.
+            mass: kg.
+            inertia: about the mass centre, kg·m².
+            center: mass centre in the body's frame, m.
+            points: named points in the body's frame, m.
+            through: two named points where they stand, global, m.
+        """
+        return self._add(Body(name, mass, inertia, center, points, through))
+
+    def _add(self, element: E) -> E:
+        self._refuse_taken(element)
+        self._tree[element.section][element.name] = element.tree()
+        self._changed()
+        return element
+
+    def _refuse_taken(self, element: Element) -> None:
+        path = f"{element.section}.{element.name}"
+        if _core.is_reserved(element.name):
+            refuse(path, "this name is reserved; choose another")
+        for section in SECTIONS:
+            if element.name in self._tree[section]:
+                refuse(path, f"the name is taken by {section}.{element.name}; choose another")
+
+    def _ground_points(self, given: Mapping[str, Pair]) -> None:
+        bodies: dict[str, Any] = self._tree["bodies"]
+        known = bodies.get("ground", {}).get("points", {})
+        for name in given:
+            if name in known:
+                refuse(f"bodies.ground.points.{name}", "the point is there already")
+        checked = points(given, "bodies.ground.points")
+        self._tree["bodies"] = {"ground": {"points": {**known, **checked}}} | {
+            name: body for name, body in bodies.items() if name != "ground"
+        }
+        self._changed()
+
+    def _changed(self) -> None:
+        self._source = None
+        self._compiled = None
+
+    # --- reading ----------------------------------------------------------------------------------
+
+    @classmethod
+    def from_tree(cls, tree: Mapping[str, Any], source: _core.Case | None = None) -> Model:
+        """A model from the tree of a case.
+
+        Args:
+            tree: the case as nested mappings, structured as the file.
+            source: the case in the core that the tree was taken from, whose errors tell lines.
+        """
+        model = cls()
+        kept = {key: tree[key] for key in model._tree if key in tree}
+        model._tree.update(copy.deepcopy(kept))
+        model._source = None if source is None else (source, {})
+        return model
+
+    def with_parameters(self, parameters: Mapping[str, Number]) -> Model:
+        """The same model with other values of some parameters; this one is left as it is.
+
+        Raises:
+            ModelError: a value is not a number or a formula. That a name is not a parameter of the
+                model is told when the model is compiled.
+        """
+        changed = numbers(parameters, "parameters")
+        model = Model.from_tree(self._tree)
+        source, overrides = self._source or (core_case(self.tree()), {})
+        model._source = (source, {**overrides, **changed})
+        model._tree["parameters"].update(changed)
+        return model
+
+    def tree(self) -> dict[str, Any]:
+        """The model as nested mappings, structured as a file; a copy."""
+        kept = {key: value for key, value in self._tree.items() if value not in ({}, "")}
+        return copy.deepcopy(kept)
+
+    def compile(self) -> CompiledModel:
+        """The model in numbers; kept until the model is changed.
+
+        Raises:
+            ModelError: with all that is wrong, in ``problems``.
+        """
+        if self._compiled is None:
+            source, overrides = self._source or (core_case(self.tree()), {})
+            core = source.model(json.dumps(overrides, allow_nan=False))
+            self._compiled = CompiledModel(core, self._json())
+        return self._compiled
+
+    def _json(self) -> str:
+        return json.dumps(self.tree(), allow_nan=False)
+
+    @property
+    def title(self) -> str:
+        """What it is."""
+        return str(self._tree["title"])
+
+    @property
+    def n_q(self) -> int:
+        """Number of coordinates: 3 for each moving body."""
+        return self.compile().n_q
+
+    @property
+    def n_rows(self) -> int:
+        """Number of constraint equations."""
+        return self.compile().n_rows
+
+    @property
+    def gravity(self) -> tuple[float, float]:
+        """Acceleration of free fall, m/s²."""
+        return self.compile().gravity
+
+    @property
+    def parameters(self) -> Mapping[str, float]:
+        """Values of the parameters."""
+        return self.compile().parameters
+
+    @property
+    def bodies(self) -> Mapping[str, BodyInfo]:
+        """The moving bodies in numbers, in the order of q."""
+        return self.compile().bodies
+
+    @property
+    def joints(self) -> Mapping[str, ConstraintInfo]:
+        """The joints in numbers, in the order of Φ."""
+        return self.compile().joints
+
+    @property
+    def drivers(self) -> Mapping[str, ConstraintInfo]:
+        """The drivers in numbers, in the order of Φ."""
+        return self.compile().drivers
+
+    @property
+    def forces(self) -> Mapping[str, ForceInfo]:
+        """The force elements in numbers."""
+        return self.compile().forces
+
+    def __repr__(self) -> str:
+        moving = {section: dict(self._tree[section]) for section in SECTIONS}
+        moving["bodies"].pop("ground", None)
+        told = [f"{section} {', '.join(names)}" for section, names in moving.items() if names]
+        return f"<Model {self.title!r}: {'; '.join(told) or 'empty'}>"

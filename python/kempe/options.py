@@ -1,0 +1,138 @@
+"""How to simulate: integrators, stabilizations and the simulation itself, as data.
+
+The core checks the numbers, so that a file and a program are refused in the same words.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar
+
+from kempe.errors import ModelError
+from kempe.values import Number, number, reference
+
+
+@dataclass(frozen=True)
+class Option:
+    """A choice with numbers, ``{ type = "rk45", rtol = 1e-6 }`` in a file."""
+
+    kind: ClassVar[str]
+
+    def tree(self, path: str) -> dict[str, Any]:
+        """The choice as in a file; what is None is left out.
+
+        Args:
+            path: where it stands, for messages.
+        """
+        given = {field.name: getattr(self, field.name) for field in fields(self)}
+        checked = {k: number(v, f"{path}.{k}") for k, v in given.items() if v is not None}
+        return {"type": self.kind, **checked}
+
+
+@dataclass(frozen=True)
+class RK45(Option):
+    """Explicit Runge-Kutta of order 5 with an error estimate of order 4 (Dormand & Prince 1980).
+
+    Attributes:
+        rtol: tolerance relative to each component.
+        atol: absolute tolerance, m or rad and per s.
+        first_step: length of the first step, s; chosen when None.
+        max_step: longest step, s; none when None.
+    """
+
+    rtol: Number = 1e-6
+    atol: Number = 1e-9
+    first_step: Number | None = None
+    max_step: Number | None = None
+    kind: ClassVar[str] = "rk45"
+
+
+@dataclass(frozen=True)
+class RK4(Option):
+    """Explicit Runge-Kutta of order 4 with a constant step.
+
+    Attributes:
+        step: length of a step, s.
+    """
+
+    step: Number
+    kind: ClassVar[str] = "rk4"
+
+
+@dataclass(frozen=True)
+class Baumgarte(Option):
+    """γ̂ = γ - 2α (Φ_q q̇ + Φ_t) - β² Φ (Baumgarte 1972; Haug 7.3.8).
+
+    Attributes:
+        alpha: 1/s.
+        beta: 1/s; with explicit methods stability limits the step to about 3/β.
+    """
+
+    alpha: Number = 10.0
+    beta: Number = 200.0
+    kind: ClassVar[str] = "baumgarte"
+
+
+@dataclass(frozen=True)
+class NoStabilization(Option):
+    """γ as it is: the constraints drift with the error of the integration."""
+
+    kind: ClassVar[str] = "none"
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """A simulation, as an entry of ``[analyses]``.
+
+    Attributes:
+        t_end: time at which it ends, s.
+        output_step: time between outputs, s; every step when None.
+        method: the integrator.
+        stabilization: of the constraints; none at all when None.
+        max_steps: it gives up after that many steps; what the core finds enough when None.
+        dense_output: whether to keep the interpolant between the steps.
+        name: its name in the case.
+        after: where it starts: "start", or the name of an earlier analysis; where the one before
+            it ended when None.
+    """
+
+    t_end: Number
+    output_step: Number | None = None
+    method: Option = RK45()
+    stabilization: Option | None = Baumgarte()
+    max_steps: int | None = None
+    dense_output: bool = True
+    name: str = "dynamics"
+    after: str | None = None
+
+    def tree(self) -> dict[str, Any]:
+        """The entry as in a file.
+
+        Raises:
+            ModelError: a value is not what its field wants.
+        """
+        path = f"analyses.{reference(self.name, 'name of an analysis')}"
+        entry: dict[str, Any] = {"type": "dynamics"}
+        if self.after is not None:
+            entry["from"] = reference(self.after, f"{path}.from")
+        entry["t_end"] = number(self.t_end, f"{path}.t_end")
+        for field in ("output_step", "max_steps"):
+            if getattr(self, field) is not None:
+                entry[field] = number(getattr(self, field), f"{path}.{field}")
+        entry["method"] = _option(self.method, f"{path}.method")
+        chosen = NoStabilization() if self.stabilization is None else self.stabilization
+        entry["stabilization"] = _option(chosen, f"{path}.stabilization")
+        entry["dense_output"] = bool(self.dense_output)
+        return entry
+
+
+def _option(value: object, path: str) -> dict[str, Any]:
+    if not isinstance(value, Option):
+        raise ModelError(f"{path}: {value!r}", hint="pass an object such as kp.RK45(rtol=1e-6)")
+    return value.tree(path)
+
+
+def core_options(entry: Mapping[str, Any]) -> dict[str, Any]:
+    """The part of an entry that the core wants: all but what the front has used itself."""
+    return {key: value for key, value in entry.items() if key not in ("type", "from")}

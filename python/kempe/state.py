@@ -1,0 +1,138 @@
+"""One instant of a mechanism, and how it was put together."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from kempe.arrays import Floats, fixed
+from kempe.compiled import COORDINATES, RATES, CompiledModel
+from kempe.matrices import Matrices, matrices
+from kempe.motion import Motion
+from kempe.values import Number
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """One iteration of an assembly.
+
+    Attributes:
+        residual: largest residual before it, m or rad.
+        step: largest change of a coordinate, m or rad.
+    """
+
+    residual: float
+    step: float
+
+
+@dataclass(frozen=True)
+class Mode:
+    """On which side a dyad was closed.
+
+    Attributes:
+        bodies: the bodies of the dyad.
+        joint: the joint between them.
+        side: "left" or "right" of the line between its outer joints.
+    """
+
+    bodies: tuple[str, ...]
+    joint: str
+    side: str
+
+
+@dataclass(frozen=True)
+class AssemblyReport:
+    """How a mechanism was put together.
+
+    Attributes:
+        iterations: of Newton's method.
+        degrees_of_freedom: that the constraints leave.
+        modes: the side taken for every dyad.
+        alternatives: how many other assemblies there are.
+        warnings: what to look at.
+    """
+
+    iterations: tuple[Iteration, ...]
+    degrees_of_freedom: int
+    modes: tuple[Mode, ...]
+    alternatives: int
+    warnings: tuple[str, ...]
+
+    @classmethod
+    def from_json(cls, text: str) -> AssemblyReport:
+        """The report as the core gives it."""
+        told: dict[str, Any] = json.loads(text)
+        return cls(
+            iterations=tuple(Iteration(i["residual"], i["step"]) for i in told["iterations"]),
+            degrees_of_freedom=told["degrees_of_freedom"],
+            modes=tuple(Mode(tuple(m["bodies"]), m["joint"], m["side"]) for m in told["modes"]),
+            alternatives=told["alternatives"],
+            warnings=tuple(told["warnings"]),
+        )
+
+    def __str__(self) -> str:
+        last = f", residual {self.iterations[-1].residual:.1e}" if self.iterations else ""
+        lines = [f"{len(self.iterations)} iterations{last}"]
+        lines += [f"{'-'.join(m.bodies)} closed to the {m.side} at {m.joint}" for m in self.modes]
+        if self.alternatives:
+            lines.append(f"other assemblies exist: {self.alternatives}")
+        return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings)])
+
+
+class State(Motion):
+    """One instant of a mechanism: ``state["crank"].angle``, ``state["C"].residual``.
+
+    Attributes:
+        model: the model in numbers.
+        t: time, s.
+        q: (n_q,): x, y, angle of each moving body, m and rad; read-only.
+        v: (n_q,): their rates, m/s and rad/s; read-only.
+        z: first-order states that elements own; empty for most models.
+        report: how it was assembled; None for a state that was not.
+    """
+
+    def __init__(
+        self,
+        model: CompiledModel,
+        t: float,
+        q: Floats,
+        v: Floats,
+        report: AssemblyReport | None = None,
+    ) -> None:
+        super().__init__(model, fixed(t), q, v)
+        self.z = fixed(np.empty(0))
+        self.report = report
+
+    def matrices(self, set: Mapping[str, Number] | None = None) -> Matrices:  # noqa: A002
+        """The matrices of the equations of motion here.
+
+        Args:
+            set: coordinates that are held, as in an assembly; each adds a row.
+        """
+        return matrices(self, set or {})
+
+    def coordinates(self) -> dict[str, float]:
+        """Coordinates and rates by name: ``{"crank.x": …, "crank.omega": …}``, m, rad and per s."""
+        names = [f"{body}.{name}" for body in self.model.bodies for name in COORDINATES]
+        rates = [f"{body}.{name}" for body in self.model.bodies for name in RATES]
+        values = [*self.q.tolist(), *self.v.tolist()]
+        return dict(zip([*names, *rates], values, strict=True))
+
+    def __str__(self) -> str:
+        width = max((len(name) for name in self.model.bodies), default=4)
+        units = ("x / m", "y / m", "angle / °", "vx / m/s", "vy / m/s", "omega / rad/s")
+        lines = [" " * width + "".join(f"{unit:>15}" for unit in units)]
+        for name in self.model.bodies:
+            body = self.body(name)
+            numbers = [body.x, body.y, np.degrees(body.angle), body.vx, body.vy, body.omega]
+            row = "".join(f"{float(number) + 0.0:15.6g}" for number in numbers)
+            lines.append(f"{name:<{width}}{row}")
+        told = [] if self.report is None else [str(self.report)]
+        return "\n".join([f"t = {float(self.t):g} s", *lines, *told])
+
+    def __repr__(self) -> str:
+        return f"<State of {self.model.title!r} at t = {float(self.t):g} s>\n{self}"

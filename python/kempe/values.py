@@ -1,0 +1,119 @@
+"""What may be written as a value in a model, checked and reduced to what JSON can hold.
+
+Every check takes the path of the field, such as ``joints.A.axes``, and names it when it refuses.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from numbers import Integral, Real
+from typing import Any, NoReturn, TypeAlias
+
+from kempe.errors import ModelError, Problem
+
+#: A number in SI units, or a formula in the parameters of the model as text.
+Number: TypeAlias = "float | str"
+#: Two of them, such as a point or a vector.
+Pair: TypeAlias = "Sequence[float | str]"
+#: Named points of a body, in its frame, m.
+Points: TypeAlias = "Mapping[str, Sequence[float | str]]"
+
+#: Beyond it a float no longer holds every integer.
+_LARGEST_EXACT_INTEGER = 2**53
+
+
+def refuse(path: str, message: str) -> NoReturn:
+    """Raise the ``ModelError`` for the field at ``path``."""
+    raise ModelError(f"{path}: {message}", problems=(Problem(message, path),))
+
+
+def number(value: object, path: str) -> float | str:
+    """A finite real number, or the text of a formula.
+
+    NumPy scalars and arrays without dimension count as the number they hold.
+    """
+    if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
+        value = value.item()
+    if isinstance(value, str):
+        return value if value.strip() else refuse(path, "empty text; must be a number or a formula")
+    if callable(value):
+        refuse(path, "a Python function cannot stand in a model; write the formula as text")
+    if isinstance(value, bool) or not isinstance(value, Real):
+        refuse(path, f"{value!r} is not a real number or the text of a formula")
+    if isinstance(value, Integral) and abs(int(value)) <= _LARGEST_EXACT_INTEGER:
+        return int(value)
+    return _finite(value, path)
+
+
+def _finite(value: Real, path: str) -> float:
+    try:
+        result = float(value)
+    except OverflowError:
+        refuse(path, "too large for a floating point number")
+    return result if math.isfinite(result) else refuse(path, f"{result}; must be finite")
+
+
+def pair(value: object, path: str) -> tuple[float | str, float | str]:
+    """Two numbers or formulas, from any sequence of two."""
+    first, second = _two(value, path, "two numbers or formulas")
+    return number(first, f"{path}[0]"), number(second, f"{path}[1]")
+
+
+def reference(value: object, path: str) -> str:
+    """A name such as ``crank``, ``crank.B`` or ``crank.angle``; whether it exists is told later."""
+    if not isinstance(value, str):
+        refuse(path, f"{value!r} is not a name")
+    return value if value.strip() else refuse(path, "empty name")
+
+
+def names(value: object, path: str) -> tuple[str, str]:
+    """Two names."""
+    first, second = _two(value, path, "two names")
+    return reference(first, f"{path}[0]"), reference(second, f"{path}[1]")
+
+
+def points(value: object, path: str) -> dict[str, tuple[float | str, float | str]]:
+    """Named points, each two numbers or formulas."""
+    return {
+        reference(name, path): pair(point, f"{path}.{name}")
+        for name, point in _items(value, path, "{'P': (x, y)}")
+    }
+
+
+def numbers(value: object, path: str) -> dict[str, float | str]:
+    """Named numbers or formulas, such as parameters or given coordinates."""
+    return {
+        reference(name, path): number(entry, f"{path}.{name}")
+        for name, entry in _items(value, path, "{'name': number}")
+    }
+
+
+def _two(value: object, path: str, what: str) -> tuple[object, object]:
+    if callable(value):
+        refuse(path, "a Python function cannot stand in a model; write the formulas as text")
+    if isinstance(value, str | bytes | Mapping) or not hasattr(value, "__iter__"):
+        refuse(path, f"{value!r}; must be {what}")
+    entries = list(value)
+    if len(entries) != 2:
+        refuse(path, f"{len(entries)} values; must be {what}")
+    return entries[0], entries[1]
+
+
+def _items(value: object, path: str, form: str) -> list[tuple[object, object]]:
+    if not isinstance(value, Mapping):
+        refuse(path, f"{value!r}; must be a mapping such as {form}")
+    return list(value.items())
+
+
+#: The check for each shape of a field.
+CHECKS: Mapping[str, Callable[[object, str], Any]] = {
+    "body": reference,
+    "point": reference,
+    "coordinate": reference,
+    "number": number,
+    "law": number,
+    "pair": pair,
+    "names": names,
+    "points": points,
+}

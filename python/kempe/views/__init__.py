@@ -1,0 +1,7 @@
+"""What a motion says of one body, joint or force."""
+
+from kempe.views.body import BodyView, PointView
+from kempe.views.constraint import ConstraintView
+from kempe.views.force import ForceView
+
+__all__ = ["BodyView", "ConstraintView", "ForceView", "PointView"]

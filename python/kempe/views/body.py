@@ -1,0 +1,157 @@
+"""The motion of one body and of its points.
+
+r_P = r + A s′, ṙ_P = ṙ + φ̇ B s′, r̈_P = r̈ + φ̈ B s′ - φ̇² A s′ (Haug 2.6.4 to 2.6.8), with B s′ the
+vector A s′ turned by 90°.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from kempe.arrays import Floats, fixed, pairs, rotated
+from kempe.compiled import BodyInfo, Vector
+from kempe.names import unknown
+
+if TYPE_CHECKING:
+    from kempe.motion import Motion
+
+
+class BodyView:
+    """A body of a motion: everything (n_t,) or (n_t, 2), SI units, angles in rad.
+
+    Attributes:
+        info: the body in numbers.
+    """
+
+    def __init__(self, motion: Motion, info: BodyInfo) -> None:
+        self._motion = motion
+        self.info = info
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self.info.name
+
+    @property
+    def x(self) -> Floats:
+        """Position of the frame's origin, m."""
+        return self._column(self._motion.q, 0)
+
+    @property
+    def y(self) -> Floats:
+        """Position of the frame's origin, m."""
+        return self._column(self._motion.q, 1)
+
+    @property
+    def angle(self) -> Floats:
+        """Angle of the frame, rad, continuous."""
+        return self._column(self._motion.q, 2)
+
+    @property
+    def vx(self) -> Floats:
+        """Velocity of the origin, m/s."""
+        return self._column(self._motion.v, 0)
+
+    @property
+    def vy(self) -> Floats:
+        """Velocity of the origin, m/s."""
+        return self._column(self._motion.v, 1)
+
+    @property
+    def omega(self) -> Floats:
+        """Angular velocity, rad/s."""
+        return self._column(self._motion.v, 2)
+
+    @property
+    def ax(self) -> Floats:
+        """Acceleration of the origin, m/s²."""
+        return self._acceleration(0)
+
+    @property
+    def ay(self) -> Floats:
+        """Acceleration of the origin, m/s²."""
+        return self._acceleration(1)
+
+    @property
+    def alpha(self) -> Floats:
+        """Angular acceleration, rad/s²."""
+        return self._acceleration(2)
+
+    @property
+    def r(self) -> Floats:
+        """Position of the origin, (n_t, 2), m."""
+        return pairs(self.x, self.y)
+
+    @property
+    def velocity(self) -> Floats:
+        """Velocity of the origin, (n_t, 2), m/s."""
+        return pairs(self.vx, self.vy)
+
+    @property
+    def acceleration(self) -> Floats:
+        """Acceleration of the origin, (n_t, 2), m/s²."""
+        return pairs(self.ax, self.ay)
+
+    def point(self, name: str) -> PointView:
+        """A named point of the body.
+
+        Raises:
+            ModelError: the body has no such point.
+        """
+        if name not in self.info.points:
+            raise unknown(f"point of {self.name}", name, self.info.points)
+        return self.at(self.info.points[name], name)
+
+    def at(self, s: Vector, name: str = "") -> PointView:
+        """A point of the body by its coordinates in the body's frame, m."""
+        return PointView(self, s, name)
+
+    def _acceleration(self, k: int) -> Floats:
+        return self._column(self._motion.a if self.info.number else self._motion.v, k)
+
+    def _column(self, values: Floats, k: int) -> Floats:
+        if not self.info.number:  # ground has no columns: it is at zero
+            return fixed(np.zeros(np.shape(self._motion.t)))
+        return fixed(values[..., self.info.columns][..., k])
+
+    def __repr__(self) -> str:
+        return f"<body {self.name!r}>"
+
+
+class PointView:
+    """A point fixed in a body.
+
+    Attributes:
+        s: its coordinates in the body's frame, m.
+        name: its name; empty if it has none.
+    """
+
+    def __init__(self, body: BodyView, s: Vector, name: str) -> None:
+        self._body = body
+        self.s = s
+        self.name = name
+
+    @property
+    def position(self) -> Floats:
+        """Global position, (n_t, 2), m."""
+        x, y = rotated(self._body.angle, self.s)
+        return pairs(self._body.x + x, self._body.y + y)
+
+    @property
+    def velocity(self) -> Floats:
+        """Global velocity, (n_t, 2), m/s."""
+        x, y = rotated(self._body.angle, self.s)
+        omega = self._body.omega
+        return pairs(self._body.vx - omega * y, self._body.vy + omega * x)
+
+    @property
+    def acceleration(self) -> Floats:
+        """Global acceleration, (n_t, 2), m/s²."""
+        x, y = rotated(self._body.angle, self.s)
+        alpha, square = self._body.alpha, self._body.omega**2
+        return pairs(self._body.ax - alpha * y - square * x, self._body.ay + alpha * x - square * y)
+
+    def __repr__(self) -> str:
+        return f"<point {self._body.name}.{self.name or self.s}>"

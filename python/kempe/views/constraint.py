@@ -1,0 +1,75 @@
+"""Reactions and residual of one joint or driver.
+
+F″ = -Cᵀ Aᵀ Φ_rᵀ λ (Haug 6.6.8), T″ by (6.6.9); C is fixed in the body named by ``on=``.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from kempe.arrays import Floats, fixed
+from kempe.compiled import ConstraintInfo
+from kempe.views.frames import checked_body, checked_frame
+
+if TYPE_CHECKING:
+    from kempe.motion import Motion
+
+
+class ConstraintView:
+    """A joint or driver of a motion.
+
+    Attributes:
+        info: the joint in numbers.
+    """
+
+    def __init__(self, motion: Motion, info: ConstraintInfo) -> None:
+        self._motion = motion
+        self.info = info
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self.info.name
+
+    def force(self, *, on: str, frame: str = "global") -> Floats:
+        """Force that the joint exerts on a body, (n_t, 2), N.
+
+        Args:
+            on: the body; one of the two that the joint connects.
+            frame: "global", "body" (axes of that body) or "joint" (axes of the joint on it). Only
+                in the global frame are the components on the two bodies opposite.
+
+        Raises:
+            ModelError: ``on`` or ``frame`` is none of these.
+        """
+        return fixed(self._reaction(on, frame)[..., :2])
+
+    def torque(self, *, on: str) -> Floats:
+        """Torque that the joint exerts on a body about the joint's point, (n_t,), N·m.
+
+        Raises:
+            ModelError: the joint does not connect that body.
+        """
+        return fixed(self._reaction(on, "global")[..., 2])
+
+    @property
+    def residual(self) -> Floats:
+        """Φ of the joint, (n_t, m), m or rad: by how much it is open."""
+        return fixed(self._motion.residuals[0][..., self.info.rows])
+
+    @property
+    def residual_rate(self) -> Floats:
+        """Φ_q q̇ + Φ_t of the joint, (n_t, m), m/s or rad/s."""
+        return fixed(self._motion.residuals[1][..., self.info.rows])
+
+    @property
+    def lam(self) -> Floats:
+        """Multipliers of the joint, (n_t, m), N or N·m."""
+        return fixed(self._motion.lam[..., self.info.rows])
+
+    def _reaction(self, on: str, frame: str) -> Floats:
+        body, axes = checked_body(self.info, on), checked_frame(frame)
+        return self._motion.reaction(self.name, body, axes)
+
+    def __repr__(self) -> str:
+        return f"<{self.info.type} {self.name!r}: {self.info.i} - {self.info.j}>"

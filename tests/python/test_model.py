@@ -1,0 +1,140 @@
+"""Building a model in Python: what is taken, what is refused, and in which words."""
+
+from pathlib import Path
+
+import kempe as kp
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from kempe import _core, _generate, elements
+
+
+def test_the_numbers_of_the_flagship(model: kp.Model) -> None:
+    assert (model.n_q, model.n_rows) == (9, 8)
+    assert list(model.bodies) == ["crank", "coupler", "rocker"]
+    assert list(model.joints) == ["A", "B", "C", "D"]
+    assert list(model.forces) == ["spring"]
+    assert model.bodies["rocker"].inertia == pytest.approx(4 * 18**2 / 12)
+    assert model.bodies["rocker"].points["C"] == pytest.approx((-9, 0))
+    assert model.joints["C"].rows == slice(4, 6)
+    assert model.forces["spring"].parts == ("stiffness", "damping")
+    assert model.gravity == (0.0, -9.81)
+    assert model.parameters["k"] == 1e6
+
+
+def test_a_model_tells_what_it_holds(model: kp.Model) -> None:
+    assert "crank, coupler, rocker" in repr(model)
+    assert "spring" in repr(model)
+
+
+def test_the_compiled_model_is_kept_until_a_change(model: kp.Model) -> None:
+    first = model.compile()
+    assert model.compile() is first
+    model.ground.points(E=(1, 2))
+    second = model.compile()
+    assert second is not first
+    assert second.all_bodies["ground"].points["E"] == (1.0, 2.0)
+
+
+def test_other_parameters_leave_the_model_as_it_was(model: kp.Model) -> None:
+    longer = model.with_parameters({"L1": 11})
+    assert longer.bodies["crank"].points["B"][0] == pytest.approx(5.5)
+    assert model.bodies["crank"].points["B"][0] == pytest.approx(5.0)
+
+
+def test_an_unknown_parameter_is_refused(model: kp.Model) -> None:
+    with pytest.raises(kp.ModelError, match="stiff"):
+        model.with_parameters({"stiff": 1}).compile()
+
+
+@pytest.mark.parametrize(
+    "value", [np.float64(3), np.float32(3), np.int64(3), np.array(3.0), 3, 3.0, "1 + 2"]
+)
+def test_every_kind_of_number_is_taken(value: object) -> None:
+    m = kp.Model()
+    m.bar("rod", mass=value, length=2)  # type: ignore[arg-type]
+    assert m.bodies["rod"].mass == 3.0
+
+
+@pytest.mark.parametrize(
+    "value",
+    [True, np.bool_(True), float("nan"), float("inf"), 1j, np.complex128(1), None, [], "", 10**400],
+    ids=repr,
+)
+def test_what_is_no_number_is_refused_with_its_place(value: object) -> None:
+    with pytest.raises(kp.ModelError, match=r"joints\.A\.axes\[1\]") as caught:
+        kp.Model().revolute("A", "ground.A", "crank.A", axes=(0.0, value))  # type: ignore[arg-type]
+    assert caught.value.problems[0].path == "joints.A.axes[1]"
+
+
+@pytest.mark.parametrize("value", [1.0, "ab", (1,), (1, 2, 3), {"x": 1, "y": 2}], ids=repr)
+def test_what_is_no_pair_is_refused_with_its_place(value: object) -> None:
+    with pytest.raises(kp.ModelError, match=r"joints\.A\.axes"):
+        kp.Model().revolute("A", "ground.A", "crank.A", axes=value)  # type: ignore[arg-type]
+
+
+def test_a_function_as_a_value_is_refused_by_the_name_of_its_field() -> None:
+    with pytest.raises(kp.ModelError, match=r"forces\.s\.stiffness: a Python function"):
+        kp.Model().torsion_spring("s", "ground", "rod", stiffness=abs)  # type: ignore[arg-type]
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False, min_value=1e-300, max_value=1e300))
+def test_numbers_reach_the_core_unchanged(mass: float) -> None:
+    m = kp.Model()
+    m.body("b", mass=mass, inertia=1)
+    assert m.bodies["b"].mass == mass
+
+
+def test_a_name_is_taken_once_over_all_sections(model: kp.Model) -> None:
+    with pytest.raises(kp.ModelError, match=r"taken by bodies\.crank"):
+        model.torsion_spring("crank", "ground", "rocker")
+    with pytest.raises(kp.ModelError, match=r"taken by joints\.A"):
+        model.bar("A", mass=1, length=1)
+    with pytest.raises(kp.ModelError, match=r"bodies\.ground\.points\.A"):
+        model.ground.points(A=(1, 1))
+    assert list(model.bodies) == ["crank", "coupler", "rocker"]
+
+
+@pytest.mark.parametrize("name", ["t", "pi", "deg", "ground"])
+def test_a_reserved_name_is_refused(name: str) -> None:
+    with pytest.raises(kp.ModelError, match="reserved"):
+        kp.Model().bar(name, mass=1, length=1)
+
+
+def test_an_unknown_body_is_refused_with_its_place(model: kp.Model) -> None:
+    model.revolute("E", "cuopler.B", "rocker.C")
+    with pytest.raises(kp.ModelError) as caught:
+        model.compile()
+    told = str(caught.value) + "".join(map(str, caught.value.problems))
+    assert "cuopler" in told
+    assert "joints.E.i" in told
+
+
+def test_a_structure_that_cannot_be_is_a_model_error_not_a_file_error() -> None:
+    m = kp.Model()
+    m.bar("a.b", mass=1, length=1)
+    with pytest.raises(kp.ModelError):
+        m.compile()
+
+
+def test_a_body_may_be_given_where_it_stands() -> None:
+    m = kp.Model()
+    m.bar("rod", mass=1, through={"A": (1, 1), "B": (4, 5)})
+    assert m.bodies["rod"].inertia == pytest.approx(25 / 12)
+
+
+def test_the_elements_are_what_the_catalogue_says() -> None:
+    written = Path(elements.__file__).read_text(encoding="utf-8")
+    assert _generate.source(_core.catalogue()) == written
+
+
+def test_an_element_keeps_what_was_written() -> None:
+    spring = kp.Model().torsion_spring("s", "ground", "rod", stiffness="2*k")
+    assert (spring.stiffness, spring.damping, spring.section) == ("2*k", 0.0, "forces")
+    assert spring.tree() == {
+        "type": "torsion_spring",
+        "i": "ground",
+        "j": "rod",
+        "stiffness": "2*k",
+    }
