@@ -58,6 +58,13 @@ class Case:
             ModelError: with all ``problems``.
         """
 
+    def check(self, model: Model) -> None:
+        """Look at start and analyses.
+
+        Raises:
+            ModelError: with all ``problems``.
+        """
+
     def analyses(self) -> str:
         """``[{"name", "type", "from": null | "start" | name}, …]`` in order."""
 
@@ -75,6 +82,9 @@ class Model:
         "forces": [{"name", "type", "i", "j", "parts": ["stiffness", "damping"]}]}``; the first
         body is ground.
         """
+
+    def allowing_redundancy(self) -> Model:
+        """The same model with redundant constraints accepted."""
 
 class Run:
     """What an integration gave."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from kempe import _core
 from kempe.compiled import CompiledModel
-from kempe.errors import IntegrationError, ModelError
+from kempe.errors import IntegrationError, ModelError, SingularityError
 from kempe.model import Model
 from kempe.options import RK45, Baumgarte, Dynamics, Option, core_options
 from kempe.solution import Solution
@@ -31,6 +31,7 @@ def assemble(
     set: Coordinates | None = None,  # noqa: A002
     guess: Coordinates | State | None = None,
     t: float = 0.0,
+    redundancy: str | None = None,
 ) -> State:
     """Put a mechanism together.
 
@@ -39,6 +40,8 @@ def assemble(
         set: coordinates and rates that are to hold: ``{"crank.angle": "70*deg"}``, m, rad, per s.
         guess: the same for those that may move; may be partial, absent, or a whole state.
         t: time, s.
+        redundancy: "allow" accepts constraints that repeat others, here and in what starts from
+            the state; as the model says when None.
 
     Returns:
         The state, with ``report``.
@@ -48,7 +51,7 @@ def assemble(
         RedundancyError: a joint repeats another.
         ModelError: the model is wrong, or ``set`` or ``guess`` names what it does not have.
     """
-    compiled = compiled_model(model)
+    compiled = _allowing(compiled_model(model), redundancy)
     held = json.dumps(numbers(set or {}, "set"), allow_nan=False)
     q = v = None
     if isinstance(guess, State):
@@ -74,6 +77,7 @@ def dynamics(
     stabilization: Option | None = Baumgarte(),  # noqa: B008 - frozen
     max_steps: int | None = None,
     dense_output: bool = True,
+    redundancy: str | None = None,
     progress: Progress | None = None,
 ) -> Solution:
     """Simulate the motion from a state.
@@ -87,6 +91,8 @@ def dynamics(
         stabilization: of the constraints; none at all when None.
         max_steps: it gives up after that many steps; what the core finds enough when None.
         dense_output: whether to keep the interpolant between the steps, for ``sol(t)``.
+        redundancy: "allow" accepts constraints that repeat others; as the start was assembled
+            when None.
         progress: called now and then with the time reached, s.
 
     Raises:
@@ -94,7 +100,7 @@ def dynamics(
             (``KeyboardInterrupt``) has ``solution`` too.
         ModelError: an option is wrong.
     """
-    compiled = compiled_model(model)
+    compiled = _allowing(compiled_model(model), redundancy or _redundancy(start))
     asked = Dynamics(t_end, output_step, method, stabilization, max_steps, dense_output)
     entry = asked.tree()
     case = json.dumps({**json.loads(compiled.case), "analyses": {asked.name: entry}})
@@ -111,7 +117,7 @@ def simulate(
     options = json.dumps(core_options(entry), allow_nan=False)
     try:
         run = _core.dynamics(model.core, float(start.t), start.q, start.v, options, progress)
-    except (IntegrationError, KeyboardInterrupt) as error:
+    except (IntegrationError, SingularityError, KeyboardInterrupt) as error:
         partial = getattr(error, "run", None)
         if partial is not None:
             error.solution = Solution(model, partial)  # type: ignore[union-attr]
@@ -126,6 +132,16 @@ def compiled_model(model: Model | CompiledModel) -> CompiledModel:
     if isinstance(model, Model):
         return model.compile()
     raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) makes one")
+
+
+def _allowing(model: CompiledModel, redundancy: str | None) -> CompiledModel:
+    if redundancy not in (None, "refuse", "allow"):
+        raise ModelError(f"redundancy: {redundancy!r} is neither 'refuse' nor 'allow'")
+    return model.allowing_redundancy() if redundancy == "allow" else model
+
+
+def _redundancy(start: object) -> str | None:
+    return start.model.redundancy if isinstance(start, State) else None
 
 
 def _time(t: float) -> float:

@@ -108,6 +108,16 @@ class CompiledModel:
         """Compile the model of a case given as JSON."""
         return cls(_core.Case(case, "json", None).model("{}"), case)
 
+    def allowing_redundancy(self) -> CompiledModel:
+        """The same model with redundant constraints accepted."""
+        case = json.dumps({**json.loads(self.case), "redundancy": "allow"})
+        return CompiledModel(self.core.allowing_redundancy(), case)
+
+    @property
+    def redundancy(self) -> str:
+        """Whether redundant constraints are accepted: "allow" or "refuse"."""
+        return str(self._about["redundancy"])
+
     @property
     def title(self) -> str:
         """What it is."""

@@ -56,6 +56,8 @@ class Model(ElementMethods):
         title: what it is.
         gravity: acceleration of free fall, m/s²; none by default.
         parameters: named numbers, or formulas in other parameters.
+        redundancy: "allow" accepts constraints that repeat others; their multipliers are then the
+            smallest that carry the loads. Refused by default.
 
     Raises:
         ModelError: a value cannot stand where it stands; the message names the field.
@@ -67,13 +69,17 @@ class Model(ElementMethods):
         *,
         gravity: Pair = (0.0, 0.0),
         parameters: Mapping[str, Number] | None = None,
+        redundancy: str | None = None,
     ) -> None:
         if not isinstance(title, str):
             refuse("title", f"{title!r} is not a text")
+        if redundancy not in (None, "refuse", "allow"):
+            refuse("redundancy", f"{redundancy!r} is neither 'refuse' nor 'allow'")
         self._tree: dict[str, Any] = {
             "kempe": FORMAT,
             "title": title,
             "gravity": pair(gravity, "gravity"),
+            **({"redundancy": redundancy} if redundancy else {}),
             "parameters": numbers(parameters or {}, "parameters"),
             **{section: {} for section in SECTIONS},
         }

@@ -25,8 +25,7 @@ pub fn wishes(py: Python<'_>, model: &PyModel, section: &str, text: &str) -> PyR
 
 /// Puts a mechanism together.
 #[pyfunction]
-#[pyo3(signature = (model, set, guess, t, q, v, redundancy))]
-#[allow(clippy::too_many_arguments)] // the arguments of Python
+#[pyo3(signature = (model, set, guess, t, q, v))]
 pub fn assemble<'py>(
     py: Python<'py>,
     model: &PyModel,
@@ -35,7 +34,6 @@ pub fn assemble<'py>(
     t: f64,
     q: Option<Row<'py>>,
     v: Option<Row<'py>>,
-    redundancy: &str,
 ) -> PyResult<Assembled<'py>> {
     guard("assemble", || {
         let given = match (q, v) {
@@ -47,7 +45,6 @@ pub fn assemble<'py>(
             guess: wishes(py, model, "guess", guess)?,
             state: given,
             t: number(py, "t", t)?,
-            allow_redundancy: redundancy == "allow",
         };
         let core_model = std::sync::Arc::clone(&model.model);
         let outcome = py.detach(|| core::assemble(&core_model, &request));

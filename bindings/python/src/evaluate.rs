@@ -51,14 +51,13 @@ impl States {
 
 /// Accelerations and multipliers at states, with γ, not γ̂.
 #[pyfunction]
-#[pyo3(signature = (model, t, q, v, redundancy))]
+#[pyo3(signature = (model, t, q, v))]
 pub fn evaluate<'py>(
     py: Python<'py>,
     model: &PyModel,
     t: Row<'py>,
     q: Rows<'py>,
     v: Rows<'py>,
-    redundancy: &str,
 ) -> PyResult<(Table<'py>, Table<'py>)> {
     guard("evaluate", || {
         let model = &*model.model;
@@ -66,9 +65,6 @@ pub fn evaluate<'py>(
         let (n, m, count) = (model.layout.n_q, model.layout.n_rows, states.t.len());
         let (mut a, mut lam) = (Vec::new(), Vec::new());
         let mut workspace = Workspace::new(model);
-        if redundancy == "allow" {
-            workspace.allow_redundancy(model);
-        }
         for (k, &t) in states.t.iter().enumerate() {
             let row = k * n..(k + 1) * n;
             let (q, v) = (&states.q[row.clone()], &states.v[row]);

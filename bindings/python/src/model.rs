@@ -28,6 +28,15 @@ impl PyModel {
     fn describe(&self) -> PyResult<String> {
         guard("Model.describe", || Ok(describe(&self.model).to_string()))
     }
+
+    /// The same model with redundant constraints accepted.
+    fn allowing_redundancy(&self) -> PyResult<Self> {
+        guard("Model.allowing_redundancy", || {
+            let mut blueprint = (*self.model.blueprint).clone();
+            blueprint.allow_redundancy = true;
+            Ok(Self::new(Model::new(&Arc::new(blueprint), &self.model.parameters)))
+        })
+    }
 }
 
 fn pair(s: &Local) -> Value {
@@ -43,6 +52,7 @@ fn describe(model: &Model) -> Value {
         "title": model.blueprint.title,
         "gravity": [model.gravity.x, model.gravity.y],
         "parameters": parameters,
+        "redundancy": if model.allow_redundancy { "allow" } else { "refuse" },
         "n_q": model.layout.n_q,
         "n_rows": model.layout.n_rows,
         "bodies": model.bodies.iter().map(body).collect::<Vec<_>>(),

@@ -59,13 +59,6 @@ fn dynamics() -> Table {
         ),
         Field::optional("max_steps", Shape::Count, "", Default::Absent, "Most steps before the solver gives up; else without limit."),
         Field::optional(
-            "redundancy",
-            Shape::Word(&["refuse", "allow"]),
-            "",
-            Default::Absent,
-            "\"allow\" accepts redundant constraints; their multipliers become the smallest that carry the loads.",
-        ),
-        Field::optional(
             "from",
             Shape::Name,
             "",

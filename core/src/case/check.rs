@@ -11,10 +11,14 @@ use crate::elements::{catalogue, Group, Shape, Table as Declaration};
 use crate::expression::suggest::did_you_mean;
 use crate::model::{Entry, Problem, Value};
 
-const SECTIONS: [&str; 10] = [
+/// Words for the key `redundancy`.
+pub(super) const REDUNDANCY: [&str; 2] = ["refuse", "allow"];
+
+const SECTIONS: [&str; 11] = [
     "kempe",
     "title",
     "gravity",
+    "redundancy",
     "parameters",
     "bodies",
     "joints",
@@ -59,6 +63,12 @@ fn section(
         "gravity" => {
             shape(report, node, Shape::Pair);
             model.gravity = Some(node.value());
+        }
+        "redundancy" => {
+            shape(report, node, Shape::Word(&REDUNDANCY));
+            if let Data::Text(word) = &node.data {
+                model.redundancy = Some(word.clone());
+            }
         }
         "parameters" => model.parameters = parameters(report, node),
         "bodies" => {

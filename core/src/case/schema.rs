@@ -1,5 +1,6 @@
 //! The JSON Schema of a case, from the same declarations as the reader.
 
+use super::check::REDUNDANCY;
 use super::{write_json, FORMAT_VERSION};
 use crate::analyses::{analysis_tables, option_families};
 use crate::elements::{catalogue, Default, Field, Group, Shape, Table};
@@ -74,6 +75,7 @@ fn sections() -> Fields {
         field("kempe", Value::Table(version)),
         field("title", Value::Table(typed("string"))),
         field("gravity", Value::Table(gravity)),
+        field("redundancy", Value::Table(vec![field("enum", texts(&REDUNDANCY))])),
         field("parameters", by_name(reference("number"))),
         field("bodies", Value::Table(body_section)),
     ];

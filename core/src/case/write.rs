@@ -46,6 +46,9 @@ pub(super) fn head(case: &Case) -> Vec<(String, Value)> {
     if let Some(gravity) = &case.definition.gravity {
         head.push(("gravity".to_string(), gravity.clone()));
     }
+    if let Some(redundancy) = &case.definition.redundancy {
+        head.push(("redundancy".to_string(), Value::Text(redundancy.clone())));
+    }
     head
 }
 

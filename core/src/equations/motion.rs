@@ -51,7 +51,7 @@ impl<S: Real> Workspace<S> {
     /// All memory that evaluations of this model need.
     pub fn new(model: &Model<S>) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
-        Self {
+        let mut workspace = Self {
             motions: Vec::with_capacity(model.bodies.len()),
             residual: vec![S::zero(); m],
             rate: vec![S::zero(); m],
@@ -60,11 +60,15 @@ impl<S: Real> Workspace<S> {
             solution: vec![S::zero(); n + m],
             correction: None,
             n_q: n,
+        };
+        if model.allow_redundancy {
+            workspace.allow_redundancy(model);
         }
+        workspace
     }
 
     /// Accepts redundant constraints: the multipliers become the smallest that carry the loads.
-    pub fn allow_redundancy(&mut self, model: &Model<S>) {
+    fn allow_redundancy(&mut self, model: &Model<S>) {
         let compliance = |b: &crate::model::Body<S>| S::one() / b.mass;
         let largest = model.bodies[1..].iter().map(compliance).fold(S::zero(), S::max);
         let mu = largest * S::constant(REDUNDANT);

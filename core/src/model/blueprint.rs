@@ -17,6 +17,8 @@ pub struct Blueprint {
     pub title: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
+    /// Whether redundant constraints are accepted.
+    pub allow_redundancy: bool,
     /// Acceleration of free fall.
     pub gravity: [Tape; 2],
     /// Bodies; index 0 is ground.
@@ -42,6 +44,7 @@ pub fn build(
     let mut blueprint = Blueprint {
         title: definition.title.clone().unwrap_or_default(),
         parameters: scope.parameters.clone(),
+        allow_redundancy: definition.redundancy.as_deref() == Some("allow"),
         gravity,
         bodies,
         constraints: Vec::new(),

@@ -62,6 +62,8 @@ pub struct Definition {
     pub title: Option<String>,
     /// Acceleration of free fall, two numbers or formulas, m/s²; none means zero.
     pub gravity: Option<Value>,
+    /// Whether redundant constraints are accepted: "allow" or "refuse"; none means refuse.
+    pub redundancy: Option<String>,
     /// Named parameters: numbers or formulas in other parameters.
     pub parameters: Vec<(String, Value)>,
     /// Bodies; an entry `ground` holds the points of ground.

@@ -94,6 +94,9 @@ pub struct Model<S = f64> {
     pub forces: Vec<ForceItem<S>>,
     /// Index ranges.
     pub layout: Layout,
+    /// Whether redundant constraints are accepted; their multipliers are then the smallest that
+    /// carry the loads.
+    pub allow_redundancy: bool,
 }
 
 /// Values for formulas at the reference state: t = 0, everything at rest in the origin.
@@ -179,6 +182,7 @@ impl<S: Real> Model<S> {
             layout: Layout::new(blueprint.bodies.len() - 1, touched.into_iter()),
             constraints,
             forces,
+            allow_redundancy: blueprint.allow_redundancy,
         }
     }
 

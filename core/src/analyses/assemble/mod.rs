@@ -49,7 +49,7 @@ pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box
         report.warnings = turns::relax(model, &asked, &mut q);
     }
     let mobility = mobility(model, request.t, &q);
-    if !mobility.redundant.is_empty() && !request.allow_redundancy {
+    if !mobility.redundant.is_empty() && !model.allow_redundancy {
         return Err(Box::new(failure::redundant(model, &mobility)));
     }
     report.degrees_of_freedom = mobility.degrees_of_freedom;

@@ -27,8 +27,6 @@ pub struct Request {
     pub state: Option<State>,
     /// Time, s.
     pub t: f64,
-    /// Whether redundant constraints are accepted.
-    pub allow_redundancy: bool,
 }
 
 /// Reads wishes such as ("crank.angle", "70*deg"); `section` is `set` or `guess`.

@@ -61,9 +61,6 @@ pub fn dynamics(
 ) -> Result<Run, Box<Failure>> {
     let clock = Instant::now();
     let mut system = Equations { model, workspace: Workspace::new(model), gains: options.gains() };
-    if options.allow_redundancy {
-        system.workspace.allow_redundancy(model);
-    }
     let (t0, t_end) = (start.t, options.t_end);
     let mut recorder = Recorder::new(model, options.output, t0, t_end, options.dense_output);
     let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();

@@ -43,8 +43,6 @@ pub struct Options {
     pub stabilization: Stabilization,
     /// Whether the continuous extension of every step is kept.
     pub dense_output: bool,
-    /// Whether redundant constraints are accepted.
-    pub allow_redundancy: bool,
 }
 
 impl Options {
@@ -56,7 +54,6 @@ impl Options {
             scheme: Scheme::Rk45(Rk45 { rtol: 1e-6, atol: Atol::Scalar(1e-9), ..Rk45::default() }),
             stabilization: Stabilization::Baumgarte(Gains { alpha: 10.0, beta: 200.0 }),
             dense_output: true,
-            allow_redundancy: false,
         }
     }
 

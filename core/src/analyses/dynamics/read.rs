@@ -44,9 +44,6 @@ impl<'a> Reader<'a> {
         if let Some(Value::Flag(keep)) = self.get("dense_output") {
             options.dense_output = *keep;
         }
-        if let Some(Value::Text(word)) = self.get("redundancy") {
-            options.allow_redundancy = word == "allow";
-        }
         let max_steps = self.positive("max_steps", "").map(|n| n as usize);
         options.scheme = self.inside("method", |reader, kind| reader.scheme(kind, max_steps));
         options.stabilization =
