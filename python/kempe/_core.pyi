@@ -42,7 +42,7 @@ class Case:
                 give paths without line and column.
 
         Raises:
-            FileError: with all ``problems``.
+            FileError: with all ``problems``; a ModelError where ``origin`` is None.
         """
 
     def tree(self) -> str:
@@ -53,6 +53,13 @@ class Case:
 
     def model(self, overrides: str) -> Model:
         """Compile the model with other parameters, ``{"k": 2e6, "c": "k/100"}``.
+
+        Raises:
+            ModelError: with all ``problems``.
+        """
+
+    def check(self, model: Model) -> None:
+        """Check start and analyses against the compiled model.
 
         Raises:
             ModelError: with all ``problems``.
@@ -110,6 +117,7 @@ def assemble(
     t: float,
     q: _F | None,
     v: _F | None,
+    redundancy: str,
 ) -> tuple[float, _F, _F, str]:
     """Put a mechanism together.
 
@@ -120,10 +128,11 @@ def assemble(
         t: time, s.
         q: a whole configuration as guess, (n_q,).
         v: the velocities that go with it, (n_q,).
+        redundancy: "refuse" or "allow" joints that repeat others.
 
     Returns:
-        t, q, v and a report as JSON: ``{"iterations": [{"residual", "step"}],
-        "degrees_of_freedom", "modes": [{"bodies", "joint", "side": "left" | "right"}],
+        t, q, v and a report as JSON: ``{"iterations": [{"residual", "step", "damping"}],
+        "degrees_of_freedom", "modes": [{"bodies", "joint", "anchors", "side": "left" | "right"}],
         "alternatives": int, "warnings": [text]}``.
 
     Raises:
@@ -145,14 +154,16 @@ def dynamics(
         t: time of the state, s.
         q: (n_q,).
         v: (n_q,).
-        options: JSON, as in a file without the ``type``.
+        options: JSON, as in a file without ``from``.
         progress: called now and then with the time reached, s.
 
     Raises:
-        IntegrationError: with ``run``, what was computed before. ``KeyboardInterrupt`` has it too.
+        IntegrationError, SingularityError: with ``run``, what was computed before. A
+            ``KeyboardInterrupt``, or what ``progress`` raises, has it too.
+        ModelError: an option is wrong.
     """
 
-def evaluate(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
+def evaluate(model: Model, t: _F, q: _F, v: _F, redundancy: str) -> tuple[_F, _F]:
     """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂."""
 
 def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:

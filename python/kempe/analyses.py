@@ -11,8 +11,10 @@ import numpy as np
 
 from kempe import _core
 from kempe.compiled import CompiledModel
-from kempe.errors import IntegrationError, ModelError
+from kempe.errors import ModelError
 from kempe.model import Model
+from kempe.motion import REDUNDANCY, Redundancy
+from kempe.names import one_of
 from kempe.options import RK45, Baumgarte, Dynamics, Option, core_options
 from kempe.solution import Solution
 from kempe.state import AssemblyReport, State
@@ -31,6 +33,8 @@ def assemble(
     set: Coordinates | None = None,  # noqa: A002
     guess: Coordinates | State | None = None,
     t: float = 0.0,
+    *,
+    redundancy: Redundancy = "refuse",
 ) -> State:
     """Put a mechanism together.
 
@@ -39,6 +43,7 @@ def assemble(
         set: coordinates and rates that are to hold: ``{"crank.angle": "70*deg"}``, m, rad, per s.
         guess: the same for those that may move; may be partial, absent, or a whole state.
         t: time, s.
+        redundancy: "refuse" or "allow" joints that repeat others.
 
     Returns:
         The state, with ``report``.
@@ -56,12 +61,14 @@ def assemble(
         q, v, hint = np.array(guess.q), np.array(guess.v), "{}"
     else:
         hint = json.dumps(numbers(guess or {}, "guess"), allow_nan=False)
-    at = _time(t)
-    t_found, q_found, v_found, told = _core.assemble(compiled.core, held, hint, at, q, v)
+    one_of("redundancy", redundancy, REDUNDANCY)
+    t_found, q_found, v_found, told = _core.assemble(
+        compiled.core, held, hint, _time(t), q, v, redundancy
+    )
     report = AssemblyReport.from_json(told)
     for text in report.warnings:
         warnings.warn(text, AssemblyWarning, stacklevel=2)
-    return State(compiled, t_found, q_found, v_found, report)
+    return State(compiled, t_found, q_found, v_found, report, redundancy=redundancy)
 
 
 def dynamics(
@@ -74,6 +81,7 @@ def dynamics(
     stabilization: Option | None = Baumgarte(),  # noqa: B008 - frozen
     max_steps: int | None = None,
     dense_output: bool = True,
+    redundancy: Redundancy = "refuse",
     progress: Progress | None = None,
 ) -> Solution:
     """Simulate the motion from a state.
@@ -87,15 +95,24 @@ def dynamics(
         stabilization: of the constraints; none at all when None.
         max_steps: it gives up after that many steps; what the core finds enough when None.
         dense_output: whether to keep the interpolant between the steps, for ``sol(t)``.
-        progress: called now and then with the time reached, s.
+        redundancy: "refuse" or "allow" joints that repeat others.
+        progress: called now and then with the time reached, s; what it raises ends the simulation.
 
     Raises:
-        IntegrationError: it cannot go on; ``solution`` holds what was computed. An interruption
-            (``KeyboardInterrupt``) has ``solution`` too.
+        IntegrationError: it cannot go on; ``solution`` holds what was computed before. So it is
+            with a SingularityError, and with an interruption (``KeyboardInterrupt``).
         ModelError: an option is wrong.
     """
     compiled = compiled_model(model)
-    asked = Dynamics(t_end, output_step, method, stabilization, max_steps, dense_output)
+    asked = Dynamics(
+        t_end,
+        output_step,
+        method,
+        stabilization,
+        max_steps,
+        dense_output,
+        redundancy=redundancy,
+    )
     entry = asked.tree()
     case = json.dumps({**json.loads(compiled.case), "analyses": {asked.name: entry}})
     return simulate(CompiledModel(compiled.core, case), start, entry, progress)
@@ -109,14 +126,15 @@ def simulate(
         raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) gives one")
     _refuse_foreign(model, start)
     options = json.dumps(core_options(entry), allow_nan=False)
+    redundancy = entry.get("redundancy", "refuse")
     try:
         run = _core.dynamics(model.core, float(start.t), start.q, start.v, options, progress)
-    except (IntegrationError, KeyboardInterrupt) as error:
+    except BaseException as error:  # an interruption, and what progress raises, keep it too
         partial = getattr(error, "run", None)
         if partial is not None:
-            error.solution = Solution(model, partial)  # type: ignore[union-attr]
+            error.solution = Solution(model, partial, redundancy)  # type: ignore[attr-defined]
         raise
-    return Solution(model, run)
+    return Solution(model, run, redundancy)
 
 
 def compiled_model(model: Model | CompiledModel) -> CompiledModel:

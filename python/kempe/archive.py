@@ -81,6 +81,7 @@ def _about(solution: Solution) -> dict[str, Any]:
         "core": _core.version(),
         "numpy": np.__version__,
         "case": json.loads(solution.model.case),
+        "redundancy": solution.redundancy,
         "status": "reached" if solution.status == REACHED else "stopped",
         "message": solution.message,
         "statistics": dict(solution.statistics),
@@ -102,7 +103,7 @@ def load_solution(path: Path | str) -> Solution:
         )
     try:
         model = CompiledModel.from_case(json.dumps(about["case"]))
-        return Solution(model, _stored(about, arrays, model))  # type: ignore[arg-type]
+        return Solution(model, _stored(about, arrays, model), about["redundancy"])  # type: ignore[arg-type]
     except (KeyError, ValueError, IndexError, TypeError) as error:
         if isinstance(error, KempeError):
             raise

@@ -13,11 +13,11 @@ from kempe.analyses import Coordinates, Progress, assemble, simulate
 from kempe.compiled import CompiledModel
 from kempe.errors import FileError, ModelError
 from kempe.model import Model
+from kempe.motion import Redundancy
 from kempe.names import unknown
 from kempe.options import Dynamics
 from kempe.solution import Solution
 from kempe.state import State
-from kempe.tree import core_case
 from kempe.values import Number, numbers
 
 FORMATS = {".toml": "toml", ".json": "json"}
@@ -102,7 +102,7 @@ class Case:
         self.model = model
         self._start = _start(start)
         self._entries = _entries(analyses)
-        self._core()  # tells now what is wrong with the structure
+        self._core().check(model.compile().core)
 
     @classmethod
     def _loaded(cls, core: _core.Case) -> Case:
@@ -132,7 +132,13 @@ class Case:
         Raises:
             AssemblyError: it does not close.
         """
-        return assemble(self.model, self._start.set, self._start.guess)
+        return assemble(self.model, self._start.set, self._start.guess, redundancy=self._redundancy)
+
+    @property
+    def _redundancy(self) -> Redundancy:
+        """The start serves all analyses: what one of them allows must not be refused there."""
+        allowed = any(entry.get("redundancy") == "allow" for entry in self._entries.values())
+        return "allow" if allowed else "refuse"
 
     @property
     def held(self) -> Mapping[str, Number]:
@@ -190,7 +196,7 @@ class Case:
         files.write_text(path, self._core().write(_format(path, "write")))
 
     def _core(self) -> _core.Case:
-        return core_case(self.tree())
+        return _core.Case(json.dumps(self.tree(), allow_nan=False), "json", None)
 
     def __repr__(self) -> str:
         names = ", ".join(self._entries) or "none"
@@ -213,7 +219,7 @@ def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) ->
     case = Case._loaded(core)
     if parameters:
         case.model = case.model.with_parameters(parameters)
-    case.model.compile()
+    core.check(case.model.compile().core)
     return case
 
 

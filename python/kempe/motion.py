@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -12,6 +12,10 @@ from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
 from kempe.names import unknown
 from kempe.views import BodyView, ConstraintView, ForceView
+
+#: What to do about joints that repeat others: an error, or reactions of the smallest norm.
+Redundancy: TypeAlias = Literal["refuse", "allow"]
+REDUNDANCY: tuple[Redundancy, ...] = ("refuse", "allow")
 
 
 class Motion:
@@ -25,10 +29,19 @@ class Motion:
         t: (n_t,) or (), s.
         q: (n_t, n_q) or (n_q,): x, y, angle of each moving body in order, m and rad.
         v: their rates, m/s and rad/s.
+        redundancy: whether joints may repeat others.
     """
 
-    def __init__(self, model: CompiledModel, t: Floats, q: Floats, v: Floats) -> None:
+    def __init__(
+        self,
+        model: CompiledModel,
+        t: Floats,
+        q: Floats,
+        v: Floats,
+        redundancy: Redundancy = "refuse",
+    ) -> None:
         self.model = model
+        self.redundancy: Redundancy = redundancy
         self.t = fixed(t)
         self.q = fixed(q)
         self.v = fixed(v)
@@ -45,7 +58,7 @@ class Motion:
 
     @cached_property
     def _dynamics(self) -> tuple[Floats, Floats]:
-        a, lam = _core.evaluate(self.model.core, *self._rows())
+        a, lam = _core.evaluate(self.model.core, *self._rows(), self.redundancy)
         return self._as_given(a), self._as_given(lam)
 
     @cached_property

@@ -10,6 +10,8 @@ from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
 from kempe.errors import ModelError
+from kempe.motion import REDUNDANCY, Redundancy
+from kempe.names import one_of
 from kempe.values import Number, number, reference
 
 
@@ -95,6 +97,7 @@ class Dynamics:
         name: its name in the case.
         after: where it starts: "start", or the name of an earlier analysis; where the one before
             it ended when None.
+        redundancy: "refuse" or "allow" joints that repeat others.
     """
 
     t_end: Number
@@ -105,6 +108,7 @@ class Dynamics:
     dense_output: bool = True
     name: str = "dynamics"
     after: str | None = None
+    redundancy: Redundancy = "refuse"
 
     def tree(self) -> dict[str, Any]:
         """The entry as in a file.
@@ -124,6 +128,8 @@ class Dynamics:
         chosen = NoStabilization() if self.stabilization is None else self.stabilization
         entry["stabilization"] = _option(chosen, f"{path}.stabilization")
         entry["dense_output"] = bool(self.dense_output)
+        if one_of("redundancy", self.redundancy, REDUNDANCY) != REDUNDANCY[0]:
+            entry["redundancy"] = self.redundancy
         return entry
 
 
@@ -134,5 +140,5 @@ def _option(value: object, path: str) -> dict[str, Any]:
 
 
 def core_options(entry: Mapping[str, Any]) -> dict[str, Any]:
-    """The part of an entry that the core wants: all but what the front has used itself."""
-    return {key: value for key, value in entry.items() if key not in ("type", "from")}
+    """The part of an entry that the core wants: all but where it starts."""
+    return {key: value for key, value in entry.items() if key != "from"}

@@ -17,7 +17,7 @@ from kempe.compiled import CompiledModel
 from kempe.dense import DenseOutput
 from kempe.energy import Energy
 from kempe.errors import ModelError
-from kempe.motion import Motion
+from kempe.motion import Motion, Redundancy
 from kempe.state import State
 
 if TYPE_CHECKING:
@@ -60,8 +60,10 @@ class Solution(Motion):
         statistics: steps, rejected, evaluations, factorisations, seconds.
     """
 
-    def __init__(self, model: CompiledModel, run: _core.Run) -> None:
-        super().__init__(model, run.t, run.q, run.v)
+    def __init__(
+        self, model: CompiledModel, run: _core.Run, redundancy: Redundancy = "refuse"
+    ) -> None:
+        super().__init__(model, run.t, run.q, run.v, redundancy)
         self._computed = fixed(run.a), fixed(run.lam)
         self.energy = Energy(run.energy)
         self.dense: DenseOutput | None = None
@@ -105,12 +107,15 @@ class Solution(Motion):
     @property
     def initial(self) -> State:
         """The state at the first time."""
-        return State(self.model, float(self.t[0]), self.q[0], self.v[0])
+        return self._state(float(self.t[0]), self.q[0], self.v[0])
 
     @property
     def final(self) -> State:
         """The state at the last time."""
-        return State(self.model, float(self.t[-1]), self.q[-1], self.v[-1])
+        return self._state(float(self.t[-1]), self.q[-1], self.v[-1])
+
+    def _state(self, t: float, q: Floats, v: Floats) -> State:
+        return State(self.model, t, q, v, redundancy=self.redundancy)
 
     def __call__(self, t: float | Floats) -> Motion:
         """The motion at any time within the solution, by the integrator's own interpolant.
@@ -129,8 +134,8 @@ class Solution(Motion):
         n, y = self.model.n_q, self.dense(at)
         q, v = y[..., :n], y[..., n : 2 * n]
         if at.ndim == 0:
-            return State(self.model, float(at), q, v)
-        return Motion(self.model, at, q, v)
+            return self._state(float(at), q, v)
+        return Motion(self.model, at, q, v, self.redundancy)
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A pandas table with a column for each quantity, such as ``rocker.angle``.
