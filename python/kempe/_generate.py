@@ -114,7 +114,7 @@ def docstring(first: str, table: dict[str, Any], heading: str) -> str:
 
 def about(field: dict[str, Any]) -> str:
     """The line of a field in a docstring."""
-    unit = f" [{field['unit']}]" if field["unit"] else ""
+    unit = f" [{field['unit'].replace('|', ' or ')}]" if field["unit"] else ""
     return filled(f"{field['name']}: {field['doc'].rstrip('.')}{unit}.", "    ")
 
 

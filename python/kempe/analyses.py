@@ -11,8 +11,9 @@ import numpy as np
 
 from kempe import _core
 from kempe.compiled import CompiledModel
-from kempe.errors import IntegrationError, ModelError, SingularityError
+from kempe.errors import ModelError
 from kempe.model import Model
+from kempe.names import one_of
 from kempe.options import RK45, Baumgarte, Dynamics, Option, core_options
 from kempe.solution import Solution
 from kempe.state import AssemblyReport, State
@@ -31,6 +32,7 @@ def assemble(
     set: Coordinates | None = None,  # noqa: A002
     guess: Coordinates | State | None = None,
     t: float = 0.0,
+    *,
     redundancy: str | None = None,
 ) -> State:
     """Put a mechanism together.
@@ -59,8 +61,7 @@ def assemble(
         q, v, hint = np.array(guess.q), np.array(guess.v), "{}"
     else:
         hint = json.dumps(numbers(guess or {}, "guess"), allow_nan=False)
-    at = _time(t)
-    t_found, q_found, v_found, told = _core.assemble(compiled.core, held, hint, at, q, v)
+    t_found, q_found, v_found, told = _core.assemble(compiled.core, held, hint, _time(t), q, v)
     report = AssemblyReport.from_json(told)
     for text in report.warnings:
         warnings.warn(text, AssemblyWarning, stacklevel=2)
@@ -93,14 +94,15 @@ def dynamics(
         dense_output: whether to keep the interpolant between the steps, for ``sol(t)``.
         redundancy: "allow" accepts constraints that repeat others; as the start was assembled
             when None.
-        progress: called now and then with the time reached, s.
+        progress: called now and then with the time reached, s; what it raises ends the simulation.
 
     Raises:
-        IntegrationError: it cannot go on; ``solution`` holds what was computed. An interruption
-            (``KeyboardInterrupt``) has ``solution`` too.
+        IntegrationError: it cannot go on; ``solution`` holds what was computed before. So it is
+            with a SingularityError, and with an interruption (``KeyboardInterrupt``).
         ModelError: an option is wrong.
     """
-    compiled = _allowing(compiled_model(model), redundancy or _redundancy(start))
+    inherited = start.model.redundancy if isinstance(start, State) else None
+    compiled = _allowing(compiled_model(model), redundancy or inherited)
     asked = Dynamics(t_end, output_step, method, stabilization, max_steps, dense_output)
     entry = asked.tree()
     case = json.dumps({**json.loads(compiled.case), "analyses": {asked.name: entry}})
@@ -117,10 +119,10 @@ def simulate(
     options = json.dumps(core_options(entry), allow_nan=False)
     try:
         run = _core.dynamics(model.core, float(start.t), start.q, start.v, options, progress)
-    except (IntegrationError, SingularityError, KeyboardInterrupt) as error:
+    except BaseException as error:  # an interruption, and what progress raises, keep it too
         partial = getattr(error, "run", None)
         if partial is not None:
-            error.solution = Solution(model, partial)  # type: ignore[union-attr]
+            error.solution = Solution(model, partial)  # type: ignore[attr-defined]
         raise
     return Solution(model, run)
 
@@ -135,13 +137,9 @@ def compiled_model(model: Model | CompiledModel) -> CompiledModel:
 
 
 def _allowing(model: CompiledModel, redundancy: str | None) -> CompiledModel:
-    if redundancy not in (None, "refuse", "allow"):
-        raise ModelError(f"redundancy: {redundancy!r} is neither 'refuse' nor 'allow'")
-    return model.allowing_redundancy() if redundancy == "allow" else model
-
-
-def _redundancy(start: object) -> str | None:
-    return start.model.redundancy if isinstance(start, State) else None
+    if redundancy is None or one_of("redundancy", redundancy, ("refuse", "allow")) == "refuse":
+        return model
+    return model.allowing_redundancy()
 
 
 def _time(t: float) -> float:

@@ -17,7 +17,6 @@ from kempe.names import unknown
 from kempe.options import Dynamics
 from kempe.solution import Solution
 from kempe.state import State
-from kempe.tree import core_case
 from kempe.values import Number, numbers
 
 FORMATS = {".toml": "toml", ".json": "json"}
@@ -102,7 +101,7 @@ class Case:
         self.model = model
         self._start = _start(start)
         self._entries = _entries(analyses)
-        self._core()  # tells now what is wrong with the structure
+        self._core().check(model.compile().core)
 
     @classmethod
     def _loaded(cls, core: _core.Case) -> Case:
@@ -190,7 +189,7 @@ class Case:
         files.write_text(path, self._core().write(_format(path, "write")))
 
     def _core(self) -> _core.Case:
-        return core_case(self.tree())
+        return _core.Case(json.dumps(self.tree(), allow_nan=False), "json", None)
 
     def __repr__(self) -> str:
         names = ", ".join(self._entries) or "none"
@@ -213,7 +212,7 @@ def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) ->
     case = Case._loaded(core)
     if parameters:
         case.model = case.model.with_parameters(parameters)
-    case.model.compile()
+    core.check(case.model.compile().core)
     return case
 
 

@@ -12,7 +12,6 @@ from kempe.bodies import Bar, Body
 from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
-from kempe.tree import core_case
 from kempe.values import Number, Pair, Points, numbers, pair, points, refuse
 
 #: Version of the format of a case.
@@ -192,7 +191,7 @@ class Model(ElementMethods):
         """
         changed = numbers(parameters, "parameters")
         model = Model.from_tree(self._tree)
-        source, overrides = self._source or (core_case(self.tree()), {})
+        source, overrides = self._source or (_core.Case(self._json(), "json", None), {})
         model._source = (source, {**overrides, **changed})
         model._tree["parameters"].update(changed)
         return model
@@ -209,7 +208,7 @@ class Model(ElementMethods):
             ModelError: with all that is wrong, in ``problems``.
         """
         if self._compiled is None:
-            source, overrides = self._source or (core_case(self.tree()), {})
+            source, overrides = self._source or (_core.Case(self._json(), "json", None), {})
             core = source.model(json.dumps(overrides, allow_nan=False))
             self._compiled = CompiledModel(core, self._json())
         return self._compiled

@@ -134,5 +134,5 @@ def _option(value: object, path: str) -> dict[str, Any]:
 
 
 def core_options(entry: Mapping[str, Any]) -> dict[str, Any]:
-    """The part of an entry that the core wants: all but what the front has used itself."""
-    return {key: value for key, value in entry.items() if key not in ("type", "from")}
+    """The part of an entry that the core wants: all but where it starts."""
+    return {key: value for key, value in entry.items() if key != "from"}

@@ -21,8 +21,8 @@ class Iteration:
     """One iteration of an assembly.
 
     Attributes:
-        residual: largest residual before it, m or rad.
-        step: largest change of a coordinate, m or rad.
+        residual: norm of the residuals before it, m and rad.
+        step: norm of the change of the coordinates, m and rad.
     """
 
     residual: float
@@ -36,11 +36,14 @@ class Mode:
     Attributes:
         bodies: the bodies of the dyad.
         joint: the joint between them.
-        side: "left" or "right" of the line between its outer joints.
+        anchors: its outer joints.
+        side: where the joint lies, seen along the line from the first anchor to the second:
+            "left" or "right".
     """
 
     bodies: tuple[str, ...]
     joint: str
+    anchors: tuple[str, ...]
     side: str
 
 
@@ -69,15 +72,22 @@ class AssemblyReport:
         return cls(
             iterations=tuple(Iteration(i["residual"], i["step"]) for i in told["iterations"]),
             degrees_of_freedom=told["degrees_of_freedom"],
-            modes=tuple(Mode(tuple(m["bodies"]), m["joint"], m["side"]) for m in told["modes"]),
+            modes=tuple(
+                Mode(tuple(m["bodies"]), m["joint"], tuple(m["anchors"]), m["side"])
+                for m in told["modes"]
+            ),
             alternatives=told["alternatives"],
             warnings=tuple(told["warnings"]),
         )
 
     def __str__(self) -> str:
         last = f", residual {self.iterations[-1].residual:.1e}" if self.iterations else ""
-        lines = [f"{len(self.iterations)} iterations{last}"]
-        lines += [f"{'-'.join(m.bodies)} closed to the {m.side} at {m.joint}" for m in self.modes]
+        count = len(self.iterations)
+        lines = [f"{count} iteration{'' if count == 1 else 's'}{last}"]
+        lines += [
+            f"{' and '.join(m.bodies)}: {m.joint} lies to the {m.side} of {' → '.join(m.anchors)}"
+            for m in self.modes
+        ]
         if self.alternatives:
             lines.append(f"other assemblies exist: {self.alternatives}")
         return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings)])

@@ -133,6 +133,7 @@ def test_bad_input_ends_with_2(
     done = kempe("run", replaced(four_bar_file, old, new), cwd=tmp_path)
     assert done.returncode == 2
     assert words in done.stderr
+    assert done.stderr.count("(line") <= 1  # each problem is told once
     assert "Traceback" not in done.stderr
     assert done.stdout == ""
 

@@ -53,7 +53,7 @@ def test_an_unknown_parameter_is_refused(model: kp.Model) -> None:
 )
 def test_every_kind_of_number_is_taken(value: object) -> None:
     m = kp.Model()
-    m.bar("rod", mass=value, length=2)  # type: ignore[arg-type]
+    m.bar("rod", mass=value, length=2, ends=("A", "B"))  # type: ignore[arg-type]
     assert m.bodies["rod"].mass == 3.0
 
 

@@ -72,6 +72,8 @@ def exit_code(error: errors.KempeError) -> int:
 
 def _tell(error: errors.KempeError) -> None:
     console = Console(stderr=True, highlight=False, soft_wrap=True)
-    console.print(Text.assemble(("error: ", "bold red"), str(error)))
+    told = str(error)
+    console.print(Text.assemble(("error: ", "bold red"), told))
     for problem in error.problems:
-        console.print(Text(f"  {problem}"))
+        if problem.message not in told:  # the core tells them in its message, with the lines
+            console.print(Text(f"  {problem}"))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from typing import Any
 
 from rich.console import Console
@@ -29,26 +28,30 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
 
 
 def _show_peaks(console: Console, peaks: dict[str, Any]) -> None:
-    if peaks["reactions"]:
+    reactions, forces = peaks["reactions"], peaks["forces"]
+    if reactions:
         heading(console, "Largest reactions")
-        table(
-            console,
-            ("joint", "on", "force / N", "at / s", "torque / N m", "at / s"),
-            ((r["joint"], r["on"], *_numbers(r)) for r in peaks["reactions"]),
-            left=2,
-        )
-    if peaks["forces"]:
+        names = ((r["joint"], r["on"]) for r in reactions)
+        header, cells = _columns(reactions)
+        rows = [(*name, *row) for name, row in zip(names, cells, strict=True)]
+        table(console, ("joint", "on", *header), rows, left=2)
+    if forces:
         heading(console, "Largest forces")
-        table(
-            console,
-            ("force", "on", "force / N", "at / s", "torque / N m", "at / s", "torque of parts"),
-            ((f["name"], f["on"], *_numbers(f), _parts(f)) for f in peaks["forces"]),
-            left=2,
-        )
+        header, cells = _columns(forces)
+        rows = [(f["name"], f["on"], *row, _parts(f)) for f, row in zip(forces, cells, strict=True)]
+        table(console, ("force", "on", *header, "torque of parts / N m"), rows, left=2)
 
 
-def _numbers(peak: dict[str, Any]) -> Iterable[str]:
-    return (figure(peak[key]) for key in ("force", "force_at", "torque", "torque_at"))
+def _columns(peaks: list[dict[str, Any]]) -> tuple[list[str], list[list[str]]]:
+    """Header and cells of forces and of torques, each only where there are any."""
+    quantities = [("force", "force / N"), ("torque", "torque / N m")]
+    told = [pair for pair in quantities if any(peak[pair[0]] for peak in peaks)]
+    header = [word for _, title in told for word in (title, "at / s")]
+    cells = [
+        [figure(peak[key]) for quantity, _ in told for key in (quantity, f"{quantity}_at")]
+        for peak in peaks
+    ]
+    return header, cells
 
 
 def _parts(force: dict[str, Any]) -> str:

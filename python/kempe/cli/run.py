@@ -15,7 +15,7 @@ from rich.text import Text
 from kempe.cli.arguments import File, Settings, assembled, number_or_formula, read_case
 from kempe.cli.clock import Clock
 from kempe.cli.console import answers, heading, remarks
-from kempe.errors import IntegrationError, ModelError
+from kempe.errors import KempeError, ModelError
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -51,7 +51,7 @@ def run(  # noqa: PLR0917 - typer tells options from arguments by their annotati
     try:
         for name, solution in _solutions(case, state, Clock(silent=quiet or as_json)):
             told.finish(name, solution)
-    except (IntegrationError, KeyboardInterrupt) as error:
+    except (KempeError, KeyboardInterrupt) as error:
         _keep_partial(told, error, list(case.analyses))
         raise
     finally:
