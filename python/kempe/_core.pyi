@@ -155,7 +155,7 @@ def dynamics(
         t: time of the state, s.
         q: (n_q,).
         v: (n_q,).
-        options: JSON, as in a file without the ``type``.
+        options: JSON, an entry of ``analyses`` as in a file.
         progress: called now and then with the time reached, s.
 
     Raises:

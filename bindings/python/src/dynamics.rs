@@ -149,12 +149,9 @@ pub fn dynamics(
     })
 }
 
-/// Options in the form of a file: `{"t_end": 15, "method": {"type": "rk45", …}, …}`.
+/// Options in the form of a file: `{"type": "dynamics", "t_end": 15, "method": {"type": "rk45", …}, …}`.
 fn read_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<core::Options> {
-    let fields = text.trim().trim_start_matches('{');
-    let comma = if fields.trim() == "}" { "" } else { "," };
-    let entry = format!("{{\"type\": \"dynamics\"{comma} {fields}");
-    let written = format!("{{\"kempe\": 1, \"analyses\": {{\"dynamics\": {entry}}}}}");
+    let written = format!("{{\"kempe\": 1, \"analyses\": {{\"dynamics\": {text}}}}}");
     let (case, _) = case::read(&written, Format::Json).map_err(|mut found| {
         found.iter_mut().for_each(|d| drop(d.path.drain(..d.path.len().min(2))));
         crate::case::raise(py, Kind::Model, &found, None)
