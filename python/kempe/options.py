@@ -98,6 +98,7 @@ class Dynamics:
         after: where it starts: "start", or the name of an earlier analysis; where the one before
             it ended when None.
         redundancy: "refuse" or "allow" joints that repeat others.
+        t_start: time at which it starts, s; that of the state it starts from when None.
     """
 
     t_end: Number
@@ -109,6 +110,7 @@ class Dynamics:
     name: str = "dynamics"
     after: str | None = None
     redundancy: Redundancy = "refuse"
+    t_start: Number | None = None
 
     def tree(self) -> dict[str, Any]:
         """The entry as in a file.
@@ -121,7 +123,7 @@ class Dynamics:
         if self.after is not None:
             entry["from"] = reference(self.after, f"{path}.from")
         entry["t_end"] = number(self.t_end, f"{path}.t_end")
-        for field in ("output_step", "max_steps"):
+        for field in ("t_start", "output_step", "max_steps"):
             if getattr(self, field) is not None:
                 entry[field] = number(getattr(self, field), f"{path}.{field}")
         entry["method"] = _option(self.method, f"{path}.method")
