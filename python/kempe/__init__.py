@@ -14,6 +14,7 @@ from kempe._version import __version__
 if TYPE_CHECKING:
     from kempe import errors as errors
     from kempe import plot as plot
+    from kempe import report as report
     from kempe.analyses import AssemblyWarning as AssemblyWarning
     from kempe.analyses import assemble as assemble
     from kempe.analyses import dynamics as dynamics
@@ -75,6 +76,7 @@ _HOME = {
     "load": "case",
     "load_solution": "archive",
     "plot": "",
+    "report": "",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604

@@ -24,6 +24,11 @@ class DenseOutput:
     y: Floats
     c: Floats
 
+    @classmethod
+    def of_an_instant(cls, t: float, y: Floats) -> DenseOutput:
+        """The one of a simulation without a step."""
+        return cls(np.array([t, t]), y[None], np.zeros((1, len(y), 1)))
+
     def __call__(self, t: Floats) -> Floats:
         """State y at times of any shape, (…, n_y).
 
@@ -31,9 +36,11 @@ class DenseOutput:
             ModelError: a time lies outside of the simulated interval, or is NaN.
         """
         self._refuse_outside(t)
-        step = np.clip(np.searchsorted(self.t, t, side="right") - 1, 0, len(self.y) - 1)
+        onward = 1.0 if self.t[-1] >= self.t[0] else -1.0  # time may run backwards
+        after = np.searchsorted(onward * self.t, onward * t, side="right")
+        step = np.clip(after - 1, 0, len(self.y) - 1)
         h = self.t[step + 1] - self.t[step]
-        theta = ((t - self.t[step]) / h)[..., None]
+        theta = ((t - self.t[step]) / np.where(h == 0.0, 1.0, h))[..., None]
         total = np.zeros((*np.shape(t), self.y.shape[1]))
         for k in reversed(range(self.c.shape[2])):  # Horner
             total = (total + self.c[step, :, k]) * theta
@@ -41,7 +48,8 @@ class DenseOutput:
 
     def _refuse_outside(self, t: Floats) -> None:
         slack = 1e-12 * max(abs(self.t[0]), abs(self.t[-1]))
-        inside = (t >= self.t[0] - slack) & (t <= self.t[-1] + slack)
+        first, last = min(self.t[0], self.t[-1]), max(self.t[0], self.t[-1])
+        inside = (t >= first - slack) & (t <= last + slack)
         if not np.all(inside):
             wrong = float(np.extract(~inside, t)[0])
             raise ModelError(

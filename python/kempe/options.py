@@ -95,6 +95,7 @@ class Dynamics:
         name: its name in the case.
         after: where it starts: "start", or the name of an earlier analysis; where the one before
             it ended when None.
+        t_start: time at which it starts, s; that of the state it starts from when None.
     """
 
     t_end: Number
@@ -105,6 +106,7 @@ class Dynamics:
     dense_output: bool = True
     name: str = "dynamics"
     after: str | None = None
+    t_start: Number | None = None
 
     def tree(self) -> dict[str, Any]:
         """The entry as in a file.
@@ -117,7 +119,7 @@ class Dynamics:
         if self.after is not None:
             entry["from"] = reference(self.after, f"{path}.from")
         entry["t_end"] = number(self.t_end, f"{path}.t_end")
-        for field in ("output_step", "max_steps"):
+        for field in ("t_start", "output_step", "max_steps"):
             if getattr(self, field) is not None:
                 entry[field] = number(getattr(self, field), f"{path}.{field}")
         entry["method"] = _option(self.method, f"{path}.method")

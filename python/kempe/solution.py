@@ -64,12 +64,17 @@ class Solution(Motion):
         super().__init__(model, run.t, run.q, run.v)
         self._computed = fixed(run.a), fixed(run.lam)
         self.energy = Energy(run.energy)
-        self.dense: DenseOutput | None = None
-        if run.dense_t is not None and run.dense_y is not None and run.dense_c is not None:
-            self.dense = DenseOutput(fixed(run.dense_t), fixed(run.dense_y), fixed(run.dense_c))
+        self.dense = self._interpolant(run)
         self.status = REACHED if run.status == "reached" else STOPPED
         self.message = run.message
         self.statistics: Mapping[str, Any] = MappingProxyType(json.loads(run.statistics))
+
+    def _interpolant(self, run: _core.Run) -> DenseOutput | None:
+        if run.dense_t is None or run.dense_y is None or run.dense_c is None:
+            return None
+        if not len(run.dense_y):
+            return DenseOutput.of_an_instant(self.t[0], np.concatenate([self.q[0], self.v[0]]))
+        return DenseOutput(fixed(run.dense_t), fixed(run.dense_y), fixed(run.dense_c))
 
     @property
     def a(self) -> Floats:

@@ -177,6 +177,33 @@ def test_trouble_with_files_ends_with_4(
     assert (tmp_path / "file").read_text(encoding="utf-8") == "in the way"
 
 
+@pytest.mark.skipif(os.name != "posix", reason="terminals as POSIX has them")
+def test_the_simulated_time_is_shown_where_there_is_a_terminal(
+    four_bar_file: Path, tmp_path: Path
+) -> None:
+    replaced(four_bar_file, "t_end = 0.5\noutput_step = 0.01", "t_end = 1500\noutput_step = 1")
+    terminal, end = os.openpty()
+    with subprocess.Popen(
+        [*COMMAND, "run", "four_bar.toml"],
+        cwd=tmp_path,
+        env=os.environ | {"TERM": "xterm", "COLUMNS": "100", "NO_COLOR": "1"},
+        stdout=subprocess.DEVNULL,
+        stderr=end,
+    ) as process:
+        os.close(end)
+        shown = b""
+        try:
+            while chunk := os.read(terminal, 4096):
+                shown += chunk
+        except OSError:  # how Linux says that the other end is closed
+            pass
+    os.close(terminal)
+    assert process.returncode == 0
+    assert b"release" in shown
+    assert b"t = " in shown
+    assert b"\x1b[3" not in shown  # NO_COLOR
+
+
 @pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
 def test_an_interruption_ends_with_130_and_keeps_what_there_is(
     four_bar_file: Path, tmp_path: Path

@@ -130,6 +130,21 @@ def test_between_the_outputs(solution: kp.Solution) -> None:
     assert many["C"].force(on="rocker").shape == (101, 2)
 
 
+def test_time_may_run_backwards(model: kp.Model, start: kp.State) -> None:
+    sol = kp.dynamics(model, start, t_end=-0.1, output_step=0.01, stabilization=None)
+    np.testing.assert_allclose(sol(sol.t).q, sol.q, atol=1e-9)
+    forth = kp.dynamics(model, sol.final, t_end=0, stabilization=None)
+    np.testing.assert_allclose(forth.q[-1], start.q, atol=1e-4)
+
+
+def test_a_simulation_without_a_step_is_its_start(model: kp.Model, start: kp.State) -> None:
+    sol = kp.dynamics(model, start, t_end=0)
+    np.testing.assert_array_equal(sol.q, start.q[None])
+    np.testing.assert_array_equal(sol(0.0).q, start.q)
+    with pytest.raises(kp.ModelError, match="outside"):
+        sol(0.1)
+
+
 @pytest.mark.parametrize("t", [-0.1, 1.1, float("nan"), [0.5, 2.0]])
 def test_outside_of_the_solution_is_refused(solution: kp.Solution, t: object) -> None:
     with pytest.raises(kp.ModelError, match="outside of the solution"):

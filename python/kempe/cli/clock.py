@@ -24,20 +24,24 @@ class Clock:
             transient=True,
             disable=silent or not console.is_terminal,
         )
-        self._begin: float | None = None
+        self._begin = 0.0
 
     def __call__(self, t: float) -> None:
         """Show the time reached."""
         for task in self._progress.task_ids[-1:]:
-            if self._begin is None:
-                self._begin = t
             self._progress.update(task, completed=t - self._begin, reached=f"t = {t:.3f} s")
 
     @contextmanager
-    def running(self, name: str, begin: float | None, end: float | None) -> Iterator[None]:
-        """Show an analysis from one simulated time to another while the block runs."""
+    def running(self, name: str, begin: float, end: object) -> Iterator[None]:
+        """Show an analysis while the block runs.
+
+        Args:
+            name: its name.
+            begin: time at which it starts, s.
+            end: time at which it ends, s; a formula, whose value is not known here, shows no share.
+        """
         self._begin = begin
-        total = None if end is None or begin is None else end - begin
+        total = end - begin if isinstance(end, int | float) else None
         with self._progress:
             task = self._progress.add_task(name, total=total, reached="")
             try:

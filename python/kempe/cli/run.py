@@ -107,10 +107,12 @@ def _show_start(console: Console, case: Case, state: State) -> None:
 def _solutions(case: Case, state: State, clock: Clock) -> Iterator[tuple[str, Solution]]:
     """The solutions as they come, with the clock shown while each is computed."""
     each = case.each(clock, state)
+    now = float(state.t)
+    ends = {"start": now}
     for name, entry in case.analyses.items():
-        end = entry.get("t_end")
-        with clock.running(name, None, end if isinstance(end, int | float) else None):
+        with clock.running(name, ends.get(entry.get("from", ""), now), entry.get("t_end")):
             done = next(each)
+        now = ends[name] = float(done[1].t[-1])
         yield done
 
 

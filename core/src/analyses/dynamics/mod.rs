@@ -61,7 +61,7 @@ pub fn dynamics(
 ) -> Result<Run, Box<Failure>> {
     let clock = Instant::now();
     let mut system = Equations { model, workspace: Workspace::new(model), gains: options.gains() };
-    let (t0, t_end) = (start.t, options.t_end);
+    let (t0, t_end) = (options.t_start.unwrap_or(start.t), options.t_end);
     let mut recorder = Recorder::new(model, options.output, t0, t_end, options.dense_output);
     let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();
     y.resize(y.len() + WORKS, 0.0);

@@ -35,6 +35,8 @@ pub enum Output {
 pub struct Options {
     /// Time at which it ends, s.
     pub t_end: f64,
+    /// Time at which it starts, s; that of the start if none.
+    pub t_start: Option<f64>,
     /// Which states are reported.
     pub output: Output,
     /// The scheme.
@@ -50,6 +52,7 @@ impl Options {
     pub fn new(t_end: f64) -> Self {
         Self {
             t_end,
+            t_start: None,
             output: Output::Steps,
             scheme: Scheme::Rk45(Rk45 { rtol: 1e-6, atol: Atol::Scalar(1e-9), ..Rk45::default() }),
             stabilization: Stabilization::Baumgarte(Gains { alpha: 10.0, beta: 200.0 }),

@@ -38,6 +38,7 @@ struct Reader<'a> {
 impl<'a> Reader<'a> {
     fn options(&mut self) -> Options {
         let mut options = Options::new(self.number("t_end", "s").unwrap_or(f64::NAN));
+        options.t_start = self.number("t_start", "s");
         if let Some(h) = self.positive("output_step", "s") {
             options.output = Output::Every(h);
         }

@@ -1,0 +1,95 @@
+"""Options and bodies written by hand hold what the catalogue of the core says."""
+
+import json
+from dataclasses import MISSING, fields
+
+import kempe as kp
+import pytest
+from kempe import _core
+from kempe.bodies import Bar, Body
+from kempe.options import Option
+
+CATALOGUE = json.loads(_core.catalogue())
+FAMILIES = [*CATALOGUE["methods"], *CATALOGUE["stabilizations"]]
+
+
+def defaults(kind: type) -> dict[str, object]:
+    """Defaults by field, in order; MISSING where a value is required."""
+    return {field.name: field.default for field in fields(kind) if field.name != "name"}
+
+
+def declared(table: dict) -> dict[str, object]:
+    """The same from the catalogue."""
+
+    def default(field: dict) -> object:
+        value = field["default"]
+        if value is None:
+            return MISSING
+        if isinstance(value, dict):
+            return None  # may be absent
+        return tuple(value) if isinstance(value, list) else value
+
+    return {field["name"]: default(field) for field in table["fields"]}
+
+
+@pytest.mark.parametrize("table", FAMILIES, ids=lambda table: table["name"])
+def test_options_are_those_of_the_core(table: dict) -> None:
+    kind = getattr(kp, table["class"])
+    assert issubclass(kind, Option)
+    assert kind.kind == table["name"]
+    assert defaults(kind) == declared(table)
+
+
+@pytest.mark.parametrize("kind", [Bar, Body])
+def test_bodies_are_those_of_the_core(kind: type) -> None:
+    (table,) = (table for table in CATALOGUE["bodies"] if table["name"] == kind.kind)
+    assert defaults(kind) == declared(table)
+    assert kind.shapes == {field["name"]: field["shape"] for field in table["fields"]}
+
+
+def test_a_simulation_has_the_fields_of_the_core() -> None:
+    (table,) = (table for table in CATALOGUE["analyses"] if table["name"] == "dynamics")
+    names = {"after" if name == "from" else name for name in declared(table)}
+    # output = "steps" is what output_step=None means
+    assert set(defaults(kp.Dynamics)) == names - {"output"}
+
+
+def test_all_options_reach_the_core(model: kp.Model) -> None:
+    every = kp.Dynamics(
+        t_end="0.05 s",
+        output_step=0.01,
+        method=kp.RK45(rtol="1e-7", atol=1e-10, first_step=1e-4, max_step=0.02),
+        stabilization=kp.Baumgarte(alpha=5, beta="100"),
+        max_steps=1000,
+        dense_output=False,
+        name="first",
+    )
+    plain = kp.Dynamics(0.1, method=kp.RK4(step=0.005), stabilization=None, name="second")
+    start = {"set": {"crank.angle": "70*deg"}, "guess": {"rocker.angle": "240*deg"}}
+    results = kp.Case(model, start, [every, plain]).run()
+    assert results["first"].t[-1] == pytest.approx(0.05)
+    assert results["first"].dense is None
+    assert results["second"].statistics["steps"] == 10
+
+
+def test_a_simulation_may_start_at_another_time(model: kp.Model) -> None:
+    start = {"set": {"crank.angle": "70*deg"}, "guess": {"rocker.angle": "240*deg"}}
+    sol = kp.Case(model, start, [kp.Dynamics(1.1, t_start=1)]).run()[0]
+    assert (sol.t[0], sol.t[-1]) == pytest.approx((1.0, 1.1))
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"t_end": 1, "method": kp.RK45(rtol=-1)},
+        {"t_end": 1, "method": kp.RK4(step=0)},
+        {"t_end": 1, "stabilization": kp.Baumgarte(alpha=-1)},
+        {"t_end": 1, "output_step": -0.1},
+        {"t_end": "unknown"},
+        {"t_end": 1, "max_steps": 0},
+    ],
+    ids=str,
+)
+def test_options_that_cannot_be_are_refused(model: kp.Model, start: kp.State, wrong: dict) -> None:
+    with pytest.raises(kp.ModelError):
+        kp.dynamics(model, start, **wrong)
