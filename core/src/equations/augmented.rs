@@ -3,7 +3,7 @@
 //! With W = M and μ = 0 it is the matrix of the equations of motion (Haug 6.3.18); with W = I it
 //! gives the smallest step of Newton's method, with μ > 0 a damped one.
 
-use super::mass;
+use super::{mass, structure};
 use crate::elements::BodyId;
 use crate::math::{Motion, Real};
 use crate::model::{columns, Model};
@@ -30,20 +30,23 @@ impl<S: Real> Augmented<S> {
     pub fn new<P>(model: &Model<P>) -> Self {
         let layout = &model.layout;
         let (n_q, n) = (layout.n_q, layout.n_q + layout.n_rows);
-        let mut entries = Vec::new();
-        for body in 1..model.bodies.len() {
+        let (mut entries, mut present) = (Vec::new(), Vec::new());
+        for (body, coupled) in (1..model.bodies.len()).zip(structure::coupled(model)) {
             let [x, y, angle]: [usize; 3] =
                 std::array::from_fn(|c| columns(BodyId(body)).start + c);
             entries.extend([(x, x), (y, y), (angle, angle), (angle, x), (angle, y)]);
+            present.extend([true, true, true, coupled, coupled]);
         }
         let n_w = entries.len();
         entries.extend(layout.positions().map(|(row, column)| (n_q + row, column)));
+        present.extend(structure::jacobian(model));
         entries.extend((n_q..n).map(|row| (row, row)));
+        present.resize(entries.len(), true);
         let bodies = (0..n_q).step_by(3);
         let constraints = layout.constraints.iter().map(|c| n_q + c.rows.start);
         let blocks: Vec<usize> = bodies.chain(constraints).collect();
         let order = bodies_first(n_q, n, &entries, Some(&blocks));
-        let symbolic = Symbolic::new(n, &entries, &order);
+        let symbolic = Symbolic::sparse(n, &entries, &present, &order);
         let factor = Factor::new(&symbolic);
         let values = vec![S::zero(); entries.len()];
         Self { symbolic, factor, values, n_q, n_w, n_rows: layout.n_rows }

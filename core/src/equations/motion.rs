@@ -1,7 +1,9 @@
 //! The equations of motion with multipliers (Haug 6.3.18):
 //!
-//!     [ M   Φ_qᵀ ] [ q̈ ]   [ Q ]
-//!     [ Φ_q  0   ] [ λ ] = [ γ ]
+//! ```text
+//! [ M   Φ_qᵀ ] [ q̈ ]   [ Q ]
+//! [ Φ_q  0   ] [ λ ] = [ γ ]
+//! ```
 //!
 //! For the integrator γ may be replaced by Baumgarte's γ̂ = γ - 2α Φ̇ - β² Φ (Haug 7.3.8).
 

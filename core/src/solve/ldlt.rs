@@ -80,11 +80,11 @@ impl<S: Real> Factor<S> {
     }
 
     fn assemble(&mut self, symbolic: &Symbolic, values: &[S]) {
-        assert_eq!(values.len(), symbolic.slot.len(), "one value for each entry of the pattern");
+        assert_eq!(values.len(), symbolic.entries.len(), "one value for each entry of the pattern");
         assert_eq!(self.entries.len(), symbolic.n + symbolic.fill(), "a factor of this pattern");
         self.entries.fill(S::zero());
-        for (&slot, &value) in symbolic.slot.iter().zip(values) {
-            self.entries[slot as usize] += value;
+        for &(entry, slot) in &symbolic.scatter {
+            self.entries[slot as usize] += values[entry as usize];
         }
         for (magnitude, &d) in self.magnitude.iter_mut().zip(&self.entries) {
             *magnitude = d.abs();

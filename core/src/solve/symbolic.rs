@@ -18,8 +18,8 @@ pub struct Symbolic {
     pub(super) order: Vec<u32>,
     /// Positions of the entries, in the numbering of the caller.
     pub(super) entries: Vec<(u32, u32)>,
-    /// Where each entry is summed: k for the diagonal, n + position in L below it.
-    pub(super) slot: Vec<u32>,
+    /// Which entry is summed where: k for the diagonal, n + position in L below it.
+    pub(super) scatter: Vec<(u32, u32)>,
     /// First position of each column of L, and the end of the last; length n + 1.
     pub(super) column: Vec<u32>,
     /// Row of each position of L, in elimination order; ascending within a column.
@@ -43,8 +43,19 @@ impl Symbolic {
     /// # Panics
     /// If an index is outside `0..n`, `order` is no permutation, or the factor has 2³² entries.
     pub fn new(n: usize, entries: &[(usize, usize)], order: &[usize]) -> Self {
+        Self::sparse(n, entries, &vec![true; entries.len()], order)
+    }
+
+    /// The same with entries that are zero whatever happens: those not `present` get no place in the
+    /// factor, and their values are not read by it.
+    ///
+    /// # Panics
+    /// As [`Symbolic::new`], or if `present` is not as long as `entries`.
+    pub fn sparse(n: usize, entries: &[(usize, usize)], present: &[bool], order: &[usize]) -> Self {
+        assert_eq!(entries.len(), present.len(), "a flag for each entry");
         let place = inverse(n, order);
-        let below = below_diagonal(n, entries, &place);
+        let stored: Vec<_> = entries.iter().copied().enumerate().filter(|e| present[e.0]).collect();
+        let below = below_diagonal(n, stored.iter().map(|e| e.1), &place);
         let patterns = fill(below);
         let mut column = vec![0_u32];
         let mut row = Vec::new();
@@ -52,13 +63,14 @@ impl Symbolic {
             row.extend_from_slice(pattern);
             column.push(index(row.len()));
         }
-        let slot = entries.iter().map(|&e| slot(n, e, &place, &column, &row)).collect();
+        let slot = |&(e, position)| (index(e), slot(n, position, &place, &column, &row));
+        let scatter = stored.iter().map(slot).collect();
         let (update_start, update) = updates(n, &column, &row);
         Self {
             n,
             order: order.iter().map(|&i| index(i)).collect(),
             entries: entries.iter().map(|&(i, j)| (index(i), index(j))).collect(),
-            slot,
+            scatter,
             unknown: row.iter().map(|&r| index(order[r as usize])).collect(),
             column,
             row,
@@ -105,9 +117,13 @@ fn inverse(n: usize, order: &[usize]) -> Vec<usize> {
 }
 
 /// Rows of A below the diagonal of each column, in elimination order, unsorted, with repeats.
-fn below_diagonal(n: usize, entries: &[(usize, usize)], place: &[usize]) -> Vec<Vec<u32>> {
+fn below_diagonal(
+    n: usize,
+    entries: impl Iterator<Item = (usize, usize)>,
+    place: &[usize],
+) -> Vec<Vec<u32>> {
     let mut below = vec![Vec::new(); n];
-    for &(i, j) in entries {
+    for (i, j) in entries {
         let (a, b) = (place[i], place[j]);
         if a != b {
             below[a.min(b)].push(index(a.max(b)));
