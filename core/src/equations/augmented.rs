@@ -92,13 +92,17 @@ impl<S: Real> Augmented<S> {
     /// # Errors
     /// The row of Φ_q that depends on the others, or a coordinate without mass.
     pub fn factor(&mut self) -> Result<(), Dependent> {
-        let n_q = self.n_q;
-        self.factor.factor(&self.symbolic, &self.values).map_err(|ZeroPivot { index, .. }| {
-            match index.checked_sub(n_q) {
-                Some(row) => Dependent::Row(row),
-                None => Dependent::Column(index),
-            }
-        })
+        let outcome = self.factor.factor(&self.symbolic, &self.values);
+        outcome.map_err(|pivot| Dependent::new(pivot, self.n_q))
+    }
+
+    /// Factorises and solves in place, as [`solve`](Self::solve): faster than one after the other.
+    ///
+    /// # Errors
+    /// As [`factor`](Self::factor); `x` is then lost.
+    pub fn factor_and_solve(&mut self, x: &mut [S]) -> Result<(), Dependent> {
+        let outcome = self.factor.factor_and_solve(&self.symbolic, &self.values, x);
+        outcome.map_err(|pivot| Dependent::new(pivot, self.n_q))
     }
 
     /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).
@@ -121,4 +125,13 @@ pub enum Dependent {
     Row(usize),
     /// A coordinate without a usable mass.
     Column(usize),
+}
+
+impl Dependent {
+    fn new(ZeroPivot { index, .. }: ZeroPivot, n_q: usize) -> Self {
+        match index.checked_sub(n_q) {
+            Some(row) => Self::Row(row),
+            None => Self::Column(index),
+        }
+    }
 }

@@ -10,7 +10,8 @@
 //!
 //! [`bodies_first`]: super::bodies_first
 
-use super::symbolic::{Symbolic, SHORT};
+use super::columns::{Columns, Later};
+use super::symbolic::Symbolic;
 use crate::math::Real;
 
 /// Smallest ratio of a pivot to the magnitudes cancelled in it that is still trusted.
@@ -43,9 +44,7 @@ pub struct Factor<S> {
     inverse: Vec<S>,
     /// |a| + Σ |l² d| of each pivot.
     magnitude: Vec<S>,
-    /// |pivot| / magnitude, least over the lanes, in elimination order.
-    ratio: Vec<f64>,
-    /// A column of L while its products are subtracted; elsewhere a residual.
+    /// A long column of L while its products are subtracted; elsewhere a residual.
     work: Vec<S>,
 }
 
@@ -57,7 +56,6 @@ impl<S: Real> Factor<S> {
             entries: vec![S::zero(); n + symbolic.fill()],
             inverse: vec![S::zero(); n],
             magnitude: vec![S::zero(); n],
-            ratio: vec![0.0; n],
             work: vec![S::zero(); n],
         }
     }
@@ -72,10 +70,27 @@ impl<S: Real> Factor<S> {
     /// If `values` has another length than the entries, or the factor is of another pattern.
     pub fn factor(&mut self, symbolic: &Symbolic, values: &[S]) -> Result<(), ZeroPivot> {
         self.assemble(symbolic, values);
-        for k in 0..symbolic.n {
-            let inverse = self.pivot(symbolic, k)?;
-            self.eliminate(symbolic, k, inverse);
-        }
+        self.eliminate::<false>(symbolic, &mut [])
+    }
+
+    /// Factorises as [`factor`](Self::factor) and solves A x = `rhs` in place. The right side is
+    /// eliminated beside the columns, which hides that half of the solution behind their latency.
+    ///
+    /// # Errors
+    /// As [`factor`](Self::factor); `rhs` is then lost.
+    ///
+    /// # Panics
+    /// As [`factor`](Self::factor) and [`solve`](Self::solve).
+    pub fn factor_and_solve(
+        &mut self,
+        symbolic: &Symbolic,
+        values: &[S],
+        rhs: &mut [S],
+    ) -> Result<(), ZeroPivot> {
+        assert_eq!(rhs.len(), symbolic.n, "one right side for each unknown");
+        self.assemble(symbolic, values);
+        self.eliminate::<true>(symbolic, rhs)?;
+        self.substitute_back(symbolic, rhs);
         Ok(())
     }
 
@@ -91,44 +106,27 @@ impl<S: Real> Factor<S> {
         }
     }
 
-    /// Judges pivot k and returns its reciprocal.
-    #[inline(always)]
-    fn pivot(&mut self, symbolic: &Symbolic, k: usize) -> Result<S, ZeroPivot> {
-        let d = self.entries[k];
-        let ratio = (d / self.magnitude[k]).least_magnitude();
-        self.ratio[k] = ratio;
-        let inverse = S::one() / d;
-        if !(ratio > PIVOT_TOLERANCE && d.is_finite() && inverse.is_finite()) {
-            return Err(ZeroPivot { index: symbolic.order[k] as usize, ratio });
-        }
-        self.inverse[k] = inverse;
-        Ok(inverse)
-    }
-
-    /// Scales column k to L and subtracts its products from the columns after it.
-    #[inline(always)]
-    fn eliminate(&mut self, symbolic: &Symbolic, k: usize, inverse: S) {
-        let range = symbolic.range(k);
+    /// Eliminates column by column; with `RHS` the right side as well.
+    fn eliminate<const RHS: bool>(
+        &mut self,
+        symbolic: &Symbolic,
+        rhs: &mut [S],
+    ) -> Result<(), ZeroPivot> {
         let (diagonal, lower) = self.entries.split_at_mut(symbolic.n);
-        let (head, tail) = lower.split_at_mut(range.end);
-        let column = &mut head[range.start..];
-        let rows = &symbolic.row[range];
-        let scaled = &mut self.work[..column.len()];
-        for (l, &w) in scaled.iter_mut().zip(column.iter()) {
-            *l = w * inverse;
+        let mut columns = Columns::new(symbolic, lower, &mut self.work);
+        let mut later = Later { diagonal, magnitude: &mut self.magnitude, rhs };
+        let ends = symbolic.column.windows(2).zip(&symbolic.order);
+        for (k, (inverse, (ends, &unknown))) in self.inverse.iter_mut().zip(ends).enumerate() {
+            let (d, magnitude) = (later.diagonal[k], later.magnitude[k]);
+            *inverse = S::one() / d;
+            if !(trusted(d, magnitude) && d.is_finite() && inverse.is_finite()) {
+                let ratio = (d / magnitude).least_magnitude();
+                return Err(ZeroPivot { index: unknown as usize, ratio });
+            }
+            let x = if RHS { later.rhs[unknown as usize] } else { S::zero() };
+            columns.eliminate::<RHS>(ends[1] - ends[0], *inverse, x, &mut later);
         }
-        for ((&w, &l), &j) in column.iter().zip(scaled.iter()).zip(rows) {
-            let product = w * l;
-            diagonal[j as usize] -= product;
-            self.magnitude[j as usize] += product.abs();
-        }
-        let update = &symbolic.update[symbolic.update_start[k]..symbolic.update_start[k + 1]];
-        if column.len() <= SHORT {
-            subtract_places(column, scaled, update, tail);
-        } else {
-            subtract_runs(column, scaled, update, tail);
-        }
-        column.copy_from_slice(scaled);
+        Ok(())
     }
 
     /// Solves A x = `rhs` in place, in the numbering of the caller.
@@ -146,6 +144,12 @@ impl<S: Real> Factor<S> {
                 rhs[j as usize] -= l * x;
             }
         }
+        self.substitute_back(symbolic, rhs);
+    }
+
+    /// Solves D Lᵀ x = `rhs` in place.
+    fn substitute_back(&self, symbolic: &Symbolic, rhs: &mut [S]) {
+        let lower = &self.entries[symbolic.n..];
         for (k, &i) in symbolic.order.iter().enumerate().rev() {
             let mut x = rhs[i as usize] * self.inverse[k];
             let range = symbolic.range(k);
@@ -174,8 +178,9 @@ impl<S: Real> Factor<S> {
     /// The unknown whose pivot was cancelled most, and its ratio |pivot| / (|a| + Σ |l² d|): 1 means
     /// nothing was lost, 1e-10 that ten digits were. `None` without unknowns.
     pub fn cancellation(&self, symbolic: &Symbolic) -> Option<(usize, f64)> {
-        let worst = self.ratio.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
-        worst.map(|(k, &ratio)| (symbolic.order[k] as usize, ratio))
+        let ratios = self.entries.iter().zip(&self.magnitude).map(|(&d, &m)| d / m);
+        let worst = ratios.map(S::least_magnitude).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+        worst.map(|(k, ratio)| (symbolic.order[k] as usize, ratio))
     }
 
     /// The pivots D with their unknowns, in elimination order; their signs are the inertia of A.
@@ -184,32 +189,11 @@ impl<S: Real> Factor<S> {
     }
 }
 
-/// Products of a short column: each has its place.
+/// Whether a pivot is more than what rounding leaves of a cancelled one, in every lane; NaN is not.
 #[inline(always)]
-fn subtract_places<S: Real>(column: &[S], scaled: &[S], places: &[u32], tail: &mut [S]) {
-    let mut place = places.iter();
-    for (a, &w) in column.iter().enumerate() {
-        for (&l, &at) in scaled[a + 1..].iter().zip(place.by_ref()) {
-            tail[at as usize] -= w * l;
-        }
-    }
-}
-
-/// Products of a long column: runs of neighbours.
-fn subtract_runs<S: Real>(column: &[S], scaled: &[S], runs: &[u32], tail: &mut [S]) {
-    let mut run = runs.chunks_exact(2);
-    for (a, &w) in column.iter().enumerate() {
-        let mut rest = &scaled[a + 1..];
-        while !rest.is_empty() {
-            let Some(&[first, length]) = run.next() else { return };
-            let (now, later) = rest.split_at(length as usize);
-            let target = &mut tail[first as usize..][..now.len()];
-            for (t, &l) in target.iter_mut().zip(now) {
-                *t -= w * l;
-            }
-            rest = later;
-        }
-    }
+fn trusted<S: Real>(d: S, magnitude: S) -> bool {
+    let margin = d.abs() - magnitude * S::constant(PIVOT_TOLERANCE);
+    S::select(margin, S::one(), S::zero()).least_magnitude() > 0.0
 }
 
 impl Symbolic {

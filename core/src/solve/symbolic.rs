@@ -26,9 +26,8 @@ pub struct Symbolic {
     pub(super) row: Vec<u32>,
     /// The same row in the numbering of the caller.
     pub(super) unknown: Vec<u32>,
-    /// First element in `update` of each column, and the end of the last; length n + 1.
-    pub(super) update_start: Vec<usize>,
-    /// Where products of rows a < b of a column land, counted from the end of that column in L:
+    /// Where products of rows a < b of a column land, counted from the end of that column in L, column
+    /// by column:
     /// one place per product for a short column, (first, length) of each run for a long one.
     pub(super) update: Vec<u32>,
 }
@@ -65,7 +64,7 @@ impl Symbolic {
         }
         let slot = |&(e, position)| (index(e), slot(n, position, &place, &column, &row));
         let scatter = stored.iter().map(slot).collect();
-        let (update_start, update) = updates(n, &column, &row);
+        let update = updates(n, &column, &row);
         Self {
             n,
             order: order.iter().map(|&i| index(i)).collect(),
@@ -74,7 +73,6 @@ impl Symbolic {
             unknown: row.iter().map(|&r| index(order[r as usize])).collect(),
             column,
             row,
-            update_start,
             update,
         }
     }
@@ -161,8 +159,7 @@ fn position(k: usize, wanted: u32, column: &[u32], row: &[u32]) -> usize {
 }
 
 /// Where the products of each column land.
-fn updates(n: usize, column: &[u32], row: &[u32]) -> (Vec<usize>, Vec<u32>) {
-    let mut start = vec![0];
+fn updates(n: usize, column: &[u32], row: &[u32]) -> Vec<u32> {
     let mut update = Vec::new();
     let mut places = Vec::new();
     for k in 0..n {
@@ -176,9 +173,8 @@ fn updates(n: usize, column: &[u32], row: &[u32]) -> (Vec<usize>, Vec<u32>) {
                 push_runs(&places, &mut update);
             }
         }
-        start.push(update.len());
     }
-    (start, update)
+    update
 }
 
 /// Positions of `rows` in column j, counted from `base`.
