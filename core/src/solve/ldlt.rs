@@ -97,8 +97,10 @@ impl<S: Real> Factor<S> {
     fn assemble(&mut self, symbolic: &Symbolic, values: &[S]) {
         assert_eq!(values.len(), symbolic.entries.len(), "one value for each entry of the pattern");
         assert_eq!(self.entries.len(), symbolic.n + symbolic.fill(), "a factor of this pattern");
-        self.entries.fill(S::zero());
-        for &(entry, slot) in &symbolic.scatter {
+        for (entry, &source) in self.entries.iter_mut().zip(&symbolic.source) {
+            *entry = values.get(source as usize).copied().unwrap_or_else(S::zero);
+        }
+        for &(entry, slot) in &symbolic.repeated {
             self.entries[slot as usize] += values[entry as usize];
         }
         for (magnitude, &d) in self.magnitude.iter_mut().zip(&self.entries) {
@@ -149,14 +151,18 @@ impl<S: Real> Factor<S> {
 
     /// Solves D Lᵀ x = `rhs` in place.
     fn substitute_back(&self, symbolic: &Symbolic, rhs: &mut [S]) {
-        let lower = &self.entries[symbolic.n..];
-        for (k, &i) in symbolic.order.iter().enumerate().rev() {
-            let mut x = rhs[i as usize] * self.inverse[k];
-            let range = symbolic.range(k);
-            for (&l, &j) in lower[range.clone()].iter().zip(&symbolic.unknown[range]) {
+        let (mut lower, mut unknowns) = (&self.entries[symbolic.n..], &symbolic.unknown[..]);
+        let columns = symbolic.column[..symbolic.n].iter().zip(&symbolic.order).zip(&self.inverse);
+        for ((&start, &unknown), &inverse) in columns.rev() {
+            let mut x = rhs[unknown as usize] * inverse;
+            let (column, rows);
+            (lower, column) = lower.split_at(start as usize);
+            (unknowns, rows) = unknowns.split_at(start as usize);
+            // the first row is the unknown found last: to wait for it last shortens the chain
+            for (&l, &j) in column.iter().zip(rows).rev() {
                 x -= l * rhs[j as usize];
             }
-            rhs[i as usize] = x;
+            rhs[unknown as usize] = x;
         }
     }
 

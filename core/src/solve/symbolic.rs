@@ -9,6 +9,9 @@
 /// each is fastest for the short columns of mechanisms, runs vectorise and save memory for long ones.
 pub(super) const SHORT: usize = 8;
 
+/// No entry: beyond the end of any list of values.
+const NONE: u32 = u32::MAX;
+
 /// The static pattern of A = L D Lᵀ (with A symmetrically permuted), shared by any number of factors.
 #[derive(Clone, Debug)]
 pub struct Symbolic {
@@ -18,8 +21,11 @@ pub struct Symbolic {
     pub(super) order: Vec<u32>,
     /// Positions of the entries, in the numbering of the caller.
     pub(super) entries: Vec<(u32, u32)>,
-    /// Which entry is summed where: k for the diagonal, n + position in L below it.
-    pub(super) scatter: Vec<(u32, u32)>,
+    /// The entry that stands first in each slot, [`NONE`] where fill begins with zero. Slots are the
+    /// diagonal, then the positions of L; length n + fill.
+    pub(super) source: Vec<u32>,
+    /// Further entries (entry, slot) at positions that were named before.
+    pub(super) repeated: Vec<(u32, u32)>,
     /// First position of each column of L, and the end of the last; length n + 1.
     pub(super) column: Vec<u32>,
     /// Row of each position of L, in elimination order; ascending within a column.
@@ -62,14 +68,21 @@ impl Symbolic {
             row.extend_from_slice(pattern);
             column.push(index(row.len()));
         }
-        let slot = |&(e, position)| (index(e), slot(n, position, &place, &column, &row));
-        let scatter = stored.iter().map(slot).collect();
+        let (mut source, mut repeated) = (vec![NONE; n + row.len()], Vec::new());
+        for &(entry, position) in &stored {
+            let slot = slot(n, position, &place, &column, &row);
+            match &mut source[slot as usize] {
+                first if *first == NONE => *first = index(entry),
+                _ => repeated.push((index(entry), slot)),
+            }
+        }
         let update = updates(n, &column, &row);
         Self {
             n,
             order: order.iter().map(|&i| index(i)).collect(),
             entries: entries.iter().map(|&(i, j)| (index(i), index(j))).collect(),
-            scatter,
+            source,
+            repeated,
             unknown: row.iter().map(|&r| index(order[r as usize])).collect(),
             column,
             row,
