@@ -3,7 +3,7 @@
 //! With W = M and μ = 0 it is the matrix of the equations of motion (Haug 6.3.18); with W = I it
 //! gives the smallest step of Newton's method, with μ > 0 a damped one.
 
-use super::mass;
+use super::{mass, structure};
 use crate::elements::BodyId;
 use crate::math::{Motion, Real};
 use crate::model::{columns, Model};
@@ -30,20 +30,23 @@ impl<S: Real> Augmented<S> {
     pub fn new<P>(model: &Model<P>) -> Self {
         let layout = &model.layout;
         let (n_q, n) = (layout.n_q, layout.n_q + layout.n_rows);
-        let mut entries = Vec::new();
-        for body in 1..model.bodies.len() {
+        let (mut entries, mut present) = (Vec::new(), Vec::new());
+        for (body, coupled) in (1..model.bodies.len()).zip(structure::coupled(model)) {
             let [x, y, angle]: [usize; 3] =
                 std::array::from_fn(|c| columns(BodyId(body)).start + c);
             entries.extend([(x, x), (y, y), (angle, angle), (angle, x), (angle, y)]);
+            present.extend([true, true, true, coupled, coupled]);
         }
         let n_w = entries.len();
         entries.extend(layout.positions().map(|(row, column)| (n_q + row, column)));
+        present.extend(structure::jacobian(model));
         entries.extend((n_q..n).map(|row| (row, row)));
+        present.resize(entries.len(), true);
         let bodies = (0..n_q).step_by(3);
         let constraints = layout.constraints.iter().map(|c| n_q + c.rows.start);
         let blocks: Vec<usize> = bodies.chain(constraints).collect();
         let order = bodies_first(n_q, n, &entries, Some(&blocks));
-        let symbolic = Symbolic::new(n, &entries, &order);
+        let symbolic = Symbolic::sparse(n, &entries, &present, &order);
         let factor = Factor::new(&symbolic);
         let values = vec![S::zero(); entries.len()];
         Self { symbolic, factor, values, n_q, n_w, n_rows: layout.n_rows }
@@ -89,13 +92,17 @@ impl<S: Real> Augmented<S> {
     /// # Errors
     /// The row of Φ_q that depends on the others, or a coordinate without mass.
     pub fn factor(&mut self) -> Result<(), Dependent> {
-        let n_q = self.n_q;
-        self.factor.factor(&self.symbolic, &self.values).map_err(|ZeroPivot { index, .. }| {
-            match index.checked_sub(n_q) {
-                Some(row) => Dependent::Row(row),
-                None => Dependent::Column(index),
-            }
-        })
+        let outcome = self.factor.factor(&self.symbolic, &self.values);
+        outcome.map_err(|pivot| Dependent::new(pivot, self.n_q))
+    }
+
+    /// Factorises and solves in place, as [`solve`](Self::solve): faster than one after the other.
+    ///
+    /// # Errors
+    /// As [`factor`](Self::factor); `x` is then lost.
+    pub fn factor_and_solve(&mut self, x: &mut [S]) -> Result<(), Dependent> {
+        let outcome = self.factor.factor_and_solve(&self.symbolic, &self.values, x);
+        outcome.map_err(|pivot| Dependent::new(pivot, self.n_q))
     }
 
     /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).
@@ -118,4 +125,13 @@ pub enum Dependent {
     Row(usize),
     /// A coordinate without a usable mass.
     Column(usize),
+}
+
+impl Dependent {
+    fn new(ZeroPivot { index, .. }: ZeroPivot, n_q: usize) -> Self {
+        match index.checked_sub(n_q) {
+            Some(row) => Self::Row(row),
+            None => Self::Column(index),
+        }
+    }
 }

@@ -1,7 +1,9 @@
 //! The equations of motion with multipliers (Haug 6.3.18):
 //!
-//!     [ M   Φ_qᵀ ] [ q̈ ]   [ Q ]
-//!     [ Φ_q  0   ] [ λ ] = [ γ ]
+//! ```text
+//! [ M   Φ_qᵀ ] [ q̈ ]   [ Q ]
+//! [ Φ_q  0   ] [ λ ] = [ γ ]
+//! ```
 //!
 //! For the integrator γ may be replaced by Baumgarte's γ̂ = γ - 2α Φ̇ - β² Φ (Haug 7.3.8).
 
@@ -93,7 +95,6 @@ impl<S: Real> Workspace<S> {
         constraints::velocity_terms(model, &self.motions, t, residual, rate, gamma);
         constraints::jacobian(model, &self.motions, t, self.matrix.jacobian_mut());
         self.matrix.set_mass(model, &self.motions);
-        self.matrix.factor().map_err(Singular)?;
         let (forces, lower) = self.solution.split_at_mut(self.n_q);
         forces::generalized(model, &self.motions, t, forces);
         let (damping, stiffness) =
@@ -102,9 +103,9 @@ impl<S: Real> Workspace<S> {
             *right = self.gamma[k] - damping * self.rate[k] - stiffness * self.residual[k];
         }
         let Some(mut correction) = self.correction.take() else {
-            self.matrix.solve(&mut self.solution);
-            return Ok(());
+            return self.matrix.factor_and_solve(&mut self.solution).map_err(Singular);
         };
+        self.matrix.factor().map_err(Singular)?;
         self.solve_damped(model, &mut correction);
         self.correction = Some(correction);
         Ok(())

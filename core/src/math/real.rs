@@ -156,6 +156,9 @@ impl Real for f64 {
     fn floor(self) -> Self {
         f64::floor(self)
     }
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
     fn least_magnitude(self) -> f64 {
         f64::abs(self)
     }

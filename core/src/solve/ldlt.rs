@@ -10,7 +10,8 @@
 //!
 //! [`bodies_first`]: super::bodies_first
 
-use super::symbolic::{Product, Run, Symbolic, SHORT};
+use super::columns::{Columns, Later};
+use super::symbolic::Symbolic;
 use crate::math::Real;
 
 /// Smallest ratio of a pivot to the magnitudes cancelled in it that is still trusted.
@@ -37,18 +38,14 @@ impl std::error::Error for ZeroPivot {}
 /// The numbers of one factorisation; all memory is taken in [`Factor::new`].
 #[derive(Clone, Debug)]
 pub struct Factor<S> {
-    /// D, then the lower part of L D, column by column: length n + fill.
+    /// D, then L below the diagonal, column by column. Length n + fill.
     entries: Vec<S>,
-    /// The lower part of L: length fill.
-    lower: Vec<S>,
-    /// 1 / D, in the numbering of the caller.
+    /// 1 / D.
     inverse: Vec<S>,
     /// |a| + Σ |l² d| of each pivot.
     magnitude: Vec<S>,
-    /// |pivot| / magnitude, least over the lanes, in elimination order.
-    ratio: Vec<f64>,
-    /// The residual of a refinement.
-    residual: Vec<S>,
+    /// A long column of L while its products are subtracted; elsewhere a residual.
+    work: Vec<S>,
 }
 
 impl<S: Real> Factor<S> {
@@ -57,11 +54,9 @@ impl<S: Real> Factor<S> {
         let n = symbolic.n;
         Self {
             entries: vec![S::zero(); n + symbolic.fill()],
-            lower: vec![S::zero(); symbolic.fill()],
             inverse: vec![S::zero(); n],
             magnitude: vec![S::zero(); n],
-            ratio: vec![0.0; n],
-            residual: vec![S::zero(); n],
+            work: vec![S::zero(); n],
         }
     }
 
@@ -73,71 +68,101 @@ impl<S: Real> Factor<S> {
     ///
     /// # Panics
     /// If `values` has another length than the entries, or the factor is of another pattern.
-    #[inline(never)] // on its own it keeps its addresses in registers: a third faster
     pub fn factor(&mut self, symbolic: &Symbolic, values: &[S]) -> Result<(), ZeroPivot> {
         self.assemble(symbolic, values);
-        // slices taken once: the compiler need not fear that a store moves them
-        let n = symbolic.n;
-        let (diagonal, below) = self.entries.split_at_mut(n);
-        let (scaled, inverse) = (&mut self.lower[..], &mut self.inverse[..n]);
-        let (magnitude, ratio) = (&mut self.magnitude[..n], &mut self.ratio[..n]);
-        for (k, (column, &unknown)) in symbolic.columns.iter().zip(&symbolic.order).enumerate() {
-            let d = diagonal[k];
-            ratio[k] = (d / magnitude[k]).least_magnitude();
-            let reciprocal = S::one() / d;
-            if !(ratio[k] > PIVOT_TOLERANCE && d.is_finite() && reciprocal.is_finite()) {
-                return Err(ZeroPivot { index: unknown as usize, ratio: ratio[k] });
-            }
-            inverse[unknown as usize] = reciprocal;
-            let range = column.start as usize..column.end as usize;
-            let (w, l) = (&below[range.clone()], &mut scaled[range.clone()]);
-            for ((&w, l), &j) in w.iter().zip(l).zip(&symbolic.row[range.clone()]) {
-                *l = w * reciprocal;
-                let square = w * *l;
-                diagonal[j as usize] -= square;
-                magnitude[j as usize] += square.abs();
-            }
-            let updates = column.first_update as usize..column.end_update as usize;
-            if range.len() <= SHORT {
-                subtract_products(&symbolic.products[updates], scaled, below);
-            } else {
-                let (w, tail) = below[range.start..].split_at_mut(range.len());
-                let runs = &symbolic.runs[updates];
-                subtract_runs(w, &scaled[range.clone()], runs, range.end, tail);
-            }
-        }
+        self.eliminate::<false>(symbolic, &mut [])
+    }
+
+    /// Factorises as [`factor`](Self::factor) and solves A x = `rhs` in place. The right side is
+    /// eliminated beside the columns, which hides that half of the solution behind their latency.
+    ///
+    /// # Errors
+    /// As [`factor`](Self::factor); `rhs` is then lost.
+    ///
+    /// # Panics
+    /// As [`factor`](Self::factor) and [`solve`](Self::solve).
+    pub fn factor_and_solve(
+        &mut self,
+        symbolic: &Symbolic,
+        values: &[S],
+        rhs: &mut [S],
+    ) -> Result<(), ZeroPivot> {
+        assert_eq!(rhs.len(), symbolic.n, "one right side for each unknown");
+        self.assemble(symbolic, values);
+        self.eliminate::<true>(symbolic, rhs)?;
+        self.substitute_back(symbolic, rhs);
         Ok(())
     }
 
     fn assemble(&mut self, symbolic: &Symbolic, values: &[S]) {
-        assert_eq!(values.len(), symbolic.slot.len(), "one value for each entry of the pattern");
+        assert_eq!(values.len(), symbolic.entries.len(), "one value for each entry of the pattern");
         assert_eq!(self.entries.len(), symbolic.n + symbolic.fill(), "a factor of this pattern");
-        self.entries.fill(S::zero());
-        for (&slot, &value) in symbolic.slot.iter().zip(values) {
-            self.entries[slot as usize] += value;
+        for (entry, &source) in self.entries.iter_mut().zip(&symbolic.source) {
+            *entry = values.get(source as usize).copied().unwrap_or_else(S::zero);
+        }
+        for &(entry, slot) in &symbolic.repeated {
+            self.entries[slot as usize] += values[entry as usize];
         }
         for (magnitude, &d) in self.magnitude.iter_mut().zip(&self.entries) {
             *magnitude = d.abs();
         }
     }
 
+    /// Eliminates column by column; with `RHS` the right side as well.
+    fn eliminate<const RHS: bool>(
+        &mut self,
+        symbolic: &Symbolic,
+        rhs: &mut [S],
+    ) -> Result<(), ZeroPivot> {
+        let (diagonal, lower) = self.entries.split_at_mut(symbolic.n);
+        let mut columns = Columns::new(symbolic, lower, &mut self.work);
+        let mut later = Later { diagonal, magnitude: &mut self.magnitude, rhs };
+        let ends = symbolic.column.windows(2).zip(&symbolic.order);
+        for (k, (inverse, (ends, &unknown))) in self.inverse.iter_mut().zip(ends).enumerate() {
+            let (d, magnitude) = (later.diagonal[k], later.magnitude[k]);
+            *inverse = S::one() / d;
+            if !(trusted(d, magnitude) && d.is_finite() && inverse.is_finite()) {
+                let ratio = (d / magnitude).least_magnitude();
+                return Err(ZeroPivot { index: unknown as usize, ratio });
+            }
+            let x = if RHS { later.rhs[unknown as usize] } else { S::zero() };
+            columns.eliminate::<RHS>(ends[1] - ends[0], *inverse, x, &mut later);
+        }
+        Ok(())
+    }
+
     /// Solves A x = `rhs` in place, in the numbering of the caller.
     ///
     /// # Panics
     /// If `rhs` has not length n.
-    #[inline(never)]
     pub fn solve(&self, symbolic: &Symbolic, rhs: &mut [S]) {
-        assert_eq!(rhs.len(), symbolic.n, "one right side for each unknown");
-        for (&(k, j), &l) in symbolic.unknowns.iter().zip(&self.lower) {
-            let x = rhs[k as usize];
-            rhs[j as usize] -= l * x;
+        let n = symbolic.n;
+        assert_eq!(rhs.len(), n, "one right side for each unknown");
+        let lower = &self.entries[n..];
+        for (k, &i) in symbolic.order.iter().enumerate() {
+            let x = rhs[i as usize];
+            let range = symbolic.range(k);
+            for (&l, &j) in lower[range.clone()].iter().zip(&symbolic.unknown[range]) {
+                rhs[j as usize] -= l * x;
+            }
         }
-        for (x, &inverse) in rhs.iter_mut().zip(&self.inverse) {
-            *x = *x * inverse;
-        }
-        for (&(k, j), &l) in symbolic.unknowns.iter().zip(&self.lower).rev() {
-            let x = rhs[j as usize];
-            rhs[k as usize] -= l * x;
+        self.substitute_back(symbolic, rhs);
+    }
+
+    /// Solves D Lᵀ x = `rhs` in place.
+    fn substitute_back(&self, symbolic: &Symbolic, rhs: &mut [S]) {
+        let (mut lower, mut unknowns) = (&self.entries[symbolic.n..], &symbolic.unknown[..]);
+        let columns = symbolic.column[..symbolic.n].iter().zip(&symbolic.order).zip(&self.inverse);
+        for ((&start, &unknown), &inverse) in columns.rev() {
+            let mut x = rhs[unknown as usize] * inverse;
+            let (column, rows);
+            (lower, column) = lower.split_at(start as usize);
+            (unknowns, rows) = unknowns.split_at(start as usize);
+            // the first row is the unknown found last: to wait for it last shortens the chain
+            for (&l, &j) in column.iter().zip(rows).rev() {
+                x -= l * rhs[j as usize];
+            }
+            rhs[unknown as usize] = x;
         }
     }
 
@@ -146,21 +171,22 @@ impl<S: Real> Factor<S> {
     /// # Panics
     /// If a length does not fit the pattern.
     pub fn refine(&mut self, symbolic: &Symbolic, values: &[S], rhs: &[S], x: &mut [S]) {
-        let mut residual = std::mem::take(&mut self.residual);
+        let mut residual = std::mem::take(&mut self.work);
         residual.copy_from_slice(rhs);
         symbolic.subtract_product(values, x, &mut residual);
         self.solve(symbolic, &mut residual);
         for (x, &correction) in x.iter_mut().zip(&residual) {
             *x += correction;
         }
-        self.residual = residual;
+        self.work = residual;
     }
 
     /// The unknown whose pivot was cancelled most, and its ratio |pivot| / (|a| + Σ |l² d|): 1 means
     /// nothing was lost, 1e-10 that ten digits were. `None` without unknowns.
     pub fn cancellation(&self, symbolic: &Symbolic) -> Option<(usize, f64)> {
-        let worst = self.ratio.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
-        worst.map(|(k, &ratio)| (symbolic.order[k] as usize, ratio))
+        let ratios = self.entries.iter().zip(&self.magnitude).map(|(&d, &m)| d / m);
+        let worst = ratios.map(S::least_magnitude).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+        worst.map(|(k, ratio)| (symbolic.order[k] as usize, ratio))
     }
 
     /// The pivots D with their unknowns, in elimination order; their signs are the inertia of A.
@@ -169,30 +195,11 @@ impl<S: Real> Factor<S> {
     }
 }
 
-/// Subtracts the products of a short column from the columns after it.
+/// Whether a pivot is more than what rounding leaves of a cancelled one, in every lane; NaN is not.
 #[inline(always)]
-fn subtract_products<S: Real>(products: &[Product], scaled: &[S], below: &mut [S]) {
-    for product in products {
-        let (w, l) = (below[product.a as usize], scaled[product.b as usize]);
-        below[product.target as usize] -= w * l;
-    }
-}
-
-/// Subtracts the products of a long column from the columns after it, which begin at position `end`.
-fn subtract_runs<S: Real>(w: &[S], scaled: &[S], runs: &[Run], end: usize, tail: &mut [S]) {
-    let mut runs = runs.iter();
-    for (a, &w) in w.iter().enumerate() {
-        let mut rest = &scaled[a + 1..];
-        while !rest.is_empty() {
-            let Some(run) = runs.next() else { return };
-            let (now, later) = rest.split_at(run.length as usize);
-            let target = &mut tail[run.target as usize - end..][..now.len()];
-            for (t, &l) in target.iter_mut().zip(now) {
-                *t -= w * l;
-            }
-            rest = later;
-        }
-    }
+fn trusted<S: Real>(d: S, magnitude: S) -> bool {
+    let margin = d.abs() - magnitude * S::constant(PIVOT_TOLERANCE);
+    S::select(margin, S::one(), S::zero()).least_magnitude() > 0.0
 }
 
 impl Symbolic {

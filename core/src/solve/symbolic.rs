@@ -5,35 +5,12 @@
 //! Elimination is right-looking: column k subtracts its outer product from the columns after it; where
 //! each product lands is stored here, so that the numeric phase only multiplies.
 
-/// Up to this many rows a column lists its products one by one, above it runs of neighbouring products:
-/// a list is fastest for the short columns of mechanisms, runs vectorise and save memory for long ones.
+/// Up to this many rows a column stores where each product lands, above it runs of products: an index
+/// each is fastest for the short columns of mechanisms, runs vectorise and save memory for long ones.
 pub(super) const SHORT: usize = 8;
 
-/// A product of rows a < b of a short column, and where it lands in the lower part.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Product {
-    pub target: u32,
-    pub a: u32,
-    pub b: u32,
-}
-
-/// Neighbouring products of a long column: of one row with `length` rows from the next unused one.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
-    pub target: u32,
-    pub length: u32,
-}
-
-/// Where a column finds its rows and products.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Column {
-    /// Positions in the lower part.
-    pub start: u32,
-    pub end: u32,
-    /// In `products` for a short column, in `runs` for a long one.
-    pub first_update: u32,
-    pub end_update: u32,
-}
+/// No entry: beyond the end of any list of values.
+const NONE: u32 = u32::MAX;
 
 /// The static pattern of A = L D Lᵀ (with A symmetrically permuted), shared by any number of factors.
 #[derive(Clone, Debug)]
@@ -44,15 +21,21 @@ pub struct Symbolic {
     pub(super) order: Vec<u32>,
     /// Positions of the entries, in the numbering of the caller.
     pub(super) entries: Vec<(u32, u32)>,
-    /// Where each entry is summed: k for the diagonal, n + position in the lower part below it.
-    pub(super) slot: Vec<u32>,
-    pub(super) columns: Vec<Column>,
-    /// Row of each position of the lower part, in elimination order; ascending within a column.
+    /// The entry that stands first in each slot, [`NONE`] where fill begins with zero. Slots are the
+    /// diagonal, then the positions of L; length n + fill.
+    pub(super) source: Vec<u32>,
+    /// Further entries (entry, slot) at positions that were named before.
+    pub(super) repeated: Vec<(u32, u32)>,
+    /// First position of each column of L, and the end of the last; length n + 1.
+    pub(super) column: Vec<u32>,
+    /// Row of each position of L, in elimination order; ascending within a column.
     pub(super) row: Vec<u32>,
-    /// Column and row of each position, in the numbering of the caller.
-    pub(super) unknowns: Vec<(u32, u32)>,
-    pub(super) products: Vec<Product>,
-    pub(super) runs: Vec<Run>,
+    /// The same row in the numbering of the caller.
+    pub(super) unknown: Vec<u32>,
+    /// Where products of rows a < b of a column land, counted from the end of that column in L, column
+    /// by column:
+    /// one place per product for a short column, (first, length) of each run for a long one.
+    pub(super) update: Vec<u32>,
 }
 
 impl Symbolic {
@@ -65,53 +48,46 @@ impl Symbolic {
     /// # Panics
     /// If an index is outside `0..n`, `order` is no permutation, or the factor has 2³² entries.
     pub fn new(n: usize, entries: &[(usize, usize)], order: &[usize]) -> Self {
+        Self::sparse(n, entries, &vec![true; entries.len()], order)
+    }
+
+    /// The same with entries that are zero whatever happens: those not `present` get no place in the
+    /// factor, and their values are not read by it.
+    ///
+    /// # Panics
+    /// As [`Symbolic::new`], or if `present` is not as long as `entries`.
+    pub fn sparse(n: usize, entries: &[(usize, usize)], present: &[bool], order: &[usize]) -> Self {
+        assert_eq!(entries.len(), present.len(), "a flag for each entry");
         let place = inverse(n, order);
-        let below = below_diagonal(n, entries, &place);
-        let pattern = Pattern::new(&fill(below));
-        let slot = entries.iter().map(|&e| slot(n, e, &place, &pattern)).collect();
-        let mut symbolic = Self {
+        let stored: Vec<_> = entries.iter().copied().enumerate().filter(|e| present[e.0]).collect();
+        let below = below_diagonal(n, stored.iter().map(|e| e.1), &place);
+        let patterns = fill(below);
+        let mut column = vec![0_u32];
+        let mut row = Vec::new();
+        for pattern in &patterns {
+            row.extend_from_slice(pattern);
+            column.push(index(row.len()));
+        }
+        let (mut source, mut repeated) = (vec![NONE; n + row.len()], Vec::new());
+        for &(entry, position) in &stored {
+            let slot = slot(n, position, &place, &column, &row);
+            match &mut source[slot as usize] {
+                first if *first == NONE => *first = index(entry),
+                _ => repeated.push((index(entry), slot)),
+            }
+        }
+        let update = updates(n, &column, &row);
+        Self {
             n,
             order: order.iter().map(|&i| index(i)).collect(),
             entries: entries.iter().map(|&(i, j)| (index(i), index(j))).collect(),
-            slot,
-            columns: Vec::with_capacity(n),
-            unknowns: pattern.unknowns(order),
-            row: Vec::new(),
-            products: Vec::new(),
-            runs: Vec::new(),
-        };
-        for k in 0..n {
-            symbolic.push_column(k, &pattern);
+            source,
+            repeated,
+            unknown: row.iter().map(|&r| index(order[r as usize])).collect(),
+            column,
+            row,
+            update,
         }
-        symbolic.row = pattern.row;
-        symbolic
-    }
-
-    /// Stores where the products of column k land.
-    fn push_column(&mut self, k: usize, pattern: &Pattern) {
-        let rows = pattern.rows(k);
-        let short = rows.len() <= SHORT;
-        let count = |s: &Self| index(if short { s.products.len() } else { s.runs.len() });
-        let first_update = count(self);
-        let start = pattern.start[k];
-        for (a, &j) in rows.iter().enumerate() {
-            let places = pattern.landing(j as usize, &rows[a + 1..]);
-            if short {
-                self.products.extend(places.iter().zip(a + 1..).map(|(&target, b)| Product {
-                    target,
-                    a: start + index(a),
-                    b: start + index(b),
-                }));
-            } else {
-                push_runs(&places, &mut self.runs);
-            }
-        }
-        self.columns.push(Column {
-            start: pattern.start[k],
-            end: pattern.start[k + 1],
-            first_update,
-            end_update: count(self),
-        });
     }
 
     /// Number of unknowns.
@@ -127,6 +103,12 @@ impl Symbolic {
     /// Number of entries of L below the diagonal, fill included.
     pub fn fill(&self) -> usize {
         self.row.len()
+    }
+
+    /// Positions of column k in L.
+    #[inline(always)]
+    pub(super) fn range(&self, k: usize) -> std::ops::Range<usize> {
+        self.column[k] as usize..self.column[k + 1] as usize
     }
 }
 
@@ -146,9 +128,13 @@ fn inverse(n: usize, order: &[usize]) -> Vec<usize> {
 }
 
 /// Rows of A below the diagonal of each column, in elimination order, unsorted, with repeats.
-fn below_diagonal(n: usize, entries: &[(usize, usize)], place: &[usize]) -> Vec<Vec<u32>> {
+fn below_diagonal(
+    n: usize,
+    entries: impl Iterator<Item = (usize, usize)>,
+    place: &[usize],
+) -> Vec<Vec<u32>> {
     let mut below = vec![Vec::new(); n];
-    for &(i, j) in entries {
+    for (i, j) in entries {
         let (a, b) = (place[i], place[j]);
         if a != b {
             below[a.min(b)].push(index(a.max(b)));
@@ -171,68 +157,64 @@ fn fill(mut patterns: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     patterns
 }
 
-/// The lower part of L, column by column.
-struct Pattern {
-    /// First position of each column, and the end of the last; length n + 1.
-    start: Vec<u32>,
-    row: Vec<u32>,
-}
-
-impl Pattern {
-    fn new(columns: &[Vec<u32>]) -> Self {
-        let (mut start, mut row) = (vec![0], Vec::new());
-        for rows in columns {
-            row.extend_from_slice(rows);
-            start.push(index(row.len()));
-        }
-        Self { start, row }
-    }
-
-    fn rows(&self, k: usize) -> &[u32] {
-        &self.row[self.start[k] as usize..self.start[k + 1] as usize]
-    }
-
-    /// Position of `row` in column k, which contains it.
-    fn position(&self, k: usize, row: u32) -> usize {
-        self.start[k] as usize + self.rows(k).partition_point(|&r| r < row)
-    }
-
-    /// Positions of ascending `rows` in column j, which contains them.
-    fn landing(&self, j: usize, rows: &[u32]) -> Vec<u32> {
-        let Some(&first) = rows.first() else { return Vec::new() };
-        let mut at = self.position(j, first);
-        let place = |&r: &u32| {
-            while self.row[at] != r {
-                at += 1;
-            }
-            index(at)
-        };
-        rows.iter().map(place).collect()
-    }
-
-    fn unknowns(&self, order: &[usize]) -> Vec<(u32, u32)> {
-        let columns = order.iter().enumerate();
-        columns
-            .flat_map(|(k, &i)| {
-                self.rows(k).iter().map(move |&r| (index(i), index(order[r as usize])))
-            })
-            .collect()
-    }
-}
-
-fn slot(n: usize, (i, j): (usize, usize), place: &[usize], pattern: &Pattern) -> u32 {
+fn slot(n: usize, (i, j): (usize, usize), place: &[usize], column: &[u32], row: &[u32]) -> u32 {
     let (a, b) = (place[i].min(place[j]), place[i].max(place[j]));
     if a == b {
         return index(a);
     }
-    index(n + pattern.position(a, index(b)))
+    index(n + position(a, index(b), column, row))
 }
 
-fn push_runs(places: &[u32], runs: &mut Vec<Run>) {
+/// Position in L of `row` in column k; the pattern contains it.
+fn position(k: usize, wanted: u32, column: &[u32], row: &[u32]) -> usize {
+    let (start, end) = (column[k] as usize, column[k + 1] as usize);
+    start + row[start..end].partition_point(|&r| r < wanted)
+}
+
+/// Where the products of each column land.
+fn updates(n: usize, column: &[u32], row: &[u32]) -> Vec<u32> {
+    let mut update = Vec::new();
+    let mut places = Vec::new();
+    for k in 0..n {
+        let (first, end) = (column[k] as usize, column[k + 1] as usize);
+        let pattern = &row[first..end];
+        for (a, &j) in pattern.iter().enumerate() {
+            landing(j as usize, &pattern[a + 1..], column, row, end, &mut places);
+            if pattern.len() <= SHORT {
+                update.extend_from_slice(&places);
+            } else {
+                push_runs(&places, &mut update);
+            }
+        }
+    }
+    update
+}
+
+/// Positions of `rows` in column j, counted from `base`.
+fn landing(
+    j: usize,
+    rows: &[u32],
+    column: &[u32],
+    row: &[u32],
+    base: usize,
+    places: &mut Vec<u32>,
+) {
+    places.clear();
+    let Some(&first) = rows.first() else { return };
+    let mut at = position(j, first, column, row);
+    for &r in rows {
+        while row[at] != r {
+            at += 1;
+        }
+        places.push(index(at - base));
+    }
+}
+
+fn push_runs(places: &[u32], update: &mut Vec<u32>) {
     let mut rest = places;
-    while let Some(&target) = rest.first() {
-        let length = rest.iter().zip(target..).take_while(|(&place, next)| place == *next).count();
-        runs.push(Run { target, length: index(length) });
+    while let Some(&first) = rest.first() {
+        let length = rest.iter().zip(first..).take_while(|(&place, next)| place == *next).count();
+        update.extend([first, index(length)]);
         rest = &rest[length..];
     }
 }
