@@ -113,9 +113,21 @@ def _draw(
             symbol, unit = QUANTITIES[names[0]]
             curve = Curve(symbol, getattr(motion.body(body), names[0]), line)
             draw(axes, motion.t, [curve], Panel(symbol, unit, title, cut, legend=False))
+            if names[0] == "angle":
+                _add_degrees(axes)
         else:
             _draw_all(axes, motion, body, names, Panel("", "", title, cut, legend=False))
         return axes
+
+
+def _add_degrees(axes: Axes) -> None:
+    """The same angle in degrees, to the right."""
+    rad = 1e-3 if "mrad" in axes.get_ylabel() else 1.0
+    degrees = axes.secondary_yaxis(
+        "right", functions=(lambda a: np.degrees(a * rad), lambda a: np.radians(a) / rad)
+    )
+    degrees.spines["right"].set_visible(True)
+    degrees.set_ylabel("φ / °")
 
 
 def _draw_all(

@@ -40,10 +40,9 @@ def configuration(
     """
     state = state_at(solution_or_state, t)
     with style.on(ax) as axes:
-        made = drawn(axes, scene(state))
+        made = drawn(axes, scene(state), f"t = {float(state.t):g} s")
         _number_bodies(made, index_base)
         name_joints(made)
-        axes.set_title(f"t = {float(state.t):g} s", loc="left")
         return axes
 
 

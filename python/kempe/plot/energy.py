@@ -49,6 +49,6 @@ def energy_balance(solution: Solution, *, ax: Axes | None = None, cut: float | N
     with style.on(ax) as axes:
         add_lines(axes, solution.t, [Curve("balance", error)])
         logarithmic(axes, [error])
-        axes.set_ylabel("|ΔE| / max T  (–)")
-        finish(axes, solution.t, Panel("", "", "Error of the energy balance", cut, legend=False))
+        axes.set_ylabel("relative error / 1")
+        finish(axes, solution.t, Panel("", "", "Energy balance: change of T + V + D − W over largest T", cut, legend=False))
         return axes

@@ -31,12 +31,12 @@ def mechanism(solution_or_state: Solution | State, *, ax: Axes | None = None) ->
         ax: where to; a figure of its own when None.
     """
     with style.on(ax) as axes:
-        made = drawn(axes, scene(state_at(solution_or_state, None)))
+        state = state_at(solution_or_state, None)
+        made = drawn(axes, scene(state), style.short(state.model.title, 80))
         draw_dimensions(made)
         _draw_gravity(made)
         name_joints(made)
         _name_forces(made)
-        axes.set_title(style.short(made.scene["title"], 80), loc="left")
         return axes
 
 
@@ -76,7 +76,7 @@ def _free_corner(made: Picture) -> Floats:
     box = made.axes.get_window_extent()
     dots = 72.0 / float(made.axes.figure.dpi)
     low, high = np.array(box.min) * dots, np.array(box.max) * dots
-    room = np.array([1.6 * _ARROW, 0.8 * _ARROW])
+    room = np.array([1.3 * _ARROW, 1.05 * _ARROW])
     lines = np.concatenate([np.empty((0, 2, 2)), *made.lines])
     best, least = high - room, np.inf
     for share in ((1, 1), (0, 1), (1, 0), (0, 0)):

@@ -83,6 +83,8 @@ class Picture:
             )
             for name in names
         ]
+        for text in texts:
+            text.set_in_layout(False)
         dots = 72.0 / float(self.axes.figure.dpi)
         sizes = [np.array(text.get_window_extent().size) * dots for text in texts]
         lines = np.concatenate([np.empty((0, 2, 2)), *self.lines])
@@ -98,8 +100,9 @@ class Picture:
             self.boxes.append(np.concatenate([centre - size / 2.0, centre + size / 2.0]))
 
 
-def drawn(axes: Axes, scene: dict[str, Any]) -> Picture:
+def drawn(axes: Axes, scene: dict[str, Any], title: str) -> Picture:
     """Draw links, ground, springs and pins; the names are left to the caller."""
+    axes.set_title(title, loc="left")
     made = _framed(axes, scene)
     for body in scene["bodies"]:
         if body["number"]:
@@ -127,8 +130,7 @@ def _framed(axes: Axes, scene: dict[str, Any]) -> Picture:
     axes.set_ylabel(unit.axis("y"))
     axes.ticklabel_format(useOffset=False, style="plain")
     axes.grid(color="#EEEEEE")
-    canvas = axes.figure.canvas
-    canvas.figure.draw_without_rendering()
+    style.lay_out(axes.figure.canvas.figure)
     return Picture(axes, scene, unit)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from kempe.arrays import Floats
@@ -47,6 +48,9 @@ def logarithmic(axes: Axes, drawn: list[Floats]) -> None:
     lowest = min((float(values.min()) for values in positive if len(values)), default=None)
     if lowest is None:
         return
+    highest = max(float(values.max()) for values in positive if len(values))
+    # Whole decades, three at least: their numbers are short.
+    bottom = math.floor(math.log10(max(lowest, _LOWEST)))
+    top = max(math.ceil(math.log10(highest)), bottom + 3)
     axes.set_yscale("log", nonpositive="mask")
-    if lowest < _LOWEST:
-        axes.set_ylim(bottom=_LOWEST)
+    axes.set_ylim(10.0**bottom, 10.0**top)

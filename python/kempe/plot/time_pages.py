@@ -126,6 +126,7 @@ def _draw_reactions(
     wanted = [what for row in rows for what in row]
     for panel, what in zip(panels, wanted, strict=True):
         reactions(solution, joint, ax=panel, cut=cut, legend=False, **what)
+    _share_limits(panels[: 2 * (len(rows) - ("quantity" in rows[-1][0]))])
     handles, labels = panels[0].get_legend_handles_labels()
     if len(labels) > 1:
         figure.legend(handles, labels, loc="outside upper right", ncols=len(labels))
@@ -169,8 +170,17 @@ def _grid(figure: Figure, count: int, columns: int) -> list[Axes]:
     return [figure.add_subplot(grid[divmod(k, columns)]) for k in range(count)]
 
 
+def _share_limits(panels: Sequence[Axes]) -> None:
+    """The same range in all panels, so that they compare."""
+    ranges = [panel.get_ylim() for panel in panels]
+    for panel in panels:
+        panel.set_ylim(min(low for low, _ in ranges), max(high for _, high in ranges))
+
+
 def _label_lowest(panels: Sequence[Axes], columns: int) -> None:
     """Times stand only below the lowest panel of each column."""
     for panel in panels[:-columns]:
         panel.set_xlabel("")
         panel.tick_params(labelbottom=False)
+    figure = panels[0].figure
+    figure.align_ylabels(panels)

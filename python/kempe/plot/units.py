@@ -10,6 +10,7 @@ _PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
 #: The powers that engineers write before each unit; others are written as 10³ before it.
 _CUSTOM = {
     "m": (0, -3, -6, -9),
+    "rad": (0, -3),
     "m/s": (0, -3, -6),
     "m/s²": (0, -3, -6),
     "N": (9, 6, 3, 0, -3, -6),
