@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from kempe.arrays import Floats
 from kempe.plot import style
 from kempe.plot.curves import Curve, Panel, add_lines, finish
-from kempe.plot.units import Scale
+from kempe.plot.units import Scale, power_of_ten
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,3 +54,7 @@ def logarithmic(axes: Axes, drawn: list[Floats]) -> None:
     top = max(math.ceil(math.log10(highest)), bottom + 3)
     axes.set_yscale("log", nonpositive="mask")
     axes.set_ylim(10.0**bottom, 10.0**top)
+    step = math.ceil((top - bottom) / 6)
+    powers = range(bottom, top + 1, step)
+    axes.set_yticks([10.0**power for power in powers], [power_of_ten(power) for power in powers])
+    axes.minorticks_off()

@@ -53,8 +53,12 @@ def scale(unit: str, peak: float) -> Scale:
         return Scale(1.0, unit)
     if power in _CUSTOM.get(unit, ()):
         return Scale(10.0**power, _PREFIXES[power] + unit)
-    raised = str(power).translate(_RAISED)
-    return Scale(10.0**power, f"10{raised} {unit}")
+    return Scale(10.0**power, f"{power_of_ten(power)} {unit}")
+
+
+def power_of_ten(power: int) -> str:
+    """Such as 10⁻³, in plain letters."""
+    return f"10{str(power).translate(_RAISED)}"
 
 
 def _power(peak: float) -> int:
