@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 #: Room around the mechanism, as a share of its larger side.
-MARGIN = 0.17
+_MARGIN = 0.17
+#: A drawing is at least so high for its width, and so wide for its height.
+_LEAST_SIDE = 0.45
 _LINK, _EDGE, _PIN = 8.0, 1.0, 6.0
 _WHITE = 0.72  # how much of it there is in the colour of a link
 
@@ -89,7 +91,8 @@ class Picture:
         sizes = [np.array(text.get_window_extent().size) * dots for text in texts]
         lines = np.concatenate([np.empty((0, 2, 2)), *self.lines])
         places = self.points(np.array(anchors))
-        centres = place_labels(places, np.array(sizes), lines, self.boxes)
+        corners = self.axes.get_window_extent().get_points() * dots
+        centres = place_labels(places, np.array(sizes), lines, self.boxes, corners)
         for text, anchor, offset, size in zip(
             texts, anchors, centres - places, sizes, strict=True
         ):
@@ -115,14 +118,20 @@ def drawn(axes: Axes, scene: dict[str, Any], title: str) -> Picture:
     return made
 
 
+def frame(scene: dict[str, Any]) -> tuple[Floats, Floats]:
+    """Least and largest x and y of the axes, m: the mechanism and room around it."""
+    low, high = np.array(scene["bounds"]).reshape(2, 2)
+    middle, sides = (low + high) / 2.0, high - low
+    sides = sides + 2.0 * _MARGIN * (float(sides.max()) or 1.0)
+    half = np.maximum(sides, _LEAST_SIDE * sides.max()) / 2.0
+    return middle - half, middle + half
+
+
 def _framed(axes: Axes, scene: dict[str, Any]) -> Picture:
     """Equal axes with room around the mechanism; laid out, so that print sizes are known."""
-    low, high = np.array(scene["bounds"]).reshape(2, 2)
-    size = float(max(high - low)) or 1.0
-    # The size decides about the unit, as the places may lie far from the origin.
-    unit = scale("m", size if size < 0.2 else max(size, float(np.abs([low, high]).max())))
-    room = MARGIN * size
-    (left, bottom), (right, top) = (low - room) / unit.divisor, (high + room) / unit.divisor
+    low, high = frame(scene)
+    unit = scale("m", float(max(high - low)))
+    (left, bottom), (right, top) = low / unit.divisor, high / unit.divisor
     axes.set_aspect("equal")
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)

@@ -102,35 +102,49 @@ def of_torque(solution: Solution, force: str, file: str, cut: float | None) -> P
 def of_reactions(solution: Solution, joint: str, file: str, cut: float | None) -> Page:
     """Reactions of a joint on both bodies, in the global frame and in its own."""
     view = solution.constraint(joint)
-    info = view.info
-    bodies = [info.i, info.j]
-    rows: list[list[dict[str, Any]]] = [
-        [{"on": body, "frame": frame} for frame in ("global", "joint")] for body in bodies
+    # A driver of a coordinate acts on one body only.
+    both = dict.fromkeys((view.info.i, view.info.j))
+    bodies = [on for on in both if view.force(on=on).any() or view.torque(on=on).any()]
+    forces: list[dict[str, Any]] = [
+        {"on": body, "frame": frame} for body in bodies or both for frame in ("global", "joint")
     ]
-    torque = [{"on": body, "quantity": "torque"} for body in bodies]
-    if view.torque(on=info.j).any():
-        rows = [*rows, torque] if view.force(on=info.j).any() else [torque]
-    draw = partial(_draw_reactions, solution, joint, rows, cut)
-    height = len(rows) * 1.25 * _PANEL + _AROUND
+    moments: list[dict[str, Any]] = [
+        {"on": body, "quantity": "torque"} for body in bodies if view.torque(on=body).any()
+    ]
+    if moments and not any(view.force(on=body).any() for body in bodies):
+        forces = []
+    columns = 2 if forces else len(moments)
+    rows = math.ceil((len(forces) + len(moments)) / columns)
+    draw = partial(_draw_reactions, solution, joint, (forces, moments), columns, cut)
+    height = rows * 1.25 * _PANEL + _AROUND
     return Page(0, f"reactions_{file}", f"reactions_{joint}", height, draw)
 
 
 def _draw_reactions(
     solution: Solution,
     joint: str,
-    rows: Sequence[Sequence[dict[str, Any]]],
+    wanted: tuple[Sequence[dict[str, Any]], Sequence[dict[str, Any]]],
+    columns: int,
     cut: float | None,
     figure: Figure,
 ) -> None:
-    panels = _grid(figure, 2 * len(rows), 2)
-    wanted = [what for row in rows for what in row]
-    for panel, what in zip(panels, wanted, strict=True):
+    forces, moments = wanted
+    panels = _grid(figure, len(forces) + len(moments), columns)
+    for panel, what in zip(panels, [*forces, *moments], strict=True):
         reactions(solution, joint, ax=panel, cut=cut, legend=False, **what)
-    _share_limits(panels[: 2 * (len(rows) - ("quantity" in rows[-1][0]))])
-    handles, labels = panels[0].get_legend_handles_labels()
-    if len(labels) > 1:
+        frame = f", {what['frame']} frame" if "frame" in what else ""
+        panel.set_title(f"{_beside(joint, what['on'])}{frame}", loc="left")
+    if forces:
+        _share_limits(panels[: len(forces)])
+        handles, labels = panels[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper right", ncols=len(labels))
-    _label_lowest(panels, 2)
+    _label_lowest(panels, columns)
+
+
+def _beside(joint: str, body: str) -> str:
+    """A title for a panel of half the width of a page."""
+    longest = style.LONGEST_NAME if len(joint) + len(body) <= 18 else 8
+    return f"{style.short(joint, longest)} on {style.short(body, longest)}"
 
 
 def of_residual(solution: Solution, cut: float | None) -> Page:
