@@ -58,7 +58,9 @@ def positions(
     Raises:
         ModelError: there is no such body or quantity.
     """
-    return _draw(motion, body, _chosen(quantity, COORDINATES), ax, cut, index_base)
+    return _draw(
+        motion, body, _chosen(quantity, COORDINATES), ax=ax, cut=cut, index_base=index_base
+    )
 
 
 def velocities(
@@ -71,7 +73,7 @@ def velocities(
     index_base: int = 1,
 ) -> Axes:
     """Draw vx, vy and omega of a body over time; otherwise as ``positions``."""
-    return _draw(motion, body, _chosen(quantity, RATES), ax, cut, index_base)
+    return _draw(motion, body, _chosen(quantity, RATES), ax=ax, cut=cut, index_base=index_base)
 
 
 def accelerations(
@@ -84,7 +86,9 @@ def accelerations(
     index_base: int = 1,
 ) -> Axes:
     """Draw ax, ay and alpha of a body over time; otherwise as ``positions``."""
-    return _draw(motion, body, _chosen(quantity, ACCELERATIONS), ax, cut, index_base)
+    return _draw(
+        motion, body, _chosen(quantity, ACCELERATIONS), ax=ax, cut=cut, index_base=index_base
+    )
 
 
 def body_title(info: BodyInfo, index_base: int = 1) -> str:
@@ -101,6 +105,7 @@ def _draw(
     motion: Motion,
     body: str,
     names: Sequence[str],
+    *,
     ax: Axes | None,
     cut: float | None,
     index_base: int,
@@ -123,16 +128,13 @@ def _draw(
 def _add_degrees(axes: Axes) -> None:
     """The same angle in degrees, to the right."""
     rad = 1e-3 if "mrad" in axes.get_ylabel() else 1.0
-    degrees = axes.secondary_yaxis(
-        "right", functions=(lambda a: np.degrees(a * rad), lambda a: np.radians(a) / rad)
-    )
+    per_unit = 180.0 / np.pi * rad
+    degrees = axes.secondary_yaxis("right", functions=(per_unit.__mul__, (1.0 / per_unit).__mul__))
     degrees.spines["right"].set_visible(True)
     degrees.set_ylabel("φ / °")
 
 
-def _draw_all(
-    axes: Axes, motion: Motion, body: str, names: Sequence[str], common: Panel
-) -> None:
+def _draw_all(axes: Axes, motion: Motion, body: str, names: Sequence[str], common: Panel) -> None:
     """Both directions on the axes, the turning on a twin of them."""
     view, t = motion.body(body), motion.t
     x, y, turn = (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,7 +17,7 @@ _DISTANCES = (20.0, 32.0, 44.0)
 #: More lengths than this are not read off a drawing.
 _MOST = 7
 _TEXT = 8.0
-_LINE = {"color": "#555555", "linewidth": 0.6, "shrinkA": 0.0, "shrinkB": 0.0}
+_LINE: dict[str, Any] = {"color": "#555555", "linewidth": 0.6, "shrinkA": 0.0, "shrinkB": 0.0}
 
 
 def draw_dimensions(made: Picture) -> None:
@@ -48,7 +48,11 @@ def _draw(made: Picture, span: Floats) -> None:
     offset = _best_offset(made, np.array([begin, end]), along, half)
     for place in span:
         made.axes.annotate(
-            "", place, tuple(offset * 1.15), textcoords="offset points", zorder=1,
+            "",
+            place,
+            tuple(offset * 1.15),
+            textcoords="offset points",
+            zorder=1,
             arrowprops={"arrowstyle": "-", **_LINE},
         )
     _draw_arrow(made, span, offset)

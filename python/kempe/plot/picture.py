@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -93,9 +94,7 @@ class Picture:
         places = self.points(np.array(anchors))
         corners = self.axes.get_window_extent().get_points() * dots
         centres = place_labels(places, np.array(sizes), lines, self.boxes, corners)
-        for text, anchor, offset, size in zip(
-            texts, anchors, centres - places, sizes, strict=True
-        ):
+        for text, anchor, offset, size in zip(texts, anchors, centres - places, sizes, strict=True):
             text.xy = (float(anchor[0]), float(anchor[1]))
             text.set_position((float(offset[0]), float(offset[1])))
             text.anncoords = "offset points"
@@ -154,13 +153,13 @@ def _draw_link(made: Picture, body: dict[str, Any]) -> None:
         )
         made.keep_clear(corners[0], 8.0)
         return
-    look = {"solid_capstyle": "round", "solid_joinstyle": "round", "zorder": 2}
+    look: dict[str, Any] = {"solid_capstyle": "round", "solid_joinstyle": "round", "zorder": 2}
     made.axes.plot(*corners.T, color=edge, linewidth=_LINK + 2.0 * _EDGE, **look)
     if len(corners) > 2:
         made.axes.fill(*corners.T, facecolor=face, edgecolor="none", zorder=2)
     made.axes.plot(*corners.T, color=face, linewidth=_LINK, **look)
     dots = made.points(corners)
-    for begin, end in zip(dots, dots[1:], strict=False):
+    for begin, end in pairwise(dots):
         made.lines.append(wide(begin, end, _LINK / 2.0))
 
 

@@ -39,20 +39,29 @@ def of_coordinate(
         some = bodies[k * len(bodies) // count : (k + 1) * len(bodies) // count]
         columns = 1 if len(some) <= 4 else 2
         rows = math.ceil(len(some) / columns)
-        draw = partial(_draw_coordinate, solution, quantity, some, columns, cut, index_base)
+        draw = partial(
+            _draw_coordinate,
+            solution=solution,
+            quantity=quantity,
+            bodies=some,
+            columns=columns,
+            cut=cut,
+            index_base=index_base,
+        )
         name = quantity if count == 1 else f"{quantity}_{k + 1}"
         found.append(Page(0, name, name, rows * _PANEL + _AROUND, draw))
     return found
 
 
 def _draw_coordinate(
+    figure: Figure,
+    *,
     solution: Solution,
     quantity: str,
     bodies: Sequence[str],
     columns: int,
     cut: float | None,
     index_base: int,
-    figure: Figure,
 ) -> None:
     panels = _grid(figure, len(bodies), columns)
     for panel, body in zip(panels, bodies, strict=True):
@@ -60,9 +69,7 @@ def _draw_coordinate(
     _label_lowest(panels, columns)
 
 
-def of_body(
-    solution: Solution, body: str, file: str, cut: float | None, index_base: int
-) -> Page:
+def of_body(solution: Solution, body: str, file: str, cut: float | None, index_base: int) -> Page:
     """Velocities of a body to the left, accelerations to the right."""
     draw = partial(_draw_body, solution, body, cut, index_base)
     return Page(0, file, body, 3 * _PANEL + _AROUND, draw)
@@ -115,18 +122,26 @@ def of_reactions(solution: Solution, joint: str, file: str, cut: float | None) -
         forces = []
     columns = 2 if forces else len(moments)
     rows = math.ceil((len(forces) + len(moments)) / columns)
-    draw = partial(_draw_reactions, solution, joint, (forces, moments), columns, cut)
+    draw = partial(
+        _draw_reactions,
+        solution=solution,
+        joint=joint,
+        wanted=(forces, moments),
+        columns=columns,
+        cut=cut,
+    )
     height = rows * 1.25 * _PANEL + _AROUND
     return Page(0, f"reactions_{file}", f"reactions_{joint}", height, draw)
 
 
 def _draw_reactions(
+    figure: Figure,
+    *,
     solution: Solution,
     joint: str,
     wanted: tuple[Sequence[dict[str, Any]], Sequence[dict[str, Any]]],
     columns: int,
     cut: float | None,
-    figure: Figure,
 ) -> None:
     forces, moments = wanted
     panels = _grid(figure, len(forces) + len(moments), columns)
