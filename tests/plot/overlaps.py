@@ -3,6 +3,7 @@
 from itertools import combinations
 
 from kempe.plot import style
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
@@ -15,28 +16,24 @@ def boxes(figure: Figure) -> list[tuple[str, Bbox]]:
     """Every text that is seen, with the place where it is drawn."""
     with style.applied():
         figure.draw_without_rendering()
-        texts = [text for text in figure.findobj(Text) if text.get_visible() and seen(text)]
-        return [(text.get_text(), Text.get_window_extent(text)) for text in texts]
+        hidden = unseen(figure)
+        return [
+            (text.get_text(), Text.get_window_extent(text))
+            for text in figure.findobj(Text)
+            if text.get_visible() and text.get_text().strip() and text not in hidden
+        ]
 
 
-def seen(text: Text) -> bool:
-    """Whether it stands on the paper; ticks outside of the limits are kept but not drawn."""
-    if not text.get_text().strip():
-        return False
-    axes = text.axes
-    if axes is None:
-        return True
-    ticks = [
-        (tick, axis.get_view_interval())
-        for axis in (axes.xaxis, axes.yaxis)
-        for tick in axis.get_major_ticks()
-    ]
-    for tick, (low, high) in ticks:
-        if text in (tick.label1, tick.label2):
-            slack = 1e-9 * abs(high - low)
-            place = tick.get_loc()
-            return min(low, high) - slack <= place <= max(low, high) + slack
-    return True
+def unseen(figure: Figure) -> set[Text]:
+    """Numbers of ticks outside of the limits, which are kept but not drawn."""
+    found = set()
+    for axis in figure.findobj(Axis):
+        low, high = sorted(axis.get_view_interval())
+        slack = 1e-9 * (high - low)
+        for tick in axis.get_major_ticks():
+            if not low - slack <= tick.get_loc() <= high + slack:
+                found |= {tick.label1, tick.label2}
+    return found
 
 
 def overlaps(figure: Figure) -> list[tuple[str, str]]:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from kempe import plot
 from kempe.plot.page import file_names
+from matplotlib.text import Text
 from plot.conftest import NAMES, chain, driven, pendulum
 from plot.overlaps import cut_off, overlaps
 
@@ -42,11 +43,7 @@ def test_a_figure_of_the_flagship_can_be_read(flagship_pages: list[plot.Page], s
     assert overlaps(figure) == []
     assert cut_off(figure) == []
     assert figure.get_figwidth() == pytest.approx(160 / 25.4)
-    assert (
-        min(text.get_fontsize() for axes in figure.axes for text in axes.texts or []) >= 8.0
-        if any(axes.texts for axes in figure.axes)
-        else True
-    )
+    assert min(text.get_fontsize() for text in figure.findobj(Text)) >= 8.0
     for axes in figure.axes:
         assert "/" in axes.get_ylabel()
 

@@ -15,7 +15,9 @@ from kempe.plot.time_axis import show_time
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike
 
+    from kempe.arrays import Floats
     from kempe.compiled import BodyInfo
     from kempe.motion import Motion
 
@@ -128,8 +130,14 @@ def _draw(
 def _add_degrees(axes: Axes) -> None:
     """The same angle in degrees, to the right."""
     rad = 1e-3 if "mrad" in axes.get_ylabel() else 1.0
-    per_unit = 180.0 / np.pi * rad
-    degrees = axes.secondary_yaxis("right", functions=(per_unit.__mul__, (1.0 / per_unit).__mul__))
+
+    def to_degrees(angle: ArrayLike) -> Floats:
+        return np.degrees(np.multiply(angle, rad))
+
+    def from_degrees(angle: ArrayLike) -> Floats:
+        return np.radians(np.divide(angle, rad))
+
+    degrees = axes.secondary_yaxis("right", functions=(to_degrees, from_degrees))
     degrees.spines["right"].set_visible(True)
     degrees.set_ylabel("φ / °")
 

@@ -81,7 +81,7 @@ def _draw_arrow(made: Picture, span: Floats, offset: Floats) -> None:
     from matplotlib.patches import FancyArrowPatch
     from matplotlib.transforms import ScaledTranslation
 
-    aside = ScaledTranslation(*(offset / 72.0), made.axes.figure.dpi_scale_trans)
+    aside = ScaledTranslation(offset[0] / 72.0, offset[1] / 72.0, made.axes.figure.dpi_scale_trans)
     arrow = FancyArrowPatch(
         tuple(span[0]),
         tuple(span[1]),
