@@ -5,9 +5,8 @@ const MOST_TOGETHER = 8;
 
 /** The choices: `{group, name, curves}`. */
 export function choices(scene) {
-  const groups = Map.groupBy
-    ? Map.groupBy(scene.channels, ({ group }) => group)
-    : scene.channels.reduce((all, one) => all.set(one.group, [...(all.get(one.group) ?? []), one]), new Map());
+  const groups = new Map();
+  for (const channel of scene.channels) groups.set(channel.group, [...(groups.get(channel.group) ?? []), channel]);
   return [...groups].flatMap(([group, channels]) => {
     const alone = channels.map((channel, k) => ({ group, name: channel.name, curves: [curve(channel, k)] }));
     const units = new Set(channels.map(({ unit }) => unit));
@@ -50,13 +49,13 @@ export class Legend {
 
   show(curves) {
     this.entries = curves.map(({ channel, colour }) => {
-      const [entry, mark, name, value] = ["li", "canvas", "bdi", "span"].map((tag) => document.createElement(tag));
+      const [entry, mark, name, value] = ["li", "span", "bdi", "span"].map((tag) => document.createElement(tag));
+      mark.className = "mark";
       name.className = "name";
       name.textContent = shortened(channel.name, 60);
       name.title = channel.name;
       value.className = "value";
       entry.append(mark, name, value);
-      mark.setAttribute("aria-hidden", "true");
       return { channel, colour, entry, mark, value };
     });
     this.list.replaceChildren(...this.entries.map(({ entry }) => entry));

@@ -1,9 +1,9 @@
 // The drawing: what is shown of the scene at one instant, and the part of the plane that is seen.
 import { paintGravity, paintGrid, paintLengthScale, paintReactions } from "./measure.js";
 import { placed } from "./motion.js";
-import { paintBodies, paintForces, paintGround, paintNames, paintNumbers, paintPaths, paintPins } from "./paint.js";
+import { paintBodies, paintForces, paintGround, paintNames, paintNumbers, paintPaths, paintPins, springRadius } from "./paint.js";
 import { cleared, sharpen } from "./surface.js";
-import { View } from "./view.js";
+import { extent, View } from "./view.js";
 
 /** Draws the scene on a canvas. */
 export class Drawing {
@@ -15,7 +15,8 @@ export class Drawing {
     this.shown = { names: true, numbers: true, paths: true, reactions: false };
     this.magnification = 1;
     this.first = motion.at(motion.begin);
-    this.traces = scene.traces.map(({ body, point }) => ({ body, path: line(motion.path(body, point)) }));
+    const piece = extent(scene.bounds) / 200;
+    this.traces = scene.traces.map(({ body, point }) => ({ body, path: line(motion.path(body, point, piece)) }));
     this.resize();
   }
 
@@ -36,6 +37,14 @@ export class Drawing {
     }));
   }
 
+  /** How far from each joint its name must stay, px: there may be a spring around it. */
+  rooms(now, pins) {
+    const { scene, view } = this;
+    const springs = scene.forces.map(({ bodies, point }) => view.toScreen(placed(now.poses[bodies[1]], point)));
+    const near = ([x, y]) => springs.some(([a, b]) => Math.hypot(a - x, b - y) < 4);
+    return pins.map(({ at }) => (near(at) ? springRadius(view) + 6 : 15));
+  }
+
   /** Draw the instant t. */
   paint(t, colours) {
     const { scene, view, shown } = this;
@@ -47,10 +56,10 @@ export class Drawing {
     paintGround(context, view, scene, pins, colours);
     paintBodies(context, view, scene, now, colours);
     paintForces(context, view, scene, now, this.first, colours);
+    if (shown.reactions) paintReactions(context, view, pins, now.forces, this.pixelsPerNewton(), colours);
     paintPins(context, pins, colours);
     if (shown.numbers) paintNumbers(context, view, scene, now, colours);
-    if (shown.reactions) paintReactions(context, view, pins, now.forces, this.pixelsPerNewton(), colours);
-    if (shown.names && pins.length) paintNames(context, pins, colours);
+    if (shown.names) paintNames(context, pins, this.rooms(now, pins), colours);
     paintLengthScale(context, view, step, colours);
     paintGravity(context, view, scene.gravity, colours);
   }

@@ -30,8 +30,7 @@ export function movable(canvas, view, changed) {
   canvas.addEventListener("pointercancel", lift);
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
-    const lines = event.deltaMode === 1 ? 16 : 1;
-    view.zoom(Math.exp(-Math.max(-200, Math.min(200, event.deltaY * lines)) / 400), place(event));
+    view.zoom(turned(event), place(event));
     changed();
   }, { passive: false });
   canvas.addEventListener("dblclick", () => {
@@ -48,9 +47,16 @@ function spread(fingers) {
   return { middle, width: b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0 };
 }
 
-/** Click or drag in the plot to go to a time. */
-export function seekable(canvas, plot, seek) {
-  const go = (event) => seek(plot.timeAt(event.clientX - canvas.getBoundingClientRect().left));
+/** How much a turn of the wheel magnifies. */
+function turned({ deltaY, deltaMode }) {
+  const pixels = deltaY * (deltaMode === 1 ? 16 : 1);
+  return Math.exp(-Math.max(-200, Math.min(200, pixels)) / 400);
+}
+
+/** Click or drag in the plot to go to a time, wheel to stretch it, double click to show all of it. */
+export function seekable(canvas, plot, seek, changed) {
+  const across = (event) => event.clientX - canvas.getBoundingClientRect().left;
+  const go = (event) => seek(plot.timeAt(across(event)));
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
     canvas.setPointerCapture(event.pointerId);
@@ -58,5 +64,14 @@ export function seekable(canvas, plot, seek) {
   });
   canvas.addEventListener("pointermove", (event) => {
     if (canvas.hasPointerCapture(event.pointerId)) go(event);
+  });
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    plot.stretch(1 / turned(event), across(event));
+    changed();
+  }, { passive: false });
+  canvas.addEventListener("dblclick", () => {
+    plot.showAll();
+    changed();
   });
 }

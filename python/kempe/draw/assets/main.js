@@ -73,7 +73,7 @@ function connectPlot() {
   byId("plot-panel").hidden = !plots.length || motion.t.length < 2;
   document.querySelector("main").classList.toggle("alone", byId("plot-panel").hidden);
   choosePlot();
-  seekable(byId("plot"), plot, (t) => clock.seek(t));
+  seekable(byId("plot"), plot, (t) => clock.seek(t), repaint);
 }
 
 function connectSpeed() {

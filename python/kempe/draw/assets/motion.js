@@ -47,9 +47,19 @@ export class Motion {
     return a + (b - a) * (this.smooth ? share : Math.round(share));
   }
 
-  /** The path of a point of a body over all frames. */
-  path(body, point) {
-    return this.scene.frames.poses.map((poses) => placed(poses[body - 1], point));
+  /** The path of a point of a body, in pieces of about the length `piece` where it is smooth. */
+  path(body, point, piece) {
+    const { poses, rates } = this.scene.frames;
+    const at = (place) => placed(hermite(poses, rates, body - 1, place), point);
+    const path = [at({ low: 0, high: 0, h: 0, share: 0 })];
+    for (let high = 1; high < poses.length; high += 1) {
+      const place = { low: high - 1, high, h: this.t[high] - this.t[high - 1] };
+      const [[x0, y0], [x1, y1]] = [path[path.length - 1], at({ ...place, share: 1 })];
+      const count = this.smooth ? Math.min(8, Math.ceil(Math.hypot(x1 - x0, y1 - y0) / piece)) : 1;
+      for (let k = 1; k < count; k += 1) path.push(at({ ...place, share: k / count }));
+      path.push([x1, y1]);
+    }
+    return path;
   }
 }
 

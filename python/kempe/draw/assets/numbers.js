@@ -59,7 +59,7 @@ export function minus(text) {
 
 /** How many decimals of a time can be told apart in a motion that lasts so long. */
 export function timeDecimals(duration) {
-  return duration > 0 ? Math.min(12, Math.max(0, 4 - Math.ceil(Math.log10(duration) - 1e-9) + 0)) : 3;
+  return duration > 0 ? Math.min(12, Math.max(0, 5 - Math.ceil(Math.log10(duration) - 1e-9))) : 3;
 }
 
 /** A name that fits into a drawing; whole characters are kept, not halves of a pair. */

@@ -2,6 +2,7 @@
 import { placed } from "./motion.js";
 import { shortened } from "./numbers.js";
 import { font, rimmed } from "./surface.js";
+import { extent } from "./view.js";
 
 const BAR = 9;
 const PIN = 5.5;
@@ -97,7 +98,7 @@ export function paintPins(context, pins, colours) {
 
 /** Force elements: a spiral for a torsion spring, wound as the spring is; a diamond for others. */
 export function paintForces(context, view, scene, now, first, colours) {
-  const radius = Math.min(40, Math.max(14, 0.05 * view.scale * extent(scene.bounds)));
+  const radius = springRadius(view);
   for (const { type, bodies: [i, j], point } of scene.forces) {
     const [x, y] = view.toScreen(placed(now.poses[j], point));
     const [from, to] = [now.poses[i][2], now.poses[j][2]];
@@ -110,8 +111,9 @@ export function paintForces(context, view, scene, now, first, colours) {
   }
 }
 
-function extent([x0, y0, x1, y1]) {
-  return Math.max(x1 - x0, y1 - y0) || 1;
+/** Radius of a drawn torsion spring, px. */
+export function springRadius(view) {
+  return Math.min(40, Math.max(14, 0.05 * view.scale * extent(view.bounds)));
 }
 
 /** Archimedes' spiral from the angle `from` on, turning by `turn`. */
@@ -126,17 +128,17 @@ function spiral(x, y, radius, from, turn) {
 }
 
 /** Names beside the joints, on the outside of the mechanism, beside the support of ground. */
-export function paintNames(context, pins, colours) {
+export function paintNames(context, pins, rooms, colours) {
   context.font = font(14, 600);
   context.textBaseline = "middle";
   const middle = [0, 1].map((k) => pins.reduce((sum, pin) => sum + pin.at[k], 0) / pins.length);
-  for (const { name, at: [x, y], grounded } of pins) {
+  pins.forEach(({ name, at: [x, y], grounded }, k) => {
     const away = [x - middle[0], y - middle[1]];
     const length = Math.hypot(...away) || 1;
     const [dx, dy] = grounded ? [away[0] < 0 ? -0.95 : 0.95, 0.3] : away.map((part) => part / length);
     context.textAlign = dx < -0.3 ? "right" : dx > 0.3 ? "left" : "center";
-    rimmed(context, shortened(name), [x + 15 * dx, y + 17 * dy], colours.text, colours.panel);
-  }
+    rimmed(context, shortened(name), [x + rooms[k] * dx, y + (rooms[k] + 2) * dy], colours.text, colours.panel);
+  });
 }
 
 /** The number of each body in a circle at its middle. */

@@ -10,6 +10,7 @@ export class Plot {
     this.canvas = canvas;
     this.motion = motion;
     this.curves = [];
+    this.showAll();
     this.resize();
   }
 
@@ -30,15 +31,38 @@ export class Plot {
     Object.assign(this, { width, height });
   }
 
+  /** Show all times. */
+  showAll() {
+    this.window = [this.motion.begin, this.motion.end];
+  }
+
+  /** Show `factor` times as much time, with that under a place (px) staying there. */
+  stretch(factor, px) {
+    const { begin, end } = this.motion;
+    const at = this.timeAt(px);
+    const [from, to] = this.window.map((t) => at + (t - at) * factor);
+    if (to - from < 1e-6 * (end - begin)) return;
+    this.window = [Math.max(begin, from), Math.min(end, to)];
+  }
+
+  /** Move the window so that it holds t. */
+  follow(t) {
+    const [from, to] = this.window;
+    if (t >= from && t <= to) return;
+    const length = to - from;
+    const start = Math.min(Math.max(t - 0.1 * length, this.motion.begin), this.motion.end - length);
+    this.window = [start, start + length];
+  }
+
   /** The time under a place on the canvas, px from its left edge. */
   timeAt(px) {
-    const { begin, end } = this.motion;
+    const [begin, end] = this.window;
     const share = (px - ROOM.left) / Math.max(1, this.width - ROOM.left - ROOM.right);
     return begin + Math.min(1, Math.max(0, share)) * (end - begin);
   }
 
   toScreen(t, value) {
-    const { begin, end } = this.motion;
+    const [begin, end] = this.window;
     const [low, high] = this.range;
     const share = end > begin ? (t - begin) / (end - begin) : 0;
     const x = ROOM.left + share * (this.width - ROOM.left - ROOM.right);
@@ -50,16 +74,22 @@ export class Plot {
   paint(t, colours) {
     const context = cleared(this.canvas);
     if (!this.curves.length) return;
+    this.follow(t);
     this.paintAxes(context, colours);
+    context.save();
+    context.beginPath();
+    context.rect(ROOM.left - 2, 0, this.width - ROOM.left - ROOM.right + 4, this.height);
+    context.clip();
     for (const { channel, colour } of this.curves) this.paintCurve(context, channel, colour(colours));
+    context.restore();
     this.paintCursor(context, t, colours);
   }
 
   paintAxes(context, colours) {
-    const { width, height, motion, range } = this;
-    const across = ticks(motion.begin, motion.end, Math.max(2, Math.floor(width / 90)));
+    const { width, height, range } = this;
+    const across = ticks(...this.window, Math.max(2, Math.floor(width / 90)));
     const up = ticks(...range, Math.max(2, Math.floor(height / 60)));
-    context.strokeStyle = colours.edge;
+    context.strokeStyle = colours.grid;
     context.fillStyle = colours.soft;
     context.lineWidth = 1;
     context.font = font(12);
@@ -70,8 +100,10 @@ export class Plot {
       context.stroke(new Path2D(`M${ROOM.left} ${y}H${width - ROOM.right}`));
       context.fillText(up.write(value), ROOM.left - 8, y);
     }
+    context.strokeStyle = colours.edge;
     context.textAlign = "center";
     context.textBaseline = "top";
+    context.stroke(new Path2D(`M${ROOM.left} ${height - ROOM.bottom + 0.5}H${width - ROOM.right}`));
     for (const value of across.values) {
       const x = Math.round(this.toScreen(value, 0)[0]) + 0.5;
       context.stroke(new Path2D(`M${x} ${height - ROOM.bottom}v5`));

@@ -2,6 +2,11 @@
 
 const MARGIN = 56;
 
+/** The larger side of what a motion covers, m. */
+export function extent([x0, y0, x1, y1]) {
+  return Math.max(x1 - x0, y1 - y0) || 1;
+}
+
 /** The part of the plane that is seen: px = width/2 + scale (x - cx), upside down for y. */
 export class View {
   constructor(bounds) {
