@@ -39,12 +39,13 @@ MODULES = (
 )
 
 
-def player(solution: Solution | State, path: Path | str) -> Path:
+def player(solution: Solution | State, path: Path | str, *, speed: float = 1.0) -> Path:
     """Write a page that plays a motion; any browser opens it, also without a network.
 
     Args:
         solution: what is shown; a state is shown standing still.
         path: where to, such as ``animation.html``.
+        speed: 2 plays twice as fast at the start; it can be changed on the page.
 
     Returns:
         The path.
@@ -52,7 +53,9 @@ def player(solution: Solution | State, path: Path | str) -> Path:
     Raises:
         FileError: the file cannot be written; an old one is then left as it was.
     """
-    files.write_text(path, page(scene(solution)))
+    shown = scene(solution)
+    shown["playback"]["rate"] *= speed
+    files.write_text(path, page(shown))
     return Path(path)
 
 
@@ -77,8 +80,7 @@ def page(shown: Scene) -> str:
 def _json_for_html(shown: Scene) -> str:
     """JSON in ASCII in which nothing can end the element that holds it."""
     text = json.dumps(shown, allow_nan=False, separators=(",", ":"), ensure_ascii=True)
-    escapes = {"<": "\\u003c", ">": "\\u003e", "&": "\\u0026"}
-    return text.translate(str.maketrans(escapes))
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
 def _script() -> str:
@@ -92,7 +94,7 @@ def _without_links(module: str) -> str:
 
 
 def _asset(name: str) -> str:
-    return resources.files("kempe.draw").joinpath("assets", name).read_text(encoding="utf-8")
+    return (resources.files("kempe.draw") / "assets" / name).read_text(encoding="utf-8")
 
 
 def _hash(text: str) -> str:

@@ -54,7 +54,7 @@ function resize() {
 function showTitle() {
   byId("title").textContent = scene.title || "Linkage";
   byId("title").title = scene.title;
-  byId("end").textContent = `of ${motion.end.toFixed(decimals)} s`;
+  byId("end").textContent = `of ${Number(motion.end.toFixed(decimals))} s`;
   byId("drawing").setAttribute("aria-label", `Drawing of ${scene.title || "the linkage"}`);
 }
 

@@ -104,16 +104,16 @@ export function paintForces(context, view, scene, now, first, colours) {
     const [from, to] = [now.poses[i][2], now.poses[j][2]];
     const rest = first.poses[j][2] - first.poses[i][2];
     const shape = type === "torsion_spring"
-      ? spiral(x, y, radius, from, 5 * Math.PI + to - from - rest)
+      ? spiral(x, y, radius, from, 4 * Math.PI + to - from - rest)
       : new Path2D(`M${x} ${y - 9}l9 9l-9 9l-9 -9z`);
-    stroked(context, shape, colours.panel, 4.5);
+    stroked(context, shape, colours.panel, 3.6);
     stroked(context, shape, colours.force, 2);
   }
 }
 
 /** Radius of a drawn torsion spring, px. */
 export function springRadius(view) {
-  return Math.min(40, Math.max(14, 0.05 * view.scale * extent(view.bounds)));
+  return Math.min(40, Math.max(20, 0.05 * view.scale * extent(view.bounds)));
 }
 
 /** Archimedes' spiral from the angle `from` on, turning by `turn`. */
