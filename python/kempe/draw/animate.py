@@ -14,7 +14,6 @@ from kempe.draw.player import player
 from kempe.draw.sampling import FRAMES_PER_SECOND
 from kempe.draw.scene import playback_rate, scene
 from kempe.errors import ModelError
-from kempe.names import one_of
 from kempe.solution import Solution
 
 FORMATS = ("html", "mp4", "gif")
@@ -62,7 +61,9 @@ def animate(
         ModelError: an unknown ending, or ``fps`` or ``speed`` is not positive or too large.
         FileError: the file cannot be written, or there is no ffmpeg for an MP4.
     """
-    kind = one_of("ending", Path(path).suffix.lstrip(".").lower(), FORMATS)
+    kind = Path(path).suffix.lstrip(".").lower()
+    if kind not in FORMATS:
+        raise ModelError(f"cannot tell what {path} is to be", hint="end it in .html, .mp4 or .gif")
     _refuse_wrong(fps=fps, speed=speed)
     if kind == "html":
         return player(solution, path, speed=speed)

@@ -130,9 +130,7 @@ def _add_degrees(axes: Axes) -> None:
     degrees.set_ylabel("φ / °")
 
 
-def _draw_all(
-    axes: Axes, motion: Motion, body: str, names: Sequence[str], common: Panel
-) -> None:
+def _draw_all(axes: Axes, motion: Motion, body: str, names: Sequence[str], common: Panel) -> None:
     """Both directions on the axes, the turning on a twin of them."""
     view, t = motion.body(body), motion.t
     x, y, turn = (

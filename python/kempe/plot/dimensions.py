@@ -48,7 +48,11 @@ def _draw(made: Picture, span: Floats) -> None:
     offset = _best_offset(made, np.array([begin, end]), along, half)
     for place in span:
         made.axes.annotate(
-            "", place, tuple(offset * 1.15), textcoords="offset points", zorder=1,
+            "",
+            place,
+            tuple(offset * 1.15),
+            textcoords="offset points",
+            zorder=1,
             arrowprops={"arrowstyle": "-", **_LINE},
         )
     _draw_arrow(made, span, offset)

@@ -50,5 +50,11 @@ def energy_balance(solution: Solution, *, ax: Axes | None = None, cut: float | N
         add_lines(axes, solution.t, [Curve("balance", error)])
         logarithmic(axes, [error])
         axes.set_ylabel("relative error / 1")
-        finish(axes, solution.t, Panel("", "", "Energy balance: change of T + V + D − W over largest T", cut, legend=False))
+        finish(
+            axes,
+            solution.t,
+            Panel(
+                "", "", "Energy balance: change of T + V + D − W over largest T", cut, legend=False
+            ),
+        )
         return axes

@@ -64,7 +64,10 @@ def _draw_gravity(made: Picture) -> None:
         np.array([centre - along / 2.0, centre + along / 2.0]) * dots
     )
     made.axes.annotate(
-        "", end, begin, arrowprops={"arrowstyle": "-|>", "color": "black", "shrinkA": 0, "shrinkB": 0}
+        "",
+        end,
+        begin,
+        arrowprops={"arrowstyle": "-|>", "color": "black", "shrinkA": 0, "shrinkB": 0},
     )
     across = np.array([-along[1], along[0]])
     made.lines.append(np.array([[centre - along / 2.0, centre + along / 2.0]]))

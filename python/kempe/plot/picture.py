@@ -90,9 +90,7 @@ class Picture:
         lines = np.concatenate([np.empty((0, 2, 2)), *self.lines])
         places = self.points(np.array(anchors))
         centres = place_labels(places, np.array(sizes), lines, self.boxes)
-        for text, anchor, offset, size in zip(
-            texts, anchors, centres - places, sizes, strict=True
-        ):
+        for text, anchor, offset, size in zip(texts, anchors, centres - places, sizes, strict=True):
             text.xy = (float(anchor[0]), float(anchor[1]))
             text.set_position((float(offset[0]), float(offset[1])))
             text.anncoords = "offset points"

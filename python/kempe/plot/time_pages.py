@@ -60,9 +60,7 @@ def _draw_coordinate(
     _label_lowest(panels, columns)
 
 
-def of_body(
-    solution: Solution, body: str, file: str, cut: float | None, index_base: int
-) -> Page:
+def of_body(solution: Solution, body: str, file: str, cut: float | None, index_base: int) -> Page:
     """Velocities of a body to the left, accelerations to the right."""
     draw = partial(_draw_body, solution, body, cut, index_base)
     return Page(0, file, body, 3 * _PANEL + _AROUND, draw)
