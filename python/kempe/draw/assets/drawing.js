@@ -59,7 +59,7 @@ export class Drawing {
     if (shown.reactions) paintReactions(context, view, pins, now.forces, this.pixelsPerNewton(), colours);
     paintPins(context, pins, colours);
     if (shown.numbers) paintNumbers(context, view, scene, now, colours);
-    if (shown.names) paintNames(context, pins, this.rooms(now, pins), colours);
+    if (shown.names) paintNames(context, view, pins, this.rooms(now, pins), colours);
     paintLengthScale(context, view, step, colours);
     paintGravity(context, view, scene.gravity, colours);
   }

@@ -19,7 +19,7 @@ const drawing = new Drawing(byId("drawing"), scene, motion);
 const plot = new Plot(byId("plot"), motion);
 const legend = new Legend(byId("legend"), motion);
 const plots = choices(scene);
-const decimals = timeDecimals(motion.end - motion.begin);
+const decimals = timeDecimals(motion.t);
 let colours = palette();
 let waiting = false;
 

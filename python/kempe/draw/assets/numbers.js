@@ -57,9 +57,10 @@ export function minus(text) {
   return text.replace("-", "−");
 }
 
-/** How many decimals of a time can be told apart in a motion that lasts so long. */
-export function timeDecimals(duration) {
-  return duration > 0 ? Math.min(12, Math.max(0, 5 - Math.ceil(Math.log10(duration) - 1e-9))) : 3;
+/** How many decimals tell one frame from the next, at least milliseconds. */
+export function timeDecimals(times) {
+  const spacing = (times[times.length - 1] - times[0]) / Math.max(1, times.length - 1);
+  return spacing > 0 ? Math.min(15, Math.max(3, -Math.floor(Math.log10(spacing)))) : 3;
 }
 
 /** A name that fits into a drawing; whole characters are kept, not halves of a pair. */

@@ -128,7 +128,7 @@ function spiral(x, y, radius, from, turn) {
 }
 
 /** Names beside the joints, on the outside of the mechanism, beside the support of ground. */
-export function paintNames(context, pins, rooms, colours) {
+export function paintNames(context, view, pins, rooms, colours) {
   context.font = font(14, 600);
   context.textBaseline = "middle";
   const middle = [0, 1].map((k) => pins.reduce((sum, pin) => sum + pin.at[k], 0) / pins.length);
@@ -137,8 +137,16 @@ export function paintNames(context, pins, rooms, colours) {
     const length = Math.hypot(...away) || 1;
     const [dx, dy] = grounded ? [away[0] < 0 ? -0.95 : 0.95, 0.3] : away.map((part) => part / length);
     context.textAlign = dx < -0.3 ? "right" : dx > 0.3 ? "left" : "center";
-    rimmed(context, shortened(name), [x + rooms[k] * dx, y + (rooms[k] + 2) * dy], colours.text, colours.panel);
+    const place = [x + rooms[k] * dx, y + (rooms[k] + 2) * dy];
+    rimmed(context, shortened(name), inside(context, shortened(name), place, view), colours.text, colours.panel);
   });
+}
+
+/** A place for a text, moved sideways so that all of it is seen if its joint is. */
+function inside(context, text, [x, y], { width }) {
+  if (x < 0 || x > width) return [x, y];
+  const { actualBoundingBoxLeft: left, actualBoundingBoxRight: right } = context.measureText(text);
+  return [Math.max(left + 6, Math.min(width - right - 6, x)), y];
 }
 
 /** The number of each body in a circle at its middle. */
