@@ -87,9 +87,8 @@ impl<S: Real> Workspace<S> {
         gains: Gains,
     ) -> Result<(), Singular> {
         kinematics::motions(q, v, &mut self.motions);
-        let (residual, rate, gamma) = (&mut self.residual, &mut self.rate, &mut self.gamma);
-        constraints::velocity_terms(model, &self.motions, t, residual, rate, gamma);
-        constraints::jacobian(model, &self.motions, t, self.matrix.jacobian_mut());
+        let terms = [&mut self.residual[..], &mut self.rate[..], &mut self.gamma[..]];
+        constraints::linearize(model, &self.motions, t, terms, self.matrix.jacobian_mut());
         self.matrix.set_mass(model, &self.motions);
         let (forces, lower) = self.solution.split_at_mut(self.n_q);
         forces::generalized(model, &self.motions, t, forces);
