@@ -1,6 +1,7 @@
 //! The one list of elements, and the dispatch from an entry of a model to its physics.
 
 use super::declare::{Element, Table};
+use super::derive::VelocityTerms;
 use super::drivers::CoordinateDriver;
 use super::forces::TorsionSpring;
 use super::joints::Revolute;
@@ -43,6 +44,15 @@ pub struct Rows<'a, S> {
     pub rate: &'a mut [S],
     /// γ.
     pub gamma: &'a mut [S],
+}
+
+impl<S: Real> Rows<'_, S> {
+    #[inline(always)]
+    fn set<const M: usize>(self, terms: &VelocityTerms<S, M>) {
+        self.residual.copy_from_slice(&terms.residual);
+        self.rate.copy_from_slice(&terms.rate);
+        self.gamma.copy_from_slice(&terms.gamma);
+    }
 }
 
 macro_rules! constraints {
@@ -106,10 +116,25 @@ macro_rules! constraints {
             #[inline]
             pub fn velocity_terms(&self, i: &Motion<S>, j: &Motion<S>, t: S, out: Rows<'_, S>) {
                 match self { $($(Self::$Name(e) => {
-                    let terms = <$Name>::velocity_terms(e, i, j, t);
-                    out.residual.copy_from_slice(&terms.residual);
-                    out.rate.copy_from_slice(&terms.rate);
-                    out.gamma.copy_from_slice(&terms.gamma);
+                    out.set(&<$Name>::velocity_terms(e, i, j, t));
+                })+)+ }
+            }
+            /// Φ, Φ̇ and γ as [`velocity_terms`](Self::velocity_terms), and the rows of Φ_q with
+            /// the bodies i and j to `visit`: all that the equations of motion ask of a constraint,
+            /// by one dispatch, with the number of rows known to the compiler.
+            #[inline(always)]
+            pub fn linearize(
+                &self,
+                motions: &[Motion<S>],
+                t: S,
+                out: Rows<'_, S>,
+                visit: impl FnOnce([BodyId; 2], &[[S; 6]]),
+            ) {
+                match self { $($(Self::$Name(e) => {
+                    let ends = <$Name>::ends(e);
+                    let [i, j] = ends.map(|body| &motions[body.0]);
+                    out.set(&<$Name>::velocity_terms(e, i, j, t));
+                    visit(ends, &<$Name>::jacobian(e, &i.pose, &j.pose, t));
                 })+)+ }
             }
             /// The joint frame on a body.

@@ -39,7 +39,7 @@ impl FirstOrder for Equations<'_> {
         }
         dy[..n].copy_from_slice(v);
         dy[n..2 * n].copy_from_slice(self.workspace.a());
-        let powers = self.workspace.powers(self.model, t, v);
+        let powers = self.workspace.powers(self.model, v);
         dy[2 * n..].copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
         Ok(())
     }
