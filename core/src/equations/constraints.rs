@@ -56,7 +56,7 @@ pub fn jacobian<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, entries:
 }
 
 /// Derivatives of a constraint with a law by the coordinates of one body.
-fn law_block<S: Real>(
+pub(super) fn law_block<S: Real>(
     model: &Model<S>,
     item: &ConstraintItem<S>,
     motions: &[Motion<S>],

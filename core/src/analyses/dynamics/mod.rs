@@ -33,7 +33,7 @@ pub struct Statistics {
 }
 
 /// The outcome of forward dynamics.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run {
     /// Reported states.
     pub trajectory: Trajectory,
@@ -58,6 +58,7 @@ pub fn dynamics(
     mut watch: impl FnMut(f64) -> Flow,
 ) -> Result<Run, Box<Failure>> {
     let clock = Instant::now();
+    options.check(model, start).map_err(|reason| Failure { reason, run: Run::default() })?;
     let mut system = Equations { model, workspace: Workspace::new(model), gains: options.gains() };
     if options.allow_redundancy {
         system.workspace.allow_redundancy(model);
@@ -88,8 +89,11 @@ fn finish(
     let Recorder { mut trajectory, dense, .. } = recorder;
     let reported = trajectory.evaluate(model, &mut workspace);
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
-    let rows = trajectory.a.len() / n.max(1);
-    trajectory.truncate(rows.min(trajectory.t.len()), n, m);
+    let rows = match &reported {
+        Ok(()) => trajectory.t.len(),
+        Err((row, ..)) => *row,
+    };
+    trajectory.truncate(rows, n, m);
     let took = match &outcome {
         Ok(statistics) => *statistics,
         Err(failure) => failure.statistics,
@@ -106,7 +110,7 @@ fn finish(
     let reason = match (outcome, reported) {
         (Ok(_), Ok(())) => return Ok(run),
         (Err(failure), _) => Reason::from_integrator(model, failure),
-        (_, Err((t, singular))) => Reason::singular(model, t, singular),
+        (_, Err((_, t, singular))) => Reason::singular(model, t, singular),
     };
     Err(Box::new(Failure { reason, run }))
 }

@@ -128,18 +128,19 @@ impl Trajectory {
     /// Fills accelerations and multipliers at every reported state, by γ, never γ̂.
     ///
     /// # Errors
-    /// The first time at which the equations of motion are singular; what comes before is filled.
+    /// The first row, and its time, at which the equations of motion are singular; the rows before
+    /// are filled.
     pub fn evaluate(
         &mut self,
         model: &Model,
         workspace: &mut Workspace,
-    ) -> Result<(), (f64, Singular)> {
+    ) -> Result<(), (usize, f64, Singular)> {
         let n = model.layout.n_q;
-        for (k, &t) in self.t.iter().enumerate().skip(self.a.len() / n.max(1)) {
+        for (k, &t) in self.t.iter().enumerate() {
             let row = k * n..(k + 1) * n;
             let (q, v) = (&self.q[row.clone()], &self.v[row]);
             let gains = Gains::default();
-            workspace.accelerate(model, t, q, v, gains).map_err(|singular| (t, singular))?;
+            workspace.accelerate(model, t, q, v, gains).map_err(|singular| (k, t, singular))?;
             self.a.extend_from_slice(workspace.a());
             self.lam.extend_from_slice(workspace.lam());
         }
