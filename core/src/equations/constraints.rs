@@ -97,7 +97,7 @@ fn law_blocks<S: Real>(
 }
 
 /// Derivatives of a constraint with a law by the coordinates of one body.
-fn law_block<S: Real>(
+pub(super) fn law_block<S: Real>(
     model: &Model<S>,
     item: &ConstraintItem<S>,
     motions: &[Motion<S>],
