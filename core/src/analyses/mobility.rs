@@ -83,6 +83,8 @@ fn dense_rank(model: &Model, t: f64, q: &[f64]) -> Rank {
             *entry *= size;
         }
     }
+    // a law without derivative here constrains nothing
+    dense.iter_mut().filter(|entry| !entry.is_finite()).for_each(|entry| *entry = 0.0);
     normalize_rows(&mut dense, n);
     rank(&dense, n, RANK_TOLERANCE)
 }
