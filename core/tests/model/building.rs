@@ -109,8 +109,7 @@ fn a_model_over_lanes_is_many_models() {
     let m = model(BAR);
     let half = [0.25, 0.5, 1.0, 2.0];
     // the parameters in order are L half g rho
-    let parameters =
-        [Lanes(half.map(|h| 2.0 * h)), Lanes(half), Lanes([9.81; 4]), Lanes([8.0; 4])];
+    let parameters = [Lanes(half.map(|h| 2.0 * h)), Lanes(half), Lanes([9.81; 4]), Lanes([8.0; 4])];
     let wide: Model<Lanes<4>> = Model::new(&m.blueprint, &parameters);
     for (lane, h) in half.into_iter().enumerate() {
         let one = with(BAR, &[("half", h)]);

@@ -38,12 +38,18 @@ fn driver(value: &str) -> String {
 #[test]
 fn nothing_of_a_sound_model() {
     assert_eq!(faults(TWO), "");
-    assert_eq!(faults(&format!("{TWO}{}{}", pin("ground.O", "crank.A"), driver("2*rocker.angle + t"))), "");
+    assert_eq!(
+        faults(&format!("{TWO}{}{}", pin("ground.O", "crank.A"), driver("2*rocker.angle + t"))),
+        ""
+    );
 }
 
 #[test]
 fn unknown_bodies_and_points_with_a_suggestion() {
-    says(&pin("ground.O", "crnak.A"), &["joints.pin.j", "unknown body 'crnak'", "did you mean 'crank'?"]);
+    says(
+        &pin("ground.O", "crnak.A"),
+        &["joints.pin.j", "unknown body 'crnak'", "did you mean 'crank'?"],
+    );
     says(&pin("ground.O", "crank.C"), &["body 'crank' has no point 'C'", "A, B"]);
     says(&pin("ground", "crank.A"), &["joints.pin.i", "must have the form body.point"]);
 }
@@ -59,7 +65,8 @@ fn a_joint_of_a_body_with_itself() {
     says(&pin("crank.A", "crank.B"), &["joints.pin", "both ends", "'crank'"]);
     says(&pin("crank.A", "crank.A"), &["joints.pin", "both ends", "'crank'"]);
     says(&pin("ground.O", "ground.Q"), &["joints.pin", "both ends", "'ground'"]);
-    let spring = "[forces.s]\ntype = \"torsion_spring\"\ni = \"crank\"\nj = \"crank\"\nstiffness = 1\n";
+    let spring =
+        "[forces.s]\ntype = \"torsion_spring\"\ni = \"crank\"\nj = \"crank\"\nstiffness = 1\n";
     says(spring, &["forces.s", "both ends", "'crank'"]);
 }
 
@@ -94,7 +101,9 @@ fn laws_where_only_parameters_may_stand() {
 
 #[test]
 fn numbers_that_cannot_be() {
-    for (mass, part) in [("-1", "-1 kg; must be > 0"), ("0", "0 kg; must be > 0"), ("\"1/(L-1)\"", "inf kg")] {
+    for (mass, part) in
+        [("-1", "-1 kg; must be > 0"), ("0", "0 kg; must be > 0"), ("\"1/(L-1)\"", "inf kg")]
+    {
         let found = faults(&TWO.replacen("mass = 1", &format!("mass = {mass}"), 1));
         assert!(found.contains("bodies.crank.mass") && found.contains(part), "{mass}: {found}");
     }
@@ -116,5 +125,8 @@ fn values_of_springs_that_are_not_finite() {
 #[test]
 fn units_that_do_not_fit() {
     let found = faults(&TWO.replacen("length = \"L\"", "length = \"250 kg\"", 1));
-    assert!(found.contains("bodies.crank.length") && found.contains("not a quantity in m"), "{found}");
+    assert!(
+        found.contains("bodies.crank.length") && found.contains("not a quantity in m"),
+        "{found}"
+    );
 }

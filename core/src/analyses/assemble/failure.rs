@@ -59,7 +59,7 @@ pub(super) fn open(
     }
 }
 
-/// A constraint whose law has no finite value, derivative or rate at a position.
+/// A constraint whose law has no finite value or derivative at a position.
 pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
     if !q.iter().all(|q| q.is_finite()) {
         return None; // then the position is at fault, not a law
@@ -74,13 +74,12 @@ pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
     for ((row, _), entry) in model.layout.positions().zip(entries) {
         slope[row] += entry.abs();
     }
+    slope.iter_mut().zip(&rate).for_each(|(slope, rate)| *slope += rate.abs());
     let lacks = |values: &[f64], what| {
         let row = values.iter().position(|x| !x.is_finite())?;
         Some((&model.constraints[model.layout.owner(row).0], what))
     };
-    let (item, what) = lacks(&phi, "value")
-        .or_else(|| lacks(&slope, "derivative"))
-        .or_else(|| lacks(&rate, "rate"))?;
+    let (item, what) = lacks(&phi, "value").or_else(|| lacks(&slope, "derivative"))?;
     let (kind, name) = (item.group.singular(), &item.name);
     Some(Failure {
         fault: Fault::Open,
@@ -164,7 +163,7 @@ fn asked(model: &Model, set: &[Wish]) -> String {
     format!("with {} ", set.iter().map(one).collect::<Vec<_>>().join(", "))
 }
 
-/// Six significant digits without trailing zeros.
+/// Six decimals without trailing zeros.
 fn trimmed(x: f64) -> String {
     let rounded = format!("{x:.6}").parse::<f64>().unwrap_or(x);
     format!("{rounded}")
