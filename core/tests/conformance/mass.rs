@@ -1,7 +1,7 @@
 //! The mass matrix and the φ̇² term against their definition: a frame off the mass centre must give
 //! the motion of the same body with its frame at the centre.
 
-use crate::mechanisms::{close, model, run, start, tolerances, Random};
+use crate::mechanisms::{close, model, run, start, tolerances, worst, Random};
 use kempe::elements::BodyId;
 use kempe::equations::{energy, kinematics, mass};
 use kempe::math::{Dual, Lift};
@@ -72,9 +72,7 @@ fn a_frame_off_the_centre_moves_as_the_centred_one() {
         close("omega", v[1][angle], v[0][angle], 1e-8);
         close("alpha", a[1][angle], a[0][angle], 1e-6);
     }
-    for k in 0..4 {
-        close("λ", lam[1][k], lam[0][k], 1e-6);
-    }
+    assert!(worst(&lam[1], &lam[0]) < 1e-6);
     let mut motions = Vec::new();
     kinematics::motions(&q[1], &v[1], &mut motions);
     for body in [1, 2] {
@@ -83,9 +81,7 @@ fn a_frame_off_the_centre_moves_as_the_centred_one() {
         close("y of the centre", centre.y, q[0][3 * body - 2], 1e-8);
     }
     let energies = [0, 1].map(|k| part(k, |r| &r.energy, 5));
-    for k in 0..5 {
-        close("energy", energies[1][k], energies[0][k], 1e-7);
-    }
+    assert!(worst(&energies[1], &energies[0]) < 1e-7);
 }
 
 #[test]

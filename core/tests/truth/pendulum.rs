@@ -24,14 +24,16 @@ i = "ground.O"
 j = "rod.O"
 "#;
 
-/// Nearly a point mass on a massless rod: the moment of inertia is small beside m L².
+/// A body with the motion of a point mass on a massless rod of 1 m (Huygens): with its mass centre
+/// at d = 1/2 m from the pin, (J + m d²) / (m d) = 1 m. Its frame is where the point mass would be.
 const POINT: &str = r#"
 gravity = [0, -9.81]
 [bodies.ground]
 points = { O = [0, 0] }
 [bodies.bob]
 mass = 1
-inertia = 1e-13
+inertia = 0.25
+center = [0.5, 0]
 points = { O = [1, 0] }
 [joints.pin]
 type = "revolute"

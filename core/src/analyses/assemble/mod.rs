@@ -48,6 +48,9 @@ pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box
     if request.state.is_none() {
         report.warnings = turns::relax(model, &asked, &mut q);
     }
+    if let Some(failure) = failure::undefined(model, request.t, &q) {
+        return Err(Box::new(failure));
+    }
     let mobility = mobility(model, request.t, &q);
     if !mobility.redundant.is_empty() && !model.allow_redundancy {
         return Err(Box::new(failure::redundant(model, &mobility)));
@@ -187,7 +190,7 @@ fn velocities(model: &Model, request: &Request, q: &[f64]) -> Result<Vec<f64>, B
     }
     let extended = Model::new(&Arc::new(model.blueprint.holding(&drivers)), &model.parameters);
     let left = velocities::project(&extended, request.t, q, &mut v);
-    if left > 1e-8 {
+    if !(left <= 1e-8 && v.iter().all(|v| v.is_finite())) {
         return Err(Box::new(failure::rates(model, request)));
     }
     Ok(v)
