@@ -101,8 +101,9 @@ impl<S: Real> Workspace<S> {
         self.powers = forces::generalized(model, &self.motions, t, forces);
         let (damping, stiffness) =
             (S::constant(2.0 * gains.alpha), S::constant(gains.beta * gains.beta));
-        for (k, right) in lower.iter_mut().enumerate() {
-            *right = self.gamma[k] - damping * self.rate[k] - stiffness * self.residual[k];
+        let terms = self.gamma.iter().zip(&self.rate).zip(&self.residual);
+        for (right, ((gamma, rate), residual)) in lower.iter_mut().zip(terms) {
+            *right = *gamma - damping * *rate - stiffness * *residual;
         }
         let Some(mut correction) = self.correction.take() else {
             return self.matrix.factor_and_solve(&mut self.solution).map_err(Singular);
