@@ -59,11 +59,11 @@ pub fn build(
             blueprint.link(group, entry, &scope, &mut problems);
         }
     }
-    if !problems.is_empty() {
-        return Err(problems);
-    }
     let model = Model::new(&Arc::new(blueprint), &values);
-    checks::numbers(&model, &mut problems);
+    // what follows from a faulty parameter need not be told; all else is told at once
+    if values.iter().all(|x| x.is_finite()) {
+        checks::numbers(&model, &mut problems);
+    }
     if problems.is_empty() {
         Ok(model)
     } else {

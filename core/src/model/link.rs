@@ -99,18 +99,21 @@ impl Scope {
         };
         let parsed = Expression::parse(text).and_then(|e| {
             check_unit(&e, unit)?;
-            e.compile(&Visible(self, reach))
+            e.compile(&Visible(self, reach)).map_err(|fault| ExpressionError {
+                hint: self.out_of_reach(&e, reach).or(fault.hint),
+                ..fault
+            })
         });
         parsed
             .map_err(|fault| {
                 let at = Problem::at(path, fault.message).within(fault.span);
-                problems.push(at.maybe_hint(self.out_of_reach(text, reach).or(fault.hint)));
+                problems.push(at.maybe_hint(fault.hint));
             })
             .ok()
     }
 
-    fn out_of_reach(&self, text: &str, reach: Reach) -> Option<String> {
-        let wide = Expression::parse(text).and_then(|e| e.compile(&Visible(self, Reach::State)));
+    fn out_of_reach(&self, e: &Expression, reach: Reach) -> Option<String> {
+        let wide = e.compile(&Visible(self, Reach::State));
         let hint = match reach {
             Reach::Parameters => "only laws of drivers and forces may use t and the state",
             Reach::Positions => {
