@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from kempe._version import __version__
 
 if TYPE_CHECKING:
+    from kempe import draw as draw
     from kempe import errors as errors
     from kempe import plot as plot
     from kempe import report as report
@@ -71,6 +72,7 @@ _HOME = {
     "Start": "case",
     "State": "state",
     "assemble": "analyses",
+    "draw": "",
     "dynamics": "analyses",
     "errors": "",
     "load": "case",

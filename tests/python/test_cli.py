@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 COMMAND = [sys.executable, "-m", "kempe"]
-FILES = ["solution.npz", "solution.csv", "summary.json", "figures/linkage.png"]
+FILES = ["solution.npz", "solution.csv", "summary.json", "figures/01_mechanism.png"]
 
 
 def kempe(*words: object, cwd: Path, **environment: str) -> subprocess.CompletedProcess[str]:
@@ -69,7 +69,7 @@ def test_json_is_the_only_thing_on_stdout(four_bar_file: Path, tmp_path: Path) -
     assert told["time"]["end"] == pytest.approx(0.1)
     assert told["mechanism"]["degrees_of_freedom"] == 1
     assert {peak["joint"] for peak in told["peaks"]["reactions"]} == set("ABCD")
-    assert [Path(path).name for path in told["files"]] == [Path(name).name for name in FILES]
+    assert [Path(path).name for path in told["files"]][:4] == [Path(name).name for name in FILES]
     written = json.loads((tmp_path / "out/four_bar/summary.json").read_text(encoding="utf-8"))
     assert written["peaks"] == told["peaks"]
     stored = kp.load_solution(tmp_path / "out/four_bar/solution.npz")

@@ -12,6 +12,7 @@ import typer
 from rich.console import Console
 from rich.text import Text
 
+from kempe.cli import figures
 from kempe.cli.arguments import File, Settings, assembled, number_or_formula, read_case
 from kempe.cli.clock import Clock
 from kempe.cli.console import answers, heading, remarks
@@ -39,6 +40,10 @@ def run(  # noqa: PLR0917 - typer tells options from arguments by their annotati
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the summary as JSON and nothing else.")
     ] = False,
+    index_base: figures.IndexBase = 1,
+    with_figures: Annotated[
+        bool, typer.Option("--figures/--no-figures", help="Draw the figures, or none.")
+    ] = True,
 ) -> None:
     """Put a mechanism together, carry out its analyses and write the results."""
     case = _with_end(read_case(file, settings), t_end)
@@ -47,7 +52,9 @@ def run(  # noqa: PLR0917 - typer tells options from arguments by their annotati
     state = assembled(case)
     console = answers(silent=quiet or as_json)
     _show_start(console, case, state)
-    told = _Told(console, output or Path("out") / file.stem, apart=len(case.analyses) > 1)
+    folder, apart = output or Path("out") / file.stem, len(case.analyses) > 1
+    drawing = {"index_base": index_base, "with_figures": with_figures}
+    told = _Told(console, folder, apart, drawing)
     try:
         for name, solution in _solutions(case, state, Clock(silent=quiet or as_json)):
             told.finish(name, solution)
@@ -67,12 +74,14 @@ class _Told:
         console: where to print.
         folder: where the files go.
         apart: whether every analysis has a folder of its own.
+        drawing: how to draw figures, as ``write_results`` takes it.
         summaries: by analysis, each with its files.
     """
 
     console: Console
     folder: Path
     apart: bool
+    drawing: dict[str, Any]
     summaries: dict[str, Any] = field(default_factory=dict)
 
     def finish(self, name: str, solution: Solution) -> None:
@@ -83,7 +92,7 @@ class _Told:
         found = summary(solution)
         show_findings(self.console, name, found)
         folder = self.folder / name if self.apart else self.folder
-        written = write_results(solution, found, folder)
+        written = write_results(solution, found, folder, **self.drawing)
         self.summaries[name] = {**found, "files": [str(path) for path in written]}
         heading(self.console, "Files")
         for path in written:
