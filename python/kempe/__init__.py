@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from kempe.case import Results as Results
     from kempe.case import Start as Start
     from kempe.case import load as load
+    from kempe.draw.animate import animate as animate
+    from kempe.draw.player import player as player
+    from kempe.draw.scene import scene as scene
     from kempe.energy import Energy as Energy
     from kempe.errors import AssemblyError as AssemblyError
     from kempe.errors import FileError as FileError
@@ -71,14 +74,17 @@ _HOME = {
     "Solution": "solution",
     "Start": "case",
     "State": "state",
+    "animate": "draw.animate",
     "assemble": "analyses",
     "draw": "",
     "dynamics": "analyses",
     "errors": "",
     "load": "case",
     "load_solution": "archive",
+    "player": "draw.player",
     "plot": "",
     "report": "",
+    "scene": "draw.scene",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604

@@ -11,6 +11,7 @@ from rich.text import Text
 from kempe import errors
 from kempe._version import __version__
 from kempe.cli import exit_codes
+from kempe.cli.animate import animate as animate_command
 from kempe.cli.check import check as check_command
 from kempe.cli.plot import plot as plot_command
 from kempe.cli.run import run as run_command
@@ -24,6 +25,7 @@ app = typer.Typer(
 )
 app.command("run")(run_command)
 app.command("check")(check_command)
+app.command("animate")(animate_command)
 app.command("plot")(plot_command)
 
 #: First match wins, so a class stands before its base.
