@@ -32,6 +32,9 @@ if TYPE_CHECKING:
     from kempe.errors import ModelError as ModelError
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
+    from kempe.labelled import Labelled as Labelled
+    from kempe.labelled import equations as equations
+    from kempe.labelled import show as show
     from kempe.matrices import Matrices as Matrices
     from kempe.model import Model as Model
     from kempe.motion import Motion as Motion
@@ -57,6 +60,7 @@ _HOME = {
     "IntegrationError": "errors",
     "InternalError": "errors",
     "KempeError": "errors",
+    "Labelled": "labelled",
     "Matrices": "matrices",
     "Model": "model",
     "ModelError": "errors",
@@ -72,11 +76,13 @@ _HOME = {
     "State": "state",
     "assemble": "analyses",
     "dynamics": "analyses",
+    "equations": "labelled",
     "errors": "",
     "load": "case",
     "load_solution": "archive",
     "plot": "",
     "report": "",
+    "show": "labelled",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604

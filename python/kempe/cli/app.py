@@ -13,6 +13,8 @@ from kempe._version import __version__
 from kempe.cli import exit_codes
 from kempe.cli.check import check as check_command
 from kempe.cli.run import run as run_command
+from kempe.cli.show import EXAMPLES as SHOW_EXAMPLES
+from kempe.cli.show import show as show_command
 
 app = typer.Typer(
     name="kempe",
@@ -23,6 +25,7 @@ app = typer.Typer(
 )
 app.command("run")(run_command)
 app.command("check")(check_command)
+app.command("show", epilog=SHOW_EXAMPLES)(show_command)
 
 #: First match wins, so a class stands before its base.
 _CODES: tuple[tuple[type[errors.KempeError], int], ...] = (
