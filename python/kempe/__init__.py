@@ -46,6 +46,8 @@ if TYPE_CHECKING:
     from kempe.solution import Solution as Solution
     from kempe.state import AssemblyReport as AssemblyReport
     from kempe.state import State as State
+    from kempe.studies import Study as Study
+    from kempe.studies import study as study
 
 #: Public name → the module of kempe that holds it; "" means that the name is a module itself.
 _HOME = {
@@ -74,6 +76,7 @@ _HOME = {
     "Solution": "solution",
     "Start": "case",
     "State": "state",
+    "Study": "studies",
     "assemble": "analyses",
     "dynamics": "analyses",
     "equations": "labelled",
@@ -83,6 +86,7 @@ _HOME = {
     "plot": "",
     "report": "",
     "show": "labelled",
+    "study": "studies",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604

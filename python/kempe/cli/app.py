@@ -15,6 +15,8 @@ from kempe.cli.check import check as check_command
 from kempe.cli.run import run as run_command
 from kempe.cli.show import EXAMPLES as SHOW_EXAMPLES
 from kempe.cli.show import show as show_command
+from kempe.cli.study import EXAMPLES as STUDY_EXAMPLES
+from kempe.cli.study import study as study_command
 
 app = typer.Typer(
     name="kempe",
@@ -26,6 +28,7 @@ app = typer.Typer(
 app.command("run")(run_command)
 app.command("check")(check_command)
 app.command("show", epilog=SHOW_EXAMPLES)(show_command)
+app.command("study", epilog=STUDY_EXAMPLES)(study_command)
 
 #: First match wins, so a class stands before its base.
 _CODES: tuple[tuple[type[errors.KempeError], int], ...] = (
