@@ -16,6 +16,15 @@ from kempe.cli.solved import CaseOrSolution, results_folder, solved
 
 STEM = "animation"
 
+EXAMPLES = """Examples:
+
+  kempe animate four_bar.toml
+
+  kempe animate out/four_bar/solution.npz --format mp4 --fps 30 --speed 0.5
+
+  kempe animate four_bar.toml -o linkage.gif --set k=2e5
+"""
+
 
 class Form(str, Enum):
     """What an animation can be; must agree with ``kempe.draw.animate.FORMATS``."""

@@ -17,6 +17,15 @@ if TYPE_CHECKING:
     from kempe.plot import Page
     from kempe.solution import Solution
 
+EXAMPLES = """Examples:
+
+  kempe plot four_bar.toml
+
+  kempe plot out/four_bar/solution.npz --figure reactions_C --format pdf
+
+  kempe plot four_bar.toml --index-base 0 -o figures
+"""
+
 
 def plot(  # noqa: PLR0917 - typer tells options from arguments by their annotations
     file: CaseOrSolution,

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
 
 FILES = ("solution.npz", "solution.csv", "summary.json")
+#: Of one kind, such as those of the joints; ``kempe plot`` draws all.
+MOST_FIGURES = 12
 
 
 def write_results(
@@ -49,7 +51,7 @@ def write_results(
     if with_figures:
         from kempe.plot import pages, save
 
-        written += save(pages(solution, index_base), folder / "figures")
+        written += save(pages(solution, index_base, MOST_FIGURES), folder / "figures")
     names = [path.relative_to(folder).as_posix() for path in written]
     content = json.dumps({**summary, "files": names}, indent=2, ensure_ascii=False)
     files.write_text(told, content + "\n")

@@ -25,6 +25,15 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
     from kempe.state import State
 
+EXAMPLES = """Examples:
+
+  kempe run four_bar.toml
+
+  kempe run four_bar.toml --set k=2e6 --t-end 5 -o out/stiff
+
+  kempe run four_bar.toml --json | jq .analyses.release.energy
+"""
+
 
 def run(  # noqa: PLR0917 - typer tells options from arguments by their annotations
     file: File,

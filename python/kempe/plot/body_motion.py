@@ -15,7 +15,9 @@ from kempe.plot.time_axis import show_time
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike
 
+    from kempe.arrays import Floats
     from kempe.compiled import BodyInfo
     from kempe.motion import Motion
 
@@ -58,7 +60,9 @@ def positions(
     Raises:
         ModelError: there is no such body or quantity.
     """
-    return _draw(motion, body, _chosen(quantity, COORDINATES), ax, cut, index_base)
+    return _draw(
+        motion, body, _chosen(quantity, COORDINATES), ax=ax, cut=cut, index_base=index_base
+    )
 
 
 def velocities(
@@ -71,7 +75,7 @@ def velocities(
     index_base: int = 1,
 ) -> Axes:
     """Draw vx, vy and omega of a body over time; otherwise as ``positions``."""
-    return _draw(motion, body, _chosen(quantity, RATES), ax, cut, index_base)
+    return _draw(motion, body, _chosen(quantity, RATES), ax=ax, cut=cut, index_base=index_base)
 
 
 def accelerations(
@@ -84,7 +88,9 @@ def accelerations(
     index_base: int = 1,
 ) -> Axes:
     """Draw ax, ay and alpha of a body over time; otherwise as ``positions``."""
-    return _draw(motion, body, _chosen(quantity, ACCELERATIONS), ax, cut, index_base)
+    return _draw(
+        motion, body, _chosen(quantity, ACCELERATIONS), ax=ax, cut=cut, index_base=index_base
+    )
 
 
 def body_title(info: BodyInfo, index_base: int = 1) -> str:
@@ -101,6 +107,7 @@ def _draw(
     motion: Motion,
     body: str,
     names: Sequence[str],
+    *,
     ax: Axes | None,
     cut: float | None,
     index_base: int,
@@ -123,9 +130,14 @@ def _draw(
 def _add_degrees(axes: Axes) -> None:
     """The same angle in degrees, to the right."""
     rad = 1e-3 if "mrad" in axes.get_ylabel() else 1.0
-    degrees = axes.secondary_yaxis(
-        "right", functions=(lambda a: np.degrees(a * rad), lambda a: np.radians(a) / rad)
-    )
+
+    def to_degrees(angle: ArrayLike) -> Floats:
+        return np.degrees(np.multiply(angle, rad))
+
+    def from_degrees(angle: ArrayLike) -> Floats:
+        return np.radians(np.divide(angle, rad))
+
+    degrees = axes.secondary_yaxis("right", functions=(to_degrees, from_degrees))
     degrees.spines["right"].set_visible(True)
     degrees.set_ylabel("φ / °")
 

@@ -101,5 +101,7 @@ def _circle(made: Picture, place: Floats, text: str, edge: str) -> None:
         markeredgecolor=edge,
         zorder=7,
     )
-    made.axes.annotate(text, place, ha="center", va="center_baseline", fontsize=8.0, zorder=7.5)
+    made.axes.annotate(
+        text, (place[0], place[1]), ha="center", va="center_baseline", fontsize=8.0, zorder=7.5
+    )
     made.keep_clear(place, _NUMBER)

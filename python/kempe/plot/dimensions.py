@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,7 +17,7 @@ _DISTANCES = (20.0, 32.0, 44.0)
 #: More lengths than this are not read off a drawing.
 _MOST = 7
 _TEXT = 8.0
-_LINE = {"color": "#555555", "linewidth": 0.6, "shrinkA": 0.0, "shrinkB": 0.0}
+_LINE: dict[str, Any] = {"color": "#555555", "linewidth": 0.6, "shrinkA": 0.0, "shrinkB": 0.0}
 
 
 def draw_dimensions(made: Picture) -> None:
@@ -81,7 +81,7 @@ def _draw_arrow(made: Picture, span: Floats, offset: Floats) -> None:
     from matplotlib.patches import FancyArrowPatch
     from matplotlib.transforms import ScaledTranslation
 
-    aside = ScaledTranslation(*(offset / 72.0), made.axes.figure.dpi_scale_trans)
+    aside = ScaledTranslation(offset[0] / 72.0, offset[1] / 72.0, made.axes.figure.dpi_scale_trans)
     arrow = FancyArrowPatch(
         tuple(span[0]),
         tuple(span[1]),

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from kempe.draw.scene import scene
 from kempe.plot import style
 from kempe.plot.configuration import configuration
 from kempe.plot.mechanism import mechanism
 from kempe.plot.page import Page
-from kempe.plot.picture import MARGIN
+from kempe.plot.picture import frame
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -21,7 +19,7 @@ if TYPE_CHECKING:
 
 #: What stands beside and above and below the axes, mm.
 _BESIDE, _ABOVE = 16.0, 18.0
-_LOWEST, _HIGHEST = 70.0, 170.0
+_HIGHEST = 170.0
 
 
 def of_mechanism(solution: Solution) -> Page:
@@ -47,7 +45,6 @@ def of_configuration(name: str, state: State, index_base: int) -> Page:
 
 def _height(state: State) -> float:
     """Height at which the drawing fills the width of the page, within limits, mm."""
-    low, high = np.array(scene(state)["bounds"]).reshape(2, 2)
-    sides = high - low + 2.0 * MARGIN * (float(max(high - low)) or 1.0)
-    wanted = (style.WIDTH - _BESIDE) * float(sides[1] / sides[0]) + _ABOVE
-    return min(max(wanted, _LOWEST), _HIGHEST)
+    low, high = frame(scene(state))
+    width, height = high - low
+    return min((style.WIDTH - _BESIDE) * float(height / width) + _ABOVE, _HIGHEST)

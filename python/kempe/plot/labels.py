@@ -9,7 +9,7 @@ import numpy as np
 from kempe.arrays import Floats
 
 _ANGLES = np.deg2rad(np.arange(16) * 22.5 + 22.5)
-_GAPS = (3.0, 7.0, 12.0, 18.0, 26.0)
+_GAPS = (3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0)
 #: Room to keep between a name and everything else.
 CLEARANCE = 2.0
 #: What is touched costs this much more than to stand farther away by the same length.
@@ -17,7 +17,11 @@ _TOUCH = 10.0
 
 
 def place_labels(
-    anchors: Floats, sizes: Floats, segments: Floats, boxes: Sequence[Floats] = ()
+    anchors: Floats,
+    sizes: Floats,
+    segments: Floats,
+    boxes: Sequence[Floats],
+    inside: Floats,
 ) -> Floats:
     """Centres of names near their anchors, clear of lines and of each other.
 
@@ -29,6 +33,7 @@ def place_labels(
         sizes: widths and heights, (n, 2).
         segments: lines of the drawing, (m, 2, 2).
         boxes: more places that are taken, each [least x, least y, largest x, largest y].
+        inside: [[least x, least y], [largest x, largest y]] that names had better not leave.
 
     Returns:
         The centres, (n, 2).
@@ -37,7 +42,8 @@ def place_labels(
     chosen = []
     for anchor, size in zip(anchors, sizes, strict=True):
         candidates = _candidates(anchor, size)
-        costs = [_cost(centre, anchor, size, segments, taken) for centre in candidates]
+        costs = [_cost(centre, size, segments, taken, inside) for centre in candidates]
+        costs += np.hypot(*(candidates - anchor).T)
         best = candidates[int(np.argmin(costs))]
         chosen.append(best)
         taken.append(np.concatenate([best - size / 2.0, best + size / 2.0]))
@@ -55,8 +61,9 @@ def _candidates(anchor: Floats, size: Floats) -> Floats:
 
 
 def _cost(
-    centre: Floats, anchor: Floats, size: Floats, segments: Floats, taken: Sequence[Floats]
+    centre: Floats, size: Floats, segments: Floats, taken: Sequence[Floats], inside: Floats
 ) -> float:
+    """What the box of a name touches, in points."""
     half = size / 2.0 + CLEARANCE
     touched = clipped_lengths(centre - half, centre + half, segments)
     cost = _TOUCH * float(np.sum(touched + 2.0 * (touched > 0.0)))
@@ -64,7 +71,8 @@ def _cost(
         width, height = np.minimum(centre + half, box[2:]) - np.maximum(centre - half, box[:2])
         if width > 0.0 and height > 0.0:
             cost += _TOUCH * float(width + height)
-    return cost + float(np.hypot(*(centre - anchor)))
+    outside = np.maximum([inside[0] - (centre - half), (centre + half) - inside[1]], 0.0)
+    return cost + _TOUCH * float(outside.sum())
 
 
 def clipped_lengths(low: Floats, high: Floats, segments: Floats) -> Floats:

@@ -81,7 +81,8 @@ def _free_corner(made: Picture) -> Floats:
     low, high = np.array(box.min) * dots, np.array(box.max) * dots
     room = np.array([1.3 * _ARROW, 1.05 * _ARROW])
     lines = np.concatenate([np.empty((0, 2, 2)), *made.lines])
-    best, least = high - room, np.inf
+    best: Floats = high - room
+    least = np.inf
     for share in ((1, 1), (0, 1), (1, 0), (0, 0)):
         centre = np.where(share, high - room, low + room)
         touched = float(clipped_lengths(centre - room, centre + room, lines).sum())

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,7 +22,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 #: Room around the mechanism, as a share of its larger side.
-MARGIN = 0.17
+_MARGIN = 0.17
+#: A drawing is at least so high for its width, and so wide for its height.
+_LEAST_SIDE = 0.45
 _LINK, _EDGE, _PIN = 8.0, 1.0, 6.0
 _WHITE = 0.72  # how much of it there is in the colour of a link
 
@@ -89,7 +92,8 @@ class Picture:
         sizes = [np.array(text.get_window_extent().size) * dots for text in texts]
         lines = np.concatenate([np.empty((0, 2, 2)), *self.lines])
         places = self.points(np.array(anchors))
-        centres = place_labels(places, np.array(sizes), lines, self.boxes)
+        corners = self.axes.get_window_extent().get_points() * dots
+        centres = place_labels(places, np.array(sizes), lines, self.boxes, corners)
         for text, anchor, offset, size in zip(texts, anchors, centres - places, sizes, strict=True):
             text.xy = (float(anchor[0]), float(anchor[1]))
             text.set_position((float(offset[0]), float(offset[1])))
@@ -113,14 +117,20 @@ def drawn(axes: Axes, scene: dict[str, Any], title: str) -> Picture:
     return made
 
 
+def frame(scene: dict[str, Any]) -> tuple[Floats, Floats]:
+    """Least and largest x and y of the axes, m: the mechanism and room around it."""
+    low, high = np.array(scene["bounds"]).reshape(2, 2)
+    middle, sides = (low + high) / 2.0, high - low
+    sides = sides + 2.0 * _MARGIN * (float(sides.max()) or 1.0)
+    half = np.maximum(sides, _LEAST_SIDE * sides.max()) / 2.0
+    return middle - half, middle + half
+
+
 def _framed(axes: Axes, scene: dict[str, Any]) -> Picture:
     """Equal axes with room around the mechanism; laid out, so that print sizes are known."""
-    low, high = np.array(scene["bounds"]).reshape(2, 2)
-    size = float(max(high - low)) or 1.0
-    # The size decides about the unit, as the places may lie far from the origin.
-    unit = scale("m", size if size < 0.2 else max(size, float(np.abs([low, high]).max())))
-    room = MARGIN * size
-    (left, bottom), (right, top) = (low - room) / unit.divisor, (high + room) / unit.divisor
+    low, high = frame(scene)
+    unit = scale("m", float(max(high - low)))
+    (left, bottom), (right, top) = low / unit.divisor, high / unit.divisor
     axes.set_aspect("equal")
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)
@@ -143,13 +153,13 @@ def _draw_link(made: Picture, body: dict[str, Any]) -> None:
         )
         made.keep_clear(corners[0], 8.0)
         return
-    look = {"solid_capstyle": "round", "solid_joinstyle": "round", "zorder": 2}
+    look: dict[str, Any] = {"solid_capstyle": "round", "solid_joinstyle": "round", "zorder": 2}
     made.axes.plot(*corners.T, color=edge, linewidth=_LINK + 2.0 * _EDGE, **look)
     if len(corners) > 2:
         made.axes.fill(*corners.T, facecolor=face, edgecolor="none", zorder=2)
     made.axes.plot(*corners.T, color=face, linewidth=_LINK, **look)
     dots = made.points(corners)
-    for begin, end in zip(dots, dots[1:], strict=False):
+    for begin, end in pairwise(dots):
         made.lines.append(wide(begin, end, _LINK / 2.0))
 
 

@@ -29,7 +29,7 @@ DOTS_PER_INCH = 200
 FORMATS = ("png", "svg", "pdf")
 LONGEST_NAME = 24
 
-_FONTS = {
+_FONTS: dict[Any, Any] = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
     "font.size": 9.0,
@@ -40,7 +40,7 @@ _FONTS = {
     "legend.fontsize": 8.0,
     "mathtext.fontset": "dejavusans",
 }
-_LINES = {
+_LINES: dict[Any, Any] = {
     "lines.linewidth": 1.2,
     "lines.markersize": 4.0,
     "axes.linewidth": 0.7,
@@ -54,7 +54,7 @@ _LINES = {
     "legend.handlelength": 2.6,
 }
 # The same solution gives the same bytes.
-_FILES = {"svg.hashsalt": "kempe", "svg.fonttype": "path", "pdf.fonttype": 42}
+_FILES: dict[Any, Any] = {"svg.hashsalt": "kempe", "svg.fonttype": "path", "pdf.fonttype": 42}
 
 
 @contextmanager
@@ -150,7 +150,7 @@ def _print(made: Figure, form: str, file: BinaryIO) -> None:
     if form == "png":
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-        FigureCanvasAgg(made).print_png(file)
+        FigureCanvasAgg(made).print_png(file)  # type: ignore[no-untyped-call]
     elif form == "svg":
         from matplotlib.backends.backend_svg import FigureCanvasSVG
 

@@ -39,20 +39,29 @@ def of_coordinate(
         some = bodies[k * len(bodies) // count : (k + 1) * len(bodies) // count]
         columns = 1 if len(some) <= 4 else 2
         rows = math.ceil(len(some) / columns)
-        draw = partial(_draw_coordinate, solution, quantity, some, columns, cut, index_base)
+        draw = partial(
+            _draw_coordinate,
+            solution=solution,
+            quantity=quantity,
+            bodies=some,
+            columns=columns,
+            cut=cut,
+            index_base=index_base,
+        )
         name = quantity if count == 1 else f"{quantity}_{k + 1}"
         found.append(Page(0, name, name, rows * _PANEL + _AROUND, draw))
     return found
 
 
 def _draw_coordinate(
+    figure: Figure,
+    *,
     solution: Solution,
     quantity: str,
     bodies: Sequence[str],
     columns: int,
     cut: float | None,
     index_base: int,
-    figure: Figure,
 ) -> None:
     panels = _grid(figure, len(bodies), columns)
     for panel, body in zip(panels, bodies, strict=True):
@@ -100,35 +109,57 @@ def of_torque(solution: Solution, force: str, file: str, cut: float | None) -> P
 def of_reactions(solution: Solution, joint: str, file: str, cut: float | None) -> Page:
     """Reactions of a joint on both bodies, in the global frame and in its own."""
     view = solution.constraint(joint)
-    info = view.info
-    bodies = [info.i, info.j]
-    rows: list[list[dict[str, Any]]] = [
-        [{"on": body, "frame": frame} for frame in ("global", "joint")] for body in bodies
+    # A driver of a coordinate acts on one body only.
+    both = dict.fromkeys((view.info.i, view.info.j))
+    bodies = [on for on in both if view.force(on=on).any() or view.torque(on=on).any()]
+    forces: list[dict[str, Any]] = [
+        {"on": body, "frame": frame} for body in bodies or both for frame in ("global", "joint")
     ]
-    torque = [{"on": body, "quantity": "torque"} for body in bodies]
-    if view.torque(on=info.j).any():
-        rows = [*rows, torque] if view.force(on=info.j).any() else [torque]
-    draw = partial(_draw_reactions, solution, joint, rows, cut)
-    height = len(rows) * 1.25 * _PANEL + _AROUND
+    moments: list[dict[str, Any]] = [
+        {"on": body, "quantity": "torque"} for body in bodies if view.torque(on=body).any()
+    ]
+    if moments and not any(view.force(on=body).any() for body in bodies):
+        forces = []
+    columns = 2 if forces else len(moments)
+    rows = math.ceil((len(forces) + len(moments)) / columns)
+    draw = partial(
+        _draw_reactions,
+        solution=solution,
+        joint=joint,
+        wanted=(forces, moments),
+        columns=columns,
+        cut=cut,
+    )
+    height = rows * 1.25 * _PANEL + _AROUND
     return Page(0, f"reactions_{file}", f"reactions_{joint}", height, draw)
 
 
 def _draw_reactions(
+    figure: Figure,
+    *,
     solution: Solution,
     joint: str,
-    rows: Sequence[Sequence[dict[str, Any]]],
+    wanted: tuple[Sequence[dict[str, Any]], Sequence[dict[str, Any]]],
+    columns: int,
     cut: float | None,
-    figure: Figure,
 ) -> None:
-    panels = _grid(figure, 2 * len(rows), 2)
-    wanted = [what for row in rows for what in row]
-    for panel, what in zip(panels, wanted, strict=True):
+    forces, moments = wanted
+    panels = _grid(figure, len(forces) + len(moments), columns)
+    for panel, what in zip(panels, [*forces, *moments], strict=True):
         reactions(solution, joint, ax=panel, cut=cut, legend=False, **what)
-    _share_limits(panels[: 2 * (len(rows) - ("quantity" in rows[-1][0]))])
-    handles, labels = panels[0].get_legend_handles_labels()
-    if len(labels) > 1:
+        frame = f", {what['frame']} frame" if "frame" in what else ""
+        panel.set_title(f"{_beside(joint, what['on'])}{frame}", loc="left")
+    if forces:
+        _share_limits(panels[: len(forces)])
+        handles, labels = panels[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper right", ncols=len(labels))
-    _label_lowest(panels, 2)
+    _label_lowest(panels, columns)
+
+
+def _beside(joint: str, body: str) -> str:
+    """A title for a panel of half the width of a page."""
+    longest = style.LONGEST_NAME if len(joint) + len(body) <= 18 else 8
+    return f"{style.short(joint, longest)} on {style.short(body, longest)}"
 
 
 def of_residual(solution: Solution, cut: float | None) -> Page:

@@ -40,7 +40,7 @@ def torques(
         Curve(style.short(part), view.torque(on=body, part=part), style.line(k + 1))
         for k, part in enumerate(view.parts)
     ]
-    title = f"{style.short(force)} on {style.short(body)}"
+    title = f"{style.short(force, 16)} on {style.short(body, 14)}"
     with style.on(ax) as axes:
         curves = [*parts, total] if len(parts) > 1 else [total]
         draw(axes, motion.t, curves, Panel("T", "N·m", title, cut))
