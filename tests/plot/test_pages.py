@@ -7,10 +7,11 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import plot
+from kempe.plot.labels import clipped_lengths
 from kempe.plot.page import file_names
 from matplotlib.text import Text
 from plot.conftest import NAMES, chain, driven, pendulum
-from plot.overlaps import cut_off, overlaps
+from plot.overlaps import boxes, cut_off, overlaps
 
 FLAGSHIP = [
     "01_mechanism",
@@ -46,6 +47,19 @@ def test_a_figure_of_the_flagship_can_be_read(flagship_pages: list[plot.Page], s
     assert min(text.get_fontsize() for text in figure.findobj(Text)) >= 8.0
     for axes in figure.axes:
         assert "/" in axes.get_ylabel()
+
+
+@pytest.mark.parametrize("name", ["mechanism", "initial", "final"])
+def test_names_lie_on_no_link(flagship_pages: list[plot.Page], name: str) -> None:
+    figure = plot.select(flagship_pages, [name])[0].figure()
+    axes = figure.axes[0]
+    links = [line for line in axes.lines if len(np.atleast_1d(line.get_xdata())) == 2]
+    ends = [axes.transData.transform(line.get_xydata()) for line in links]
+    assert len(ends) == 6
+    numbers = {"1", "2", "3"}
+    for text, box in boxes(figure):
+        if text not in numbers:
+            assert clipped_lengths(box.min, box.max, np.array(ends)).sum() == 0.0, text
 
 
 def test_overlaps_are_seen() -> None:

@@ -59,7 +59,7 @@ def reactions(
         curves = [
             Curve(f"$F_{{x{prime}}}$", force[..., 0], style.line(0)),
             Curve(f"$F_{{y{prime}}}$", force[..., 1], style.line(1)),
-            Curve("|F|", np.hypot(force[..., 0], force[..., 1]), {**style.SUM, "linewidth": 0.8}),
+            Curve("|F|", np.hypot(force[..., 0], force[..., 1]), {**style.SUM, "linestyle": ":"}),
         ]
         draw(axes, motion.t, curves, Panel("F", "N", title, cut, legend))
         return axes
