@@ -1,7 +1,10 @@
 //! Time of forward dynamics: nanoseconds per evaluation of the equations of motion, everything
 //! included (integrator, error control, output every 10 ms).
 //!
-//!     cargo bench --bench dynamics
+//! ```text
+//! cargo bench --bench dynamics                      all
+//! cargo bench --bench dynamics -- flagship chain    these
+//! ```
 //!
 //! The flagship; a four-bar linkage that nothing was tuned on (frames off the mass centres, joints
 //! in another order and direction); and the N-four-bar chain of the IFToMM benchmark library, whose
@@ -154,9 +157,16 @@ fn main() {
         "{:<12} {:>7} {:>11} {:>9} {:>9} {:>9}",
         "", "steps", "evaluations", "ms", "ns/eval", "/window"
     );
-    time("flagship", assembled(FLAGSHIP), 15.0, 1);
-    time("other", assembled(OTHER), 15.0, 1);
+    let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    let asked = |name: &str| wanted.is_empty() || wanted.iter().any(|w| w == name);
+    for (name, text) in [("flagship", FLAGSHIP), ("other", OTHER)] {
+        if asked(name) {
+            time(name, assembled(text), 15.0, 1);
+        }
+    }
     for windows in [10, 100, 1000] {
-        time(&format!("chain {windows}"), chain(windows), 0.2, windows);
+        if asked("chain") {
+            time(&format!("chain {windows}"), chain(windows), 0.2, windows);
+        }
     }
 }

@@ -1,12 +1,12 @@
 //! Time the integrators themselves take per evaluation: 18 states, a derivative that costs nothing.
 
-use kempe::integrate::{Flow, Method, Rk4, Rk45, Step, System};
+use kempe::integrate::{FirstOrder, Flow, Method, Rk4, Rk45, Step};
 use std::hint::black_box;
 use std::time::Instant;
 
 struct Idle;
 
-impl System for Idle {
+impl FirstOrder for Idle {
     type Stop = ();
     fn len(&self) -> usize {
         18

@@ -144,6 +144,7 @@ impl Dice {
         let definition = Definition {
             title: (self.roll(2) == 0).then(|| self.text()),
             gravity: (self.roll(2) == 0).then(|| self.pair()),
+            redundancy: (self.roll(2) == 0).then(|| "allow".to_string()),
             parameters: (0..self.roll(5)).map(|_| (self.name(used), self.formula())).collect(),
             bodies: self.entries(&bodies, used),
             joints: self.entries(&elements(Group::Joints), used),

@@ -19,8 +19,9 @@ def catalogue() -> str:
 
     ``{"bodies": [table], "joints": …, "drivers": …, "forces": …, "methods": …,
     "stabilizations": …, "analyses": …}`` with ``table = {"name", "doc", "fields": [{"name",
-    "shape", "unit", "default", "doc"}]}``; shapes are body, point, coordinate, number, law, pair
-    and others.
+    "shape", "unit", "default", "doc"}]}``; joints and drivers have
+    ``"formulas": [{"residual", "jacobian": [6 texts], "gamma"}]`` too; shapes are body, point,
+    coordinate, number, law, pair and others.
     """
 
 def schema() -> str:
@@ -120,6 +121,7 @@ def assemble(
     t: float,
     q: _F | None,
     v: _F | None,
+    from_guess: bool = False,
 ) -> tuple[float, _F, _F, str]:
     """Put a mechanism together.
 
@@ -130,10 +132,12 @@ def assemble(
         t: time, s.
         q: a whole configuration as guess, (n_q,).
         v: the velocities that go with it, (n_q,).
+        from_guess: whether Newton starts from the guess as it stands, with open loops.
 
     Returns:
-        t, q, v and a report as JSON: ``{"iterations": [{"residual", "step"}],
-        "degrees_of_freedom", "modes": [{"bodies", "joint", "side": "left" | "right"}],
+        t, q, v and a report as JSON: ``{"iterations": [{"residual", "step", "damping"}],
+        "degrees_of_freedom", "modes": [{"bodies", "joint", "side": "left" | "right" |
+        "ahead" | "behind"}],
         "alternatives": int, "warnings": [text]}``.
 
     Raises:

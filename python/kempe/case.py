@@ -216,6 +216,11 @@ def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) ->
     return case
 
 
+def schema() -> str:
+    """The JSON Schema (draft 2020-12) of a case, for editors."""
+    return _core.schema()
+
+
 def _format(path: Path | str, doing: str) -> str:
     suffix = Path(path).suffix.lower()
     if suffix in FORMATS:

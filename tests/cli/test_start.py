@@ -33,7 +33,7 @@ def test_wrong_words_are_bad_input(words: list[str], capsys: pytest.CaptureFixtu
         (errors.RedundancyError, exit_codes.MECHANICS),
         (errors.SingularityError, exit_codes.MECHANICS),
         (errors.IntegrationError, exit_codes.MECHANICS),
-        (errors.FileError, exit_codes.FILE),
+        (errors.FileError, exit_codes.BAD_INPUT),  # it could be read, but it has problems
         (errors.InternalError, exit_codes.INTERNAL),
     ],
 )
@@ -54,3 +54,7 @@ def test_an_error_is_told_in_words(
         "",
         "error: it cannot be; change it\n  bodies.crank.mass: must be [> 0] (line 7, column 8)\n",
     )
+
+
+def test_trouble_with_a_file_has_its_own_code() -> None:
+    assert app.exit_code(errors.FileError("no such file")) == exit_codes.FILE

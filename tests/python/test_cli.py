@@ -185,7 +185,11 @@ def test_trouble_with_files_ends_with_4(
 def test_the_simulated_time_is_shown_where_there_is_a_terminal(
     four_bar_file: Path, tmp_path: Path
 ) -> None:
-    replaced(four_bar_file, "t_end = 0.5\noutput_step = 0.01", "t_end = 1500\noutput_step = 1")
+    replaced(
+        four_bar_file,
+        "t_end = 0.5\noutput_step = 0.01",
+        "t_end = 1500\noutput_step = 1\ndense_output = false",
+    )
     terminal, end = os.openpty()
     with subprocess.Popen(
         [*COMMAND, "run", "four_bar.toml", "--no-figures"],
@@ -212,7 +216,7 @@ def test_the_simulated_time_is_shown_where_there_is_a_terminal(
 def test_an_interruption_ends_with_130_and_keeps_what_there_is(
     four_bar_file: Path, tmp_path: Path
 ) -> None:
-    endless = "t_end = 1e7\nmax_steps = 1000000000"
+    endless = "t_end = 1e7\nmax_steps = 1000000000\ndense_output = false"
     replaced(
         replaced(four_bar_file, "t_end = 0.5", endless), "output_step = 0.01", "output_step = 10"
     )

@@ -31,11 +31,7 @@ impl PyModel {
 
     /// The same model with redundant constraints accepted.
     fn allowing_redundancy(&self) -> PyResult<Self> {
-        guard("Model.allowing_redundancy", || {
-            let mut blueprint = (*self.model.blueprint).clone();
-            blueprint.allow_redundancy = true;
-            Ok(Self::new(Model::new(&Arc::new(blueprint), &self.model.parameters)))
-        })
+        guard("Model.allowing_redundancy", || Ok(Self::new(self.model.allowing_redundancy())))
     }
 }
 

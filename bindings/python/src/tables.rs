@@ -1,7 +1,7 @@
 //! The declarations of elements, bodies and options as JSON.
 
 use kempe::analyses::{analysis_tables, option_families};
-use kempe::elements::{catalogue, Default, Field, Group, Shape, Table};
+use kempe::elements::{catalogue, formulas, Default, Field, Group, Shape, Table};
 use kempe::model::body_tables;
 use serde_json::{json, Map, Value};
 
@@ -40,13 +40,24 @@ fn table(table: &Table) -> Value {
     json!({ "name": table.name, "doc": table.doc, "fields": fields })
 }
 
+/// An element with its equations as formulas.
+fn element(group: Group, own: &Table) -> Value {
+    let mut value = table(own);
+    let Some(all) = formulas(group, own.name) else { return value };
+    let equations = all
+        .iter()
+        .map(|f| json!({ "residual": f.residual, "jacobian": f.jacobian, "gamma": f.gamma }));
+    value["formulas"] = equations.collect();
+    value
+}
+
 /// Everything that may stand in a case, by section.
 pub fn all() -> String {
     let mut sections = Map::new();
     sections.insert("bodies".into(), body_tables().iter().map(table).collect());
     for group in [Group::Joints, Group::Drivers, Group::Forces] {
         let tables = catalogue();
-        let own = tables.iter().filter(|(g, _)| *g == group).map(|(_, t)| table(t));
+        let own = tables.iter().filter(|(g, _)| *g == group).map(|(_, t)| element(group, t));
         sections.insert(group.section().into(), own.collect());
     }
     for family in option_families() {

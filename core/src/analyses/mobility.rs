@@ -5,10 +5,12 @@
 //! null vectors name all joints that take part.
 
 use super::assemble::Closing;
+use crate::elements::{BodyId, Coordinate, CoordinateOf};
 use crate::equations::augmented::Augmented;
 use crate::equations::{self, constraints, kinematics};
 use crate::model::Model;
 use crate::solve::{normalize_rows, rank, Rank, RANK_TOLERANCE};
+use std::sync::Arc;
 
 /// Part of a left null vector below which a row does not take part.
 const PART: f64 = 1e-6;
@@ -16,6 +18,9 @@ const PART: f64 = 1e-6;
 const BEYOND_DOUBT: f64 = 1e-7;
 /// Size of the excursion to a neighbouring position, rad.
 const EXCURSION: f64 = 3e-3;
+
+/// Most bodies whose angle is tried to reach a neighbour.
+const EXCURSIONS: usize = 6;
 
 /// How a mechanism can move at a position.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +46,8 @@ pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
     let mut redundant = groups(model, &here);
     let mut singular = Vec::new();
     if !redundant.is_empty() {
-        let near = neighbour(model, t, q).map(|q| dense_rank(model, t, &q));
+        let near = (0..=EXCURSIONS).filter_map(|held| neighbour(model, t, q, held));
+        let near = near.map(|q| dense_rank(model, t, &q)).max_by_key(|near| near.rank);
         if let Some(near) = near.filter(|near| near.rank > here.rank) {
             singular = std::mem::replace(&mut redundant, groups(model, &near));
         }
@@ -71,6 +77,8 @@ fn dense_rank(model: &Model, t: f64, q: &[f64]) -> Rank {
             *entry *= size;
         }
     }
+    // a law without derivative here constrains nothing
+    dense.iter_mut().filter(|entry| !entry.is_finite()).for_each(|entry| *entry = 0.0);
     normalize_rows(&mut dense, n);
     rank(&dense, n, RANK_TOLERANCE)
 }
@@ -87,19 +95,28 @@ fn groups(model: &Model, rank: &Rank) -> Vec<Vec<usize>> {
     groups
 }
 
-/// A position a little way along an admissible motion, if there is one.
-fn neighbour(model: &Model, t: f64, q: &[f64]) -> Option<Vec<f64>> {
-    let mut closing = Closing::new(model, t);
+/// A position a little way along an admissible motion, if there is one. Where branches meet, Newton
+/// falls back to the meeting point; so the angle of body `held` is kept away from it (ground: none).
+fn neighbour(model: &Model, t: f64, q: &[f64], held: usize) -> Option<Vec<f64>> {
+    let extended = match held.checked_sub(1) {
+        Some(k) => Some(holding(model, BodyId(held), *q.get(3 * k + 2)? + EXCURSION)),
+        None => None,
+    };
+    let mut closing = Closing::new(extended.as_ref().unwrap_or(model), t);
     let size = closing.size;
     // fixed numbers without pattern, so that no symmetry of the mechanism survives
     let excursion =
         |k: usize| EXCURSION * ((12.9898 * (k as f64 + 1.0)).sin() * 43758.5453).fract();
-    let mut near: Vec<f64> = q
-        .iter()
-        .enumerate()
-        .map(|(k, q)| q + excursion(k) * if k % 3 == 2 { 1.0 } else { size })
-        .collect();
+    let unit = |k: usize| if k % 3 == 2 { 1.0 } else { size };
+    let mut near: Vec<f64> =
+        q.iter().enumerate().map(|(k, q)| q + excursion(k) * unit(k)).collect();
     let (_, closed) = closing.close(&mut near);
-    let moved = q.iter().zip(&near).skip(2).step_by(3).any(|(a, b)| (a - b).abs() > 1e-5);
+    let moved = q.iter().zip(&near).enumerate().any(|(k, (a, b))| (a - b).abs() > 1e-5 * unit(k));
     (closed && moved).then_some(near)
+}
+
+fn holding(model: &Model, body: BodyId, angle: f64) -> Model {
+    let held = CoordinateOf { body, coordinate: Coordinate::Angle };
+    let blueprint = model.blueprint.holding(&[("neighbour".to_string(), held, angle.into())]);
+    Model::new(&Arc::new(blueprint), &model.parameters)
 }

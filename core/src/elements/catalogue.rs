@@ -1,9 +1,11 @@
 //! The one list of elements, and the dispatch from an entry of a model to its physics.
 
 use super::declare::{Element, Table};
+use super::derive::VelocityTerms;
 use super::drivers::CoordinateDriver;
 use super::forces::TorsionSpring;
-use super::joints::Revolute;
+use super::formula::Formula;
+use super::joints::{Revolute, Translational};
 use super::kinds::{BodyId, Source};
 use super::traits::{Action, Attachment, Equation, Force, Joint, Part, Side, Situation};
 use crate::expression::Tape;
@@ -45,6 +47,15 @@ pub struct Rows<'a, S> {
     pub gamma: &'a mut [S],
 }
 
+impl<S: Real> Rows<'_, S> {
+    #[inline(always)]
+    fn set<const M: usize>(self, terms: &VelocityTerms<S, M>) {
+        self.residual.copy_from_slice(&terms.residual);
+        self.rate.copy_from_slice(&terms.rate);
+        self.gamma.copy_from_slice(&terms.gamma);
+    }
+}
+
 macro_rules! constraints {
     ($($Group:ident { $($Name:ident),+ $(,)? })+) => {
         /// A joint or a driver of any type.
@@ -81,6 +92,10 @@ macro_rules! constraints {
             pub fn pins(&self) -> bool {
                 match self { $($(Self::$Name(_) => <$Name>::PINS,)+)+ }
             }
+            /// Whether body j slides along an axis of body i without turning.
+            pub fn slides(&self) -> bool {
+                match self { $($(Self::$Name(_) => <$Name>::SLIDES,)+)+ }
+            }
             /// Names and units of the equations.
             pub fn equations(&self) -> Vec<Equation> {
                 match self { $($(Self::$Name(e) => <$Name>::equations(e).to_vec(),)+)+ }
@@ -106,10 +121,25 @@ macro_rules! constraints {
             #[inline]
             pub fn velocity_terms(&self, i: &Motion<S>, j: &Motion<S>, t: S, out: Rows<'_, S>) {
                 match self { $($(Self::$Name(e) => {
-                    let terms = <$Name>::velocity_terms(e, i, j, t);
-                    out.residual.copy_from_slice(&terms.residual);
-                    out.rate.copy_from_slice(&terms.rate);
-                    out.gamma.copy_from_slice(&terms.gamma);
+                    out.set(&<$Name>::velocity_terms(e, i, j, t));
+                })+)+ }
+            }
+            /// Φ, Φ̇ and γ as [`velocity_terms`](Self::velocity_terms), and the rows of Φ_q with
+            /// the bodies i and j to `visit`: all that the equations of motion ask of a constraint,
+            /// by one dispatch, with the number of rows known to the compiler.
+            #[inline(always)]
+            pub fn linearize(
+                &self,
+                motions: &[Motion<S>],
+                t: S,
+                out: Rows<'_, S>,
+                visit: impl FnOnce([BodyId; 2], &[[S; 6]]),
+            ) {
+                match self { $($(Self::$Name(e) => {
+                    let ends = <$Name>::ends(e);
+                    let [i, j] = ends.map(|body| &motions[body.0]);
+                    out.set(&<$Name>::velocity_terms(e, i, j, t));
+                    visit(ends, &<$Name>::jacobian(e, &i.pose, &j.pose, t));
                 })+)+ }
             }
             /// The joint frame on a body.
@@ -124,6 +154,14 @@ macro_rules! constraints {
 
         fn constraint_tables() -> Vec<(Group, Table)> {
             vec![$($((Group::$Group, $Name::<f64>::table()),)+)+]
+        }
+
+        /// The equations of a type of joint or driver as formulas; None if there is no such type.
+        pub fn formulas(group: Group, kind: &str) -> Option<&'static [Formula]> {
+            $($(if group == Group::$Group && kind == $Name::<f64>::table().name {
+                return Some(&<$Name>::FORMULAS);
+            })+)+
+            None
         }
     };
 }
@@ -193,7 +231,7 @@ macro_rules! forces {
 }
 
 constraints! {
-    Joints { Revolute }
+    Joints { Revolute, Translational }
     Drivers { CoordinateDriver }
 }
 

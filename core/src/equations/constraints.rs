@@ -5,9 +5,10 @@
 //! the law evaluated on the same scalar.
 
 use super::laws::{self, Laws};
-use crate::elements::{jets, moving, seeded, BodyId, Coordinate, Rows, MOST_EQUATIONS};
+use crate::elements::{jets, moving, seeded, BodyId, Constraint, Coordinate, Rows, MOST_EQUATIONS};
+use crate::expression::Tape;
 use crate::math::{Dual, Jet, Lift, Motion, Pose, Real};
-use crate::model::{Block, ConstraintItem, Model};
+use crate::model::{Block, ConstraintItem, Model, Slots};
 
 /// Φ(q, t), shape (m).
 pub fn residual<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, out: &mut [S]) {
@@ -27,36 +28,76 @@ pub fn residual<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, out: &mu
 /// Stored entries of Φ_q, in the order of the layout.
 pub fn jacobian<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, entries: &mut [S]) {
     for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
-        let m = slots.rows.len();
         if item.law.is_some() {
-            for block in &slots.blocks {
-                law_block(model, item, motions, t, block, &mut entries[block.first..][..3 * m]);
-            }
+            law_blocks(model, item, slots, motions, t, entries);
             continue;
         }
         let ends = item.element.ends();
         let [i, j] = ends.map(|b| &motions[b.0].pose);
         let mut rows = [[S::zero(); 6]; MOST_EQUATIONS];
-        item.element.jacobian(i, j, t, &mut rows[..m]);
-        for block in &slots.blocks {
-            let out = &mut entries[block.first..][..3 * m];
-            let (is_i, is_j) = (ends[0] == block.body, ends[1] == block.body);
-            for (row, out) in rows[..m].iter().zip(out.chunks_exact_mut(3)) {
-                for (c, out) in out.iter_mut().enumerate() {
-                    // a joint of a body with itself adds up both columns
-                    *out = match (is_i, is_j) {
-                        (true, false) => row[c],
-                        (false, true) => row[3 + c],
-                        _ => row[c] + row[3 + c],
-                    };
-                }
-            }
+        let rows = &mut rows[..slots.rows.len()];
+        item.element.jacobian(i, j, t, rows);
+        store(ends, rows, slots, entries);
+    }
+}
+
+/// Puts the rows of a constraint into its blocks.
+#[inline(always)]
+fn store<S: Real>(ends: [BodyId; 2], rows: &[[S; 6]], slots: &Slots, entries: &mut [S]) {
+    for block in &slots.blocks {
+        let out = entries[block.first..][..3 * rows.len()].chunks_exact_mut(3);
+        match ends.map(|body| body == block.body) {
+            [true, false] => out.zip(rows).for_each(|(out, row)| out.copy_from_slice(&row[..3])),
+            [false, true] => out.zip(rows).for_each(|(out, row)| out.copy_from_slice(&row[3..])),
+            // a joint of a body with itself adds up both columns
+            _ => out.zip(rows).for_each(|(out, row)| {
+                out.copy_from_slice(&[row[0] + row[3], row[1] + row[4], row[2] + row[5]]);
+            }),
         }
     }
 }
 
+/// All of the above and Φ̇ and γ in one pass: [`velocity_terms`] and [`jacobian`].
+pub fn linearize<S: Real>(
+    model: &Model<S>,
+    motions: &[Motion<S>],
+    t: S,
+    [residual, rate, gamma]: [&mut [S]; 3],
+    entries: &mut [S],
+) {
+    for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
+        let rows = slots.rows.clone();
+        let out = Rows {
+            residual: &mut residual[rows.clone()],
+            rate: &mut rate[rows.clone()],
+            gamma: &mut gamma[rows],
+        };
+        if let Some(law) = &item.law {
+            law_velocity_terms(model, law, item.element.ends(), motions, t, out);
+            law_blocks(model, item, slots, motions, t, entries);
+            continue;
+        }
+        item.element.linearize(motions, t, out, |ends, rows| store(ends, rows, slots, entries));
+    }
+}
+
+/// Blocks of a constraint with a law.
+fn law_blocks<S: Real>(
+    model: &Model<S>,
+    item: &ConstraintItem<S>,
+    slots: &Slots,
+    motions: &[Motion<S>],
+    t: S,
+    entries: &mut [S],
+) {
+    for block in &slots.blocks {
+        let out = &mut entries[block.first..][..3 * slots.rows.len()];
+        law_block(model, item, motions, t, block, out);
+    }
+}
+
 /// Derivatives of a constraint with a law by the coordinates of one body.
-fn law_block<S: Real>(
+pub(super) fn law_block<S: Real>(
     model: &Model<S>,
     item: &ConstraintItem<S>,
     motions: &[Motion<S>],
@@ -115,22 +156,34 @@ pub fn velocity_terms<S: Real>(
             rate: &mut rate[rows.clone()],
             gamma: &mut gamma[rows],
         };
-        let [i, j] = item.element.ends().map(|b| &motions[b.0]);
-        let Some(law) = &item.law else {
-            item.element.velocity_terms(i, j, t, out);
-            continue;
-        };
-        let time = Jet::new(t, S::one(), S::zero());
-        let coordinate = |body: BodyId, c: Coordinate| -> Jet<S> {
-            let motion = &motions[body.0];
-            let [position, rate] = [c.column(), c.column() + 3]
-                .map(|k| Coordinate::ALL[k].of(&motion.pose, &motion.twist));
-            Jet::new(position, rate, S::zero())
-        };
-        let values = Laws { parameters: &model.parameters, t: time, coordinate };
-        let element = law.map(&mut |tape| tape.evaluate(&values));
-        jets(&element, &moving(i), &moving(j), time, out);
+        let ends = item.element.ends();
+        match &item.law {
+            None => item.element.velocity_terms(&motions[ends[0].0], &motions[ends[1].0], t, out),
+            Some(law) => law_velocity_terms(model, law, ends, motions, t, out),
+        }
     }
+}
+
+/// Φ, Φ̇ and γ of a constraint with a law, by a jet in time.
+fn law_velocity_terms<S: Real>(
+    model: &Model<S>,
+    law: &Constraint<Tape>,
+    ends: [BodyId; 2],
+    motions: &[Motion<S>],
+    t: S,
+    out: Rows<'_, S>,
+) {
+    let time = Jet::new(t, S::one(), S::zero());
+    let coordinate = |body: BodyId, c: Coordinate| -> Jet<S> {
+        let motion = &motions[body.0];
+        let [position, rate] = [c.column(), c.column() + 3]
+            .map(|k| Coordinate::ALL[k].of(&motion.pose, &motion.twist));
+        Jet::new(position, rate, S::zero())
+    };
+    let values = Laws { parameters: &model.parameters, t: time, coordinate };
+    let element = law.map(&mut |tape| tape.evaluate(&values));
+    let [i, j] = ends.map(|b| moving(&motions[b.0]));
+    jets(&element, &i, &j, time, out);
 }
 
 /// ν = -Φ_t: the right side of Φ_q q̇ = ν (Haug 3.6.10), shape (m).

@@ -41,19 +41,18 @@ pub struct Powers<S = f64> {
     pub applied: S,
 }
 
-/// Powers of the forces; that of the drivers is left at zero, see
-/// [`Workspace::powers`](super::Workspace::powers).
-pub fn powers<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S) -> Powers<S> {
-    let (mut dissipated, mut applied) = (S::zero(), S::zero());
-    for item in &model.forces {
-        let parts = item.element.parts();
-        forces::each_power(model, item, motions, t, |part, power| {
-            match (item.law.is_some(), parts[part].nature) {
-                (false, Nature::Conservative) => {}
-                (_, Nature::Dissipative) => dissipated -= power,
-                _ => applied += power, // a law of time or state: no potential keeps its work
-            }
-        });
+impl<S: Real> Powers<S> {
+    /// No power.
+    pub fn zero() -> Self {
+        Self { dissipated: S::zero(), drivers: S::zero(), applied: S::zero() }
     }
-    Powers { dissipated, drivers: S::zero(), applied }
+
+    /// Books the power of a part of a force; `law`: whether time or state enters its formulas.
+    pub(super) fn add(&mut self, nature: Nature, law: bool, power: S) {
+        match (law, nature) {
+            (false, Nature::Conservative) => {}
+            (_, Nature::Dissipative) => self.dissipated -= power,
+            _ => self.applied += power, // a law of time or state: no potential keeps its work
+        }
+    }
 }

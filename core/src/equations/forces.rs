@@ -1,28 +1,41 @@
 //! Generalized forces Q: gravity, force elements, and the φ̇² term of frames off the mass centre.
 
+use super::energy::Powers;
 use super::laws;
 use crate::elements::{Action, ForceElement, Situation};
 use crate::math::{Motion, Real, Wrench};
 use crate::model::{columns, Body, ForceItem, Model};
 
-/// Q, shape (n_q).
-pub fn generalized<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, out: &mut [S]) {
+/// Q into `out`, shape (n_q); the powers of the force elements come with it.
+pub fn generalized<S: Real>(
+    model: &Model<S>,
+    motions: &[Motion<S>],
+    t: S,
+    out: &mut [S],
+) -> Powers<S> {
     let moving = model.bodies.iter().zip(motions).skip(1);
     for ((body, motion), out) in moving.zip(out.chunks_exact_mut(3)) {
         let w = gravity_and_inertia(model, body, motion);
         out.copy_from_slice(&[w.force.x, w.force.y, w.torque]);
     }
+    let mut powers = Powers::zero();
     for item in &model.forces {
-        each_action(model, item, motions, t, |_, ends, action| {
+        let parts = item.element.parts();
+        let lawful = item.law.is_some();
+        each_action(model, item, motions, t, |part, ends, action| {
+            let mut power = S::zero();
             for (body, wrench) in ends.into_iter().zip([action.on_i, action.on_j]) {
+                power += wrench.power(motions[body.0].twist);
                 if let [x, y, angle] = &mut out[columns(body)] {
                     *x += wrench.force.x;
                     *y += wrench.force.y;
                     *angle += wrench.torque;
                 }
             }
+            powers.add(parts[part].nature, lawful, power);
         });
     }
+    powers
 }
 
 /// Weight, and the centrifugal force m A c′ φ̇² of a mass centre off the frame's origin.
@@ -63,20 +76,6 @@ pub fn each_action<S: Real>(
     let element = law.as_ref().unwrap_or(&item.element);
     let ends = element.ends();
     element.action(&situation(element, motions, t), |part, action| visit(part, ends, action));
-}
-
-/// Power of every part of a force on both bodies, W.
-pub fn each_power<S: Real>(
-    model: &Model<S>,
-    item: &ForceItem<S>,
-    motions: &[Motion<S>],
-    t: S,
-    mut visit: impl FnMut(usize, S),
-) {
-    each_action(model, item, motions, t, |part, [i, j], action| {
-        let on_i = action.on_i.power(motions[i.0].twist);
-        visit(part, on_i + action.on_j.power(motions[j.0].twist));
-    });
 }
 
 /// Potential energy of a force, J; zero where a law makes it non-conservative.

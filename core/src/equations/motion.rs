@@ -9,7 +9,7 @@
 
 use super::augmented::{Augmented, Dependent};
 use super::energy::Powers;
-use super::{constraints, energy, forces, kinematics};
+use super::{constraints, forces, kinematics};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 
@@ -41,6 +41,8 @@ pub struct Workspace<S = f64> {
     pub matrix: Augmented<S>,
     /// Right side, then solution (q̈, λ).
     solution: Vec<S>,
+    /// Powers of the force elements.
+    powers: Powers<S>,
     /// Correction of the solution where the matrix is damped.
     correction: Option<Vec<S>>,
     n_q: usize,
@@ -60,6 +62,7 @@ impl<S: Real> Workspace<S> {
             gamma: vec![S::zero(); m],
             matrix: Augmented::new(model),
             solution: vec![S::zero(); n + m],
+            powers: Powers::zero(),
             correction: None,
             n_q: n,
         };
@@ -91,16 +94,16 @@ impl<S: Real> Workspace<S> {
         gains: Gains,
     ) -> Result<(), Singular> {
         kinematics::motions(q, v, &mut self.motions);
-        let (residual, rate, gamma) = (&mut self.residual, &mut self.rate, &mut self.gamma);
-        constraints::velocity_terms(model, &self.motions, t, residual, rate, gamma);
-        constraints::jacobian(model, &self.motions, t, self.matrix.jacobian_mut());
+        let terms = [&mut self.residual[..], &mut self.rate[..], &mut self.gamma[..]];
+        constraints::linearize(model, &self.motions, t, terms, self.matrix.jacobian_mut());
         self.matrix.set_mass(model, &self.motions);
         let (forces, lower) = self.solution.split_at_mut(self.n_q);
-        forces::generalized(model, &self.motions, t, forces);
+        self.powers = forces::generalized(model, &self.motions, t, forces);
         let (damping, stiffness) =
             (S::constant(2.0 * gains.alpha), S::constant(gains.beta * gains.beta));
-        for (k, right) in lower.iter_mut().enumerate() {
-            *right = self.gamma[k] - damping * self.rate[k] - stiffness * self.residual[k];
+        let terms = self.gamma.iter().zip(&self.rate).zip(&self.residual);
+        for (right, ((gamma, rate), residual)) in lower.iter_mut().zip(terms) {
+            *right = *gamma - damping * *rate - stiffness * *residual;
         }
         let Some(mut correction) = self.correction.take() else {
             return self.matrix.factor_and_solve(&mut self.solution).map_err(Singular);
@@ -143,8 +146,8 @@ impl<S: Real> Workspace<S> {
     }
 
     /// Powers at the state of the last [`accelerate`](Self::accelerate), drivers included.
-    pub fn powers(&self, model: &Model<S>, t: S, v: &[S]) -> Powers<S> {
-        let mut powers = energy::powers(model, &self.motions, t);
+    pub fn powers(&self, model: &Model<S>, v: &[S]) -> Powers<S> {
+        let mut powers = self.powers;
         let mut rows = [S::zero(); crate::elements::MOST_EQUATIONS];
         for (k, item) in model.constraints.iter().enumerate().filter(|(_, c)| c.driven) {
             let range = model.layout.constraints[k].rows.clone();

@@ -3,7 +3,7 @@
 //! Step for step the control of `scipy.integrate.solve_ivp`, so that counts of steps can be compared.
 
 use super::arguments::{check_problem, not_negative, positive, refusal, Refused};
-use super::contract::{Ended, Flow, Observer, Statistics, Step, System};
+use super::contract::{Ended, FirstOrder, Flow, Observer, Statistics, Step};
 use super::dense::Dense;
 use super::failure::{Cause, Failure};
 use super::rate::{all_finite, Rate, Trouble};
@@ -64,7 +64,7 @@ pub(super) trait EmbeddedPair {
 
     /// Stages 2 to the last, of which the first is given, in rows of `k`; the state at `t_new` into
     /// `y_new`. `work` is scratch as long as y.
-    fn advance<Y: System>(
+    fn advance<Y: FirstOrder>(
         rate: &mut Rate<'_, Y>,
         span: (f64, f64),
         y: &[f64],
@@ -112,7 +112,7 @@ struct Run<'a, Y, P> {
 }
 
 /// Integrates with the pair `P`; the body of [`Method::integrate`](super::Method::integrate).
-pub(super) fn integrate<P: EmbeddedPair, Y: System, O: Observer>(
+pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
     options: &Options<'_>,
     system: &mut Y,
     (t0, t_end): (f64, f64),
@@ -145,7 +145,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: System, O: Observer>(
     }
 }
 
-impl<Y: System, P: EmbeddedPair> Run<'_, Y, P> {
+impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     fn statistics(&self, ended: Ended) -> Statistics {
         Statistics {
             steps: self.steps,
@@ -205,7 +205,7 @@ impl<Y: System, P: EmbeddedPair> Run<'_, Y, P> {
             Ok(()) => {}
             // the probe left the domain: begin with it as a step, which rejection shortens
             Err(Trouble::NotFinite(_)) => return Ok(h0.min(most)),
-            Err(Trouble::Stop(stop)) => return Err(Cause::System(stop)),
+            Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
         }
         let d2 = scaled_norm(controlled.map(|i| (f1[i] - f0[i], scale(i)))) / h0;
         Ok(initial_step(h0, d1, d2, P::ERROR_ORDER).min(most))
@@ -242,7 +242,7 @@ impl<Y: System, P: EmbeddedPair> Run<'_, Y, P> {
                     not_finite = Some(at);
                     size.reject(h.abs(), f64::NAN);
                 }
-                Err(Trouble::Stop(stop)) => return Err(Cause::System(stop)),
+                Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
             }
             self.rejected += 1;
         }
@@ -295,7 +295,7 @@ impl<Y: System, P: EmbeddedPair> Run<'_, Y, P> {
     fn project(&mut self, t_new: f64) -> Result<bool, Cause<Y::Stop>> {
         let Work { k, y_new, trial, .. } = &mut self.work;
         trial.copy_from_slice(y_new);
-        if !self.rate.system.accepted(t_new, y_new).map_err(Cause::System)? {
+        if !self.rate.system.accepted(t_new, y_new).map_err(Cause::Equations)? {
             return Ok(false);
         }
         if !all_finite(y_new) {
@@ -315,6 +315,6 @@ impl<Y: System, P: EmbeddedPair> Run<'_, Y, P> {
 fn hard<E>(trouble: Trouble<E>) -> Cause<E> {
     match trouble {
         Trouble::NotFinite(t) => Cause::NotFinite { t },
-        Trouble::Stop(stop) => Cause::System(stop),
+        Trouble::Stop(stop) => Cause::Equations(stop),
     }
 }

@@ -4,7 +4,7 @@ use super::dense::Dense;
 use super::failure::Failure;
 
 /// A first-order system y′ = f(t, y).
-pub trait System {
+pub trait FirstOrder {
     /// Why the system cannot go on; passed through untouched.
     type Stop;
 
@@ -22,7 +22,7 @@ pub trait System {
         self.len()
     }
 
-    /// dy = f(t, y); both of length [`System::len`].
+    /// dy = f(t, y); both of length [`FirstOrder::len`].
     ///
     /// # Errors
     /// Ends the integration at once. A trial state that is merely too far off should yield NaN
@@ -126,7 +126,7 @@ pub trait Method {
     ///
     /// # Errors
     /// [`Failure`], with the time and the state reached.
-    fn integrate<Y: System, O: Observer>(
+    fn integrate<Y: FirstOrder, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,

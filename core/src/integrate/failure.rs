@@ -33,7 +33,7 @@ pub enum Cause<E> {
         steps: usize,
     },
     /// The system cannot go on.
-    System(E),
+    Equations(E),
 }
 
 /// A failed integration, with what was reached.
@@ -58,7 +58,7 @@ impl<E: fmt::Display> fmt::Display for Failure<E> {
             }
             Cause::NotFinite { t } => write!(f, "the derivative is not finite at t = {t}"),
             Cause::MaxSteps { steps } => write!(f, "{steps} steps taken at t = {}", self.t),
-            Cause::System(stop) => stop.fmt(f),
+            Cause::Equations(stop) => stop.fmt(f),
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Initial value problems y′ = f(t, y), without mechanics.
 //!
-//! A [`Method`] advances a [`System`] and shows every accepted [`Step`] to an [`Observer`]; a step
+//! A [`Method`] advances a [`FirstOrder`] and shows every accepted [`Step`] to an [`Observer`]; a step
 //! carries its own continuous extension, from which output at given times and events are taken.
 //!
 //! A new scheme is one file: options as a struct with [`Method`]. It evaluates through `rate`, offers
-//! each accepted state to [`System::accepted`], builds its [`Dense`] from stages and a table, and
+//! each accepted state to [`FirstOrder::accepted`], builds its [`Dense`] from stages and a table, and
 //! takes no memory per step. An embedded pair implements `EmbeddedPair` and shares `adaptive`.
 //!
 //! | file | concept |
@@ -31,7 +31,7 @@ mod rk45;
 mod step_size;
 
 pub use adaptive::Atol;
-pub use contract::{Ended, Flow, Method, Observer, Statistics, Step, System};
+pub use contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
 pub use dense::Dense;
 pub use events::{locate, Direction};
 pub use failure::{Cause, Failure};

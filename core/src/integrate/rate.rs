@@ -1,6 +1,6 @@
 //! Evaluations of f, counted and checked.
 
-use super::contract::System;
+use super::contract::FirstOrder;
 
 /// Why an evaluation is of no use.
 pub(super) enum Trouble<E> {
@@ -16,7 +16,7 @@ pub(super) struct Rate<'a, Y> {
     pub evaluations: usize,
 }
 
-impl<Y: System> Rate<'_, Y> {
+impl<Y: FirstOrder> Rate<'_, Y> {
     /// dy = f(t, y).
     #[inline]
     pub fn at(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble<Y::Stop>> {

@@ -2,7 +2,7 @@
 //! 435); between steps the cubic Hermite polynomial, of order 3.
 
 use super::arguments::{check_problem, finite, positive, refusal, Refused};
-use super::contract::{Ended, Flow, Method, Observer, Statistics, Step, System};
+use super::contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
 use super::dense::Dense;
 use super::failure::{Cause, Failure};
 use super::rate::{all_finite, Rate, Trouble};
@@ -57,7 +57,7 @@ impl Work {
     }
 
     /// y at t + h, from y and the derivative there.
-    fn advance<Y: System>(
+    fn advance<Y: FirstOrder>(
         &mut self,
         rate: &mut Rate<'_, Y>,
         t: f64,
@@ -94,7 +94,7 @@ fn along(y: &[f64], h: f64, k: &[f64], out: &mut [f64]) {
 }
 
 impl Method for Rk4 {
-    fn integrate<Y: System, O: Observer>(
+    fn integrate<Y: FirstOrder, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,
@@ -120,7 +120,7 @@ impl Method for Rk4 {
 }
 
 impl Rk4 {
-    fn go<Y: System, O: Observer>(
+    fn go<Y: FirstOrder, O: Observer>(
         &self,
         rate: &mut Rate<'_, Y>,
         (t0, t_end): (f64, f64),
@@ -157,7 +157,7 @@ impl Rk4 {
 }
 
 /// Offers the new state to the system and the step to the observer, and moves on.
-fn finish<Y: System, O: Observer>(
+fn finish<Y: FirstOrder, O: Observer>(
     work: &mut Work,
     rate: &mut Rate<'_, Y>,
     (t, t_new): (f64, f64),
@@ -166,7 +166,7 @@ fn finish<Y: System, O: Observer>(
 ) -> Result<Flow, Cause<Y::Stop>> {
     let n = y.len();
     let Work { dense, y_new, .. } = work;
-    if rate.system.accepted(t_new, y_new).map_err(Cause::System)? && !all_finite(y_new) {
+    if rate.system.accepted(t_new, y_new).map_err(Cause::Equations)? && !all_finite(y_new) {
         return Err(Cause::NotFinite { t: t_new });
     }
     // the next step begins with this derivative, so the Hermite polynomial costs nothing
@@ -191,6 +191,6 @@ fn finish<Y: System, O: Observer>(
 fn cause<E>(trouble: Trouble<E>) -> Cause<E> {
     match trouble {
         Trouble::NotFinite(t) => Cause::NotFinite { t },
-        Trouble::Stop(stop) => Cause::System(stop),
+        Trouble::Stop(stop) => Cause::Equations(stop),
     }
 }

@@ -5,7 +5,7 @@
 //! with the optimal c₆. Control: that of `scipy.integrate.RK45`.
 
 use super::adaptive::{integrate, Atol, EmbeddedPair, Options};
-use super::contract::{Method, Observer, Statistics, System};
+use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
 
@@ -57,7 +57,7 @@ impl Rk45 {
 }
 
 impl Method for Rk45 {
-    fn integrate<Y: System, O: Observer>(
+    fn integrate<Y: FirstOrder, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,
@@ -136,7 +136,7 @@ impl EmbeddedPair for DormandPrince {
     const DEGREE: usize = 4;
     const TABLE: &'static [f64] = &P;
 
-    fn advance<Y: System>(
+    fn advance<Y: FirstOrder>(
         rate: &mut Rate<'_, Y>,
         (t, t_new): (f64, f64),
         y: &[f64],

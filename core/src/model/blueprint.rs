@@ -7,7 +7,7 @@ use super::model::{Body, Model};
 use super::problem::Problem;
 use super::{checks, parameters};
 use crate::elements::{BodyId, Constraint, CoordinateOf, ForceElement, Group};
-use crate::expression::Tape;
+use crate::expression::{Symbol, Tape};
 use std::sync::Arc;
 
 /// What the file says, linked: elements over [`Tape`].
@@ -59,11 +59,11 @@ pub fn build(
             blueprint.link(group, entry, &scope, &mut problems);
         }
     }
-    if !problems.is_empty() {
-        return Err(problems);
-    }
     let model = Model::new(&Arc::new(blueprint), &values);
-    checks::numbers(&model, &mut problems);
+    // what follows from a faulty parameter need not be told; all else is told at once
+    if values.iter().all(|x| x.is_finite()) {
+        checks::numbers(&model, &mut problems);
+    }
     if problems.is_empty() {
         Ok(model)
     } else {
@@ -89,17 +89,61 @@ impl Blueprint {
         };
         let mut linker = Linker::new(group, entry, scope, &self.bodies, problems);
         let known = if group == Group::Forces {
-            ForceElement::read(kind, &mut linker)
-                .map(|e| self.forces.extend(e.map(|e| (entry.name.clone(), e))))
+            ForceElement::read(kind, &mut linker).map(|e| {
+                let e = e.filter(|e| self.two_bodies(group, entry, e.ends(), problems));
+                self.forces.extend(e.map(|e| (entry.name.clone(), e)));
+            })
         } else {
-            let read = Constraint::read(group, kind, &mut linker);
-            read.map(|e| self.constraints.extend(e.map(|e| (entry.name.clone(), group, e))))
+            Constraint::read(group, kind, &mut linker).map(|e| {
+                let e = e.filter(|e| {
+                    self.two_bodies(group, entry, e.ends(), problems)
+                        && self.not_circular(entry, e, problems)
+                });
+                self.constraints.extend(e.map(|e| (entry.name.clone(), group, e)));
+            })
         };
         if known.is_none() {
             let path = [group.section(), &entry.name, "type"];
             let message = format!("there is no {} of type '{kind}'", group.singular());
             problems.push(Problem::at(&path, message));
         }
+    }
+
+    /// Reports an element whose ends are on one body: it would say nothing, or something impossible.
+    fn two_bodies(
+        &self,
+        group: Group,
+        entry: &Entry,
+        ends: [BodyId; 2],
+        problems: &mut Vec<Problem>,
+    ) -> bool {
+        if ends[0] != ends[1] {
+            return true;
+        }
+        let body = &self.bodies[ends[0].0].name;
+        let message = format!("both ends of this {} are on '{body}'", group.singular());
+        let hint = "it must connect two different bodies";
+        problems.push(Problem::at(&[group.section(), &entry.name], message).hint(hint));
+        false
+    }
+
+    /// Reports a driver whose law uses the coordinate that it drives.
+    fn not_circular(
+        &self,
+        entry: &Entry,
+        constraint: &Constraint<Tape>,
+        problems: &mut Vec<Problem>,
+    ) -> bool {
+        let Constraint::CoordinateDriver(driver) = constraint else { return true };
+        let CoordinateOf { body, coordinate } = driver.coordinate;
+        let own = Symbol::Variable(6 * body.0 + coordinate as usize);
+        if !driver.value.symbols().contains(&own) {
+            return true;
+        }
+        let name = format!("{}.{}", self.bodies[body.0].name, coordinate.name());
+        let message = format!("the law uses {name}, the coordinate that it drives");
+        problems.push(Problem::at(&["drivers", &entry.name, "value"], message));
+        false
     }
 
     /// The same mechanism with further drivers that make coordinates follow given laws: what

@@ -90,19 +90,20 @@ impl Reader<'_> {
     /// A uniform slender bar: frame at its centre, x along it, J = m L²/12.
     fn bar(&mut self) -> Body<Tape> {
         let mut body = self.blank("bar");
-        body.mass = self.number("mass", "kg").unwrap_or(body.mass);
+        let mass = self.number("mass", "kg");
         let through = self.written("through");
+        let stand_in = "1".to_string(); // so that references to its points are not reported as well
         let length = match (self.entry.get("length"), through.as_slice()) {
-            (Some(value), _) if self.number("length", "m").is_some() => term(value),
-            (Some(_), _) => return body,
+            (Some(value), _) => self.number("length", "m").map_or(stand_in, |_| term(value)),
             (None, [a, b, ..]) => distance(a, b),
             (None, _) => {
                 self.missing("a bar needs 'length' and 'ends', or 'through' with two points");
-                return body;
+                stand_in
             }
         };
-        if let Some(mass) = self.entry.get("mass").filter(|_| self.sound(&length)) {
-            body.inertia = self.compose(&format!("{}*{length}^2/12", term(mass)));
+        if let (Some(mass), Some(written)) = (mass, self.entry.get("mass")) {
+            body.mass = mass;
+            body.inertia = self.compose(&format!("{}*{length}^2/12", term(written)));
         }
         let ends = self.ends(&through);
         for (name, sign) in ends.iter().zip(["-", ""]) {
@@ -207,10 +208,6 @@ impl Reader<'_> {
                 None
             }
         }
-    }
-
-    fn sound(&self, text: &str) -> bool {
-        Expression::parse(text).is_ok()
     }
 
     /// A formula put together here; it can only fail by becoming too long.

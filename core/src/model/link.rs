@@ -21,6 +21,8 @@ pub struct Scope {
 pub enum Reach {
     /// Parameters only.
     Parameters,
+    /// Parameters, time and positions: laws of constraints, which must be holonomic.
+    Positions,
     /// Parameters, time and state.
     State,
 }
@@ -41,16 +43,21 @@ impl Names for Visible<'_> {
         }
         let (body, coordinate) = name.rsplit_once('.')?;
         let body = scope.bodies.iter().position(|b| b == body).filter(|k| *k > 0)?;
-        Some(Symbol::Variable(6 * body + Coordinate::named(coordinate)? as usize))
+        let coordinate = Coordinate::named(coordinate)?;
+        let visible = self.1 == Reach::State || !coordinate.is_rate();
+        visible.then_some(Symbol::Variable(6 * body + coordinate as usize))
     }
 
     fn known(&self) -> Vec<String> {
         let mut known = self.0.parameters.clone();
-        if self.1 == Reach::State {
-            known.push("t".to_string());
-            for body in &self.0.bodies[1..] {
-                known.extend(Coordinate::ALL.map(|c| format!("{body}.{}", c.name())));
-            }
+        if self.1 == Reach::Parameters {
+            return known;
+        }
+        known.push("t".to_string());
+        let visible = |c: &Coordinate| self.1 == Reach::State || !c.is_rate();
+        for body in &self.0.bodies[1..] {
+            let coordinates = Coordinate::ALL.into_iter().filter(visible);
+            known.extend(coordinates.map(|c| format!("{body}.{}", c.name())));
         }
         known
     }
@@ -92,20 +99,29 @@ impl Scope {
         };
         let parsed = Expression::parse(text).and_then(|e| {
             check_unit(&e, unit)?;
-            e.compile(&Visible(self, reach))
+            e.compile(&Visible(self, reach)).map_err(|fault| ExpressionError {
+                hint: self.out_of_reach(&e, reach).or(fault.hint),
+                ..fault
+            })
         });
         parsed
             .map_err(|fault| {
                 let at = Problem::at(path, fault.message).within(fault.span);
-                problems.push(at.maybe_hint(fault.hint.or(self.out_of_reach(text, reach))));
+                problems.push(at.maybe_hint(fault.hint));
             })
             .ok()
     }
 
-    fn out_of_reach(&self, text: &str, reach: Reach) -> Option<String> {
-        let wide = Expression::parse(text).and_then(|e| e.compile(&Visible(self, Reach::State)));
-        (reach == Reach::Parameters && wide.is_ok())
-            .then(|| "only laws of drivers and forces may use t and the state".to_string())
+    fn out_of_reach(&self, e: &Expression, reach: Reach) -> Option<String> {
+        let wide = e.compile(&Visible(self, Reach::State));
+        let hint = match reach {
+            Reach::Parameters => "only laws of drivers and forces may use t and the state",
+            Reach::Positions => {
+                "the law of a driver may use t and positions, not velocities: it would not be holonomic"
+            }
+            Reach::State => return None,
+        };
+        wide.is_ok().then(|| hint.to_string())
     }
 
     /// Two formulas in the parameters.
@@ -141,6 +157,7 @@ impl Scope {
 
 /// Reads the fields of one element.
 pub struct Linker<'a> {
+    group: Group,
     section: &'static str,
     entry: &'a Entry,
     scope: &'a Scope,
@@ -157,7 +174,7 @@ impl<'a> Linker<'a> {
         bodies: &'a [Body<Tape>],
         problems: &'a mut Vec<Problem>,
     ) -> Self {
-        Self { section: group.section(), entry, scope, bodies, problems }
+        Self { group, section: group.section(), entry, scope, bodies, problems }
     }
 
     fn path(&self, field: &Field) -> [String; 3] {
@@ -279,7 +296,11 @@ impl Source for Linker<'_> {
     }
 
     fn law(&mut self, field: &Field) -> Option<Tape> {
-        self.formula(field, Reach::State)
+        let reach = match self.group {
+            Group::Forces => Reach::State,
+            Group::Joints | Group::Drivers => Reach::Positions,
+        };
+        self.formula(field, reach)
     }
 
     fn pair(&mut self, field: &Field) -> Option<[Tape; 2]> {

@@ -6,83 +6,59 @@
 use super::symbolic::{Symbolic, SHORT};
 use crate::math::Real;
 
+/// What is known of a pivot while columns before it are eliminated: side by side, since every row of a
+/// column changes all three.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pivot<S> {
+    /// D.
+    pub d: S,
+    /// |a| + Σ |l² d|.
+    pub magnitude: S,
+    /// The right side.
+    pub x: S,
+}
+
 /// The columns of L not yet eliminated; each elimination takes one off the front.
 pub(super) struct Columns<'a, S> {
     lower: &'a mut [S],
-    rows: &'a [u32],
-    unknowns: &'a [u32],
-    update: &'a [u32],
+    /// For each column its rows, then where its products land.
+    plan: &'a [u32],
     /// The scaled column while a long one is subtracted.
     work: &'a mut [S],
 }
 
-/// What an elimination changes beside L.
-pub(super) struct Later<'a, S> {
-    /// D, in elimination order.
-    pub diagonal: &'a mut [S],
-    /// |a| + Σ |l² d| of the pivots, in elimination order.
-    pub magnitude: &'a mut [S],
-    /// The right side, in the caller's numbering; not touched by kernels without `RHS`.
-    pub rhs: &'a mut [S],
-}
-
-impl<S: Real> Later<'_, S> {
-    #[inline(always)]
-    fn subtract<const RHS: bool>(&mut self, (w, l): (S, S), x: S, row: u32, unknown: u32) {
-        let product = w * l;
-        self.diagonal[row as usize] -= product;
-        self.magnitude[row as usize] += product.abs();
-        if RHS {
-            self.rhs[unknown as usize] -= l * x;
-        }
-    }
-}
-
 impl<'a, S: Real> Columns<'a, S> {
     pub fn new(symbolic: &'a Symbolic, lower: &'a mut [S], work: &'a mut [S]) -> Self {
-        let (rows, unknowns, update) = (&symbolic.row, &symbolic.unknown, &symbolic.update);
-        Self { lower, rows, unknowns, update, work }
+        Self { lower, plan: &symbolic.plan, work }
     }
 
     /// Eliminates the next column, of `length` rows, given 1 / d and its right side `x`.
     #[inline(always)]
-    pub fn eliminate<const RHS: bool>(
-        &mut self,
-        length: u32,
-        inverse: S,
-        x: S,
-        later: &mut Later<'_, S>,
-    ) {
+    pub fn eliminate(&mut self, length: u32, inverse: S, x: S, pivots: &mut [Pivot<S>]) {
         const { assert!(SHORT == 8, "a kernel for each short length") };
         match length {
             0 => {}
-            1 => self.short::<1, RHS>(inverse, x, later),
-            2 => self.short::<2, RHS>(inverse, x, later),
-            3 => self.short::<3, RHS>(inverse, x, later),
-            4 => self.short::<4, RHS>(inverse, x, later),
-            5 => self.short::<5, RHS>(inverse, x, later),
-            6 => self.short::<6, RHS>(inverse, x, later),
-            7 => self.short::<7, RHS>(inverse, x, later),
-            8 => self.short::<8, RHS>(inverse, x, later),
-            _ => self.long::<RHS>(length as usize, inverse, x, later),
+            1 => self.short::<1>(inverse, x, pivots),
+            2 => self.short::<2>(inverse, x, pivots),
+            3 => self.short::<3>(inverse, x, pivots),
+            4 => self.short::<4>(inverse, x, pivots),
+            5 => self.short::<5>(inverse, x, pivots),
+            6 => self.short::<6>(inverse, x, pivots),
+            7 => self.short::<7>(inverse, x, pivots),
+            8 => self.short::<8>(inverse, x, pivots),
+            _ => self.long(length as usize, inverse, x, pivots),
         }
     }
 
     /// A column of `N` rows; each product has its place.
     #[inline(always)]
-    fn short<const N: usize, const RHS: bool>(
-        &mut self,
-        inverse: S,
-        x: S,
-        later: &mut Later<'_, S>,
-    ) {
+    fn short<const N: usize>(&mut self, inverse: S, x: S, pivots: &mut [Pivot<S>]) {
         let (column, tail) = take_mut(&mut self.lower, N);
-        let (rows, unknowns) = (take(&mut self.rows, N), take(&mut self.unknowns, N));
-        let places = take(&mut self.update, N * (N - 1) / 2);
+        let (rows, places) = take(&mut self.plan, N + N * (N - 1) / 2).split_at(N);
         let w: [S; N] = std::array::from_fn(|a| column[a]);
         let l = w.map(|w| w * inverse);
         for a in 0..N {
-            later.subtract::<RHS>((w[a], l[a]), x, rows[a], unknowns[a]);
+            subtract(&mut pivots[rows[a] as usize], w[a], l[a], x);
         }
         let mut place = places.iter();
         for a in 0..N {
@@ -95,18 +71,18 @@ impl<'a, S: Real> Columns<'a, S> {
     }
 
     /// A column of any length, in runs of products.
-    fn long<const RHS: bool>(&mut self, length: usize, inverse: S, x: S, later: &mut Later<'_, S>) {
+    fn long(&mut self, length: usize, inverse: S, x: S, pivots: &mut [Pivot<S>]) {
         let (column, tail) = take_mut(&mut self.lower, length);
-        let (rows, unknowns) = (take(&mut self.rows, length), take(&mut self.unknowns, length));
+        let rows = take(&mut self.plan, length);
         let scaled = &mut self.work[..length];
         for (l, &w) in scaled.iter_mut().zip(column.iter()) {
             *l = w * inverse;
         }
         for (a, &w) in column.iter().enumerate() {
-            later.subtract::<RHS>((w, scaled[a]), x, rows[a], unknowns[a]);
+            subtract(&mut pivots[rows[a] as usize], w, scaled[a], x);
             let mut rest = &scaled[a + 1..];
             while !rest.is_empty() {
-                let run = take(&mut self.update, 2);
+                let run = take(&mut self.plan, 2);
                 let (now, more) = rest.split_at(run[1] as usize);
                 for (t, &l) in tail[run[0] as usize..][..now.len()].iter_mut().zip(now) {
                     *t -= w * l;
@@ -117,6 +93,15 @@ impl<'a, S: Real> Columns<'a, S> {
         column.copy_from_slice(scaled);
         self.lower = tail;
     }
+}
+
+/// What row l = w / d of a column, with right side x, takes from the pivot of that row.
+#[inline(always)]
+fn subtract<S: Real>(pivot: &mut Pivot<S>, w: S, l: S, x: S) {
+    let product = w * l;
+    pivot.d -= product;
+    pivot.magnitude += product.abs();
+    pivot.x -= l * x;
 }
 
 /// Splits `count` off the front.

@@ -10,7 +10,7 @@
 //!
 //! [`bodies_first`]: super::bodies_first
 
-use super::columns::{Columns, Later};
+use super::columns::{Columns, Pivot};
 use super::symbolic::Symbolic;
 use crate::math::Real;
 
@@ -38,12 +38,12 @@ impl std::error::Error for ZeroPivot {}
 /// The numbers of one factorisation; all memory is taken in [`Factor::new`].
 #[derive(Clone, Debug)]
 pub struct Factor<S> {
-    /// D, then L below the diagonal, column by column. Length n + fill.
-    entries: Vec<S>,
+    /// L below the diagonal, column by column.
+    lower: Vec<S>,
+    /// D and how it was judged, in elimination order.
+    pivots: Vec<Pivot<S>>,
     /// 1 / D.
     inverse: Vec<S>,
-    /// |a| + Σ |l² d| of each pivot.
-    magnitude: Vec<S>,
     /// A long column of L while its products are subtracted; elsewhere a residual.
     work: Vec<S>,
 }
@@ -53,9 +53,9 @@ impl<S: Real> Factor<S> {
     pub fn new(symbolic: &Symbolic) -> Self {
         let n = symbolic.n;
         Self {
-            entries: vec![S::zero(); n + symbolic.fill()],
+            lower: vec![S::zero(); symbolic.fill()],
+            pivots: vec![Pivot { d: S::zero(), magnitude: S::zero(), x: S::zero() }; n],
             inverse: vec![S::zero(); n],
-            magnitude: vec![S::zero(); n],
             work: vec![S::zero(); n],
         }
     }
@@ -69,8 +69,8 @@ impl<S: Real> Factor<S> {
     /// # Panics
     /// If `values` has another length than the entries, or the factor is of another pattern.
     pub fn factor(&mut self, symbolic: &Symbolic, values: &[S]) -> Result<(), ZeroPivot> {
-        self.assemble(symbolic, values);
-        self.eliminate::<false>(symbolic, &mut [])
+        self.assemble(symbolic, values, |_| S::zero());
+        self.eliminate(symbolic)
     }
 
     /// Factorises as [`factor`](Self::factor) and solves A x = `rhs` in place. The right side is
@@ -88,45 +88,52 @@ impl<S: Real> Factor<S> {
         rhs: &mut [S],
     ) -> Result<(), ZeroPivot> {
         assert_eq!(rhs.len(), symbolic.n, "one right side for each unknown");
-        self.assemble(symbolic, values);
-        self.eliminate::<true>(symbolic, rhs)?;
+        self.assemble(symbolic, values, |unknown| rhs[unknown]);
+        self.eliminate(symbolic)?;
+        for (pivot, &unknown) in self.pivots.iter().zip(&symbolic.order) {
+            rhs[unknown as usize] = pivot.x;
+        }
         self.substitute_back(symbolic, rhs);
         Ok(())
     }
 
-    fn assemble(&mut self, symbolic: &Symbolic, values: &[S]) {
+    fn assemble(&mut self, symbolic: &Symbolic, values: &[S], rhs: impl Fn(usize) -> S) {
         assert_eq!(values.len(), symbolic.entries.len(), "one value for each entry of the pattern");
-        assert_eq!(self.entries.len(), symbolic.n + symbolic.fill(), "a factor of this pattern");
-        for (entry, &source) in self.entries.iter_mut().zip(&symbolic.source) {
-            *entry = values.get(source as usize).copied().unwrap_or_else(S::zero);
+        assert_eq!(self.lower.len(), symbolic.fill(), "a factor of this pattern");
+        let value = |source: u32| values.get(source as usize).copied().unwrap_or_else(S::zero);
+        let (diagonal, lower) = symbolic.source.split_at(symbolic.n);
+        for (entry, &source) in self.lower.iter_mut().zip(lower) {
+            *entry = value(source);
+        }
+        let sources = diagonal.iter().zip(&symbolic.order);
+        for (pivot, (&source, &unknown)) in self.pivots.iter_mut().zip(sources) {
+            let d = value(source);
+            *pivot = Pivot { d, magnitude: d.abs(), x: rhs(unknown as usize) };
         }
         for &(entry, slot) in &symbolic.repeated {
-            self.entries[slot as usize] += values[entry as usize];
-        }
-        for (magnitude, &d) in self.magnitude.iter_mut().zip(&self.entries) {
-            *magnitude = d.abs();
+            let slot = slot as usize;
+            if let Some(pivot) = self.pivots.get_mut(slot) {
+                pivot.d += values[entry as usize];
+                pivot.magnitude = pivot.d.abs();
+            } else {
+                self.lower[slot - symbolic.n] += values[entry as usize];
+            }
         }
     }
 
-    /// Eliminates column by column; with `RHS` the right side as well.
-    fn eliminate<const RHS: bool>(
-        &mut self,
-        symbolic: &Symbolic,
-        rhs: &mut [S],
-    ) -> Result<(), ZeroPivot> {
-        let (diagonal, lower) = self.entries.split_at_mut(symbolic.n);
-        let mut columns = Columns::new(symbolic, lower, &mut self.work);
-        let mut later = Later { diagonal, magnitude: &mut self.magnitude, rhs };
-        let ends = symbolic.column.windows(2).zip(&symbolic.order);
-        for (k, (inverse, (ends, &unknown))) in self.inverse.iter_mut().zip(ends).enumerate() {
-            let (d, magnitude) = (later.diagonal[k], later.magnitude[k]);
+    /// Eliminates column by column, the right side as well.
+    fn eliminate(&mut self, symbolic: &Symbolic) -> Result<(), ZeroPivot> {
+        let mut columns = Columns::new(symbolic, &mut self.lower, &mut self.work);
+        let ends = symbolic.column.windows(2);
+        for (k, (inverse, ends)) in self.inverse.iter_mut().zip(ends).enumerate() {
+            let Pivot { d, magnitude, x } = self.pivots[k];
             *inverse = S::one() / d;
-            if !(trusted(d, magnitude) && d.is_finite() && inverse.is_finite()) {
+            // derivatives of d that are not finite show in those of 1 / d
+            if !(trusted(d, magnitude) && inverse.is_finite()) {
                 let ratio = (d / magnitude).least_magnitude();
-                return Err(ZeroPivot { index: unknown as usize, ratio });
+                return Err(ZeroPivot { index: symbolic.order[k] as usize, ratio });
             }
-            let x = if RHS { later.rhs[unknown as usize] } else { S::zero() };
-            columns.eliminate::<RHS>(ends[1] - ends[0], *inverse, x, &mut later);
+            columns.eliminate(ends[1] - ends[0], *inverse, x, &mut self.pivots);
         }
         Ok(())
     }
@@ -138,7 +145,7 @@ impl<S: Real> Factor<S> {
     pub fn solve(&self, symbolic: &Symbolic, rhs: &mut [S]) {
         let n = symbolic.n;
         assert_eq!(rhs.len(), n, "one right side for each unknown");
-        let lower = &self.entries[n..];
+        let lower = &self.lower;
         for (k, &i) in symbolic.order.iter().enumerate() {
             let x = rhs[i as usize];
             let range = symbolic.range(k);
@@ -151,16 +158,16 @@ impl<S: Real> Factor<S> {
 
     /// Solves D Lᵀ x = `rhs` in place.
     fn substitute_back(&self, symbolic: &Symbolic, rhs: &mut [S]) {
-        let (mut lower, mut unknowns) = (&self.entries[symbolic.n..], &symbolic.unknown[..]);
+        let (mut lower, mut unknowns) = (&self.lower[..], &symbolic.unknown[..]);
         let columns = symbolic.column[..symbolic.n].iter().zip(&symbolic.order).zip(&self.inverse);
         for ((&start, &unknown), &inverse) in columns.rev() {
-            let mut x = rhs[unknown as usize] * inverse;
             let (column, rows);
             (lower, column) = lower.split_at(start as usize);
             (unknowns, rows) = unknowns.split_at(start as usize);
+            let mut x = rhs[unknown as usize] * inverse;
             // the first row is the unknown found last: to wait for it last shortens the chain
-            for (&l, &j) in column.iter().zip(rows).rev() {
-                x -= l * rhs[j as usize];
+            for k in (0..rows.len().min(column.len())).rev() {
+                x -= column[k] * rhs[rows[k] as usize];
             }
             rhs[unknown as usize] = x;
         }
@@ -184,14 +191,14 @@ impl<S: Real> Factor<S> {
     /// The unknown whose pivot was cancelled most, and its ratio |pivot| / (|a| + Σ |l² d|): 1 means
     /// nothing was lost, 1e-10 that ten digits were. `None` without unknowns.
     pub fn cancellation(&self, symbolic: &Symbolic) -> Option<(usize, f64)> {
-        let ratios = self.entries.iter().zip(&self.magnitude).map(|(&d, &m)| d / m);
+        let ratios = self.pivots.iter().map(|pivot| pivot.d / pivot.magnitude);
         let worst = ratios.map(S::least_magnitude).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
         worst.map(|(k, ratio)| (symbolic.order[k] as usize, ratio))
     }
 
     /// The pivots D with their unknowns, in elimination order; their signs are the inertia of A.
     pub fn pivots<'a>(&'a self, symbolic: &'a Symbolic) -> impl Iterator<Item = (usize, S)> + 'a {
-        symbolic.order.iter().zip(&self.entries).map(|(&i, &d)| (i as usize, d))
+        symbolic.order.iter().zip(&self.pivots).map(|(&i, pivot)| (i as usize, pivot.d))
     }
 }
 

@@ -32,10 +32,10 @@ pub struct Symbolic {
     pub(super) row: Vec<u32>,
     /// The same row in the numbering of the caller.
     pub(super) unknown: Vec<u32>,
-    /// Where products of rows a < b of a column land, counted from the end of that column in L, column
-    /// by column:
-    /// one place per product for a short column, (first, length) of each run for a long one.
-    pub(super) update: Vec<u32>,
+    /// Column by column: its rows, then where products of its rows a < b land, counted from the end of
+    /// that column in L: one place per product for a short column, (first, length) of each run for a
+    /// long one.
+    pub(super) plan: Vec<u32>,
 }
 
 impl Symbolic {
@@ -76,7 +76,7 @@ impl Symbolic {
                 _ => repeated.push((index(entry), slot)),
             }
         }
-        let update = updates(n, &column, &row);
+        let plan = plan(n, &column, &row);
         Self {
             n,
             order: order.iter().map(|&i| index(i)).collect(),
@@ -86,7 +86,7 @@ impl Symbolic {
             unknown: row.iter().map(|&r| index(order[r as usize])).collect(),
             column,
             row,
-            update,
+            plan,
         }
     }
 
@@ -171,23 +171,24 @@ fn position(k: usize, wanted: u32, column: &[u32], row: &[u32]) -> usize {
     start + row[start..end].partition_point(|&r| r < wanted)
 }
 
-/// Where the products of each column land.
-fn updates(n: usize, column: &[u32], row: &[u32]) -> Vec<u32> {
-    let mut update = Vec::new();
+/// The rows of each column and where its products land.
+fn plan(n: usize, column: &[u32], row: &[u32]) -> Vec<u32> {
+    let mut plan = Vec::new();
     let mut places = Vec::new();
     for k in 0..n {
         let (first, end) = (column[k] as usize, column[k + 1] as usize);
         let pattern = &row[first..end];
+        plan.extend_from_slice(pattern);
         for (a, &j) in pattern.iter().enumerate() {
             landing(j as usize, &pattern[a + 1..], column, row, end, &mut places);
             if pattern.len() <= SHORT {
-                update.extend_from_slice(&places);
+                plan.extend_from_slice(&places);
             } else {
-                push_runs(&places, &mut update);
+                push_runs(&places, &mut plan);
             }
         }
     }
-    update
+    plan
 }
 
 /// Positions of `rows` in column j, counted from `base`.
@@ -210,11 +211,11 @@ fn landing(
     }
 }
 
-fn push_runs(places: &[u32], update: &mut Vec<u32>) {
+fn push_runs(places: &[u32], plan: &mut Vec<u32>) {
     let mut rest = places;
     while let Some(&first) = rest.first() {
         let length = rest.iter().zip(first..).take_while(|(&place, next)| place == *next).count();
-        update.extend([first, index(length)]);
+        plan.extend([first, index(length)]);
         rest = &rest[length..];
     }
 }

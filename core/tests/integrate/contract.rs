@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 /// An oscillator that carries ∫ 1e6 y² dt as a quadrature.
 struct WithQuadrature;
 
-impl System for WithQuadrature {
+impl FirstOrder for WithQuadrature {
     type Stop = String;
     fn len(&self) -> usize {
         3
@@ -38,7 +38,7 @@ struct OnCircle {
     calls: usize,
 }
 
-impl System for OnCircle {
+impl FirstOrder for OnCircle {
     type Stop = String;
     fn len(&self) -> usize {
         2

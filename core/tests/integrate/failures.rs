@@ -125,7 +125,7 @@ struct Stops {
     in_rate: bool,
 }
 
-impl System for Stops {
+impl FirstOrder for Stops {
     type Stop = String;
     fn len(&self) -> usize {
         1
@@ -152,7 +152,7 @@ fn a_system_that_stops_is_a_failure_at_once() {
     for in_rate in [true, false] {
         for method in [0.3, 0.4] {
             let outcome = run(&Rk4::new(method), Stops { in_rate }, (0.0, 2.0), &mut [0.0]);
-            assert_eq!(cause(outcome), Cause::System("the crank locks".into()));
+            assert_eq!(cause(outcome), Cause::Equations("the crank locks".into()));
         }
         let method = Rk45 { max_step: 0.3, ..Rk45::default() };
         let failure = run(&method, Stops { in_rate }, (0.0, 2.0), &mut [0.0]).unwrap_err();

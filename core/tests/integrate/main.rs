@@ -6,7 +6,7 @@ mod failures;
 mod order;
 mod scipy;
 
-use kempe::integrate::{Failure, Flow, Method, Statistics, Step, System};
+use kempe::integrate::{Failure, FirstOrder, Flow, Method, Statistics, Step};
 
 /// A system by closure, without any stop.
 struct Plain<F> {
@@ -14,7 +14,7 @@ struct Plain<F> {
     f: F,
 }
 
-impl<F: FnMut(f64, &[f64], &mut [f64])> System for Plain<F> {
+impl<F: FnMut(f64, &[f64], &mut [f64])> FirstOrder for Plain<F> {
     type Stop = String;
     fn len(&self) -> usize {
         self.len
@@ -31,7 +31,7 @@ fn plain<F: FnMut(f64, &[f64], &mut [f64])>(len: usize, f: F) -> Plain<F> {
 
 type Outcome = Result<Statistics, Failure<String>>;
 
-fn run<Y: System<Stop = String>>(
+fn run<Y: FirstOrder<Stop = String>>(
     method: &impl Method,
     mut system: Y,
     span: (f64, f64),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,19 +9,26 @@ import typer
 from rich.text import Text
 
 from kempe.cli import figures
-from kempe.cli.arguments import Settings, assembled, read_case
+from kempe.cli.arguments import Settings
 from kempe.cli.console import answers
-from kempe.errors import ModelError
+from kempe.cli.solved import CaseOrSolution, results_folder, solved
 
 if TYPE_CHECKING:
     from kempe.plot import Page
     from kempe.solution import Solution
 
+EXAMPLES = """Examples:
+
+  kempe plot four_bar.toml
+
+  kempe plot out/four_bar/solution.npz --figure reactions_C --format pdf
+
+  kempe plot four_bar.toml --index-base 0 -o figures
+"""
+
 
 def plot(  # noqa: PLR0917 - typer tells options from arguments by their annotations
-    file: Annotated[
-        Path, typer.Argument(metavar="FILE", help="A case (TOML, JSON) or a solution (npz).")
-    ],
+    file: CaseOrSolution,
     names: Annotated[
         list[str] | None,
         typer.Option(
@@ -44,33 +50,15 @@ def plot(  # noqa: PLR0917 - typer tells options from arguments by their annotat
 
     wanted = figures.formats(form)
     console = answers()
-    for folder, solution in list(_solutions(file, settings, output)):
+    for analysis, solution in list(solved(file, settings)):
         chosen = _chosen(solution, pages(solution, index_base), names or [])
-        for path in save(chosen, folder, wanted):
+        for path in save(chosen, _folder(file, output, analysis), wanted):
             console.print(Text(str(path)))
 
 
-def _solutions(
-    file: Path, settings: list[str] | None, output: Path | None
-) -> Iterator[tuple[Path, Solution]]:
-    """Solutions with the folders for their figures, which are those of ``kempe run``."""
-    if file.suffix.lower() == ".npz":
-        from kempe.archive import load_solution
-
-        if settings:
-            raise ModelError("--set changes a case; a solution stays as it was computed")
-        yield output or file.parent / "figures", load_solution(file)
-        return
-    case = read_case(file, settings)
-    if not case.analyses:
-        raise ModelError(f"{file} asks for no analysis", hint="add one, as [analyses.release]")
-    apart = len(case.analyses) > 1
-    for name, solution in case.each(start=assembled(case)):
-        if output is None:
-            folder = Path("out") / file.stem
-            yield (folder / name if apart else folder) / "figures", solution
-        else:
-            yield output / name if apart else output, solution
+def _folder(file: Path, output: Path | None, analysis: str) -> Path:
+    """Beside the results of the analysis, or in the folder that was named."""
+    return results_folder(file) / analysis / "figures" if output is None else output / analysis
 
 
 def _chosen(solution: Solution, known: list[Page], names: list[str]) -> list[Page]:

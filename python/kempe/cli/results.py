@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from kempe.cli.animate import Form
     from kempe.solution import Solution
 
 FILES = ("solution.npz", "solution.csv", "summary.json")
@@ -21,8 +22,9 @@ def write_results(
     *,
     index_base: int = 1,
     with_figures: bool = True,
+    video: Form | None = None,
 ) -> list[Path]:
-    """Solution, table, figures and summary, which lists them all; returns the files.
+    """Solution, table, drawings, figures and summary, which lists them all; returns the files.
 
     The summary comes last, as it tells of what is there.
 
@@ -31,17 +33,21 @@ def write_results(
         summary: of the solution.
         folder: where to.
         index_base: number of the first body in figures.
-        with_figures: whether to draw any.
+        with_figures: whether to draw figures.
+        video: a video to make besides the page that plays the motion.
 
     Raises:
         FileError: a file cannot be written.
     """
     from kempe import files
+    from kempe.cli.drawings import write_drawings
 
     data, text, told = (folder / name for name in FILES)
     solution.save(data)
     solution.to_csv(text)
     written = [data, text, told]
+    if with_figures or video is not None:
+        written += write_drawings(solution, folder, video)
     if with_figures:
         from kempe.plot import pages, save
 

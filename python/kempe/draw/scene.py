@@ -6,7 +6,6 @@ format.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
@@ -15,7 +14,7 @@ import numpy as np
 from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
 from kempe.draw import channels, sampling, shapes
-from kempe.draw.numbers import plain, rounded
+from kempe.draw.numbers import plain, round_below, rounded
 from kempe.errors import ModelError
 from kempe.motion import Motion
 from kempe.names import unknown
@@ -101,12 +100,6 @@ def _reaction_scale(reactions: Floats, size: float) -> dict[str, float | None]:
     unit = round_below(largest / 2.0) if largest > 0.0 else 1.0
     length = _LONGEST_ARROW * size * (unit / largest if largest > 0.0 else 1.0)
     return {"force": unit, "length": rounded(length)}
-
-
-def round_below(value: float) -> float:
-    """The largest of 1, 2, 5, 10, 20, 50 … that is not above a positive value."""
-    power = float(f"1e{math.floor(math.log10(value))}")
-    return next((step * power for step in (5.0, 2.0) if step * power <= value), power)
 
 
 def playback_rate(duration: float) -> float:

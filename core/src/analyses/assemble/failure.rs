@@ -5,6 +5,7 @@ use super::placement::Gap;
 use super::request::{Request, Wish};
 use crate::analyses::Mobility;
 use crate::elements::Constraint;
+use crate::equations::{constraints, kinematics};
 use crate::model::Model;
 use std::collections::VecDeque;
 use std::fmt;
@@ -49,10 +50,44 @@ pub(super) fn open(
     q: &[f64],
     gap: Option<&Gap>,
 ) -> Failure {
+    if let Some(failure) = undefined(model, request.t, q) {
+        return failure;
+    }
     match gap {
         Some(gap) => dyad_open(model, request, gap),
         None => stays_open(model, request, &closing.phi(q)),
     }
+}
+
+/// A constraint whose law has no finite value or derivative at a position.
+pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
+    if !q.iter().all(|q| q.is_finite()) {
+        return None; // then the position is at fault, not a law
+    }
+    let motions = kinematics::at_rest(q);
+    let m = model.layout.n_rows;
+    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+    constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+    let mut slope = vec![0.0; m];
+    let mut entries = vec![0.0; model.layout.n_entries];
+    constraints::jacobian(model, &motions, t, &mut entries);
+    for ((row, _), entry) in model.layout.positions().zip(entries) {
+        slope[row] += entry.abs();
+    }
+    slope.iter_mut().zip(&rate).for_each(|(slope, rate)| *slope += rate.abs());
+    let lacks = |values: &[f64], what| {
+        let row = values.iter().position(|x| !x.is_finite())?;
+        Some((&model.constraints[model.layout.owner(row).0], what))
+    };
+    let (item, what) = lacks(&phi, "value").or_else(|| lacks(&slope, "derivative"))?;
+    let (kind, name) = (item.group.singular(), &item.name);
+    Some(Failure {
+        fault: Fault::Open,
+        name: name.clone(),
+        gap: 0.0,
+        message: format!("the law of {kind} {name} has no finite {what} at t = {t} s"),
+        hint: "change the law, or start at a time and position where it has one".to_string(),
+    })
 }
 
 fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
@@ -128,7 +163,7 @@ fn asked(model: &Model, set: &[Wish]) -> String {
     format!("with {} ", set.iter().map(one).collect::<Vec<_>>().join(", "))
 }
 
-/// Six significant digits without trailing zeros.
+/// Six decimals without trailing zeros.
 fn trimmed(x: f64) -> String {
     let rounded = format!("{x:.6}").parse::<f64>().unwrap_or(x);
     format!("{rounded}")

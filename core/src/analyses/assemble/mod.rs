@@ -7,15 +7,18 @@
 mod closing;
 mod dyad;
 mod failure;
+mod hanging;
 mod placement;
 mod report;
 mod request;
+mod slides;
 mod turns;
 mod velocities;
 mod wishes;
 
 pub use closing::{size, Closing};
 pub use failure::{Failure, Fault};
+pub use hanging::hang;
 pub use placement::{place, Dyad, Gap, Placement};
 pub use report::{Mode, Report};
 pub use request::{wishes, Request, Wish};
@@ -47,6 +50,9 @@ pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box
     let mut report = Report { iterations, ..Report::default() };
     if request.state.is_none() {
         report.warnings = turns::relax(model, &asked, &mut q);
+    }
+    if let Some(failure) = failure::undefined(model, request.t, &q) {
+        return Err(Box::new(failure));
     }
     let mobility = mobility(model, request.t, &q);
     if !mobility.redundant.is_empty() && !model.allow_redundancy {
@@ -113,6 +119,13 @@ fn close(
     asked: &Wishes,
     closing: &mut Closing<'_>,
 ) -> Result<(Vec<f64>, Vec<Record>), Box<Failure>> {
+    if request.from_guess {
+        let mut q = given(asked).unwrap_or_else(|| hang(model, asked));
+        return match closing.close(&mut q) {
+            (history, true) => Ok((q, history)),
+            _ => Err(Box::new(failure::open(closing.model(), request, closing, &q, None))),
+        };
+    }
     if let Some(mut q) = given(asked) {
         let (history, closed) = closing.close(&mut q);
         if closed {
@@ -187,7 +200,7 @@ fn velocities(model: &Model, request: &Request, q: &[f64]) -> Result<Vec<f64>, B
     }
     let extended = Model::new(&Arc::new(model.blueprint.holding(&drivers)), &model.parameters);
     let left = velocities::project(&extended, request.t, q, &mut v);
-    if left > 1e-8 {
+    if !(left <= 1e-8 && v.iter().all(|v| v.is_finite())) {
         return Err(Box::new(failure::rates(model, request)));
     }
     Ok(v)

@@ -1,8 +1,7 @@
 //! What is asked of the coordinates before assembly: `set` (held exactly) and `guess` (approached).
 
 use crate::elements::{BodyId, Constraint, Coordinate};
-use crate::equations::kinematics;
-use crate::model::Model;
+use crate::model::{Dependence, Model};
 
 /// Values asked for, by body (ground first) and coordinate x, y, angle.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,7 +64,12 @@ fn driven(
     let element = match &item.law {
         None => item.element.clone(),
         Some(law) => {
-            let motions = kinematics::at_rest(&vec![f64::NAN; model.layout.n_q]);
+            let mut depends = Dependence::default();
+            law.map(&mut |tape| depends.add(tape));
+            if !depends.bodies.is_empty() {
+                return None;
+            }
+            let motions = [];
             let values = crate::equations::at(&model.parameters, &motions, t);
             law.map(&mut |tape| tape.evaluate(&values))
         }

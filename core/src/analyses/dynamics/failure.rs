@@ -74,7 +74,7 @@ impl Reason {
     ) -> Self {
         let t = failure.t;
         let (message, hint) = match failure.cause {
-            Cause::System((at, singular)) => return Self::singular(model, at, singular),
+            Cause::Equations((at, singular)) => return Self::singular(model, at, singular),
             Cause::Argument { name, value, must } => {
                 return Self::Option { name, message: format!("{name}: {value}; must be {must}") }
             }

@@ -35,7 +35,7 @@ pub struct Statistics {
 }
 
 /// The outcome of forward dynamics.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run {
     /// Reported states.
     pub trajectory: Trajectory,
@@ -60,6 +60,7 @@ pub fn dynamics(
     mut watch: impl FnMut(f64) -> Flow,
 ) -> Result<Run, Box<Failure>> {
     let clock = Instant::now();
+    options.check(model, start).map_err(|reason| Failure { reason, run: Run::default() })?;
     let mut system = Equations { model, workspace: Workspace::new(model), gains: options.gains() };
     let (t0, t_end) = (options.t_start.unwrap_or(start.t), options.t_end);
     let mut recorder = Recorder::new(model, options.output, t0, t_end, options.dense_output);
@@ -87,7 +88,8 @@ fn finish(
     let Recorder { mut trajectory, dense, .. } = recorder;
     let reported = trajectory.evaluate(model, &mut workspace, watch);
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
-    let rows = if n == 0 { trajectory.t.len() } else { trajectory.a.len() / n };
+    let (Ok(rows) | Err((rows, ..))) = reported;
+    let complete = rows == trajectory.t.len();
     trajectory.truncate(rows, n, m);
     let took = match &outcome {
         Ok(statistics) => *statistics,
@@ -100,13 +102,12 @@ fn finish(
         factorisations: took.evaluations + rows,
         seconds: clock.elapsed().as_secs_f64(),
     };
-    let reached =
-        outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached) && reported == Ok(Flow::Continue);
+    let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached) && complete;
     let run = Run { trajectory, dense, statistics, reached };
     let reason = match (outcome, reported) {
         (Ok(_), Ok(_)) => return Ok(run),
         (Err(failure), _) => Reason::from_integrator(model, failure),
-        (_, Err((t, singular))) => Reason::singular(model, t, singular),
+        (_, Err((_, t, singular))) => Reason::singular(model, t, singular),
     };
     Err(Box::new(Failure { reason, run }))
 }

@@ -1,7 +1,10 @@
 //! Options of forward dynamics.
 
+use super::Reason;
+use crate::analyses::State;
 use crate::equations::Gains;
 use crate::integrate::{Atol, Rk4, Rk45};
+use crate::model::Model;
 
 /// The scheme of integration.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,4 +70,28 @@ impl Options {
             Stabilization::Baumgarte(gains) => gains,
         }
     }
+
+    /// Refuses what no integration can begin with. The method checks its own options.
+    pub(super) fn check(&self, model: &Model, start: &State) -> Result<(), Reason> {
+        if let Output::Every(h) = self.output {
+            require("output_step", h, h > 0.0 && h.is_finite(), "> 0 and finite")?;
+        }
+        if let Stabilization::Baumgarte(Gains { alpha, beta }) = self.stabilization {
+            require("alpha", alpha, alpha >= 0.0 && alpha.is_finite(), ">= 0 and finite")?;
+            require("beta", beta, beta >= 0.0 && beta.is_finite(), ">= 0 and finite")?;
+        }
+        let n = model.layout.n_q;
+        let must = format!("as long as the coordinates of the model, {n}");
+        for (name, length) in [("q", start.q.len()), ("v", start.v.len())] {
+            require(name, length as f64, length == n, &must)?;
+        }
+        Ok(())
+    }
+}
+
+fn require(name: &'static str, value: f64, holds: bool, must: &str) -> Result<(), Reason> {
+    if holds {
+        return Ok(());
+    }
+    Err(Reason::Option { name, message: format!("{name}: {value}; must be {must}") })
 }

@@ -125,30 +125,31 @@ impl<'a> Recorder<'a> {
 }
 
 impl Trajectory {
-    /// Fills accelerations and multipliers at every reported state, by γ, never γ̂. `watch` may end
-    /// it early.
+    /// Fills accelerations and multipliers at every reported state, by γ, never γ̂, and gives the
+    /// number of rows filled: fewer than all if `watch` ended it.
     ///
     /// # Errors
-    /// The first time at which the equations of motion are singular; what comes before is filled.
+    /// The first row, and its time, at which the equations of motion are singular; the rows before
+    /// are filled.
     pub fn evaluate(
         &mut self,
         model: &Model,
         workspace: &mut Workspace,
         mut watch: impl FnMut(f64) -> Flow,
-    ) -> Result<Flow, (f64, Singular)> {
+    ) -> Result<usize, (usize, f64, Singular)> {
         let n = model.layout.n_q;
         for (k, &t) in self.t.iter().enumerate() {
             if watch(t) == Flow::Stop {
-                return Ok(Flow::Stop);
+                return Ok(k);
             }
             let row = k * n..(k + 1) * n;
             let (q, v) = (&self.q[row.clone()], &self.v[row]);
             let gains = Gains::default();
-            workspace.accelerate(model, t, q, v, gains).map_err(|singular| (t, singular))?;
+            workspace.accelerate(model, t, q, v, gains).map_err(|singular| (k, t, singular))?;
             self.a.extend_from_slice(workspace.a());
             self.lam.extend_from_slice(workspace.lam());
         }
-        Ok(Flow::Continue)
+        Ok(self.t.len())
     }
 
     /// Keeps the first `count` rows.

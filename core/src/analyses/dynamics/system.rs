@@ -1,7 +1,7 @@
 //! The equations of motion as a first-order system y = (q, v, work).
 
 use crate::equations::{Gains, Singular, Workspace};
-use crate::integrate::System;
+use crate::integrate::FirstOrder;
 use crate::model::Model;
 
 /// Works that are integrated beside the motion: dissipated, of drivers, of applied forces.
@@ -14,7 +14,7 @@ pub(super) struct Equations<'a> {
     pub gains: Gains,
 }
 
-impl System for Equations<'_> {
+impl FirstOrder for Equations<'_> {
     type Stop = (f64, Singular);
 
     fn len(&self) -> usize {
@@ -39,7 +39,7 @@ impl System for Equations<'_> {
         }
         dy[..n].copy_from_slice(v);
         dy[n..2 * n].copy_from_slice(self.workspace.a());
-        let powers = self.workspace.powers(self.model, t, v);
+        let powers = self.workspace.powers(self.model, v);
         dy[2 * n..].copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
         Ok(())
     }

@@ -1,11 +1,12 @@
 //! Coordinate driver (Haug 3.5.1, 3.5.2): a coordinate of a body follows a law.
 //!
-//! Φ = c - value(t), with c one of x, y, φ. The law may use t and the positions of other bodies.
+//! Φ = c - value(t), with c one of x, y, φ, measured in the frame of ground: what drives the body
+//! stands on ground and presses against it. The law may use t and the positions of other bodies.
 
 use crate::elements::{
-    element, Attachment, BodyId, Coordinate, CoordinateOf, Equation, Joint, Side,
+    element, Attachment, BodyId, Coordinate, CoordinateOf, Equation, Formula, Joint, Side,
 };
-use crate::math::{Local, Pose, Real, Twist};
+use crate::math::{Local, Pose, Real};
 
 element! {
     /// Coordinate driver: x, y or angle of a body is a given function of time, Φ = coordinate - value
@@ -26,6 +27,12 @@ impl CoordinateDriver {
 }
 
 impl Joint<1> for CoordinateDriver {
+    const FORMULAS: [Formula; 1] = [Formula {
+        residual: "j.coordinate - value",
+        jacobian: ["0", "0", "0", "is_x", "is_y", "is_angle"],
+        gamma: "ddt(value)",
+    }];
+
     fn ends<S>(e: &CoordinateDriver<S>) -> [BodyId; 2] {
         [BodyId::GROUND, e.coordinate.body]
     }
@@ -35,21 +42,28 @@ impl Joint<1> for CoordinateDriver {
         [Equation { name: coordinate.name(), unit: coordinate.unit() }]
     }
 
-    fn residual<S: Real>(e: &CoordinateDriver<S>, _: &Pose<S>, j: &Pose<S>, _: S) -> [S; 1] {
-        [e.coordinate.coordinate.of(j, &Twist::zero()) - e.value]
+    fn residual<S: Real>(e: &CoordinateDriver<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [S; 1] {
+        let from_ground = i.rotation.inverse(j.r - i.r);
+        let measured = match e.coordinate.coordinate {
+            Coordinate::X | Coordinate::Vx => from_ground.x,
+            Coordinate::Y | Coordinate::Vy => from_ground.y,
+            Coordinate::Angle | Coordinate::Omega => j.angle - i.angle,
+        };
+        [measured - e.value]
     }
 
     fn attachment<S: Real>(_: &CoordinateDriver<S>, _: Side) -> Attachment<S> {
         Attachment { s: Local::zero(), axis: S::zero() }
     }
 
-    /// Closed form: a single one in the driven column.
-    fn jacobian<S: Real>(e: &CoordinateDriver<S>, _: &Pose<S>, _: &Pose<S>, _: S) -> [[S; 6]; 1] {
-        let driven = match e.coordinate.coordinate {
-            Coordinate::X | Coordinate::Vx => 3,
-            Coordinate::Y | Coordinate::Vy => 4,
-            Coordinate::Angle | Coordinate::Omega => 5,
-        };
-        [std::array::from_fn(|k| if k == driven { S::one() } else { S::zero() })]
+    /// Closed form: a one in the driven column; against it, the ground's columns.
+    fn jacobian<S: Real>(e: &CoordinateDriver<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [[S; 6]; 1] {
+        let (zero, one) = (S::zero(), S::one());
+        let arm = j.r - i.r;
+        [match e.coordinate.coordinate {
+            Coordinate::X | Coordinate::Vx => [-one, zero, arm.y, one, zero, zero],
+            Coordinate::Y | Coordinate::Vy => [zero, -one, -arm.x, zero, one, zero],
+            Coordinate::Angle | Coordinate::Omega => [zero, zero, -one, zero, zero, one],
+        }]
     }
 }

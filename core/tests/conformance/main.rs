@@ -1,0 +1,14 @@
+//! Every element of the catalogue, and the equations, against their definitions.
+//!
+//! A new element is covered by one sample in `samples.rs`.
+
+#[path = "../mechanisms/mod.rs"]
+mod mechanisms;
+
+mod constraints;
+mod energy;
+mod equilibrium;
+mod forces;
+mod mass;
+mod samples;
+mod tables;

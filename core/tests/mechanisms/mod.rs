@@ -1,0 +1,162 @@
+//! Mechanisms from text, for the tests that include this file; not every test uses all of it.
+#![allow(dead_code)]
+
+use kempe::analyses::assemble::{assemble, wishes, Failure, Report, Request, Wish};
+use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme};
+use kempe::analyses::State;
+use kempe::case::{read, Format};
+use kempe::integrate::{Atol, Flow, Rk45};
+use kempe::model::{build, Model, Value};
+
+/// The flagship, as users get it.
+pub const FOUR_BAR: &str = include_str!("../../../examples/four_bar.toml");
+
+/// Everything that is wrong with a case, one fault a line; empty if it builds.
+pub fn faults(text: &str) -> String {
+    let lines: Vec<String> = match read(&format!("kempe = 1\n{text}"), Format::Toml) {
+        Err(found) => {
+            found.iter().map(|d| format!("{}: {}", d.path.join("."), d.message)).collect()
+        }
+        Ok((case, _)) => match build(&case.definition, &[]) {
+            Err(found) => found.iter().map(ToString::to_string).collect(),
+            Ok(_) => Vec::new(),
+        },
+    };
+    lines.join("\n")
+}
+
+/// The model of a case; `text` goes without its first line `kempe = 1`.
+pub fn model(text: &str) -> Model {
+    with(text, &[])
+}
+
+/// The same with other values of parameters.
+pub fn with(text: &str, overrides: &[(&str, f64)]) -> Model {
+    let text =
+        if text.contains("kempe = 1") { text.to_string() } else { format!("kempe = 1\n{text}") };
+    let (case, _) = read(&text, Format::Toml).unwrap_or_else(|d| panic!("{d:#?}"));
+    let overrides: Vec<_> =
+        overrides.iter().map(|(name, x)| (name.to_string(), Value::from(*x))).collect();
+    build(&case.definition, &overrides).unwrap_or_else(|p| panic!("{p:#?}"))
+}
+
+/// Wishes written as in a file, such as ("crank.angle", "70*deg").
+pub fn asked(model: &Model, section: &str, written: &[(&str, &str)]) -> Vec<Wish> {
+    let written: Vec<_> =
+        written.iter().map(|(key, text)| (key.to_string(), Value::from(*text))).collect();
+    wishes(model, section, &written).unwrap_or_else(|p| panic!("{p:#?}"))
+}
+
+/// What assembly is asked for.
+pub fn request(model: &Model, set: &[(&str, &str)], guess: &[(&str, &str)]) -> Request {
+    Request {
+        set: asked(model, "set", set),
+        guess: asked(model, "guess", guess),
+        ..Request::default()
+    }
+}
+
+/// Assembles, or panics with what is wrong.
+pub fn start(model: &Model, set: &[(&str, &str)], guess: &[(&str, &str)]) -> (State, Report) {
+    assemble(model, &request(model, set, guess)).unwrap_or_else(|f| panic!("{f}"))
+}
+
+/// Fails to assemble.
+pub fn refused(model: &Model, set: &[(&str, &str)]) -> Box<Failure> {
+    assemble(model, &request(model, set, &[])).expect_err("must not assemble")
+}
+
+/// The flagship at its start.
+pub fn four_bar() -> (Model, State) {
+    let m = model(FOUR_BAR);
+    let guess = [("coupler.angle", "14*deg"), ("rocker.angle", "240*deg")];
+    let (state, _) = start(&m, &[("crank.angle", "70*deg")], &guess);
+    (m, state)
+}
+
+/// Options with the given tolerances.
+pub fn tolerances(t_end: f64, rtol: f64, atol: f64) -> Options {
+    let scheme = Scheme::Rk45(Rk45 { rtol, atol: Atol::Scalar(atol), ..Rk45::default() });
+    Options { scheme, dense_output: false, ..Options::new(t_end) }
+}
+
+/// Runs to the end, or panics with what is wrong.
+pub fn run(model: &Model, state: &State, options: &Options) -> Run {
+    dynamics(model, state, options, |_| Flow::Continue).unwrap_or_else(|f| panic!("{}", f.reason))
+}
+
+/// Output every `h`.
+pub fn every(h: f64, options: Options) -> Options {
+    Options { output: Output::Every(h), ..options }
+}
+
+/// Column of the coordinate `x`, `y` or `angle` of a body in q.
+pub fn column(model: &Model, body: &str, coordinate: usize) -> usize {
+    3 * (model.body(body).expect("a body").0 - 1) + coordinate
+}
+
+/// Φ at a state.
+pub fn residual(model: &Model, state: &State) -> Vec<f64> {
+    let mut phi = vec![0.0; model.layout.n_rows];
+    let motions = kempe::equations::kinematics::at_rest(&state.q);
+    kempe::equations::constraints::residual(model, &motions, state.t, &mut phi);
+    phi
+}
+
+/// Φ_q q̇ + Φ_t at a state.
+pub fn rate(model: &Model, state: &State) -> Vec<f64> {
+    let m = model.layout.n_rows;
+    let mut motions = Vec::new();
+    kempe::equations::kinematics::motions(&state.q, &state.v, &mut motions);
+    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+    kempe::equations::constraints::velocity_terms(
+        model, &motions, state.t, &mut phi, &mut rate, &mut gamma,
+    );
+    rate
+}
+
+/// Largest difference of two equally long slices.
+#[track_caller]
+pub fn worst(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).fold(0.0, |worst, (a, b)| {
+        assert!(a.is_finite() && b.is_finite(), "{a} {b}");
+        f64::max(worst, (a - b).abs())
+    })
+}
+
+/// Largest magnitude.
+pub fn largest(a: &[f64]) -> f64 {
+    worst(a, &vec![0.0; a.len()])
+}
+
+/// Asserts |a - b| <= tolerance, naming what it is.
+#[track_caller]
+pub fn close(what: &str, a: f64, b: f64, tolerance: f64) {
+    let error = (a - b).abs();
+    assert!(
+        error <= tolerance,
+        "{what}: {a} is not {b}: off by {error:.3e}, allowed {tolerance:.1e}"
+    );
+}
+
+/// Numbers without pattern in [-1, 1], reproducible.
+pub struct Random(u64);
+
+impl Random {
+    /// From a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+    /// The next.
+    pub fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+    /// Many.
+    pub fn many(&mut self, n: usize) -> Vec<f64> {
+        (0..n).map(|_| self.next()).collect()
+    }
+}

@@ -1,0 +1,87 @@
+"""A long run stops at once, and a kill never leaves a torn file."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import kempe as kp
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
+@pytest.mark.parametrize("output_step", [None, 100.0])
+def test_an_interruption_arrives_within_a_fifth_of_a_second(output_step: float | None) -> None:
+    case = kp.load(ROOT / "examples/four_bar.toml")
+    start = case.start()
+    sent: list[float] = []
+
+    def interrupt() -> None:
+        sent.append(time.monotonic())
+        signal.raise_signal(signal.SIGINT)
+
+    timer = threading.Timer(0.5, interrupt)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt) as caught:
+        kp.dynamics(case.model, start, t_end=1e6, output_step=output_step, dense_output=False)
+    took = time.monotonic() - sent[0]
+    solution = caught.value.solution  # type: ignore[attr-defined]
+    assert took < 0.2
+    assert not solution.success
+    assert 1 <= len(solution.t) == len(solution.a) == len(solution.lam)
+    assert np.isfinite(solution.q).all()
+
+
+WRITER = """
+import sys
+import kempe as kp
+case = kp.load(sys.argv[1])
+sol = kp.dynamics(case.model, case.start(), t_end=0.5, output_step=0.001)
+print("ready", flush=True)
+while True:
+    sol.save(sys.argv[2])
+    sol.to_csv(sys.argv[3])
+    case.save(sys.argv[4])
+"""
+
+
+@pytest.mark.parametrize("delay", [0.01, 0.05, 0.13, 0.29])
+def test_a_kill_during_a_save_leaves_no_torn_file(delay: float, tmp_path: Path) -> None:
+    npz, csv, toml = (tmp_path / name for name in ("s.npz", "s.csv", "c.toml"))
+    words = [str(ROOT / "examples/four_bar.toml"), str(npz), str(csv), str(toml)]
+    with subprocess.Popen(
+        [sys.executable, "-c", WRITER, *words], stdout=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "ready\n"
+        deadline = time.monotonic() + 30
+        while not toml.exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        time.sleep(delay)
+        process.kill()
+    assert len(kp.load_solution(npz).t) == 501
+    assert len(csv.read_text("utf-8").splitlines()) == 502
+    assert kp.load(toml).tree() == kp.load(ROOT / "examples/four_bar.toml").tree()
+
+
+@pytest.mark.parametrize("bad", [float("nan"), float("inf"), -float("inf")])
+def test_what_is_not_finite_is_refused_by_name(bad: float) -> None:
+    m = kp.Model("rod", gravity=(0, -9.81))
+    m.ground.points(A=(0, 0))
+    with pytest.raises(kp.ModelError, match=r"rod\.mass"):
+        m.bar("rod", mass=bad, length=1, ends=("A", "B"))
+    m.bar("rod", mass=1, length=1, ends=("A", "B"))
+    m.revolute("A", "ground.A", "rod.A")
+    with pytest.raises(kp.ModelError, match=r"rod\.angle"):
+        kp.assemble(m, set={"rod.angle": bad})
+    start = kp.assemble(m, set={"rod.angle": 0})
+    with pytest.raises(kp.ModelError, match="t_end"):
+        kp.dynamics(m, start, t_end=bad)
+    with pytest.raises(kp.ModelError, match="rtol"):
+        kp.dynamics(m, start, t_end=1, method=kp.RK45(rtol=bad))
