@@ -56,10 +56,11 @@ def reactions(
             draw(axes, motion.t, curves, Panel("T", "N·m", title.partition(",")[0], cut, legend))
             return axes
         prime = _PRIMES[frame]
+        dotted = {**style.SUM, "linestyle": ":", "linewidth": 1.1}
         curves = [
             Curve(f"$F_{{x{prime}}}$", force[..., 0], style.line(0)),
             Curve(f"$F_{{y{prime}}}$", force[..., 1], style.line(1)),
-            Curve("|F|", np.hypot(force[..., 0], force[..., 1]), {**style.SUM, "linestyle": ":", "linewidth": 1.1}),
+            Curve("|F|", np.hypot(force[..., 0], force[..., 1]), dotted),
         ]
         draw(axes, motion.t, curves, Panel("F", "N", title, cut, legend))
         return axes
