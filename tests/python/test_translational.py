@@ -13,13 +13,7 @@ from numpy.testing import assert_allclose
 FORMS = json.loads(
     (Path(__file__).parents[1] / "reference" / "closed_forms.json").read_text(encoding="utf-8")
 )
-SLIDER_CRANK = next(
-    found
-    for section in FORMS.values()
-    if isinstance(section, dict)
-    for name, found in section.items()
-    if name.startswith("slider_crank_r0.1_l0.3_")
-)
+SLIDER_CRANK = FORMS["slider_crank_r0.1_l0.3_x_dx_ddx_by_crank_deg"]
 
 
 def slider_crank(**guide: tuple[float, float]) -> kp.Model:

@@ -9,7 +9,6 @@ import numpy as np
 
 from kempe.arrays import Floats
 from kempe.plot import style
-from kempe.plot.linkage import outline
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -104,3 +103,11 @@ def state_at(solution: Solution, k: int) -> State:
     from kempe.state import State
 
     return State(solution.model, float(solution.t[k]), solution.q[k], solution.v[k])
+
+
+def outline(state: State, name: str) -> Floats:
+    """The corners of a body, closed where there are more than two, (n, 2), m."""
+    body = state.body(name)
+    names = list(state.model.bodies[name].points)
+    corners = [body.point(point).position for point in names] or [body.r]
+    return np.array([*corners, corners[0]] if len(corners) > 2 else corners)
