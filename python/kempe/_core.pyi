@@ -78,8 +78,8 @@ class Model:
         ``{"title", "gravity": [x, y], "parameters": {…}, "n_q", "n_rows",
         "bodies": [{"name", "type", "mass", "inertia", "center": [x, y], "points": {"B": [x, y]}}],
         "constraints": [{"name", "group": "joints" | "drivers", "type", "i", "j",
-        "point_i": [x, y], "point_j": [x, y], "rows": [start, stop],
-        "equations": [{"name", "unit"}]}],
+        "point_i": [x, y], "point_j": [x, y], "axis_i": angle, "axis_j": angle,
+        "rows": [start, stop], "equations": [{"name", "unit"}]}],
         "forces": [{"name", "type", "i", "j", "parts": ["stiffness", "damping"]}]}``; the first
         body is ground.
         """

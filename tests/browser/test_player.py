@@ -6,7 +6,7 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
-from draw.mechanisms import HOSTILE, PLAIN, moving, pendulum
+from draw.mechanisms import HOSTILE, PLAIN, moving, pendulum, slider_crank
 from PIL import Image
 
 SIZES = [(1600, 900), (600, 800)]
@@ -277,6 +277,20 @@ def test_a_single_state_stands_still(opened: Any, solutions: dict[str, kp.Soluti
     watched.page.keyboard.press(" ")
     assert watched.state()["playing"] is False
     assert len(np.unique(picture(watched).reshape(-1, 3), axis=0)) > 20
+
+
+def test_a_slider_moves(opened: Any) -> None:
+    watched = opened(slider_crank(), 1280, 720)
+    box = watched.page.locator("#drawing").bounding_box()
+    places = []
+    for t in (0.0, 0.1):
+        watched.page.evaluate(f"kempe.seek({t})")
+        watched.settle()
+        x, y = pins(watched)[3]
+        places.append((x, y))
+        red, green, _ = picture(watched)[int(y - box["y"]) - 9, int(x - box["x"])]
+        assert green > red + 15  # the green of body 3, beside the white pin of B
+    assert np.hypot(*np.subtract(*places)) > 20
 
 
 def test_a_plate_and_a_motion_without_interpolation(opened: Any) -> None:

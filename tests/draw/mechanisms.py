@@ -52,3 +52,17 @@ def pendulum(t_end: float = 1.0) -> kp.Solution:
     m.revolute("hinge", "ground.O", "plate.P")
     start = kp.assemble(m, set={"plate.angle": 0.0})
     return kp.dynamics(m, start, t_end=t_end, output_step=0.05)
+
+
+def slider_crank() -> kp.Solution:
+    m = kp.Model("slider-crank", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.bar("crank", mass=1, length=0.1, ends=("O", "A"))
+    m.bar("rod", mass=2, length=0.3, ends=("A", "B"))
+    m.body("slider", mass=3, inertia=0.01, points={"B": (0, 0)})
+    m.revolute("O", "ground.O", "crank.O")
+    m.revolute("A", "crank.A", "rod.A")
+    m.revolute("B", "rod.B", "slider.B")
+    m.translational("guide", "ground.O", "slider.B", axes=(0.3, 0.1))
+    start = kp.assemble(m, set={"crank.angle": 1.0, "crank.omega": 20.0})
+    return kp.dynamics(m, start, t_end=0.5, output_step=0.01)

@@ -8,7 +8,7 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
-from draw.mechanisms import HOSTILE, moving
+from draw.mechanisms import HOSTILE, moving, slider_crank
 from house.places import ROOT
 from kempe.draw import mp4
 from kempe.draw.frame import Frame
@@ -43,6 +43,20 @@ def test_frames_differ_and_what_stands_still_does_not(four_bar: kp.Solution) -> 
     assert first.shape == (360, 640, 4)
     assert (first != later).any()
     np.testing.assert_array_equal(first, frame.pixels(0))  # nothing is left behind
+
+
+def test_a_slider_moves_between_rails_that_stand_still() -> None:
+    solution = slider_crank()
+    frame = Frame(kp.scene(solution))
+    colours = []
+    for k in (0, 60):
+        state = solution(float(np.linspace(0, 0.5, 241)[k]))
+        place = state.body("slider").point("B").position
+        x, y = frame.axes.transData.transform(place)
+        pixels = np.array(frame.pixels(k))
+        colours.append(pixels[pixels.shape[0] - 1 - int(y) - 14, int(x), :3])
+    assert (colours[0] == colours[1]).all()
+    assert colours[0][1] > colours[0][0] + 40  # the green of body 3
 
 
 def test_still_pictures_with_any_name(hostile: kp.Solution, tmp_path: Path) -> None:

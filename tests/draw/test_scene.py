@@ -8,7 +8,7 @@ import jsonschema
 import kempe as kp
 import numpy as np
 import pytest
-from draw.mechanisms import moving, pendulum
+from draw.mechanisms import moving, pendulum, slider_crank
 from kempe.draw.geometry import placed, smooth
 from kempe.draw.numbers import plain, round_below
 from kempe.draw.scene import playback_rate
@@ -29,7 +29,7 @@ def pins(scene: dict[str, Any], side: int) -> np.ndarray:
 
 
 def test_it_fits_its_schema_and_is_json(four_bar: kp.Solution, hostile: kp.Solution) -> None:
-    for drawn in (four_bar, hostile, four_bar.initial, pendulum()):
+    for drawn in (four_bar, hostile, four_bar.initial, pendulum(), slider_crank()):
         told = json.loads(json.dumps(kp.scene(drawn), allow_nan=False))
         jsonschema.validate(told, SCHEMA)
 
@@ -89,6 +89,19 @@ def test_without_dense_output_the_frames_are_outputs() -> None:
     assert kp.scene(solution, frames=5)["frames"]["t"] == [0.0, 0.25, 0.5, 0.75, 1.0]
 
 
+def test_where_reactions_have_no_answer_the_outputs_are_drawn(
+    four_bar: kp.Solution, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def no_answer(*_: object) -> None:
+        raise kp.SingularityError("dead point")
+
+    monkeypatch.setattr("kempe._core.evaluate", no_answer)
+    scene = kp.scene(four_bar)
+    np.testing.assert_allclose(scene["frames"]["t"], four_bar.t)
+    told = np.array(scene["frames"]["reactions"])[:, 2]
+    np.testing.assert_allclose(told, four_bar.constraint("C").force(on="rocker"), rtol=HALF_A_DIGIT)
+
+
 def test_interpolation_is_offered_where_it_cannot_be_seen(four_bar: kp.Solution) -> None:
     fine, coarse = kp.scene(four_bar), kp.scene(four_bar, frames=12)
     assert (fine["interpolation"], coarse["interpolation"]) == ("cubic", "none")
@@ -112,6 +125,20 @@ def test_bodies_are_drawn_by_their_shape(four_bar: kp.Solution) -> None:
 def test_a_spring_is_drawn_at_the_joint_of_its_bodies(four_bar: kp.Solution) -> None:
     (spring,) = kp.scene(four_bar.initial)["forces"]
     assert (spring["bodies"], spring["point"]) == ([0, 3], [9, 0])
+
+
+def test_a_slider_is_drawn_along_its_axis() -> None:
+    solution = slider_crank()
+    scene = kp.scene(solution)
+    assert [joint["slide"] is None for joint in scene["joints"]] == [True, True, True, False]
+    guide = scene["joints"][3]
+    assert guide["axes"] == [0.3, 0.1]
+    low, high = guide["slide"]
+    B = pins(scene, 1)[:, 3]
+    along = B @ [np.cos(0.3), np.sin(0.3)]
+    np.testing.assert_allclose([low, high], [along.min(), along.max()], rtol=1e-7)
+    assert high - low == pytest.approx(0.2, abs=1e-3)  # twice the crank
+    np.testing.assert_allclose(B @ [-np.sin(0.3), np.cos(0.3)], 0.0, atol=1e-6)
 
 
 def test_traces_are_points_that_move(four_bar: kp.Solution) -> None:

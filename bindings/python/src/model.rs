@@ -82,6 +82,8 @@ fn constraint(model: &Model, item: &ConstraintItem, rows: &std::ops::Range<usize
         "j": j,
         "point_i": pair(&item.element.attachment(Side::I).s),
         "point_j": pair(&item.element.attachment(Side::J).s),
+        "axis_i": item.element.attachment(Side::I).axis,
+        "axis_j": item.element.attachment(Side::J).axis,
         "rows": [rows.start, rows.end],
         "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
     })

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from kempe import files
 from kempe.arrays import Floats
-from kempe.draw.geometry import limits, placed, smooth, spiral, support
+from kempe.draw.geometry import limits, placed, smooth, spiral, support, turned
 from kempe.draw.numbers import round_below
 from kempe.draw.scene import Scene
 from kempe.plot import style
@@ -76,6 +76,8 @@ class Frame:
             self.axes.plot(*path.T, color=colour, linewidth=1.0, alpha=0.5, zorder=1)
         self._draw_length_scale()
         for joint in self._scene["joints"]:
+            if joint["slide"] is not None:
+                continue
             for body, point in zip(joint["bodies"], joint["points"], strict=True):
                 if body == 0:
                     self._draw_support(np.array(point))
@@ -109,6 +111,9 @@ class Frame:
         """Artists, each with what puts it at the poses of a frame."""
         for body in self._scene["bodies"][1:]:
             yield from self._body(body)
+        for joint in self._scene["joints"]:
+            if joint["slide"] is not None:
+                yield from self._slider(joint)
         for force in self._scene["forces"]:
             yield self._force(force)
         yield self._pins()
@@ -135,6 +140,28 @@ class Frame:
             line.set_marker("o")
         return line, lambda poses, _: line.set_data(*placed(poses[number], corners).T)
 
+    def _slider(self, joint: dict[str, Any]) -> Iterator[tuple[Artist, Any]]:
+        """A block of body j between two rails of body i."""
+        (i, j), points, axes = joint["bodies"], np.array(joint["points"]), joint["axes"]
+        half = np.array([3.0, 1.7]) * self._unit
+        low, high = joint["slide"][0] - 1.6 * half[0], joint["slide"][1] + 1.6 * half[0]
+        gap = 1.15 * half[1]
+        lines = np.array([[low, gap], [high, gap], [np.nan, np.nan], [low, -gap], [high, -gap]])
+        lines = points[0] + turned(lines, axes[0])
+        corners = points[1] + turned(half * [[-1, -1], [1, -1], [1, 1], [-1, 1]], axes[1])
+        colour = style.colour(j)
+        shade = style.colour(i) if i else style.GROUND
+        (rails,) = self.axes.plot([], [], color=shade, linewidth=1.0, zorder=2)
+        yield rails, lambda poses, _: rails.set_data(*placed(poses[i], lines).T)
+        look: dict[str, Any] = {
+            "facecolor": _tinted(colour),
+            "edgecolor": colour,
+            "linewidth": 1.4,
+            "zorder": 4,
+        }
+        (block,) = self.axes.fill(*corners.T, **look)
+        yield block, lambda poses, _: block.set_xy(placed(poses[j], corners))
+
     def _force(self, force: dict[str, Any]) -> tuple[Artist, Any]:
         (line,) = self.axes.plot([], [], color="#7A3DB8", linewidth=1.6, zorder=5)
         (i, j), point = force["bodies"], np.array(force["point"])
@@ -154,26 +181,36 @@ class Frame:
     def _pins(self) -> tuple[Artist, Any]:
         (pins,) = self.axes.plot([], [], "o", color="black", markersize=7, zorder=6)
         pins.set_markerfacecolor("white")
-        return pins, lambda _, places: pins.set_data(*places.T)
+        turning = [joint["slide"] is None for joint in self._scene["joints"]]
+        return pins, lambda _, places: pins.set_data(*places[turning].T)
 
     def _number(self, body: dict[str, Any]) -> tuple[Artist, Any]:
         number, middle = body["number"], np.mean(body["outline"], axis=0)
         rim = {"boxstyle": "circle,pad=0.25", "fc": "white", "ec": style.colour(number)}
         text = self.axes.text(0, 0, str(number), ha="center", va="center", zorder=7, bbox=rim)
         text.set_fontsize(8)
-        return text, lambda poses, _: text.set_position(tuple(placed(poses[number], middle)))
+        # Not over the pin of a body that is a spot.
+        above = np.array([0.0, 0.0 if len(body["outline"]) > 1 else 4.6 * self._unit])
+        return text, lambda poses, _: text.set_position(
+            tuple(placed(poses[number], middle) + above)
+        )
 
     def _name(self, k: int) -> tuple[Artist, Any]:
         joint = self._scene["joints"][k]
         text = self.axes.text(0, 0, shortened(joint["name"]), va="center", fontsize=11, zorder=8)
-        far = any(joint["bodies"] == force["bodies"] for force in self._scene["forces"])
+        springs = [force["bodies"] for force in self._scene["forces"]]
+        sliders = [one["bodies"][1] for one in self._scene["joints"] if one["slide"] is not None]
+        far = joint["bodies"] in springs or set(sliders) & set(joint["bodies"])
         room = (5.2 if far else 2.6) * self._unit
 
         def put(_: Floats, places: Floats) -> None:
             away = places[k] - places.mean(axis=0)
             if 0 in joint["bodies"]:
                 away = np.array([-1.0 if away[0] < 0.0 else 1.0, -0.3])
-            away /= np.hypot(*away) or 1.0
+            if joint["slide"] is not None:
+                away = np.array([0.0, -0.9])
+            else:
+                away /= np.hypot(*away) or 1.0
             text.set_position(tuple(places[k] + room * away))
             text.set_horizontalalignment(
                 "right" if away[0] < -0.3 else "left" if away[0] > 0.3 else "center"

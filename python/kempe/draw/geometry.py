@@ -22,6 +22,11 @@ def placed(poses: Floats, points: Floats | Sequence[float]) -> Floats:
     return found
 
 
+def turned(points: Floats, angle: float) -> Floats:
+    """Points (n, 2) turned about the origin by an angle, rad."""
+    return placed(np.array([0.0, 0.0, angle]), points)
+
+
 def smooth(poses: Floats, rates: Floats, t: Floats, pieces: int) -> Floats:
     """Poses of a body between its frames too, by Hermite's cubic polynomials, (n, 3).
 

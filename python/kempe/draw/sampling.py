@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
-from kempe.arrays import Floats
-from kempe.errors import ModelError
+from kempe.arrays import Floats, fixed
+from kempe.errors import KempeError, ModelError
 from kempe.motion import Motion
 from kempe.solution import Solution
 from kempe.state import State
@@ -44,7 +45,12 @@ def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int)
         return _at_outputs(drawn, count)
     if begin == end:
         count = 1
-    return drawn(np.linspace(begin, end, count))
+    motion = drawn(np.linspace(begin, end, count))
+    try:
+        _ = motion.lam
+    except KempeError:  # a solution may end in a position in which reactions have no answer
+        return _at_outputs(drawn, count)
+    return motion
 
 
 def _count(duration: float, numbers_per_frame: int) -> int:
@@ -54,10 +60,26 @@ def _count(duration: float, numbers_per_frame: int) -> int:
     return min(wished, MOST_FRAMES, affordable)
 
 
+class _Outputs(Motion):
+    """Some outputs of a solution, with what was computed there."""
+
+    def __init__(self, solution: Solution, kept: NDArray[np.intp]) -> None:
+        super().__init__(solution.model, solution.t[kept], solution.q[kept], solution.v[kept])
+        self._computed = fixed(solution.a[kept]), fixed(solution.lam[kept])
+
+    @property
+    def a(self) -> Floats:
+        return self._computed[0]
+
+    @property
+    def lam(self) -> Floats:
+        return self._computed[1]
+
+
 def _at_outputs(solution: Solution, count: int) -> Motion:
     order = np.argsort(solution.t, kind="stable")
     kept = order[np.unique(np.linspace(0, len(order) - 1, count).round().astype(int))]
-    return Motion(solution.model, solution.t[kept], solution.q[kept], solution.v[kept])
+    return _Outputs(solution, kept)
 
 
 def interpolation(drawn: Solution | State, motion: Motion, size: float) -> str:
@@ -71,7 +93,7 @@ def interpolation(drawn: Solution | State, motion: Motion, size: float) -> str:
         motion: the motion at the frames.
         size: of the drawing, m.
     """
-    if isinstance(drawn, State) or drawn.dense is None or len(motion.t) < 2:
+    if isinstance(drawn, State) or isinstance(motion, _Outputs) or len(motion.t) < 2:
         return "none"
     h = np.diff(motion.t)[:, None]
     q, v = motion.q, motion.v

@@ -58,7 +58,7 @@ def scene(
     model = solution_or_state.model
     motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model))
     bodies = [shapes.body(model, name) for name in model.all_bodies]
-    joints = [shapes.joint(model, name) for name in model.joints]
+    joints = [shapes.joint(motion, name) for name in model.joints]
     bounds = shapes.bounds(motion, bodies, joints)
     size = float(max(bounds[2:] - bounds[:2])) or 1.0
     reactions = _reactions(motion)

@@ -12,6 +12,8 @@ from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, Vector
 from kempe.draw.numbers import plain
 from kempe.motion import Motion
 
+#: Joints whose bodies slide on each other.
+SLIDES = ("translational",)
 #: Points of a body that are closer to a line than this share of its length lie on it.
 _STRAIGHT = 1e-9
 
@@ -29,15 +31,27 @@ def body(model: CompiledModel, name: str) -> dict[str, Any]:
     }
 
 
-def joint(model: CompiledModel, name: str) -> dict[str, Any]:
-    """A joint: name, type, the numbers of its bodies and its point on each."""
+def joint(motion: Motion, name: str) -> dict[str, Any]:
+    """A joint: name, type, the numbers of its bodies, its point and x axis on each, its slide."""
+    model = motion.model
     info = model.joints[name]
     return {
         "name": name,
         "type": info.type,
         "bodies": [model.all_bodies[info.i].number, model.all_bodies[info.j].number],
         "points": [_numbers(info.point_i), _numbers(info.point_j)],
+        "axes": plain(np.array([info.axis_i, info.axis_j])),
+        "slide": plain(_slide(motion, info)) if info.type in SLIDES else None,
     }
+
+
+def _slide(motion: Motion, info: ConstraintInfo) -> Floats:
+    """Least and largest place of the point of j along the axis, from the point of i, (2,), m."""
+    i, j = motion.body(info.i), motion.body(info.j)
+    away = j.at(info.point_j).position - i.at(info.point_i).position
+    direction = i.angle + info.axis_i
+    along = away[:, 0] * np.cos(direction) + away[:, 1] * np.sin(direction)
+    return np.array([along.min(), along.max()])
 
 
 def force(model: CompiledModel, name: str) -> dict[str, Any]:

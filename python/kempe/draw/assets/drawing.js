@@ -1,7 +1,7 @@
 // The drawing: what is shown of the scene at one instant, and the part of the plane that is seen.
 import { paintGravity, paintGrid, paintLengthScale, paintReactions } from "./measure.js";
 import { placed } from "./motion.js";
-import { paintBodies, paintForces, paintGround, paintNames, paintNumbers, paintPaths, paintPins, springRadius } from "./paint.js";
+import { paintBodies, paintForces, paintGround, paintNames, paintNumbers, paintPaths, paintPins, paintRails, paintSliders, springRadius } from "./paint.js";
 import { cleared, sharpen } from "./surface.js";
 import { extent, View } from "./view.js";
 
@@ -29,20 +29,24 @@ export class Drawing {
 
   /** Where the joints are on the canvas at one instant, CSS pixels; drawn on body j. */
   pins(now) {
-    return this.scene.joints.map(({ name, type, bodies: [i, j], points }) => ({
+    return this.scene.joints.map(({ name, bodies: [i, j], points, axes, slide }) => ({
       name,
-      type,
+      body: j,
+      slides: slide !== null,
+      angle: now.poses[j][2] + axes[1],
       grounded: i === 0 || j === 0,
       at: this.view.toScreen(placed(now.poses[j], points[1])),
     }));
   }
 
-  /** How far from each joint its name must stay, px: there may be a spring around it. */
+  /** How far from each joint its name must stay, px: there may be a spring or a slider. */
   rooms(now, pins) {
     const { scene, view } = this;
     const springs = scene.forces.map(({ bodies, point }) => view.toScreen(placed(now.poses[bodies[1]], point)));
-    const near = ([x, y]) => springs.some(([a, b]) => Math.hypot(a - x, b - y) < 4);
-    return pins.map(({ at }) => (near(at) ? springRadius(view) + 6 : 15));
+    const sliders = pins.filter(({ slides }) => slides).map(({ at }) => at);
+    const near = ([x, y], others) => others.some(([a, b]) => Math.hypot(a - x, b - y) < 4);
+    const room = (at) => (near(at, springs) ? springRadius(view) + 6 : near(at, sliders) ? 27 : 15);
+    return pins.map(({ at, slides }) => (slides ? 15 : room(at)));
   }
 
   /** Draw the instant t. */
@@ -54,7 +58,9 @@ export class Drawing {
     const step = paintGrid(context, view, colours);
     if (shown.paths) paintPaths(context, view, this.traces, colours);
     paintGround(context, view, scene, pins, colours);
+    paintRails(context, view, scene, now, colours);
     paintBodies(context, view, scene, now, colours);
+    paintSliders(context, pins, colours);
     paintForces(context, view, scene, now, this.first, colours);
     if (shown.reactions) paintReactions(context, view, pins, now.forces, this.pixelsPerNewton(), colours);
     paintPins(context, pins, colours);

@@ -6,6 +6,7 @@ import { extent } from "./view.js";
 
 const BAR = 9;
 const PIN = 5.5;
+const SLIDER = [38, 22];
 
 /** What stands still: a faint grid, and the paths of the traced points. */
 export function paintPaths(context, view, traces, colours) {
@@ -64,7 +65,7 @@ export function paintGround(context, view, scene, pins, colours) {
   context.strokeStyle = colours.ground;
   context.fillStyle = colours.panel;
   context.lineWidth = 1.6;
-  const supports = pins.filter((pin) => pin.grounded).map((pin) => pin.at);
+  const supports = pins.filter((pin) => pin.grounded && !pin.slides).map((pin) => pin.at);
   for (const at of supports) paintSupport(context, at);
   for (const { at } of scene.bodies[0].points) {
     const [x, y] = view.toScreen(at);
@@ -82,17 +83,52 @@ function paintSupport(context, [x, y]) {
   context.stroke(new Path2D(hatching));
 }
 
-/** Joints: circles where bodies turn, squares otherwise. */
+/** The pins of joints in which bodies turn. */
 export function paintPins(context, pins, colours) {
   context.fillStyle = colours.pin;
   context.strokeStyle = colours.text;
   context.lineWidth = 1.8;
-  for (const { at: [x, y], type } of pins) {
+  for (const { at: [x, y], slides } of pins) {
+    if (slides) continue;
     const mark = new Path2D();
-    if (type === "revolute") mark.arc(x, y, PIN, 0, 2 * Math.PI);
-    else mark.rect(x - PIN, y - PIN, 2 * PIN, 2 * PIN);
+    mark.arc(x, y, PIN, 0, 2 * Math.PI);
     context.fill(mark);
     context.stroke(mark);
+  }
+}
+
+/** What sliders slide on: two lines on their body i, hatched outside where that is ground. */
+export function paintRails(context, view, scene, now, colours) {
+  for (const { bodies: [i], points: [point], axes: [axis], slide } of scene.joints) {
+    if (slide === null) continue;
+    const pose = now.poses[i];
+    const [x, y] = view.toScreen(placed(pose, point));
+    const [from, to] = [slide[0] * view.scale - 30, slide[1] * view.scale + 30];
+    let rails = "";
+    for (const side of [-1, 1]) {
+      const edge = side * (SLIDER[1] / 2 + 1.5);
+      rails += `M${from} ${edge}H${to}`;
+      for (let k = from + 3; i === 0 && k < to; k += 8) rails += `M${k} ${edge}l${-5 * side} ${5 * side}`;
+    }
+    const turned = new Path2D();
+    const degrees = (-(pose[2] + axis) * 180) / Math.PI;
+    turned.addPath(new Path2D(rails), new DOMMatrix().translate(x, y).rotate(degrees));
+    stroked(context, turned, i === 0 ? colours.ground : colours.body(i), 1.5);
+  }
+}
+
+/** Sliders: blocks in the colour of their body. */
+export function paintSliders(context, pins, colours) {
+  const [width, height] = SLIDER;
+  for (const { at, angle, body, slides } of pins) {
+    if (!slides) continue;
+    const block = new Path2D();
+    const place = new DOMMatrix().translate(...at).rotate((-angle * 180) / Math.PI);
+    block.addPath(new Path2D(`M${-width / 2} ${-height / 2}h${width}v${height}h${-width}z`), place);
+    context.fillStyle = colours.panel;
+    context.fill(block);
+    tinted(context, colours.body(body), 0.3, () => context.fill(block));
+    stroked(context, block, colours.body(body), 2);
   }
 }
 
@@ -132,10 +168,10 @@ export function paintNames(context, view, pins, rooms, colours) {
   context.font = font(14, 600);
   context.textBaseline = "middle";
   const middle = [0, 1].map((k) => pins.reduce((sum, pin) => sum + pin.at[k], 0) / pins.length);
-  pins.forEach(({ name, at: [x, y], grounded }, k) => {
+  pins.forEach(({ name, at: [x, y], grounded, slides }, k) => {
     const away = [x - middle[0], y - middle[1]];
     const length = Math.hypot(...away) || 1;
-    const [dx, dy] = grounded ? [away[0] < 0 ? -0.95 : 0.95, 0.3] : away.map((part) => part / length);
+    const [dx, dy] = slides ? [0, 2] : grounded ? [away[0] < 0 ? -0.95 : 0.95, 0.3] : away.map((part) => part / length);
     context.textAlign = dx < -0.3 ? "right" : dx > 0.3 ? "left" : "center";
     const place = [x + rooms[k] * dx, y + (rooms[k] + 2) * dy];
     rimmed(context, shortened(name), inside(context, shortened(name), place, view), colours.text, colours.panel);
@@ -157,7 +193,8 @@ export function paintNumbers(context, view, scene, now, colours) {
   for (const { number, outline } of scene.bodies) {
     if (!outline.length) continue;
     const middle = [0, 1].map((k) => outline.reduce((sum, at) => sum + at[k], 0) / outline.length);
-    const [x, y] = view.toScreen(placed(now.poses[number], middle));
+    const [x, below] = view.toScreen(placed(now.poses[number], middle));
+    const y = outline.length > 1 ? below : below - 26; // not over the pin of a body that is a spot
     const disc = new Path2D();
     disc.arc(x, y, 10, 0, 2 * Math.PI);
     context.fillStyle = colours.panel;
