@@ -17,7 +17,7 @@ from kempe.names import unknown
 from kempe.options import Dynamics
 from kempe.solution import Solution
 from kempe.state import State
-from kempe.values import Number, numbers
+from kempe.values import Number, number, numbers
 
 FORMATS = {".toml": "toml", ".json": "json"}
 
@@ -177,6 +177,9 @@ class Case:
         """
         if name not in self._entries:
             raise unknown("analysis", name, self._entries)
+        for key, value in changes.items():
+            if isinstance(value, float):
+                number(value, f"analyses.{name}.{key}")
         entries = {**self._entries, name: {**self._entries[name], **changes}}
         return Case(self.model, self._start, entries)
 
