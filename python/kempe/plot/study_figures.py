@@ -31,11 +31,9 @@ def write(study: Study, folder: Path) -> list[Path]:
     Raises:
         FileError: a file cannot be written.
     """
-    written = []
+    written: list[Path] = []
     for name, draw in FIGURES.items():
         figure = style.figure()
         draw(study, figure.add_subplot())
-        target = folder / f"{name}.png"
-        style.save(figure, target)
-        written.append(target)
+        written += style.save(figure, folder / name)
     return written
