@@ -39,7 +39,7 @@ def work_precision(study: Study, ax: Axes) -> None:
     ax.set_title("Work and precision")
     ax.grid(visible=True, which="both", color="#EEEEEE")
     if curves:
-        ax.legend(fontsize=9)
+        ax.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1, 1))
 
 
 def _curve(ax: Axes, outcomes: Sequence[Outcome], number: int, label: str) -> None:

@@ -51,7 +51,7 @@ def gaps(study: Study, ax: Axes) -> None:
         end = point + factor * gap
         ax.annotate("", end, point, arrowprops={"arrowstyle": "->", "color": "#CC0000", "lw": 1.5})
         told = style.verbatim(f"{name}: {1e3 * float(np.hypot(*gap)):.3g} mm")
-        ax.annotate(told, point, xytext=(6, 6), textcoords="offset points", fontsize=9)
+        ax.annotate(told, point, xytext=(8, -16), textcoords="offset points", fontsize=9)
         ax.update_datalim([end])
     ax.set_aspect("equal", adjustable="datalim")
     ax.margins(0.15)

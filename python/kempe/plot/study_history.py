@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: Below it there is nothing to see on a logarithmic axis, m.
 FLOOR = 1e-16
+#: Spans of time of which the largest value is drawn.
+BINS = 200
 
 
 def residual_history(study: Study, ax: Axes) -> None:
@@ -56,10 +58,21 @@ def _draw(ax: Axes, outcomes: Sequence[Outcome], value: Callable[[Solution], Flo
         if outcome.solution is None:
             continue
         y = np.maximum(value(outcome.solution), FLOOR)
-        t = outcome.solution.t[: len(y)]
-        ax.plot(t, y, color=style.colour(k + 1), linewidth=1.2, label=outcome.variant.gains)
+        t, y = envelope(outcome.solution.t[: len(y)], y)
+        ax.plot(t, y, **style.line(k), linewidth=1.3, label=outcome.variant.gains)
     ax.set_yscale("log")
     ax.set_xlabel("t / s")
     ax.grid(visible=True, color="#EEEEEE")
     if outcomes:
-        ax.legend(title=outcomes[0].variant.method, fontsize=9)
+        title = f"{outcomes[0].variant.method}\nlargest of each\n{100 / BINS:g} % of the time"
+        ax.legend(
+            title=title, fontsize=8, title_fontsize=8, loc="upper left", bbox_to_anchor=(1, 1)
+        )
+
+
+def envelope(t: Floats, y: Floats) -> tuple[Floats, Floats]:
+    """The largest value in each of BINS spans of time: what oscillates becomes one clear line."""
+    if len(t) <= BINS:
+        return t, y
+    edges = np.linspace(0, len(t), BINS + 1).astype(int)[:-1]
+    return t[edges], np.maximum.reduceat(y, edges)
