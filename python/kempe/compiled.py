@@ -84,6 +84,8 @@ class ForceInfo:
         type: such as "torsion_spring".
         i, j: the bodies it acts on.
         parts: names of its parts, such as "stiffness" and "damping".
+        points: where it acts along the line between two points, these in the frames of bodies i
+            and j, m; None for others.
     """
 
     name: str
@@ -91,6 +93,7 @@ class ForceInfo:
     i: str
     j: str
     parts: tuple[str, ...]
+    points: tuple[Vector, Vector] | None
 
 
 class CompiledModel:
@@ -246,5 +249,12 @@ def _constraint(entry: dict[str, Any]) -> ConstraintInfo:
 
 
 def _force(entry: dict[str, Any]) -> ForceInfo:
-    name, kind, parts = entry["name"], entry["type"], tuple(entry["parts"])
-    return ForceInfo(name=name, type=kind, i=entry["i"], j=entry["j"], parts=parts)
+    points = entry["points"]
+    return ForceInfo(
+        name=entry["name"],
+        type=entry["type"],
+        i=entry["i"],
+        j=entry["j"],
+        parts=tuple(entry["parts"]),
+        points=None if points is None else (_vector(points[0]), _vector(points[1])),
+    )

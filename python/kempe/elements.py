@@ -119,6 +119,39 @@ class TorsionSpring(Element):
     }
 
 
+@dataclass(frozen=True)
+class SpringDamper(Element):
+    """An element of type ``spring_damper``.
+
+    Translational spring-damper between two points: with l their distance, the force on j is
+    -stiffness (l - free_length) - damping dl/dt along the line from i to j; opposite on i (Haug
+    6.2.10). Where the points meet the line has no direction: the stiffness force is zero there,
+    and the damping force is -damping times the relative velocity.
+
+    Attributes:
+        i: Point of body i, as `body.point`.
+        j: Point of body j, as `body.point`.
+        stiffness: Force per length [N/m].
+        damping: Force per velocity [N*s/m].
+        free_length: Distance of the points without force [m].
+    """
+
+    i: str
+    j: str
+    stiffness: Number = 0.0
+    damping: Number = 0.0
+    free_length: Number = 0.0
+    section: ClassVar[str] = "forces"
+    kind: ClassVar[str] = "spring_damper"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "stiffness": "law",
+        "damping": "law",
+        "free_length": "law",
+    }
+
+
 class ElementMethods:
     """The methods of ``Model`` that add an element."""
 
@@ -200,5 +233,41 @@ class ElementMethods:
                 stiffness=stiffness,
                 damping=damping,
                 free_angle=free_angle,
+            )
+        )
+
+    def spring_damper(
+        self,
+        name: str,
+        i: str,
+        j: str,
+        *,
+        stiffness: Number = 0.0,
+        damping: Number = 0.0,
+        free_length: Number = 0.0,
+    ) -> SpringDamper:
+        """Add an element of type ``spring_damper`` and return it.
+
+        Translational spring-damper between two points: with l their distance, the force on j is
+        -stiffness (l - free_length) - damping dl/dt along the line from i to j; opposite on i (Haug
+        6.2.10). Where the points meet the line has no direction: the stiffness force is zero there,
+        and the damping force is -damping times the relative velocity.
+
+        Args:
+            name: its name in the model.
+            i: Point of body i, as `body.point`.
+            j: Point of body j, as `body.point`.
+            stiffness: Force per length [N/m].
+            damping: Force per velocity [N*s/m].
+            free_length: Distance of the points without force [m].
+        """
+        return self._add(
+            SpringDamper(
+                name,
+                i=i,
+                j=j,
+                stiffness=stiffness,
+                damping=damping,
+                free_length=free_length,
             )
         )

@@ -6,10 +6,12 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
-from draw.mechanisms import HOSTILE, PLAIN, moving, pendulum, slider_crank
+from draw.mechanisms import HOSTILE, PLAIN, moving, pendulum, slider_crank, sprung
 from PIL import Image
 
 SIZES = [(1600, 900), (600, 800)]
+#: The colour of forces.
+VIOLET = np.array([0x7A, 0x3D, 0xB8])
 
 
 @pytest.fixture(scope="session")
@@ -291,6 +293,19 @@ def test_a_slider_moves(opened: Any) -> None:
         red, green, _ = picture(watched)[int(y - box["y"]) - 9, int(x - box["x"])]
         assert green > red + 15  # the green of body 3, beside the white pin of B
     assert np.hypot(*np.subtract(*places)) > 20
+
+
+def test_a_spring_damper_is_drawn_and_stretches(opened: Any) -> None:
+    watched = opened(sprung(), 1280, 720)
+    widths = []
+    for t in (0.0, 0.2):
+        watched.page.evaluate(f"kempe.seek({t})")
+        watched.settle()
+        colours = picture(watched)
+        violet = np.abs(colours - VIOLET).max(axis=-1) < 40
+        widths.append(np.ptp(np.nonzero(violet)[1]))
+    assert min(widths) > 50
+    assert abs(widths[0] - widths[1]) > 20
 
 
 def test_a_plate_and_a_motion_without_interpolation(opened: Any) -> None:

@@ -66,3 +66,14 @@ def slider_crank() -> kp.Solution:
     m.translational("guide", "ground.O", "slider.B", axes=(0.3, 0.1))
     start = kp.assemble(m, set={"crank.angle": 1.0, "crank.omega": 20.0})
     return kp.dynamics(m, start, t_end=0.5, output_step=0.01)
+
+
+def sprung() -> kp.Solution:
+    """A rod held by a spring-damper from a point of ground."""
+    m = kp.Model("sprung", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0), A=(-1.2, 0.3))
+    m.bar("rod", mass=1, length=1, ends=("O", "P"))
+    m.revolute("O", "ground.O", "rod.O")
+    m.spring_damper("s", "ground.A", "rod.P", stiffness=100, damping=2, free_length=0.9)
+    start = kp.assemble(m, set={"rod.angle": "-30*deg"})
+    return kp.dynamics(m, start, t_end=0.5, output_step=0.02)

@@ -8,10 +8,11 @@ import jsonschema
 import kempe as kp
 import numpy as np
 import pytest
-from draw.mechanisms import moving, pendulum, slider_crank
+from draw.mechanisms import moving, pendulum, slider_crank, sprung
 from kempe.draw.geometry import placed, smooth
 from kempe.draw.numbers import plain, round_below
 from kempe.draw.scene import playback_rate
+from kempe.plot.symbols import spring_damper
 
 #: Numbers are rounded to nine significant digits.
 HALF_A_DIGIT = 5.001e-9
@@ -29,7 +30,7 @@ def pins(scene: dict[str, Any], side: int) -> np.ndarray:
 
 
 def test_it_fits_its_schema_and_is_json(four_bar: kp.Solution, hostile: kp.Solution) -> None:
-    for drawn in (four_bar, hostile, four_bar.initial, pendulum(), slider_crank()):
+    for drawn in (four_bar, hostile, four_bar.initial, pendulum(), slider_crank(), sprung()):
         told = json.loads(json.dumps(kp.scene(drawn), allow_nan=False))
         jsonschema.validate(told, SCHEMA)
 
@@ -125,6 +126,22 @@ def test_bodies_are_drawn_by_their_shape(four_bar: kp.Solution) -> None:
 def test_a_spring_is_drawn_at_the_joint_of_its_bodies(four_bar: kp.Solution) -> None:
     (spring,) = kp.scene(four_bar.initial)["forces"]
     assert (spring["bodies"], spring["point"]) == ([0, 3], [9, 0])
+
+
+def test_a_spring_damper_is_drawn_between_its_points(four_bar: kp.Solution) -> None:
+    (spring,) = kp.scene(sprung())["forces"]
+    assert (spring["bodies"], spring["points"]) == ([0, 1], [[-1.2, 0.3], [0.5, 0]])
+    assert kp.scene(four_bar.initial)["forces"][0]["points"] is None
+
+
+def test_the_lines_of_a_spring_damper_join_its_ends_and_keep_their_width() -> None:
+    begin, end = np.array([1.0, 2.0]), np.array([4.0, 6.0])
+    for half in (0.1, 2.0):
+        lines = spring_damper(begin, end, half)
+        np.testing.assert_allclose([lines[0], lines[-1]], [begin, end])
+        across = (lines - begin) @ np.array([-0.8, 0.6])
+        assert np.nanmax(np.abs(across)) == pytest.approx(half)
+    assert np.all(spring_damper(begin, begin, 0.1)[0] == begin)
 
 
 def test_a_slider_is_drawn_along_its_axis() -> None:

@@ -92,5 +92,13 @@ fn constraint(model: &Model, item: &ConstraintItem, rows: &std::ops::Range<usize
 fn force(model: &Model, item: &ForceItem) -> Value {
     let [i, j] = item.element.ends().map(|b| model.bodies[b.0].name.as_str());
     let parts: Vec<&str> = item.element.parts().iter().map(|p| p.name).collect();
-    json!({ "name": item.name, "type": item.element.kind(), "i": i, "j": j, "parts": parts })
+    let points = item.element.points();
+    json!({
+        "name": item.name,
+        "type": item.element.kind(),
+        "i": i,
+        "j": j,
+        "parts": parts,
+        "points": points.map(|ends| ends.each_ref().map(pair)),
+    })
 }

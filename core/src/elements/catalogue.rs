@@ -3,13 +3,13 @@
 use super::declare::{Element, Table};
 use super::derive::VelocityTerms;
 use super::drivers::CoordinateDriver;
-use super::forces::TorsionSpring;
+use super::forces::{SpringDamper, TorsionSpring};
 use super::formula::Formula;
 use super::joints::{Revolute, Translational};
 use super::kinds::{BodyId, Source};
 use super::traits::{Action, Attachment, Equation, Force, Joint, Part, Side, Situation};
 use crate::expression::Tape;
-use crate::math::{Jet, Lift, Motion, Pose, Real};
+use crate::math::{Jet, Lift, Local, Motion, Pose, Real};
 
 /// Where an element stands in a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -218,6 +218,10 @@ macro_rules! forces {
             pub fn free_angle(&self) -> Option<S> {
                 match self { $(Self::$Name(e) => <$Name>::free_angle(e),)+ }
             }
+            /// The points of body i and body j between which the force acts along their line.
+            pub fn points(&self) -> Option<[Local<S>; 2]> {
+                match self { $(Self::$Name(e) => <$Name>::points(e),)+ }
+            }
             /// Potential energy of the conservative parts, J.
             pub fn potential(&self, at: &Situation<S>) -> S {
                 match self { $(Self::$Name(e) => <$Name>::potential(e, at),)+ }
@@ -235,7 +239,7 @@ constraints! {
     Drivers { CoordinateDriver }
 }
 
-forces! { TorsionSpring }
+forces! { TorsionSpring, SpringDamper }
 
 /// The declarations of all elements, in the order of the list.
 pub fn catalogue() -> Vec<(Group, Table)> {

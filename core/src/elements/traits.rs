@@ -134,6 +134,12 @@ pub trait Force<const P: usize>: Element {
         None
     }
 
+    /// The points of body i and body j between which the force acts along their line.
+    fn points<S: Real>(e: &Self::Over<S>) -> Option<[Local<S>; 2]> {
+        let _ = e;
+        None
+    }
+
     /// Potential energy of the conservative parts, J.
     fn potential<S: Real>(e: &Self::Over<S>, at: &Situation<S>) -> S {
         let _ = (e, at);

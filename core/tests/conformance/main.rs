@@ -11,4 +11,5 @@ mod equilibrium;
 mod forces;
 mod mass;
 mod samples;
+mod spring_damper;
 mod tables;

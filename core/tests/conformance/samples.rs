@@ -2,7 +2,7 @@
 
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
-use kempe::elements::forces::TorsionSpring;
+use kempe::elements::forces::{SpringDamper, TorsionSpring};
 use kempe::elements::joints::{Revolute, Translational};
 use kempe::elements::{
     catalogue, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, PointOn,
@@ -39,13 +39,23 @@ pub fn constraints() -> Vec<Constraint> {
 
 /// Forces.
 pub fn forces() -> Vec<ForceElement> {
-    vec![ForceElement::TorsionSpring(TorsionSpring {
+    let mut all = vec![ForceElement::TorsionSpring(TorsionSpring {
         i: BodyId(1),
         j: BodyId(2),
         stiffness: 3.5,
         damping: 0.8,
         free_angle: 0.6,
-    })]
+    })];
+    for free_length in [0.0, 0.9] {
+        all.push(ForceElement::SpringDamper(SpringDamper {
+            i: on(1, 0.3, -0.7),
+            j: on(2, -1.1, 0.4),
+            stiffness: 2.5,
+            damping: 0.7,
+            free_length,
+        }));
+    }
+    all
 }
 
 /// A motion over any scalar.

@@ -17,6 +17,7 @@ from kempe.draw.geometry import limits, placed, smooth, spiral, support, turned
 from kempe.draw.numbers import round_below
 from kempe.draw.scene import Scene
 from kempe.plot import style
+from kempe.plot.symbols import spring_damper
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -169,7 +170,10 @@ class Frame:
 
         def put(poses: Floats, _: Floats) -> None:
             at = placed(poses[j], point)
-            if force["type"] == "torsion_spring":
+            if force["type"] == "spring_damper":
+                ends = [placed(poses[b], p) for b, p in zip((i, j), force["points"], strict=True)]
+                line.set_data(*spring_damper(*ends, 1.8 * self._unit).T)
+            elif force["type"] == "torsion_spring":
                 turn = 4.0 * np.pi + poses[j, 2] - poses[i, 2] - rest
                 line.set_data(*spiral(at, 3.6 * self._unit, poses[i, 2], turn).T)
             else:
@@ -198,7 +202,7 @@ class Frame:
     def _name(self, k: int) -> tuple[Artist, Any]:
         joint = self._scene["joints"][k]
         text = self.axes.text(0, 0, shortened(joint["name"]), va="center", fontsize=11, zorder=8)
-        springs = [force["bodies"] for force in self._scene["forces"]]
+        springs = [one["bodies"] for one in self._scene["forces"] if one["points"] is None]
         sliders = [one["bodies"][1] for one in self._scene["joints"] if one["slide"] is not None]
         far = joint["bodies"] in springs or set(sliders) & set(joint["bodies"])
         room = (5.2 if far else 2.6) * self._unit

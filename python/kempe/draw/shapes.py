@@ -55,10 +55,10 @@ def _slide(motion: Motion, info: ConstraintInfo) -> Floats:
 
 
 def force(model: CompiledModel, name: str) -> dict[str, Any]:
-    """A force element: name, type, bodies, and where it is drawn on body j.
+    """A force element: name, type, bodies, where it is drawn on body j, and its two points if any.
 
-    An element between two bodies that a joint connects is drawn at that joint, others at the mass
-    centre of body j.
+    An element between two points is drawn there; another between two bodies that a joint connects
+    at that joint, others at the mass centre of body j.
     """
     info = model.forces[name]
     i, j = info.i, info.j
@@ -68,7 +68,8 @@ def force(model: CompiledModel, name: str) -> dict[str, Any]:
         "name": name,
         "type": info.type,
         "bodies": [model.all_bodies[i].number, model.all_bodies[j].number],
-        "point": _numbers(on_j),
+        "point": _numbers(on_j if info.points is None else info.points[1]),
+        "points": None if info.points is None else [_numbers(at) for at in info.points],
     }
 
 

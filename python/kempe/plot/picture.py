@@ -112,6 +112,9 @@ def drawn(axes: Axes, scene: dict[str, Any], title: str) -> Picture:
     for force in scene["forces"]:
         if "torsion" in force["type"]:
             _draw_spiral(made, made.at(force["bodies"][1], force["point"]))
+        elif force["type"] == "spring_damper":
+            ends = zip(force["bodies"], force["points"], strict=True)
+            _draw_spring_damper(made, *(made.at(number, at) for number, at in ends))
     for joint, pin in zip(scene["joints"], made.pins(), strict=True):
         _draw_pin(made, pin, to_ground=0 in joint["bodies"])
     return made
@@ -200,3 +203,14 @@ def _draw_pin(made: Picture, place: Floats, *, to_ground: bool) -> None:
 def _draw_spiral(made: Picture, place: Floats) -> None:
     symbols.draw(made.axes, symbols.SPIRAL, place, zorder=4)
     made.keep_clear(place, symbols.SPIRAL_RADIUS)
+
+
+def _draw_spring_damper(made: Picture, begin: Floats, end: Floats) -> None:
+    """A zigzag beside a dashpot, as wide as a pin with its rim whatever the length."""
+    width = symbols.SPRING_WIDTH
+    apart = float(np.hypot(*(made.points(end) - made.points(begin))))
+    length = float(np.hypot(*(end - begin)))
+    half = width / 2.0 * length / apart if apart > 0.0 else 0.0
+    lines = symbols.spring_damper(begin, end, half)
+    made.axes.plot(*lines.T, color=style.GROUND, linewidth=0.9, zorder=4)
+    made.lines.append(wide(made.points(begin), made.points(end), width / 2.0))

@@ -1,4 +1,4 @@
-"""Symbols of mechanisms as markers: they keep their size in print. Coordinates in points."""
+"""Symbols of mechanisms: markers that keep their size in print, and lines between two places."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 Symbol = tuple[Floats, ...]
 
 SPIRAL_RADIUS = 12.0
+SPRING_WIDTH = 14.0
 
 
 def _hatching() -> Symbol:
@@ -65,3 +66,41 @@ def draw(
         linestyle="none",
         zorder=zorder,
     )
+
+
+#: A zigzag beside a dashpot: lines as (share of their length, share of half of their width).
+_ZIGZAG_AND_DASHPOT = (
+    (
+        *((0.0, -0.6), (0.0, 0.6), (0.1, 0.6)),
+        *((0.15 + 0.1 * k, 1.0 if k % 2 == 0 else 0.2) for k in range(8)),
+        *((0.9, 0.6), (1.0, 0.6), (1.0, -0.6), (0.7, -0.6)),
+    ),
+    ((0.0, -0.6), (0.5, -0.6)),
+    ((0.5, -0.9), (0.5, -0.3)),
+    ((0.3, -1.0), (0.7, -1.0), (0.7, -0.2), (0.3, -0.2)),
+)
+#: They take at most these shares of the distance and of half of the width; straight lines the rest.
+_LONGEST, _SLENDER = 0.7, 8.0
+
+
+def spring_damper(begin: Floats, end: Floats, half: float) -> Floats:
+    """The lines of a spring-damper between two points, parted by NaN, (n, 2).
+
+    Args:
+        begin: its end on body i.
+        end: its end on body j.
+        half: half of its width.
+    """
+    along = end - begin
+    length = float(np.hypot(*along)) or 1.0
+    aside = np.array([-along[1], along[0]]) / length * half
+    middle = min(_LONGEST, _SLENDER * half / length)
+    first = (1.0 - middle) / 2.0
+    lines = [
+        np.array([[0.0, 0.0], [first, 0.0]]),
+        *(np.array(line) * [middle, 1.0] + [first, 0.0] for line in _ZIGZAG_AND_DASHPOT),
+        np.array([[1.0 - first, 0.0], [1.0, 0.0]]),
+    ]
+    gap = np.full((1, 2), np.nan)
+    axes = np.array([along, aside])
+    return np.concatenate([part for line in lines for part in (begin + line @ axes, gap)][:-1])

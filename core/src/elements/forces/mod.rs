@@ -1,5 +1,7 @@
 //! Forces: what acts on bodies beside joints and gravity.
 
+mod spring_damper;
 mod torsion_spring;
 
+pub use spring_damper::SpringDamper;
 pub use torsion_spring::TorsionSpring;

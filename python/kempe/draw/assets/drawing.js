@@ -42,7 +42,8 @@ export class Drawing {
   /** How far from each joint its name must stay, px: there may be a spring or a slider. */
   rooms(now, pins) {
     const { scene, view } = this;
-    const springs = scene.forces.map(({ bodies, point }) => view.toScreen(placed(now.poses[bodies[1]], point)));
+    const spirals = scene.forces.filter(({ points }) => points === null);
+    const springs = spirals.map(({ bodies, point }) => view.toScreen(placed(now.poses[bodies[1]], point)));
     const sliders = pins.filter(({ slides }) => slides).map(({ at }) => at);
     const near = ([x, y], others) => others.some(([a, b]) => Math.hypot(a - x, b - y) < 4);
     const room = (at) => (near(at, springs) ? springRadius(view) + 6 : near(at, sliders) ? 27 : 15);

@@ -132,14 +132,17 @@ export function paintSliders(context, pins, colours) {
   }
 }
 
-/** Force elements: a spiral for a torsion spring, wound as the spring is; a diamond for others. */
+/** Force elements: a spiral for a torsion spring, wound as the spring is; a zigzag beside a dashpot for a
+ *  spring-damper between two points; a diamond for others. */
 export function paintForces(context, view, scene, now, first, colours) {
   const radius = springRadius(view);
-  for (const { type, bodies: [i, j], point } of scene.forces) {
+  for (const { type, bodies: [i, j], point, points } of scene.forces) {
     const [x, y] = view.toScreen(placed(now.poses[j], point));
     const [from, to] = [now.poses[i][2], now.poses[j][2]];
     const rest = first.poses[j][2] - first.poses[i][2];
-    const shape = type === "torsion_spring"
+    const shape = type === "spring_damper"
+      ? springDamper(...[i, j].map((body, k) => view.toScreen(placed(now.poses[body], points[k]))))
+      : type === "torsion_spring"
       ? spiral(x, y, radius, from, 4 * Math.PI + to - from - rest)
       : new Path2D(`M${x} ${y - 9}l9 9l-9 9l-9 -9z`);
     stroked(context, shape, colours.panel, 3.6);
@@ -159,6 +162,35 @@ function spiral(x, y, radius, from, turn) {
   for (let k = 0; k <= steps; k += 1) {
     const [r, angle] = [PIN + ((radius - PIN) * k) / steps, from + (turn * k) / steps];
     shape.lineTo(x + r * Math.cos(angle), y - r * Math.sin(angle));
+  }
+  return shape;
+}
+
+// A zigzag beside a dashpot: lines as [share of their length, share of half of their width].
+const ZIGZAG_AND_DASHPOT = [
+  [[0, -0.6], [0, 0.6], [0.1, 0.6], ...[0, 1, 2, 3, 4, 5, 6, 7].map((k) => [0.15 + 0.1 * k, k % 2 ? 0.2 : 1]),
+    [0.9, 0.6], [1, 0.6], [1, -0.6], [0.7, -0.6]],
+  [[0, -0.6], [0.5, -0.6]],
+  [[0.5, -0.9], [0.5, -0.3]],
+  [[0.3, -1], [0.7, -1], [0.7, -0.2], [0.3, -0.2]],
+];
+const HALF_SPRING = 12;
+
+/** A zigzag beside a dashpot between two places on the canvas, with straight lines to both. */
+function springDamper([x, y], [toX, toY]) {
+  const [dx, dy] = [toX - x, toY - y];
+  const length = Math.hypot(dx, dy) || 1;
+  const middle = Math.min(0.7, (8 * HALF_SPRING) / length);
+  const first = (1 - middle) / 2;
+  const inside = ZIGZAG_AND_DASHPOT.map((line) => line.map(([along, aside]) => [first + middle * along, aside]));
+  const shape = new Path2D();
+  for (const line of [[[0, 0], [first, 0]], ...inside, [[1 - first, 0], [1, 0]]]) {
+    line.forEach(([along, aside], k) => {
+      const across = (aside * HALF_SPRING) / length;
+      const at = [x + along * dx + across * dy, y + along * dy - across * dx];
+      if (k) shape.lineTo(...at);
+      else shape.moveTo(...at);
+    });
   }
   return shape;
 }

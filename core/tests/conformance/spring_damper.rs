@@ -1,0 +1,71 @@
+//! The translational spring-damper where its points meet, and its energy.
+
+use crate::mechanisms::{close, every, model, run, start, tolerances};
+use crate::samples::motion;
+use kempe::elements::forces::SpringDamper;
+use kempe::elements::{BodyId, Element, Force, PointOn, Situation};
+use kempe::math::{Dual, Lift, Local};
+
+fn spring(free_length: f64) -> SpringDamper {
+    let at = |body| PointOn { body: BodyId(body), s: Local::zero() };
+    SpringDamper { i: at(0), j: at(1), stiffness: 50.0, damping: 3.0, free_length }
+}
+
+/// Both points in one place, j moving away with (2, -1) m/s.
+fn together<S: Lift<f64>>(x: S) -> Situation<S> {
+    let still = motion([0.0; 6].map(S::lift));
+    let mut moving = [0.0, 0.0, 0.0, 2.0, -1.0, 0.0].map(S::lift);
+    moving[0] = x;
+    Situation { i: still, j: motion(moving), t: S::zero() }
+}
+
+#[test]
+fn where_the_points_meet_the_force_is_finite_and_damps() {
+    for free_length in [0.0, 0.4] {
+        let e = spring(free_length);
+        let [stiffness, damping] = SpringDamper::action(&e, &together(0.0));
+        assert_eq!((stiffness.on_j.force.x, stiffness.on_j.force.y), (0.0, 0.0));
+        assert_eq!((damping.on_j.force.x, damping.on_j.force.y), (-6.0, 3.0));
+        assert_eq!(damping.on_i.force.x, 6.0);
+        let potential = SpringDamper::potential(&e, &together(0.0));
+        close("V", potential, 25.0 * free_length * free_length, 0.0);
+    }
+}
+
+#[test]
+fn the_slope_without_a_free_length_is_the_stiffness_even_where_the_points_meet() {
+    for x in [0.0, 1e-200, 1e-9, 0.3] {
+        let there = together(Dual::<1>::variable(x, 0));
+        let e = SpringDamper::map(&spring(0.0), &mut |s| Dual::lift(*s));
+        let [stiffness, _] = SpringDamper::action(&e, &there);
+        assert_eq!(stiffness.on_j.force.x.value, -50.0 * x);
+        assert_eq!(stiffness.on_j.force.x.slope[0], -50.0);
+    }
+}
+
+/// A mass on a spring without free length is a plane oscillator: an ellipse, also through the anchor.
+#[test]
+fn a_mass_passes_through_its_anchor() {
+    let m = model(
+        r#"
+[bodies.ground]
+points = { O = [0, 0] }
+[bodies.mass]
+mass = 2
+inertia = 1
+points = { P = [0, 0] }
+[forces.spring]
+type = "spring_damper"
+i = "ground.O"
+j = "mass.P"
+stiffness = 8
+"#,
+    );
+    let (state, _) = start(&m, &[("mass.x", "0.5"), ("mass.y", "0")], &[("mass.vx", "0")]);
+    let run = run(&m, &state, &every(0.1, tolerances(3.0, 1e-11, 1e-13)));
+    for (k, t) in run.trajectory.t.iter().enumerate() {
+        close("x", run.trajectory.q[3 * k], 0.5 * (2.0 * t).cos(), 1e-9);
+        let energy = &run.trajectory.energy[5 * k..][..2];
+        close("T + V", energy[0] + energy[1], 1.0, 1e-9);
+    }
+}
