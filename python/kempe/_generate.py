@@ -80,8 +80,9 @@ def element_class(section: str, table: dict[str, Any]) -> str:
 def method(table: dict[str, Any]) -> str:
     """The method of ``Model`` that adds one element."""
     name, fields = table["name"], table["fields"]
-    positional = [f for f in fields if f["shape"] in REFERENCES]
-    keyword = [f for f in fields if f["shape"] not in REFERENCES]
+    # What may be left out goes by its name, lest two bodies be taken for each other.
+    positional = [f for f in fields if f["shape"] in REFERENCES and f["default"] is None]
+    keyword = [f for f in fields if f not in positional]
     arguments = [f"{f['name']}: str{default(f)}" for f in positional]
     arguments += ["*"] * bool(keyword)
     arguments += [f"{f['name']}: {TYPES[f['shape']]}{default(f)}" for f in keyword]
@@ -130,6 +131,8 @@ def default(field: dict[str, Any]) -> str:
     value = field["default"]
     if value is None:
         return ""
+    if isinstance(value, str):
+        return f' = "{value}"'
     return f" = {tuple(map(float, value)) if isinstance(value, Iterable) else float(value)}"
 
 

@@ -152,6 +152,31 @@ class SpringDamper(Element):
     }
 
 
+@dataclass(frozen=True)
+class Torque(Element):
+    """An element of type ``torque``.
+
+    Applied torque on body j, counter-clockwise; opposite on body i, which is ground unless
+    given.
+
+    Attributes:
+        j: Body j.
+        torque: Torque on body j; may use `t` and the state [N*m].
+        i: Body i, which takes the opposite torque.
+    """
+
+    j: str
+    torque: Number
+    i: str = "ground"
+    section: ClassVar[str] = "forces"
+    kind: ClassVar[str] = "torque"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "j": "body",
+        "torque": "law",
+        "i": "body",
+    }
+
+
 class ElementMethods:
     """The methods of ``Model`` that add an element."""
 
@@ -271,3 +296,17 @@ class ElementMethods:
                 free_length=free_length,
             )
         )
+
+    def torque(self, name: str, j: str, *, torque: Number, i: str = "ground") -> Torque:
+        """Add an element of type ``torque`` and return it.
+
+        Applied torque on body j, counter-clockwise; opposite on body i, which is ground unless
+        given.
+
+        Args:
+            name: its name in the model.
+            j: Body j.
+            torque: Torque on body j; may use `t` and the state [N*m].
+            i: Body i, which takes the opposite torque.
+        """
+        return self._add(Torque(name, j=j, torque=torque, i=i))

@@ -12,7 +12,7 @@ fn default(field: &Field) -> Value {
         Some(Default::Number(x)) => json!(x),
         Some(Default::Pair(p)) => json!(p),
         Some(Default::Flag(flag)) => json!(flag),
-        Some(Default::Type(name)) => json!(name),
+        Some(Default::Type(name) | Default::Body(name)) => json!(name),
     }
 }
 

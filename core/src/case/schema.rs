@@ -152,6 +152,7 @@ fn property(f: &Field) -> Value {
     let default = match f.default {
         Some(Default::Number(x)) => Some(Value::Number(x)),
         Some(Default::Pair(pair)) => Some(Value::List(pair.map(Value::Number).to_vec())),
+        Some(Default::Body(name)) => Some(text(name)),
         Some(Default::Flag(flag)) => Some(Value::Flag(flag)),
         Some(Default::Type(name)) => Some(Value::Table(vec![field("type", text(name))])),
         Some(Default::Absent) | None => None,

@@ -3,7 +3,7 @@
 use super::declare::{Element, Table};
 use super::derive::VelocityTerms;
 use super::drivers::CoordinateDriver;
-use super::forces::{SpringDamper, TorsionSpring};
+use super::forces::{SpringDamper, Torque, TorsionSpring};
 use super::formula::Formula;
 use super::joints::{Revolute, Translational};
 use super::kinds::{BodyId, Source};
@@ -239,7 +239,7 @@ constraints! {
     Drivers { CoordinateDriver }
 }
 
-forces! { TorsionSpring, SpringDamper }
+forces! { TorsionSpring, SpringDamper, Torque }
 
 /// The declarations of all elements, in the order of the list.
 pub fn catalogue() -> Vec<(Group, Table)> {

@@ -15,6 +15,8 @@ pub enum Default {
     Flag(bool),
     /// The options of this type, each with its own default.
     Type(&'static str),
+    /// This body.
+    Body(&'static str),
     /// Nothing: the field may be left out.
     Absent,
 }
@@ -27,6 +29,11 @@ impl From<f64> for Default {
 impl From<[f64; 2]> for Default {
     fn from(x: [f64; 2]) -> Self {
         Self::Pair(x)
+    }
+}
+impl From<&'static str> for Default {
+    fn from(body: &'static str) -> Self {
+        Self::Body(body)
     }
 }
 

@@ -261,7 +261,10 @@ pub fn did_you_mean(word: &str, known: &[&str], plural: &str) -> Option<String> 
 
 impl Source for Linker<'_> {
     fn body(&mut self, field: &Field) -> Option<BodyId> {
-        let name = self.text(field)?;
+        let name = match (self.entry.get(field.name), field.default) {
+            (None, Some(Default::Body(name))) => name,
+            _ => self.text(field)?,
+        };
         self.find(field, name)
     }
 

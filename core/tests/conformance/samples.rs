@@ -2,7 +2,7 @@
 
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
-use kempe::elements::forces::{SpringDamper, TorsionSpring};
+use kempe::elements::forces::{SpringDamper, Torque, TorsionSpring};
 use kempe::elements::joints::{Revolute, Translational};
 use kempe::elements::{
     catalogue, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, PointOn,
@@ -46,6 +46,7 @@ pub fn forces() -> Vec<ForceElement> {
         damping: 0.8,
         free_angle: 0.6,
     })];
+    all.push(ForceElement::Torque(Torque { i: BodyId(1), j: BodyId(2), torque: 1.3 }));
     for free_length in [0.0, 0.9] {
         all.push(ForceElement::SpringDamper(SpringDamper {
             i: on(1, 0.3, -0.7),

@@ -45,6 +45,15 @@ fn nothing_of_a_sound_model() {
 }
 
 #[test]
+fn a_torque_between_a_body_and_itself() {
+    let torque = "[forces.motor]\ntype = \"torque\"\nj = \"ground\"\ntorque = 1\n";
+    says(torque, &["both ends of this force are on 'ground'"]);
+    let unknown =
+        "[forces.motor]\ntype = \"torque\"\nj = \"crank\"\ni = \"rokcer\"\ntorque = \"sin(t)\"\n";
+    says(unknown, &["unknown body 'rokcer'", "did you mean 'rocker'?"]);
+}
+
+#[test]
 fn unknown_bodies_and_points_with_a_suggestion() {
     says(
         &pin("ground.O", "crnak.A"),

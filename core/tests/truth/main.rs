@@ -4,6 +4,7 @@
 mod mechanisms;
 
 mod adams;
+mod andrews;
 mod convergence;
 mod four_bar;
 mod n_four_bar;

@@ -1,7 +1,9 @@
 //! Forces: what acts on bodies beside joints and gravity.
 
 mod spring_damper;
+mod torque;
 mod torsion_spring;
 
 pub use spring_damper::SpringDamper;
+pub use torque::Torque;
 pub use torsion_spring::TorsionSpring;

@@ -1,0 +1,31 @@
+//! Applied torque (Haug 6.2.16): a given torque on body j, opposite on body i.
+//!
+//! T = law of time and state; positive turns body j counter-clockwise. Its work counts as applied. All
+//! states.
+
+use crate::elements::{element, Action, BodyId, Force, Nature, Part, Situation};
+use crate::math::{Real, Wrench};
+
+element! {
+    /// Applied torque on body j, counter-clockwise; opposite on body i, which is ground unless given.
+    Torque, "torque" {
+        /// Body j.
+        j: body,
+        /// Torque on body j; may use `t` and the state.
+        torque: law [N*m],
+        /// Body i, which takes the opposite torque.
+        i: body = "ground",
+    }
+}
+
+impl Force<1> for Torque {
+    const PARTS: [Part; 1] = [Part { name: "applied", nature: Nature::Applied }];
+
+    fn ends<S>(e: &Torque<S>) -> [BodyId; 2] {
+        [e.i, e.j]
+    }
+
+    fn action<S: Real>(e: &Torque<S>, _: &Situation<S>) -> [Action<S>; 1] {
+        [Action { on_i: Wrench::torque(-e.torque), on_j: Wrench::torque(e.torque) }]
+    }
+}
