@@ -67,6 +67,32 @@ class Translational(Element):
 
 
 @dataclass(frozen=True)
+class Distance(Element):
+    """An element of type ``distance``.
+
+    Distance: a massless rod between two points, Φ = (d² - length²) / (2 length) with d the
+    distance from point i to point j (Haug 3.3.8). The force of the rod on body i is +λ along
+    the line from i to j, on body j -λ: λ > 0 is tension.
+
+    Attributes:
+        i: Point of body i, as `body.point`.
+        j: Point of body j, as `body.point`.
+        length: Length of the rod [m].
+    """
+
+    i: str
+    j: str
+    length: Number
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "distance"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "length": "number",
+    }
+
+
+@dataclass(frozen=True)
 class CoordinateDriver(Element):
     """An element of type ``coordinate_driver``.
 
@@ -213,6 +239,21 @@ class ElementMethods:
                 [rad].
         """
         return self._add(Translational(name, i=i, j=j, axes=axes))
+
+    def distance(self, name: str, i: str, j: str, *, length: Number) -> Distance:
+        """Add an element of type ``distance`` and return it.
+
+        Distance: a massless rod between two points, Φ = (d² - length²) / (2 length) with d the
+        distance from point i to point j (Haug 3.3.8). The force of the rod on body i is +λ along
+        the line from i to j, on body j -λ: λ > 0 is tension.
+
+        Args:
+            name: its name in the model.
+            i: Point of body i, as `body.point`.
+            j: Point of body j, as `body.point`.
+            length: Length of the rod [m].
+        """
+        return self._add(Distance(name, i=i, j=j, length=length))
 
     def coordinate_driver(self, name: str, coordinate: str, *, value: Number) -> CoordinateDriver:
         """Add an element of type ``coordinate_driver`` and return it.

@@ -129,6 +129,8 @@ def mechanism() -> kp.Model:
     m.revolute("hinge", "a.R", "b.P")
     m.translational("slide", "a.P", "b.R", axes=(0.4, -1.1))
     m.translational("guide", "ground.O", "b.P", axes=(0.9, 0.2))
+    m.distance("rod", "a.R", "b.R", length="2*w")
+    m.distance("tie", "ground.O", "b.R", length=0.9)
     for coordinate in ("x", "y", "angle"):
         law = "0.3 - 1.2*sin(w*t) + t^2"
         m.coordinate_driver(f"drive_{coordinate}", f"b.{coordinate}", value=law)
@@ -206,7 +208,7 @@ def test_the_declared_jacobian_and_gamma_follow_from_the_declared_residual() -> 
             plain = plain.replace(name, name.replace(".", "__"))
         return sympy.sympify(plain, table)
 
-    for kind in ("revolute", "translational"):
+    for kind in ("revolute", "translational", "distance"):
         for formula in declared("joints", kind):
             residual = read(formula["residual"])
             for name, entry in zip(names, formula["jacobian"], strict=True):

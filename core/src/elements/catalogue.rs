@@ -5,7 +5,7 @@ use super::derive::VelocityTerms;
 use super::drivers::CoordinateDriver;
 use super::forces::{SpringDamper, Torque, TorsionSpring};
 use super::formula::Formula;
-use super::joints::{Revolute, Translational};
+use super::joints::{Distance, Revolute, Translational};
 use super::kinds::{BodyId, Source};
 use super::traits::{Action, Attachment, Equation, Force, Joint, Part, Side, Situation};
 use crate::expression::Tape;
@@ -99,6 +99,13 @@ macro_rules! constraints {
             /// Names and units of the equations.
             pub fn equations(&self) -> Vec<Equation> {
                 match self { $($(Self::$Name(e) => <$Name>::equations(e).to_vec(),)+)+ }
+            }
+        }
+
+        impl Constraint {
+            /// A field whose value cannot be, and why.
+            pub fn fault(&self) -> Option<(&'static str, String)> {
+                match self { $($(Self::$Name(e) => <$Name>::fault(e),)+)+ }
             }
         }
 
@@ -235,7 +242,7 @@ macro_rules! forces {
 }
 
 constraints! {
-    Joints { Revolute, Translational }
+    Joints { Revolute, Translational, Distance }
     Drivers { CoordinateDriver }
 }
 

@@ -55,6 +55,12 @@ pub trait Joint<const M: usize>: Element {
     /// Φ.
     fn residual<S: Real>(e: &Self::Over<S>, i: &Pose<S>, j: &Pose<S>, t: S) -> [S; M];
 
+    /// A field whose value cannot be, and why; values that are not finite are refused anyway.
+    fn fault(e: &Self::Over<f64>) -> Option<(&'static str, String)> {
+        let _ = e;
+        None
+    }
+
     /// The joint frame on a body.
     fn attachment<S: Real>(e: &Self::Over<S>, side: Side) -> Attachment<S>;
 

@@ -23,6 +23,9 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
     for item in model.constraints.iter().filter(|c| c.law.is_none()) {
         let section = item.group.section();
         item.element.map(&mut |x| check(&[section, &item.name], *x, problems));
+        if let Some((field, message)) = item.element.fault() {
+            problems.push(Problem::at(&[section, &item.name, field], message));
+        }
     }
     for item in model.forces.iter().filter(|f| f.law.is_none()) {
         item.element.map(&mut |x| check(&["forces", &item.name], *x, problems));

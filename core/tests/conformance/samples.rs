@@ -3,7 +3,7 @@
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{SpringDamper, Torque, TorsionSpring};
-use kempe::elements::joints::{Revolute, Translational};
+use kempe::elements::joints::{Distance, Revolute, Translational};
 use kempe::elements::{
     catalogue, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, PointOn,
 };
@@ -27,6 +27,7 @@ pub fn constraints() -> Vec<Constraint> {
             j: on(2, 0.5, 0.9),
             axes: [0.7, -0.3],
         }),
+        Constraint::Distance(Distance { i: on(1, 0.6, -0.2), j: on(2, -0.3, 0.8), length: 1.4 }),
     ];
     for (coordinate, value) in
         [(Coordinate::X, 0.4), (Coordinate::Y, -1.3), (Coordinate::Angle, 2.1)]

@@ -45,6 +45,16 @@ fn nothing_of_a_sound_model() {
 }
 
 #[test]
+fn rods_without_length() {
+    for length in ["0", "-L", "L - 1"] {
+        let rod = format!(
+            "[joints.rod]\ntype = \"distance\"\ni = \"ground.O\"\nj = \"crank.A\"\nlength = \"{length}\"\n"
+        );
+        says(&rod, &["joints.rod.length: ", " m; must be > 0"]);
+    }
+}
+
+#[test]
 fn a_torque_between_a_body_and_itself() {
     let torque = "[forces.motor]\ntype = \"torque\"\nj = \"ground\"\ntorque = 1\n";
     says(torque, &["both ends of this force are on 'ground'"]);

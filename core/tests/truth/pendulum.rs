@@ -124,3 +124,39 @@ fn reaction_of_a_rod_released_from_horizontal() {
     }
     assert!(run.trajectory.q.last().unwrap() < &-1.3);
 }
+
+/// The benchmark's own model: a mass that a massless rod keeps at a distance.
+const ON_A_ROD: &str = r#"
+gravity = [0, -9.81]
+[bodies.ground]
+points = { O = [0, 0] }
+[bodies.bob]
+mass = 1
+inertia = 1
+points = { P = [0, 0] }
+[joints.rod]
+type = "distance"
+i = "ground.O"
+j = "bob.P"
+length = 1
+"#;
+
+#[test]
+fn the_point_pendulum_on_a_rod_of_given_length() {
+    let truth = reference("pendulum");
+    let m = with(ON_A_ROD, &[]);
+    for t in ["1", "10", "20"] {
+        let (state, _) = start(&m, &[("bob.y", "0"), ("bob.angle", "0.3")], &[("bob.x", "-1")]);
+        assert_eq!(state.q[..2], [-1.0, 0.0]);
+        let run = run(&m, &state, &tolerances(t.parse().unwrap(), 1e-12, 1e-14));
+        let last = run.trajectory.t.len() - 1;
+        let q = &run.trajectory.q[3 * last..];
+        let point = &truth["point"][t];
+        close("x", q[0], number(&point["x"]), 1e-8);
+        close("y", q[1], number(&point["y"]), 1e-8);
+        assert_eq!(q[2], 0.3);
+        // the rod pulls with m (v² - gᵀ r) at r = 1: (3/2) of twice the height that was lost
+        let pull = run.trajectory.lam[last];
+        close("tension", pull, 3.0 * 9.81 * -q[1], 1e-6);
+    }
+}

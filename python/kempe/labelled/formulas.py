@@ -7,7 +7,7 @@ points are put in, the coordinates of ground are zero, and arms that are zero fa
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -150,9 +150,17 @@ def _names(
         for component, value in zip("xy", point, strict=True):
             known = Term("name", word=f"{label}.{component}")
             names[f"{side}.s.{component}"] = ZERO if value == 0.0 else known
+    names |= {field: _formula(entry[field]) for field in _numbers(info) if field in entry}
     if "coordinate" in entry:
         names |= _driver(entry)
     return names, points
+
+
+def _numbers(info: ConstraintInfo) -> Iterator[str]:
+    """Names of the fields that hold a number, such as the length of a rod."""
+    for table in json.loads(_core.catalogue())[info.group]:
+        if table["name"] == info.type:
+            yield from (f["name"] for f in table["fields"] if f["shape"] == "number")
 
 
 def _driver(entry: Mapping[str, Any]) -> dict[str, Term]:
