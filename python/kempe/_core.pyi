@@ -20,7 +20,8 @@ def catalogue() -> str:
     ``{"bodies": [table], "joints": …, "drivers": …, "forces": …, "methods": …,
     "stabilizations": …, "analyses": …}`` with ``table = {"name", "doc", "fields": [{"name",
     "shape", "unit", "default", "doc"}]}``; shapes are body, point, coordinate, number, law, pair
-    and others.
+    and others. Then the language of formulas: ``"functions": [{"name", "arguments", "doc"}]`` and
+    ``"units": [{"name", "si", "dimension"}]``, with ``si`` the factor to the SI unit.
     """
 
 def schema() -> str:
