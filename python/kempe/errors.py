@@ -67,7 +67,7 @@ class KempeError(Exception):
         self.problems = problems
 
     def __str__(self) -> str:
-        message = super().__str__()
+        message = str(self.args[0])  # a KeyError would put it in quotes
         return f"{message}; {self.hint}" if self.hint else message
 
 

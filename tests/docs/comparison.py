@@ -14,7 +14,7 @@ _TOKEN = re.compile(
     r"|(?P<blank> +)|(?P<end>\n)|(?P<other>.)",
     re.MULTILINE,
 )
-_NUMBER = r"([-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)(?![\d.])"
+_NUMBER = r"([-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)(?!\d)"
 _PATTERN = {"lines": r"(?:.*\n)*?", "any": ".*?", "blank": " +", "end": "\n", "number": _NUMBER}
 
 

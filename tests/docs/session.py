@@ -51,13 +51,16 @@ class Session:
         self._said = out.getvalue()
 
     def _keep(self, block: Block) -> None:
-        """Write a whole case to its file, or to any; it must load and assemble."""
+        """Write a whole case to its file, or to any; it must load and assemble.
+
+        But for one that is called faulty: a command that follows tells what is wrong with it.
+        """
         whole = block.text.startswith(("kempe = 1", '{\n  "kempe": 1'))
         if block.file is None and not whole:
             return
         path = Path(block.file or f"unnamed.{block.language}")
         path.write_text(block.text, "utf-8")
-        if whole:
+        if whole and not path.name.startswith("faulty"):
             kp.load(path).start()
 
     def _converse(self, block: Block) -> None:

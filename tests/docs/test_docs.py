@@ -3,6 +3,7 @@
 import shutil
 from pathlib import Path
 
+import kempe as kp
 import pytest
 from docs.comparison import agrees
 from docs.pages import PAGES, anchors, blocks, links
@@ -70,3 +71,21 @@ def test_the_reference_is_what_the_catalogue_says() -> None:
 )
 def test_outputs_are_compared(shown: str, said: str, same: bool) -> None:
     assert agrees(shown, said) is same
+
+
+def test_the_page_of_errors_quotes_what_a_fault_of_kempe_says() -> None:
+    _core._inject_panic("version")
+    try:
+        with pytest.raises(kp.InternalError) as caught:
+            _core.version()
+    finally:
+        _core._inject_panic(None)
+    page = " ".join((ROOT / "docs" / "errors.md").read_text("utf-8").split())
+    assert caught.value.hint
+    assert f'"{caught.value.hint}"' in page
+
+
+def test_every_class_of_errors_has_its_heading() -> None:
+    classes = {name for name in dir(kp) if name.endswith("Error") and name != "KempeError"}
+    page = (ROOT / "docs" / "errors.md").read_text("utf-8")
+    assert classes == {name for name in classes if f"\n## {name}\n" in page}
