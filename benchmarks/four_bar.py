@@ -73,7 +73,7 @@ def jacobian(q: np.ndarray) -> np.ndarray:
 
 
 def acceleration_right_side(q: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """gamma."""
+    """Gamma."""
     gamma = np.zeros(8)
     for k, (i, s_i, j, s_j) in enumerate(JOINTS):
         at_j = rotation(q[3 * j + 2]) @ np.array(s_j) * v[3 * j + 2] ** 2

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from kempe._version import __version__
 
 if TYPE_CHECKING:
+    from kempe import draw as draw
     from kempe import errors as errors
     from kempe import plot as plot
     from kempe import report as report
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
     from kempe.case import Results as Results
     from kempe.case import Start as Start
     from kempe.case import load as load
+    from kempe.draw.animate import animate as animate
+    from kempe.draw.player import player as player
+    from kempe.draw.scene import scene as scene
     from kempe.energy import Energy as Energy
     from kempe.errors import AssemblyError as AssemblyError
     from kempe.errors import FileError as FileError
@@ -32,6 +36,9 @@ if TYPE_CHECKING:
     from kempe.errors import ModelError as ModelError
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
+    from kempe.labelled import Labelled as Labelled
+    from kempe.labelled import equations as equations
+    from kempe.labelled import show as show
     from kempe.matrices import Matrices as Matrices
     from kempe.model import Model as Model
     from kempe.motion import Motion as Motion
@@ -43,6 +50,8 @@ if TYPE_CHECKING:
     from kempe.solution import Solution as Solution
     from kempe.state import AssemblyReport as AssemblyReport
     from kempe.state import State as State
+    from kempe.studies import Study as Study
+    from kempe.studies import study as study
 
 #: Public name → the module of kempe that holds it; "" means that the name is a module itself.
 _HOME = {
@@ -57,6 +66,7 @@ _HOME = {
     "IntegrationError": "errors",
     "InternalError": "errors",
     "KempeError": "errors",
+    "Labelled": "labelled",
     "Matrices": "matrices",
     "Model": "model",
     "ModelError": "errors",
@@ -70,13 +80,21 @@ _HOME = {
     "Solution": "solution",
     "Start": "case",
     "State": "state",
+    "Study": "studies",
+    "animate": "draw.animate",
     "assemble": "analyses",
+    "draw": "",
     "dynamics": "analyses",
+    "equations": "labelled",
     "errors": "",
     "load": "case",
     "load_solution": "archive",
+    "player": "draw.player",
     "plot": "",
     "report": "",
+    "scene": "draw.scene",
+    "show": "labelled",
+    "study": "studies",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604

@@ -19,9 +19,11 @@ def catalogue() -> str:
 
     ``{"bodies": [table], "joints": …, "drivers": …, "forces": …, "methods": …,
     "stabilizations": …, "analyses": …}`` with ``table = {"name", "doc", "fields": [{"name",
-    "shape", "unit", "default", "doc"}]}``; shapes are body, point, coordinate, number, law, pair
-    and others. Then the language of formulas: ``"functions": [{"name", "arguments", "doc"}]`` and
-    ``"units": [{"name", "si", "dimension"}]``, with ``si`` the factor to the SI unit.
+    "shape", "unit", "default", "doc"}]}``; joints and drivers have
+    ``"formulas": [{"residual", "jacobian": [6 texts], "gamma"}]`` too; shapes are body, point,
+    coordinate, number, law, pair and others. Then the language of formulas: ``"functions":
+    [{"name", "arguments", "doc"}]`` and ``"units": [{"name", "si", "dimension"}]``, with ``si`` the
+    factor to the SI unit.
     """
 
 def schema() -> str:
@@ -78,8 +80,8 @@ class Model:
         ``{"title", "gravity": [x, y], "parameters": {…}, "n_q", "n_rows",
         "bodies": [{"name", "type", "mass", "inertia", "center": [x, y], "points": {"B": [x, y]}}],
         "constraints": [{"name", "group": "joints" | "drivers", "type", "i", "j",
-        "point_i": [x, y], "point_j": [x, y], "rows": [start, stop],
-        "equations": [{"name", "unit"}]}],
+        "point_i": [x, y], "point_j": [x, y], "axis_i": angle, "axis_j": angle,
+        "rows": [start, stop], "equations": [{"name", "unit"}]}],
         "forces": [{"name", "type", "i", "j", "parts": ["stiffness", "damping"]}]}``; the first
         body is ground.
         """
@@ -121,6 +123,7 @@ def assemble(
     t: float,
     q: _F | None,
     v: _F | None,
+    from_guess: bool = False,
 ) -> tuple[float, _F, _F, str]:
     """Put a mechanism together.
 
@@ -131,10 +134,12 @@ def assemble(
         t: time, s.
         q: a whole configuration as guess, (n_q,).
         v: the velocities that go with it, (n_q,).
+        from_guess: whether Newton starts from the guess as it stands, with open loops.
 
     Returns:
-        t, q, v and a report as JSON: ``{"iterations": [{"residual", "step"}],
-        "degrees_of_freedom", "modes": [{"bodies", "joint", "side": "left" | "right"}],
+        t, q, v and a report as JSON: ``{"iterations": [{"residual", "step", "damping"}],
+        "degrees_of_freedom", "modes": [{"bodies", "joint", "side": "left" | "right" |
+        "ahead" | "behind"}],
         "alternatives": int, "warnings": [text]}``.
 
     Raises:

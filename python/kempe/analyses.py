@@ -34,6 +34,7 @@ def assemble(
     t: float = 0.0,
     *,
     redundancy: str | None = None,
+    from_guess: bool = False,
 ) -> State:
     """Put a mechanism together.
 
@@ -44,6 +45,9 @@ def assemble(
         t: time, s.
         redundancy: "allow" accepts constraints that repeat others, here and in what starts from
             the state; as the model says when None.
+        from_guess: whether Newton–Raphson starts from the guess as it stands, bodies hung by their
+            joints and loops open: the classical iteration, for ``state.report.iterations`` to be
+            looked at. By default bodies are placed so that loops close before it starts.
 
     Returns:
         The state, with ``report``.
@@ -61,7 +65,9 @@ def assemble(
         q, v, hint = np.array(guess.q), np.array(guess.v), "{}"
     else:
         hint = json.dumps(numbers(guess or {}, "guess"), allow_nan=False)
-    t_found, q_found, v_found, told = _core.assemble(compiled.core, held, hint, _time(t), q, v)
+    t_found, q_found, v_found, told = _core.assemble(
+        compiled.core, held, hint, _time(t), q, v, from_guess
+    )
     report = AssemblyReport.from_json(told)
     for text in report.warnings:
         warnings.warn(text, AssemblyWarning, stacklevel=2)

@@ -17,7 +17,7 @@ from kempe.names import unknown
 from kempe.options import Dynamics
 from kempe.solution import Solution
 from kempe.state import State
-from kempe.values import Number, numbers
+from kempe.values import Number, number, numbers
 
 FORMATS = {".toml": "toml", ".json": "json"}
 
@@ -177,6 +177,9 @@ class Case:
         """
         if name not in self._entries:
             raise unknown("analysis", name, self._entries)
+        for key, value in changes.items():
+            if isinstance(value, float):
+                number(value, f"analyses.{name}.{key}")
         entries = {**self._entries, name: {**self._entries[name], **changes}}
         return Case(self.model, self._start, entries)
 
@@ -214,6 +217,11 @@ def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) ->
         case.model = case.model.with_parameters(parameters)
     core.check(case.model.compile().core)
     return case
+
+
+def schema() -> str:
+    """The JSON Schema (draft 2020-12) of a case, for editors."""
+    return _core.schema()
 
 
 def _format(path: Path | str, doing: str) -> str:

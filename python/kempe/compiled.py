@@ -57,6 +57,7 @@ class ConstraintInfo:
         type: such as "revolute".
         i, j: the bodies that it joins.
         point_i, point_j: the joint's point in the frame of each body, m.
+        axis_i, axis_j: angle of the joint's x axis in the frame of each body, rad.
         rows: where its equations are in Φ and λ.
         equations: names and units of the equations.
     """
@@ -68,6 +69,8 @@ class ConstraintInfo:
     j: str
     point_i: Vector
     point_j: Vector
+    axis_i: float
+    axis_j: float
     rows: slice
     equations: tuple[tuple[str, str], ...]
 
@@ -235,6 +238,8 @@ def _constraint(entry: dict[str, Any]) -> ConstraintInfo:
         j=entry["j"],
         point_i=_vector(entry["point_i"]),
         point_j=_vector(entry["point_j"]),
+        axis_i=float(entry["axis_i"]),
+        axis_j=float(entry["axis_j"]),
         rows=slice(*entry["rows"]),
         equations=tuple((equation["name"], equation["unit"]) for equation in entry["equations"]),
     )

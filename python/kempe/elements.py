@@ -39,6 +39,34 @@ class Revolute(Element):
 
 
 @dataclass(frozen=True)
+class Translational(Element):
+    """An element of type ``translational``.
+
+    Translational joint: point j stays on the line through point i along the slide, and the
+    bodies do not turn against each other (Haug 3.3.13, 3.3.14). Φ1 is the distance of point j
+    from that line, to its left; Φ2 = angle_j + axes_j - angle_i - axes_i. The force of the
+    joint is normal to the slide: on body i +λ1 along the normal, on body j -λ1.
+
+    Attributes:
+        i: Point of body i on the slide, as `body.point`.
+        j: Point of body j on the slide, as `body.point`.
+        axes: Angle of the slide, the joint frame's x axis, in the frame of body i and of body j
+            [rad].
+    """
+
+    i: str
+    j: str
+    axes: Pair = (0.0, 0.0)
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "translational"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "axes": "pair",
+    }
+
+
+@dataclass(frozen=True)
 class CoordinateDriver(Element):
     """An element of type ``coordinate_driver``.
 
@@ -110,6 +138,23 @@ class ElementMethods:
             axes: Angle of the joint frame's x axis in the frame of body i and of body j [rad].
         """
         return self._add(Revolute(name, i=i, j=j, axes=axes))
+
+    def translational(self, name: str, i: str, j: str, *, axes: Pair = (0.0, 0.0)) -> Translational:
+        """Add an element of type ``translational`` and return it.
+
+        Translational joint: point j stays on the line through point i along the slide, and the
+        bodies do not turn against each other (Haug 3.3.13, 3.3.14). Φ1 is the distance of point j
+        from that line, to its left; Φ2 = angle_j + axes_j - angle_i - axes_i. The force of the
+        joint is normal to the slide: on body i +λ1 along the normal, on body j -λ1.
+
+        Args:
+            name: its name in the model.
+            i: Point of body i on the slide, as `body.point`.
+            j: Point of body j on the slide, as `body.point`.
+            axes: Angle of the slide, the joint frame's x axis, in the frame of body i and of body j
+                [rad].
+        """
+        return self._add(Translational(name, i=i, j=j, axes=axes))
 
     def coordinate_driver(self, name: str, coordinate: str, *, value: Number) -> CoordinateDriver:
         """Add an element of type ``coordinate_driver`` and return it.

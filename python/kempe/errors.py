@@ -67,7 +67,7 @@ class KempeError(Exception):
         self.problems = problems
 
     def __str__(self) -> str:
-        message = str(self.args[0])  # a KeyError would put it in quotes
+        message = str(self.args[0])  # a KeyError, which some are too, would put it in quotes
         return f"{message}; {self.hint}" if self.hint else message
 
 

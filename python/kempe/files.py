@@ -72,7 +72,8 @@ def read_text(path: Path | str) -> str:
 def writing(path: Path | str) -> Iterator[BinaryIO]:
     """A binary file that appears at ``path`` when the block ends well, and not otherwise.
 
-    Missing folders are made. A symbolic link stays one: what it points to is replaced.
+    Missing folders are made. A symbolic link stays one: what it points to is replaced. Devices and
+    pipes are refused, since a rename would put a file in their place.
 
     Raises:
         FileError: the file cannot be written.
@@ -82,6 +83,12 @@ def writing(path: Path | str) -> Iterator[BinaryIO]:
     try:
         if target.is_dir():
             raise IsADirectoryError(target)
+        if target.exists() and not target.is_file():
+            raise FileError(
+                f"cannot write {path}: it is a device or a pipe",
+                name=str(path),
+                hint="name a file, or leave the option out to write to the terminal",
+            )
         target.parent.mkdir(parents=True, exist_ok=True)
         with draft.open("xb") as file:
             yield file

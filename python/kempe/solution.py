@@ -72,6 +72,8 @@ class Solution(Motion):
     def _interpolant(self, run: _core.Run) -> DenseOutput | None:
         if run.dense_t is None or run.dense_y is None or run.dense_c is None:
             return None
+        if not len(self.t):  # it failed before the first output
+            return None
         if not len(run.dense_y):
             return DenseOutput.of_an_instant(self.t[0], np.concatenate([self.q[0], self.v[0]]))
         return DenseOutput(fixed(run.dense_t), fixed(run.dense_y), fixed(run.dense_c))

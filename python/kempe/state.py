@@ -21,12 +21,15 @@ class Iteration:
     """One iteration of an assembly.
 
     Attributes:
-        residual: norm of the residuals before it, m and rad.
-        step: norm of the change of the coordinates, m and rad.
+        residual: norm of Φ after it, lengths relative to the size of the mechanism; the first is
+            that of the start.
+        step: norm of the full step, lengths relative to the same; 0 for the start.
+        damping: part of the step that was taken, 1 for Newton's own.
     """
 
     residual: float
     step: float
+    damping: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -38,7 +41,8 @@ class Mode:
         joint: the joint between them.
         anchors: its outer joints.
         side: where the joint lies, seen along the line from the first anchor to the second:
-            "left" or "right".
+            "left" or "right"; where the second anchor is a slide, whether the joint lies "ahead"
+            of the first along the slide or "behind".
     """
 
     bodies: tuple[str, ...]
@@ -70,7 +74,9 @@ class AssemblyReport:
         """The report as the core gives it."""
         told: dict[str, Any] = json.loads(text)
         return cls(
-            iterations=tuple(Iteration(i["residual"], i["step"]) for i in told["iterations"]),
+            iterations=tuple(
+                Iteration(i["residual"], i["step"], i["damping"]) for i in told["iterations"]
+            ),
             degrees_of_freedom=told["degrees_of_freedom"],
             modes=tuple(
                 Mode(tuple(m["bodies"]), m["joint"], tuple(m["anchors"]), m["side"])
@@ -84,13 +90,18 @@ class AssemblyReport:
         last = f", residual {self.iterations[-1].residual:.1e}" if self.iterations else ""
         count = len(self.iterations)
         lines = [f"{count} iteration{'' if count == 1 else 's'}{last}"]
-        lines += [
-            f"{' and '.join(m.bodies)}: {m.joint} lies to the {m.side} of {' → '.join(m.anchors)}"
-            for m in self.modes
-        ]
+        lines += [f"{' and '.join(m.bodies)}: {m.joint} lies {_place(m)}" for m in self.modes]
         if self.alternatives:
             lines.append(f"other assemblies exist: {self.alternatives}")
         return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings)])
+
+
+def _place(mode: Mode) -> str:
+    """``to the left of A → D``, or ``ahead of B along the slide S``."""
+    if mode.side in ("ahead", "behind"):
+        first, slide = mode.anchors
+        return f"{mode.side}{' of' * (mode.side == 'ahead')} {first} along the slide {slide}"
+    return f"to the {mode.side} of {' → '.join(mode.anchors)}"
 
 
 class State(Motion):

@@ -369,26 +369,3 @@ def test_without_pandas_it_is_said_what_to_install(
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(kp.ModelError, match="pip install pandas"):
         solution.to_dataframe()
-
-
-def test_the_figure_shows_both_ends_of_the_motion(solution: kp.Solution) -> None:
-    from kempe.plot import style
-
-    axes = style.figure().add_subplot()
-    assert kp.plot.linkage(solution, axes) is axes
-    assert axes.get_xlabel() == "x / m"
-    assert axes.get_aspect() == 1.0
-    assert {"A", "B", "C", "D"} <= {text.get_text() for text in axes.texts}
-    ends = [line.get_xydata() for line in axes.lines]
-    for state in (solution.initial, solution.final):
-        corners = np.array([state["coupler"].point(name).position for name in "BC"])
-        assert any(np.array_equal(corners, drawn) for drawn in ends)
-
-
-def test_names_in_the_figure_lie_on_no_line() -> None:
-    from kempe.plot.labels import distances, label_directions
-
-    anchors = np.array([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0]])
-    segments = np.array([[anchors[0], anchors[1]], [anchors[1], anchors[2]]])
-    places = anchors + 1.2 * label_directions(anchors, segments)
-    assert distances(places, segments).min() > 0.8

@@ -25,7 +25,8 @@ pub fn wishes(py: Python<'_>, model: &PyModel, section: &str, text: &str) -> PyR
 
 /// Puts a mechanism together.
 #[pyfunction]
-#[pyo3(signature = (model, set, guess, t, q, v))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+#[pyo3(signature = (model, set, guess, t, q, v, from_guess=false))]
 pub fn assemble<'py>(
     py: Python<'py>,
     model: &PyModel,
@@ -34,6 +35,7 @@ pub fn assemble<'py>(
     t: f64,
     q: Option<Row<'py>>,
     v: Option<Row<'py>>,
+    from_guess: bool,
 ) -> PyResult<Assembled<'py>> {
     guard("assemble", || {
         let given = match (q, v) {
@@ -45,6 +47,7 @@ pub fn assemble<'py>(
             guess: wishes(py, model, "guess", guess)?,
             state: given,
             t: number(py, "t", t)?,
+            from_guess,
         };
         let core_model = std::sync::Arc::clone(&model.model);
         let outcome = py.detach(|| core::assemble(&core_model, &request));
@@ -70,7 +73,12 @@ fn describe(report: &Report) -> Value {
         .iter()
         .map(|r| json!({ "residual": r.residual_norm, "step": r.step_norm, "damping": r.damping }));
     let modes = report.modes.iter().map(|m| {
-        let side = if m.left { "left" } else { "right" };
+        let side = match (m.slides, m.left) {
+            (false, true) => "left",
+            (false, false) => "right",
+            (true, true) => "ahead",
+            (true, false) => "behind",
+        };
         json!({ "bodies": m.bodies, "joint": m.joint, "anchors": m.anchors, "side": side })
     });
     json!({

@@ -31,11 +31,7 @@ impl PyModel {
 
     /// The same model with redundant constraints accepted.
     fn allowing_redundancy(&self) -> PyResult<Self> {
-        guard("Model.allowing_redundancy", || {
-            let mut blueprint = (*self.model.blueprint).clone();
-            blueprint.allow_redundancy = true;
-            Ok(Self::new(Model::new(&Arc::new(blueprint), &self.model.parameters)))
-        })
+        guard("Model.allowing_redundancy", || Ok(Self::new(self.model.allowing_redundancy())))
     }
 }
 
@@ -86,6 +82,8 @@ fn constraint(model: &Model, item: &ConstraintItem, rows: &std::ops::Range<usize
         "j": j,
         "point_i": pair(&item.element.attachment(Side::I).s),
         "point_j": pair(&item.element.attachment(Side::J).s),
+        "axis_i": item.element.attachment(Side::I).axis,
+        "axis_j": item.element.attachment(Side::J).axis,
         "rows": [rows.start, rows.end],
         "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
     })

@@ -1,7 +1,7 @@
 //! The declarations of elements, bodies and options as JSON.
 
 use kempe::analyses::{analysis_tables, option_families};
-use kempe::elements::{catalogue, Default, Field, Group, Shape, Table};
+use kempe::elements::{catalogue, formulas, Default, Field, Group, Shape, Table};
 use kempe::expression::unit::{Unit, UNITS};
 use kempe::expression::{Function, FUNCTIONS};
 use kempe::model::body_tables;
@@ -50,13 +50,24 @@ fn unit((name, unit): &(&str, Unit)) -> Value {
     json!({ "name": name, "si": unit.scale(1.0), "dimension": unit.dimension.to_string() })
 }
 
+/// An element with its equations as formulas.
+fn element(group: Group, own: &Table) -> Value {
+    let mut value = table(own);
+    let Some(all) = formulas(group, own.name) else { return value };
+    let equations = all
+        .iter()
+        .map(|f| json!({ "residual": f.residual, "jacobian": f.jacobian, "gamma": f.gamma }));
+    value["formulas"] = equations.collect();
+    value
+}
+
 /// Everything that may stand in a case, by section; then the functions and units of formulas.
 pub fn all() -> String {
     let mut sections = Map::new();
     sections.insert("bodies".into(), body_tables().iter().map(table).collect());
     for group in [Group::Joints, Group::Drivers, Group::Forces] {
         let tables = catalogue();
-        let own = tables.iter().filter(|(g, _)| *g == group).map(|(_, t)| table(t));
+        let own = tables.iter().filter(|(g, _)| *g == group).map(|(_, t)| element(group, t));
         sections.insert(group.section().into(), own.collect());
     }
     for family in option_families() {

@@ -4,7 +4,8 @@ use super::declare::{Element, Table};
 use super::derive::VelocityTerms;
 use super::drivers::CoordinateDriver;
 use super::forces::TorsionSpring;
-use super::joints::Revolute;
+use super::formula::Formula;
+use super::joints::{Revolute, Translational};
 use super::kinds::{BodyId, Source};
 use super::traits::{Action, Attachment, Equation, Force, Joint, Part, Side, Situation};
 use crate::expression::Tape;
@@ -91,6 +92,10 @@ macro_rules! constraints {
             pub fn pins(&self) -> bool {
                 match self { $($(Self::$Name(_) => <$Name>::PINS,)+)+ }
             }
+            /// Whether body j slides along an axis of body i without turning.
+            pub fn slides(&self) -> bool {
+                match self { $($(Self::$Name(_) => <$Name>::SLIDES,)+)+ }
+            }
             /// Names and units of the equations.
             pub fn equations(&self) -> Vec<Equation> {
                 match self { $($(Self::$Name(e) => <$Name>::equations(e).to_vec(),)+)+ }
@@ -149,6 +154,14 @@ macro_rules! constraints {
 
         fn constraint_tables() -> Vec<(Group, Table)> {
             vec![$($((Group::$Group, $Name::<f64>::table()),)+)+]
+        }
+
+        /// The equations of a type of joint or driver as formulas; None if there is no such type.
+        pub fn formulas(group: Group, kind: &str) -> Option<&'static [Formula]> {
+            $($(if group == Group::$Group && kind == $Name::<f64>::table().name {
+                return Some(&<$Name>::FORMULAS);
+            })+)+
+            None
         }
     };
 }
@@ -218,7 +231,7 @@ macro_rules! forces {
 }
 
 constraints! {
-    Joints { Revolute }
+    Joints { Revolute, Translational }
     Drivers { CoordinateDriver }
 }
 

@@ -7,6 +7,7 @@
 
 mod declare;
 mod derive;
+mod formula;
 mod kinds;
 mod traits;
 
@@ -17,11 +18,12 @@ pub mod joints;
 mod catalogue;
 
 pub(crate) use catalogue::jets;
-pub use catalogue::{catalogue, Constraint, ForceElement, Group, Rows, MOST_EQUATIONS};
+pub use catalogue::{catalogue, formulas, Constraint, ForceElement, Group, Rows, MOST_EQUATIONS};
 use declare::join;
 pub use declare::{element, Default, Element, Field, Table};
 pub use derive::{derived_jacobian, derived_velocity_terms, VelocityTerms};
 pub(crate) use derive::{moving, seeded};
+pub use formula::Formula;
 pub use kinds::{
     body, coordinate, law, number, pair, point, BodyId, Coordinate, CoordinateOf, Kind, PointOn,
     Shape, Source,

@@ -2,6 +2,7 @@
 
 use super::declare::Element;
 use super::derive;
+use super::formula::Formula;
 use super::kinds::BodyId;
 use crate::math::{Local, Motion, Pose, Real, Wrench};
 
@@ -37,6 +38,13 @@ pub struct Attachment<S = f64> {
 pub trait Joint<const M: usize>: Element {
     /// Whether the joint points of i and j coincide: what assembly walks along to place bodies.
     const PINS: bool = false;
+
+    /// Whether body j can only slide along the x axis of the joint frame of body i, so that the axes
+    /// of both joint frames keep one direction: the other thing that assembly walks along.
+    const SLIDES: bool = false;
+
+    /// The equations as formulas to be read.
+    const FORMULAS: [Formula; M];
 
     /// Bodies i and j; ground where a body is missing.
     fn ends<S>(e: &Self::Over<S>) -> [BodyId; 2];

@@ -3,6 +3,9 @@
 use super::model::{Body, Model};
 use super::problem::Problem;
 
+/// Longer lengths, m, have powers that overflow where positions are solved for.
+const LONGEST: f64 = 1e60;
+
 /// Reports bodies without mass, inertia or extent, and everything that is not finite.
 pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
     for body in &model.bodies {
@@ -55,9 +58,12 @@ fn positive(body: &Body, problems: &mut Vec<Problem>) {
 
 fn finite_points(body: &Body, problems: &mut Vec<Problem>) {
     for (name, s) in &body.points {
+        let path = ["bodies", &body.name, "points", name];
         if !(s.x.is_finite() && s.y.is_finite()) {
-            let path = ["bodies", &body.name, "points", name];
             problems.push(Problem::at(&path, format!("({}, {}); must be finite", s.x, s.y)));
+        } else if s.x.abs().max(s.y.abs()) > LONGEST {
+            let message = format!("({:e}, {:e}); must be below {LONGEST:e} m", s.x, s.y);
+            problems.push(Problem::at(&path, message));
         }
     }
 }

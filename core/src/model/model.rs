@@ -186,6 +186,12 @@ impl<S: Real> Model<S> {
         }
     }
 
+    /// The same model with redundant constraints accepted.
+    pub fn allowing_redundancy(&self) -> Self {
+        let blueprint = Blueprint { allow_redundancy: true, ..(*self.blueprint).clone() };
+        Self::new(&Arc::new(blueprint), &self.parameters)
+    }
+
     /// The same model over a scalar that contains this one.
     pub fn lift<T: Lift<S>>(&self) -> Model<T> {
         let parameters: Vec<T> = self.parameters.iter().map(|p| T::lift(*p)).collect();

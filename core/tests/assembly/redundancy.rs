@@ -53,9 +53,8 @@ fn allowed_twins_assemble_with_velocities() {
     let plain = model(crate::mechanisms::FOUR_BAR);
     let ask = [("crank.angle", "70*deg"), ("crank.omega", "2")];
     let guess = [("coupler.angle", "14*deg"), ("rocker.angle", "240*deg")];
-    let mut allowed = request(&m, &ask, &guess);
-    allowed.allow_redundancy = true;
-    let (state, report) = assemble(&m, &allowed).unwrap();
+    let allowed = m.allowing_redundancy();
+    let (state, report) = assemble(&allowed, &request(&allowed, &ask, &guess)).unwrap();
     let (expected, _) = start(&plain, &ask, &guess);
     assert_eq!(report.degrees_of_freedom, 1);
     for k in 0..9 {
@@ -71,9 +70,7 @@ fn a_third_parallel_crank_is_redundant_everywhere() {
         let failure = refused_parallel(&m, angle);
         assert_eq!(failure.fault, Fault::Redundant);
         assert!(failure.message.contains("depend on each other"), "{}", failure.message);
-        let mut allowed = ask(&m, angle);
-        allowed.allow_redundancy = true;
-        let (state, report) = assemble(&m, &allowed).unwrap();
+        let (state, report) = assemble(&m.allowing_redundancy(), &ask(&m, angle)).unwrap();
         assert_eq!(report.degrees_of_freedom, 1);
         assert!(largest(&residual(&m, &state)) < 1e-11);
         let found = mobility(&m, 0.0, &state.q);
@@ -118,9 +115,7 @@ fn a_flat_parallelogram_is_singular_but_not_redundant() {
 #[test]
 fn a_flat_parallelogram_with_a_third_crank_is_both() {
     let m = model(&parallelogram(true));
-    let mut allowed = ask(&m, "0");
-    allowed.allow_redundancy = true;
-    let (state, _) = assemble(&m, &allowed).unwrap();
+    let (state, _) = assemble(&m.allowing_redundancy(), &ask(&m, "0")).unwrap();
     let found = mobility(&m, 0.0, &state.q);
     assert_eq!(found.rank, 10, "{found:?}");
     assert!(!found.redundant.is_empty() && !found.singular.is_empty(), "{found:?}");

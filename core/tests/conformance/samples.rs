@@ -3,7 +3,7 @@
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::TorsionSpring;
-use kempe::elements::joints::Revolute;
+use kempe::elements::joints::{Revolute, Translational};
 use kempe::elements::{
     catalogue, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, PointOn,
 };
@@ -16,11 +16,18 @@ fn on(body: usize, x: f64, y: f64) -> PointOn {
 /// Joints and drivers; drivers act from ground.
 pub fn constraints() -> Vec<Constraint> {
     let driven = |coordinate| CoordinateOf { body: BodyId(2), coordinate };
-    let mut all = vec![Constraint::Revolute(Revolute {
-        i: on(1, 0.3, -0.7),
-        j: on(2, -1.1, 0.4),
-        axes: [0.2, -0.5],
-    })];
+    let mut all = vec![
+        Constraint::Revolute(Revolute {
+            i: on(1, 0.3, -0.7),
+            j: on(2, -1.1, 0.4),
+            axes: [0.2, -0.5],
+        }),
+        Constraint::Translational(Translational {
+            i: on(1, -0.4, 0.2),
+            j: on(2, 0.5, 0.9),
+            axes: [0.7, -0.3],
+        }),
+    ];
     for (coordinate, value) in
         [(Coordinate::X, 0.4), (Coordinate::Y, -1.3), (Coordinate::Angle, 2.1)]
     {

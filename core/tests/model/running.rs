@@ -156,9 +156,8 @@ fn a_singular_start_is_named() {
     let twins = PENDULUM.to_string()
         + "[joints.pin2]\ntype = \"revolute\"\ni = \"ground.O\"\nj = \"rod.O\"\n";
     let m = model(&twins);
-    let request =
-        kempe::analyses::assemble::Request { allow_redundancy: true, ..Default::default() };
-    let (state, _) = kempe::analyses::assemble::assemble(&m, &request).unwrap();
+    let allowed = m.allowing_redundancy();
+    let (state, _) = kempe::analyses::assemble::assemble(&allowed, &Default::default()).unwrap();
     let failure = fails(&m, &state, &tolerances(1.0, 1e-6, 1e-9));
     match &failure.reason {
         Reason::Singular { t, name, message } => {
@@ -167,8 +166,7 @@ fn a_singular_start_is_named() {
         other => panic!("{other}"),
     }
     // allowed, it moves as with one pin, and the two share the load
-    let allowed = Options { allow_redundancy: true, ..tolerances(1.0, 1e-9, 1e-12) };
-    let (double, single) = (run(&m, &state, &allowed), {
+    let (double, single) = (run(&allowed, &state, &tolerances(1.0, 1e-9, 1e-12)), {
         let m = model(PENDULUM);
         run(&m, &State { z: vec![], ..state.clone() }, &tolerances(1.0, 1e-9, 1e-12))
     });

@@ -11,18 +11,37 @@ from rich.text import Text
 from kempe import errors
 from kempe._version import __version__
 from kempe.cli import exit_codes
+from kempe.cli.animate import EXAMPLES as ANIMATE_EXAMPLES
+from kempe.cli.animate import animate as animate_command
+from kempe.cli.check import EXAMPLES as CHECK_EXAMPLES
 from kempe.cli.check import check as check_command
+from kempe.cli.new import EXAMPLES as NEW_EXAMPLES
+from kempe.cli.new import new as new_command
+from kempe.cli.plot import EXAMPLES as PLOT_EXAMPLES
+from kempe.cli.plot import plot as plot_command
+from kempe.cli.run import EXAMPLES as RUN_EXAMPLES
 from kempe.cli.run import run as run_command
+from kempe.cli.schema import EXAMPLES as SCHEMA_EXAMPLES
+from kempe.cli.schema import schema as schema_command
+from kempe.cli.show import EXAMPLES as SHOW_EXAMPLES
+from kempe.cli.show import show as show_command
+from kempe.cli.study import EXAMPLES as STUDY_EXAMPLES
+from kempe.cli.study import study as study_command
 
 app = typer.Typer(
     name="kempe",
     help="Planar multibody mechanics: assembly, kinematics, dynamics and joint reactions.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
 )
-app.command("run")(run_command)
-app.command("check")(check_command)
+app.command("run", epilog=RUN_EXAMPLES)(run_command)
+app.command("check", epilog=CHECK_EXAMPLES)(check_command)
+app.command("show", epilog=SHOW_EXAMPLES)(show_command)
+app.command("plot", epilog=PLOT_EXAMPLES)(plot_command)
+app.command("animate", epilog=ANIMATE_EXAMPLES)(animate_command)
+app.command("study", epilog=STUDY_EXAMPLES)(study_command)
+app.command("new", epilog=NEW_EXAMPLES)(new_command)
+app.command("schema", epilog=SCHEMA_EXAMPLES)(schema_command)
 
 #: First match wins, so a class stands before its base.
 _CODES: tuple[tuple[type[errors.KempeError], int], ...] = (

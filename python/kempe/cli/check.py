@@ -7,6 +7,11 @@ from rich.text import Text
 from kempe.cli.arguments import File, Settings, assembled, read_case
 from kempe.cli.console import answers
 
+EXAMPLES = """Examples:
+
+  kempe check four_bar.toml --set L2=27
+"""
+
 
 def check(file: File, settings: Settings = None) -> None:
     """Read a case, put its mechanism together and show it; simulate nothing."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
@@ -48,3 +48,22 @@ class Clock:
                 yield
             finally:
                 self._progress.remove_task(task)
+
+
+@contextmanager
+def drawing(name: str) -> Iterator[Callable[[int, int], None]]:
+    """Show how many pictures of a video have been drawn while the block runs.
+
+    Args:
+        name: of the video.
+
+    Yields:
+        What is to be called with the number of pictures drawn and of all.
+    """
+    console = remarks()
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
+    with Progress(
+        *columns, console=console, transient=True, disable=not console.is_terminal
+    ) as progress:
+        task = progress.add_task(name, total=None)
+        yield lambda done, all_of_them: progress.update(task, completed=done, total=all_of_them)

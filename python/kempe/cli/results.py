@@ -7,24 +7,52 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from kempe.cli.animate import Form
     from kempe.solution import Solution
 
+FILES = ("solution.npz", "solution.csv", "summary.json")
+#: Of one kind, such as those of the joints; ``kempe plot`` draws all.
+MOST_FIGURES = 12
 
-def write_results(solution: Solution, summary: dict[str, Any], folder: Path) -> list[Path]:
-    """Solution, table, summary and figure; returns the files in that order.
+
+def write_results(
+    solution: Solution,
+    summary: dict[str, Any],
+    folder: Path,
+    *,
+    index_base: int = 1,
+    with_figures: bool = True,
+    video: Form | None = None,
+) -> list[Path]:
+    """Solution, table, drawings, figures and summary, which lists them all; returns the files.
+
+    The summary comes last, as it tells of what is there.
+
+    Args:
+        solution: what was computed.
+        summary: of the solution.
+        folder: where to.
+        index_base: number of the first body in figures.
+        with_figures: whether to draw figures.
+        video: a video to make besides the page that plays the motion.
 
     Raises:
         FileError: a file cannot be written.
     """
-    from kempe import files, plot
-    from kempe.plot import style
+    from kempe import files
+    from kempe.cli.drawings import write_drawings
 
-    data, text = folder / "solution.npz", folder / "solution.csv"
-    told, drawing = folder / "summary.json", folder / "figures" / "linkage.png"
+    data, text, told = (folder / name for name in FILES)
     solution.save(data)
     solution.to_csv(text)
-    files.write_text(told, json.dumps(summary, indent=2, ensure_ascii=False) + "\n")
-    figure = style.figure()
-    plot.linkage(solution, figure.add_subplot())
-    style.save(figure, drawing)
-    return [data, text, told, drawing]
+    written = [data, text, told]
+    if with_figures or video is not None:
+        written += write_drawings(solution, folder, video)
+    if with_figures:
+        from kempe.plot import pages, save
+
+        written += save(pages(solution, index_base, MOST_FIGURES), folder / "figures")
+    names = [path.relative_to(folder).as_posix() for path in written]
+    content = json.dumps({**summary, "files": names}, indent=2, ensure_ascii=False)
+    files.write_text(told, content + "\n")
+    return written

@@ -12,15 +12,27 @@ import typer
 from rich.console import Console
 from rich.text import Text
 
+from kempe.cli import figures
+from kempe.cli.animate import Form
 from kempe.cli.arguments import File, Settings, assembled, number_or_formula, read_case
 from kempe.cli.clock import Clock
 from kempe.cli.console import answers, heading, remarks
+from kempe.cli.drawings import refuse_impossible
 from kempe.errors import KempeError, ModelError
 
 if TYPE_CHECKING:
     from kempe.case import Case
     from kempe.solution import Solution
     from kempe.state import State
+
+EXAMPLES = """Examples:
+
+  kempe run four_bar.toml
+
+  kempe run four_bar.toml --set k=2e6 --t-end 5 -o out/stiff
+
+  kempe run four_bar.toml --json | jq .analyses.release.energy
+"""
 
 
 def run(  # noqa: PLR0917 - typer tells options from arguments by their annotations
@@ -39,15 +51,25 @@ def run(  # noqa: PLR0917 - typer tells options from arguments by their annotati
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the summary as JSON and nothing else.")
     ] = False,
+    index_base: figures.IndexBase = 1,
+    with_figures: Annotated[
+        bool, typer.Option("--figures/--no-figures", help="Draw the figures, or none.")
+    ] = True,
+    video: Annotated[
+        Form | None, typer.Option("--animate", help="Make a video or GIF too, beside the page.")
+    ] = None,
 ) -> None:
     """Put a mechanism together, carry out its analyses and write the results."""
     case = _with_end(read_case(file, settings), t_end)
     if not case.analyses:
         raise ModelError(f"{file} asks for no analysis", hint="add one, as [analyses.release]")
+    refuse_impossible(video)
     state = assembled(case)
     console = answers(silent=quiet or as_json)
     _show_start(console, case, state)
-    told = _Told(console, output or Path("out") / file.stem, apart=len(case.analyses) > 1)
+    folder, apart = output or Path("out") / file.stem, len(case.analyses) > 1
+    drawing = {"index_base": index_base, "with_figures": with_figures, "video": video}
+    told = _Told(console, folder, apart, drawing)
     try:
         for name, solution in _solutions(case, state, Clock(silent=quiet or as_json)):
             told.finish(name, solution)
@@ -67,12 +89,14 @@ class _Told:
         console: where to print.
         folder: where the files go.
         apart: whether every analysis has a folder of its own.
+        drawing: how to draw figures, as ``write_results`` takes it.
         summaries: by analysis, each with its files.
     """
 
     console: Console
     folder: Path
     apart: bool
+    drawing: dict[str, Any]
     summaries: dict[str, Any] = field(default_factory=dict)
 
     def finish(self, name: str, solution: Solution) -> None:
@@ -83,7 +107,7 @@ class _Told:
         found = summary(solution)
         show_findings(self.console, name, found)
         folder = self.folder / name if self.apart else self.folder
-        written = write_results(solution, found, folder)
+        written = write_results(solution, found, folder, **self.drawing)
         self.summaries[name] = {**found, "files": [str(path) for path in written]}
         heading(self.console, "Files")
         for path in written:

@@ -1,5 +1,35 @@
-"""Figures of solutions, drawn with matplotlib; one file for each."""
+"""Figures of solutions, drawn with matplotlib; one file for each.
 
-from kempe.plot.linkage import linkage
+Every function takes ``ax=``, draws in a figure of its own without it, and returns the axes. Time
+axes are compressed after ``cut=``, which ``transient(solution)`` finds.
+"""
 
-__all__ = ["linkage"]
+from kempe.plot.body_motion import accelerations, positions, velocities
+from kempe.plot.configuration import configuration
+from kempe.plot.energy import energy, energy_balance
+from kempe.plot.mechanism import mechanism
+from kempe.plot.page import Page, save, select
+from kempe.plot.pages import pages
+from kempe.plot.reactions import all_reactions, reactions
+from kempe.plot.residual import residual
+from kempe.plot.time_axis import transient
+from kempe.plot.torques import torques
+
+__all__ = [
+    "Page",
+    "accelerations",
+    "all_reactions",
+    "configuration",
+    "energy",
+    "energy_balance",
+    "mechanism",
+    "pages",
+    "positions",
+    "reactions",
+    "residual",
+    "save",
+    "select",
+    "torques",
+    "transient",
+    "velocities",
+]

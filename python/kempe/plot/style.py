@@ -1,8 +1,11 @@
-"""What all figures have in common."""
+"""What all figures have in common: sizes for print, fonts, colours that everybody tells apart."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -10,12 +13,66 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Colours of the bodies in order: Okabe & Ito (2008), told apart with any colour vision.
+#: Okabe & Ito (2008), told apart with any colour vision, the darker ones first.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+#: The lines of one panel in order: in print without colours the dashes tell them apart.
+DASHES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 2)))
+SUM = {"color": "#000000", "linestyle": "-", "linewidth": 1.6, "zorder": 1.9}
 EARLIER = "#BBBBBB"
 GROUND = "#444444"
-SIZE = (8.0, 6.0)
-DOTS_PER_INCH = 150
+QUIET = "#F2F2F2"
+
+MILLIMETRE = 1.0 / 25.4
+WIDTH = 160.0  # mm: the text of an A4 page
+HEIGHT = 75.0  # mm: of a figure with one panel
+DOTS_PER_INCH = 200
+FORMATS = ("png", "svg", "pdf")
+LONGEST_NAME = 24
+
+_FONTS: dict[Any, Any] = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9.0,
+    "axes.titlesize": 9.0,
+    "axes.labelsize": 9.0,
+    "xtick.labelsize": 8.0,
+    "ytick.labelsize": 8.0,
+    "legend.fontsize": 8.0,
+    "mathtext.fontset": "dejavusans",
+}
+_LINES: dict[Any, Any] = {
+    "lines.linewidth": 1.2,
+    "lines.markersize": 4.0,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": "#DDDDDD",
+    "grid.linewidth": 0.5,
+    "legend.frameon": False,
+    "legend.handlelength": 2.6,
+}
+# The same solution gives the same bytes.
+_FILES: dict[Any, Any] = {"svg.hashsalt": "kempe", "svg.fonttype": "path", "pdf.fonttype": 42}
+
+
+@contextmanager
+def applied() -> Iterator[None]:
+    """Everything drawn in the block has the style of kempe; the user's own is left as it is."""
+    import matplotlib
+
+    with matplotlib.rc_context({**_FONTS, **_LINES, **_FILES}), warnings.catch_warnings():
+        # A name may hold signs that the font lacks; they are shown as boxes.
+        warnings.filterwarnings("ignore", message=r"Glyph \d+")
+        yield
+
+
+@contextmanager
+def on(ax: Axes | None) -> Iterator[Axes]:
+    """The axes to draw in, in the style of kempe: those given, or new ones when None."""
+    with applied():
+        yield new_axes() if ax is None else ax
 
 
 def colour(number: int) -> str:
@@ -23,36 +80,94 @@ def colour(number: int) -> str:
     return COLOURS[(number - 1) % len(COLOURS)]
 
 
+def line(k: int) -> dict[str, Any]:
+    """Colour and dashes of the k-th line of a panel, from 0; no two of the first 49 are alike."""
+    shift = k // len(COLOURS)
+    return {
+        "color": COLOURS[k % len(COLOURS)],
+        "linestyle": DASHES[(k + shift) % len(DASHES)],
+    }
+
+
 def new_axes() -> Axes:
     """Axes in a figure of their own that a notebook or ``plt.show()`` shows."""
     from matplotlib import pyplot
 
-    axes: Axes = pyplot.subplots(figsize=SIZE, layout="constrained")[1]
+    size = (WIDTH * MILLIMETRE, HEIGHT * MILLIMETRE)
+    axes: Axes = pyplot.subplots(figsize=size, layout="constrained", dpi=DOTS_PER_INCH)[1]
     return axes
 
 
-def figure() -> Figure:
-    """A figure without a window, for a file."""
+def figure(height: float = HEIGHT) -> Figure:
+    """A figure without a window, for a file, as wide as the text of a page.
+
+    Args:
+        height: mm.
+    """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    made = Figure(figsize=SIZE, layout="constrained")
+    size = (WIDTH * MILLIMETRE, height * MILLIMETRE)
+    made = Figure(figsize=size, layout="constrained", dpi=DOTS_PER_INCH)
     FigureCanvasAgg(made)
     return made
 
 
-def save(made: Figure, path: Path) -> None:
-    """Write a figure as PNG, whole or not at all.
+def save(made: Figure, path: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """Write a figure, each file whole or not at all; returns the files.
+
+    Args:
+        made: the figure.
+        path: its name without suffix.
+        formats: some of ``FORMATS``.
 
     Raises:
-        FileError: the file cannot be written.
+        FileError: a file cannot be written.
     """
     from kempe import files
 
-    with files.writing(path) as file:
-        made.savefig(file, format="png", dpi=DOTS_PER_INCH)
+    written = []
+    with applied():
+        lay_out(made)
+        made.set_layout_engine("none")
+        for name in formats:
+            target = path.with_name(f"{path.name}.{name}")
+            with files.writing(target) as file:
+                _print(made, name, file)
+            written.append(target)
+    return written
+
+
+def lay_out(made: Figure) -> None:
+    """Find the places of the axes now, and not at every drawing."""
+    engine = made.get_layout_engine()
+    if engine is not None:
+        engine.execute(made)
+
+
+def _print(made: Figure, form: str, file: BinaryIO) -> None:
+    """Draw once, where ``savefig`` draws twice."""
+    if form == "png":
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+        FigureCanvasAgg(made).print_png(file)  # type: ignore[no-untyped-call]
+    elif form == "svg":
+        from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+        FigureCanvasSVG(made).print_svg(file, metadata={"Date": None})  # type: ignore[no-untyped-call]
+    else:
+        made.savefig(file, format=form, metadata={"CreationDate": None})
 
 
 def verbatim(text: str) -> str:
     """Text that matplotlib is to show as it is, not to read as mathematics."""
     return text.replace("$", r"\$")
+
+
+def short(name: str, longest: int = LONGEST_NAME) -> str:
+    """A name for a title or a legend: verbatim, on one line, its middle left out if too long."""
+    text = " ".join(name.split())
+    if len(text) > longest:
+        half = (longest - 1) // 2
+        text = f"{text[:half]}…{text[-half:]}"
+    return verbatim(text)

@@ -7,15 +7,18 @@
 mod closing;
 mod dyad;
 mod failure;
+mod hanging;
 mod placement;
 mod report;
 mod request;
+mod slides;
 mod turns;
 mod velocities;
 mod wishes;
 
 pub use closing::{size, Closing};
 pub use failure::{Failure, Fault};
+pub use hanging::hang;
 pub use placement::{place, Dyad, Gap, Placement};
 pub use report::{Mode, Report};
 pub use request::{wishes, Request, Wish};
@@ -116,6 +119,13 @@ fn close(
     asked: &Wishes,
     closing: &mut Closing<'_>,
 ) -> Result<(Vec<f64>, Vec<Record>), Box<Failure>> {
+    if request.from_guess {
+        let mut q = given(asked).unwrap_or_else(|| hang(model, asked));
+        return match closing.close(&mut q) {
+            (history, true) => Ok((q, history)),
+            _ => Err(Box::new(failure::open(closing.model(), request, closing, &q, None))),
+        };
+    }
     if let Some(mut q) = given(asked) {
         let (history, closed) = closing.close(&mut q);
         if closed {

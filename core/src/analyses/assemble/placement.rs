@@ -2,11 +2,13 @@
 //!
 //! A body is placed as soon as what is known of it suffices: its angle and one pin, or two pins, or
 //! as a dyad with a neighbour (two bodies pinned to each other and to placed bodies: the
-//! intersection of two circles, with two closures). Where nothing suffices a coordinate is taken
+//! intersection of two circles, with two closures), or on a slide whose other body stands, together
+//! with a pin, a coordinate or a link that reaches it. Where nothing suffices a coordinate is taken
 //! from the guess, or tried over the circle. Choices that no guess decides are numbered, so that a
 //! caller can go through all of them.
 
 use super::dyad::{close, Closure};
+use super::slides::{slides, Rail, Slide};
 use super::wishes::{nearest_turn, Wishes};
 use crate::elements::{BodyId, Side};
 use crate::math::{Local, Pose, Vec2};
@@ -22,11 +24,11 @@ struct Pin {
 
 /// A pin seen from one of its bodies.
 #[derive(Clone, Copy, Debug)]
-struct Leg {
+pub(super) struct Leg {
     constraint: usize,
-    own: Local,
-    other: usize,
-    at_other: Local,
+    pub own: Local,
+    pub other: usize,
+    pub at_other: Local,
 }
 
 /// Two bodies closed as a dyad.
@@ -40,6 +42,8 @@ pub struct Dyad {
     pub anchors: [usize; 2],
     /// Whether the other closure is a different position.
     pub has_other: bool,
+    /// Whether the second anchor is a slide.
+    pub slides: bool,
 }
 
 /// A dyad whose circles do not meet.
@@ -73,6 +77,7 @@ const TRIED_DEG: [f64; 12] =
 struct Placer<'a> {
     wishes: &'a Wishes,
     legs: Vec<Vec<Leg>>,
+    slides: Vec<Vec<Slide>>,
     poses: Vec<Option<Pose>>,
     choices: &'a [usize],
     result: Placement,
@@ -83,6 +88,7 @@ pub fn place(model: &Model, wishes: &Wishes, choices: &[usize]) -> Placement {
     let mut placer = Placer {
         wishes,
         legs: legs(model),
+        slides: slides(model),
         poses: vec![None; model.bodies.len()],
         choices,
         result: Placement::default(),
@@ -90,7 +96,7 @@ pub fn place(model: &Model, wishes: &Wishes, choices: &[usize]) -> Placement {
     placer.poses[0] = Some(Pose::identity());
     while let Some(first) = placer.poses.iter().position(Option::is_none) {
         let placed = (first..placer.poses.len()).filter(|b| placer.follow(*b)).count();
-        if placed == 0 && !placer.close_dyads() {
+        if placed == 0 && !placer.close_dyads() && !placer.close_slides() {
             placer.assume(first);
         }
     }
@@ -99,7 +105,7 @@ pub fn place(model: &Model, wishes: &Wishes, choices: &[usize]) -> Placement {
     placer.result
 }
 
-fn legs(model: &Model) -> Vec<Vec<Leg>> {
+pub(super) fn legs(model: &Model) -> Vec<Vec<Leg>> {
     let mut legs = vec![Vec::new(); model.bodies.len()];
     for (constraint, item) in model.constraints.iter().enumerate() {
         let ends = item.element.ends();
@@ -135,6 +141,11 @@ impl Placer<'_> {
         self.legs[b].iter().filter_map(|leg| Some((*leg, self.target(leg)?)))
     }
 
+    /// The first slide of body `b` whose other body is placed, and where it lets `b` be.
+    fn rail(&self, b: usize) -> Option<(Slide, Rail)> {
+        self.slides[b].iter().find_map(|s| Some((*s, s.rail(self.poses[s.other].as_ref()?)?)))
+    }
+
     fn put(&mut self, b: usize, pose: Pose) {
         self.poses[b] = Some(pose);
     }
@@ -154,9 +165,16 @@ impl Placer<'_> {
         let hard = self.wishes.hard[b];
         let pins: Vec<(Leg, Vec2)> = self.carried(b).take(8).collect();
         let apart = |p: &&(Leg, Vec2)| (p.0.own - pins[0].0.own).norm() > 0.0;
+        let rail = self.rail(b).map(|(_, rail)| rail);
+        let decided = rail.and_then(|rail| (0..2).find_map(|c| rail.reaching(c, hard[c]?)));
         match (hard, pins.as_slice()) {
             ([Some(x), Some(y), Some(angle)], _) => self.put(b, Pose::new(x, y, angle)),
             ([_, _, Some(angle)], [(leg, target), ..]) => self.hang(b, leg, *target, angle),
+            (_, [(leg, target), ..]) if rail.is_some() => {
+                let angle = rail.map_or(0.0, |rail| rail.pose.angle);
+                self.hang(b, leg, *target, angle);
+            }
+            (_, []) if decided.is_some() => self.poses[b] = decided,
             (_, [(leg, target), rest @ ..]) => {
                 let Some((second, at)) = rest.iter().find(apart) else { return false };
                 let (own, global) = (second.own - leg.own, *at - *target);
@@ -217,8 +235,85 @@ impl Placer<'_> {
             joint,
             anchors: [carried[0].0.constraint, carried[1].0.constraint],
             has_other: closures.len() == 2,
+            slides: false,
         });
         true
+    }
+
+    /// Closes every body on a slide that a link from a placed body reaches.
+    fn close_slides(&mut self) -> bool {
+        let mut any = false;
+        for b in 1..self.poses.len() {
+            let Some((slide, rail)) = self.rail(b).filter(|_| self.poses[b].is_none()) else {
+                continue;
+            };
+            let link = self.legs[b].iter().find_map(|joint| {
+                let free = self.poses[joint.other].is_none() && joint.other != b;
+                let (anchor, at) = self.carried(joint.other).next().filter(|_| free)?;
+                Some((*joint, anchor, at))
+            });
+            if let Some((joint, anchor, at)) = link {
+                self.close_slide(b, (&slide, &rail), joint, (anchor, at));
+                any = true;
+            }
+        }
+        any
+    }
+
+    fn close_slide(
+        &mut self,
+        b: usize,
+        (slide, rail): (&Slide, &Rail),
+        joint: Leg,
+        (anchor, at): (Leg, Vec2),
+    ) {
+        let link = joint.other;
+        let arm = joint.at_other - anchor.own;
+        let (distances, missing) = rail.meeting(joint.own, at, arm.norm());
+        let closures: Vec<[Pose; 2]> = distances
+            .iter()
+            .map(|distance| {
+                let on_slide = rail.at(*distance);
+                let angle = self.dyad_angle(link, on_slide.point(joint.own) - at, arm);
+                let mut pose = Pose::new(0.0, 0.0, angle);
+                pose.r = at - pose.global(anchor.own);
+                [on_slide, pose]
+            })
+            .collect();
+        let bodies = [b, link];
+        let chosen = match closures.as_slice() {
+            [first, second] => self.decide_place(bodies, [first, second]),
+            _ => 0,
+        };
+        for (body, pose) in bodies.into_iter().zip(closures[chosen]) {
+            self.put(body, pose);
+        }
+        if let Some(missing) = missing {
+            self.result.gaps.push(Gap { bodies, joint: joint.constraint, missing });
+        }
+        self.result.dyads.push(Dyad {
+            bodies,
+            joint: joint.constraint,
+            anchors: [anchor.constraint, slide.constraint],
+            has_other: closures.len() == 2,
+            slides: true,
+        });
+    }
+
+    /// As [`Placer::decide`], but a place that is asked for counts where no angle does.
+    fn decide_place(&mut self, bodies: [usize; 2], closures: [&[Pose; 2]; 2]) -> usize {
+        let off = |poses: &[Pose; 2], c: usize| -> Option<f64> {
+            let squares = bodies.iter().zip(poses).filter_map(|(b, pose)| {
+                let soft = self.wishes.soft[*b][c]?;
+                Some(([pose.r.x, pose.r.y][c] - soft).powi(2))
+            });
+            squares.reduce(|a, b| a + b)
+        };
+        let place = (0..2).find_map(|c| Some((off(closures[0], c)?, off(closures[1], c)?)));
+        match place {
+            Some((a, b)) if a != b => usize::from(b < a),
+            _ => self.decide(bodies, &closures.map(|poses| poses.map(|pose| pose.angle))),
+        }
     }
 
     /// Angle of a body whose arm must point along `global`.
@@ -260,6 +355,9 @@ impl Placer<'_> {
         let b = all.clone().filter(open).find(|b| pinned(b) && guessed(b));
         let b = b.or_else(|| all.clone().filter(open).find(|b| self.wishes.pose(*b).is_some()));
         let b = b.or_else(|| all.clone().filter(open).find(pinned)).unwrap_or(first);
+        if let (false, Some((_, rail))) = (pinned(&b), self.rail(b)) {
+            return self.put(b, rail.towards(b, self.wishes));
+        }
         let angle = match self.wishes.value(b, 2) {
             Some(angle) => angle,
             None => TRIED_DEG[self.choose(TRIED_DEG.len())].to_radians(),

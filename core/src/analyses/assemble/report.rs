@@ -3,7 +3,7 @@
 use super::placement::Dyad;
 use crate::elements::Side;
 use crate::equations::kinematics;
-use crate::math::{Motion, Vec2};
+use crate::math::{Local, Motion, Rotation, Vec2};
 use crate::model::Model;
 use crate::solve::newton::Record;
 
@@ -16,8 +16,11 @@ pub struct Mode {
     pub joint: String,
     /// The joints that carry them.
     pub anchors: [String; 2],
-    /// Whether the joint lies to the left of the line from the first to the second anchor.
+    /// Whether the joint lies to the left of the line from the first to the second anchor; where the
+    /// second is a slide, whether it lies ahead of the first along the slide.
     pub left: bool,
+    /// Whether the second anchor is a slide.
+    pub slides: bool,
 }
 
 /// The course and the result of an assembly.
@@ -42,11 +45,17 @@ pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<Mode> {
     let of = |dyad: &Dyad| {
         let [p1, p2] = dyad.anchors.map(|k| point(model, &motions, k));
         let joint = point(model, &motions, dyad.joint);
+        let left = if dyad.slides {
+            along(model, &motions, dyad.anchors[1]).dot(joint - p1) > 0.0
+        } else {
+            (p2 - p1).cross(joint - p1) > 0.0
+        };
         Mode {
             bodies: dyad.bodies.map(|b| model.bodies[b].name.clone()),
             joint: name(dyad.joint),
             anchors: dyad.anchors.map(name),
-            left: (p2 - p1).cross(joint - p1) > 0.0,
+            left,
+            slides: dyad.slides,
         }
     };
     dyads.iter().filter(|d| d.has_other).map(of).collect()
@@ -56,4 +65,12 @@ fn point(model: &Model, motions: &[Motion], constraint: usize) -> Vec2 {
     let element = &model.constraints[constraint].element;
     let [i, _] = element.ends();
     motions[i.0].pose.point(element.attachment(Side::I).s)
+}
+
+/// The direction of a slide, of length 1.
+fn along(model: &Model, motions: &[Motion], constraint: usize) -> Vec2 {
+    let element = &model.constraints[constraint].element;
+    let [i, _] = element.ends();
+    let axis = Rotation::new(element.attachment(Side::I).axis);
+    motions[i.0].pose.global(Local::new(axis.cos, axis.sin))
 }

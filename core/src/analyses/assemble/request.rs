@@ -27,6 +27,9 @@ pub struct Request {
     pub state: Option<State>,
     /// Time, s.
     pub t: f64,
+    /// Whether Newton starts from the guess as it stands, loops open, instead of a placement that
+    /// closes them: the classical iteration, for people to look at.
+    pub from_guess: bool,
 }
 
 /// Reads wishes such as ("crank.angle", "70*deg"); `section` is `set` or `guess`.

@@ -1,7 +1,8 @@
 //! Whole turns: which of the angles that differ by 2π a body has after assembly.
 //!
-//! A guess or `set` fixes the turn of its body. Of the others those are chosen for which each
-//! torsional spring, in the order of the file, is relaxed as far as whole turns can.
+//! A guess or `set` fixes the turn of its body, and of all bodies that a slide keeps from turning
+//! against it. Of the others those are chosen for which each torsional spring, in the order of the
+//! file, is relaxed as far as whole turns can.
 
 use super::wishes::{nearest_turn, Wishes};
 use crate::model::{columns, Model};
@@ -9,8 +10,12 @@ use std::f64::consts::PI;
 
 /// Shifts free angles of `q` by whole turns; gives a warning for each spring still beyond half a turn.
 pub fn relax(model: &Model, wishes: &Wishes, q: &mut [f64]) -> Vec<String> {
-    let mut fixed = wishes.turn.clone();
-    fixed[0] = true;
+    let group = turning_together(model);
+    let mut fixed = vec![false; group.len()];
+    fixed[group[0]] = true;
+    for (b, turn) in wishes.turn.iter().enumerate() {
+        fixed[group[b]] |= turn;
+    }
     let mut warnings = Vec::new();
     for item in &model.forces {
         let Some(free_angle) = item.element.free_angle() else { continue };
@@ -18,14 +23,14 @@ pub fn relax(model: &Model, wishes: &Wishes, q: &mut [f64]) -> Vec<String> {
         let angle = |q: &[f64], b| columns(b).last().map_or(0.0, |c| q[c]);
         let stretch = angle(q, j) - angle(q, i) - free_angle;
         let shift = nearest_turn(stretch, 0.0) - stretch;
-        let (body, shift) = if fixed[j.0] { (i, -shift) } else { (j, shift) };
-        if !fixed[body.0] {
-            if let Some(column) = columns(body).last() {
-                q[column] += shift;
-            }
+        let [own, other] = [group[j.0], group[i.0]];
+        let (turned, shift) = if fixed[own] { (other, -shift) } else { (own, shift) };
+        if !fixed[turned] && own != other {
+            let members = group.iter().enumerate().skip(1).filter(|(_, g)| **g == turned);
+            members.for_each(|(b, _)| q[3 * b - 1] += shift);
         }
-        fixed[i.0] = true;
-        fixed[j.0] = true;
+        fixed[own] = true;
+        fixed[other] = true;
         let stretch = angle(q, j) - angle(q, i) - free_angle;
         if stretch.abs() > PI * (1.0 + 1e-9) {
             warnings.push(format!(
@@ -36,4 +41,15 @@ pub fn relax(model: &Model, wishes: &Wishes, q: &mut [f64]) -> Vec<String> {
         }
     }
     warnings
+}
+
+/// For each body the first of the bodies that slides keep from turning against it.
+fn turning_together(model: &Model) -> Vec<usize> {
+    let mut group: Vec<usize> = (0..model.bodies.len()).collect();
+    for item in model.constraints.iter().filter(|c| c.element.slides()) {
+        let [a, b] = item.element.ends().map(|body| group[body.0]);
+        let (kept, merged) = (a.min(b), a.max(b));
+        group.iter_mut().filter(|g| **g == merged).for_each(|g| *g = kept);
+    }
+    group
 }

@@ -1,0 +1,120 @@
+//! Translational joint (Haug 3.3.13, 3.3.14): body j slides along a line fixed in body i and does
+//! not turn against it.
+//!
+//! With uᵢ = Aᵢ u′ᵢ along the slide, nᵢ = uᵢ turned by +90° and dᵢⱼ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ:
+//! Φ₁ = nᵢᵀ dᵢⱼ = 0, the distance of point j from the line, m; Φ₂ = φⱼ + aⱼ - φᵢ - aᵢ = 0, rad, with
+//! a the angle of the slide in each body. The book's second equation is the sine of this angle
+//! (3.3.14); the angle itself admits no slide that is turned by 180°. All positions but whole turns
+//! of φⱼ - φᵢ, which differ.
+
+use crate::elements::{element, Attachment, BodyId, Equation, Formula, Joint, Side, VelocityTerms};
+use crate::math::{Local, Motion, Pose, Real, Rotation, Vec2};
+
+element! {
+    /// Translational joint: point j stays on the line through point i along the slide, and the
+    /// bodies do not turn against each other (Haug 3.3.13, 3.3.14). Φ1 is the distance of point j
+    /// from that line, to its left; Φ2 = angle_j + axes_j - angle_i - axes_i. The force of the joint
+    /// is normal to the slide: on body i +λ1 along the normal, on body j -λ1.
+    Translational, "translational" {
+        /// Point of body i on the slide, as `body.point`.
+        i: point,
+        /// Point of body j on the slide, as `body.point`.
+        j: point,
+        /// Angle of the slide, the joint frame's x axis, in the frame of body i and of body j.
+        axes: pair [rad] = [0.0, 0.0],
+    }
+}
+
+/// Along the slide (u) and to its left (n), in global components.
+fn directions<S: Real>(e: &Translational<S>, i: &Pose<S>) -> (Vec2<S>, Vec2<S>) {
+    let axis = Rotation::new(e.axes[0]);
+    let u = i.global(Local::new(axis.cos, axis.sin));
+    (u, u.perp())
+}
+
+impl Joint<2> for Translational {
+    const SLIDES: bool = true;
+
+    const FORMULAS: [Formula; 2] = [
+        Formula {
+            residual: "cos(i.angle + i.axis)*(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
+                       - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)) \
+                       - sin(i.angle + i.axis)*(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
+                       - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))",
+            jacobian: [
+                "sin(i.angle + i.axis)",
+                "-cos(i.angle + i.axis)",
+                "-cos(i.angle + i.axis)*(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) - i.x) \
+                 - sin(i.angle + i.axis)*(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) - i.y)",
+                "-sin(i.angle + i.axis)",
+                "cos(i.angle + i.axis)",
+                "j.s.x*cos(i.angle + i.axis - j.angle) + j.s.y*sin(i.angle + i.axis - j.angle)",
+            ],
+            gamma: "j.omega^2*(j.s.y*cos(i.angle + i.axis - j.angle) \
+                    - j.s.x*sin(i.angle + i.axis - j.angle)) \
+                    + 2*i.omega*(cos(i.angle + i.axis)*(j.vx - i.vx \
+                    - j.omega*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle))) \
+                    + sin(i.angle + i.axis)*(j.vy - i.vy \
+                    + j.omega*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)))) \
+                    + i.omega^2*(cos(i.angle + i.axis)*(j.y + j.s.x*sin(j.angle) \
+                    + j.s.y*cos(j.angle) - i.y) \
+                    - sin(i.angle + i.axis)*(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) - i.x))",
+        },
+        Formula {
+            residual: "j.angle + j.axis - i.angle - i.axis",
+            jacobian: ["0", "0", "-1", "0", "0", "1"],
+            gamma: "0",
+        },
+    ];
+
+    fn ends<S>(e: &Translational<S>) -> [BodyId; 2] {
+        [e.i.body, e.j.body]
+    }
+
+    fn equations<S>(_: &Translational<S>) -> [Equation; 2] {
+        [Equation { name: "normal", unit: "m" }, Equation { name: "angle", unit: "rad" }]
+    }
+
+    fn residual<S: Real>(e: &Translational<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [S; 2] {
+        let (_, n) = directions(e, i);
+        let apart = j.point(e.j.s) - i.point(e.i.s);
+        [n.dot(apart), (j.angle + e.axes[1]) - (i.angle + e.axes[0])]
+    }
+
+    fn attachment<S: Real>(e: &Translational<S>, side: Side) -> Attachment<S> {
+        match side {
+            Side::I => Attachment { s: e.i.s, axis: e.axes[0] },
+            Side::J => Attachment { s: e.j.s, axis: e.axes[1] },
+        }
+    }
+
+    /// Closed form: [-nᵢᵀ, -uᵢᵀ (rⱼ + Aⱼ s′ⱼ - rᵢ), nᵢᵀ, uᵢᵀ Aⱼ s′ⱼ], since nᵢᵀ Aᵢ s′ᵢ is constant.
+    fn jacobian<S: Real>(e: &Translational<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [[S; 6]; 2] {
+        let (u, n) = directions(e, i);
+        let arm = j.global(e.j.s);
+        let from_i = j.r + arm - i.r;
+        let (zero, one) = (S::zero(), S::one());
+        [[-n.x, -n.y, -u.dot(from_i), n.x, n.y, u.dot(arm)], [zero, zero, -one, zero, zero, one]]
+    }
+
+    /// Closed form: γ₁ = φ̇ⱼ² nᵢᵀ Aⱼ s′ⱼ + 2 φ̇ᵢ uᵢᵀ ė + φ̇ᵢ² nᵢᵀ e with e = rⱼ + Aⱼ s′ⱼ - rᵢ.
+    fn velocity_terms<S: Real>(
+        e: &Translational<S>,
+        i: &Motion<S>,
+        j: &Motion<S>,
+        t: S,
+    ) -> VelocityTerms<S, 2> {
+        let (u, n) = directions(e, &i.pose);
+        let (w_i, w_j) = (i.twist.omega, j.twist.omega);
+        let arm = j.pose.global(e.j.s);
+        let from_i = j.pose.r + arm - i.pose.r;
+        let speed = j.twist.velocity + arm.perp().scale(w_j) - i.twist.velocity;
+        let two = S::constant(2.0);
+        let gamma = w_j * w_j * n.dot(arm) + two * w_i * u.dot(speed) + w_i * w_i * n.dot(from_i);
+        VelocityTerms {
+            residual: <Self as Joint<2>>::residual(e, &i.pose, &j.pose, t),
+            rate: [n.dot(speed) - w_i * u.dot(from_i), w_j - w_i],
+            gamma: [gamma, S::zero()],
+        }
+    }
+}

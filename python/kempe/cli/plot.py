@@ -1,0 +1,80 @@
+"""``kempe plot`` draws the figures of a case or of a stored solution, all or some."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.text import Text
+
+from kempe.cli import figures
+from kempe.cli.arguments import Settings
+from kempe.cli.console import answers
+from kempe.cli.solved import CaseOrSolution, results_folder, solved
+
+if TYPE_CHECKING:
+    from kempe.plot import Page
+    from kempe.solution import Solution
+
+EXAMPLES = """Examples:
+
+  kempe plot four_bar.toml
+
+  kempe plot out/four_bar/solution.npz --figure reactions_C --format pdf
+
+  kempe plot four_bar.toml --index-base 0 -o figures
+"""
+
+
+def plot(  # noqa: PLR0917 - typer tells options from arguments by their annotations
+    file: CaseOrSolution,
+    names: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--figure", metavar="NAME", help="Only this, such as reactions_C; repeatable."
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="Folder for figures; beside the results if absent."),
+    ] = None,
+    index_base: figures.IndexBase = 1,
+    form: Annotated[
+        str, typer.Option("--format", help="Some of png, svg, pdf, with commas between.")
+    ] = "png,svg",
+    settings: Settings = None,
+) -> None:
+    """Draw figures of a case, which is simulated first, or of a solution that was saved."""
+    from kempe.plot import pages, save
+
+    wanted = figures.formats(form)
+    console = answers()
+    for analysis, solution in list(solved(file, settings)):
+        chosen = _chosen(solution, pages(solution, index_base), names or [])
+        for path in save(chosen, _folder(file, output, analysis), wanted):
+            console.print(Text(str(path)))
+
+
+def _folder(file: Path, output: Path | None, analysis: str) -> Path:
+    """Beside the results of the analysis, or in the folder that was named."""
+    return results_folder(file) / analysis / "figures" if output is None else output / analysis
+
+
+def _chosen(solution: Solution, known: list[Page], names: list[str]) -> list[Page]:
+    """The pages asked for; of a figure named after a joint or a force, the name is told apart.
+
+    Raises:
+        ModelError: there is no such figure, joint or force.
+    """
+    from kempe.plot import select
+
+    told = {word for page in known for word in (page.name, page.about, page.stem)}
+    for name in names:
+        for family, look_up in (
+            ("reactions_", solution.constraint),
+            ("torque_", solution.force),
+        ):
+            if name.startswith(family) and name not in told:
+                look_up(name.removeprefix(family))
+    return select(known, names)

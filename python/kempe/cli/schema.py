@@ -1,0 +1,15 @@
+"""``kempe schema``: the JSON Schema of a case, for editors."""
+
+from __future__ import annotations
+
+EXAMPLES = """Examples:
+
+  kempe schema > kempe.schema.json
+"""
+
+
+def schema() -> None:
+    """Print the JSON Schema of a case, which editors use to check and complete."""
+    from kempe.case import schema as text
+
+    print(text(), end="")

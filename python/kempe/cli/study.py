@@ -1,0 +1,75 @@
+"""``kempe study``: what stabilization, scheme and tolerance do to a simulation."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.text import Text
+
+from kempe.cli.arguments import File, Settings, read_case
+from kempe.cli.console import answers, heading, remarks, table
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from kempe.studies import Study
+
+EXAMPLES = """Examples:
+
+  kempe study four_bar.toml
+
+  kempe study four_bar.toml --analysis release -o out/study --set c=2e4
+"""
+
+
+def study(
+    file: File,
+    analysis: Annotated[
+        str | None, typer.Option("--analysis", help="Which analysis; the first if absent.")
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="Folder for results; out/<FILE>/study if absent."),
+    ] = None,
+    settings: Settings = None,
+) -> None:
+    """Compute an analysis in many ways, compare them, and say what is found."""
+    import warnings
+
+    from kempe.analyses import AssemblyWarning
+    from kempe.studies import study as compute
+
+    case = read_case(file, settings)
+    silent = not remarks().is_terminal
+    with warnings.catch_warnings(), remarks().status("", spinner="line") as status:
+        warnings.simplefilter("ignore", AssemblyWarning)
+        found = compute(case, analysis, progress=None if silent else status.update)
+    console = answers()
+    _show(console, found)
+    written = found.save(output or Path("out") / file.stem / "study")
+    heading(console, "Files")
+    for path in written:
+        console.print(Text(f"  {path}"))
+
+
+def _show(console: Console, found: Study) -> None:
+    from kempe.studies.table import HEADER, cells, fate
+    from kempe.studies.variants import GROUPS
+
+    console.print(Text(f"{found.title}: study of {found.analysis}", style="bold"))
+    for group, title in GROUPS.items():
+        outcomes = found.group(group)
+        if not outcomes:
+            continue
+        heading(console, title[0].upper() + title[1:])
+        good = [cells(outcome) for outcome in outcomes if not outcome.diverged]
+        table(console, HEADER, good)
+        for outcome in outcomes:
+            if outcome.diverged:
+                told = f"  {outcome.variant.name}  {fate(outcome)}"
+                console.print(Text(told, style="red"))
+    heading(console, "Findings")
+    for told in found.findings():
+        console.print(Text(f"  {told}"))

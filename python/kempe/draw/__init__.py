@@ -1,0 +1,7 @@
+"""Drawings of a motion: one description of the scene, and what shows it."""
+
+from kempe.draw.animate import animate
+from kempe.draw.player import player
+from kempe.draw.scene import scene
+
+__all__ = ["animate", "player", "scene"]

@@ -1,0 +1,46 @@
+"""GIF by Pillow, which matplotlib brings along."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from kempe import files
+from kempe.draw.frame import Picture
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+
+def write_gif(path: Path | str, pictures: Iterable[Picture], fps: float) -> None:
+    """Write RGBA pictures of the same size as a GIF that repeats, whole or not at all.
+
+    A GIF counts in hundredths of a second, and browsers slow down below two of them.
+
+    Raises:
+        FileError: the file cannot be written.
+    """
+    hundredths = max(2, round(100.0 / fps))
+    images = _with_one_palette(pictures)
+    first = next(images)
+    with files.writing(path) as file:
+        first.save(
+            file,
+            format="GIF",
+            save_all=True,
+            append_images=images,
+            duration=10 * hundredths,
+            loop=0,
+        )
+
+
+def _with_one_palette(pictures: Iterable[Picture]) -> Iterator[Image]:
+    """The pictures in the colours of the first, so that nothing flickers."""
+    from PIL import Image
+
+    palette: Image.Image | None = None
+    for picture in pictures:
+        image = Image.fromarray(picture).convert("RGB")
+        palette = palette or image.quantize(128)
+        yield image.quantize(palette=palette, dither=Image.Dither.NONE)

@@ -1,0 +1,30 @@
+"""Numbers of a drawing: nine significant digits, ready for JSON."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from kempe.arrays import Floats
+
+
+def plain(values: Floats) -> Any:
+    """Nested lists of the values to nine significant digits; None for what is not finite."""
+    return _plain(values.tolist())
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, list):
+        return [_plain(entry) for entry in value]
+    return rounded(value)
+
+
+def rounded(value: float) -> float | None:
+    """Nine significant digits, no negative zero; None for what is not finite."""
+    return float(f"{value:.9g}") + 0.0 if math.isfinite(value) else None
+
+
+def round_below(value: float) -> float:
+    """The largest of 1, 2, 5, 10, 20, 50 … that is not above a positive value."""
+    power = float(f"1e{math.floor(math.log10(value))}")
+    return next((step * power for step in (5.0, 2.0) if step * power <= value), power)

@@ -1,0 +1,103 @@
+"""The player: a page that shows a motion, whole in one file that needs no network.
+
+Everything that a user named is data: the scene is JSON in a script element that no browser runs,
+with every ``<`` escaped, and the page puts names in place as text. A policy in the page forbids all
+scripts but its own, which is known by its hash, and all requests.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import html
+import json
+import re
+from importlib import resources
+from pathlib import Path
+
+from kempe import files
+from kempe._version import __version__
+from kempe.draw.scene import Scene, scene
+from kempe.solution import Solution
+from kempe.state import State
+
+#: The modules of the page, each after those that it imports.
+MODULES = (
+    "numbers",
+    "motion",
+    "view",
+    "surface",
+    "paint",
+    "measure",
+    "drawing",
+    "plot",
+    "clock",
+    "gestures",
+    "keyboard",
+    "channels",
+    "main",
+)
+
+
+def player(solution: Solution | State, path: Path | str, *, speed: float = 1.0) -> Path:
+    """Write a page that plays a motion; any browser opens it, also without a network.
+
+    Args:
+        solution: what is shown; a state is shown standing still.
+        path: where to, such as ``animation.html``.
+        speed: 2 plays twice as fast at the start; it can be changed on the page.
+
+    Returns:
+        The path.
+
+    Raises:
+        FileError: the file cannot be written; an old one is then left as it was.
+    """
+    shown = scene(solution)
+    shown["playback"]["rate"] *= speed
+    files.write_text(path, page(shown))
+    return Path(path)
+
+
+def page(shown: Scene) -> str:
+    """The text of the page that shows a scene."""
+    style, script = _asset("player.css"), _script()
+    policy = (
+        f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; "
+        "img-src data:; base-uri 'none'; form-action 'none'"
+    )
+    parts = {
+        "policy": policy,
+        "version": html.escape(__version__),
+        "title": html.escape(shown["title"] or "Linkage"),
+        "style": style,
+        "scene": _json_for_html(shown),
+        "script": script,
+    }
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _asset("player.html"))
+
+
+def _json_for_html(shown: Scene) -> str:
+    """JSON in ASCII in which nothing can end the element that holds it."""
+    text = json.dumps(shown, allow_nan=False, separators=(",", ":"), ensure_ascii=True)
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+
+
+def _script() -> str:
+    """All modules as one: a page opened from a disk may not import others."""
+    return "\n".join(_without_links(_asset(f"{name}.js")) for name in MODULES)
+
+
+def _without_links(module: str) -> str:
+    plain = re.sub(r"^import .* from \"\./\w+\.js\";\n", "", module, flags=re.MULTILINE)
+    return re.sub(r"^export ", "", plain, flags=re.MULTILINE)
+
+
+def _asset(name: str) -> str:
+    return (resources.files("kempe.draw") / "assets" / name).read_text(encoding="utf-8")
+
+
+def _hash(text: str) -> str:
+    """The name of an inline script or style in a content security policy."""
+    digest = hashlib.sha256(text.encode("utf-8")).digest()
+    return f"sha256-{base64.b64encode(digest).decode('ascii')}"

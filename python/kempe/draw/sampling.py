@@ -1,0 +1,116 @@
+"""Which instants of a motion are drawn."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kempe.arrays import Floats, fixed
+from kempe.errors import KempeError, ModelError
+from kempe.motion import Motion
+from kempe.solution import Solution
+from kempe.state import State
+
+FRAMES_PER_SECOND = 60
+MOST_FRAMES = 1200
+#: A mechanism of many bodies has fewer frames, so that a scene stays a few megabytes large.
+_MOST_NUMBERS = 600_000
+_FEWEST_FRAMES = 60
+#: The player may interpolate where that misplaces no point by more than this share of the drawing.
+_INVISIBLE = 1e-3
+
+
+def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int) -> Motion:
+    """The motion at the frames, in the order of time.
+
+    Evenly spread where the solution can be evaluated anywhere, otherwise at the outputs.
+
+    Args:
+        drawn: a solution, or a state, which is one frame.
+        frames: how many; chosen when None.
+        numbers_per_frame: how much there is to tell of one frame.
+
+    Raises:
+        ModelError: ``frames`` is less than 1.
+    """
+    if frames is not None and frames < 1:
+        raise ModelError(f"frames={frames}: must be 1 or more")
+    if isinstance(drawn, State):
+        return Motion(drawn.model, drawn.t[None], drawn.q[None], drawn.v[None])
+    begin, end = sorted((float(drawn.t[0]), float(drawn.t[-1])))
+    count = frames or _count(end - begin, numbers_per_frame)
+    if drawn.dense is None:
+        return _at_outputs(drawn, count)
+    if begin == end:
+        count = 1
+    motion = drawn(np.linspace(begin, end, count))
+    try:
+        _ = motion.lam
+    except KempeError:  # a solution may end in a position in which reactions have no answer
+        return _at_outputs(drawn, count)
+    return motion
+
+
+def _count(duration: float, numbers_per_frame: int) -> int:
+    affordable = max(_FEWEST_FRAMES, _MOST_NUMBERS // max(1, numbers_per_frame))
+    # A mechanism may be so fast that it is watched in slow motion, hence the lower bound.
+    wished = max(4 * FRAMES_PER_SECOND, math.ceil(duration * FRAMES_PER_SECOND)) + 1
+    return min(wished, MOST_FRAMES, affordable)
+
+
+class _Outputs(Motion):
+    """Some outputs of a solution, with what was computed there."""
+
+    def __init__(self, solution: Solution, kept: NDArray[np.intp]) -> None:
+        super().__init__(solution.model, solution.t[kept], solution.q[kept], solution.v[kept])
+        self._computed = fixed(solution.a[kept]), fixed(solution.lam[kept])
+
+    @property
+    def a(self) -> Floats:
+        return self._computed[0]
+
+    @property
+    def lam(self) -> Floats:
+        return self._computed[1]
+
+
+def _at_outputs(solution: Solution, count: int) -> Motion:
+    order = np.argsort(solution.t, kind="stable")
+    kept = order[np.unique(np.linspace(0, len(order) - 1, count).round().astype(int))]
+    return _Outputs(solution, kept)
+
+
+def interpolation(drawn: Solution | State, motion: Motion, size: float) -> str:
+    """Whether the poses between the frames follow from poses and rates: "cubic" or "none".
+
+    Cubic Hermite interpolation is compared with the solution half-way between the frames; a motion
+    that is too fast for the number of frames is not interpolated.
+
+    Args:
+        drawn: where the frames came from.
+        motion: the motion at the frames.
+        size: of the drawing, m.
+    """
+    if isinstance(drawn, State) or isinstance(motion, _Outputs) or len(motion.t) < 2:
+        return "none"
+    h = np.diff(motion.t)[:, None]
+    q, v = motion.q, motion.v
+    # Hermite's polynomial at the middle: (q0 + q1)/2 + h (v0 - v1)/8.
+    middle = (q[:-1] + q[1:]) / 2.0 + h * (v[:-1] - v[1:]) / 8.0
+    exact = drawn((motion.t[:-1] + motion.t[1:]) / 2.0).q
+    worst = max(
+        (_misplaced(middle, exact, motion, name) for name in motion.model.bodies), default=0.0
+    )
+    return "cubic" if worst <= _INVISIBLE * size else "none"
+
+
+def _misplaced(guess: Floats, exact: Floats, motion: Motion, name: str) -> float:
+    """How far the points of a body are from where they should be, at most, m."""
+    info = motion.model.bodies[name]
+    error = (guess - exact)[:, info.columns]
+    shift = np.hypot(error[:, 0], error[:, 1])
+    arms = [math.hypot(*corner) for corner in (*info.points.values(), info.center)]
+    chord = 2.0 * np.abs(np.sin(error[:, 2] / 2.0))
+    return float((shift + max(arms) * chord).max())

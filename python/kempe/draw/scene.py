@@ -1,0 +1,149 @@
+"""The scene: everything that a drawing of a motion needs, as plain data ready for JSON.
+
+The player, the pictures and the videos draw this and nothing else; ``docs/scene.md`` tells the
+format.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from kempe.arrays import Floats
+from kempe.compiled import CompiledModel
+from kempe.draw import channels, sampling, shapes
+from kempe.draw.numbers import plain, round_below, rounded
+from kempe.errors import ModelError
+from kempe.motion import Motion
+from kempe.names import unknown
+from kempe.solution import Solution
+from kempe.state import State
+
+Scene: TypeAlias = dict[str, Any]
+
+#: Version of the format.
+FORMAT = 1
+UNITS = {"time": "s", "length": "m", "angle": "rad", "force": "N", "torque": "N·m"}
+#: Length of the arrow of the largest reaction, as a share of the size of the drawing.
+_LONGEST_ARROW = 0.3
+#: Points no farther apart than this share of the drawing are seen as one.
+_SAME_PLACE = 1e-3
+#: A motion is shown in real time if that takes so long, s.
+_SHORTEST, _LONGEST = 2.0, 60.0
+
+
+def scene(
+    solution_or_state: Solution | State,
+    *,
+    frames: int | None = None,
+    traces: Sequence[str] | None = None,
+) -> Scene:
+    """Describe a motion, or one instant, for drawing.
+
+    Args:
+        solution_or_state: what is drawn.
+        frames: number of frames, evenly spread; by default 60 for each second, at most 1200, and
+            fewer for a mechanism of very many bodies.
+        traces: points whose paths are drawn, such as ``["coupler.P"]``; by default every named
+            point of a moving body that moves, once where several bodies share it.
+
+    Returns:
+        The scene; see ``docs/scene.md``. Numbers have nine significant digits.
+
+    Raises:
+        ModelError: a traced point or its body does not exist, or ``frames`` is less than 1.
+    """
+    model = solution_or_state.model
+    motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model))
+    bodies = [shapes.body(model, name) for name in model.all_bodies]
+    joints = [shapes.joint(motion, name) for name in model.joints]
+    bounds = shapes.bounds(motion, bodies, joints)
+    size = float(max(bounds[2:] - bounds[:2])) or 1.0
+    reactions = _reactions(motion)
+    return {
+        "scene": FORMAT,
+        "title": model.title,
+        "units": dict(UNITS),
+        "gravity": plain(np.array(model.gravity)),
+        "bounds": plain(bounds),
+        "bodies": bodies,
+        "joints": joints,
+        "forces": [shapes.force(model, name) for name in model.forces],
+        "traces": _traces(motion, size, traces),
+        "frames": {
+            "t": plain(motion.t),
+            "poses": plain(motion.q.reshape(len(motion.t), -1, 3)),
+            "rates": plain(motion.v.reshape(len(motion.t), -1, 3)),
+            "reactions": plain(reactions),
+        },
+        "interpolation": sampling.interpolation(solution_or_state, motion, size),
+        "playback": {"rate": playback_rate(float(motion.t[-1] - motion.t[0]))},
+        "reaction_scale": _reaction_scale(reactions, size),
+        "channels": channels.channels(motion),
+    }
+
+
+def _reactions(motion: Motion) -> Floats:
+    """Force of each joint on its body j, global, (n_t, n_joints, 2), N."""
+    found = np.zeros((len(motion.t), len(motion.model.joints), 2))
+    for k, (name, info) in enumerate(motion.model.joints.items()):
+        found[:, k] = motion.constraint(name).force(on=info.j)
+    return found
+
+
+def _reaction_scale(reactions: Floats, size: float) -> dict[str, float | None]:
+    """A round force, and the length of its arrow on the drawing, m."""
+    magnitudes = np.hypot(reactions[..., 0], reactions[..., 1])
+    largest = float(magnitudes[np.isfinite(magnitudes)].max(initial=0.0))
+    unit = round_below(largest / 2.0) if largest > 0.0 else 1.0
+    length = _LONGEST_ARROW * size * (unit / largest if largest > 0.0 else 1.0)
+    return {"force": unit, "length": rounded(length)}
+
+
+def playback_rate(duration: float) -> float:
+    """Simulated seconds for each second of the screen: 1 unless that is too short or too long."""
+    if duration <= 0.0 or _SHORTEST <= duration <= _LONGEST:
+        return 1.0
+    return round_below(duration / (_SHORTEST if duration < _SHORTEST else _LONGEST))
+
+
+def _traces(motion: Motion, size: float, wished: Sequence[str] | None) -> list[dict[str, Any]]:
+    model = motion.model
+    if wished is None:
+        return _moving_points(motion, size)
+    return [_trace(model, *_named(model, name)) for name in wished]
+
+
+def _named(model: CompiledModel, name: str) -> tuple[str, str]:
+    body, dot, point = name.partition(".")
+    if not dot:
+        raise ModelError(f"traces: {name!r} must be BODY.POINT, such as 'coupler.P'")
+    if point not in model.body(body).points:
+        raise unknown(f"point of {body}", point, model.body(body).points)
+    return body, point
+
+
+def _trace(model: CompiledModel, body: str, point: str) -> dict[str, Any]:
+    info = model.all_bodies[body]
+    at = plain(np.array(info.points[point]))
+    return {"name": f"{body}.{point}", "body": info.number, "point": at}
+
+
+def _moving_points(motion: Motion, size: float) -> list[dict[str, Any]]:
+    """Points that move, without those that go with one before them."""
+    near = _SAME_PLACE * size
+    # A few frames tell whether two points go together; all of them would take long for many bodies.
+    some = np.unique(np.linspace(0, len(motion.t) - 1, 16).round().astype(int))
+    kept: list[dict[str, Any]] = []
+    paths = np.empty((0, len(some), 2))
+    for body, info in motion.model.bodies.items():
+        for point in info.points:
+            path = motion.body(body).point(point).position
+            together = np.abs(paths - path[some]).max(axis=(1, 2), initial=0.0) < near
+            if np.ptp(path, axis=0).max(initial=0.0) < near or together.any():
+                continue
+            paths = np.append(paths, path[None, some], axis=0)
+            kept.append(_trace(motion.model, body, point))
+    return kept

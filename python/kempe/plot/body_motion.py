@@ -1,0 +1,164 @@
+"""Position, velocity and acceleration of a body over time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
+from kempe.names import one_of
+from kempe.plot import style
+from kempe.plot.curves import Curve, Panel, draw
+from kempe.plot.time_axis import show_time
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike
+
+    from kempe.arrays import Floats
+    from kempe.compiled import BodyInfo
+    from kempe.motion import Motion
+
+#: Quantity → symbol and SI unit.
+QUANTITIES = {
+    "x": ("x", "m"),
+    "y": ("y", "m"),
+    "angle": ("φ", "rad"),
+    "vx": ("$v_x$", "m/s"),
+    "vy": ("$v_y$", "m/s"),
+    "omega": ("ω", "rad/s"),
+    "ax": ("$a_x$", "m/s²"),
+    "ay": ("$a_y$", "m/s²"),
+    "alpha": ("α", "rad/s²"),
+}
+
+
+def positions(
+    motion: Motion,
+    body: str,
+    quantity: str | None = None,
+    *,
+    ax: Axes | None = None,
+    cut: float | None = None,
+    index_base: int = 1,
+) -> Axes:
+    """Draw x and y of a body over time, and its angle on an axis of its own to the right.
+
+    Args:
+        motion: a solution, or the motion at some times of it.
+        body: its name.
+        quantity: one of "x", "y" and "angle" alone.
+        ax: where to; a figure of its own when None.
+        cut: time after which the time axis is compressed, s, as ``transient`` finds it.
+        index_base: number of the first body.
+
+    Returns:
+        The axes; that of the angle is its twin.
+
+    Raises:
+        ModelError: there is no such body or quantity.
+    """
+    return _draw(
+        motion, body, _chosen(quantity, COORDINATES), ax=ax, cut=cut, index_base=index_base
+    )
+
+
+def velocities(
+    motion: Motion,
+    body: str,
+    quantity: str | None = None,
+    *,
+    ax: Axes | None = None,
+    cut: float | None = None,
+    index_base: int = 1,
+) -> Axes:
+    """Draw vx, vy and omega of a body over time; otherwise as ``positions``."""
+    return _draw(motion, body, _chosen(quantity, RATES), ax=ax, cut=cut, index_base=index_base)
+
+
+def accelerations(
+    motion: Motion,
+    body: str,
+    quantity: str | None = None,
+    *,
+    ax: Axes | None = None,
+    cut: float | None = None,
+    index_base: int = 1,
+) -> Axes:
+    """Draw ax, ay and alpha of a body over time; otherwise as ``positions``."""
+    return _draw(
+        motion, body, _chosen(quantity, ACCELERATIONS), ax=ax, cut=cut, index_base=index_base
+    )
+
+
+def body_title(info: BodyInfo, index_base: int = 1) -> str:
+    """Number and name of a body, such as "2 coupler"; ground has no number."""
+    name = style.short(info.name)
+    return f"{info.number - 1 + index_base} {name}" if info.number else name
+
+
+def _chosen(quantity: str | None, known: Sequence[str]) -> Sequence[str]:
+    return known if quantity is None else (one_of("quantity", quantity, known),)
+
+
+def _draw(
+    motion: Motion,
+    body: str,
+    names: Sequence[str],
+    *,
+    ax: Axes | None,
+    cut: float | None,
+    index_base: int,
+) -> Axes:
+    info = motion.body(body).info
+    title = body_title(info, index_base)
+    with style.on(ax) as axes:
+        if len(names) == 1:
+            line = {"color": style.colour(max(1, info.number)), "linestyle": "-"}
+            symbol, unit = QUANTITIES[names[0]]
+            curve = Curve(symbol, getattr(motion.body(body), names[0]), line)
+            draw(axes, motion.t, [curve], Panel(symbol, unit, title, cut, legend=False))
+            if names[0] == "angle":
+                _add_degrees(axes)
+        else:
+            _draw_all(axes, motion, body, names, Panel("", "", title, cut, legend=False))
+        return axes
+
+
+def _add_degrees(axes: Axes) -> None:
+    """The same angle in degrees, to the right."""
+    rad = 1e-3 if "mrad" in axes.get_ylabel() else 1.0
+
+    def to_degrees(angle: ArrayLike) -> Floats:
+        return np.degrees(np.multiply(angle, rad))
+
+    def from_degrees(angle: ArrayLike) -> Floats:
+        return np.radians(np.divide(angle, rad))
+
+    degrees = axes.secondary_yaxis("right", functions=(to_degrees, from_degrees))
+    degrees.spines["right"].set_visible(True)
+    degrees.set_ylabel("φ / °")
+
+
+def _draw_all(axes: Axes, motion: Motion, body: str, names: Sequence[str], common: Panel) -> None:
+    """Both directions on the axes, the turning on a twin of them."""
+    view, t = motion.body(body), motion.t
+    x, y, turn = (
+        Curve(QUANTITIES[name][0], getattr(view, name), style.line(k))
+        for k, name in enumerate(names)
+    )
+    unit = QUANTITIES[names[0]][1]
+    draw(axes, t, [x, y], Panel(f"{x.label}, {y.label}", unit, common.title, common.cut, False))
+    twin = axes.twinx()
+    twin.grid(visible=False)
+    twin.spines["right"].set_visible(True)
+    draw(twin, t, [turn], Panel(turn.label, QUANTITIES[names[2]][1], legend=False))
+    show_time(twin, np.atleast_1d(t), common.cut, label=False)
+    axes.legend(
+        handles=[*axes.lines, *twin.lines],
+        loc="lower right",
+        bbox_to_anchor=(1.0, 0.98),
+        ncols=3,
+    )

@@ -1,0 +1,60 @@
+"""Where the energy goes over time, and how well it is kept."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from kempe.plot import style
+from kempe.plot.curves import Curve, Panel, add_lines, draw, finish
+from kempe.plot.residual import logarithmic
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from kempe.solution import Solution
+
+
+def energy(solution: Solution, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
+    """Draw kinetic, potential and dissipated energy, work, and T + V + dissipated - work.
+
+    Args:
+        solution: what is drawn.
+        ax: where to; a figure of its own when None.
+        cut: time after which the time axis is compressed, s, as ``transient`` finds it.
+    """
+    found = solution.energy
+    curves = [
+        Curve("kinetic T", found.kinetic, style.line(0)),
+        Curve("potential V", found.potential, style.line(1)),
+        Curve("dissipated D", found.dissipated, style.line(2)),
+        Curve("work W", found.work, style.line(3)),
+        Curve("T + V + D − W", found.total, style.SUM),
+    ]
+    with style.on(ax) as axes:
+        draw(axes, solution.t, curves, Panel("E", "J", cut=cut))
+        return axes
+
+
+def energy_balance(solution: Solution, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
+    """Draw by how much T + V + D - W changes, relative to the largest kinetic energy.
+
+    Args:
+        solution: what is drawn.
+        ax: where to; a figure of its own when None.
+        cut: time after which the time axis is compressed, s, as ``transient`` finds it.
+    """
+    error = np.abs(solution.energy.balance)
+    with style.on(ax) as axes:
+        add_lines(axes, solution.t, [Curve("balance", error)])
+        logarithmic(axes, [error])
+        axes.set_ylabel("relative error / 1")
+        finish(
+            axes,
+            solution.t,
+            Panel(
+                "", "", "Energy balance: change of T + V + D − W over largest T", cut, legend=False
+            ),
+        )
+        return axes

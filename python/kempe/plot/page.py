@@ -1,0 +1,94 @@
+"""A figure of the report: its name, its size, how it is drawn, and how it becomes files."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from kempe.names import unknown
+from kempe.plot import style
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_LONGEST = 40
+
+
+@dataclass(frozen=True)
+class Page:
+    """A figure that can be drawn.
+
+    Attributes:
+        number: its place in the report; figures of one family share it.
+        name: such as "reactions_C", fit for a file.
+        about: the same with names as the model has them.
+        height: mm.
+        draw: draws it into an empty figure.
+    """
+
+    number: int
+    name: str
+    about: str
+    height: float
+    draw: Callable[[Figure], None]
+
+    @property
+    def stem(self) -> str:
+        """The name of its file without suffix, such as "11_reactions_C"."""
+        return f"{self.number:02d}_{self.name}"
+
+    def figure(self) -> Figure:
+        """The figure, drawn, without a window."""
+        with style.applied():
+            figure = style.figure(self.height)
+            self.draw(figure)
+            return figure
+
+
+def save(
+    chosen: Iterable[Page], folder: Path, formats: Sequence[str] = ("png", "svg")
+) -> list[Path]:
+    """Write figures into a folder, which is made if missing; returns the files.
+
+    Raises:
+        FileError: a file cannot be written.
+    """
+    written = []
+    for page in chosen:
+        written += style.save(page.figure(), folder / page.stem, formats)
+    return written
+
+
+def select(known: Sequence[Page], names: Sequence[str]) -> list[Page]:
+    """The pages of the given names, with or without the number; all when no name is given.
+
+    Raises:
+        ModelError: there is no page of a name.
+    """
+    chosen: list[Page] = []
+    for name in names:
+        found = [page for page in known if name in (page.name, page.about, page.stem)]
+        if not found:
+            raise unknown("figure", name, [page.name for page in known])
+        chosen += [page for page in found if page not in chosen]
+    return chosen if names else list(known)
+
+
+def file_names(names: Iterable[str]) -> list[str]:
+    """Names of the model made fit for files: plain letters and digits, short, no two alike."""
+    taken: set[str] = set()
+    found = []
+    for name in names:
+        plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+        kept = "".join(c if c.isalnum() or c in "-_" else "_" for c in plain)
+        stem = kept.strip("_")[:_LONGEST] or "unnamed"
+        count, unique = 1, stem
+        while unique.casefold() in taken:  # some file systems do not tell a from A
+            count += 1
+            unique = f"{stem}_{count}"
+        taken.add(unique.casefold())
+        found.append(unique)
+    return found

@@ -1,0 +1,39 @@
+"""All figures of a study, one file for each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from kempe.plot import style
+from kempe.plot.study_cost import steps, work_precision
+from kempe.plot.study_gaps import gaps
+from kempe.plot.study_history import error_history, residual_history
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from kempe.studies import Study
+
+FIGURES: dict[str, Callable[[Study, Axes], None]] = {
+    "residual": residual_history,
+    "error": error_history,
+    "steps": steps,
+    "work_precision": work_precision,
+    "gaps": gaps,
+}
+
+
+def write(study: Study, folder: Path) -> list[Path]:
+    """Draw all figures of a study into a folder; returns the files.
+
+    Raises:
+        FileError: a file cannot be written.
+    """
+    written: list[Path] = []
+    for name, draw in FIGURES.items():
+        figure = style.figure()
+        draw(study, figure.add_subplot())
+        written += style.save(figure, folder / name)
+    return written

@@ -1,0 +1,108 @@
+"""The time axis: where a motion comes to rest early, the quiet rest is compressed."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from kempe.arrays import Floats
+from kempe.report.settling import settling
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from kempe.motion import Motion
+
+#: The share of the axis that shows the transient when the rest is compressed.
+SHARE = 0.72
+#: A transient longer than this share of the time is shown on a plain axis.
+_LONGEST = 0.4
+#: Coordinates that move less than this share of the one that moves most do not count.
+_STILL = 1e-3
+
+
+def transient(motion: Motion) -> float | None:
+    """The time until which most happens, s, rounded up; None where the motion does not settle.
+
+    Args:
+        motion: at many times that increase; for instance a solution.
+    """
+    t = np.atleast_1d(motion.t)
+    duration = float(t[-1] - t[0])
+    if len(t) < 3 or duration <= 0.0:
+        return None
+    travel = np.ptp(motion.q, axis=0)
+    angles = np.arange(len(travel)) % 3 == 2
+    most = np.where(angles, travel[angles].max(initial=0.0), travel[~angles].max(initial=0.0))
+    times = []
+    for values in motion.q.T[travel > _STILL * most]:
+        found = settling(t, values)
+        if found.time is None:
+            return None
+        times.append(found.time - float(t[0]))
+    until = _rounded_up(max(times, default=duration))
+    return float(t[0]) + until if until <= _LONGEST * duration else None
+
+
+def _rounded_up(value: float) -> float:
+    """The next half of a power of ten, such as 2.13 → 2.5."""
+    if value <= 0.0:
+        return 0.0
+    step = 0.5 * 10.0 ** math.floor(math.log10(value))
+    return step * math.ceil(value / step)
+
+
+def show_time(axes: Axes, t: Floats, cut: float | None, *, label: bool = True) -> None:
+    """Give the axes a time axis from the first to the last time.
+
+    Args:
+        axes: where to.
+        t: (n_t,), s.
+        cut: after this time the axis is compressed and its background grey; never when None.
+        label: whether to write what it is.
+    """
+    first, last = float(t.min()), float(t.max())
+    told = ""
+    if first == last:
+        axes.set_xlim(first - 0.5, last + 0.5)
+    elif cut is None or not first < cut < last:
+        axes.set_xlim(first, last)
+    else:
+        _compress(axes, first, cut, last)
+        told = f"  (grey: compressed after {cut:g} s)"
+    if label:
+        axes.set_xlabel(f"time t / s{told}")
+
+
+def _compress(axes: Axes, first: float, cut: float, last: float) -> None:
+    """Two linear parts that meet at ``cut``: one axis, so that every line stays whole."""
+    from kempe.plot import style
+
+    slow, fast = SHARE / (cut - first), (1.0 - SHARE) / (last - cut)
+
+    def forward(t: Floats) -> Floats:
+        t = np.asarray(t, dtype=np.float64)
+        return np.where(t <= cut, (t - first) * slow, SHARE + (t - cut) * fast)
+
+    def inverse(share: Floats) -> Floats:
+        share = np.asarray(share, dtype=np.float64)
+        return np.where(share <= SHARE, first + share / slow, cut + (share - SHARE) / fast)
+
+    axes.set_xscale("function", functions=(forward, inverse))
+    axes.set_xlim(first, last)
+    axes.set_xticks(_ticks(axes, first, cut, last))
+    axes.axvspan(cut, last, color=style.QUIET, linewidth=0.0, zorder=0.1)
+
+
+def _ticks(axes: Axes, first: float, cut: float, last: float) -> list[float]:
+    """Round times in both parts, none so near after the cut that the numbers would touch."""
+    from matplotlib.ticker import MaxNLocator
+
+    early = MaxNLocator(5, steps=[1, 2, 5, 10]).tick_values(first, cut)
+    late = MaxNLocator(3, steps=[1, 2, 5, 10]).tick_values(cut, last)
+    far = cut + 0.35 * (last - cut)
+    axes.xaxis.set_major_formatter("{x:g}")
+    kept = [t for t in early if first <= t <= cut]
+    return [*kept, *(t for t in late if far < t <= last)]

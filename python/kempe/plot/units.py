@@ -1,0 +1,67 @@
+"""Units in which the numbers of an axis are short."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+#: SI prefixes by the power of ten.
+_PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
+#: The powers that engineers write before each unit; others are written as 10³ before it.
+_CUSTOM = {
+    "m": (0, -3, -6, -9),
+    "rad": (0, -3),
+    "m/s": (0, -3, -6),
+    "m/s²": (0, -3, -6),
+    "N": (9, 6, 3, 0, -3, -6),
+    "N·m": (9, 6, 3, 0, -3, -6),
+    "J": (9, 6, 3, 0, -3, -6),
+}
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+#: Under this, in SI units, a quantity is rounding noise and shown as the zero that it means.
+NOISE = 1e-9
+
+
+@dataclass(frozen=True)
+class Scale:
+    """How an axis counts.
+
+    Attributes:
+        divisor: what the values in SI units are divided by.
+        unit: what stands on the axis, such as "kN".
+    """
+
+    divisor: float
+    unit: str
+
+    def axis(self, symbol: str) -> str:
+        """The label of an axis, such as ``F / kN``."""
+        unit = f"({self.unit})" if "/" in self.unit or " " in self.unit else self.unit
+        return f"{symbol} / {unit}"
+
+
+def scale(unit: str, peak: float) -> Scale:
+    """The scale in which the largest value has one to four digits before the point.
+
+    Args:
+        unit: SI unit of the values.
+        peak: largest magnitude in that unit.
+    """
+    power = _power(peak)
+    if not power:
+        return Scale(1.0, unit)
+    if power in _CUSTOM.get(unit, ()):
+        return Scale(10.0**power, _PREFIXES[power] + unit)
+    return Scale(10.0**power, f"{power_of_ten(power)} {unit}")
+
+
+def power_of_ten(power: int) -> str:
+    """Such as 10⁻³, in plain letters."""
+    return f"10{str(power).translate(_RAISED)}"
+
+
+def _power(peak: float) -> int:
+    if peak < NOISE or 0.2 <= peak < 2.0:
+        return 0
+    return 3 * math.floor(math.log10(peak / 2.0 if peak >= 2.0 else peak) / 3.0)

@@ -1,0 +1,143 @@
+"""What a study found, in sentences whose every number is computed from its outcomes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from itertools import groupby, pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from kempe.studies.run import Outcome, Study
+
+#: Below it differences from the reference say nothing, since the reference has errors of its own.
+DOUBT = 1e-9
+
+
+def findings(study: Study) -> list[str]:
+    """Sentences, each from the data; those that do not apply are left out."""
+    return [
+        *_stabilization(study),
+        *_sweep(study),
+        *_steps(study),
+        *_divergence(study),
+        *_orders(study),
+        *_cheapest(study),
+    ]
+
+
+def _stabilization(study: Study) -> Iterator[str]:
+    """What each pair of gains leaves open, at each tolerance."""
+    by_number = groupby(study.group("stabilization"), key=lambda o: o.variant.number)
+    for number, group in by_number:
+        outcomes = [o for o in group if not o.diverged]
+        told = [
+            f"{o.variant.gains} {_length(o.residual)} in {o.steps} steps"
+            for o in sorted(outcomes, key=lambda o: o.residual)
+        ]
+        if told:
+            yield f"With RK45 at rtol {number:g} the constraints open by up to: {'; '.join(told)}."
+
+
+def _sweep(study: Study) -> Iterator[str]:
+    outcomes = [o for o in study.group("beta") if not o.diverged]
+    if len(outcomes) < 2:
+        return
+    low, high = outcomes[0], outcomes[-1]
+    best = min(outcomes, key=lambda o: o.position_error)
+    yield (
+        f"From β = {low.variant.beta:g} to {high.variant.beta:g} at the same tolerance the steps "
+        f"change from {low.steps} to {high.steps} and the residual from {_length(low.residual)} to "
+        f"{_length(high.residual)}; the smallest position error, {_length(best.position_error)}, "
+        f"is that of β = {best.variant.beta:g}."
+    )
+    stiff = [(a, b) for a, b in pairwise(outcomes) if a.variant.beta >= 200.0]
+    if stiff:
+        a, b = stiff[0][0], stiff[-1][1]
+        power = math.log(b.steps / a.steps) / math.log(b.variant.beta / a.variant.beta)
+        why = "stability sets the step" if power > 0.7 else "accuracy still sets the step"
+        yield f"Above β = {a.variant.beta:g} the steps grow as β^{power:.2f}: {why}."
+
+
+def _steps(study: Study) -> Iterator[str]:
+    """Where weak gains beat strong ones with constant steps, and where they do not."""
+    strong, weak = (_at(study, *gains) for gains in ((10.0, 200.0), (1.0, 20.0)))
+    for h in sorted(set(strong) & set(weak)):
+        a, b = strong[h], weak[h]
+        if a.diverged or b.diverged:
+            continue
+        verb = "beats" if b.position_error < a.position_error else "loses to"
+        yield (
+            f"With constant steps of {h:g} s, {b.variant.gains} {verb} {a.variant.gains}: position "
+            f"error {_length(b.position_error)} against {_length(a.position_error)}."
+        )
+
+
+def _at(study: Study, alpha: float, beta: float) -> dict[float, Outcome]:
+    group = study.group("step")
+    return {
+        o.variant.number: o for o in group if (o.variant.alpha, o.variant.beta) == (alpha, beta)
+    }
+
+
+def _divergence(study: Study) -> Iterator[str]:
+    for o in study.outcomes:
+        if not o.diverged:
+            continue
+        when = "" if o.diverged_at is None else f" at t = {o.diverged_at:.3g} s"
+        told = ""
+        if o.variant.scheme == "RK4":
+            factor = growth(o.variant.alpha, o.variant.beta, o.variant.number)
+            told = (
+                f"; with β h = {o.variant.beta * o.variant.number:g} the stabilization multiplies"
+            )
+            told += f" what is open by {factor:.3g} in each step"
+        yield f"{o.variant.method} with {o.variant.gains} diverges{when}: {o.reason}{told}."
+    rk4 = [o for o in study.group("step") if o.variant.beta > 0.0]
+    if rk4 and not any(o.diverged for o in rk4):
+        yield "No constant step of the study diverges."
+
+
+def growth(alpha: float, beta: float, step: float) -> float:
+    """Factor of one step of RK4 for Φ̈ + 2α Φ̇ + β² Φ = 0; above 1 it grows without end."""
+    root = np.sqrt(complex(alpha**2 - beta**2))
+    steps = [step * (-alpha + root), step * (-alpha - root)]
+    return float(max(abs(1.0 + z + z**2 / 2.0 + z**3 / 6.0 + z**4 / 24.0) for z in steps))
+
+
+def _orders(study: Study) -> Iterator[str]:
+    """Observed order of RK4: the slope of the error over the step."""
+    for gains in ((10.0, 200.0), (1.0, 20.0)):
+        group = [o for o in _at(study, *gains).values() if not o.diverged]
+        used = [o for o in group if o.position_error > DOUBT]
+        if len(used) >= 3:
+            h, error = _logarithms((o.variant.number, o.position_error) for o in used)
+            slope = float(np.polyfit(h, error, 1)[0])
+            yield f"RK4 with {used[0].variant.gains} converges with order {slope:.1f} in the step."
+
+
+def _logarithms(points: Iterable[tuple[float, float]]) -> tuple[list[float], list[float]]:
+    x, y = zip(*((math.log(a), math.log(b)) for a, b in points), strict=True)
+    return list(x), list(y)
+
+
+def _cheapest(study: Study) -> Iterator[str]:
+    """The fewest evaluations that keep every position within a millimetre and a micrometre."""
+    for bound, told in ((1e-3, "1 mm"), (1e-6, "1 µm")):
+        good = [o for o in study.outcomes[1:] if o.position_error <= bound]
+        if good:
+            best = min(good, key=lambda o: o.evaluations)
+            yield (
+                f"The cheapest variant with every position within {told} is {best.variant.name}: "
+                f"{best.evaluations} evaluations."
+            )
+
+
+def _length(value: float) -> str:
+    """A length with a unit that suits it."""
+    for unit, scale in (("m", 1.0), ("mm", 1e-3), ("µm", 1e-6)):
+        if value >= scale:
+            return f"{value / scale:.3g} {unit}"
+    return f"{value / 1e-9:.3g} nm"

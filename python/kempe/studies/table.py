@@ -1,0 +1,149 @@
+"""The outcomes of a study as rows: Markdown, CSV and JSON."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from kempe import files
+from kempe.studies.variants import GROUPS
+
+if TYPE_CHECKING:
+    from kempe.studies.run import Outcome, Study
+
+HEADER = (
+    "variant",
+    "angle error / rad",
+    "position error / m",
+    "residual / m",
+    "energy error",
+    "steps",
+    "evaluations",
+    "time / ms",
+)
+
+
+def cells(outcome: Outcome) -> tuple[str, ...]:
+    """One row; where the variant diverged, when and why."""
+    cost = (str(outcome.steps), str(outcome.evaluations), f"{1e3 * outcome.seconds:.3g}")
+    if outcome.diverged:
+        return (outcome.variant.name, fate(outcome), "", "", "", *cost)
+    measured = (
+        outcome.angle_error,
+        outcome.position_error,
+        outcome.residual,
+        outcome.imbalance,
+    )
+    return (outcome.variant.name, *(f"{value:.2g}" for value in measured), *cost)
+
+
+def fate(outcome: Outcome) -> str:
+    """``diverged at t = 0.15 s: why``."""
+    when = "" if outcome.diverged_at is None else f" at t = {outcome.diverged_at:.4g} s"
+    return f"diverged{when}: {outcome.reason}"
+
+
+def markdown(study: Study) -> str:
+    """A table for each group of variants."""
+    lines = [f"# Study of {study.analysis}: {study.title}", "", *_about(study)]
+    for group, title in GROUPS.items():
+        rows = [cells(outcome) for outcome in study.group(group)]
+        if not rows:
+            continue
+        lines += ["", f"## {title[0].upper()}{title[1:]}", ""]
+        lines += [_row(HEADER), _row(["---", *["---:"] * (len(HEADER) - 1)])]
+        lines += [_row(row) for row in rows]
+    return "\n".join(lines)
+
+
+def _about(study: Study) -> list[str]:
+    return [
+        "Errors are the largest differences of any body from the most accurate run",
+        f"({study.reference.variant.name}) over all output times; the residual is the largest |Φ|.",
+    ]
+
+
+def _row(row: Any) -> str:
+    return "| " + " | ".join(str(cell).replace("|", "\\|") for cell in row) + " |"
+
+
+def records(study: Study) -> list[dict[str, Any]]:
+    """The outcomes as plain data, SI units; None where a variant diverged."""
+    return [_record(outcome) for outcome in study.outcomes]
+
+
+def _record(outcome: Outcome) -> dict[str, Any]:
+    way = outcome.variant
+    numbers = {
+        "angle_error": outcome.angle_error,
+        "position_error": outcome.position_error,
+        "residual": outcome.residual,
+        "residual_at": outcome.residual_at,
+        "energy_error": outcome.imbalance,
+    }
+    return {
+        "group": way.group,
+        "alpha": way.alpha,
+        "beta": way.beta,
+        "scheme": way.scheme,
+        "rtol": way.number if way.scheme == "RK45" else None,
+        "step": way.number if way.scheme == "RK4" else None,
+        "diverged_at": outcome.diverged_at,
+        "reason": outcome.reason,
+        **{key: None if math.isnan(value) else value for key, value in numbers.items()},
+        "steps": outcome.steps,
+        "evaluations": outcome.evaluations,
+        "seconds": outcome.seconds,
+    }
+
+
+def csv_text(study: Study) -> str:
+    """One line for each variant; empty where there is no number."""
+    rows = records(study)
+    out = io.StringIO()
+    writer = csv.DictWriter(out, list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return out.getvalue()
+
+
+def json_text(study: Study) -> str:
+    """Everything, with the findings."""
+    whole = {
+        "title": study.title,
+        "analysis": study.analysis,
+        "findings": study.findings(),
+        "variants": records(study),
+    }
+    return json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def write(study: Study, folder: Path) -> list[Path]:
+    """Write the tables and the figures; returns the files.
+
+    Raises:
+        FileError: a file cannot be written.
+    """
+    from kempe.plot import study_figures
+
+    texts = {
+        "study.md": "\n".join(
+            [
+                markdown(study),
+                "",
+                "## Findings",
+                "",
+                *(f"- {told}" for told in study.findings()),
+                "",
+            ]
+        ),
+        "study.csv": csv_text(study),
+        "study.json": json_text(study),
+    }
+    for name, text in texts.items():
+        files.write_text(folder / name, text)
+    return [*(folder / name for name in texts), *study_figures.write(study, folder / "figures")]

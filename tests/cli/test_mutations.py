@@ -1,0 +1,179 @@
+"""The reader under mutations: every field of the flagship broken in a dozen ways.
+
+Whatever is written, there is an answer: no panic, no hang, and a refusal says line, column and key.
+"""
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import kempe as kp
+import pytest
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "four_bar.toml"
+
+#: What is written in place of a value.
+VALUES = {
+    "wrong type": "true",
+    "negative": "-1",
+    "nan": "nan",
+    "infinite": "-inf",
+    "huge": "1e308",
+    "too huge": "1e999",
+    "empty": '""',
+    "unknown": '"nosuch.thing"',
+    "formula of itself": '"L1 +"',
+    "list": "[1, 2, 3]",
+    "table": "{ a = 1 }",
+    "date": "2026-01-01",
+}
+WAYS = ["deleted", "renamed", "twice", *VALUES]
+
+#: Longest time that one mutant may take from the text to the end of its simulation, s.
+PATIENCE = 5.0
+
+
+@dataclass(frozen=True)
+class Raw:
+    """A value as it is to stand in the file."""
+
+    text: str
+
+
+def paths(tree: Any, above: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
+    """Every field, table and list entry."""
+    entries = tree.items() if isinstance(tree, dict) else enumerate(tree)
+    for key, value in entries:
+        yield (*above, key)
+        if isinstance(value, dict | list):
+            yield from paths(value, (*above, key))
+
+
+def value_text(value: Any) -> str:
+    if isinstance(value, Raw):
+        return value.text
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{quoted(k)} = {value_text(v)}" for k, v in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(value_text, value)) + "]"
+    return quoted(value) if isinstance(value, str) else repr(value)
+
+
+def quoted(text: str) -> str:
+    return f'"{text}"'
+
+
+def toml(tree: dict[str, Any]) -> str:
+    """The tree as people write it: a section for each entry, one line for each field."""
+    plain = [(k, v) for k, v in tree.items() if not isinstance(v, dict)]
+    lines = [f"{key} = {value_text(value)}" for key, value in plain]
+    for section, fields in ((k, v) for k, v in tree.items() if isinstance(v, dict)):
+        if section in ("parameters", "start"):
+            entries = {section: fields}
+        else:
+            entries = {f'{section}."{name}"': entry for name, entry in fields.items()}
+        for head, entry in entries.items():
+            if isinstance(entry, dict):
+                lines.append(f"[{head}]")
+                lines += [f'"{key}" = {value_text(value)}' for key, value in entry.items()]
+            else:
+                lines += [f"[{section}]", f"{head.rpartition('.')[2]} = {value_text(entry)}"]
+    return "\n".join(lines) + "\n"
+
+
+def mutant(path: tuple[str | int, ...], way: str) -> str | None:
+    """The text of the flagship with one field broken; None where the way makes no sense."""
+    tree = kp.load(EXAMPLE).tree()
+    holder: Any = tree
+    for key in path[:-1]:
+        holder = holder[key]
+    last = path[-1]
+    if way in VALUES:
+        holder[last] = Raw(VALUES[way])
+        return toml(tree)
+    if isinstance(holder, list):
+        if way != "deleted":
+            return None
+        del holder[last]
+        return toml(tree)
+    items = list(holder.items())
+    holder.clear()
+    for key, value in items:
+        if key != last or way == "twice":
+            holder[key] = value
+        elif way == "renamed":
+            holder[f"{key}x"] = value
+    if way == "twice":
+        text = toml(tree)
+        target = next(
+            (ln for ln in text.splitlines() if ln.startswith((f'"{last}" =', f"{last} ="))), ""
+        )
+        return text.replace(target, f"{target}\n{target}", 1) if target else None
+    return toml(tree)
+
+
+ALL = list(paths(kp.load(EXAMPLE).tree()))
+
+
+def answered(text: str, folder: Path) -> kp.KempeError | None:
+    """What reading, assembling and some steps of simulating end with."""
+    file = folder / "mutant.toml"
+    file.write_text(text, encoding="utf-8")
+    begin = time.perf_counter()
+    try:
+        case = kp.load(file)
+        for name in case.analyses:
+            case = case.with_analysis(name, max_steps=50, t_end=0.02)
+        case.run()
+    except kp.KempeError as error:
+        return error
+    finally:
+        assert time.perf_counter() - begin < PATIENCE
+    return None
+
+
+def test_the_text_that_is_mutated_is_the_flagship(tmp_path: Path) -> None:
+    assert answered(toml(kp.load(EXAMPLE).tree()), tmp_path) is None
+    assert len(ALL) > 80
+
+
+@pytest.mark.filterwarnings("ignore::kempe.analyses.AssemblyWarning")
+def test_every_mutant_is_answered(tmp_path: Path) -> None:
+    refused, placed, unplaced = 0, 0, []
+    for path in ALL:
+        for way in WAYS:
+            text = mutant(path, way)
+            if text is None:
+                continue
+            error = answered(text, tmp_path)
+            assert not isinstance(error, kp.InternalError), (path, way, error)
+            if error is None or not isinstance(error, kp.FileError | kp.ModelError):
+                continue  # valid, or a matter of mechanics
+            for problem in error.problems or (None,):
+                refused += 1
+                if problem is not None and problem.line and problem.column and key_told(problem):
+                    placed += 1
+                else:
+                    unplaced.append((path, way, str(error)))
+    assert refused > 500
+    assert placed >= 0.99 * refused, (placed, refused, unplaced[:20])
+
+
+def key_told(problem: kp.errors.Problem) -> bool:
+    """Whether the message names the place in the model, or the key that cannot be read."""
+    keys = [key for key in problem.path.split(".") if key]
+    return any(key in problem.message for key in keys) or problem.message.startswith("key '")
+
+
+@pytest.mark.parametrize("way", ["deleted", "renamed", "nan", "unknown", "list", "table"])
+def test_a_broken_mass_is_refused_where_it_stands(way: str, tmp_path: Path) -> None:
+    text = mutant(("bodies", "coupler", "mass"), way)
+    assert text is not None
+    error = answered(text, tmp_path)
+    assert isinstance(error, kp.FileError | kp.ModelError)
+    lines = text.splitlines()
+    at = [lines[p.line - 1] for p in error.problems if p.line]
+    assert any("mass" in line or "coupler" in line for line in at), str(error)
+    assert "mass" in str(error)

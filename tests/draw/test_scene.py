@@ -1,0 +1,198 @@
+"""The scene says what the solution says."""
+
+import json
+from importlib import resources
+from typing import Any
+
+import jsonschema
+import kempe as kp
+import numpy as np
+import pytest
+from draw.mechanisms import moving, pendulum, slider_crank
+from kempe.draw.geometry import placed, smooth
+from kempe.draw.numbers import plain, round_below
+from kempe.draw.scene import playback_rate
+
+#: Numbers are rounded to nine significant digits.
+HALF_A_DIGIT = 5.001e-9
+SCHEMA = json.loads(
+    (resources.files("kempe.draw") / "assets" / "scene.schema.json").read_text(encoding="utf-8")
+)
+
+
+def pins(scene: dict[str, Any], side: int) -> np.ndarray:
+    """Places of the joints at all frames by their point on one of the bodies, (n_t, n, 2)."""
+    poses = np.array([[[0, 0, 0], *frame] for frame in scene["frames"]["poses"]], dtype=float)
+    joints = scene["joints"]
+    found = [placed(poses[:, j["bodies"][side]], j["points"][side]) for j in joints]
+    return np.stack(found, axis=1)
+
+
+def test_it_fits_its_schema_and_is_json(four_bar: kp.Solution, hostile: kp.Solution) -> None:
+    for drawn in (four_bar, hostile, four_bar.initial, pendulum(), slider_crank()):
+        told = json.loads(json.dumps(kp.scene(drawn), allow_nan=False))
+        jsonschema.validate(told, SCHEMA)
+
+
+def test_a_scene_of_another_version_does_not_fit(four_bar: kp.Solution) -> None:
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(kp.scene(four_bar.initial) | {"scene": 2}, SCHEMA)
+
+
+def test_poses_rates_and_reactions_are_those_of_the_solution(four_bar: kp.Solution) -> None:
+    scene = kp.scene(four_bar, frames=37)
+    t = np.array(scene["frames"]["t"])
+    np.testing.assert_allclose(t, np.linspace(0, 1, 37), rtol=1e-8)
+    motion = four_bar(np.linspace(0, 1, 37))
+    np.testing.assert_allclose(
+        np.array(scene["frames"]["poses"]).reshape(37, -1), motion.q, rtol=HALF_A_DIGIT, atol=1e-15
+    )
+    np.testing.assert_allclose(
+        np.array(scene["frames"]["rates"]).reshape(37, -1), motion.v, rtol=HALF_A_DIGIT, atol=1e-15
+    )
+    for k, name in enumerate("ABCD"):
+        joint = motion.constraint(name)
+        told = np.array(scene["frames"]["reactions"])[:, k]
+        np.testing.assert_allclose(told, joint.force(on=joint.info.j), rtol=HALF_A_DIGIT)
+
+
+def test_both_points_of_every_joint_are_in_one_place(four_bar: kp.Solution) -> None:
+    scene = kp.scene(four_bar)
+    np.testing.assert_allclose(pins(scene, 0), pins(scene, 1), atol=1e-3)
+    C = four_bar(np.array(scene["frames"]["t"])).body("rocker").point("C").position
+    np.testing.assert_allclose(pins(scene, 1)[:, 2], C, atol=1e-6)
+
+
+def test_bounds_hold_everything(four_bar: kp.Solution) -> None:
+    scene = kp.scene(four_bar)
+    x0, y0, x1, y1 = scene["bounds"]
+    places = pins(scene, 1)
+    assert (places.min(axis=(0, 1)) >= np.array([x0, y0]) - 1e-6).all()
+    assert (places.max(axis=(0, 1)) <= np.array([x1, y1]) + 1e-6).all()
+    assert places[..., 0].max() == pytest.approx(x1)
+    assert places[..., 1].max() == pytest.approx(y1)
+
+
+def test_frames_follow_time(four_bar: kp.Solution) -> None:
+    assert len(kp.scene(four_bar)["frames"]["t"]) == 241  # slow motion of one second
+    assert len(kp.scene(moving(t_end=30))["frames"]["t"]) == 1200
+    assert kp.scene(four_bar.final)["frames"]["t"] == [1.0]
+    with pytest.raises(kp.ModelError, match="frames=0"):
+        kp.scene(four_bar, frames=0)
+
+
+def test_without_dense_output_the_frames_are_outputs() -> None:
+    solution = moving(dense_output=False)
+    scene = kp.scene(solution)
+    assert scene["interpolation"] == "none"
+    np.testing.assert_allclose(scene["frames"]["t"], solution.t)
+    assert kp.scene(solution, frames=5)["frames"]["t"] == [0.0, 0.25, 0.5, 0.75, 1.0]
+
+
+def test_where_reactions_have_no_answer_the_outputs_are_drawn(
+    four_bar: kp.Solution, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def no_answer(*_: object) -> None:
+        raise kp.SingularityError("dead point")
+
+    monkeypatch.setattr("kempe._core.evaluate", no_answer)
+    scene = kp.scene(four_bar)
+    np.testing.assert_allclose(scene["frames"]["t"], four_bar.t)
+    told = np.array(scene["frames"]["reactions"])[:, 2]
+    np.testing.assert_allclose(told, four_bar.constraint("C").force(on="rocker"), rtol=HALF_A_DIGIT)
+
+
+def test_interpolation_is_offered_where_it_cannot_be_seen(four_bar: kp.Solution) -> None:
+    fine, coarse = kp.scene(four_bar), kp.scene(four_bar, frames=12)
+    assert (fine["interpolation"], coarse["interpolation"]) == ("cubic", "none")
+    t, frames = np.array(fine["frames"]["t"]), fine["frames"]
+    rocker, rates = (np.array(frames[key])[:, 2] for key in ("poses", "rates"))
+    between = smooth(rocker, rates, t, 4)
+    exact = four_bar(np.linspace(0, 1, 4 * (len(t) - 1) + 1)).body("rocker")
+    np.testing.assert_allclose(between[:, 2], exact.angle, atol=1e-3)
+    np.testing.assert_allclose(between[:, :2], exact.r, atol=0.03)
+
+
+def test_bodies_are_drawn_by_their_shape(four_bar: kp.Solution) -> None:
+    bars = kp.scene(four_bar.initial)["bodies"]
+    assert [bar["kind"] for bar in bars] == ["ground", "bar", "bar", "bar"]
+    assert bars[0]["outline"] == []
+    assert bars[1]["outline"] == [[-5, 0], [5, 0]]
+    plate = kp.scene(pendulum())["bodies"][1]
+    assert sorted(plate["outline"]) == [[0, 0], [1, 0], [1, 0.5]]  # S lies inside
+
+
+def test_a_spring_is_drawn_at_the_joint_of_its_bodies(four_bar: kp.Solution) -> None:
+    (spring,) = kp.scene(four_bar.initial)["forces"]
+    assert (spring["bodies"], spring["point"]) == ([0, 3], [9, 0])
+
+
+def test_a_slider_is_drawn_along_its_axis() -> None:
+    solution = slider_crank()
+    scene = kp.scene(solution)
+    assert [joint["slide"] is None for joint in scene["joints"]] == [True, True, True, False]
+    guide = scene["joints"][3]
+    assert guide["axes"] == [0.3, 0.1]
+    low, high = guide["slide"]
+    B = pins(scene, 1)[:, 3]
+    along = B @ [np.cos(0.3), np.sin(0.3)]
+    np.testing.assert_allclose([low, high], [along.min(), along.max()], rtol=1e-7)
+    assert high - low == pytest.approx(0.2, abs=1e-3)  # twice the crank
+    np.testing.assert_allclose(B @ [-np.sin(0.3), np.cos(0.3)], 0.0, atol=1e-6)
+
+
+def test_traces_are_points_that_move(four_bar: kp.Solution) -> None:
+    told = [trace["name"] for trace in kp.scene(four_bar)["traces"]]
+    assert told == ["crank.B", "coupler.C"]
+    chosen = kp.scene(four_bar, traces=["coupler.B"])["traces"]
+    assert chosen == [{"name": "coupler.B", "body": 2, "point": [-13, 0]}]
+    for wrong in ("coupler", "coupler.X", "link.B"):
+        with pytest.raises(kp.ModelError):
+            kp.scene(four_bar, traces=[wrong])
+
+
+def test_channels_are_those_of_the_solution(four_bar: kp.Solution) -> None:
+    scene = kp.scene(four_bar)
+    motion = four_bar(np.linspace(0, 1, len(scene["frames"]["t"])))
+    told = {channel["name"]: channel for channel in scene["channels"]}
+    C = motion.constraint("C").force(on="rocker")
+    expected = {
+        "crank.angle": ("rad", motion.body("crank").angle),
+        "rocker.omega": ("rad/s", motion.body("rocker").omega),
+        "spring.torque": ("N·m", motion.force("spring").torque(on="rocker")),
+        "C.force": ("N", np.hypot(C[:, 0], C[:, 1])),
+        "residual": ("m, rad", np.abs(motion.residuals[0]).max(axis=1)),
+    }
+    for name, (unit, values) in expected.items():
+        assert told[name]["unit"] == unit
+        np.testing.assert_allclose(told[name]["values"], values, rtol=1e-8, atol=1e-15)
+    assert "C.torque" not in told  # a pin has none
+    assert "spring.force" not in told
+
+
+def test_the_arrow_of_reactions_is_round(four_bar: kp.Solution) -> None:
+    scene = kp.scene(four_bar)
+    reactions = np.array(scene["frames"]["reactions"])
+    largest = np.hypot(reactions[..., 0], reactions[..., 1]).max()
+    unit, length = scene["reaction_scale"]["force"], scene["reaction_scale"]["length"]
+    assert unit == 10_000
+    size = scene["bounds"][2] - scene["bounds"][0]
+    assert length * largest / unit == pytest.approx(0.3 * size)
+
+
+def test_numbers_are_rounded_to_nine_digits_and_never_nan() -> None:
+    values = np.array([[1 / 3, -0.0], [np.nan, 1.23456789123e-7]])
+    assert plain(values) == [[0.333333333, 0.0], [None, 1.23456789e-7]]
+    assert str(plain(values)[0][1]) == "0.0"
+
+
+@pytest.mark.parametrize(("value", "expected"), [(1, 1), (4.9, 2), (5, 5), (0.03, 0.02), (99, 50)])
+def test_round_numbers(value: float, expected: float) -> None:
+    assert round_below(value) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
+    ("duration", "rate"), [(15, 1), (0.03, 0.01), (1000, 10), (0, 1), (60, 1), (2, 1), (1, 0.5)]
+)
+def test_playback_takes_a_bearable_time(duration: float, rate: float) -> None:
+    assert playback_rate(duration) == pytest.approx(rate)

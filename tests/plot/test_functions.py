@@ -1,0 +1,195 @@
+"""Every function returns axes with units, and draws what the solution holds."""
+
+from collections.abc import Callable
+from typing import Any
+
+import kempe as kp
+import numpy as np
+import pytest
+from kempe import plot
+from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
+from matplotlib.axes import Axes
+
+Draw = Callable[..., Axes]
+
+FUNCTIONS: dict[str, tuple[Draw, str]] = {
+    "positions": (lambda sol, **a: plot.positions(sol, "crank", **a), "x, y / m"),
+    "velocities": (lambda sol, **a: plot.velocities(sol, "crank", **a), "$v_x$, $v_y$ / (m/s)"),
+    "accelerations": (
+        lambda sol, **a: plot.accelerations(sol, "crank", **a),
+        "$a_x$, $a_y$ / (m/s²)",
+    ),
+    "torques": (lambda sol, **a: plot.torques(sol, "spring", **a), "T / kN·m"),
+    "reactions": (lambda sol, **a: plot.reactions(sol, "C", **a), "F / kN"),
+    "all_reactions": (plot.all_reactions, "|F| / kN"),
+    "residual": (plot.residual, "residual / m, (m/s)"),
+    "energy": (plot.energy, "E / kJ"),
+    "energy_balance": (plot.energy_balance, "relative error / 1"),
+    "mechanism": (plot.mechanism, "y / m"),
+    "configuration": (plot.configuration, "y / m"),
+}
+
+
+def lines(axes: Axes) -> dict[str, Any]:
+    return {str(line.get_label()): line for line in axes.lines}
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_axes_have_labels_with_units(flagship: kp.Solution, name: str) -> None:
+    draw, label = FUNCTIONS[name]
+    axes = draw(flagship)
+    assert isinstance(axes, Axes)
+    assert axes.get_ylabel() == label
+    assert axes.get_xlabel() in ("time t / s", "x / m")
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_the_axes_given_are_drawn_in_and_the_style_is_not_left_behind(
+    flagship: kp.Solution, name: str
+) -> None:
+    import matplotlib
+    from matplotlib import pyplot
+
+    before = dict(matplotlib.rcParams)
+    axes = pyplot.figure().add_subplot()
+    assert FUNCTIONS[name][0](flagship, ax=axes) is axes
+    assert dict(matplotlib.rcParams) == before
+    assert len(pyplot.get_fignums()) == 1
+
+
+@pytest.mark.parametrize(
+    ("draw", "quantities"),
+    [
+        (plot.positions, COORDINATES),
+        (plot.velocities, RATES),
+        (plot.accelerations, ACCELERATIONS),
+    ],
+)
+def test_a_line_is_the_array_of_the_solution(
+    flagship: kp.Solution, draw: Draw, quantities: tuple[str, ...]
+) -> None:
+    for body in ("crank", "coupler"):
+        for quantity in quantities:
+            axes = draw(flagship, body, quantity)
+            line = axes.lines[0]
+            divisor = 1e3 if "10³" in axes.get_ylabel() else 1.0
+            np.testing.assert_array_equal(line.get_xdata(), flagship.t)
+            np.testing.assert_array_equal(
+                line.get_ydata(), getattr(flagship.body(body), quantity) / divisor
+            )
+
+
+def test_all_three_quantities_share_a_panel(flagship: kp.Solution) -> None:
+    axes = plot.positions(flagship, "rocker")
+    twin = next(other for other in axes.figure.axes if other is not axes)
+    np.testing.assert_array_equal(lines(axes)["y"].get_ydata(), flagship["rocker"].y)
+    np.testing.assert_array_equal(twin.lines[0].get_ydata(), flagship["rocker"].angle)
+    assert twin.get_ylabel() == "φ / rad"
+    legend = axes.get_legend()
+    assert legend is not None
+    assert [text.get_text() for text in legend.get_texts()] == ["x", "y", "φ"]
+
+
+@pytest.mark.parametrize("on", ["rocker", "ground"])
+def test_torques_are_the_parts_and_their_sum(flagship: kp.Solution, on: str) -> None:
+    drawn = lines(plot.torques(flagship, "spring", on=on))
+    spring = flagship["spring"]
+    for label, torque in (
+        ("stiffness", spring.stiffness_torque(on=on)),
+        ("damping", spring.damping_torque(on=on)),
+        ("sum", spring.torque(on=on)),
+    ):
+        np.testing.assert_array_equal(drawn[label].get_ydata(), torque / 1e3)
+
+
+@pytest.mark.parametrize("frame", ["global", "body", "joint"])
+@pytest.mark.parametrize("on", ["coupler", "rocker"])
+def test_reactions_are_those_of_the_body_and_frame(
+    flagship: kp.Solution, on: str, frame: str
+) -> None:
+    force = flagship["C"].force(on=on, frame=frame) / 1e3
+    axes = plot.reactions(flagship, "C", on=on, frame=frame)
+    x, y, magnitude = (line.get_ydata() for line in axes.lines)
+    np.testing.assert_array_equal(x, force[:, 0])
+    np.testing.assert_array_equal(y, force[:, 1])
+    np.testing.assert_allclose(magnitude, np.linalg.norm(force, axis=1), rtol=1e-14)
+    assert frame in axes.get_title("left")
+
+
+def test_all_reactions_are_magnitudes(flagship: kp.Solution) -> None:
+    drawn = lines(plot.all_reactions(flagship))
+    assert list(drawn) == ["A", "B", "C", "D"]
+    for name, line in drawn.items():
+        force = flagship[name].force(on=flagship[name].info.j)
+        np.testing.assert_allclose(line.get_ydata(), np.linalg.norm(force, axis=1) / 1e3)
+
+
+def test_residual_and_balance_are_logarithmic(flagship: kp.Solution) -> None:
+    axes = plot.residual(flagship)
+    position, velocity = (line.get_ydata() for line in axes.lines)
+    np.testing.assert_array_equal(position, flagship.drift.position)
+    np.testing.assert_array_equal(velocity, flagship.drift.velocity)
+    balance = plot.energy_balance(flagship)
+    np.testing.assert_array_equal(balance.lines[0].get_ydata(), np.abs(flagship.energy.balance))
+    assert axes.get_yscale() == balance.get_yscale() == "log"
+
+
+def test_the_energy_adds_up(flagship: kp.Solution) -> None:
+    kinetic, potential, dissipated, work, total = (
+        line.get_ydata() for line in plot.energy(flagship).lines
+    )
+    np.testing.assert_array_equal(kinetic, flagship.energy.kinetic / 1e3)
+    np.testing.assert_allclose(kinetic + potential + dissipated - work, total, rtol=1e-12)
+
+
+@pytest.mark.parametrize("t", [None, 0.123, 15.0])
+def test_links_stand_where_the_bodies_are(flagship: kp.Solution, t: float | None) -> None:
+    axes = plot.configuration(flagship, t)
+    state = flagship(0.0 if t is None else t)
+    drawn = [np.asarray(line.get_xydata()) for line in axes.lines]
+    for body in ("crank", "coupler", "rocker"):
+        ends = [
+            flagship.model.bodies[body].points[name]
+            for name in "ABCD"
+            if name in flagship.model.bodies[body].points
+        ]
+        places = np.array([state.body(body).at(end).position for end in ends])
+        assert any(
+            line.shape == places.shape
+            and (np.allclose(line, places, atol=1e-7) or np.allclose(line[::-1], places, atol=1e-7))
+            for line in drawn
+        )
+
+
+@pytest.mark.parametrize("base", [0, 1])
+def test_bodies_are_numbered_and_joints_named(flagship: kp.Solution, base: int) -> None:
+    texts = {text.get_text() for text in plot.configuration(flagship, index_base=base).texts}
+    numbers = {str(k + base) for k in range(3)}
+    assert texts == numbers | {"crank", "coupler", "rocker", "A", "B", "C", "D"}
+    title = plot.positions(flagship, "coupler", "x", index_base=base).get_title("left")
+    assert title == f"{1 + base} coupler"
+
+
+def test_the_drawing_gives_lengths_spring_and_gravity(flagship: kp.Solution) -> None:
+    texts = {text.get_text() for text in plot.mechanism(flagship).texts}
+    assert {"10 m", "26 m", "18 m", "20 m", "spring", "g = 9.81 m/s²"} <= texts
+    assert {"A", "B", "C", "D"} <= texts
+    axes = plot.mechanism(flagship.final)
+    assert axes.get_aspect() == 1.0
+
+
+@pytest.mark.parametrize(
+    ("draw", "words"),
+    [
+        (lambda sol: plot.positions(sol, "cranc"), "did you mean 'crank'"),
+        (lambda sol: plot.positions(sol, "crank", "angel"), "did you mean 'angle'"),
+        (lambda sol: plot.torques(sol, "sprin"), "did you mean 'spring'"),
+        (lambda sol: plot.torques(sol, "spring", on="crank"), "there is ground, rocker"),
+        (lambda sol: plot.reactions(sol, "E"), "there is A, B, C, D"),
+        (lambda sol: plot.reactions(sol, "C", frame="join"), "did you mean 'joint'"),
+        (lambda sol: plot.configuration(sol, 16.0), "outside"),
+    ],
+)
+def test_what_does_not_exist_is_refused(flagship: kp.Solution, draw: Draw, words: str) -> None:
+    with pytest.raises(kp.ModelError, match=words):
+        draw(flagship)

@@ -1,0 +1,174 @@
+"""The figures of the report: which there are, that they can be read, and that they stay so."""
+
+import math
+from pathlib import Path
+
+import kempe as kp
+import numpy as np
+import pytest
+from kempe import plot
+from kempe.plot.labels import clipped_lengths
+from kempe.plot.page import file_names
+from matplotlib.text import Text
+from plot.conftest import NAMES, chain, driven, pendulum
+from plot.overlaps import boxes, cut_off, overlaps
+
+FLAGSHIP = [
+    "01_mechanism",
+    "02_initial",
+    "03_final",
+    "04_x",
+    "05_y",
+    "06_angle",
+    "07_crank",
+    "08_coupler",
+    "09_rocker",
+    "10_torque_spring",
+    "11_reactions_A",
+    "11_reactions_B",
+    "11_reactions_C",
+    "11_reactions_D",
+    "12_residual",
+    "13_energy",
+    "14_reactions",
+]
+
+
+def test_the_flagship_has_all_figures(flagship_pages: list[plot.Page]) -> None:
+    assert [page.stem for page in flagship_pages] == FLAGSHIP
+
+
+@pytest.mark.parametrize("stem", FLAGSHIP)
+def test_a_figure_of_the_flagship_can_be_read(flagship_pages: list[plot.Page], stem: str) -> None:
+    figure = plot.select(flagship_pages, [stem])[0].figure()
+    assert overlaps(figure) == []
+    assert cut_off(figure) == []
+    assert figure.get_figwidth() == pytest.approx(160 / 25.4)
+    assert min(text.get_fontsize() for text in figure.findobj(Text)) >= 8.0
+    for axes in figure.axes:
+        assert "/" in axes.get_ylabel()
+
+
+@pytest.mark.parametrize("name", ["mechanism", "initial", "final"])
+def test_names_lie_on_no_link(flagship_pages: list[plot.Page], name: str) -> None:
+    figure = plot.select(flagship_pages, [name])[0].figure()
+    axes = figure.axes[0]
+    links = [line for line in axes.lines if len(np.atleast_1d(line.get_xdata())) == 2]
+    ends = [axes.transData.transform(line.get_xydata()) for line in links]
+    assert len(ends) == 6
+    numbers = {"1", "2", "3"}
+    for text, box in boxes(figure):
+        if text not in numbers:
+            assert clipped_lengths(box.min, box.max, np.array(ends)).sum() == 0.0, text
+
+
+def test_overlaps_are_seen() -> None:
+    from kempe.plot import style
+
+    figure = style.figure()
+    figure.text(0.5, 0.5, "one")
+    figure.text(0.51, 0.5, "other")
+    figure.text(0.99, 0.1, "leaves")
+    assert overlaps(figure) == [("one", "other")]
+    assert cut_off(figure) == ["leaves"]
+
+
+def test_the_coordinates_of_all_bodies_are_there(
+    flagship: kp.Solution, flagship_pages: list[plot.Page]
+) -> None:
+    for name in ("x", "y", "angle"):
+        figure = plot.select(flagship_pages, [name])[0].figure()
+        for axes, body in zip(figure.axes, ("crank", "coupler", "rocker"), strict=True):
+            drawn = axes.lines[0].get_ydata()
+            np.testing.assert_array_equal(drawn, getattr(flagship.body(body), name))
+
+
+def test_the_quiet_rest_is_compressed_and_nothing_is_left_out(
+    flagship: kp.Solution, flagship_pages: list[plot.Page]
+) -> None:
+    assert plot.transient(flagship) == 2.5
+    axes = plot.select(flagship_pages, ["x"])[0].figure().axes[-1]
+    assert axes.get_xlim() == (0.0, 15.0)
+    assert "compressed after 2.5 s" in axes.get_xlabel()
+    places = axes.get_xaxis_transform().transform([(t, 0.5) for t in (0.0, 2.5, 15.0)])[:, 0]
+    assert (places[1] - places[0]) / (places[2] - places[0]) == pytest.approx(0.72)
+    assert {0.0, 2.5, 15.0} <= set(axes.get_xticks())
+
+
+def test_a_motion_that_does_not_settle_keeps_a_plain_axis() -> None:
+    assert plot.transient(pendulum()) is None
+    assert plot.transient(pendulum(t_end=0.0)) is None
+
+
+@pytest.mark.parametrize(
+    "solution",
+    [
+        pytest.param(pendulum, id="one body"),
+        pytest.param(lambda: pendulum(length=0.01, t_end=0.1, output_step=0.001), id="10 mm"),
+        pytest.param(lambda: pendulum(t_end=0.0), id="one output"),
+        pytest.param(lambda: pendulum(t_end=0.1, output_step=0.1), id="two outputs"),
+        pytest.param(driven, id="driven"),
+    ],
+)
+def test_other_mechanisms_can_be_read_too(solution) -> None:  # type: ignore[no-untyped-def]
+    for page in plot.pages(solution()):
+        figure = page.figure()
+        assert overlaps(figure) == [], page.stem
+        assert cut_off(figure) == [], page.stem
+        for axes in figure.axes:
+            assert all(math.isfinite(limit) for limit in (*axes.get_xlim(), *axes.get_ylim()))
+
+
+def test_names_are_shown_as_they_are(tmp_path: Path) -> None:
+    found = plot.pages(chain(NAMES))
+    written = plot.save(found, tmp_path)
+    assert len({path.name.casefold() for path in written}) == 2 * len(found)
+    assert all(path.stat().st_size > 0 for path in written)
+    texts = {text.get_text() for text in found[1].figure().axes[0].texts}
+    assert {r"\$x_1\$", "<script>ale…1)</script>", "n" * 11 + "…" + "n" * 11} <= texts
+    assert "<script>" not in (tmp_path / f"{found[1].stem}.svg").read_text(encoding="utf-8")
+
+
+def test_ten_bodies_have_pages_of_their_own() -> None:
+    found = plot.pages(chain([f"link{k}" for k in range(10)]))
+    names = [page.name for page in found]
+    assert {"x", "link0", "link9", "reactions_Jlink9"} <= set(names)
+    figure = plot.select(found, ["y"])[0].figure()
+    assert len(figure.axes) == 10
+    assert overlaps(figure) == []
+    assert figure.get_figheight() * 25.4 < 250.0
+    few = plot.pages(chain([f"link{k}" for k in range(10)]), most=4)
+    assert "link3" in {page.name for page in few}
+    assert "link4" not in {page.name for page in few}
+
+
+def test_names_of_files_are_plain_and_differ() -> None:
+    assert file_names(["a", "A", "a/b", "a b", "…", "é"]) == [
+        "a",
+        "A_2",
+        "a_b",
+        "a_b_2",
+        "unnamed",
+        "e",
+    ]
+    assert max(map(len, file_names(["n" * 200, "n" * 199 + "m"]))) < 50
+
+
+def test_the_same_solution_gives_the_same_bytes(
+    flagship_pages: list[plot.Page], tmp_path: Path
+) -> None:
+    page = plot.select(flagship_pages, ["energy"])
+    for folder in ("a", "b"):
+        plot.save(page, tmp_path / folder, ["png", "svg", "pdf"])
+    for form in ("png", "svg", "pdf"):
+        one, other = (tmp_path / folder / f"13_energy.{form}" for folder in "ab")
+        assert one.read_bytes() == other.read_bytes()
+
+
+def test_pages_are_found_by_name_number_and_the_name_in_the_model() -> None:
+    found = plot.pages(chain(["a b", "c"]))
+    for name in ("a_b", "07_a_b", "a b"):
+        assert [page.stem for page in plot.select(found, [name])] == ["07_a_b"]
+    assert plot.select(found, []) == found
+    with pytest.raises(kp.ModelError, match="did you mean 'residual'"):
+        plot.select(found, ["residuals"])

@@ -1,0 +1,180 @@
+"""A study: variants are compared with the most accurate run, and what it says is in its data."""
+
+import csv
+import json
+import re
+import time
+from pathlib import Path
+
+import kempe as kp
+import numpy as np
+import pytest
+from kempe.cli import main
+from kempe.plot.study_gaps import joint_gaps, magnification
+from kempe.studies import Outcome, Variant
+from kempe.studies.findings import growth
+
+ROOT = Path(__file__).parents[2]
+FLAGSHIP = ROOT / "examples" / "four_bar.toml"
+REFERENCE = json.loads((ROOT / "tests/reference/four_bar.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="session")
+def found() -> kp.Study:
+    begin = time.perf_counter()
+    made = kp.study(kp.load(FLAGSHIP))
+    assert time.perf_counter() - begin < 30.0
+    return made
+
+
+def one(found: kp.Study, group: str, alpha: float, beta: float, number: float) -> Outcome:
+    wanted = (alpha, beta, number)
+    return next(
+        o
+        for o in found.group(group)
+        if (o.variant.alpha, o.variant.beta, o.variant.number) == wanted
+    )
+
+
+def test_the_most_accurate_run_is_the_independent_solution(found: kp.Study) -> None:
+    best = found.reference.solution
+    assert best is not None
+    for state in REFERENCE["states"]:
+        k = int(np.abs(best.t - state["t"]).argmin())
+        if abs(best.t[k] - state["t"]) < 1e-12:
+            np.testing.assert_allclose(best.q[k], state["q"], atol=1e-8)
+
+
+def test_the_classical_residuals_are_those_that_were_published(found: kp.Study) -> None:
+    """Residual peaks and steps at rtol 1e-3, atol 1e-6: 1.5 mm, 8 mm, and a drift of metres."""
+    strong = one(found, "stabilization", 10, 200, 1e-3)
+    assert strong.residual == pytest.approx(1.5e-3, rel=0.15)
+    assert strong.residual_at == pytest.approx(0.22, abs=0.05)
+    assert strong.steps == pytest.approx(1333, rel=0.02)
+    weak = one(found, "stabilization", 1, 20, 1e-3)
+    assert weak.residual == pytest.approx(8e-3, rel=0.15)
+    assert weak.steps == pytest.approx(234, rel=0.02)
+    assert one(found, "stabilization", 0, 0, 1e-3).residual > 1.0
+
+
+def test_weak_gains_beat_strong_ones_with_constant_steps(found: kp.Study) -> None:
+    for h in (1e-3, 2e-3, 5e-3, 1e-2):
+        weak, strong = one(found, "step", 1, 20, h), one(found, "step", 10, 200, h)
+        assert weak.position_error < strong.position_error
+    told = [f for f in found.findings() if "beats" in f]
+    assert len(told) == 4
+
+
+def test_divergence_is_a_row_and_not_a_crash(found: kp.Study) -> None:
+    lost = one(found, "step", 10, 200, 2e-2)
+    assert lost.diverged
+    assert lost.diverged_at is not None
+    assert 0.0 < lost.diverged_at < 1.0
+    assert np.isnan(lost.position_error)
+    assert "diverged at t = 0.14 s: the motion became infinite" in found.table()
+    assert any("h = 0.02 s with α = 10, β = 200 diverges" in f for f in found.findings())
+    assert not one(found, "step", 1, 20, 2e-2).diverged
+
+
+def test_the_growth_of_a_step_decides_on_divergence(found: kp.Study) -> None:
+    assert growth(0.0, 1.0, 2.0 * np.sqrt(2.0)) == pytest.approx(1.0)  # the imaginary axis
+    assert growth(1.0, 1.0, 2.785293563) == pytest.approx(1.0)  # the real axis
+    for o in found.group("step"):
+        if o.variant.beta > 0.0:
+            unstable = growth(o.variant.alpha, o.variant.beta, o.variant.number) > 1.0
+            assert unstable == o.diverged, o.variant.name
+
+
+def test_errors_are_the_largest_differences_on_the_output_times(found: kp.Study) -> None:
+    best, some = found.reference, one(found, "step", 1, 20, 1e-2)
+    assert best.solution is not None
+    assert some.solution is not None
+    np.testing.assert_array_equal(best.solution.t, some.solution.t)
+    angle = max(
+        np.abs(some.solution[b].angle - best.solution[b].angle).max()
+        for b in some.solution.model.bodies
+    )
+    position = max(
+        np.linalg.norm(some.solution[b].r - best.solution[b].r, axis=1).max()
+        for b in some.solution.model.bodies
+    )
+    assert (some.angle_error, some.position_error) == pytest.approx((angle, position))
+    assert found.reference.position_error == 0.0
+
+
+def test_the_order_that_is_told_is_four(found: kp.Study) -> None:
+    orders = [re.search(r"converges with order ([\d.]+)", told) for told in found.findings()]
+    values = [float(match[1]) for match in orders if match]
+    assert values == pytest.approx([4.0, 4.0], abs=0.2)
+
+
+def test_tables_and_figures_are_written(found: kp.Study, tmp_path: Path) -> None:
+    written = found.save(tmp_path)
+    assert [path.name for path in written] == [
+        "study.md",
+        "study.csv",
+        "study.json",
+        *(f"{name}.png" for name in ("residual", "error", "steps", "work_precision", "gaps")),
+    ]
+    assert all(path.stat().st_size > 0 for path in written)
+    rows = list(csv.DictReader(written[1].read_text(encoding="utf-8").splitlines()))
+    told = json.loads(written[2].read_text(encoding="utf-8"))
+    assert len(rows) == len(told["variants"]) == len(found.outcomes)
+    assert told["findings"] == found.findings()
+    for row, outcome in zip(rows, found.outcomes, strict=True):
+        assert (row["position_error"] == "") == outcome.diverged
+        assert int(row["steps"]) == outcome.steps
+    text = written[0].read_text(encoding="utf-8")
+    tables = [line for line in text.splitlines() if line.startswith("|")]
+    assert {line.count("|") for line in tables} == {9}
+
+
+def test_gaps_are_those_of_the_residual_and_magnified_by_a_round_factor(found: kp.Study) -> None:
+    weak = one(found, "stabilization", 1, 20, 1e-3).solution
+    assert weak is not None
+    k = int(weak.drift.position.argmax())
+    state = kp.State(weak.model, float(weak.t[k]), weak.q[k], weak.v[k])
+    begin, along = joint_gaps(state)
+    np.testing.assert_allclose(along.ravel(), state.residuals[0], atol=1e-12)
+    assert begin.shape == (4, 2)
+    assert magnification(0.0085, 25.0) == 200.0
+    assert magnification(0.0, 25.0) == 1.0
+
+
+def test_other_variants_and_a_case_without_output_step(four_bar_file: Path) -> None:
+    text = four_bar_file.read_text(encoding="utf-8").replace("output_step = 0.01\n", "")
+    four_bar_file.write_text(text, encoding="utf-8")
+    ways = [
+        Variant("reference", 10, 200, "RK45", 1e-9),
+        Variant("step", 10, 200, "RK4", 1e-3),
+        Variant("step", 10, 200, "RK4", 0.02),
+    ]
+    seen: list[str] = []
+    small = kp.study(kp.load(four_bar_file), "release", ways=ways, progress=seen.append)
+    assert seen == [way.name for way in ways]
+    assert [o.diverged for o in small.outcomes] == [False, False, True]
+    assert small.outcomes[1].position_error < 1e-5
+    assert "## Constant steps" in str(small)
+
+
+def test_what_cannot_be_studied_is_refused(four_bar_file: Path) -> None:
+    case = kp.load(four_bar_file)
+    with pytest.raises(kp.ModelError, match="did you mean 'release'"):
+        kp.study(case, "relase")
+    with pytest.raises(kp.ModelError, match="no analysis"):
+        kp.study(kp.Case(case.model))
+    with pytest.raises(kp.IntegrationError):
+        kp.study(case, ways=[Variant("reference", 10, 200, "RK4", 0.02)])
+
+
+def test_the_command_tells_and_writes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    case = kp.load(FLAGSHIP).with_analysis("release", t_end=0.5)
+    case.save(tmp_path / "short.toml")
+    assert main(["study", str(tmp_path / "short.toml"), "-o", str(tmp_path / "s")]) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    for words in ("Sweep of β", "Findings", "diverged at t", "study.json"):
+        assert words in out
+    assert (tmp_path / "s" / "figures" / "gaps.png").exists()
+    assert main(["study", str(tmp_path / "short.toml"), "--analysis", "x"]) == 2
+    assert "Traceback" not in capsys.readouterr().err
