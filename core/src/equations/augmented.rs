@@ -7,19 +7,13 @@ use super::mass;
 use crate::math::{Motion, Real};
 use crate::model::{Layout, Model};
 pub use crate::solve::Dependent;
-use crate::solve::{Pattern, RowBlock, Saddle, Values, Weight};
+use crate::solve::{Pattern, RowBlock, Saddle, Weight};
 
 /// Matrix, factors and pattern.
 #[derive(Clone, Debug)]
 pub struct Augmented<S = f64> {
     pattern: Pattern,
     saddle: Saddle<S>,
-    /// W, one block for each moving body.
-    weights: Vec<Weight<S>>,
-    /// Entries of Φ_q, in the order of the layout.
-    entries: Vec<S>,
-    /// μ, one for each row.
-    damping: Vec<S>,
 }
 
 impl<S: Real> Augmented<S> {
@@ -28,27 +22,20 @@ impl<S: Real> Augmented<S> {
     pub fn new<P>(model: &Model<P>) -> Self {
         let layout = &model.layout;
         let pattern = Pattern::new(mass::coupled(model).collect(), &row_blocks(layout));
-        let weight = Weight { inverse: [S::one(); 3], shift: [S::zero(); 2] };
-        Self {
-            saddle: Saddle::new(&pattern),
-            pattern,
-            weights: vec![weight; model.bodies.len() - 1],
-            entries: vec![S::zero(); layout.n_entries],
-            damping: vec![S::zero(); layout.n_rows],
-        }
+        Self { saddle: Saddle::new(&pattern), pattern }
     }
 
     /// W = M at the given motions.
     pub fn set_mass(&mut self, model: &Model<S>, motions: &[Motion<S>]) {
         let bodies = model.bodies.iter().zip(motions).skip(1);
-        for (weight, (body, motion)) in self.weights.iter_mut().zip(bodies) {
+        for (weight, (body, motion)) in self.saddle.weights.iter_mut().zip(bodies) {
             *weight = mass::inverse(body, motion);
         }
     }
 
     /// W diagonal, shape (n_q).
     pub fn set_weights(&mut self, weights: &[S]) {
-        for (weight, d) in self.weights.iter_mut().zip(weights.chunks_exact(3)) {
+        for (weight, d) in self.saddle.weights.iter_mut().zip(weights.chunks_exact(3)) {
             let inverse = [d[0], d[1], d[2]].map(|d| S::one() / d);
             *weight = Weight { inverse, shift: [S::zero(); 2] };
         }
@@ -56,17 +43,17 @@ impl<S: Real> Augmented<S> {
 
     /// The entries of Φ_q, to be filled.
     pub fn jacobian_mut(&mut self) -> &mut [S] {
-        &mut self.entries
+        self.saddle.entries.as_flattened_mut()
     }
 
     /// The entries of Φ_q.
     pub fn jacobian(&self) -> &[S] {
-        &self.entries
+        self.saddle.entries.as_flattened()
     }
 
     /// Sets the damping μ, one for each row.
     pub fn set_damping(&mut self, mu: impl IntoIterator<Item = S>) {
-        for (value, mu) in self.damping.iter_mut().zip(mu) {
+        for (value, mu) in self.saddle.damping.iter_mut().zip(mu) {
             *value = mu;
         }
     }
@@ -76,8 +63,7 @@ impl<S: Real> Augmented<S> {
     /// # Errors
     /// The row of Φ_q that depends on the others, or a coordinate without mass.
     pub fn factor(&mut self) -> Result<(), Dependent> {
-        let (weights, entries, damping) = (&self.weights, &self.entries, &self.damping);
-        self.saddle.factor(&self.pattern, Values { weights, entries, damping })
+        self.saddle.factor(&self.pattern)
     }
 
     /// Factorises and solves in place, as [`solve`](Self::solve): faster than one after the other.
@@ -85,8 +71,7 @@ impl<S: Real> Augmented<S> {
     /// # Errors
     /// As [`factor`](Self::factor); `x` is then lost.
     pub fn factor_and_solve(&mut self, x: &mut [S]) -> Result<(), Dependent> {
-        let (weights, entries, damping) = (&self.weights, &self.entries, &self.damping);
-        self.saddle.factor_and_solve(&self.pattern, Values { weights, entries, damping }, x)
+        self.saddle.factor_and_solve(&self.pattern, x)
     }
 
     /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).

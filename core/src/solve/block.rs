@@ -4,38 +4,25 @@
 
 use crate::math::Real;
 
-/// `M` rows of the store, from row `first`: one bounds check.
+/// `N` items from `first`: one bounds check.
 #[inline(always)]
-pub(super) fn rows<S, const M: usize>(store: &[[S; 3]], first: u32) -> &[[S; 3]; M] {
-    store[first as usize..].first_chunk().expect("the plan fits the store")
-}
-
-/// `N` numbers from `first`.
-#[inline(always)]
-pub(super) fn part<S, const N: usize>(x: &[S], first: u32) -> &[S; N] {
-    x[first as usize..].first_chunk().expect("the plan fits the vector")
+pub(super) fn part<T, const N: usize>(x: &[T], first: u32) -> &[T; N] {
+    let first = first as usize;
+    x[first..first + N].first_chunk().expect("as long as the range")
 }
 
 /// The same, to be changed.
 #[inline(always)]
-pub(super) fn part_mut<S, const N: usize>(x: &mut [S], first: u32) -> &mut [S; N] {
-    x[first as usize..].first_chunk_mut().expect("the plan fits the vector")
+pub(super) fn part_mut<T, const N: usize>(x: &mut [T], first: u32) -> &mut [T; N] {
+    let first = first as usize;
+    x[first..first + N].first_chunk_mut().expect("as long as the range")
 }
 
-/// Splits `count` off the front.
-#[inline(always)]
-pub(super) fn take<'a, T>(rest: &mut &'a [T], count: u32) -> &'a [T] {
-    let (front, back) = rest.split_at(count as usize);
-    *rest = back;
-    front
-}
-
-/// Splits `count` off the back.
-#[inline(always)]
-pub(super) fn take_back<'a, T>(rest: &mut &'a [T], count: u32) -> &'a [T] {
-    let (front, back) = rest.split_at(rest.len() - count as usize);
-    *rest = front;
-    back
+/// A row of a block in two forms, side by side: plain, and scaled by the inverse of D.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row<S> {
+    pub plain: [S; 3],
+    pub scaled: [S; 3],
 }
 
 /// aᵀ b over the first `K` components.
@@ -48,56 +35,56 @@ fn dot<S: Real, const K: usize>(a: &[S; 3], b: &[S; 3]) -> S {
     sum
 }
 
-/// target += A Bᵀ over `K` columns.
+/// target += A D⁻¹ Bᵀ over `K` columns.
 #[inline(always)]
 pub(super) fn add<S: Real, const M: usize, const N: usize, const K: usize>(
     target: &mut [[S; N]; M],
-    a: &[[S; 3]; M],
-    b: &[[S; 3]; N],
+    a: &[Row<S>; M],
+    b: &[Row<S>; N],
 ) {
     for (target, a) in target.iter_mut().zip(a) {
         for (target, b) in target.iter_mut().zip(b) {
-            *target += dot::<S, K>(a, b);
+            *target += dot::<S, K>(&a.plain, &b.scaled);
         }
     }
 }
 
-/// target -= A Bᵀ over `K` columns.
+/// target -= A D⁻¹ Bᵀ over `K` columns.
 #[inline(always)]
 pub(super) fn subtract<S: Real, const M: usize, const N: usize, const K: usize>(
     target: &mut [[S; N]; M],
-    a: &[[S; 3]; M],
-    b: &[[S; 3]; N],
+    a: &[Row<S>; M],
+    b: &[Row<S>; N],
 ) {
     for (target, a) in target.iter_mut().zip(a) {
         for (target, b) in target.iter_mut().zip(b) {
-            *target -= dot::<S, K>(a, b);
+            *target -= dot::<S, K>(&a.plain, &b.scaled);
         }
     }
 }
 
-/// y -= A x over `K` columns.
+/// y -= A D⁻¹ x over `K` columns.
 #[inline(always)]
 pub(super) fn subtract_times<S: Real, const M: usize, const K: usize>(
     y: &mut [S; M],
-    a: &[[S; 3]; M],
+    a: &[Row<S>; M],
     x: &[S; K],
 ) {
     for (y, a) in y.iter_mut().zip(a) {
         for k in 0..K {
-            *y -= a[k] * x[k];
+            *y -= a.scaled[k] * x[k];
         }
     }
 }
 
 /// y -= Aᵀ x for the first `N` columns.
 #[inline(always)]
-pub(super) fn subtract_transposed<S: Real, const M: usize, const N: usize>(
+pub(super) fn subtract_transposed<S: Real, const N: usize>(
     y: &mut [S; N],
-    a: &[[S; 3]; M],
-    x: &[S; M],
+    a: impl Iterator<Item = [S; 3]>,
+    x: &[S],
 ) {
-    for (a, x) in a.iter().zip(x) {
+    for (a, x) in a.zip(x) {
         for c in 0..N {
             y[c] -= a[c] * *x;
         }
@@ -139,16 +126,6 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
             for j in 0..i {
                 x[i] -= self.lower[i][j] * x[j];
             }
-        }
-    }
-}
-
-/// x ← L⁻ᵀ x with the triangle in stored rows.
-#[inline(always)]
-pub(super) fn backward<S: Real, const N: usize>(lower: &[[S; 3]; N], x: &mut [S; N]) {
-    for j in (0..N).rev() {
-        for i in j + 1..N {
-            x[j] -= lower[i][j] * x[i];
         }
     }
 }

@@ -20,4 +20,4 @@ pub use newton::Newton;
 pub use order::groups_first;
 pub use pattern::{Pattern, RowBlock};
 pub use rank::{normalize_rows, rank, Rank, RANK_TOLERANCE};
-pub use saddle::{Dependent, Saddle, Values, Weight, PIVOT_TOLERANCE};
+pub use saddle::{Dependent, Saddle, Weight, PIVOT_TOLERANCE};

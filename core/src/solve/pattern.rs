@@ -27,30 +27,32 @@ pub struct Pattern {
     /// Whether the third unknown of each group is coupled to the other two in W.
     pub(super) coupled: Vec<bool>,
     pub(super) n_rows: usize,
-    /// The group of each row of three entries of A.
-    pub(super) group: Vec<u32>,
-    /// Columns of L, in elimination order; each takes its share of the lists below off their front.
+    /// The owner of each row of three entries of A.
+    pub(super) owners: Vec<Owner>,
+    /// Columns of L, in elimination order.
     pub(super) columns: Vec<Column>,
-    pub(super) touches: Vec<Touch>,
-    pub(super) earlier: Vec<Earlier>,
-    pub(super) below: Vec<Below>,
-    /// Rows of entries (of the block's own row block, of the column's) in a shared group.
-    pub(super) pairs: Vec<[u32; 2]>,
-    pub(super) updates: Vec<Update>,
     /// Rows of all blocks of L below the diagonal.
     pub(super) n_lower: usize,
 }
 
-/// One column of blocks of L.
+/// The group that a row of three entries of A belongs to.
 #[derive(Clone, Copy, Debug)]
+pub(super) struct Owner {
+    pub group: u32,
+    pub coupled: bool,
+}
+
+/// One column of blocks of L.
+#[derive(Clone, Debug)]
 pub(super) struct Column {
     /// Rows of its row block.
     pub size: u32,
     /// The first of them.
     pub row: u32,
-    pub touches: u32,
-    pub earlier: u32,
-    pub below: u32,
+    pub touches: Box<[Touch]>,
+    /// The blocks left of its diagonal block.
+    pub earlier: Box<[Earlier]>,
+    pub below: Box<[Below]>,
 }
 
 /// A group that a row block touches.
@@ -73,13 +75,16 @@ pub(super) struct Earlier {
 }
 
 /// A block of L below the diagonal.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Below {
+    /// Its first row in the store of L.
+    pub block: u32,
     /// Size and first row of its row block.
     pub size: u32,
     pub row: u32,
-    pub pairs: u32,
-    pub updates: u32,
+    /// Rows of entries (of the block's own row block, of the column's) in each shared group.
+    pub pairs: Box<[[u32; 2]]>,
+    pub updates: Box<[Update]>,
 }
 
 /// Two blocks of an earlier column whose product is subtracted.
@@ -102,20 +107,10 @@ impl Pattern {
         let order = order(coupled.len(), blocks, &starts);
         let shared = Shared::new(coupled.len(), blocks, &order);
         let rows_below = fill(&shared.rows_below(blocks, &order));
+        let owner = |g| Owner { group: index(g), coupled: coupled[g] };
+        let owners = group_of_rows(blocks).into_iter().map(owner).collect();
         let n_rows = starts[blocks.len()];
-        let group = group_of_rows(blocks);
-        let mut pattern = Self {
-            coupled,
-            n_rows,
-            group,
-            columns: vec![],
-            touches: vec![],
-            earlier: vec![],
-            below: vec![],
-            pairs: vec![],
-            updates: vec![],
-            n_lower: 0,
-        };
+        let mut pattern = Self { coupled, n_rows, owners, columns: vec![], n_lower: 0 };
         pattern.plan(blocks, &starts, &order, &rows_below, &shared);
         pattern
     }
@@ -132,7 +127,7 @@ impl Pattern {
 
     /// Number of blocks of L below the diagonal, fill included.
     pub fn fill(&self) -> usize {
-        self.below.len()
+        self.columns.iter().map(|c| c.below.len()).sum()
     }
 
     /// Lists every product, column by column.
@@ -151,11 +146,8 @@ impl Pattern {
             rows_below.iter().map(|rows| vec![Vec::new(); rows.len()]).collect();
         for (place, rows) in rows_below.iter().enumerate() {
             let own = order[place];
-            let column = Earlier {
-                block: 0,
-                row: index(starts[own]),
-                size: index(blocks[own].size),
-            };
+            let column =
+                Earlier { block: 0, row: index(starts[own]), size: index(blocks[own].size) };
             let mut offsets = Vec::with_capacity(rows.len());
             for &r in rows {
                 offsets.push(index(self.n_lower));
@@ -170,29 +162,25 @@ impl Pattern {
                     updates[r][at].push(Update { blocks, size: column.size });
                 }
             }
-            self.touches.extend(blocks[own].touches.iter().map(|&(group, first)| Touch {
+            let below = rows.iter().zip(&offsets).zip(&updates[place]);
+            let below = below.map(|((&row, &block), updates)| Below {
+                block,
+                size: index(size(row)),
+                row: index(starts[order[row]]),
+                pairs: shared.pairs(blocks, order[row], own).into(),
+                updates: updates.as_slice().into(),
+            });
+            let touch = |&(group, first): &(usize, usize)| Touch {
                 first: index(first / 3),
                 unknown: index(3 * group),
-            }));
-            self.earlier.extend_from_slice(&earlier[place]);
+            };
             self.columns.push(Column {
                 size: column.size,
                 row: column.row,
-                touches: index(blocks[own].touches.len()),
-                earlier: index(earlier[place].len()),
-                below: index(rows.len()),
+                touches: blocks[own].touches.iter().map(touch).collect(),
+                earlier: earlier[place].as_slice().into(),
+                below: below.collect(),
             });
-            for (&row, updates) in rows.iter().zip(&updates[place]) {
-                let before = self.pairs.len();
-                self.pairs.extend(shared.pairs(blocks, order[row], own));
-                self.updates.extend_from_slice(updates);
-                self.below.push(Below {
-                    size: index(size(row)),
-                    row: index(starts[order[row]]),
-                    pairs: index(self.pairs.len() - before),
-                    updates: index(updates.len()),
-                });
-            }
         }
     }
 }
@@ -212,14 +200,14 @@ fn starts(blocks: &[RowBlock]) -> Vec<usize> {
 }
 
 /// The group that each row of three entries belongs to.
-fn group_of_rows(blocks: &[RowBlock]) -> Vec<u32> {
+fn group_of_rows(blocks: &[RowBlock]) -> Vec<usize> {
     let touches = || blocks.iter().flat_map(|b| b.touches.iter().map(move |t| (b.size, t)));
-    let mut group = vec![u32::MAX; touches().map(|(size, _)| size).sum()];
+    let mut group = vec![usize::MAX; touches().map(|(size, _)| size).sum()];
     for (size, &(g, first)) in touches() {
         assert!(first % 3 == 0, "whole rows of entries");
         for owner in &mut group[first / 3..first / 3 + size] {
-            assert!(*owner == u32::MAX, "an entry belongs to one block");
-            *owner = index(g);
+            assert!(*owner == usize::MAX, "an entry belongs to one block");
+            *owner = g;
         }
     }
     group
@@ -228,8 +216,10 @@ fn group_of_rows(blocks: &[RowBlock]) -> Vec<u32> {
 /// The order in which row blocks are eliminated, after all groups.
 fn order(groups: usize, blocks: &[RowBlock], starts: &[usize]) -> Vec<usize> {
     let n_first = 3 * groups;
-    let first: Vec<usize> =
-        (0..n_first).step_by(3).chain(blocks.iter().zip(starts).map(|(_, s)| n_first + s)).collect();
+    let first: Vec<usize> = (0..n_first)
+        .step_by(3)
+        .chain(blocks.iter().zip(starts).map(|(_, s)| n_first + s))
+        .collect();
     let entries: Vec<(usize, usize)> = blocks
         .iter()
         .zip(starts)

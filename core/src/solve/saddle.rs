@@ -12,10 +12,9 @@
 //! a mechanism near a singular position a small one, which [`Saddle::cancellation`] shows.
 
 use super::block::{
-    add, backward, factorise, part, part_mut, rows, subtract, subtract_times, subtract_transposed,
-    take, take_back, Diagonal,
+    add, factorise, part, part_mut, subtract, subtract_times, subtract_transposed, Diagonal, Row,
 };
-use super::pattern::{Below, Column, Earlier, Pattern, Touch, Update};
+use super::pattern::{Below, Column, Earlier, Pattern, Touch};
 use crate::math::Real;
 
 /// Smallest ratio of a pivot to the diagonal entry it was cancelled from that is still trusted.
@@ -30,17 +29,6 @@ pub struct Weight<S = f64> {
     pub shift: [S; 2],
 }
 
-/// The numbers of a matrix.
-#[derive(Clone, Copy, Debug)]
-pub struct Values<'a, S> {
-    /// W, one for each group.
-    pub weights: &'a [Weight<S>],
-    /// Entries of A, as the pattern places them.
-    pub entries: &'a [S],
-    /// μ, one for each row.
-    pub damping: &'a [S],
-}
-
 /// What cannot be eliminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dependent {
@@ -50,37 +38,49 @@ pub enum Dependent {
     Column(usize),
 }
 
-/// The factors; all memory is taken in [`Saddle::new`].
+/// A matrix and its factors; all memory is taken in [`Saddle::new`].
+///
+/// Between a factorisation and the solutions that use it the matrix must stay as it is.
 #[derive(Clone, Debug)]
 pub struct Saddle<S> {
-    weights: Vec<Weight<S>>,
-    /// Rows of U and of U Dw⁻¹, three entries each, as those of A are stored.
-    u: Vec<[S; 3]>,
-    w: Vec<[S; 3]>,
-    /// Triangles of the diagonal blocks of L, one row for each row of S.
-    triangle: Vec<[S; 3]>,
-    /// 1 / D, and S_kk, by row.
-    inverse: Vec<S>,
-    magnitude: Vec<S>,
-    /// Blocks of L below the diagonal, and those of L D.
-    lower: Vec<[S; 3]>,
-    unscaled: Vec<[S; 3]>,
+    /// W, one for each group.
+    pub weights: Vec<Weight<S>>,
+    /// Entries of A in rows of three, as the pattern places them.
+    pub entries: Vec<[S; 3]>,
+    /// μ, one for each row.
+    pub damping: Vec<S>,
+    /// Rows of U, as those of A are stored.
+    u: Vec<Row<S>>,
+    /// Rows of the diagonal blocks of L.
+    diagonal: Vec<Pivot<S>>,
+    /// Rows of the blocks of L D and of L below the diagonal.
+    lower: Vec<Row<S>>,
+}
+
+/// One row of a diagonal block.
+#[derive(Clone, Copy, Debug)]
+struct Pivot<S> {
+    /// L left of the diagonal, within the block.
+    lower: [S; 3],
+    /// 1 / d.
+    inverse: S,
+    /// S_kk.
+    magnitude: S,
 }
 
 impl<S: Real> Saddle<S> {
-    /// Memory for factors of the given pattern.
+    /// Memory for matrices of the given pattern: W = I, A = 0, μ = 0.
     pub fn new(pattern: &Pattern) -> Self {
         let (zero, none) = (S::zero(), [S::zero(); 3]);
-        let (n, m) = (pattern.group.len(), pattern.n_rows);
+        let weight = Weight { inverse: [S::one(); 3], shift: [zero; 2] };
+        let row = Row { plain: none, scaled: none };
         Self {
-            weights: vec![Weight { inverse: none, shift: [zero; 2] }; pattern.coupled.len()],
-            u: vec![none; n],
-            w: vec![none; n],
-            triangle: vec![none; m],
-            inverse: vec![zero; m],
-            magnitude: vec![zero; m],
-            lower: vec![none; pattern.n_lower],
-            unscaled: vec![none; pattern.n_lower],
+            weights: vec![weight; pattern.coupled.len()],
+            entries: vec![none; pattern.owners.len()],
+            damping: vec![zero; pattern.n_rows],
+            u: vec![row; pattern.owners.len()],
+            diagonal: vec![Pivot { lower: none, inverse: zero, magnitude: zero }; pattern.n_rows],
+            lower: vec![row; pattern.n_lower],
         }
     }
 
@@ -91,9 +91,10 @@ impl<S: Real> Saddle<S> {
     /// lane); the factor must then not be used.
     ///
     /// # Panics
-    /// If the numbers do not fit the pattern, or the factor is of another pattern.
-    pub fn factor(&mut self, pattern: &Pattern, values: Values<'_, S>) -> Result<(), Dependent> {
-        self.eliminate::<false>(pattern, values, &mut [])
+    /// If the matrix is of another pattern.
+    pub fn factor(&mut self, pattern: &Pattern) -> Result<(), Dependent> {
+        self.transform(pattern)?;
+        self.eliminate::<false>(pattern, &mut [])
     }
 
     /// Factorises as [`factor`](Self::factor) and solves as [`solve`](Self::solve). The right side is
@@ -104,14 +105,10 @@ impl<S: Real> Saddle<S> {
     ///
     /// # Panics
     /// As [`factor`](Self::factor) and [`solve`](Self::solve).
-    pub fn factor_and_solve(
-        &mut self,
-        pattern: &Pattern,
-        values: Values<'_, S>,
-        x: &mut [S],
-    ) -> Result<(), Dependent> {
-        self.decouple(pattern, values.weights, x);
-        self.eliminate::<true>(pattern, values, x)?;
+    pub fn factor_and_solve(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
+        self.transform(pattern)?;
+        self.decouple(pattern, x);
+        self.eliminate::<true>(pattern, x)?;
         self.substitute_back(pattern, x);
         Ok(())
     }
@@ -121,14 +118,13 @@ impl<S: Real> Saddle<S> {
     /// # Panics
     /// If `x` has another length.
     pub fn solve(&self, pattern: &Pattern, x: &mut [S]) {
-        self.decouple(pattern, &self.weights, x);
-        let mut sweep = Sweep::new(pattern, &self.u, &self.w);
+        self.decouple(pattern, x);
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
         for column in &pattern.columns {
             match column.size {
-                1 => self.forward::<1>(&mut sweep, column, f, g),
-                2 => self.forward::<2>(&mut sweep, column, f, g),
-                _ => self.forward::<3>(&mut sweep, column, f, g),
+                1 => self.forward::<1>(column, f, g),
+                2 => self.forward::<2>(column, f, g),
+                _ => self.forward::<3>(column, f, g),
             }
         }
         self.substitute_back(pattern, x);
@@ -137,15 +133,16 @@ impl<S: Real> Saddle<S> {
     /// The row whose pivot was cancelled most, and its ratio d / S_kk: 1 means nothing was lost, 1e-10
     /// that ten digits were. `None` without rows.
     pub fn cancellation(&self) -> Option<(usize, f64)> {
-        let ratios = self.inverse.iter().zip(&self.magnitude).map(|(&i, &m)| S::one() / (i * m));
+        let ratios = self.diagonal.iter().map(|p| S::one() / (p.inverse * p.magnitude));
         ratios.map(S::least_magnitude).enumerate().min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// f ← Lw⁻¹ f.
     #[inline(always)]
-    fn decouple(&self, pattern: &Pattern, weights: &[Weight<S>], x: &mut [S]) {
+    fn decouple(&self, pattern: &Pattern, x: &mut [S]) {
         assert_eq!(x.len(), pattern.n_unknowns() + pattern.n_rows, "one right side for each row");
-        for ((x, weight), coupled) in x.chunks_exact_mut(3).zip(weights).zip(&pattern.coupled) {
+        for ((x, weight), coupled) in x.chunks_exact_mut(3).zip(&self.weights).zip(&pattern.coupled)
+        {
             if *coupled {
                 x[2] = x[2] - weight.shift[0] * x[0] - weight.shift[1] * x[1];
             }
@@ -154,19 +151,17 @@ impl<S: Real> Saddle<S> {
 
     /// U = A Lw⁻ᵀ and U Dw⁻¹.
     #[inline(always)]
-    fn transform(&mut self, pattern: &Pattern, values: &Values<'_, S>) -> Result<(), Dependent> {
-        self.weights.copy_from_slice(values.weights);
+    fn transform(&mut self, pattern: &Pattern) -> Result<(), Dependent> {
+        assert_eq!(self.entries.len(), pattern.owners.len(), "a matrix of this pattern");
         check(&self.weights)?;
-        let entries = values.entries.chunks_exact(3).zip(&pattern.group);
-        for ((entries, &group), (u, w)) in entries.zip(self.u.iter_mut().zip(&mut self.w)) {
-            let weight = &self.weights[group as usize];
-            let mut row = [entries[0], entries[1], entries[2]];
-            if pattern.coupled[group as usize] {
-                row[2] = row[2] - weight.shift[0] * row[0] - weight.shift[1] * row[1];
+        for ((row, owner), u) in self.entries.iter().zip(&pattern.owners).zip(&mut self.u) {
+            let Weight { inverse, shift } = &self.weights[owner.group as usize];
+            let mut row = *row;
+            if owner.coupled {
+                row[2] = row[2] - shift[0] * row[0] - shift[1] * row[1];
             }
-            let d = &weight.inverse;
-            *w = [row[0] * d[0], row[1] * d[1], row[2] * d[2]];
-            *u = row;
+            u.plain = row;
+            u.scaled = [row[0] * inverse[0], row[1] * inverse[1], row[2] * inverse[2]];
         }
         Ok(())
     }
@@ -176,230 +171,44 @@ impl<S: Real> Saddle<S> {
     fn eliminate<const RHS: bool>(
         &mut self,
         pattern: &Pattern,
-        values: Values<'_, S>,
         x: &mut [S],
     ) -> Result<(), Dependent> {
-        assert_eq!(values.entries.len(), 3 * pattern.group.len(), "the entries of the pattern");
-        assert_eq!(self.lower.len(), pattern.n_lower, "a factor of this pattern");
-        self.transform(pattern, &values)?;
-        let mut factors = Factors {
-            sweep: Sweep::new(pattern, &self.u, &self.w),
-            triangle: &mut self.triangle,
-            inverse: &mut self.inverse,
-            magnitude: &mut self.magnitude,
-            lower: &mut self.lower,
-            unscaled: &mut self.unscaled,
-            end: 0,
-        };
         let (f, g) = x.split_at_mut(if RHS { pattern.n_unknowns() } else { 0 });
         for column in &pattern.columns {
             match column.size {
-                1 => factors.column::<1, RHS>(column, values.damping, f, g)?,
-                2 => factors.column::<2, RHS>(column, values.damping, f, g)?,
-                _ => factors.column::<3, RHS>(column, values.damping, f, g)?,
+                1 => self.column::<1, RHS>(column, f, g)?,
+                2 => self.column::<2, RHS>(column, f, g)?,
+                _ => self.column::<3, RHS>(column, f, g)?,
             }
         }
         Ok(())
     }
 
-    /// y = L⁻¹ (A W⁻¹ f - g) of one column, into g.
-    fn forward<const N: usize>(
-        &self,
-        sweep: &mut Sweep<'_, S>,
-        column: &Column,
-        f: &[S],
-        g: &mut [S],
-    ) {
-        let mut y = part::<S, N>(g, column.row).map(|g| -g);
-        for touch in take(&mut sweep.touches, column.touches) {
-            sweep.load(touch, f, &mut y);
-        }
-        for block in take(&mut sweep.earlier, column.earlier) {
-            block.subtract(&self.lower, g, &mut y);
-        }
-        let triangle = rows::<S, N>(&self.triangle, column.row);
-        for i in 1..N {
-            for j in 0..i {
-                y[i] -= triangle[i][j] * y[j];
-            }
-        }
-        *part_mut(g, column.row) = y;
-    }
-
-    /// λ = L⁻ᵀ D⁻¹ y and x = W⁻¹ (f - Aᵀ λ).
-    #[inline(always)]
-    fn substitute_back(&self, pattern: &Pattern, x: &mut [S]) {
-        let (f, g) = x.split_at_mut(pattern.n_unknowns());
-        let (mut touches, mut below) = (&pattern.touches[..], &pattern.below[..]);
-        let mut end = pattern.n_lower as u32;
-        for column in pattern.columns.iter().rev() {
-            let touches = take_back(&mut touches, column.touches);
-            let below = take_back(&mut below, column.below);
-            match column.size {
-                1 => self.back::<1>(column, touches, below, &mut end, f, g),
-                2 => self.back::<2>(column, touches, below, &mut end, f, g),
-                _ => self.back::<3>(column, touches, below, &mut end, f, g),
-            }
-        }
-        for ((f, weight), coupled) in f.chunks_exact_mut(3).zip(&self.weights).zip(&pattern.coupled)
-        {
-            for (f, inverse) in f.iter_mut().zip(&weight.inverse) {
-                *f = *f * *inverse;
-            }
-            if *coupled {
-                f[0] -= weight.shift[0] * f[2];
-                f[1] -= weight.shift[1] * f[2];
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn back<const N: usize>(
-        &self,
-        column: &Column,
-        touches: &[Touch],
-        below: &[Below],
-        end: &mut u32,
-        f: &mut [S],
-        g: &mut [S],
-    ) {
-        let (y, inverse) = (part::<S, N>(g, column.row), part::<S, N>(&self.inverse, column.row));
-        let mut lambda: [S; N] = std::array::from_fn(|i| y[i] * inverse[i]);
-        for block in below.iter().rev() {
-            *end -= block.size;
-            match block.size {
-                1 => self.pull::<1, N>(*end, block.row, g, &mut lambda),
-                2 => self.pull::<2, N>(*end, block.row, g, &mut lambda),
-                _ => self.pull::<3, N>(*end, block.row, g, &mut lambda),
-            }
-        }
-        backward(rows(&self.triangle, column.row), &mut lambda);
-        *part_mut(g, column.row) = lambda;
-        for touch in touches {
-            let f = part_mut::<S, 3>(f, touch.unknown);
-            subtract_transposed(f, rows::<S, N>(&self.u, touch.first), &lambda);
-        }
-    }
-
-    /// λ -= Lᵀ λ' of the block of L at `first`, whose rows are solved for in g.
-    #[inline(always)]
-    fn pull<const M: usize, const N: usize>(
-        &self,
-        first: u32,
-        row: u32,
-        g: &[S],
-        lambda: &mut [S; N],
-    ) {
-        subtract_transposed(lambda, rows::<S, M>(&self.lower, first), part(g, row));
-    }
-}
-
-/// Whether every pivot of W is positive, in every lane.
-#[inline(always)]
-fn check<S: Real>(weights: &[Weight<S>]) -> Result<(), Dependent> {
-    let good = |i: &S| above_zero(*i) && i.is_finite();
-    if weights.iter().all(|w| w.inverse.iter().all(good)) {
-        return Ok(());
-    }
-    let bad = weights.iter().flat_map(|w| &w.inverse).position(|i| !good(i));
-    bad.map_or(Ok(()), |column| Err(Dependent::Column(column)))
-}
-
-/// x > 0 in every lane; NaN is not.
-#[inline(always)]
-fn above_zero<S: Real>(x: S) -> bool {
-    S::select(x, S::one(), S::zero()).least_magnitude() > 0.0
-}
-
-/// What remains of the lists of a pattern while columns take their share off the front.
-struct Sweep<'a, S> {
-    touches: &'a [Touch],
-    earlier: &'a [Earlier],
-    below: &'a [Below],
-    pairs: &'a [[u32; 2]],
-    updates: &'a [Update],
-    u: &'a [[S; 3]],
-    w: &'a [[S; 3]],
-}
-
-impl<'a, S: Real> Sweep<'a, S> {
-    fn new(pattern: &'a Pattern, u: &'a [[S; 3]], w: &'a [[S; 3]]) -> Self {
-        Self {
-            touches: &pattern.touches,
-            earlier: &pattern.earlier,
-            below: &pattern.below,
-            pairs: &pattern.pairs,
-            updates: &pattern.updates,
-            u,
-            w,
-        }
-    }
-
-    /// y += U Dw⁻¹ f in one group.
-    #[inline(always)]
-    fn load<const N: usize>(&self, touch: &Touch, f: &[S], y: &mut [S; N]) {
-        let f = part::<S, 3>(f, touch.unknown);
-        for (y, w) in y.iter_mut().zip(rows::<S, N>(self.w, touch.first)) {
-            *y += w[0] * f[0] + w[1] * f[1] + w[2] * f[2];
-        }
-    }
-}
-
-impl Earlier {
-    /// y -= L y' with the y' of the column where the block stands.
-    #[inline(always)]
-    fn subtract<S: Real, const N: usize>(&self, lower: &[[S; 3]], g: &[S], y: &mut [S; N]) {
-        let block = rows::<S, N>(lower, self.block);
-        match self.size {
-            1 => subtract_times(y, block, part::<S, 1>(g, self.row)),
-            2 => subtract_times(y, block, part::<S, 2>(g, self.row)),
-            _ => subtract_times(y, block, part::<S, 3>(g, self.row)),
-        }
-    }
-}
-
-/// The factors under construction.
-struct Factors<'a, S> {
-    sweep: Sweep<'a, S>,
-    triangle: &'a mut [[S; 3]],
-    inverse: &'a mut [S],
-    magnitude: &'a mut [S],
-    lower: &'a mut [[S; 3]],
-    unscaled: &'a mut [[S; 3]],
-    /// Rows of L made so far.
-    end: usize,
-}
-
-impl<S: Real> Factors<'_, S> {
     /// One column of L, of N rows and columns on the diagonal.
     #[inline(always)]
     fn column<const N: usize, const RHS: bool>(
         &mut self,
         column: &Column,
-        damping: &[S],
         f: &[S],
         g: &mut [S],
     ) -> Result<(), Dependent> {
-        let damping = part::<S, N>(damping, column.row);
-        let mut s: [[S; N]; N] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| if i == j { damping[i] } else { S::zero() })
-        });
-        let mut y = [S::zero(); N];
-        if RHS {
-            y = part::<S, N>(g, column.row).map(|g| -g);
+        let mut s = [[S::zero(); N]; N];
+        for (i, mu) in part::<S, N>(&self.damping, column.row).iter().enumerate() {
+            s[i][i] = *mu;
         }
-        for touch in take(&mut self.sweep.touches, column.touches) {
-            let (u, w) = (rows::<S, N>(self.sweep.u, touch.first), rows(self.sweep.w, touch.first));
-            add::<S, N, N, 3>(&mut s, u, w);
+        let mut y = if RHS { part(g, column.row).map(|g: S| -g) } else { [S::zero(); N] };
+        for touch in &column.touches {
+            let u = part::<_, N>(&self.u, touch.first);
+            add::<S, N, N, 3>(&mut s, u, u);
             if RHS {
-                self.sweep.load(touch, f, &mut y);
+                load(u, part(f, touch.unknown), &mut y);
             }
         }
         let magnitude: [S; N] = std::array::from_fn(|i| s[i][i]);
-        for block in take(&mut self.sweep.earlier, column.earlier) {
+        for block in &column.earlier {
             self.subtract::<N, N>([block.block, block.block], block.size, &mut s);
             if RHS {
-                block.subtract(self.lower, g, &mut y);
+                block.subtract(&self.lower, g, &mut y);
             }
         }
         let diagonal = factorise(s);
@@ -408,7 +217,7 @@ impl<S: Real> Factors<'_, S> {
             *part_mut(g, column.row) = y;
         }
         self.keep(column, &diagonal, magnitude)?;
-        for block in take(&mut self.sweep.below, column.below) {
+        for block in &column.below {
             match block.size {
                 1 => self.below::<1, N>(block, &diagonal),
                 2 => self.below::<2, N>(block, &diagonal),
@@ -426,17 +235,15 @@ impl<S: Real> Factors<'_, S> {
         diagonal: &Diagonal<S, N>,
         magnitude: [S; N],
     ) -> Result<(), Dependent> {
-        for i in 0..N {
+        let rows = part_mut::<_, N>(&mut self.diagonal, column.row);
+        for (i, row) in rows.iter_mut().enumerate() {
             let margin = diagonal.pivot[i] - magnitude[i] * S::constant(PIVOT_TOLERANCE);
             if !(above_zero(margin) && diagonal.inverse[i].is_finite()) {
                 return Err(Dependent::Row(column.row as usize + i));
             }
-        }
-        *part_mut(self.inverse, column.row) = diagonal.inverse;
-        *part_mut(self.magnitude, column.row) = magnitude;
-        let triangle = part_mut::<[S; 3], N>(self.triangle, column.row);
-        for (to, from) in triangle.iter_mut().zip(&diagonal.lower) {
-            to[..N].copy_from_slice(from);
+            row.inverse = diagonal.inverse[i];
+            row.magnitude = magnitude[i];
+            row.lower[..i].copy_from_slice(&diagonal.lower[i][..i]);
         }
         Ok(())
     }
@@ -445,20 +252,18 @@ impl<S: Real> Factors<'_, S> {
     #[inline(always)]
     fn below<const M: usize, const N: usize>(&mut self, block: &Below, diagonal: &Diagonal<S, N>) {
         let mut s = [[S::zero(); N]; M];
-        for &[u, w] in take(&mut self.sweep.pairs, block.pairs) {
-            add::<S, M, N, 3>(&mut s, rows(self.sweep.u, u), rows(self.sweep.w, w));
+        for &[own, other] in &block.pairs {
+            add::<S, M, N, 3>(&mut s, part(&self.u, own), part(&self.u, other));
         }
-        for update in take(&mut self.sweep.updates, block.updates) {
+        for update in &block.updates {
             self.subtract::<M, N>(update.blocks, update.size, &mut s);
         }
-        let range = self.end..self.end + M;
-        self.end += M;
-        let (unscaled, lower) = (&mut self.unscaled[range.clone()], &mut self.lower[range]);
-        for (s, (unscaled, lower)) in s.iter_mut().zip(unscaled.iter_mut().zip(lower)) {
+        let rows = part_mut::<_, M>(&mut self.lower, block.block);
+        for (s, row) in s.iter_mut().zip(rows) {
             diagonal.forward(s);
             for j in 0..N {
-                unscaled[j] = s[j];
-                lower[j] = s[j] * diagonal.inverse[j];
+                row.plain[j] = s[j];
+                row.scaled[j] = s[j] * diagonal.inverse[j];
             }
         }
     }
@@ -471,11 +276,122 @@ impl<S: Real> Factors<'_, S> {
         size: u32,
         s: &mut [[S; N]; M],
     ) {
-        let (left, right) = (rows(self.unscaled, left), rows(self.lower, right));
+        let (left, right) = (part(&self.lower, left), part(&self.lower, right));
         match size {
             1 => subtract::<S, M, N, 1>(s, left, right),
             2 => subtract::<S, M, N, 2>(s, left, right),
             _ => subtract::<S, M, N, 3>(s, left, right),
         }
     }
+
+    /// y = L⁻¹ (A W⁻¹ f - g) of one column, into g.
+    fn forward<const N: usize>(&self, column: &Column, f: &[S], g: &mut [S]) {
+        let mut y = part::<S, N>(g, column.row).map(|g| -g);
+        for touch in &column.touches {
+            load(part(&self.u, touch.first), part(f, touch.unknown), &mut y);
+        }
+        for block in &column.earlier {
+            block.subtract(&self.lower, g, &mut y);
+        }
+        let rows = part::<_, N>(&self.diagonal, column.row);
+        for i in 1..N {
+            for j in 0..i {
+                y[i] -= rows[i].lower[j] * y[j];
+            }
+        }
+        *part_mut(g, column.row) = y;
+    }
+
+    /// λ = L⁻ᵀ D⁻¹ y and x = W⁻¹ (f - Aᵀ λ).
+    #[inline(always)]
+    fn substitute_back(&self, pattern: &Pattern, x: &mut [S]) {
+        let (f, g) = x.split_at_mut(pattern.n_unknowns());
+        for column in pattern.columns.iter().rev() {
+            match column.size {
+                1 => self.back::<1>(column, f, g),
+                2 => self.back::<2>(column, f, g),
+                _ => self.back::<3>(column, f, g),
+            }
+        }
+        let groups = f.chunks_exact_mut(3).zip(&self.weights).zip(&pattern.coupled);
+        for ((f, Weight { inverse, shift }), coupled) in groups {
+            for (f, inverse) in f.iter_mut().zip(inverse) {
+                *f = *f * *inverse;
+            }
+            if *coupled {
+                f[0] -= shift[0] * f[2];
+                f[1] -= shift[1] * f[2];
+            }
+        }
+    }
+
+    /// λ of one column, into g, and its share of f - Aᵀ λ.
+    #[inline(always)]
+    fn back<const N: usize>(&self, column: &Column, f: &mut [S], g: &mut [S]) {
+        let rows = part::<_, N>(&self.diagonal, column.row);
+        let y = part::<S, N>(g, column.row);
+        let mut lambda: [S; N] = std::array::from_fn(|i| y[i] * rows[i].inverse);
+        for block in column.below.iter().rev() {
+            match block.size {
+                1 => self.pull::<1, N>(block, g, &mut lambda),
+                2 => self.pull::<2, N>(block, g, &mut lambda),
+                _ => self.pull::<3, N>(block, g, &mut lambda),
+            }
+        }
+        for j in (0..N).rev() {
+            for i in j + 1..N {
+                lambda[j] -= rows[i].lower[j] * lambda[i];
+            }
+        }
+        *part_mut(g, column.row) = lambda;
+        for Touch { first, unknown } in &column.touches {
+            let u = part::<Row<S>, N>(&self.u, *first).iter().map(|u| u.plain);
+            subtract_transposed(part_mut::<S, 3>(f, *unknown), u, &lambda);
+        }
+    }
+
+    /// λ -= Lᵀ λ' of a block whose rows are solved for in g.
+    #[inline(always)]
+    fn pull<const M: usize, const N: usize>(&self, block: &Below, g: &[S], lambda: &mut [S; N]) {
+        let rows = part::<Row<S>, M>(&self.lower, block.block).iter().map(|row| row.scaled);
+        subtract_transposed(lambda, rows, part::<S, M>(g, block.row));
+    }
+}
+
+/// y += U Dw⁻¹ f in one group.
+#[inline(always)]
+fn load<S: Real, const N: usize>(u: &[Row<S>; N], f: &[S; 3], y: &mut [S; N]) {
+    for (y, Row { scaled: w, .. }) in y.iter_mut().zip(u) {
+        *y += w[0] * f[0] + w[1] * f[1] + w[2] * f[2];
+    }
+}
+
+impl Earlier {
+    /// y -= L y' with the y' of the column where the block stands.
+    #[inline(always)]
+    fn subtract<S: Real, const N: usize>(&self, lower: &[Row<S>], g: &[S], y: &mut [S; N]) {
+        let block = part::<_, N>(lower, self.block);
+        match self.size {
+            1 => subtract_times(y, block, part::<S, 1>(g, self.row)),
+            2 => subtract_times(y, block, part::<S, 2>(g, self.row)),
+            _ => subtract_times(y, block, part::<S, 3>(g, self.row)),
+        }
+    }
+}
+
+/// Whether every pivot of W is positive and finite, in every lane.
+#[inline(always)]
+fn check<S: Real>(weights: &[Weight<S>]) -> Result<(), Dependent> {
+    let good = |i: S| above_zero(i) && above_zero(S::constant(f64::MAX) - i);
+    if weights.iter().all(|w| w.inverse.iter().all(|i| good(*i))) {
+        return Ok(());
+    }
+    let bad = weights.iter().flat_map(|w| &w.inverse).position(|i| !good(*i));
+    bad.map_or(Ok(()), |column| Err(Dependent::Column(column)))
+}
+
+/// x > 0 in every lane; NaN is not.
+#[inline(always)]
+fn above_zero<S: Real>(x: S) -> bool {
+    S::select(x, S::one(), S::zero()).least_magnitude() > 0.0
 }

@@ -208,7 +208,8 @@ fn laws_of_other_bodies_have_their_columns() {
     let m = model(COUPLED);
     let mut numbers = Random::new(11);
     let q = numbers.many(m.layout.n_q);
-    let dense = kempe::equations::dense::jacobian(&m, &kempe::equations::kinematics::at_rest(&q), 0.4);
+    let dense =
+        kempe::equations::dense::jacobian(&m, &kempe::equations::kinematics::at_rest(&q), 0.4);
     let n = m.layout.n_q;
     let phi = |q: &[f64]| {
         let mut phi = vec![0.0; m.layout.n_rows];

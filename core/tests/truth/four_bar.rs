@@ -2,10 +2,10 @@
 
 use crate::mechanisms::{close, every, four_bar, largest, residual, run, tolerances, worst};
 use crate::{number, numbers, reference};
-use kempe::equations::{dense, kinematics};
 use kempe::analyses::dynamics::{Options, Output, Run, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::Gains;
+use kempe::equations::{dense, kinematics};
 
 fn row(table: &[f64], width: usize, k: usize) -> &[f64] {
     &table[k * width..][..width]
