@@ -1,7 +1,7 @@
 //! Saddle-point matrices solved by blocks against a dense reference, on random mechanisms.
 
 use kempe::math::{Dual, Lanes, Real};
-use kempe::solve::{groups_first, Dependent, Pattern, RowBlock, Saddle, Weight};
+use kempe::solve::{Dependent, Pattern, RowBlock, Saddle, Weight};
 
 /// xorshift64*: reproducible numbers in [-1, 1).
 struct Random(u64);
@@ -379,29 +379,6 @@ fn dual_solutions_carry_the_derivative() {
         let difference = (a - 8.0 * b + 8.0 * c - d) / (12.0 * h);
         let error = (x.slope[0] - difference).abs();
         assert!(error < 1e-7 * (1.0 + difference.abs()), "{i}: {} {difference}", x.slope[0]);
-    }
-}
-
-#[test]
-fn coordinates_go_before_rows_and_blocks_stay_together() {
-    let m = tangle(30, &mut Random(2));
-    let n_first = 3 * m.masses.len();
-    let mut starts: Vec<usize> = (0..n_first).step_by(3).collect();
-    let (mut entries, mut next) = (vec![], n_first);
-    for block in &m.blocks {
-        starts.push(next);
-        entries.extend(block.touches.iter().map(|&(group, _)| (next, 3 * group)));
-        next += block.size;
-    }
-    let order = groups_first(n_first, next, &entries, Some(&starts));
-    assert!(order[..n_first].iter().all(|&i| i < n_first));
-    let mut sorted = order.clone();
-    sorted.sort_unstable();
-    assert!(sorted.into_iter().eq(0..m.n()));
-    for (k, &i) in order.iter().enumerate() {
-        if !starts.contains(&i) {
-            assert_eq!(order[k - 1], i - 1);
-        }
     }
 }
 

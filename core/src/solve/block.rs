@@ -71,8 +71,8 @@ pub(super) fn subtract_times<S: Real, const M: usize, const K: usize>(
     x: &[S; K],
 ) {
     for (y, a) in y.iter_mut().zip(a) {
-        for k in 0..K {
-            *y -= a.scaled[k] * x[k];
+        for (a, x) in a.scaled.iter().zip(x) {
+            *y -= *a * *x;
         }
     }
 }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `order` | in which order unknowns are eliminated |
 //! | `pattern` | the pattern of a saddle-point matrix and the plan of its elimination, worked out once |
+//! | `weight` | the blocks of W by their factors |
 //! | `block` | arithmetic of blocks of at most 3 × 3 |
 //! | `saddle` | numbers: [W Aᵀ; A -μI] factorised and solved without allocation |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
@@ -15,9 +16,11 @@ mod order;
 mod pattern;
 mod rank;
 mod saddle;
+mod weight;
 
 pub use newton::Newton;
 pub use order::groups_first;
 pub use pattern::{Pattern, RowBlock};
 pub use rank::{normalize_rows, rank, Rank, RANK_TOLERANCE};
-pub use saddle::{Dependent, Saddle, Weight, PIVOT_TOLERANCE};
+pub use saddle::{Saddle, PIVOT_TOLERANCE};
+pub use weight::{Dependent, Weight};

@@ -139,35 +139,22 @@ impl Pattern {
         rows_below: &[Vec<usize>],
         shared: &Shared,
     ) {
-        let size = |place: usize| blocks[order[place]].size;
-        let mut earlier = vec![Vec::new(); order.len()];
-        // updates[column][at] of the block that stands at-th in the column
-        let mut updates: Vec<Vec<Vec<Update>>> =
-            rows_below.iter().map(|rows| vec![Vec::new(); rows.len()]).collect();
+        let mut lists = Lists::new(rows_below);
         for (place, rows) in rows_below.iter().enumerate() {
             let own = order[place];
-            let column =
-                Earlier { block: 0, row: index(starts[own]), size: index(blocks[own].size) };
+            let (size, row) = (index(blocks[own].size), index(starts[own]));
             let mut offsets = Vec::with_capacity(rows.len());
             for &r in rows {
                 offsets.push(index(self.n_lower));
-                self.n_lower += size(r);
+                self.n_lower += blocks[order[r]].size;
             }
-            for (a, &r) in rows.iter().enumerate() {
-                earlier[r].push(Earlier { block: offsets[a], ..column });
-                let mut at = 0;
-                for (b, &s) in rows.iter().enumerate().skip(a + 1) {
-                    at += rows_below[r][at..].partition_point(|&row| row < s);
-                    let blocks = [offsets[b], offsets[a]];
-                    updates[r][at].push(Update { blocks, size: column.size });
-                }
-            }
-            let below = rows.iter().zip(&offsets).zip(&updates[place]);
-            let below = below.map(|((&row, &block), updates)| Below {
+            lists.eliminate(rows_below, place, &offsets, (row, size));
+            let below = rows.iter().zip(&offsets).zip(&lists.updates[place]);
+            let below = below.map(|((&r, &block), updates)| Below {
                 block,
-                size: index(size(row)),
-                row: index(starts[order[row]]),
-                pairs: shared.pairs(blocks, order[row], own).into(),
+                size: index(blocks[order[r]].size),
+                row: index(starts[order[r]]),
+                pairs: shared.pairs(blocks, order[r], own).into(),
                 updates: updates.as_slice().into(),
             });
             let touch = |&(group, first): &(usize, usize)| Touch {
@@ -175,12 +162,47 @@ impl Pattern {
                 unknown: index(3 * group),
             };
             self.columns.push(Column {
-                size: column.size,
-                row: column.row,
+                size,
+                row,
                 touches: blocks[own].touches.iter().map(touch).collect(),
-                earlier: earlier[place].as_slice().into(),
+                earlier: lists.earlier[place].as_slice().into(),
                 below: below.collect(),
             });
+        }
+    }
+}
+
+/// What elimination subtracts, collected while columns are eliminated one after the other.
+struct Lists {
+    /// From each diagonal block.
+    earlier: Vec<Vec<Earlier>>,
+    /// From each block below the diagonal, by column and position in it.
+    updates: Vec<Vec<Vec<Update>>>,
+}
+
+impl Lists {
+    fn new(rows_below: &[Vec<usize>]) -> Self {
+        let earlier = vec![Vec::new(); rows_below.len()];
+        let updates = rows_below.iter().map(|rows| vec![Vec::new(); rows.len()]).collect();
+        Self { earlier, updates }
+    }
+
+    /// The products of the blocks of one column, stored at `offsets`.
+    fn eliminate(
+        &mut self,
+        rows_below: &[Vec<usize>],
+        place: usize,
+        offsets: &[u32],
+        (row, size): (u32, u32),
+    ) {
+        let rows = &rows_below[place];
+        for (a, &r) in rows.iter().enumerate() {
+            self.earlier[r].push(Earlier { block: offsets[a], row, size });
+            let mut at = 0;
+            for (b, &s) in rows.iter().enumerate().skip(a + 1) {
+                at += rows_below[r][at..].partition_point(|&row| row < s);
+                self.updates[r][at].push(Update { blocks: [offsets[b], offsets[a]], size });
+            }
         }
     }
 }

@@ -15,28 +15,11 @@ use super::block::{
     add, factorise, part, part_mut, subtract, subtract_times, subtract_transposed, Diagonal, Row,
 };
 use super::pattern::{Below, Column, Earlier, Pattern, Touch};
+use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
 /// Smallest ratio of a pivot to the diagonal entry it was cancelled from that is still trusted.
 pub const PIVOT_TOLERANCE: f64 = 1e-13;
-
-/// The block of W of one group, [d₀ 0 b₀; 0 d₁ b₁; b₀ b₁ d₂], by its factors.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Weight<S = f64> {
-    /// 1/d₀, 1/d₁ and 1/(d₂ - b₀²/d₀ - b₁²/d₁).
-    pub inverse: [S; 3],
-    /// b₀/d₀ and b₁/d₁; not read for groups that are not coupled.
-    pub shift: [S; 2],
-}
-
-/// What cannot be eliminated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dependent {
-    /// A row of A that depends on the others.
-    Row(usize),
-    /// An unknown whose pivot in W is not positive.
-    Column(usize),
-}
 
 /// A matrix and its factors; all memory is taken in [`Saddle::new`].
 ///
@@ -261,9 +244,9 @@ impl<S: Real> Saddle<S> {
         let rows = part_mut::<_, M>(&mut self.lower, block.block);
         for (s, row) in s.iter_mut().zip(rows) {
             diagonal.forward(s);
-            for j in 0..N {
-                row.plain[j] = s[j];
-                row.scaled[j] = s[j] * diagonal.inverse[j];
+            row.plain[..N].copy_from_slice(s);
+            for ((scaled, s), inverse) in row.scaled.iter_mut().zip(s).zip(&diagonal.inverse) {
+                *scaled = *s * *inverse;
             }
         }
     }
@@ -377,21 +360,4 @@ impl Earlier {
             _ => subtract_times(y, block, part::<S, 3>(g, self.row)),
         }
     }
-}
-
-/// Whether every pivot of W is positive and finite, in every lane.
-#[inline(always)]
-fn check<S: Real>(weights: &[Weight<S>]) -> Result<(), Dependent> {
-    let good = |i: S| above_zero(i) && above_zero(S::constant(f64::MAX) - i);
-    if weights.iter().all(|w| w.inverse.iter().all(|i| good(*i))) {
-        return Ok(());
-    }
-    let bad = weights.iter().flat_map(|w| &w.inverse).position(|i| !good(*i));
-    bad.map_or(Ok(()), |column| Err(Dependent::Column(column)))
-}
-
-/// x > 0 in every lane; NaN is not.
-#[inline(always)]
-fn above_zero<S: Real>(x: S) -> bool {
-    S::select(x, S::one(), S::zero()).least_magnitude() > 0.0
 }
