@@ -227,7 +227,7 @@ fn random_mechanisms_are_solved_to_rounding() {
 }
 
 #[test]
-fn mass_ratios_of_a_million_million_keep_the_residual_small() {
+fn mass_ratios_of_a_million_million_keep_the_digits() {
     let mut random = Random(13);
     for _ in 0..20 {
         let mut m = four_bar(&mut random);
@@ -239,9 +239,9 @@ fn mass_ratios_of_a_million_million_keep_the_residual_small() {
         let mut x = b.clone();
         m.saddle(&pattern).factor_and_solve(&pattern, &mut x).unwrap();
         let reference = dense_solve(m.dense(), b.clone());
-        let residual = relative_residual(&m, &x, &b);
-        let dense = relative_residual(&m, &reference, &b);
-        assert!(residual < 1e-12, "{residual:e}, dense {dense:e}");
+        let difference: Vec<f64> = x.iter().zip(&reference).map(|(a, b)| a - b).collect();
+        let relative = norm(&difference) / norm(&reference);
+        assert!(relative < 1e-11, "{relative:e}");
     }
 }
 
