@@ -71,11 +71,24 @@ def entry(declared: dict[str, Any]) -> str:
     text = f"### {declared['name']}\n\n{' '.join(declared['doc'].split())}{in_python}\n"
     if not declared["fields"]:
         return f"{text}\nIt has no fields.\n"
+    shown = equations(declared["formulas"]) if "formulas" in declared else ""
     rows = [
         (f"`{f['name']}`", value(f["shape"]), unit(f["unit"]), default(f), f["doc"])
         for f in declared["fields"]
     ]
-    return f"{text}\n{table(FIELDS, rows)}"
+    return f"{text}\n{table(FIELDS, rows)}{shown}"
+
+
+def equations(formulas: list[dict[str, Any]]) -> str:
+    """Φ, the row of Φ_q and γ of each equation of a joint, as the core tells them."""
+    lines = []
+    for formula in formulas:
+        lines += [f"Φ   = {formula['residual']}"]
+        lines += [f"Φ_q = [{', '.join(formula['jacobian'])}]"]
+        lines += [f"γ   = {formula['gamma']}", ""]
+    told = "\n".join(lines[:-1])
+    about = "Its equations, with Φ_q by x, y and angle of body i and of body j:"
+    return f"\n{about}\n\n```\n{told}\n```\n"
 
 
 def value(shape: Any) -> str:
