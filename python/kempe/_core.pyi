@@ -21,7 +21,9 @@ def catalogue() -> str:
     "stabilizations": …, "analyses": …}`` with ``table = {"name", "doc", "fields": [{"name",
     "shape", "unit", "default", "doc"}]}``; joints and drivers have
     ``"formulas": [{"residual", "jacobian": [6 texts], "gamma"}]`` too; shapes are body, point,
-    coordinate, number, law, pair and others.
+    coordinate, number, law, pair and others. Then the language of formulas: ``"functions":
+    [{"name", "arguments", "doc"}]`` and ``"units": [{"name", "si", "dimension"}]``, with ``si`` the
+    factor to the SI unit.
     """
 
 def schema() -> str:

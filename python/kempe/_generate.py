@@ -1,7 +1,8 @@
-"""Write ``elements.py`` from the catalogue of the core: ``python -m kempe._generate``.
+"""Write what follows from the catalogue of the core: ``python -m kempe._generate``.
 
 The catalogue is the one statement of what an element holds; the typed dataclasses and the methods
-of ``Model`` follow from it, so that adding an element touches no Python by hand.
+of ``Model`` in ``elements.py`` follow from it, and so does the reference page, so that adding an
+element touches no Python by hand.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from kempe import _core, files
+from kempe import _core, _reference, files
 
 WIDTH = 100
 SECTIONS = ("joints", "drivers", "forces")
@@ -142,10 +143,12 @@ def camel(name: str) -> str:
 
 
 def main() -> None:
-    """Write the file beside this one."""
-    target = Path(__file__).with_name("elements.py")
-    files.write_text(target, source(_core.catalogue()))
-    print(f"{target} written")
+    """Write the file beside this one, and the page in ``docs``."""
+    elements = Path(__file__).with_name("elements.py")
+    written = {elements: source, _reference.TARGET: _reference.page}
+    for target, text in written.items():
+        files.write_text(target, text(_core.catalogue()))
+        print(f"{target} written")
 
 
 if __name__ == "__main__":

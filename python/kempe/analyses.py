@@ -127,7 +127,7 @@ def simulate(
         run = _core.dynamics(model.core, float(start.t), start.q, start.v, options, progress)
     except BaseException as error:  # an interruption, and what progress raises, keep it too
         partial = getattr(error, "run", None)
-        if partial is not None:
+        if partial is not None and len(partial.t):
             error.solution = Solution(model, partial)  # type: ignore[attr-defined]
         raise
     return Solution(model, run)

@@ -64,3 +64,12 @@ def test_what_the_example_asks_for_is_there(sol: kp.Solution) -> None:
 def test_the_file_says_the_same(sol: kp.Solution) -> None:
     case = kp.load(Path(__file__).with_name("four_bar.toml"))
     np.testing.assert_array_equal(case.run()["release"].q, sol.q)
+
+
+def test_the_last_line_draws_and_animates(
+    sol: kp.Solution, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    kp.plot.positions(sol, "crank")
+    kp.animate(sol, "four_bar.mp4")
+    assert (tmp_path / "four_bar.mp4").read_bytes()[4:8] == b"ftyp"

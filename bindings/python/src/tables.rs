@@ -2,6 +2,8 @@
 
 use kempe::analyses::{analysis_tables, option_families};
 use kempe::elements::{catalogue, formulas, Default, Field, Group, Shape, Table};
+use kempe::expression::unit::{Unit, UNITS};
+use kempe::expression::{Function, FUNCTIONS};
 use kempe::model::body_tables;
 use serde_json::{json, Map, Value};
 
@@ -40,6 +42,14 @@ fn table(table: &Table) -> Value {
     json!({ "name": table.name, "doc": table.doc, "fields": fields })
 }
 
+fn function(function: &Function) -> Value {
+    json!({ "name": function.name, "arguments": function.arguments, "doc": function.doc })
+}
+
+fn unit((name, unit): &(&str, Unit)) -> Value {
+    json!({ "name": name, "si": unit.scale(1.0), "dimension": unit.dimension.to_string() })
+}
+
 /// An element with its equations as formulas.
 fn element(group: Group, own: &Table) -> Value {
     let mut value = table(own);
@@ -51,7 +61,7 @@ fn element(group: Group, own: &Table) -> Value {
     value
 }
 
-/// Everything that may stand in a case, by section.
+/// Everything that may stand in a case, by section; then the functions and units of formulas.
 pub fn all() -> String {
     let mut sections = Map::new();
     sections.insert("bodies".into(), body_tables().iter().map(table).collect());
@@ -70,5 +80,7 @@ pub fn all() -> String {
         sections.insert(plural, options.collect());
     }
     sections.insert("analyses".into(), analysis_tables().iter().map(table).collect());
+    sections.insert("functions".into(), FUNCTIONS.iter().map(function).collect());
+    sections.insert("units".into(), UNITS.iter().map(unit).collect());
     Value::Object(sections).to_string()
 }

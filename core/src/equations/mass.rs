@@ -3,8 +3,10 @@
 //!
 //! With c the mass centre and b = B c′ = (A c′)⊥:  M = [m I, m b; m bᵀ, J + m |c′|²].
 
+use crate::expression::Tape;
 use crate::math::{Motion, Real, Vec2};
-use crate::model::Body;
+use crate::model::{Body, Model};
+use crate::solve::Weight;
 
 /// The four numbers that a block holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +27,20 @@ pub fn block<S: Real>(body: &Body<S>, motion: &Motion<S>) -> MassBlock<S> {
         coupling: arm.perp().scale(body.mass),
         inertia: body.inertia + body.mass * body.center.dot(body.center),
     }
+}
+
+/// The factors of the block's inverse: shifted to the mass centre by b, it is diagonal in m and J.
+pub fn inverse<S: Real>(body: &Body<S>, motion: &Motion<S>) -> Weight<S> {
+    let b = motion.pose.global(body.center).perp();
+    let (m, j) = (S::one() / body.mass, S::one() / body.inertia);
+    Weight { inverse: [m, m, j], shift: [b.x, b.y] }
+}
+
+/// For each moving body, whether its mass centre can be off the origin of its frame: only then are
+/// rotation and translation coupled. Decided by the formulas, whatever the parameters.
+pub fn coupled<S>(model: &Model<S>) -> impl Iterator<Item = bool> + '_ {
+    let zero = |tape: &Tape| tape.constant() == Some(0.0);
+    model.blueprint.bodies[1..].iter().map(move |b| !(zero(&b.center.x) && zero(&b.center.y)))
 }
 
 impl<S: Real> MassBlock<S> {

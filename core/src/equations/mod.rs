@@ -12,7 +12,6 @@ mod laws;
 pub mod mass;
 pub mod motion;
 pub mod reactions;
-mod structure;
 
 pub use laws::{at, Laws};
 pub use motion::{Gains, Singular, Workspace};

@@ -3,21 +3,24 @@
 //! | file | concept |
 //! |---|---|
 //! | `order` | in which order unknowns are eliminated |
-//! | `symbolic` | the pattern of a factor, worked out once |
-//! | `columns` | the elimination of one column |
-//! | `ldlt` | numbers: A = L D Lᵀ and A x = b, without allocation |
+//! | `pattern` | the pattern of a saddle-point matrix and the plan of its elimination, worked out once |
+//! | `weight` | the blocks of W by their factors |
+//! | `block` | arithmetic of blocks of at most 3 × 3 |
+//! | `saddle` | numbers: [W Aᵀ; A -μI] factorised and solved without allocation |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
 //! | `rank` | numerical rank, dependent rows and left null vectors |
 
-mod columns;
-mod ldlt;
+mod block;
 pub mod newton;
 mod order;
+mod pattern;
 mod rank;
-mod symbolic;
+mod saddle;
+mod weight;
 
-pub use ldlt::{Factor, ZeroPivot, PIVOT_TOLERANCE};
 pub use newton::Newton;
-pub use order::bodies_first;
+pub use order::groups_first;
+pub use pattern::{Pattern, RowBlock};
 pub use rank::{normalize_rows, rank, Rank, RANK_TOLERANCE};
-pub use symbolic::Symbolic;
+pub use saddle::{Saddle, PIVOT_TOLERANCE};
+pub use weight::{Dependent, Weight};

@@ -13,7 +13,7 @@ use std::collections::BinaryHeap;
 
 /// Order in which the `n` unknowns are eliminated: the first `n_first` before the others.
 ///
-/// `entries` are the structural positions of one triangle, as for [`Symbolic::new`]. `blocks` holds the
+/// `entries` are the structural positions of one triangle, as for [`Pattern`]. `blocks` holds the
 /// first index of each block of unknowns that stay together and in order (the coordinates of a body,
 /// the rows of a joint): ascending, beginning with 0, with `n_first` on a block boundary; `None` makes
 /// every unknown a block. Among equals the block with the shortest chain of eliminations behind it goes
@@ -24,8 +24,8 @@ use std::collections::BinaryHeap;
 /// # Panics
 /// If an index is outside `0..n` or `blocks` is not as described.
 ///
-/// [`Symbolic::new`]: super::Symbolic::new
-pub fn bodies_first(
+/// [`Pattern`]: super::Pattern
+pub fn groups_first(
     n_first: usize,
     n: usize,
     entries: &[(usize, usize)],

@@ -1,0 +1,131 @@
+//! Arithmetic of blocks of at most 3 × 3, in registers: sizes are constants, so loops unroll.
+//!
+//! A block is stored as rows of three, of which it may use fewer.
+
+use crate::math::Real;
+
+/// `N` items from `first`: one bounds check.
+#[inline(always)]
+pub(super) fn part<T, const N: usize>(x: &[T], first: u32) -> &[T; N] {
+    let first = first as usize;
+    x[first..first + N].first_chunk().expect("as long as the range")
+}
+
+/// The same, to be changed.
+#[inline(always)]
+pub(super) fn part_mut<T, const N: usize>(x: &mut [T], first: u32) -> &mut [T; N] {
+    let first = first as usize;
+    x[first..first + N].first_chunk_mut().expect("as long as the range")
+}
+
+/// A row of a block in two forms, side by side: plain, and scaled by the inverse of D.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row<S> {
+    pub plain: [S; 3],
+    pub scaled: [S; 3],
+}
+
+/// aᵀ b over the first `K` components.
+#[inline(always)]
+fn dot<S: Real, const K: usize>(a: &[S; 3], b: &[S; 3]) -> S {
+    let mut sum = a[0] * b[0];
+    for k in 1..K {
+        sum += a[k] * b[k];
+    }
+    sum
+}
+
+/// target += A D⁻¹ Bᵀ over `K` columns.
+#[inline(always)]
+pub(super) fn add<S: Real, const M: usize, const N: usize, const K: usize>(
+    target: &mut [[S; N]; M],
+    a: &[Row<S>; M],
+    b: &[Row<S>; N],
+) {
+    for (target, a) in target.iter_mut().zip(a) {
+        for (target, b) in target.iter_mut().zip(b) {
+            *target += dot::<S, K>(&a.plain, &b.scaled);
+        }
+    }
+}
+
+/// target -= A D⁻¹ Bᵀ over `K` columns.
+#[inline(always)]
+pub(super) fn subtract<S: Real, const M: usize, const N: usize, const K: usize>(
+    target: &mut [[S; N]; M],
+    a: &[Row<S>; M],
+    b: &[Row<S>; N],
+) {
+    for (target, a) in target.iter_mut().zip(a) {
+        for (target, b) in target.iter_mut().zip(b) {
+            *target -= dot::<S, K>(&a.plain, &b.scaled);
+        }
+    }
+}
+
+/// y -= A D⁻¹ x over `K` columns.
+#[inline(always)]
+pub(super) fn subtract_times<S: Real, const M: usize, const K: usize>(
+    y: &mut [S; M],
+    a: &[Row<S>; M],
+    x: &[S; K],
+) {
+    for (y, a) in y.iter_mut().zip(a) {
+        for (a, x) in a.scaled.iter().zip(x) {
+            *y -= *a * *x;
+        }
+    }
+}
+
+/// y -= Aᵀ x for the first `N` columns.
+#[inline(always)]
+pub(super) fn subtract_transposed<S: Real, const N: usize>(
+    y: &mut [S; N],
+    a: impl Iterator<Item = [S; 3]>,
+    x: &[S],
+) {
+    for (a, x) in a.zip(x) {
+        for c in 0..N {
+            y[c] -= a[c] * *x;
+        }
+    }
+}
+
+/// L and 1 / D of a diagonal block: unit lower triangle without its diagonal, and the pivots.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Diagonal<S, const N: usize> {
+    pub lower: [[S; N]; N],
+    pub pivot: [S; N],
+    pub inverse: [S; N],
+}
+
+/// L D Lᵀ of a diagonal block, of which the lower triangle is read.
+#[inline(always)]
+pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> Diagonal<S, N> {
+    let (mut pivot, mut inverse) = ([S::zero(); N], [S::zero(); N]);
+    for j in 0..N {
+        pivot[j] = s[j][j];
+        inverse[j] = S::one() / pivot[j];
+        for i in j + 1..N {
+            let l = s[i][j] * inverse[j];
+            for c in j + 1..i {
+                s[i][c] -= s[i][j] * s[c][j]; // s[c][j] is scaled already
+            }
+            s[i][i] -= s[i][j] * l;
+            s[i][j] = l;
+        }
+    }
+    Diagonal { lower: s, pivot, inverse }
+}
+
+impl<S: Real, const N: usize> Diagonal<S, N> {
+    /// x ← L⁻¹ x.
+    #[inline(always)]
+    pub fn forward(&self, x: &mut [S; N]) {
+        for i in 1..N {
+            for j in 0..i {
+                x[i] -= self.lower[i][j] * x[j];
+            }
+        }
+    }
+}

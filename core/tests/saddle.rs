@@ -1,0 +1,394 @@
+//! Saddle-point matrices solved by blocks against a dense reference, on random mechanisms.
+
+use kempe::math::{Dual, Lanes, Real};
+use kempe::solve::{Dependent, Pattern, RowBlock, Saddle, Weight};
+
+/// xorshift64*: reproducible numbers in [-1, 1).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+/// [W Aᵀ; A -μI] as numbers: W by its five entries (d₀, d₁, d₂, b₀, b₁) for each group.
+#[derive(Clone)]
+struct Matrix {
+    masses: Vec<[f64; 5]>,
+    blocks: Vec<RowBlock>,
+    entries: Vec<[f64; 3]>,
+}
+
+impl Matrix {
+    /// Bodies joined by pins: `pins[k]` = (body, body or ground); every fifth joint has
+    /// one row, the others two.
+    fn mechanism(bodies: usize, pins: &[(usize, Option<usize>)], random: &mut Random) -> Self {
+        let mut mass = |_| {
+            let d = [1.5, 1.5, 1.5].map(|d| d + random.next());
+            [d[0], d[1], d[2], 0.3 * random.next(), 0.3 * random.next()] // origin off the mass centre
+        };
+        let masses = (0..bodies).map(&mut mass).collect();
+        let mut m = Self { masses, blocks: vec![], entries: vec![] };
+        for (k, &(i, j)) in pins.iter().enumerate() {
+            let size = if k % 5 == 4 { 1 } else { 2 };
+            let bodies = [(Some(i), -1.0), (j, 1.0)];
+            m.push(size, &bodies, random);
+        }
+        m
+    }
+
+    /// A joint: x and y of points, then a combination of all coordinates.
+    fn push(&mut self, size: usize, bodies: &[(Option<usize>, f64)], random: &mut Random) {
+        let mut touches = vec![];
+        for &(body, sign) in bodies {
+            let Some(body) = body else { continue };
+            touches.push((body, 3 * self.entries.len()));
+            let rows = [
+                [sign, 0.0, random.next()],
+                [0.0, sign, random.next()],
+                [random.next(), random.next(), random.next()],
+            ];
+            self.entries.extend_from_slice(&rows[..size]);
+        }
+        self.blocks.push(RowBlock { size, touches });
+    }
+
+    fn n(&self) -> usize {
+        3 * self.masses.len() + self.rows()
+    }
+
+    fn rows(&self) -> usize {
+        self.blocks.iter().map(|b| b.size).sum()
+    }
+
+    fn pattern(&self) -> Pattern {
+        Pattern::new(vec![true; self.masses.len()], &self.blocks)
+    }
+
+    fn weights(&self) -> Vec<Weight> {
+        self.masses.iter().map(weight).collect()
+    }
+
+    fn saddle(&self, pattern: &Pattern) -> Saddle<f64> {
+        let mut saddle = Saddle::new(pattern);
+        saddle.weights = self.weights();
+        saddle.entries.clone_from(&self.entries);
+        saddle
+    }
+
+    fn dense(&self) -> Vec<Vec<f64>> {
+        let (n, first) = (self.n(), 3 * self.masses.len());
+        let mut a = vec![vec![0.0; n]; n];
+        for (k, d) in self.masses.iter().enumerate() {
+            for c in 0..3 {
+                a[3 * k + c][3 * k + c] = d[c];
+            }
+            for c in 0..2 {
+                a[3 * k + c][3 * k + 2] = d[3 + c];
+                a[3 * k + 2][3 * k + c] = d[3 + c];
+            }
+        }
+        let mut start = first;
+        for block in &self.blocks {
+            for &(group, at) in &block.touches {
+                for (r, entries) in self.entries[at / 3..at / 3 + block.size].iter().enumerate() {
+                    for (c, &e) in entries.iter().enumerate() {
+                        a[start + r][3 * group + c] = e;
+                        a[3 * group + c][start + r] = e;
+                    }
+                }
+            }
+            start += block.size;
+        }
+        a
+    }
+}
+
+fn weight<S: Real>(d: &[S; 5]) -> Weight<S> {
+    let shift = [d[3] / d[0], d[4] / d[1]];
+    let left = d[2] - shift[0] * d[3] - shift[1] * d[4];
+    let one = S::one();
+    Weight { inverse: [one / d[0], one / d[1], one / left], shift }
+}
+
+fn four_bar(random: &mut Random) -> Matrix {
+    Matrix::mechanism(3, &[(0, None), (0, Some(1)), (1, Some(2)), (2, None)], random)
+}
+
+/// A chain of `bodies` hung between two pins.
+fn chain(bodies: usize, random: &mut Random) -> Matrix {
+    let mut pins = vec![(0, None)];
+    pins.extend((1..bodies).map(|b| (b - 1, Some(b))));
+    pins.push((bodies - 1, None));
+    Matrix::mechanism(bodies, &pins, random)
+}
+
+/// `arms` bodies on one hub: its joints become a dense block, with long columns.
+fn hub(arms: usize, random: &mut Random) -> Matrix {
+    let pins: Vec<_> = (1..=arms).map(|b| (0, Some(b))).collect();
+    Matrix::mechanism(arms + 1, &pins, random)
+}
+
+/// Random loops over a tree.
+fn tangle(bodies: usize, random: &mut Random) -> Matrix {
+    let mut pins = vec![(0, None)];
+    for b in 1..bodies {
+        let parent = ((random.next() + 1.0) / 2.0 * b as f64) as usize;
+        pins.push((parent, Some(b)));
+    }
+    for b in (4..bodies).step_by(4) {
+        let other = (b + bodies / 2 + 1) % bodies; // odd, so no loop comes twice
+        let joined = pins.contains(&(b, Some(other))) || pins.contains(&(other, Some(b)));
+        if !joined {
+            pins.push((b, Some(other)));
+        }
+    }
+    Matrix::mechanism(bodies, &pins, random)
+}
+
+/// Gaussian elimination with partial pivoting.
+fn dense_solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
+    let n = b.len();
+    for k in 0..n {
+        let p = (k..n).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs())).unwrap();
+        a.swap(k, p);
+        b.swap(k, p);
+        for i in k + 1..n {
+            let l = a[i][k] / a[k][k];
+            let (pivot, row) = (a[k].clone(), &mut a[i]);
+            for (r, p) in row.iter_mut().zip(&pivot).skip(k) {
+                *r -= l * p;
+            }
+            b[i] -= l * b[k];
+        }
+    }
+    for k in (0..n).rev() {
+        let sum: f64 = (k + 1..n).map(|j| a[k][j] * b[j]).sum();
+        b[k] = (b[k] - sum) / a[k][k];
+    }
+    b
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |m, v| m.max(v.abs()))
+}
+
+/// ‖b - A x‖ / (‖A‖ ‖x‖ + ‖b‖) in the maximum norm.
+fn relative_residual(m: &Matrix, x: &[f64], b: &[f64]) -> f64 {
+    let a = m.dense();
+    let times = |row: &Vec<f64>| -> f64 { row.iter().zip(x).map(|(a, x)| a * x).sum() };
+    let r: Vec<f64> = a.iter().zip(b).map(|(row, b)| b - times(row)).collect();
+    let rows: Vec<f64> = a.iter().map(|row| row.iter().map(|a| a.abs()).sum()).collect();
+    norm(&r) / (norm(&rows) * norm(x) + norm(b))
+}
+
+fn cases(random: &mut Random) -> Vec<Matrix> {
+    let mut all = vec![chain(2, random), chain(3, random), chain(50, random), hub(20, random)];
+    for _ in 0..20 {
+        all.push(four_bar(random));
+        all.push(tangle(12, random));
+        all.push(tangle(40, random));
+        let mut welded = tangle(12, random);
+        welded.push(3, &[(Some(5), -1.0), (Some(11), 1.0)], random);
+        welded.push(1, &[(Some(3), -1.0), (Some(7), 1.0), (Some(9), 1.0)], random);
+        all.push(welded);
+    }
+    all
+}
+
+fn right_side(m: &Matrix, random: &mut Random) -> Vec<f64> {
+    (0..m.n()).map(|_| random.next()).collect()
+}
+
+#[test]
+fn random_mechanisms_are_solved_to_rounding() {
+    let mut random = Random(7);
+    for m in cases(&mut random) {
+        let pattern = m.pattern();
+        let mut saddle = m.saddle(&pattern);
+        let b = right_side(&m, &mut random);
+        saddle.factor(&pattern).unwrap();
+        let mut x = b.clone();
+        saddle.solve(&pattern, &mut x);
+        let residual = relative_residual(&m, &x, &b);
+        assert!(residual < 1e-13, "n = {}: {residual:e}", m.n());
+        let reference = dense_solve(m.dense(), b.clone());
+        let difference: Vec<f64> = x.iter().zip(&reference).map(|(a, b)| a - b).collect();
+        assert!(norm(&difference) < 1e-8 * norm(&reference), "n = {}", m.n());
+        let mut beside = b.clone();
+        saddle.factor_and_solve(&pattern, &mut beside).unwrap();
+        let apart: Vec<f64> = x.iter().zip(&beside).map(|(a, b)| a - b).collect();
+        assert!(norm(&apart) <= 1e-12 * norm(&x), "n = {}", m.n());
+    }
+}
+
+#[test]
+fn mass_ratios_of_a_million_million_keep_the_digits() {
+    let mut random = Random(13);
+    for _ in 0..20 {
+        let mut m = four_bar(&mut random);
+        for (mass, scale) in m.masses.iter_mut().zip([1e-6, 1.0, 1e6]) {
+            *mass = mass.map(|d| d * scale);
+        }
+        let pattern = m.pattern();
+        let b = right_side(&m, &mut random);
+        let mut x = b.clone();
+        m.saddle(&pattern).factor_and_solve(&pattern, &mut x).unwrap();
+        let reference = dense_solve(m.dense(), b.clone());
+        let difference: Vec<f64> = x.iter().zip(&reference).map(|(a, b)| a - b).collect();
+        let relative = norm(&difference) / norm(&reference);
+        assert!(relative < 1e-11, "{relative:e}");
+    }
+}
+
+#[test]
+fn damping_stands_on_the_diagonal() {
+    // W = I, A = (1 0 0): [1 1; 1 -μ] (x, λ) = (3, 1)
+    let blocks = [RowBlock { size: 1, touches: vec![(0, 0)] }];
+    let pattern = Pattern::new(vec![false], &blocks);
+    let mut saddle = Saddle::new(&pattern);
+    saddle.entries[0] = [1.0, 0.0, 0.0];
+    saddle.damping[0] = 3.0;
+    let mut x = [3.0, 0.0, 0.0, 1.0];
+    saddle.factor_and_solve(&pattern, &mut x).unwrap();
+    assert_eq!(x, [2.5, 0.0, 0.0, 0.5]);
+}
+
+#[test]
+fn a_repeated_joint_is_refused_by_its_row_at_any_scale() {
+    for scale in [1e-8, 1.0, 1e8] {
+        let mut m = four_bar(&mut Random(11));
+        let copied = m.blocks[3].clone();
+        let first = m.entries.len();
+        let from = copied.touches[0].1 / 3;
+        for r in 0..copied.size {
+            m.entries.push(m.entries[from + r].map(|e| scale * e));
+        }
+        let touches = vec![(copied.touches[0].0, 3 * first)];
+        m.blocks.push(RowBlock { size: copied.size, touches });
+        let pattern = m.pattern();
+        let refused = m.saddle(&pattern).factor(&pattern).unwrap_err();
+        let Dependent::Row(row) = refused else { panic!("{refused:?}") };
+        assert!((6..10).contains(&row), "{row}");
+    }
+}
+
+#[test]
+fn near_dependence_shows_as_cancellation() {
+    // rows (1, 0) and (1, 1e-4) with W = I: the second pivot is 1e-8 out of 1, in one block or in two
+    let apart = [0, 1].map(|r| RowBlock { size: 1, touches: vec![(0, 3 * r)] });
+    let together = [RowBlock { size: 2, touches: vec![(0, 0)] }];
+    for blocks in [&apart[..], &together[..]] {
+        let pattern = Pattern::new(vec![false], blocks);
+        let mut saddle = Saddle::new(&pattern);
+        saddle.entries.copy_from_slice(&[[1.0, 0.0, 0.0], [1.0, 1e-4, 0.0]]);
+        saddle.factor(&pattern).unwrap();
+        let (row, ratio) = saddle.cancellation().unwrap();
+        assert_eq!(row, 1);
+        assert!((ratio / 1e-8 - 1.0).abs() < 1e-3, "{ratio:e}");
+    }
+}
+
+#[test]
+fn unusable_masses_and_rows_are_refused() {
+    let blocks = [RowBlock { size: 1, touches: vec![(1, 0)] }];
+    let pattern = Pattern::new(vec![false; 2], &blocks);
+    let good = [1.0, 2.0, 3.0];
+    let refused = |group: usize, column: usize, inverse: f64, entries: [f64; 3]| {
+        let mut saddle = Saddle::new(&pattern);
+        saddle.weights[group].inverse[column] = inverse;
+        saddle.entries[0] = entries;
+        saddle.factor(&pattern).err()
+    };
+    assert_eq!(refused(0, 0, 1.0, good), None);
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(refused(0, 2, bad, good), Some(Dependent::Column(2)), "{bad}");
+        assert_eq!(refused(1, 0, bad, good), Some(Dependent::Column(3)), "{bad}");
+    }
+    for bad in [0.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(refused(0, 0, 1.0, [0.0, bad, 0.0]), Some(Dependent::Row(0)), "{bad}");
+    }
+    let mut lanes = Saddle::<Lanes<2>>::new(&pattern);
+    lanes.entries[0][0] = Lanes([1.0, 0.0]);
+    assert_eq!(lanes.factor(&pattern), Err(Dependent::Row(0)));
+    let nothing = Pattern::new(vec![], &[RowBlock { size: 2, touches: vec![] }]);
+    assert_eq!(Saddle::<f64>::new(&nothing).factor(&nothing), Err(Dependent::Row(0)));
+}
+
+#[test]
+fn lanes_equal_scalars() {
+    let mut random = Random(5);
+    let designs: [Matrix; 4] = std::array::from_fn(|_| four_bar(&mut random));
+    let pattern = designs[0].pattern();
+    let mut saddle = Saddle::<Lanes<4>>::new(&pattern);
+    for (k, mass) in saddle.weights.iter_mut().enumerate() {
+        let lane = |c: usize| Lanes(std::array::from_fn(|w| designs[w].masses[k][c]));
+        *mass = weight(&std::array::from_fn(lane));
+    }
+    for (k, row) in saddle.entries.iter_mut().enumerate() {
+        *row = std::array::from_fn(|c| Lanes(std::array::from_fn(|w| designs[w].entries[k][c])));
+    }
+    let mut x: Vec<Lanes<4>> =
+        (0..designs[0].n()).map(|_| Lanes(std::array::from_fn(|_| random.next()))).collect();
+    let b = x.clone();
+    saddle.factor_and_solve(&pattern, &mut x).unwrap();
+    for (w, design) in designs.iter().enumerate() {
+        let mut y: Vec<f64> = b.iter().map(|b| b.0[w]).collect();
+        design.saddle(&pattern).factor_and_solve(&pattern, &mut y).unwrap();
+        let lane: Vec<f64> = x.iter().map(|x| x.0[w]).collect();
+        assert_eq!(lane, y);
+    }
+}
+
+#[test]
+fn dual_solutions_carry_the_derivative() {
+    let mut random = Random(9);
+    let m = four_bar(&mut random);
+    let pattern = m.pattern();
+    let slope: Vec<[f64; 3]> = m.entries.iter().map(|e| e.map(|_| random.next())).collect();
+    let drift: Vec<[f64; 5]> = m.masses.iter().map(|d| d.map(|_| 0.1 * random.next())).collect();
+    let b = right_side(&m, &mut random);
+    let at = |h: f64| -> Vec<f64> {
+        let mut moved = m.clone();
+        let entries = moved.entries.as_flattened_mut().iter_mut();
+        entries.zip(slope.as_flattened()).for_each(|(e, s)| *e += h * s);
+        let masses = moved.masses.as_flattened_mut().iter_mut();
+        masses.zip(drift.as_flattened()).for_each(|(d, s)| *d += h * s);
+        let mut x = b.clone();
+        moved.saddle(&pattern).factor_and_solve(&pattern, &mut x).unwrap();
+        x
+    };
+    let dual = |value: f64, slope: f64| Dual { value, slope: [slope] };
+    let mut saddle = Saddle::<Dual<1>>::new(&pattern);
+    for ((weight_, d), s) in saddle.weights.iter_mut().zip(&m.masses).zip(&drift) {
+        *weight_ = weight(&std::array::from_fn(|c| dual(d[c], s[c])));
+    }
+    for ((row, e), s) in saddle.entries.iter_mut().zip(&m.entries).zip(&slope) {
+        *row = std::array::from_fn(|c| dual(e[c], s[c]));
+    }
+    let mut x: Vec<Dual<1>> = b.iter().map(|&b| Dual::constant(b)).collect();
+    saddle.factor_and_solve(&pattern, &mut x).unwrap();
+    let h = 1e-4;
+    let sample = [at(-2.0 * h), at(-h), at(h), at(2.0 * h)];
+    for (i, x) in x.iter().enumerate() {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k: usize| sample[k][i]);
+        let difference = (a - 8.0 * b + 8.0 * c - d) / (12.0 * h);
+        let error = (x.slope[0] - difference).abs();
+        assert!(error < 1e-7 * (1.0 + difference.abs()), "{i}: {} {difference}", x.slope[0]);
+    }
+}
+
+#[test]
+fn fill_of_chains_and_rings_is_linear() {
+    // a block tridiagonal: one block below each but the last; a ring doubles it
+    assert_eq!(chain(2000, &mut Random(1)).pattern().fill(), 2000);
+    let bodies = 500;
+    let pins: Vec<_> =
+        (0..bodies).map(|b| (b, Some((b + 1) % bodies))).chain([(0, None)]).collect();
+    let fill = Matrix::mechanism(bodies, &pins, &mut Random(4)).pattern().fill();
+    assert!(fill < 2 * bodies + 4, "{fill}");
+}

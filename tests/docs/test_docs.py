@@ -1,0 +1,91 @@
+"""What the documentation says is so: every block runs, every link leads somewhere."""
+
+import shutil
+from pathlib import Path
+
+import kempe as kp
+import pytest
+from docs.comparison import agrees
+from docs.pages import PAGES, anchors, blocks, links
+from docs.session import Session
+from house.places import ROOT
+from kempe import _core, _reference
+
+#: Blocks in these languages are done; in `sh` is what no test can do: installing, `./test`.
+LANGUAGES = {"python", "console", "text", "toml", "json", "sh", "math", ""}
+
+
+def page_name(page: Path) -> str:
+    return page.name if page.parent == ROOT else f"docs/{page.name}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=page_name)
+def test_a_page_does_what_it_says(
+    page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("NO_COLOR", "1")
+    session = Session(page)
+    for block in blocks(page.read_text("utf-8")):
+        assert block.language in LANGUAGES, f"{page.name}, line {block.line}"
+        session.follow(block)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=page_name)
+def test_links_lead_somewhere(page: Path) -> None:
+    for link in links(page.read_text("utf-8")):
+        name, _, anchor = link.partition("#")
+        target = page.parent / name if name else page
+        assert target.exists(), link
+        assert not anchor or anchor in anchors(target), link
+
+
+def test_every_page_is_in_the_index() -> None:
+    index = set(links((ROOT / "docs" / "README.md").read_text("utf-8")))
+    pages = {page.name for page in (ROOT / "docs").glob("*.md")} - {"README.md"}
+    assert pages <= index
+
+
+def test_the_reference_is_what_the_catalogue_says() -> None:
+    written = _reference.TARGET.read_text("utf-8")
+    assert _reference.page(_core.catalogue()) == written, "run python -m kempe._generate"
+
+
+@pytest.mark.parametrize(
+    ("shown", "said", "same"),
+    [
+        ("a  1.0000 m", "a 1.0001 m", True),
+        ("a 1.000 m", "a 1.01 m", False),
+        ("a 1 m", "b 1 m", False),
+        ("-1", "1", False),
+        ("1e-3", "0.001", True),
+        ("first\n…\nlast", "first\n2\n3\nlast", True),
+        ("first\n…\nlast", "first\nlast", True),
+        ("first\n…\nlast", "first\n2\n3", False),
+        ("in … s", "in 0.3 s", True),
+        ("in … s", "in 0.3 ms\n", False),
+        ("joint D2 at 2", "joint D3 at 2", False),
+        ("(a+b)", "(a+b)", True),
+    ],
+)
+def test_outputs_are_compared(shown: str, said: str, same: bool) -> None:
+    assert agrees(shown, said) is same
+
+
+def test_the_page_of_errors_quotes_what_a_fault_of_kempe_says() -> None:
+    _core._inject_panic("version")
+    try:
+        with pytest.raises(kp.InternalError) as caught:
+            _core.version()
+    finally:
+        _core._inject_panic(None)
+    page = " ".join((ROOT / "docs" / "errors.md").read_text("utf-8").split())
+    assert caught.value.hint
+    assert f'"{caught.value.hint}"' in page
+
+
+def test_every_class_of_errors_has_its_heading() -> None:
+    classes = {name for name in dir(kp) if name.endswith("Error") and name != "KempeError"}
+    page = (ROOT / "docs" / "errors.md").read_text("utf-8")
+    assert classes == {name for name in classes if f"\n## {name}\n" in page}

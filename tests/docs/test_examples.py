@@ -1,0 +1,34 @@
+"""Every example loads, goes together and runs, and can be trusted."""
+
+from pathlib import Path
+
+import kempe as kp
+import numpy as np
+import pytest
+from house.places import ROOT
+
+EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_runs(path: Path) -> None:
+    for solution in kp.load(path).run().values():
+        assert solution.success
+        assert solution.drift.position.max() < 1e-6
+        assert np.abs(solution.energy.balance).max() < 1e-5
+
+
+def test_the_pendulum_swings_with_the_period_of_the_elliptic_integral() -> None:
+    swing = kp.load(ROOT / "examples/pendulum.toml").run()["swing"]
+    # T = 4 K(sin(θ₀/2)) / ω₀, ω₀² = 3 g / (2 L), θ₀ = 30°; K(m = sin² 15°) = 1.598142002112540
+    period = 4 * 1.598142002112540 / np.sqrt(1.5 * 9.81)
+    back = swing(period)
+    assert back["rod"].angle == pytest.approx(np.radians(-60), abs=1e-5)
+    assert back["rod"].omega == pytest.approx(0, abs=1e-4)
+
+
+def test_the_six_bar_is_where_it_was_after_a_turn() -> None:
+    turns = kp.load(ROOT / "examples/six_bar.toml").run()["turns"]
+    # one radian per radian of the crank; the other bodies come back
+    np.testing.assert_allclose(turns(1.0).q[3:], turns.q[0, 3:], atol=1e-7)
+    assert turns.q[-1, 2] - turns.q[0, 2] == pytest.approx(4 * np.pi, abs=1e-7)
