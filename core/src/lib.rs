@@ -1,7 +1,7 @@
 //! kempe: planar multibody mechanics.
 //!
 //! Modules depend on each other in one direction only:
-//! `math ← expression ← elements ← model ← equations ← analyses ← case`;
+//! `math ← expression ← elements ← model ← equations ← stabilize ← analyses ← case`;
 //! `solve` and `integrate` know no mechanics. See `ARCHITECTURE.md`.
 #![forbid(unsafe_code)]
 
@@ -14,3 +14,4 @@ pub mod integrate;
 pub mod math;
 pub mod model;
 pub mod solve;
+pub mod stabilize;

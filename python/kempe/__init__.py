@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from kempe.options import Baumgarte as Baumgarte
     from kempe.options import Dynamics as Dynamics
     from kempe.options import NoStabilization as NoStabilization
+    from kempe.options import Projection as Projection
     from kempe.solution import Solution as Solution
     from kempe.state import AssemblyReport as AssemblyReport
     from kempe.state import State as State
@@ -72,6 +73,7 @@ _HOME = {
     "ModelError": "errors",
     "Motion": "motion",
     "NoStabilization": "options",
+    "Projection": "options",
     "RK4": "options",
     "RK45": "options",
     "RedundancyError": "errors",

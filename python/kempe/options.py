@@ -75,6 +75,24 @@ class Baumgarte(Option):
 
 
 @dataclass(frozen=True)
+class Projection(Option):
+    """Every accepted state is put back onto Φ(q, t) = 0 and Φ_q q̇ + Φ_t = 0 (Eich 1993).
+
+    The nearest state in the metric of the mass matrix is taken. The start and all reported states are
+    projected too, and a, λ belong to the reported state; ``sol(t)`` is the integrator's interpolant,
+    which leaves the constraints between the steps by the error of the integration. What projection
+    does to the energy is booked nowhere: it shows in the balance.
+
+    Attributes:
+        tolerance: what is left of the constraints, relative to the size of the mechanism; of angles
+            in rad.
+    """
+
+    tolerance: Number = 1e-12
+    kind: ClassVar[str] = "projection"
+
+
+@dataclass(frozen=True)
 class NoStabilization(Option):
     """γ as it is: the constraints drift with the error of the integration."""
 

@@ -71,7 +71,7 @@ fn dense_rank(model: &Model, t: f64, q: &[f64]) -> Rank {
     let n = model.layout.n_q;
     let mut dense = equations::dense::jacobian(model, &kinematics::at_rest(q), t);
     // metres and radians become comparable by the size of the mechanism
-    let size = super::assemble::size(model);
+    let size = crate::model::size(model);
     for (k, entry) in dense.iter_mut().enumerate() {
         if k % n % 3 != 2 {
             *entry *= size;

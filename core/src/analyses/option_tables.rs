@@ -29,7 +29,7 @@ pub fn analysis_tables() -> Vec<Table> {
 pub fn option_families() -> Vec<Family> {
     vec![
         Family { name: "method", options: vec![rk45(), rk4()] },
-        Family { name: "stabilization", options: vec![baumgarte(), none()] },
+        Family { name: "stabilization", options: vec![baumgarte(), projection(), none()] },
     ]
 }
 
@@ -123,6 +123,14 @@ fn baumgarte() -> Options {
     let doc =
         "Stabilization of Baumgarte (Haug 7.3.8): gamma - 2 alpha (Phi_q v + Phi_t) - beta^2 Phi.";
     Options { class: "Baumgarte", table: Table { name: "baumgarte", doc: doc.to_string(), fields } }
+}
+
+fn projection() -> Options {
+    let doc = "Residual that is left, relative to the size of the mechanism; of angles in rad.";
+    let fields = vec![number("tolerance", "", 1e-12, doc)];
+    let doc = "Projection of accepted and reported states onto the constraints (Eich 1993).";
+    let table = Table { name: "projection", doc: doc.to_string(), fields };
+    Options { class: "Projection", table }
 }
 
 fn none() -> Options {

@@ -11,6 +11,7 @@ mod link;
 mod model;
 mod parameters;
 mod problem;
+mod size;
 
 pub use blueprint::{build, Blueprint};
 pub use body_fields::body_tables;
@@ -19,3 +20,4 @@ pub use layout::{columns, Block, Layout, Slots};
 pub use link::{did_you_mean, Reach, Scope};
 pub use model::{variable, Body, ConstraintItem, Dependence, ForceItem, Model};
 pub use problem::Problem;
+pub use size::{row_scales, size};

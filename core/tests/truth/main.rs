@@ -10,6 +10,7 @@ mod four_bar;
 mod n_four_bar;
 mod pendulum;
 mod position;
+mod projection;
 
 use serde_json::Value;
 

@@ -6,7 +6,7 @@
 
 use crate::equations::augmented::Augmented;
 use crate::equations::{constraints, kinematics};
-use crate::model::Model;
+use crate::model::{row_scales, size, Model};
 use crate::solve::newton::{Damping, Equations, Newton, Options, Outcome, Record};
 
 /// Largest scaled residual of a consistent position.
@@ -27,28 +27,23 @@ pub struct Closing<'a> {
     solution: Vec<f64>,
 }
 
-/// The size of a mechanism: the largest distance of a point from the origin of its frame, m.
-pub fn size(model: &Model) -> f64 {
-    let points = model.bodies.iter().flat_map(|b| &b.points);
-    let largest = points.map(|(_, s)| s.norm()).fold(0.0, f64::max);
-    if largest > 0.0 {
-        largest
-    } else {
-        1.0
-    }
-}
-
 impl<'a> Closing<'a> {
     /// For a model at time `t`.
     pub fn new(model: &'a Model, t: f64) -> Self {
         let size = size(model);
-        let units = model.constraints.iter().flat_map(|c| c.equations.iter().map(|e| e.unit));
-        let scales: Vec<f64> = units.map(|unit| if unit == "m" { size } else { 1.0 }).collect();
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let inverse = 1.0 / (size * size);
         let weights = (0..n).map(|k| if k % 3 == 2 { 1.0 } else { inverse }).collect();
         let matrix = Augmented::new(model);
-        Self { model, t, matrix, size, scales, weights, solution: vec![0.0; n + m] }
+        Self {
+            model,
+            t,
+            matrix,
+            size,
+            scales: row_scales(model),
+            weights,
+            solution: vec![0.0; n + m],
+        }
     }
 
     /// The model that is closed, drivers for `set` included.

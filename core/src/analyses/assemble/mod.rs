@@ -16,7 +16,7 @@ mod turns;
 mod velocities;
 mod wishes;
 
-pub use closing::{size, Closing};
+pub use closing::Closing;
 pub use failure::{Failure, Fault};
 pub use hanging::hang;
 pub use placement::{place, Dyad, Gap, Placement};

@@ -1,11 +1,10 @@
 //! Consistent velocities: of all q̇ with Φ_q q̇ = ν the one nearest to the velocities given, by kinetic
 //! energy of the difference.
 
-use super::closing::size;
 use crate::equations::augmented::Augmented;
 use crate::equations::{constraints, kinematics};
 use crate::math::Motion;
-use crate::model::Model;
+use crate::model::{size, Model};
 
 /// Largest velocity residual that is left alone, relative to what it is computed from.
 const TOLERANCE: f64 = 1e-12;

@@ -5,6 +5,7 @@ use crate::equations::augmented::Dependent;
 use crate::equations::Singular;
 use crate::integrate::{self, Cause};
 use crate::model::Model;
+use crate::stabilize::Fault;
 use std::fmt;
 
 /// Why the integration could not go on.
@@ -68,13 +69,28 @@ impl Reason {
         Self::Singular { t, name, message }
     }
 
+    pub(super) fn fault(model: &Model, t: f64, fault: Fault) -> Self {
+        let (row, gap) = match fault {
+            Fault::Singular(singular) => return Self::singular(model, t, singular),
+            Fault::Open { row, gap } => (row, gap),
+        };
+        let (k, equation) = model.layout.owner(row);
+        let item = &model.constraints[k];
+        let message = format!(
+            "projection fails at t = {t:.6} s: constraint {}.{} stays open by {gap:.1e}",
+            item.name, item.equations[equation].name
+        );
+        let hint = "tighten the tolerance; a start must meet the constraints";
+        Self::Integration { t, message, hint }
+    }
+
     pub(super) fn from_integrator(
         model: &Model,
-        failure: integrate::Failure<(f64, Singular)>,
+        failure: integrate::Failure<(f64, Fault)>,
     ) -> Self {
         let t = failure.t;
         let (message, hint) = match failure.cause {
-            Cause::Equations((at, singular)) => return Self::singular(model, at, singular),
+            Cause::Equations((at, fault)) => return Self::fault(model, at, fault),
             Cause::Argument { name, value, must } => {
                 return Self::Option { name, message: format!("{name}: {value}; must be {must}") }
             }

@@ -12,9 +12,9 @@ pub use output::{Dense, Trajectory, ENERGIES};
 pub use read::read;
 
 use super::State;
-use crate::equations::{Singular, Workspace};
 use crate::integrate::{self, Ended, Flow, Method, Step};
 use crate::model::Model;
+use crate::stabilize::Fault;
 use output::Recorder;
 use std::time::Instant;
 use system::{Equations, WORKS};
@@ -61,32 +61,36 @@ pub fn dynamics(
 ) -> Result<Run, Box<Failure>> {
     let clock = Instant::now();
     options.check(model, start).map_err(|reason| Failure { reason, run: Run::default() })?;
-    let mut system = Equations { model, workspace: Workspace::new(model), gains: options.gains() };
+    let mut system = Equations::new(model, options);
     let (t0, t_end) = (options.t_start.unwrap_or(start.t), options.t_end);
-    let mut recorder = Recorder::new(model, options.output, t0, t_end, options.dense_output);
+    let mut recorder = Recorder::new(model, options, t0);
     let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();
     y.resize(y.len() + WORKS, 0.0);
+    system.project(t0, &mut y, false).map_err(|(t, fault)| Failure {
+        reason: Reason::fault(model, t, fault),
+        run: Run::default(),
+    })?;
     recorder.report(t0, &y);
-    let mut observer = |step: &Step<'_>| {
-        recorder.step(step);
-        watch(step.t)
+    let mut observer = |step: &Step<'_>| match recorder.step(step) {
+        Flow::Continue => watch(step.t),
+        Flow::Stop => Flow::Stop,
     };
     let outcome = match &options.scheme {
         Scheme::Rk45(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Rk4(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
     };
-    finish(model, system.workspace, recorder, outcome, (clock, watch))
+    finish(system, recorder, outcome, (clock, watch))
 }
 
 fn finish(
-    model: &Model,
-    mut workspace: Workspace,
+    mut system: Equations<'_>,
     recorder: Recorder<'_>,
-    outcome: Result<integrate::Statistics, integrate::Failure<(f64, Singular)>>,
+    outcome: Result<integrate::Statistics, integrate::Failure<(f64, Fault)>>,
     (clock, watch): (Instant, impl FnMut(f64) -> Flow),
 ) -> Result<Run, Box<Failure>> {
-    let Recorder { mut trajectory, dense, .. } = recorder;
-    let reported = trajectory.evaluate(model, &mut workspace, watch);
+    let Recorder { mut trajectory, dense, between, fault, .. } = recorder;
+    let model = system.model;
+    let reported = trajectory.evaluate(model, &mut system.workspace, watch);
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
     let (Ok(rows) | Err((rows, ..))) = reported;
     let complete = rows == trajectory.t.len();
@@ -99,15 +103,19 @@ fn finish(
         steps: took.steps,
         rejected: took.rejected,
         evaluations: took.evaluations,
-        factorisations: took.evaluations + rows,
+        factorisations: took.evaluations
+            + rows
+            + system.factorisations()
+            + between.factorisations(),
         seconds: clock.elapsed().as_secs_f64(),
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached) && complete;
     let run = Run { trajectory, dense, statistics, reached };
-    let reason = match (outcome, reported) {
-        (Ok(_), Ok(_)) => return Ok(run),
-        (Err(failure), _) => Reason::from_integrator(model, failure),
-        (_, Err((_, t, singular))) => Reason::singular(model, t, singular),
+    let reason = match (outcome, fault, reported) {
+        (Ok(_), None, Ok(_)) => return Ok(run),
+        (Err(failure), ..) => Reason::from_integrator(model, failure),
+        (_, Some((t, fault)), _) => Reason::fault(model, t, fault),
+        (.., Err((_, t, singular))) => Reason::singular(model, t, singular),
     };
     Err(Box::new(Failure { reason, run }))
 }

@@ -5,6 +5,7 @@ use crate::analyses::State;
 use crate::equations::Gains;
 use crate::integrate::{Atol, Rk4, Rk45};
 use crate::model::Model;
+use crate::stabilize::Projection;
 
 /// The scheme of integration.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +23,8 @@ pub enum Stabilization {
     None,
     /// Baumgarte's, with gains α and β.
     Baumgarte(Gains),
+    /// Projection of the start, of every accepted and of every reported state.
+    Projection(Projection),
 }
 
 /// Which states are reported.
@@ -66,8 +69,8 @@ impl Options {
     /// The gains that the right side uses.
     pub fn gains(&self) -> Gains {
         match self.stabilization {
-            Stabilization::None => Gains::default(),
             Stabilization::Baumgarte(gains) => gains,
+            Stabilization::None | Stabilization::Projection(_) => Gains::default(),
         }
     }
 
@@ -79,6 +82,10 @@ impl Options {
         if let Stabilization::Baumgarte(Gains { alpha, beta }) = self.stabilization {
             require("alpha", alpha, alpha >= 0.0 && alpha.is_finite(), ">= 0 and finite")?;
             require("beta", beta, beta >= 0.0 && beta.is_finite(), ">= 0 and finite")?;
+        }
+        if let Stabilization::Projection(Projection { tolerance }) = self.stabilization {
+            let holds = tolerance > 0.0 && tolerance.is_finite();
+            require("tolerance", tolerance, holds, "> 0 and finite")?;
         }
         let n = model.layout.n_q;
         let must = format!("as long as the coordinates of the model, {n}");

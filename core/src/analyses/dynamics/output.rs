@@ -1,10 +1,12 @@
 //! What forward dynamics reports: states at chosen times, with accelerations, multipliers, energies.
 
-use super::options::Output;
+use super::options::{Options, Output};
+use super::system::{Equations, WORKS};
 use crate::equations::{energy, kinematics, Gains, Singular, Workspace};
 use crate::integrate::{Flow, Step};
 use crate::math::Motion;
 use crate::model::Model;
+use crate::stabilize::Fault;
 
 /// Number of columns of [`Trajectory::energy`].
 pub const ENERGIES: usize = 5;
@@ -50,20 +52,26 @@ pub(super) struct Recorder<'a> {
     motions: Vec<Motion>,
     pub trajectory: Trajectory,
     pub dense: Option<Dense>,
+    /// Projects what lies between the ends of a step.
+    pub between: Equations<'a>,
+    /// Why that was not possible, and when.
+    pub fault: Option<(f64, Fault)>,
 }
 
 impl<'a> Recorder<'a> {
-    pub fn new(model: &'a Model, output: Output, t0: f64, t_end: f64, keep_dense: bool) -> Self {
+    pub fn new(model: &'a Model, options: &Options, t0: f64) -> Self {
         Self {
             model,
-            output,
+            output: options.output,
             t0,
-            t_end,
+            t_end: options.t_end,
             next: 1,
-            y: vec![0.0; 2 * model.layout.n_q + super::system::WORKS],
+            y: vec![0.0; 2 * model.layout.n_q + WORKS],
             motions: Vec::new(),
             trajectory: Trajectory::default(),
-            dense: keep_dense.then(|| Dense { t: vec![t0], ..Dense::default() }),
+            dense: options.dense_output.then(|| Dense { t: vec![t0], ..Dense::default() }),
+            between: Equations::new(model, options),
+            fault: None,
         }
     }
 
@@ -81,8 +89,8 @@ impl<'a> Recorder<'a> {
         self.trajectory.energy.extend_from_slice(works);
     }
 
-    /// Reports whatever falls into a step.
-    pub fn step(&mut self, step: &Step<'_>) {
+    /// Reports whatever falls into a step; stops where a state between its ends cannot be projected.
+    pub fn step(&mut self, step: &Step<'_>) -> Flow {
         if let Some(dense) = &mut self.dense {
             let degree = step.dense.degree();
             let first = dense.c.len();
@@ -94,17 +102,22 @@ impl<'a> Recorder<'a> {
         }
         let Output::Every(h) = self.output else {
             self.report(step.t, step.y);
-            return;
+            return Flow::Continue;
         };
         let mut y = std::mem::take(&mut self.y);
         while let Some(t) = self.next_time(h, step.t) {
             step.interpolate(t, &mut y);
+            if let Err(fault) = self.between.project(t, &mut y, false) {
+                self.fault = Some(fault);
+                return Flow::Stop;
+            }
             self.report(t, &y);
         }
         self.y = y;
         if step.t == self.t_end && self.trajectory.t.last() != Some(&step.t) {
             self.report(step.t, step.y);
         }
+        Flow::Continue
     }
 
     /// The next time of the grid if it has been reached: t₀ + k h by multiplication, without drift.

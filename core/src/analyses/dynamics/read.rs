@@ -5,6 +5,7 @@ use super::options::{Options, Output, Scheme, Stabilization};
 use crate::equations::{at, Gains};
 use crate::integrate::{Atol, Rk4, Rk45};
 use crate::model::{Model, Problem, Reach, Scope, Value};
+use crate::stabilize::Projection;
 
 /// Reads the fields of an analysis of type `dynamics`; `path` is where it stands in the file.
 ///
@@ -67,13 +68,18 @@ impl<'a> Reader<'a> {
     }
 
     fn stabilization(&mut self, kind: &str) -> Stabilization {
-        if kind == "none" {
-            return Stabilization::None;
+        match kind {
+            "none" => Stabilization::None,
+            "projection" => {
+                let default = Projection::default().tolerance;
+                let tolerance = self.positive("tolerance", "").unwrap_or(default);
+                Stabilization::Projection(Projection { tolerance })
+            }
+            _ => Stabilization::Baumgarte(Gains {
+                alpha: self.not_negative("alpha", "1/s").unwrap_or(10.0),
+                beta: self.not_negative("beta", "1/s").unwrap_or(200.0),
+            }),
         }
-        Stabilization::Baumgarte(Gains {
-            alpha: self.not_negative("alpha", "1/s").unwrap_or(10.0),
-            beta: self.not_negative("beta", "1/s").unwrap_or(200.0),
-        })
     }
 
     /// Reads the table of options under `key`, whose `type` is given to `read`.

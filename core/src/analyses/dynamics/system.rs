@@ -1,8 +1,10 @@
 //! The equations of motion as a first-order system y = (q, v, work).
 
-use crate::equations::{Gains, Singular, Workspace};
+use super::options::{Options, Stabilization};
+use crate::equations::{Gains, Workspace};
 use crate::integrate::FirstOrder;
 use crate::model::Model;
+use crate::stabilize::{Fault, Projector};
 
 /// Works that are integrated beside the motion: dissipated, of drivers, of applied forces.
 pub(super) const WORKS: usize = 3;
@@ -12,10 +14,41 @@ pub(super) struct Equations<'a> {
     pub model: &'a Model,
     pub workspace: Workspace,
     pub gains: Gains,
+    pub projector: Option<Projector<'a>>,
+}
+
+/// Splits y into q, v and the works.
+pub(super) fn parts(y: &mut [f64], n_q: usize) -> (&mut [f64], &mut [f64], &mut [f64]) {
+    let (q, rest) = y.split_at_mut(n_q);
+    let (v, works) = rest.split_at_mut(n_q);
+    (q, v, works)
+}
+
+impl<'a> Equations<'a> {
+    pub fn new(model: &'a Model, options: &Options) -> Self {
+        let projector = match options.stabilization {
+            Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
+            _ => None,
+        };
+        Self { model, workspace: Workspace::new(model), gains: options.gains(), projector }
+    }
+
+    /// Factorisations beside those of evaluations.
+    pub fn factorisations(&self) -> usize {
+        self.projector.as_ref().map_or(0, |projector| projector.factorisations)
+    }
+
+    /// Projects y if that was asked for; whether it changed. The works stay: what projection does to
+    /// the energy shows in the balance.
+    pub fn project(&mut self, t: f64, y: &mut [f64], factored: bool) -> Result<bool, (f64, Fault)> {
+        let Some(projector) = &mut self.projector else { return Ok(false) };
+        let (q, v, _) = parts(y, self.model.layout.n_q);
+        projector.project(&mut self.workspace, t, (q, v), factored).map_err(|fault| (t, fault))
+    }
 }
 
 impl FirstOrder for Equations<'_> {
-    type Stop = (f64, Singular);
+    type Stop = (f64, Fault);
 
     fn len(&self) -> usize {
         2 * self.model.layout.n_q + WORKS
@@ -32,7 +65,7 @@ impl FirstOrder for Equations<'_> {
         let outcome = self.workspace.accelerate(self.model, t, q, v, self.gains);
         if let Err(singular) = outcome {
             if y.iter().all(|y| y.is_finite()) {
-                return Err((t, singular));
+                return Err((t, Fault::Singular(singular)));
             }
             dy.fill(f64::NAN); // the trial state is off, not the mechanism: a shorter step may do
             return Ok(());
@@ -42,5 +75,10 @@ impl FirstOrder for Equations<'_> {
         let powers = self.workspace.powers(self.model, v);
         dy[2 * n..].copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
         Ok(())
+    }
+
+    /// The last evaluation was at or near the end of the step: its factor serves.
+    fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
+        self.project(t, y, true)
     }
 }

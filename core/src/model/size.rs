@@ -1,0 +1,21 @@
+//! What lengths and angles of a mechanism are compared with.
+
+use super::Model;
+
+/// The size of a mechanism: the largest distance of a point from the origin of its frame, m.
+pub fn size(model: &Model) -> f64 {
+    let points = model.bodies.iter().flat_map(|b| &b.points);
+    let largest = points.map(|(_, s)| s.norm()).fold(0.0, f64::max);
+    if largest > 0.0 {
+        largest
+    } else {
+        1.0
+    }
+}
+
+/// Scale of each row of Φ, shape (n_rows): the size for lengths, 1 for angles.
+pub fn row_scales(model: &Model) -> Vec<f64> {
+    let size = size(model);
+    let units = model.constraints.iter().flat_map(|c| c.equations.iter().map(|e| e.unit));
+    units.map(|unit| if unit == "m" { size } else { 1.0 }).collect()
+}
