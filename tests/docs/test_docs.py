@@ -7,7 +7,7 @@ import kempe as kp
 import pytest
 from docs.comparison import agrees
 from docs.pages import PAGES, anchors, blocks, links
-from docs.session import Session
+from docs.reader import Reader
 from house.places import ROOT
 from kempe import _core, _reference
 
@@ -26,10 +26,10 @@ def test_a_page_does_what_it_says(
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("NO_COLOR", "1")
-    session = Session(page)
+    reader = Reader(page)
     for block in blocks(page.read_text("utf-8")):
         assert block.language in LANGUAGES, f"{page.name}, line {block.line}"
-        session.follow(block)
+        reader.follow(block)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=page_name)

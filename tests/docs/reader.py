@@ -1,4 +1,4 @@
-"""A reader who does what a page says: files, commands and Python, in one folder and one session."""
+"""A reader who does what a page says: files, commands and Python, in one folder."""
 
 import io
 import shlex
@@ -12,7 +12,7 @@ from docs.pages import Block
 from kempe.cli import main
 
 
-class Session:
+class Reader:
     """What one page does; its folder is the current one.
 
     Attributes:
