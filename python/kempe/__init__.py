@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from kempe.matrices import Matrices as Matrices
     from kempe.model import Model as Model
     from kempe.motion import Motion as Motion
+    from kempe.options import DOP853 as DOP853
     from kempe.options import RK4 as RK4
     from kempe.options import RK45 as RK45
     from kempe.options import Baumgarte as Baumgarte
@@ -61,6 +62,7 @@ _HOME = {
     "AssemblyWarning": "analyses",
     "Baumgarte": "options",
     "Case": "case",
+    "DOP853": "options",
     "Dynamics": "options",
     "Energy": "energy",
     "FileError": "errors",

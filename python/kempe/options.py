@@ -49,6 +49,27 @@ class RK45(Option):
 
 
 @dataclass(frozen=True)
+class DOP853(Option):
+    """Explicit Runge-Kutta of order 8 with error estimates of order 5 and 3 (Hairer, Nørsett & Wanner).
+
+    For tolerances below about 1e-6 and forces that are smooth; between the steps it interpolates with
+    order 7.
+
+    Attributes:
+        rtol: tolerance relative to each component.
+        atol: absolute tolerance, m or rad and per s.
+        first_step: length of the first step, s; chosen when None.
+        max_step: longest step, s; none when None.
+    """
+
+    rtol: Number = 1e-6
+    atol: Number = 1e-9
+    first_step: Number | None = None
+    max_step: Number | None = None
+    kind: ClassVar[str] = "dop853"
+
+
+@dataclass(frozen=True)
 class RK4(Option):
     """Explicit Runge-Kutta of order 4 with a constant step.
 

@@ -28,7 +28,7 @@ pub fn analysis_tables() -> Vec<Table> {
 /// The families of options that analyses refer to.
 pub fn option_families() -> Vec<Family> {
     vec![
-        Family { name: "method", options: vec![rk45(), rk4()] },
+        Family { name: "method", options: vec![rk45(), dop853(), rk4()] },
         Family { name: "stabilization", options: vec![baumgarte(), projection(), none()] },
     ]
 }
@@ -98,15 +98,27 @@ fn output_fields() -> [Field; 3] {
     ]
 }
 
-fn rk45() -> Options {
+/// Options of every method with step control.
+fn adaptive(class: &'static str, name: &'static str, doc: &str) -> Options {
     let fields = vec![
         number("rtol", "", 1e-6, "Relative tolerance of one step."),
         number("atol", "", 1e-9, "Absolute tolerance of one step, in the units of the state."),
         number("first_step", "s", Default::Absent, "First step; else the solver chooses it."),
         number("max_step", "s", Default::Absent, "Largest step; else without limit."),
     ];
+    Options { class, table: Table { name, doc: doc.to_string(), fields } }
+}
+
+fn rk45() -> Options {
     let doc = "Explicit Runge-Kutta method of order 5(4) of Dormand and Prince (1980), with step control.";
-    Options { class: "RK45", table: Table { name: "rk45", doc: doc.to_string(), fields } }
+    adaptive("RK45", "rk45", doc)
+}
+
+fn dop853() -> Options {
+    let doc =
+        "Explicit Runge-Kutta method of order 8(5,3) of Dormand and Prince, with step control: \
+               for tolerances below about 1e-6 and smooth forces.";
+    adaptive("DOP853", "dop853", doc)
 }
 
 fn rk4() -> Options {

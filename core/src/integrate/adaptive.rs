@@ -51,16 +51,32 @@ impl Options<'_> {
     }
 }
 
+/// Smallest relative tolerance in use: below it, rounding is all that is estimated.
+const MIN_RTOL: f64 = 100.0 * f64::EPSILON;
+
+/// `rtol`, or 100 ε if that is larger; what is no tolerance is left to be refused.
+pub(super) fn usable_rtol(rtol: f64) -> f64 {
+    if rtol >= 0.0 && rtol < MIN_RTOL {
+        MIN_RTOL
+    } else {
+        rtol
+    }
+}
+
 /// An embedded pair that has the derivative at the end of a step as its last stage.
 pub(super) trait EmbeddedPair {
     /// Order of the error estimate.
     const ERROR_ORDER: i32;
     /// Number of stages, the derivative at the end included.
     const STAGES: usize;
+    /// Number of stages that only the continuous extension needs.
+    const EXTRA: usize = 0;
     /// Degree of the continuous extension.
     const DEGREE: usize;
-    /// STAGES + 1 rows of its table; the last, 3θ² - 2θ³, bends it to a projected end.
+    /// STAGES + EXTRA + 1 rows of its table; the last, 3θ² - 2θ³, bends it to a projected end.
     const TABLE: &'static [f64];
+    /// The table of a lesser extension, with zeros for the extra stages.
+    const WITHOUT_EXTRA: &'static [f64] = Self::TABLE;
 
     /// Stages 2 to the last, of which the first is given, in rows of `k`; the state at `t_new` into
     /// `y_new`. `work` is scratch as long as y.
@@ -73,13 +89,24 @@ pub(super) trait EmbeddedPair {
         y_new: &mut [f64],
     ) -> Result<(), Trouble<Y::Stop>>;
 
+    /// The extra stages of an accepted step, in the rows of `k` after the others.
+    fn extend<Y: FirstOrder>(
+        _rate: &mut Rate<'_, Y>,
+        _span: (f64, f64),
+        _y: &[f64],
+        _k: &mut [f64],
+        _work: &mut [f64],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        Ok(())
+    }
+
     /// √(mean (errorᵢ / (atolᵢ + rtol max(|yᵢ|, |y_newᵢ|)))²) over as many components as `atol` has.
     fn error_norm(h: f64, k: &[f64], y: &[f64], y_new: &[f64], rtol: f64, atol: &[f64]) -> f64;
 }
 
 /// What one accepted step needs, taken once.
 struct Work {
-    /// Stages, then the jump of a projection over h, then the derivative after a projection.
+    /// Stages, extra ones, the jump of a projection over h, the derivative after a projection.
     k: Vec<f64>,
     y_new: Vec<f64>,
     /// Arguments of stages; the state before a projection.
@@ -93,7 +120,12 @@ impl Work {
             Atol::Scalar(atol) => vec![*atol; controlled],
             Atol::Each(atol) => atol.clone(),
         };
-        Self { k: vec![0.0; (P::STAGES + 2) * n], y_new: vec![0.0; n], trial: vec![0.0; n], atol }
+        Self {
+            k: vec![0.0; (P::STAGES + P::EXTRA + 2) * n],
+            y_new: vec![0.0; n],
+            trial: vec![0.0; n],
+            atol,
+        }
     }
 }
 
@@ -267,11 +299,12 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         observer: &mut O,
     ) -> Result<Flow, Cause<Y::Stop>> {
         let projected = self.project(t_new)?;
+        let table = self.extend(t_new, y, observer)?;
         let n = self.n;
         let Work { k, y_new, .. } = &self.work;
         let (rows, last) = match projected {
-            false => (P::STAGES, P::STAGES - 1),
-            true => (P::STAGES + 1, P::STAGES + 1),
+            false => (P::STAGES + P::EXTRA, P::STAGES - 1),
+            true => (P::STAGES + P::EXTRA + 1, P::STAGES + P::EXTRA + 1),
         };
         let step = Step {
             t_old: self.t,
@@ -280,7 +313,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             y: y_new,
             dy_old: &k[..n],
             dy: &k[last * n..][..n],
-            dense: Dense::new(&k[..rows * n], n, P::TABLE, P::DEGREE),
+            dense: Dense::new(&k[..rows * n], n, table, P::DEGREE),
         };
         let flow = observer.step(&step);
         y.copy_from_slice(y_new);
@@ -288,6 +321,28 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         self.t = t_new;
         self.steps += 1;
         Ok(flow)
+    }
+
+    /// The extra stages, where the observer wants them and they can be had; the table that fits.
+    fn extend<O: Observer>(
+        &mut self,
+        t_new: f64,
+        y: &[f64],
+        observer: &O,
+    ) -> Result<&'static [f64], Cause<Y::Stop>> {
+        if P::EXTRA == 0 || !observer.looks_inside(self.t, t_new) {
+            return Ok(P::WITHOUT_EXTRA);
+        }
+        let Work { k, trial, .. } = &mut self.work;
+        match P::extend(&mut self.rate, (self.t, t_new), y, k, trial) {
+            Ok(()) => Ok(P::TABLE),
+            Err(Trouble::Stop(stop)) => Err(Cause::Equations(stop)),
+            Err(Trouble::NotFinite(_)) => {
+                // NaN times zero is NaN
+                k[P::STAGES * self.n..(P::STAGES + P::EXTRA) * self.n].fill(0.0);
+                Ok(P::WITHOUT_EXTRA)
+            }
+        }
     }
 
     /// Lets the system change the accepted state; if it does, the jump and the new derivative go into
@@ -302,7 +357,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             return Err(Cause::NotFinite { t: t_new });
         }
         let h = t_new - self.t;
-        let (jump, dy) = k[P::STAGES * self.n..].split_at_mut(self.n);
+        let (jump, dy) = k[(P::STAGES + P::EXTRA) * self.n..].split_at_mut(self.n);
         for ((jump, new), old) in jump.iter_mut().zip(y_new.iter()).zip(trial.iter()) {
             *jump = (new - old) / h;
         }

@@ -54,6 +54,13 @@ pub enum Flow {
 pub trait Observer {
     /// Takes what it needs from the step; nothing of it outlives the call.
     fn step(&mut self, step: &Step<'_>) -> Flow;
+
+    /// Whether it will look between the ends of a step that it is about to be shown. If not, a scheme may
+    /// spare what only its continuous extension needs, which then is of lesser order.
+    fn looks_inside(&self, t_old: f64, t: f64) -> bool {
+        let _ = (t_old, t);
+        true
+    }
 }
 
 impl<F: FnMut(&Step<'_>) -> Flow> Observer for F {

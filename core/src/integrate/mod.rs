@@ -16,23 +16,28 @@
 //! | `dense` | the continuous extension of a step |
 //! | `step_size` | choice of the step from the error estimate |
 //! | `adaptive` | the loop of every embedded pair |
-//! | `rk45`, `rk4` | schemes |
+//! | `stages` | sums over the stages of a step |
+//! | `rk45`, `dop853`, `rk4` | schemes |
 //! | `events` | where a function of the state changes sign |
 
 mod adaptive;
 mod arguments;
 mod contract;
 mod dense;
+mod dop853;
+mod dop853_coefficients;
 mod events;
 mod failure;
 mod rate;
 mod rk4;
 mod rk45;
+mod stages;
 mod step_size;
 
 pub use adaptive::Atol;
 pub use contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
 pub use dense::Dense;
+pub use dop853::Dop853;
 pub use events::{locate, Direction};
 pub use failure::{Cause, Failure};
 pub use rk4::Rk4;

@@ -4,13 +4,11 @@
 //! (1980) 19. Extension: Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135,
 //! with the optimal c₆. Control: that of `scipy.integrate.RK45`.
 
-use super::adaptive::{integrate, Atol, EmbeddedPair, Options};
+use super::adaptive::{integrate, usable_rtol, Atol, EmbeddedPair, Options};
 use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
-
-/// Smallest relative tolerance in use: below it, rounding is all that is estimated.
-const MIN_RTOL: f64 = 100.0 * f64::EPSILON;
+use super::stages::{combine, rows};
 
 /// Dormand–Prince 5(4) with its options.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,11 +46,7 @@ impl Rk45 {
 
     /// The relative tolerance in use: `rtol`, or 100 ε ≈ 2.2e-14 if that is larger.
     pub fn rtol_used(&self) -> f64 {
-        if self.rtol >= 0.0 && self.rtol < MIN_RTOL {
-            MIN_RTOL
-        } else {
-            self.rtol
-        }
+        usable_rtol(self.rtol)
     }
 }
 
@@ -109,27 +103,6 @@ const P: [f64; 32] = [
     0.0, 3.0, -2.0, 0.0,
 ];
 
-/// out = y + h Σₛ aₛ kₛ, one pass over the components.
-#[inline(always)]
-fn combine<const S: usize>(y: &[f64], h: f64, a: [f64; S], k: [&[f64]; S], out: &mut [f64]) {
-    let n = out.len();
-    let y = &y[..n];
-    let k = k.map(|k| &k[..n]); // equal lengths: no bounds checks below
-    for i in 0..n {
-        let mut sum = a[0] * k[0][i];
-        for s in 1..S {
-            sum += a[s] * k[s][i];
-        }
-        out[i] = y[i] + h * sum;
-    }
-}
-
-/// The stages in rows of `k`.
-#[inline(always)]
-fn rows(k: &[f64], n: usize) -> [&[f64]; 7] {
-    std::array::from_fn(|s| &k[s * n..(s + 1) * n])
-}
-
 impl EmbeddedPair for DormandPrince {
     const ERROR_ORDER: i32 = 4;
     const STAGES: usize = 7;
@@ -146,7 +119,7 @@ impl EmbeddedPair for DormandPrince {
     ) -> Result<(), Trouble<Y::Stop>> {
         let (n, h) = (y.len(), t_new - t);
         for stage in 1..6 {
-            let [k1, k2, k3, k4, k5, ..] = rows(k, n);
+            let [k1, k2, k3, k4, k5] = rows(k, n);
             match stage {
                 1 => combine(y, h, A2, [k1], work),
                 2 => combine(y, h, A3, [k1, k2], work),
@@ -156,7 +129,7 @@ impl EmbeddedPair for DormandPrince {
             }
             rate.at(t + C[stage - 1] * h, work, &mut k[stage * n..(stage + 1) * n])?;
         }
-        let [k1, _, k3, k4, k5, k6, _] = rows(k, n);
+        let [k1, _, k3, k4, k5, k6] = rows(k, n);
         combine(y, h, B, [k1, k3, k4, k5, k6], y_new);
         rate.at(t_new, y_new, &mut k[6 * n..7 * n])
     }

@@ -1,6 +1,7 @@
 //! Integrators: observed order, step counts of scipy, and every promise of the contract.
 
 mod contract;
+mod dop853;
 mod events;
 mod failures;
 mod order;

@@ -2,8 +2,9 @@
 
 use crate::mechanisms::{close, every, four_bar, largest, rate, residual, run, tolerances, worst};
 use crate::{number, numbers, reference};
-use kempe::analyses::dynamics::{Options, Run, Stabilization};
+use kempe::analyses::dynamics::{Options, Run, Scheme, Stabilization};
 use kempe::analyses::State;
+use kempe::integrate::Dop853;
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 
@@ -46,9 +47,27 @@ fn few_steps_and_closed_joints_on_all_output() {
 
 #[test]
 fn the_trajectory_at_all_states() {
-    let truth = reference("four_bar");
     let (m, start) = four_bar();
-    let run = run(&m, &start, &projected(every(0.01, tolerances(15.0, 1e-9, 1e-12))));
+    let options = projected(every(0.01, tolerances(15.0, 1e-9, 1e-12)));
+    compare(&run(&m, &start, &options));
+}
+
+#[test]
+fn the_trajectory_at_all_states_by_dop853() {
+    let (m, start) = four_bar();
+    let scheme = Scheme::Dop853(Dop853::new(1e-9, 1e-12));
+    let options = Options { scheme, ..projected(every(0.01, Options::new(15.0))) };
+    let run = run(&m, &start, &options);
+    compare(&run);
+    // Runge–Kutta 4(5) needs 2303 steps and twice the evaluations
+    let took = run.statistics;
+    assert!(took.steps < 500 && took.evaluations < 9000, "{took:?}");
+    let (phi, dphi) = open(&m, &run);
+    assert!(phi <= 1e-12 * 20.0 && dphi <= 1e-9, "{phi:.2e} m, {dphi:.2e} m/s");
+}
+
+fn compare(run: &Run) {
+    let truth = reference("four_bar");
     let peak = |table: &[f64]| largest(table);
     let (peak_a, peak_lam) = (peak(&run.trajectory.a), peak(&run.trajectory.lam));
     for truth in truth["states"].as_array().unwrap() {

@@ -12,7 +12,7 @@ pub use output::{Dense, Trajectory, ENERGIES};
 pub use read::read;
 
 use super::State;
-use crate::integrate::{self, Ended, Flow, Method, Step};
+use crate::integrate::{self, Ended, Flow, Method, Observer, Step};
 use crate::model::Model;
 use crate::stabilize::Fault;
 use output::Recorder;
@@ -71,15 +71,32 @@ pub fn dynamics(
         run: Run::default(),
     })?;
     recorder.report(t0, &y);
-    let mut observer = |step: &Step<'_>| match recorder.step(step) {
-        Flow::Continue => watch(step.t),
-        Flow::Stop => Flow::Stop,
-    };
+    let mut observer = Watched { recorder: &mut recorder, watch: &mut watch };
     let outcome = match &options.scheme {
         Scheme::Rk45(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
+        Scheme::Dop853(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Rk4(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
     };
     finish(system, recorder, outcome, (clock, watch))
+}
+
+/// Output first, then the caller's eye on the time.
+struct Watched<'r, 'a, W> {
+    recorder: &'r mut Recorder<'a>,
+    watch: &'r mut W,
+}
+
+impl<W: FnMut(f64) -> Flow> Observer for Watched<'_, '_, W> {
+    fn step(&mut self, step: &Step<'_>) -> Flow {
+        match self.recorder.step(step) {
+            Flow::Continue => (self.watch)(step.t),
+            Flow::Stop => Flow::Stop,
+        }
+    }
+
+    fn looks_inside(&self, _: f64, t: f64) -> bool {
+        self.recorder.looks_inside(t)
+    }
 }
 
 fn finish(

@@ -3,7 +3,7 @@
 use super::Reason;
 use crate::analyses::State;
 use crate::equations::Gains;
-use crate::integrate::{Atol, Rk4, Rk45};
+use crate::integrate::{Atol, Dop853, Rk4, Rk45};
 use crate::model::Model;
 use crate::stabilize::Projection;
 
@@ -12,6 +12,8 @@ use crate::stabilize::Projection;
 pub enum Scheme {
     /// Dormand–Prince 5(4).
     Rk45(Rk45),
+    /// Dormand–Prince 8(5,3).
+    Dop853(Dop853),
     /// Classical, fixed step.
     Rk4(Rk4),
 }

@@ -120,8 +120,23 @@ impl<'a> Recorder<'a> {
         Flow::Continue
     }
 
-    /// The next time of the grid if it has been reached: t₀ + k h by multiplication, without drift.
+    /// Whether a step that ends at `t` is needed between its ends.
+    pub fn looks_inside(&self, t: f64) -> bool {
+        match self.output {
+            Output::Every(h) => self.dense.is_some() || self.due(h, t).is_some(),
+            Output::Steps => self.dense.is_some(),
+        }
+    }
+
+    /// Takes the next time of the grid if it has been reached.
     fn next_time(&mut self, h: f64, reached: f64) -> Option<f64> {
+        let t = self.due(h, reached)?;
+        self.next += 1;
+        Some(t)
+    }
+
+    /// The next time of the grid if it has been reached: t₀ + k h by multiplication, without drift.
+    fn due(&self, h: f64, reached: f64) -> Option<f64> {
         let direction = (self.t_end - self.t0).signum();
         let mut t = self.t0 + direction * self.next as f64 * h;
         // a grid point that misses t_end by rounding only is t_end
@@ -132,7 +147,6 @@ impl<'a> Recorder<'a> {
         if past(t, reached) || past(t, self.t_end) {
             return None;
         }
-        self.next += 1;
         Some(t)
     }
 }

@@ -3,7 +3,7 @@
 
 use super::options::{Options, Output, Scheme, Stabilization};
 use crate::equations::{at, Gains};
-use crate::integrate::{Atol, Rk4, Rk45};
+use crate::integrate::{Atol, Dop853, Rk4, Rk45};
 use crate::model::{Model, Problem, Reach, Scope, Value};
 use crate::stabilize::Projection;
 
@@ -58,13 +58,14 @@ impl<'a> Reader<'a> {
             let step = self.positive("step", "s").unwrap_or(f64::NAN);
             return Scheme::Rk4(Rk4 { step, max_steps });
         }
-        Scheme::Rk45(Rk45 {
-            rtol: self.not_negative("rtol", "").unwrap_or(1e-6),
-            atol: Atol::Scalar(self.not_negative("atol", "").unwrap_or(1e-9)),
-            first_step: self.positive("first_step", "s"),
-            max_step: self.positive("max_step", "s").unwrap_or(f64::INFINITY),
-            max_steps,
-        })
+        let rtol = self.not_negative("rtol", "").unwrap_or(1e-6);
+        let atol = Atol::Scalar(self.not_negative("atol", "").unwrap_or(1e-9));
+        let first_step = self.positive("first_step", "s");
+        let max_step = self.positive("max_step", "s").unwrap_or(f64::INFINITY);
+        if kind == "dop853" {
+            return Scheme::Dop853(Dop853 { rtol, atol, max_step, first_step, max_steps });
+        }
+        Scheme::Rk45(Rk45 { rtol, atol, max_step, first_step, max_steps })
     }
 
     fn stabilization(&mut self, kind: &str) -> Stabilization {

@@ -1,0 +1,214 @@
+//! DOP853: explicit, adaptive, of order 8 with estimators of order 5 and 3, continuous extension of
+//! order 7.
+//!
+//! Pair and extension: Dormand and Prince, as given by Hairer, Nørsett and Wanner, *Solving Ordinary
+//! Differential Equations I*, II.5 and II.6. The error is h e₅² / √(e₅² + 0.01 e₃²), which has order 7 and
+//! does not trust an e₅ that happens to vanish (II.10). Control: that of `scipy.integrate.DOP853`.
+//!
+//! The extension needs three stages more than the step. They are evaluated only for observers that look
+//! between the ends; for others it is the cubic Hermite polynomial.
+
+use super::adaptive::{integrate, usable_rtol, Atol, EmbeddedPair, Options};
+use super::contract::{FirstOrder, Method, Observer, Statistics};
+use super::dop853_coefficients::*;
+use super::failure::Failure;
+use super::rate::{Rate, Trouble};
+use super::stages::{combine, rows};
+
+/// DOP853 with its options.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dop853 {
+    /// Relative tolerance; raised to 100 ε ≈ 2.2e-14 if it is smaller.
+    pub rtol: f64,
+    /// Absolute tolerance, in the units of y; a component that stays zero needs one above 0.
+    pub atol: Atol,
+    /// Largest step.
+    pub max_step: f64,
+    /// First step; chosen if `None`.
+    pub first_step: Option<f64>,
+    /// Largest number of accepted steps.
+    pub max_steps: Option<usize>,
+}
+
+impl Default for Dop853 {
+    /// rtol 1e-3, atol 1e-6, no bounds.
+    fn default() -> Self {
+        Self {
+            rtol: 1e-3,
+            atol: Atol::Scalar(1e-6),
+            max_step: f64::INFINITY,
+            first_step: None,
+            max_steps: None,
+        }
+    }
+}
+
+impl Dop853 {
+    /// With the given tolerances and no bounds.
+    pub fn new(rtol: f64, atol: f64) -> Self {
+        Self { rtol, atol: Atol::Scalar(atol), ..Self::default() }
+    }
+}
+
+impl Method for Dop853 {
+    fn integrate<Y: FirstOrder, O: Observer>(
+        &self,
+        system: &mut Y,
+        t0: f64,
+        t_end: f64,
+        y: &mut [f64],
+        observer: &mut O,
+    ) -> Result<Statistics, Failure<Y::Stop>> {
+        let options = Options {
+            rtol: usable_rtol(self.rtol),
+            atol: &self.atol,
+            max_step: self.max_step,
+            first_step: self.first_step,
+            max_steps: self.max_steps,
+        };
+        integrate::<Pair, Y, O>(&options, system, (t0, t_end), y, observer)
+    }
+}
+
+struct Pair;
+
+/// Stages of a step, the derivative at its end included.
+const STAGES: usize = 13;
+/// Stages of the extension.
+const ALL: usize = STAGES + C_EXTRA.len();
+const DEGREE: usize = 7;
+
+/// Coefficients of θ … θ⁷ of each stage, and of the jump of a projection.
+const TABLE: [f64; (ALL + 1) * DEGREE] = table(true);
+/// The same with three of the seven parts: the cubic Hermite polynomial.
+const HERMITE: [f64; (ALL + 1) * DEGREE] = table(false);
+
+/// The parts of the extension, θ, θ (1-θ), θ² (1-θ), θ² (1-θ)² …, by powers of θ.
+#[rustfmt::skip]
+const PARTS: [[f64; DEGREE]; 7] = [
+    [1.0,  0.0,  0.0,  0.0,  0.0,  0.0,  0.0],
+    [1.0, -1.0,  0.0,  0.0,  0.0,  0.0,  0.0],
+    [0.0,  1.0, -1.0,  0.0,  0.0,  0.0,  0.0],
+    [0.0,  1.0, -2.0,  1.0,  0.0,  0.0,  0.0],
+    [0.0,  0.0,  1.0, -2.0,  1.0,  0.0,  0.0],
+    [0.0,  0.0,  1.0, -3.0,  3.0, -1.0,  0.0],
+    [0.0,  0.0,  0.0,  1.0, -3.0,  3.0, -1.0],
+];
+
+/// Δ = Σ b k, then k₁ - Δ and 2Δ - k₁ - k₁₃ (in h), then the four of [`D`], times their parts.
+const fn table(whole: bool) -> [f64; (ALL + 1) * DEGREE] {
+    let mut out = [0.0; (ALL + 1) * DEGREE];
+    let mut stage = 0;
+    while stage < ALL {
+        let first = if stage == 0 { 1.0 } else { 0.0 };
+        let last = if stage == STAGES - 1 { 1.0 } else { 0.0 };
+        let b = weight(&B, stage);
+        let mut factors = [b, first - b, 2.0 * b - first - last, 0.0, 0.0, 0.0, 0.0];
+        let mut part = 0;
+        while whole && part < 4 {
+            factors[3 + part] = weight(&D[part], stage);
+            part += 1;
+        }
+        let mut at = 0;
+        while at < 7 * DEGREE {
+            let (part, power) = (at / DEGREE, at % DEGREE);
+            out[stage * DEGREE + power] += factors[part] * PARTS[part][power];
+            at += 1;
+        }
+        stage += 1;
+    }
+    out[ALL * DEGREE + 1] = 3.0;
+    out[ALL * DEGREE + 2] = -2.0;
+    out
+}
+
+/// The coefficient of a stage, counted from 0, in a row that belongs to k 1, 6, 7, …
+const fn weight(row: &[f64], stage: usize) -> f64 {
+    match stage {
+        0 => row[0],
+        1..=4 => 0.0,
+        _ if stage - 4 < row.len() => row[stage - 4],
+        _ => 0.0,
+    }
+}
+
+impl EmbeddedPair for Pair {
+    const ERROR_ORDER: i32 = 7;
+    const STAGES: usize = STAGES;
+    const EXTRA: usize = C_EXTRA.len();
+    const DEGREE: usize = DEGREE;
+    const TABLE: &'static [f64] = &TABLE;
+    const WITHOUT_EXTRA: &'static [f64] = &HERMITE;
+
+    fn advance<Y: FirstOrder>(
+        rate: &mut Rate<'_, Y>,
+        (t, t_new): (f64, f64),
+        y: &[f64],
+        k: &mut [f64],
+        work: &mut [f64],
+        y_new: &mut [f64],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        let (n, h) = (y.len(), t_new - t);
+        for (stage, c) in (1..).zip(C) {
+            let [k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11] = rows(k, n);
+            match stage {
+                1 => combine(y, h, A2, [k1], work),
+                2 => combine(y, h, A3, [k1, k2], work),
+                3 => combine(y, h, A4, [k1, k3], work),
+                4 => combine(y, h, A5, [k1, k3, k4], work),
+                5 => combine(y, h, A6, [k1, k4, k5], work),
+                6 => combine(y, h, A7, [k1, k4, k5, k6], work),
+                7 => combine(y, h, A8, [k1, k4, k5, k6, k7], work),
+                8 => combine(y, h, A9, [k1, k4, k5, k6, k7, k8], work),
+                9 => combine(y, h, A10, [k1, k4, k5, k6, k7, k8, k9], work),
+                10 => combine(y, h, A11, [k1, k4, k5, k6, k7, k8, k9, k10], work),
+                _ => combine(y, h, A12, [k1, k4, k5, k6, k7, k8, k9, k10, k11], work),
+            }
+            rate.at(t + c * h, work, &mut k[stage * n..(stage + 1) * n])?;
+        }
+        let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] = rows(k, n);
+        combine(y, h, B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new);
+        rate.at(t_new, y_new, &mut k[12 * n..13 * n])
+    }
+
+    fn extend<Y: FirstOrder>(
+        rate: &mut Rate<'_, Y>,
+        (t, t_new): (f64, f64),
+        y: &[f64],
+        k: &mut [f64],
+        work: &mut [f64],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        let (n, h) = (y.len(), t_new - t);
+        for (stage, c) in (STAGES..).zip(C_EXTRA) {
+            let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15] = rows(k, n);
+            match stage {
+                13 => combine(y, h, A14, [k1, k7, k8, k9, k10, k11, k12, k13], work),
+                14 => combine(y, h, A15, [k1, k6, k7, k8, k11, k12, k13, k14], work),
+                _ => combine(y, h, A16, [k1, k6, k7, k8, k9, k13, k14, k15], work),
+            }
+            rate.at(t + c * h, work, &mut k[stage * n..(stage + 1) * n])?;
+        }
+        Ok(())
+    }
+
+    fn error_norm(h: f64, k: &[f64], y: &[f64], y_new: &[f64], rtol: f64, atol: &[f64]) -> f64 {
+        let controlled = atol.len();
+        let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] =
+            rows(k, y.len()).map(|k| &k[..controlled]);
+        let (y, y_new) = (&y[..controlled], &y_new[..controlled]);
+        let (mut fifth, mut third) = (0.0, 0.0);
+        for i in 0..controlled {
+            let k = [k1[i], k6[i], k7[i], k8[i], k9[i], k10[i], k11[i], k12[i]];
+            let sum = |weights: [f64; 8]| weights.iter().zip(k).map(|(w, k)| w * k).sum::<f64>();
+            let scale = atol[i] + rtol * y[i].abs().max(y_new[i].abs());
+            let e5 = sum(E5) / scale;
+            let e3 = (sum(B) - (B3[0] * k1[i] + B3[1] * k9[i] + B3[2] * k12[i])) / scale;
+            fifth += e5 * e5;
+            third += e3 * e3;
+        }
+        if fifth == 0.0 && third == 0.0 {
+            return 0.0;
+        }
+        h.abs() * fifth / ((fifth + 0.01 * third) * controlled as f64).sqrt()
+    }
+}
