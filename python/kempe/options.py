@@ -50,9 +50,9 @@ class RK45(Option):
 
 @dataclass(frozen=True)
 class DOP853(Option):
-    """Explicit Runge-Kutta of order 8 with error estimates of order 5 and 3 (Hairer, Nørsett & Wanner).
+    """Explicit Runge-Kutta of order 8 with error estimates of order 5 and 3 (Hairer et al. 1993).
 
-    For tolerances below about 1e-6 and forces that are smooth; between the steps it interpolates with
+    For tight tolerances and forces that are smooth; between the steps it interpolates with
     order 7.
 
     Attributes:
@@ -99,10 +99,10 @@ class Baumgarte(Option):
 class Projection(Option):
     """Every accepted state is put back onto Φ(q, t) = 0 and Φ_q q̇ + Φ_t = 0 (Eich 1993).
 
-    The nearest state in the metric of the mass matrix is taken. The start and all reported states are
-    projected too, and a, λ belong to the reported state; ``sol(t)`` is the integrator's interpolant,
-    which leaves the constraints between the steps by the error of the integration. What projection
-    does to the energy is booked nowhere: it shows in the balance.
+    The nearest state in the metric of the mass matrix is taken. The start and all reported states
+    are projected too, and a, λ belong to the reported state; ``sol(t)`` is the integrator's
+    interpolant, which leaves the constraints between the steps by the error of the integration.
+    What projection does to the energy is booked nowhere: it shows in the balance.
 
     Attributes:
         tolerance: what is left of the constraints, relative to the size of the mechanism; of angles

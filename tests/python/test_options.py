@@ -64,12 +64,21 @@ def test_all_options_reach_the_core(model: kp.Model) -> None:
         dense_output=False,
         name="first",
     )
-    plain = kp.Dynamics(0.1, method=kp.RK4(step=0.005), stabilization=None, name="second")
+    other = kp.Dynamics(
+        0.1,
+        method=kp.DOP853(rtol="1e-7", atol=1e-10, first_step=1e-4, max_step=0.02),
+        stabilization=kp.Projection(tolerance="1e-11"),
+        name="other",
+    )
+    plain = kp.Dynamics(0.2, method=kp.RK4(step=0.005), stabilization=None, name="second")
     start = {"set": {"crank.angle": "70*deg"}, "guess": {"rocker.angle": "240*deg"}}
-    results = kp.Case(model, start, [every, plain]).run()
+    results = kp.Case(model, start, [every, other, plain]).run()
     assert results["first"].t[-1] == pytest.approx(0.05)
     assert results["first"].dense is None
-    assert results["second"].statistics["steps"] == 10
+    assert results["other"].drift.position.max() < 1e-9
+    assert results["other"].dense is not None
+    assert results["other"].dense.c.shape[2] == 7
+    assert results["second"].statistics["steps"] == 20
 
 
 def test_a_simulation_may_start_at_another_time(model: kp.Model) -> None:
@@ -84,6 +93,8 @@ def test_a_simulation_may_start_at_another_time(model: kp.Model) -> None:
         {"t_end": 1, "method": kp.RK45(rtol=-1)},
         {"t_end": 1, "method": kp.RK4(step=0)},
         {"t_end": 1, "stabilization": kp.Baumgarte(alpha=-1)},
+        {"t_end": 1, "stabilization": kp.Projection(tolerance=0)},
+        {"t_end": 1, "method": kp.DOP853(atol=-1)},
         {"t_end": 1, "output_step": -0.1},
         {"t_end": "unknown"},
         {"t_end": 1, "max_steps": 0},

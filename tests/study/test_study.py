@@ -28,11 +28,11 @@ def found() -> kp.Study:
 
 
 def one(found: kp.Study, group: str, alpha: float, beta: float, number: float) -> Outcome:
-    wanted = (alpha, beta, number)
+    wanted = (alpha, beta, number, False)
     return next(
         o
         for o in found.group(group)
-        if (o.variant.alpha, o.variant.beta, o.variant.number) == wanted
+        if (o.variant.alpha, o.variant.beta, o.variant.number, o.variant.projected) == wanted
     )
 
 
@@ -55,6 +55,20 @@ def test_the_classical_residuals_are_those_that_were_published(found: kp.Study) 
     assert weak.residual == pytest.approx(8e-3, rel=0.15)
     assert weak.steps == pytest.approx(234, rel=0.02)
     assert one(found, "stabilization", 0, 0, 1e-3).residual > 1.0
+
+
+def test_projection_closes_the_joints_in_fewer_steps_and_evaluations(found: kp.Study) -> None:
+    for tolerance in (1e-3, 1e-6):
+        projected = next(
+            o
+            for o in found.group("stabilization")
+            if o.variant.projected and o.variant.number == tolerance
+        )
+        strong = one(found, "stabilization", 10, 200, tolerance)
+        assert projected.residual < 1e-10
+        assert projected.evaluations < 0.5 * strong.evaluations
+    schemes = {o.variant.scheme for o in found.group("tolerance") if o.variant.projected}
+    assert schemes == {"RK45", "DOP853"}
 
 
 def test_weak_gains_beat_strong_ones_with_constant_steps(found: kp.Study) -> None:

@@ -116,6 +116,32 @@ def test_stabilization_at_the_classical_tolerances(
         assert sol.t[drift.argmax()] == pytest.approx(0.22, abs=0.02)
 
 
+@pytest.mark.parametrize(("method", "steps"), [(kp.RK45, 2400), (kp.DOP853, 500)])
+def test_projection_against_the_listed_states(
+    case: kp.Case,
+    start: kp.State,
+    reference: dict[str, Any],
+    method: type[kp.RK45] | type[kp.DOP853],
+    steps: int,
+) -> None:
+    sol = kp.dynamics(
+        case.model,
+        start,
+        t_end=15,
+        output_step=0.01,
+        method=method(rtol=1e-9, atol=1e-12),
+        stabilization=kp.Projection(),
+    )
+    assert sol.statistics["steps"] < steps
+    assert sol.drift.position.max() < 1e-10
+    assert np.abs(sol.energy.balance).max() < 1e-8
+    for state in reference["states"]:
+        at = int(np.argmin(np.abs(sol.t - state["t"])))
+        np.testing.assert_allclose(sol.q[at], state["q"], rtol=0, atol=1e-8)
+        lam = np.abs(sol.lam[at] - state["lam"])
+        assert lam.max() < 1e-7 * np.abs(sol.lam).max()
+
+
 def test_without_stabilization_the_joints_open_by_metres(case: kp.Case, start: kp.State) -> None:
     method = kp.RK45(rtol=1e-3, atol=1e-6)
     sol = kp.dynamics(case.model, start, t_end=15, method=method, stabilization=None)

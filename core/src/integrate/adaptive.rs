@@ -56,7 +56,7 @@ const MIN_RTOL: f64 = 100.0 * f64::EPSILON;
 
 /// `rtol`, or 100 ε if that is larger; what is no tolerance is left to be refused.
 pub(super) fn usable_rtol(rtol: f64) -> f64 {
-    if rtol >= 0.0 && rtol < MIN_RTOL {
+    if (0.0..MIN_RTOL).contains(&rtol) {
         MIN_RTOL
     } else {
         rtol

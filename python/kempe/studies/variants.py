@@ -13,7 +13,7 @@ CRITICAL = ((5.0, 5.0), (20.0, 20.0), (50.0, 50.0), (200.0, 200.0))
 BETAS = (10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 #: Constant steps of RK4, s.
 STEPS = (1e-3, 2e-3, 5e-3, 1e-2, 2e-2)
-#: Relative tolerances of RK45; the absolute one is a thousandth of it.
+#: Relative tolerances of RK45 and DOP853; the absolute one is a thousandth of it.
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 #: Tolerances of the classical course, of a careful one, and of the most accurate run.
 COARSE, FINE, FINEST = 1e-3, 1e-6, 1e-11
@@ -35,8 +35,9 @@ class Variant:
         group: what is varied: a key of ``GROUPS``.
         alpha: of Baumgarte's stabilization, 1/s.
         beta: of Baumgarte's stabilization, 1/s; with α = β = 0 there is none.
-        scheme: "RK45" or "RK4".
-        number: the relative tolerance of RK45, or the step of RK4 in s.
+        scheme: "RK45", "DOP853" or "RK4".
+        number: the relative tolerance, or the step of RK4 in s.
+        projected: whether states are projected, in place of Baumgarte's stabilization.
     """
 
     group: str
@@ -44,10 +45,13 @@ class Variant:
     beta: float
     scheme: str
     number: float
+    projected: bool = False
 
     @property
     def gains(self) -> str:
-        """``α = 10, β = 200``."""
+        """``α = 10, β = 200``, or ``projection``."""
+        if self.projected:
+            return "projection"
         if self.alpha == self.beta == 0.0:
             return "α = β = 0"
         if self.alpha == self.beta:
@@ -57,7 +61,7 @@ class Variant:
     @property
     def method(self) -> str:
         """``RK45 rtol 1e-06`` or ``RK4 h = 0.005 s``."""
-        told = "rtol " if self.scheme == "RK45" else "h = "
+        told = "h = " if self.scheme == "RK4" else "rtol "
         return f"{self.scheme} {told}{self.number:g}" + (" s" if self.scheme == "RK4" else "")
 
     @property
@@ -68,11 +72,17 @@ class Variant:
     def entry(self) -> dict[str, Any]:
         """The fields of an analysis that it changes, as in a file."""
         method: dict[str, Any] = {"type": "rk4", "step": self.number}
-        if self.scheme == "RK45":
-            method = {"type": "rk45", "rtol": self.number, "atol": 1e-3 * self.number}
-        gains = {"type": "baumgarte", "alpha": self.alpha, "beta": self.beta}
-        chosen = gains if self.alpha or self.beta else {"type": "none"}
-        return {"method": method, "stabilization": chosen}
+        if self.scheme != "RK4":
+            kind = self.scheme.lower()
+            method = {"type": kind, "rtol": self.number, "atol": 1e-3 * self.number}
+        return {"method": method, "stabilization": self._stabilization()}
+
+    def _stabilization(self) -> dict[str, Any]:
+        if self.projected:
+            return {"type": "projection"}
+        if self.alpha or self.beta:
+            return {"type": "baumgarte", "alpha": self.alpha, "beta": self.beta}
+        return {"type": "none"}
 
 
 def variants() -> list[Variant]:
@@ -84,6 +94,7 @@ def _all() -> Iterator[Variant]:
     for tolerance in (COARSE, FINE):
         for gains in (*CLASSICAL, *CRITICAL):
             yield Variant("stabilization", *gains, "RK45", tolerance)
+        yield _projected("stabilization", "RK45", tolerance)
     for beta in BETAS:
         yield Variant("beta", 10.0, beta, "RK45", FINE)
     for step in STEPS:
@@ -92,3 +103,9 @@ def _all() -> Iterator[Variant]:
     for tolerance in TOLERANCES:
         for gains in CLASSICAL[:2]:
             yield Variant("tolerance", *gains, "RK45", tolerance)
+        for scheme in ("RK45", "DOP853"):
+            yield _projected("tolerance", scheme, tolerance)
+
+
+def _projected(group: str, scheme: str, number: float) -> Variant:
+    return Variant(group, 0.0, 0.0, scheme, number, projected=True)
