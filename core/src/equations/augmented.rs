@@ -25,11 +25,11 @@ impl<S: Real> Augmented<S> {
         Self { saddle: Saddle::new(&pattern), pattern }
     }
 
-    /// W = M at the given motions.
+    /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
     pub fn set_mass(&mut self, model: &Model<S>, motions: &[Motion<S>]) {
-        let bodies = model.bodies.iter().zip(motions).skip(1);
-        for (weight, (body, motion)) in self.saddle.weights.iter_mut().zip(bodies) {
-            *weight = mass::inverse(body, motion);
+        let bodies = model.bodies.iter().zip(&model.added_inertia).zip(motions).skip(1);
+        for (weight, ((body, added), motion)) in self.saddle.weights.iter_mut().zip(bodies) {
+            *weight = mass::inverse(body, *added, motion);
         }
     }
 

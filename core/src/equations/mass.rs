@@ -29,10 +29,11 @@ pub fn block<S: Real>(body: &Body<S>, motion: &Motion<S>) -> MassBlock<S> {
     }
 }
 
-/// The factors of the block's inverse: shifted to the mass centre by b, it is diagonal in m and J.
-pub fn inverse<S: Real>(body: &Body<S>, motion: &Motion<S>) -> Weight<S> {
+/// The factors of the block's inverse, with `added` to the inertia: shifted to the mass centre by b,
+/// it is diagonal in m and J.
+pub fn inverse<S: Real>(body: &Body<S>, added: S, motion: &Motion<S>) -> Weight<S> {
     let b = motion.pose.global(body.center).perp();
-    let (m, j) = (S::one() / body.mass, S::one() / body.inertia);
+    let (m, j) = (S::one() / body.mass, S::one() / (body.inertia + added));
     Weight { inverse: [m, m, j], shift: [b.x, b.y] }
 }
 

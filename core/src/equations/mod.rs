@@ -12,6 +12,7 @@ mod laws;
 pub mod mass;
 pub mod motion;
 pub mod reactions;
+mod refine;
 
 pub use laws::{at, Laws};
 pub use motion::{Gains, Singular, Workspace};

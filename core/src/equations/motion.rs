@@ -9,7 +9,7 @@
 
 use super::augmented::{Augmented, Dependent};
 use super::energy::Powers;
-use super::{constraints, forces, kinematics};
+use super::{constraints, forces, kinematics, refine};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 
@@ -43,7 +43,7 @@ pub struct Workspace<S = f64> {
     solution: Vec<S>,
     /// Powers of the force elements.
     powers: Powers<S>,
-    /// Correction of the solution where the matrix is damped.
+    /// Correction of the solution where the matrix is not that of the equations.
     correction: Option<Vec<S>>,
     n_q: usize,
 }
@@ -63,7 +63,7 @@ impl<S: Real> Workspace<S> {
             matrix: Augmented::new(model),
             solution: vec![S::zero(); n + m],
             powers: Powers::zero(),
-            correction: None,
+            correction: model.has_added_inertia().then(|| vec![S::zero(); n + m]),
             n_q: n,
         };
         if model.allow_redundancy {
@@ -84,7 +84,7 @@ impl<S: Real> Workspace<S> {
     /// Solves the equations of motion at a state; then [`a`](Self::a), [`lam`](Self::lam).
     ///
     /// # Errors
-    /// [`Singular`] where Φ_q loses rank.
+    /// [`Singular`] where Φ_q loses rank, and where a torque turns an angle without any inertia.
     pub fn accelerate(
         &mut self,
         model: &Model<S>,
@@ -108,31 +108,12 @@ impl<S: Real> Workspace<S> {
         let Some(mut correction) = self.correction.take() else {
             return self.matrix.factor_and_solve(&mut self.solution).map_err(Singular);
         };
-        self.matrix.factor().map_err(Singular)?;
-        self.solve_damped(model, &mut correction);
+        let solved = self.matrix.factor().and_then(|()| {
+            let x = &mut self.solution;
+            refine::solve(model, &self.motions, &self.matrix, x, &mut correction)
+        });
         self.correction = Some(correction);
-        Ok(())
-    }
-
-    /// Solves with the damped matrix and brings Φ_q q̈ back to the right side: the method of
-    /// multipliers, whose error falls by the damping in each of its steps.
-    fn solve_damped(&mut self, model: &Model<S>, correction: &mut [S]) {
-        let n = self.n_q;
-        let wanted = self.solution[n..].to_vec();
-        self.matrix.solve(&mut self.solution);
-        for _ in 0..2 {
-            correction[..n].fill(S::zero());
-            let a = &self.solution[..n];
-            for (k, slots) in model.layout.constraints.iter().enumerate() {
-                let rows = &mut correction[n + slots.rows.start..n + slots.rows.end];
-                constraints::times(model, k, self.matrix.jacobian(), a, rows);
-            }
-            for (r, wanted) in correction[n..].iter_mut().zip(&wanted) {
-                *r = *wanted - *r;
-            }
-            self.matrix.solve(correction);
-            self.solution.iter_mut().zip(correction.iter()).for_each(|(x, dx)| *x += *dx);
-        }
+        solved.map_err(Singular)
     }
 
     /// q̈, shape (n_q).

@@ -33,7 +33,7 @@ fn body() -> Table {
                 "inertia",
                 Shape::Number,
                 "kg*m^2",
-                "Moment of inertia about the mass centre.",
+                "Moment of inertia about the mass centre; 0 for a point mass.",
             ),
             Field::optional(
                 "center",

@@ -50,8 +50,8 @@ fn positive(body: &Body, problems: &mut Vec<Problem>) {
             let key = if body.drawn.is_some() { "through" } else { "length" };
             problems.push(Problem::at(&path(key), format!("{length} m; must be > 0")));
         }
-    } else if !(body.inertia.is_finite() && body.inertia > 0.0) {
-        let message = format!("{} kg·m²; must be > 0", body.inertia);
+    } else if !(body.inertia.is_finite() && body.inertia >= 0.0) {
+        let message = format!("{} kg·m²; must not be negative", body.inertia);
         problems.push(Problem::at(&path("inertia"), message));
     }
     if !(body.center.x.is_finite() && body.center.y.is_finite()) {

@@ -1,5 +1,6 @@
 //! Models: as written ([`Definition`]), linked ([`Blueprint`]) and as numbers ([`Model`]).
 
+mod added_inertia;
 mod blueprint;
 mod bodies;
 mod body_fields;

@@ -1,5 +1,6 @@
 //! A model as numbers: immutable, over any scalar.
 
+use super::added_inertia;
 use super::blueprint::Blueprint;
 use super::layout::Layout;
 use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group};
@@ -92,6 +93,9 @@ pub struct Model<S = f64> {
     pub constraints: Vec<ConstraintItem<S>>,
     /// Forces.
     pub forces: Vec<ForceItem<S>>,
+    /// Moments of inertia that are added to bodies without their own while the equations are solved,
+    /// and taken back then, kg·m²; zero for others and for ground.
+    pub added_inertia: Vec<S>,
     /// Index ranges.
     pub layout: Layout,
     /// Whether redundant constraints are accepted; their multipliers are then the smallest that
@@ -174,16 +178,23 @@ impl<S: Real> Model<S> {
             ForceItem { name: name.clone(), element: formula.map(value), law }
         });
         let forces = forces.collect();
+        let bodies: Vec<Body<S>> = blueprint.bodies.iter().map(|body| body.map(value)).collect();
         Self {
             blueprint: Arc::clone(blueprint),
             parameters: parameters.to_vec(),
             gravity: Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1])),
-            bodies: blueprint.bodies.iter().map(|body| body.map(value)).collect(),
+            added_inertia: added_inertia::added(&bodies, &constraints),
+            bodies,
             layout: Layout::new(blueprint.bodies.len() - 1, touched.into_iter()),
             constraints,
             forces,
             allow_redundancy: blueprint.allow_redundancy,
         }
+    }
+
+    /// Whether a body has an inertia that is not its own.
+    pub fn has_added_inertia(&self) -> bool {
+        self.added_inertia.iter().any(|added| added.least_magnitude() > 0.0)
     }
 
     /// The same model with redundant constraints accepted.

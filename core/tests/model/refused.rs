@@ -55,6 +55,14 @@ fn rods_without_length() {
 }
 
 #[test]
+fn negative_moments_of_inertia_but_not_none() {
+    let body = |inertia: &str| format!("[bodies.bob]\nmass = 1\ninertia = \"{inertia}\"\n");
+    says(&body("-L"), &["bodies.bob.inertia: -1 kg·m²; must not be negative"]);
+    says(&body("0/0*L"), &["bodies.bob.inertia"]);
+    assert_eq!(faults(&format!("{TWO}{}", body("0"))), "");
+}
+
+#[test]
 fn a_torque_between_a_body_and_itself() {
     let torque = "[forces.motor]\ntype = \"torque\"\nj = \"ground\"\ntorque = 1\n";
     says(torque, &["both ends of this force are on 'ground'"]);

@@ -9,6 +9,7 @@ mod convergence;
 mod four_bar;
 mod n_four_bar;
 mod pendulum;
+mod point_mass;
 mod position;
 mod projection;
 

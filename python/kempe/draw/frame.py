@@ -171,8 +171,10 @@ class Frame:
         def put(poses: Floats, _: Floats) -> None:
             at = placed(poses[j], point)
             if force["type"] == "spring_damper":
-                ends = [placed(poses[b], p) for b, p in zip((i, j), force["points"], strict=True)]
-                line.set_data(*spring_damper(*ends, 1.8 * self._unit).T)
+                begin, end = (
+                    placed(poses[b], p) for b, p in zip((i, j), force["points"], strict=True)
+                )
+                line.set_data(*spring_damper(begin, end, 1.8 * self._unit).T)
             elif force["type"] == "torsion_spring":
                 turn = 4.0 * np.pi + poses[j, 2] - poses[i, 2] - rest
                 line.set_data(*spiral(at, 3.6 * self._unit, poses[i, 2], turn).T)

@@ -62,7 +62,10 @@ impl Reason {
             }
             Dependent::Column(column) => {
                 let name = model.bodies[column / 3 + 1].name.clone();
-                let message = format!("{name} has no usable mass at t = {t:.6} s");
+                let message = format!(
+                    "a torque turns {name} at t = {t:.6} s, which has no inertia and which no joint \
+                     keeps from turning: give it an inertia"
+                );
                 (name, message)
             }
         };
