@@ -6,7 +6,15 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
-from draw.mechanisms import HOSTILE, PLAIN, moving, pendulum, slider_crank, sprung
+from draw.mechanisms import (
+    HOSTILE,
+    PLAIN,
+    moving,
+    pendulum,
+    point_pendulum,
+    slider_crank,
+    sprung,
+)
 from PIL import Image
 
 SIZES = [(1600, 900), (600, 800)]
@@ -306,6 +314,23 @@ def test_a_spring_damper_is_drawn_and_stretches(opened: Any) -> None:
         widths.append(np.ptp(np.nonzero(violet)[1]))
     assert min(widths) > 50
     assert abs(widths[0] - widths[1]) > 20
+
+
+def test_a_rod_reaches_from_its_support_to_its_mass(opened: Any) -> None:
+    solution = point_pendulum()
+    watched = opened(solution, 1280, 720)
+    (begin,) = pins(watched)
+    watched.page.evaluate("kempe.seek(0.5)")
+    watched.settle()
+    (end,) = pins(watched)
+    gone = solution(0.5).body("bob").r - [-1.0, 0.0]
+    scale = np.hypot(*(end - begin)) / np.hypot(*gone)
+    support = begin + scale * np.array([1.0, 0.0])
+    box = watched.page.locator("#drawing").bounding_box()
+    for share in (0.3, 0.7):
+        x, y = support + share * (end - support) - [box["x"], box["y"]]
+        near = picture(watched)[int(y) - 2 : int(y) + 3, int(x) - 2 : int(x) + 3]
+        assert near.min() < 120  # dark on the light drawing
 
 
 def test_a_plate_and_a_motion_without_interpolation(opened: Any) -> None:

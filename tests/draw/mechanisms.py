@@ -77,3 +77,13 @@ def sprung() -> kp.Solution:
     m.spring_damper("s", "ground.A", "rod.P", stiffness=100, damping=2, free_length=0.9)
     start = kp.assemble(m, set={"rod.angle": "-30*deg"})
     return kp.dynamics(m, start, t_end=0.5, output_step=0.02)
+
+
+def point_pendulum() -> kp.Solution:
+    """A point mass on a massless rod."""
+    m = kp.Model("point pendulum", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.body("bob", mass=1, inertia=0, points={"P": (0, 0)})
+    m.distance("rod", "ground.O", "bob.P", length=1)
+    start = kp.assemble(m, set={"bob.y": 0, "bob.angle": 0}, guess={"bob.x": -1})
+    return kp.dynamics(m, start, t_end=1.0, output_step=0.05)

@@ -8,7 +8,7 @@ import jsonschema
 import kempe as kp
 import numpy as np
 import pytest
-from draw.mechanisms import moving, pendulum, slider_crank, sprung
+from draw.mechanisms import moving, pendulum, point_pendulum, slider_crank, sprung
 from kempe.draw.geometry import placed, smooth
 from kempe.draw.numbers import plain, round_below
 from kempe.draw.scene import playback_rate
@@ -30,7 +30,15 @@ def pins(scene: dict[str, Any], side: int) -> np.ndarray:
 
 
 def test_it_fits_its_schema_and_is_json(four_bar: kp.Solution, hostile: kp.Solution) -> None:
-    for drawn in (four_bar, hostile, four_bar.initial, pendulum(), slider_crank(), sprung()):
+    for drawn in (
+        four_bar,
+        hostile,
+        four_bar.initial,
+        pendulum(),
+        slider_crank(),
+        sprung(),
+        point_pendulum(),
+    ):
         told = json.loads(json.dumps(kp.scene(drawn), allow_nan=False))
         jsonschema.validate(told, SCHEMA)
 

@@ -115,6 +115,8 @@ class Frame:
         for joint in self._scene["joints"]:
             if joint["slide"] is not None:
                 yield from self._slider(joint)
+            elif joint["type"] == "distance":
+                yield self._rod(joint)
         for force in self._scene["forces"]:
             yield self._force(force)
         yield self._pins()
@@ -140,6 +142,19 @@ class Frame:
         if len(corners) == 1:
             line.set_marker("o")
         return line, lambda poses, _: line.set_data(*placed(poses[number], corners).T)
+
+    def _rod(self, joint: dict[str, Any]) -> tuple[Artist, Any]:
+        """A massless rod between its two pins."""
+        (i, j), points = joint["bodies"], joint["points"]
+        (line,) = self.axes.plot([], [], "o-", color=style.GROUND, linewidth=2.0, zorder=5)
+        line.set_markerfacecolor("white")
+        line.set_markersize(7)
+
+        def put(poses: Floats, _: Floats) -> None:
+            ends = [placed(poses[i], points[0]), placed(poses[j], points[1])]
+            line.set_data(*np.array(ends).T)
+
+        return line, put
 
     def _slider(self, joint: dict[str, Any]) -> Iterator[tuple[Artist, Any]]:
         """A block of body j between two rails of body i."""

@@ -116,7 +116,10 @@ def drawn(axes: Axes, scene: dict[str, Any], title: str) -> Picture:
             ends = zip(force["bodies"], force["points"], strict=True)
             _draw_spring_damper(made, *(made.at(number, at) for number, at in ends))
     for joint, pin in zip(scene["joints"], made.pins(), strict=True):
-        _draw_pin(made, pin, to_ground=0 in joint["bodies"])
+        if joint["type"] == "distance":
+            _draw_rod(made, joint)
+        else:
+            _draw_pin(made, pin, to_ground=0 in joint["bodies"])
     return made
 
 
@@ -198,6 +201,16 @@ def _draw_pin(made: Picture, place: Floats, *, to_ground: bool) -> None:
         zorder=6,
     )
     made.keep_clear(place, _PIN / 2.0 + 1.0)
+
+
+def _draw_rod(made: Picture, joint: dict[str, Any]) -> None:
+    """A massless rod: a line between its two pins."""
+    bodies = joint["bodies"]
+    ends = [made.at(body, point) for body, point in zip(bodies, joint["points"], strict=True)]
+    made.axes.plot(*np.array(ends).T, color=style.GROUND, linewidth=1.6, zorder=5)
+    made.lines.append(wide(made.points(ends[0]), made.points(ends[1]), 1.0))
+    for body, end in zip(bodies, ends, strict=True):
+        _draw_pin(made, end, to_ground=body == 0)
 
 
 def _draw_spiral(made: Picture, place: Floats) -> None:

@@ -1,7 +1,7 @@
 // The drawing: what is shown of the scene at one instant, and the part of the plane that is seen.
 import { paintGravity, paintGrid, paintLengthScale, paintReactions } from "./measure.js";
 import { placed } from "./motion.js";
-import { paintBodies, paintForces, paintGround, paintNames, paintNumbers, paintPaths, paintPins, paintRails, paintSliders, springRadius } from "./paint.js";
+import { paintBodies, paintForces, paintGround, paintNames, paintNumbers, paintPaths, paintPins, paintRails, paintRods, paintSliders, springRadius } from "./paint.js";
 import { cleared, sharpen } from "./surface.js";
 import { extent, View } from "./view.js";
 
@@ -29,14 +29,19 @@ export class Drawing {
 
   /** Where the joints are on the canvas at one instant, CSS pixels; drawn on body j. */
   pins(now) {
-    return this.scene.joints.map(({ name, bodies: [i, j], points, axes, slide }) => ({
-      name,
-      body: j,
-      slides: slide !== null,
-      angle: now.poses[j][2] + axes[1],
-      grounded: i === 0 || j === 0,
-      at: this.view.toScreen(placed(now.poses[j], points[1])),
-    }));
+    return this.scene.joints.map(({ name, type, bodies: [i, j], points, axes, slide }) => {
+      const ends = [i, j].map((body, k) => this.view.toScreen(placed(now.poses[body], points[k])));
+      return {
+        name,
+        body: j,
+        slides: slide !== null,
+        angle: now.poses[j][2] + axes[1],
+        grounded: i === 0 || j === 0,
+        at: ends[1],
+        support: ends[i === 0 && type === "distance" ? 0 : 1],
+        rod: type === "distance" ? ends : null,
+      };
+    });
   }
 
   /** How far from each joint its name must stay, px: there may be a spring or a slider. */
@@ -62,6 +67,7 @@ export class Drawing {
     paintRails(context, view, scene, now, colours);
     paintBodies(context, view, scene, now, colours);
     paintSliders(context, pins, colours);
+    paintRods(context, pins, colours);
     paintForces(context, view, scene, now, this.first, colours);
     if (shown.reactions) paintReactions(context, view, pins, now.forces, this.pixelsPerNewton(), colours);
     paintPins(context, pins, colours);

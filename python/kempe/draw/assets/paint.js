@@ -65,7 +65,7 @@ export function paintGround(context, view, scene, pins, colours) {
   context.strokeStyle = colours.ground;
   context.fillStyle = colours.panel;
   context.lineWidth = 1.6;
-  const supports = pins.filter((pin) => pin.grounded && !pin.slides).map((pin) => pin.at);
+  const supports = pins.filter((pin) => pin.grounded && !pin.slides).map((pin) => pin.support);
   for (const at of supports) paintSupport(context, at);
   for (const { at } of scene.bodies[0].points) {
     const [x, y] = view.toScreen(at);
@@ -88,12 +88,21 @@ export function paintPins(context, pins, colours) {
   context.fillStyle = colours.pin;
   context.strokeStyle = colours.text;
   context.lineWidth = 1.8;
-  for (const { at: [x, y], slides } of pins) {
+  for (const { at, slides, rod } of pins) {
     if (slides) continue;
-    const mark = new Path2D();
-    mark.arc(x, y, PIN, 0, 2 * Math.PI);
-    context.fill(mark);
-    context.stroke(mark);
+    for (const [x, y] of rod ?? [at]) {
+      const mark = new Path2D();
+      mark.arc(x, y, PIN, 0, 2 * Math.PI);
+      context.fill(mark);
+      context.stroke(mark);
+    }
+  }
+}
+
+/** Massless rods that keep two points at a distance. */
+export function paintRods(context, pins, colours) {
+  for (const { rod } of pins) {
+    if (rod) stroked(context, polygon(rod), colours.ground, 3);
   }
 }
 
