@@ -4,7 +4,7 @@ use super::closing::Closing;
 use super::placement::Gap;
 use super::request::{Request, Wish};
 use crate::analyses::Mobility;
-use crate::elements::Constraint;
+use crate::elements::{Constraint, Group};
 use crate::equations::{constraints, kinematics};
 use crate::model::Model;
 use std::collections::VecDeque;
@@ -132,7 +132,9 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
         }
     }
     let name = model.constraints[worst.0].name.clone();
-    let around = match loop_through(model, worst.0) {
+    // what is missed may be a driver or what is set: then the constraints contradict each other
+    let joint = model.constraints[worst.0].group == Group::Joints;
+    let around = match loop_through(model, worst.0).filter(|_| joint) {
         Some(loop_) => format!("the loop {loop_}"),
         None => "the mechanism".to_string(),
     };
