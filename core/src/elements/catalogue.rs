@@ -56,6 +56,17 @@ impl<S: Real> Rows<'_, S> {
     }
 }
 
+/// Takes what [`Constraint::linearize`] finds, with the number of rows known to the compiler.
+pub trait Linear<S> {
+    /// Φ, Φ̇, γ and ∂Φ/∂(qᵢ, qⱼ) of a constraint between the bodies `ends`.
+    fn take<const M: usize>(
+        self,
+        ends: [BodyId; 2],
+        terms: &VelocityTerms<S, M>,
+        rows: &[[S; 6]; M],
+    );
+}
+
 macro_rules! constraints {
     ($($Group:ident { $($Name:ident),+ $(,)? })+) => {
         /// A joint or a driver of any type.
@@ -132,21 +143,20 @@ macro_rules! constraints {
                 })+)+ }
             }
             /// Φ, Φ̇ and γ as [`velocity_terms`](Self::velocity_terms), and the rows of Φ_q with
-            /// the bodies i and j to `visit`: all that the equations of motion ask of a constraint,
-            /// by one dispatch, with the number of rows known to the compiler.
+            /// the bodies i and j to `target`: all that the equations of motion ask of a constraint,
+            /// by one dispatch.
             #[inline(always)]
             pub fn linearize(
                 &self,
                 motions: &[Motion<S>],
                 t: S,
-                out: Rows<'_, S>,
-                visit: impl FnOnce([BodyId; 2], &[[S; 6]]),
+                target: impl Linear<S>,
             ) {
                 match self { $($(Self::$Name(e) => {
                     let ends = <$Name>::ends(e);
                     let [i, j] = ends.map(|body| &motions[body.0]);
-                    out.set(&<$Name>::velocity_terms(e, i, j, t));
-                    visit(ends, &<$Name>::jacobian(e, &i.pose, &j.pose, t));
+                    let (terms, rows) = <$Name>::linearize(e, i, j, t);
+                    target.take(ends, &terms, &rows);
                 })+)+ }
             }
             /// The joint frame on a body.
