@@ -183,6 +183,12 @@ macro_rules! constraints {
     };
 }
 
+/// Takes what a force does to its bodies.
+pub trait Acting<S> {
+    /// The parts and their actions on the bodies i and j.
+    fn take<const P: usize>(self, ends: [BodyId; 2], parts: &[Part; P], actions: &[Action<S>; P]);
+}
+
 macro_rules! forces {
     ($($Name:ident),+ $(,)?) => {
         /// A force of any type.
@@ -222,13 +228,15 @@ macro_rules! forces {
         }
 
         impl<S: Real> ForceElement<S> {
-            /// Gives the action of each part to `visit`.
-            #[inline]
-            pub fn action(&self, at: &Situation<S>, mut visit: impl FnMut(usize, Action<S>)) {
+            /// Gives the actions of all parts on the bodies i and j to `taker`: one dispatch, with
+            /// the number of parts known to the compiler.
+            #[inline(always)]
+            pub fn action(&self, motions: &[Motion<S>], t: S, taker: impl Acting<S>) {
                 match self { $(Self::$Name(e) => {
-                    for (part, action) in <$Name>::action(e, at).into_iter().enumerate() {
-                        visit(part, action);
-                    }
+                    let ends = <$Name>::ends(e);
+                    let [i, j] = ends.map(|body| motions[body.0]);
+                    let actions = <$Name>::action(e, &Situation { i, j, t });
+                    taker.take(ends, &<$Name>::PARTS, &actions);
                 })+ }
             }
             /// The relative angle at which a rotational spring is relaxed.

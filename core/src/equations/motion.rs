@@ -114,6 +114,9 @@ impl<S: Real> Workspace<S> {
     /// Powers at the state of the last [`accelerate`](Self::accelerate), drivers included.
     pub fn powers(&self, model: &Model<S>, v: &[S]) -> Powers<S> {
         let mut powers = self.powers;
+        if !model.driven {
+            return powers;
+        }
         let mut rows = [S::zero(); crate::elements::MOST_EQUATIONS];
         for (k, item) in model.constraints.iter().enumerate().filter(|(_, c)| c.driven) {
             let range = model.layout.constraints[k].rows.clone();
