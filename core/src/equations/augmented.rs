@@ -88,9 +88,8 @@ impl<S: Real> Augmented<S> {
 
 /// The constraints as blocks of rows.
 fn row_blocks<P>(model: &Model<P>) -> Vec<RowBlock> {
-    let touches = |blocks: &[Block]| {
-        blocks.iter().map(|block| (block.body.0 - 1, block.first)).collect()
-    };
+    let touches =
+        |blocks: &[Block]| blocks.iter().map(|block| (block.body.0 - 1, block.first)).collect();
     let block = |(slots, item): (&crate::model::Slots, &ConstraintItem<P>)| RowBlock {
         size: slots.rows.len(),
         touches: touches(&slots.blocks),
