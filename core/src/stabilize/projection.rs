@@ -31,7 +31,7 @@ const ROUNDING: f64 = 1e3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
     /// Largest residual that is left: of lengths relative to the size of the mechanism, of angles in
-    /// rad, of their rates relative to the largest rate.
+    /// rad, of their rates relative to the largest rate so far.
     pub tolerance: f64,
 }
 
@@ -69,6 +69,8 @@ pub struct Projector<'a> {
     current: bool,
     /// By how much the last step with the factor at hand lowered the residual.
     lowering: f64,
+    /// The largest rate that was seen.
+    fastest: f64,
     /// Right side, then (Δ, μ).
     correction: Vec<f64>,
     /// Factorisations that chord iterations did not spare.
@@ -94,6 +96,7 @@ impl<'a> Projector<'a> {
             terms: std::array::from_fn(|_| vec![0.0; model.layout.n_rows]),
             current: false,
             lowering: 1.0,
+            fastest: 0.0,
             correction: vec![0.0; unknowns],
             factorisations: 0,
         }
@@ -135,7 +138,10 @@ impl<'a> Projector<'a> {
             if iteration == 0 {
                 target = match level {
                     Level::Position => self.tolerance.max(8.0 * f64::EPSILON * self.largest(q)),
-                    Level::Velocity => self.tolerance * self.largest(v).max(gap),
+                    Level::Velocity => {
+                        self.fastest = self.fastest.max(self.largest(v)).max(gap);
+                        self.tolerance * self.fastest
+                    }
                 };
             }
             if iteration > 0 {
