@@ -109,6 +109,14 @@ impl Reason {
                 format!("max_steps = {steps} steps ended at t = {t:.6} s"),
                 "raise max_steps, or loosen the tolerance",
             ),
+            Cause::TooManySteps { needed, step, most } => {
+                let needed =
+                    if needed < 1e9 { format!("{needed}") } else { format!("{needed:.0e}") };
+                let message = format!(
+                    "{needed} steps of {step:e} s to t_end are more than max_steps = {most}"
+                );
+                (message, "take larger steps, or raise max_steps")
+            }
         };
         Self::Integration { t, message, hint }
     }

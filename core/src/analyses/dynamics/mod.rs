@@ -7,7 +7,7 @@ mod read;
 mod system;
 
 pub use failure::{Failure, Reason};
-pub use options::{Options, Output, Scheme, Stabilization};
+pub use options::{Options, Output, Scheme, Stabilization, MOST_STEPS};
 pub use output::{Dense, Trajectory, ENERGIES};
 pub use read::read;
 

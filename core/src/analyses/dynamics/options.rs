@@ -7,6 +7,12 @@ use crate::integrate::{Atol, Dop853, Rk4, Rk45};
 use crate::model::Model;
 use crate::stabilize::Projection;
 
+/// Most steps of a run that says nothing of it: a second or so for a small mechanism, and some
+/// hundred megabytes if everything is kept.
+pub const MOST_STEPS: usize = 200_000;
+/// Most reported states on a grid.
+const MOST_OUTPUTS: f64 = 1e6;
+
 /// The scheme of integration.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Scheme {
@@ -56,13 +62,18 @@ pub struct Options {
 }
 
 impl Options {
-    /// Dormand–Prince at rtol 1e-6, atol 1e-9 with Baumgarte's α = 10, β = 200.
+    /// Dormand–Prince at rtol 1e-6, atol 1e-9 with Baumgarte's α = 10, β = 200; [`MOST_STEPS`].
     pub fn new(t_end: f64) -> Self {
         Self {
             t_end,
             t_start: None,
             output: Output::Steps,
-            scheme: Scheme::Rk45(Rk45 { rtol: 1e-6, atol: Atol::Scalar(1e-9), ..Rk45::default() }),
+            scheme: Scheme::Rk45(Rk45 {
+                rtol: 1e-6,
+                atol: Atol::Scalar(1e-9),
+                max_steps: Some(MOST_STEPS),
+                ..Rk45::default()
+            }),
             stabilization: Stabilization::Baumgarte(Gains { alpha: 10.0, beta: 200.0 }),
             dense_output: true,
         }
@@ -80,6 +91,9 @@ impl Options {
     pub(super) fn check(&self, model: &Model, start: &State) -> Result<(), Reason> {
         if let Output::Every(h) = self.output {
             require("output_step", h, h > 0.0 && h.is_finite(), "> 0 and finite")?;
+            let interval = (self.t_end - self.t_start.unwrap_or(start.t)).abs();
+            let few = h * MOST_OUTPUTS >= interval * (1.0 - 1e-9);
+            require("output_step", h, few, "at least 1e-6 of the time that is simulated")?;
         }
         if let Stabilization::Baumgarte(Gains { alpha, beta }) = self.stabilization {
             require("alpha", alpha, alpha >= 0.0 && alpha.is_finite(), ">= 0 and finite")?;
