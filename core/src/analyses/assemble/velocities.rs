@@ -8,6 +8,11 @@ use crate::model::{size, Model};
 
 /// Largest velocity residual that is left alone, relative to what it is computed from.
 const TOLERANCE: f64 = 1e-12;
+/// Corrections that are always made: the second takes out the rounding of the first.
+const LEAST: usize = 2;
+/// Most corrections. Damped rows converge by the ratio of their damping to the compliance at the joint,
+/// which heavy bodies beside light ones bring near 1.
+const MOST: usize = 30;
 
 /// Makes `v` consistent at `q`; one that is consistent is left untouched. Gives the largest part of
 /// Φ_q q̇ - ν that remains, relative; not near zero if the rates asked for contradict each other.
@@ -31,16 +36,22 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
             return f64::INFINITY;
         }
     }
-    for _ in 0..2 {
+    let mut last = f64::INFINITY;
+    for correction in 0..=MOST {
         kinematics::motions(q, v, &mut motions);
         let rate = velocity_residual(model, t, &motions);
+        let left = largest(&rate);
+        let settled = left <= TOLERANCE || left > 0.5 * last;
+        if (correction >= LEAST && settled) || left.is_nan() {
+            return left;
+        }
+        last = left;
         let mut x = vec![0.0; v.len()];
         x.extend(rate.iter().map(|r| -r));
         matrix.solve(&mut x);
         v.iter_mut().zip(&x).for_each(|(v, dv)| *v += dv);
     }
-    kinematics::motions(q, v, &mut motions);
-    largest(&velocity_residual(model, t, &motions))
+    last
 }
 
 /// Φ_q q̇ + Φ_t.

@@ -1,5 +1,6 @@
 //! How forward dynamics fails, in terms of the mechanism.
 
+use super::output::Halt;
 use super::Run;
 use crate::equations::augmented::Dependent;
 use crate::equations::Singular;
@@ -87,6 +88,19 @@ impl Reason {
         Self::Integration { t, message, hint }
     }
 
+    pub(super) fn halt(model: &Model, t: f64, halt: Halt) -> Self {
+        match halt {
+            Halt::Fault(fault) => Self::fault(model, t, fault),
+            Halt::NotFinite => Self::not_finite(t),
+        }
+    }
+
+    fn not_finite(t: f64) -> Self {
+        let message = format!("the motion became infinite or undefined at t = {t:.6} s");
+        let hint = "use a smaller step or tolerance; check forces and laws at this state";
+        Self::Integration { t, message, hint }
+    }
+
     pub(super) fn from_integrator(
         model: &Model,
         failure: integrate::Failure<(f64, Fault)>,
@@ -101,10 +115,7 @@ impl Reason {
                 format!("the step fell to {h:.1e} s at t = {t:.6} s: the tolerance cannot be met"),
                 "a singular position or a discontinuity lies here; look at the solution so far",
             ),
-            Cause::NotFinite { t } => (
-                format!("the motion became infinite or undefined at t = {t:.6} s"),
-                "use a smaller step or tolerance; check forces and laws at this state",
-            ),
+            Cause::NotFinite { t } => return Self::not_finite(t),
             Cause::MaxSteps { steps } => (
                 format!("max_steps = {steps} steps ended at t = {t:.6} s"),
                 "raise max_steps, or loosen the tolerance",

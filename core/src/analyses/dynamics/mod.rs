@@ -105,7 +105,7 @@ fn finish(
     outcome: Result<integrate::Statistics, integrate::Failure<(f64, Fault)>>,
     (clock, watch): (Instant, impl FnMut(f64) -> Flow),
 ) -> Result<Run, Box<Failure>> {
-    let Recorder { mut trajectory, dense, between, fault, .. } = recorder;
+    let Recorder { mut trajectory, dense, between, halt, .. } = recorder;
     let model = system.model;
     let reported = trajectory.evaluate(model, &mut system.workspace, watch);
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
@@ -128,11 +128,10 @@ fn finish(
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached) && complete;
     let run = Run { trajectory, dense, statistics, reached };
-    let reason = match (outcome, fault, reported) {
+    let reason = match (outcome, halt, reported) {
         (Ok(_), None, Ok(_)) => return Ok(run),
         (Err(failure), ..) => Reason::from_integrator(model, failure),
-        (_, Some((t, fault)), _) => Reason::fault(model, t, fault),
-        (.., Err((_, t, singular))) => Reason::singular(model, t, singular),
+        (_, Some((t, halt)), _) | (.., Err((_, t, halt))) => Reason::halt(model, t, halt),
     };
     Err(Box::new(Failure { reason, run }))
 }

@@ -2,7 +2,7 @@
 
 use super::options::{Options, Output};
 use super::system::{Equations, WORKS};
-use crate::equations::{energy, kinematics, Gains, Singular, Workspace};
+use crate::equations::{energy, kinematics, Gains, Workspace};
 use crate::integrate::{Flow, Step};
 use crate::math::Motion;
 use crate::model::Model;
@@ -26,6 +26,15 @@ pub struct Trajectory {
     pub lam: Vec<f64>,
     /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces, J.
     pub energy: Vec<f64>,
+}
+
+/// Why a state cannot be reported.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Halt {
+    /// It cannot be projected, or has no unique accelerations.
+    Fault(Fault),
+    /// A number of it is not finite.
+    NotFinite,
 }
 
 /// The continuous extension of every step.
@@ -54,8 +63,8 @@ pub(super) struct Recorder<'a> {
     pub dense: Option<Dense>,
     /// Projects what lies between the ends of a step.
     pub between: Equations<'a>,
-    /// Why that was not possible, and when.
-    pub fault: Option<(f64, Fault)>,
+    /// Why it cannot go on, and when.
+    pub halt: Option<(f64, Halt)>,
 }
 
 impl<'a> Recorder<'a> {
@@ -71,7 +80,7 @@ impl<'a> Recorder<'a> {
             trajectory: Trajectory::default(),
             dense: options.dense_output.then(|| Dense { t: vec![t0], ..Dense::default() }),
             between: Equations::new(model, options),
-            fault: None,
+            halt: None,
         }
     }
 
@@ -95,10 +104,15 @@ impl<'a> Recorder<'a> {
             let degree = step.dense.degree();
             let first = dense.c.len();
             dense.degree = degree;
-            dense.t.push(step.t);
-            dense.y.extend_from_slice(step.y_old);
             dense.c.resize(first + degree * step.y.len(), 0.0);
             step.coefficients(&mut dense.c[first..]);
+            if !finite(&dense.c[first..]) {
+                dense.c.truncate(first);
+                self.halt = Some((step.t, Halt::NotFinite));
+                return Flow::Stop;
+            }
+            dense.t.push(step.t);
+            dense.y.extend_from_slice(step.y_old);
         }
         let Output::Every(h) = self.output else {
             self.report(step.t, step.y);
@@ -107,8 +121,8 @@ impl<'a> Recorder<'a> {
         let mut y = std::mem::take(&mut self.y);
         while let Some(t) = self.next_time(h, step.t) {
             step.interpolate(t, &mut y);
-            if let Err(fault) = self.between.project(t, &mut y, false) {
-                self.fault = Some(fault);
+            if let Err((t, fault)) = self.between.project(t, &mut y, false) {
+                self.halt = Some((t, Halt::Fault(fault)));
                 return Flow::Stop;
             }
             self.report(t, &y);
@@ -156,14 +170,14 @@ impl Trajectory {
     /// number of rows filled: fewer than all if `watch` ended it.
     ///
     /// # Errors
-    /// The first row, and its time, at which the equations of motion are singular; the rows before
-    /// are filled.
-    pub fn evaluate(
+    /// The first row, and its time, at which the equations of motion are singular or a number is not
+    /// finite; the rows before are filled.
+    pub(super) fn evaluate(
         &mut self,
         model: &Model,
         workspace: &mut Workspace,
         mut watch: impl FnMut(f64) -> Flow,
-    ) -> Result<usize, (usize, f64, Singular)> {
+    ) -> Result<usize, (usize, f64, Halt)> {
         let n = model.layout.n_q;
         for (k, &t) in self.t.iter().enumerate() {
             if watch(t) == Flow::Stop {
@@ -171,8 +185,12 @@ impl Trajectory {
             }
             let row = k * n..(k + 1) * n;
             let (q, v) = (&self.q[row.clone()], &self.v[row]);
-            let gains = Gains::default();
-            workspace.accelerate(model, t, q, v, gains).map_err(|singular| (k, t, singular))?;
+            let singular = |singular| (k, t, Halt::Fault(Fault::Singular(singular)));
+            workspace.accelerate(model, t, q, v, Gains::default()).map_err(singular)?;
+            let energy = &self.energy[k * ENERGIES..][..ENERGIES];
+            if ![q, v, energy, workspace.a(), workspace.lam()].into_iter().all(finite) {
+                return Err((k, t, Halt::NotFinite));
+            }
             self.a.extend_from_slice(workspace.a());
             self.lam.extend_from_slice(workspace.lam());
         }
@@ -188,4 +206,8 @@ impl Trajectory {
         self.lam.truncate(count * n_rows);
         self.energy.truncate(count * ENERGIES);
     }
+}
+
+fn finite(x: &[f64]) -> bool {
+    x.iter().all(|x| x.is_finite())
 }
