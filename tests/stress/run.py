@@ -2,8 +2,8 @@
 
     PYTHONPATH=tests python -m stress.run --runs 100000 --processes 2
 
-prints how they ended, the longest, the largest gaps, and every fault with the number that repeats it:
-``--only 4711``. Exit code 1 if there is a fault.
+prints how they ended, the longest, the largest gaps, and every fault with the number that repeats
+it: ``--only 4711``. Exit code 1 if there is a fault.
 """
 
 import argparse

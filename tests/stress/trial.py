@@ -168,7 +168,7 @@ def run(seed: int, number: int) -> Outcome:
             start = kp.assemble(drawn.model, set=drawn.set, guess=drawn.guess)
             sol = kp.dynamics(drawn.model, start, **chosen, progress=patience)  # type: ignore[arg-type]
         judge(outcome, sol)
-    except Exception as error:  # noqa: BLE001 - whatever it is, it is judged
+    except Exception as error:
         judge_error(outcome, error)
     outcome.seconds = time.perf_counter() - begin
     if outcome.seconds > PATIENCE and outcome.ended != "TooLongError":

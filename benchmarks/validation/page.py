@@ -1,0 +1,97 @@
+"""The page docs/validation.md from the results."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from benchmarks.validation.comparison import ROOT, Benchmark, Comparison
+from benchmarks.validation.convergence import PROBLEMS, TOLERANCE, Convergence
+from benchmarks.validation.results import Results
+
+PAGE = ROOT / "docs" / "validation.md"
+#: The figure of each problem, from docs/.
+FIGURES = {p.name: f"images/convergence_{p.name.replace('-', '_')}.png" for p in PROBLEMS}
+
+HEAD = """\
+# Validation
+
+    python -m benchmarks.validation
+
+writes this page, its figures and `benchmarks/validation/results.json`, from runs through the public
+Python interface; it ends with exit code 1 if a number is off. The published numbers are in
+`tests/reference/`; nothing of kempe took part in them. Of many numbers of one kind the pair that
+differs most is shown. The tests compute everything anew.
+"""
+
+CONVERGENCE = """
+## Observed orders
+
+Index-3 problems with constant steps and projection: the largest error over times that all runs
+share, relative to the largest value, against DOP853 at rtol 1e-14, for the coarsest step and three
+halvings. The observed order is the slope of log error over log step by least squares; it must be
+within {tolerance} of theory. The multipliers of explicit methods belong to the reported state, so
+they converge as the coordinates do.
+"""
+
+
+def page(results: Results) -> str:
+    """The whole page."""
+    return "\n".join([HEAD, *map(section, results.benchmarks), convergence(results.convergence)])
+
+
+def section(benchmark: Benchmark) -> str:
+    """One benchmark: source, settings, table, what is missing."""
+    return "\n".join(_section(benchmark))
+
+
+def _section(benchmark: Benchmark) -> Iterator[str]:
+    yield f"## {benchmark.title}\n"
+    yield f"Source (`tests/reference/{benchmark.reference}`): {benchmark.source}.\n"
+    yield f"Settings: {benchmark.settings}.\n"
+    yield "| quantity | unit | numbers | published | kempe | difference | tolerance |"
+    yield "|---|---|---|---|---|---|---|"
+    yield from map(row, benchmark.comparisons)
+    yield ""
+    if benchmark.missing:
+        yield "Not reproduced yet:\n"
+        yield from (f"- {missing.what}: {missing.reason}" for missing in benchmark.missing)
+        yield ""
+
+
+def row(c: Comparison) -> str:
+    """One line of the table."""
+    mark = "" if c.holds else " **off**"
+    numbers = f"{digits(c.published, c.tolerance)} | {digits(c.kempe, c.tolerance)}"
+    return (
+        f"| {c.quantity} | {c.unit} | {c.count} | {numbers} "
+        f"| {c.difference:.1e}{mark} | {c.tolerance:.0e} |"
+    )
+
+
+def digits(x: float, tolerance: float) -> str:
+    """As many digits as the tolerance speaks of, and one more."""
+    places = max(1, 1 - int(f"{tolerance:e}".split("e")[1]))
+    return f"{x:.{min(places, 15)}f}"
+
+
+def convergence(found: tuple[Convergence, ...]) -> str:
+    """Table and figures of the observed orders."""
+    lines = [CONVERGENCE.format(tolerance=TOLERANCE)]
+    for problem in PROBLEMS:
+        name = problem.name.capitalize()
+        lines += [f"### {name}: {problem.told}, {problem.t_end:g} s\n"]
+        lines += [f"![error over step]({FIGURES[problem.name]})\n"]
+        lines += ["| method | steps | errors of q | errors of λ | order of q | of λ | theory |"]
+        lines += ["|---|---|---|---|---|---|---|"]
+        lines += [order_row(c, problem.t_end) for c in found if c.problem == problem.name] + [""]
+    return "\n".join(lines)
+
+
+def order_row(c: Convergence, t_end: float) -> str:
+    """One method."""
+    steps = f"{t_end / c.steps[0]:.0f} … {t_end / c.steps[-1]:.0f}"
+    q, lam = (", ".join(f"{error:.0e}" for error in errors) for errors in (c.q, c.lam))
+    mark = "" if c.holds else " **off**"
+    observed = " | ".join(f"{order:.2f}" for order in c.orders)
+    theory = ", ".join(f"{order:g}" for order in c.theory)
+    return f"| {c.method} | {steps} | {q} | {lam} | {observed}{mark} | {theory} |"
