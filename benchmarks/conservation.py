@@ -1,6 +1,6 @@
 """Energy and closed joints over very many steps: the four-bar linkage without its spring.
 
-    python benchmarks/conservation.py [--method DOP853] [--steps 1000000] [--angle -60] [--json FILE]
+    python benchmarks/conservation.py [--method DOP853] [--steps 1000000] [--angle -60]
 
 The linkage is released from rest with the crank at -60° and swings through 83° for ever. The period
 is twice the time to the other turning point, where the crank stands still again: the zero of its

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import kempe as kp
 import numpy as np
+from kempe.compiled import CompiledModel
+from kempe.options import Option
 
 from benchmarks.validation.comparison import ROOT, Benchmark, compared, reference
 
@@ -16,14 +18,14 @@ def case() -> kp.Case:
     return kp.load(ROOT / "examples" / "squeezer.toml")
 
 
-def run(model: kp.Model, start: kp.State) -> kp.Solution:
+def run(model: kp.Model | CompiledModel, start: kp.State, method: Option = METHOD) -> kp.Solution:
     """To the time of the reference."""
     return kp.dynamics(
         model,
         start,
         t_end=T_END,
         output_step=T_END,
-        method=METHOD,
+        method=method,
         stabilization=kp.Projection(),
         dense_output=False,
     )

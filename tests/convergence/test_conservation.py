@@ -5,6 +5,7 @@
 
 import kempe as kp
 import pytest
+
 from benchmarks.conservation import conserve, period, released
 from benchmarks.validation.convergence import METHODS
 
