@@ -54,7 +54,9 @@ impl Matrix {
             ];
             self.entries.extend_from_slice(&rows[..size]);
         }
-        self.blocks.push(RowBlock { size, touches });
+        let there = bodies.iter().filter(|(body, _)| body.is_some());
+        let signs = if size == 2 { there.map(|(_, sign)| *sign).collect() } else { vec![] };
+        self.blocks.push(RowBlock { size, touches, signs });
     }
 
     fn n(&self) -> usize {
@@ -248,7 +250,7 @@ fn mass_ratios_of_a_million_million_keep_the_digits() {
 #[test]
 fn damping_stands_on_the_diagonal() {
     // W = I, A = (1 0 0): [1 1; 1 -μ] (x, λ) = (3, 1)
-    let blocks = [RowBlock { size: 1, touches: vec![(0, 0)] }];
+    let blocks = [RowBlock { size: 1, touches: vec![(0, 0)], signs: vec![] }];
     let pattern = Pattern::new(vec![false], &blocks);
     let mut saddle = Saddle::new(&pattern);
     saddle.entries[0] = [1.0, 0.0, 0.0];
@@ -269,7 +271,7 @@ fn a_repeated_joint_is_refused_by_its_row_at_any_scale() {
             m.entries.push(m.entries[from + r].map(|e| scale * e));
         }
         let touches = vec![(copied.touches[0].0, 3 * first)];
-        m.blocks.push(RowBlock { size: copied.size, touches });
+        m.blocks.push(RowBlock { size: copied.size, touches, signs: vec![] });
         let pattern = m.pattern();
         let refused = m.saddle(&pattern).factor(&pattern).unwrap_err();
         let Dependent::Row(row) = refused else { panic!("{refused:?}") };
@@ -280,8 +282,8 @@ fn a_repeated_joint_is_refused_by_its_row_at_any_scale() {
 #[test]
 fn near_dependence_shows_as_cancellation() {
     // rows (1, 0) and (1, 1e-4) with W = I: the second pivot is 1e-8 out of 1, in one block or in two
-    let apart = [0, 1].map(|r| RowBlock { size: 1, touches: vec![(0, 3 * r)] });
-    let together = [RowBlock { size: 2, touches: vec![(0, 0)] }];
+    let apart = [0, 1].map(|r| RowBlock { size: 1, touches: vec![(0, 3 * r)], signs: vec![] });
+    let together = [RowBlock { size: 2, touches: vec![(0, 0)], signs: vec![] }];
     for blocks in [&apart[..], &together[..]] {
         let pattern = Pattern::new(vec![false], blocks);
         let mut saddle = Saddle::new(&pattern);
@@ -295,7 +297,7 @@ fn near_dependence_shows_as_cancellation() {
 
 #[test]
 fn unusable_masses_and_rows_are_refused() {
-    let blocks = [RowBlock { size: 1, touches: vec![(1, 0)] }];
+    let blocks = [RowBlock { size: 1, touches: vec![(1, 0)], signs: vec![] }];
     let pattern = Pattern::new(vec![false; 2], &blocks);
     let good = [1.0, 2.0, 3.0];
     let refused = |group: usize, column: usize, inverse: f64, entries: [f64; 3]| {
@@ -315,7 +317,7 @@ fn unusable_masses_and_rows_are_refused() {
     let mut lanes = Saddle::<Lanes<2>>::new(&pattern);
     lanes.entries[0][0] = Lanes([1.0, 0.0]);
     assert_eq!(lanes.factor(&pattern), Err(Dependent::Row(0)));
-    let nothing = Pattern::new(vec![], &[RowBlock { size: 2, touches: vec![] }]);
+    let nothing = Pattern::new(vec![], &[RowBlock { size: 2, touches: vec![], signs: vec![] }]);
     assert_eq!(Saddle::<f64>::new(&nothing).factor(&nothing), Err(Dependent::Row(0)));
 }
 

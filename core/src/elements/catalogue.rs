@@ -56,6 +56,17 @@ impl<S: Real> Rows<'_, S> {
     }
 }
 
+/// Takes what [`Constraint::linearize`] finds, with the number of rows known to the compiler.
+pub trait Linear<S> {
+    /// Φ, Φ̇, γ and ∂Φ/∂(qᵢ, qⱼ) of a constraint between the bodies `ends`.
+    fn take<const M: usize>(
+        self,
+        ends: [BodyId; 2],
+        terms: &VelocityTerms<S, M>,
+        rows: &[[S; 6]; M],
+    );
+}
+
 macro_rules! constraints {
     ($($Group:ident { $($Name:ident),+ $(,)? })+) => {
         /// A joint or a driver of any type.
@@ -132,21 +143,20 @@ macro_rules! constraints {
                 })+)+ }
             }
             /// Φ, Φ̇ and γ as [`velocity_terms`](Self::velocity_terms), and the rows of Φ_q with
-            /// the bodies i and j to `visit`: all that the equations of motion ask of a constraint,
-            /// by one dispatch, with the number of rows known to the compiler.
+            /// the bodies i and j to `target`: all that the equations of motion ask of a constraint,
+            /// by one dispatch.
             #[inline(always)]
             pub fn linearize(
                 &self,
                 motions: &[Motion<S>],
                 t: S,
-                out: Rows<'_, S>,
-                visit: impl FnOnce([BodyId; 2], &[[S; 6]]),
+                target: impl Linear<S>,
             ) {
                 match self { $($(Self::$Name(e) => {
                     let ends = <$Name>::ends(e);
                     let [i, j] = ends.map(|body| &motions[body.0]);
-                    out.set(&<$Name>::velocity_terms(e, i, j, t));
-                    visit(ends, &<$Name>::jacobian(e, &i.pose, &j.pose, t));
+                    let (terms, rows) = <$Name>::linearize(e, i, j, t);
+                    target.take(ends, &terms, &rows);
                 })+)+ }
             }
             /// The joint frame on a body.
@@ -171,6 +181,12 @@ macro_rules! constraints {
             None
         }
     };
+}
+
+/// Takes what a force does to its bodies.
+pub trait Acting<S> {
+    /// The parts and their actions on the bodies i and j.
+    fn take<const P: usize>(self, ends: [BodyId; 2], parts: &[Part; P], actions: &[Action<S>; P]);
 }
 
 macro_rules! forces {
@@ -212,13 +228,15 @@ macro_rules! forces {
         }
 
         impl<S: Real> ForceElement<S> {
-            /// Gives the action of each part to `visit`.
-            #[inline]
-            pub fn action(&self, at: &Situation<S>, mut visit: impl FnMut(usize, Action<S>)) {
+            /// Gives the actions of all parts on the bodies i and j to `taker`: one dispatch, with
+            /// the number of parts known to the compiler.
+            #[inline(always)]
+            pub fn action(&self, motions: &[Motion<S>], t: S, taker: impl Acting<S>) {
                 match self { $(Self::$Name(e) => {
-                    for (part, action) in <$Name>::action(e, at).into_iter().enumerate() {
-                        visit(part, action);
-                    }
+                    let ends = <$Name>::ends(e);
+                    let [i, j] = ends.map(|body| motions[body.0]);
+                    let actions = <$Name>::action(e, &Situation { i, j, t });
+                    taker.take(ends, &<$Name>::PARTS, &actions);
                 })+ }
             }
             /// The relative angle at which a rotational spring is relaxed.

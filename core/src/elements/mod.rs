@@ -18,7 +18,9 @@ pub mod joints;
 mod catalogue;
 
 pub(crate) use catalogue::jets;
-pub use catalogue::{catalogue, formulas, Constraint, ForceElement, Group, Rows, MOST_EQUATIONS};
+pub use catalogue::{
+    catalogue, formulas, Acting, Constraint, ForceElement, Group, Linear, Rows, MOST_EQUATIONS,
+};
 use declare::join;
 pub use declare::{element, Default, Element, Field, Table};
 pub use derive::{derived_jacobian, derived_velocity_terms, VelocityTerms};

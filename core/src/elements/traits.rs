@@ -79,6 +79,17 @@ pub trait Joint<const M: usize>: Element {
     ) -> derive::VelocityTerms<S, M> {
         derive::derived_velocity_terms::<M, Self, S>(e, i, j, t)
     }
+
+    /// [`Joint::velocity_terms`] and [`Joint::jacobian`] together; closed forms may share what they
+    /// have in common.
+    fn linearize<S: Real>(
+        e: &Self::Over<S>,
+        i: &Motion<S>,
+        j: &Motion<S>,
+        t: S,
+    ) -> (derive::VelocityTerms<S, M>, [[S; 6]; M]) {
+        (Self::velocity_terms(e, i, j, t), Self::jacobian(e, &i.pose, &j.pose, t))
+    }
 }
 
 /// Forces and torques of an element on its two bodies.

@@ -5,7 +5,7 @@
 
 use super::mass;
 use crate::math::{Motion, Real};
-use crate::model::{Layout, Model};
+use crate::model::{Block, ConstraintItem, Model};
 pub use crate::solve::Dependent;
 use crate::solve::{Pattern, RowBlock, Saddle, Weight};
 
@@ -20,16 +20,16 @@ impl<S: Real> Augmented<S> {
     /// Memory and elimination order for a model: bodies first, then the constraints by minimum
     /// degree, so that every pivot is safe while Φ_q has full rank.
     pub fn new<P>(model: &Model<P>) -> Self {
-        let layout = &model.layout;
-        let pattern = Pattern::new(mass::coupled(model).collect(), &row_blocks(layout));
+        let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
+        let pattern = Pattern::new(coupled.collect(), &row_blocks(model));
         Self { saddle: Saddle::new(&pattern), pattern }
     }
 
     /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
     pub fn set_mass(&mut self, model: &Model<S>, motions: &[Motion<S>]) {
-        let bodies = model.bodies.iter().zip(&model.added_inertia).zip(motions).skip(1);
-        for (weight, ((body, added), motion)) in self.saddle.weights.iter_mut().zip(bodies) {
-            *weight = mass::inverse(body, *added, motion);
+        let bodies = model.inertias.iter().zip(&motions[1..]);
+        for (weight, (inertia, motion)) in self.saddle.weights.iter_mut().zip(bodies) {
+            mass::inverse(inertia, motion, weight);
         }
     }
 
@@ -87,13 +87,23 @@ impl<S: Real> Augmented<S> {
 }
 
 /// The constraints as blocks of rows.
-fn row_blocks(layout: &Layout) -> Vec<RowBlock> {
-    let touches = |blocks: &[crate::model::Block]| {
-        blocks.iter().map(|block| (block.body.0 - 1, block.first)).collect()
-    };
-    let block = |slots: &crate::model::Slots| RowBlock {
+fn row_blocks<P>(model: &Model<P>) -> Vec<RowBlock> {
+    let touches =
+        |blocks: &[Block]| blocks.iter().map(|block| (block.body.0 - 1, block.first)).collect();
+    let block = |(slots, item): (&crate::model::Slots, &ConstraintItem<P>)| RowBlock {
         size: slots.rows.len(),
         touches: touches(&slots.blocks),
+        signs: signs(item, &slots.blocks),
     };
-    layout.constraints.iter().map(block).collect()
+    model.layout.constraints.iter().zip(&model.constraints).map(block).collect()
+}
+
+/// Of the translations of each body in the equations of a joint that pins two points, where it does so
+/// to two bodies: Φ = point_j - point_i (Haug 3.3.12).
+fn signs<P>(item: &ConstraintItem<P>, blocks: &[Block]) -> Vec<f64> {
+    let [i, j] = item.element.ends();
+    if !item.element.pins() || item.equations.len() != 2 || item.law.is_some() || i == j {
+        return vec![];
+    }
+    blocks.iter().map(|block| if block.body == j { 1.0 } else { -1.0 }).collect()
 }

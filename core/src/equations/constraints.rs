@@ -5,7 +5,11 @@
 //! the law evaluated on the same scalar.
 
 use super::laws::{self, Laws};
-use crate::elements::{jets, moving, seeded, BodyId, Constraint, Coordinate, Rows, MOST_EQUATIONS};
+use super::motion::Gains;
+use crate::elements::{
+    jets, moving, seeded, BodyId, Constraint, Coordinate, Linear, Rows, VelocityTerms,
+    MOST_EQUATIONS,
+};
 use crate::expression::Tape;
 use crate::math::{Dual, Jet, Lift, Motion, Pose, Real};
 use crate::model::{Block, ConstraintItem, Model, Slots};
@@ -57,27 +61,71 @@ fn store<S: Real>(ends: [BodyId; 2], rows: &[[S; 6]], slots: &Slots, entries: &m
     }
 }
 
-/// All of the above and Φ̇ and γ in one pass: [`velocity_terms`] and [`jacobian`].
+/// Φ_q into `entries` as [`jacobian`], and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m), into `right`, in one pass.
 pub fn linearize<S: Real>(
     model: &Model<S>,
     motions: &[Motion<S>],
     t: S,
-    [residual, rate, gamma]: [&mut [S]; 3],
+    gains: Gains,
+    right: &mut [S],
     entries: &mut [S],
 ) {
+    let damping = S::constant(2.0 * gains.alpha);
+    let stiffness = S::constant(gains.beta * gains.beta);
     for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
-        let rows = slots.rows.clone();
-        let out = Rows {
-            residual: &mut residual[rows.clone()],
-            rate: &mut rate[rows.clone()],
-            gamma: &mut gamma[rows],
-        };
-        if let Some(law) = &item.law {
-            law_velocity_terms(model, law, item.element.ends(), motions, t, out);
-            law_blocks(model, item, slots, motions, t, entries);
+        let mut target = Target { slots, damping, stiffness, right, entries };
+        let Some(law) = &item.law else {
+            item.element.linearize(motions, t, target);
             continue;
+        };
+        let (m, none) = (slots.rows.len(), [S::zero(); MOST_EQUATIONS]);
+        let mut terms =
+            VelocityTerms::<S, MOST_EQUATIONS> { residual: none, rate: none, gamma: none };
+        let out = Rows {
+            residual: &mut terms.residual[..m],
+            rate: &mut terms.rate[..m],
+            gamma: &mut terms.gamma[..m],
+        };
+        law_velocity_terms(model, law, item.element.ends(), motions, t, out);
+        target.right_side(m, &terms);
+        law_blocks(model, item, slots, motions, t, entries);
+    }
+}
+
+/// Where a constraint puts γ̂ and its rows of Φ_q.
+struct Target<'a, S> {
+    slots: &'a Slots,
+    /// 2α.
+    damping: S,
+    /// β².
+    stiffness: S,
+    /// γ̂ of all constraints.
+    right: &'a mut [S],
+    entries: &'a mut [S],
+}
+
+impl<S: Real> Target<'_, S> {
+    /// γ̂ of the first `m` rows.
+    #[inline(always)]
+    fn right_side<const M: usize>(&mut self, m: usize, terms: &VelocityTerms<S, M>) {
+        let right = &mut self.right[self.slots.rows.start..][..m];
+        for (k, right) in right.iter_mut().enumerate() {
+            let [gamma, rate, residual] = [terms.gamma[k], terms.rate[k], terms.residual[k]];
+            *right = gamma - self.damping * rate - self.stiffness * residual;
         }
-        item.element.linearize(motions, t, out, |ends, rows| store(ends, rows, slots, entries));
+    }
+}
+
+impl<S: Real> Linear<S> for Target<'_, S> {
+    #[inline(always)]
+    fn take<const M: usize>(
+        mut self,
+        ends: [BodyId; 2],
+        terms: &VelocityTerms<S, M>,
+        rows: &[[S; 6]; M],
+    ) {
+        self.right_side(M, terms);
+        store(ends, rows, self.slots, self.entries);
     }
 }
 

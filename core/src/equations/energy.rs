@@ -48,11 +48,12 @@ impl<S: Real> Powers<S> {
     }
 
     /// Books the power of a part of a force; `law`: whether time or state enters its formulas.
-    pub(super) fn add(&mut self, nature: Nature, law: bool, power: S) {
+    #[inline(always)]
+    pub(super) fn add(&mut self, nature: Nature, law: bool, power: impl Fn() -> S) {
         match (law, nature) {
             (false, Nature::Conservative) => {}
-            (_, Nature::Dissipative) => self.dissipated -= power,
-            _ => self.applied += power, // a law of time or state: no potential keeps its work
+            (_, Nature::Dissipative) => self.dissipated -= power(),
+            _ => self.applied += power(), // a law of time or state: no potential keeps its work
         }
     }
 }

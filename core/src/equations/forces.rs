@@ -2,9 +2,9 @@
 
 use super::energy::Powers;
 use super::laws;
-use crate::elements::{Action, ForceElement, Situation};
+use crate::elements::{Acting, Action, BodyId, Part, Situation};
 use crate::math::{Motion, Real, Wrench};
-use crate::model::{columns, Body, ForceItem, Model};
+use crate::model::{columns, ForceItem, Inertia, Model};
 
 /// Q into `out`, shape (n_q); the powers of the force elements come with it.
 pub fn generalized<S: Real>(
@@ -13,55 +13,74 @@ pub fn generalized<S: Real>(
     t: S,
     out: &mut [S],
 ) -> Powers<S> {
-    let moving = model.bodies.iter().zip(motions).skip(1);
-    for ((body, motion), out) in moving.zip(out.chunks_exact_mut(3)) {
-        let w = gravity_and_inertia(model, body, motion);
+    let moving = model.inertias.iter().zip(&motions[1..]);
+    for ((inertia, motion), out) in moving.zip(out.chunks_exact_mut(3)) {
+        let w = gravity_and_inertia(inertia, motion);
         out.copy_from_slice(&[w.force.x, w.force.y, w.torque]);
     }
     let mut powers = Powers::zero();
     for item in &model.forces {
-        let parts = item.element.parts();
         let lawful = item.law.is_some();
-        each_action(model, item, motions, t, |part, ends, action| {
-            let mut power = S::zero();
-            for (body, wrench) in ends.into_iter().zip([action.on_i, action.on_j]) {
-                power += wrench.power(motions[body.0].twist);
-                if let [x, y, angle] = &mut out[columns(body)] {
-                    *x += wrench.force.x;
-                    *y += wrench.force.y;
-                    *angle += wrench.torque;
-                }
-            }
-            powers.add(parts[part].nature, lawful, power);
-        });
+        each(model, item, motions, t, Sum { motions, lawful, out, powers: &mut powers });
     }
     powers
 }
 
+/// Adds forces up, and their powers.
+struct Sum<'a, S> {
+    motions: &'a [Motion<S>],
+    /// Whether time or state enters the formulas.
+    lawful: bool,
+    /// Q.
+    out: &'a mut [S],
+    powers: &'a mut Powers<S>,
+}
+
+impl<S: Real> Acting<S> for Sum<'_, S> {
+    #[inline(always)]
+    fn take<const P: usize>(self, ends: [BodyId; 2], parts: &[Part; P], actions: &[Action<S>; P]) {
+        let twists = ends.map(|body| self.motions[body.0].twist);
+        let mut total = [Wrench::zero(); 2];
+        for (part, Action { on_i, on_j }) in parts.iter().zip(actions) {
+            let power = || on_i.power(twists[0]) + on_j.power(twists[1]);
+            self.powers.add(part.nature, self.lawful, power);
+            total = [total[0] + *on_i, total[1] + *on_j];
+        }
+        for (body, wrench) in ends.into_iter().zip(total) {
+            if let [x, y, angle] = &mut self.out[columns(body)] {
+                *x += wrench.force.x;
+                *y += wrench.force.y;
+                *angle += wrench.torque;
+            }
+        }
+    }
+}
+
 /// Weight, and the centrifugal force m A c′ φ̇² of a mass centre off the frame's origin.
-fn gravity_and_inertia<S: Real>(model: &Model<S>, body: &Body<S>, motion: &Motion<S>) -> Wrench<S> {
-    let arm = motion.pose.global(body.center);
-    let weight = model.gravity.scale(body.mass);
+#[inline(always)]
+fn gravity_and_inertia<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>) -> Wrench<S> {
+    let weight = inertia.weight;
+    if !inertia.coupled {
+        return Wrench { force: weight, torque: S::zero() };
+    }
+    let arm = motion.pose.global(inertia.center);
     let omega = motion.twist.omega;
-    let centrifugal = arm.scale(body.mass * omega * omega);
+    let centrifugal = arm.scale(inertia.mass * omega * omega);
     Wrench { force: weight + centrifugal, torque: arm.cross(weight) }
 }
 
-/// The element of a force at a state, laws put in.
-fn current<S: Real>(
+/// Gives the action of a force at a state, laws put in.
+#[inline(always)]
+fn each<S: Real>(
     model: &Model<S>,
     item: &ForceItem<S>,
     motions: &[Motion<S>],
     t: S,
-) -> Option<ForceElement<S>> {
+    taker: impl Acting<S>,
+) {
+    let Some(law) = &item.law else { return item.element.action(motions, t, taker) };
     let values = laws::at(&model.parameters, motions, t);
-    item.law.as_ref().map(|law| law.map(&mut |tape| tape.evaluate(&values)))
-}
-
-/// What a force sees.
-fn situation<S: Real>(element: &ForceElement<S>, motions: &[Motion<S>], t: S) -> Situation<S> {
-    let [i, j] = element.ends().map(|b| motions[b.0]);
-    Situation { i, j, t }
+    law.map(&mut |tape| tape.evaluate(&values)).action(motions, t, taker);
 }
 
 /// Gives the action of every part of a force, with the bodies it acts on.
@@ -70,18 +89,27 @@ pub fn each_action<S: Real>(
     item: &ForceItem<S>,
     motions: &[Motion<S>],
     t: S,
-    mut visit: impl FnMut(usize, [crate::elements::BodyId; 2], Action<S>),
+    visit: impl FnMut(usize, [BodyId; 2], Action<S>),
 ) {
-    let law = current(model, item, motions, t);
-    let element = law.as_ref().unwrap_or(&item.element);
-    let ends = element.ends();
-    element.action(&situation(element, motions, t), |part, action| visit(part, ends, action));
+    each(model, item, motions, t, Visit(visit));
+}
+
+struct Visit<F>(F);
+
+impl<S: Real, F: FnMut(usize, [BodyId; 2], Action<S>)> Acting<S> for Visit<F> {
+    fn take<const P: usize>(self, ends: [BodyId; 2], _: &[Part; P], actions: &[Action<S>; P]) {
+        let Self(mut visit) = self;
+        actions.iter().enumerate().for_each(|(part, action)| visit(part, ends, *action));
+    }
 }
 
 /// Potential energy of a force, J; zero where a law makes it non-conservative.
 pub fn potential<S: Real>(item: &ForceItem<S>, motions: &[Motion<S>], t: S) -> S {
     match item.law {
         Some(_) => S::zero(),
-        None => item.element.potential(&situation(&item.element, motions, t)),
+        None => {
+            let [i, j] = item.element.ends().map(|b| motions[b.0]);
+            item.element.potential(&Situation { i, j, t })
+        }
     }
 }

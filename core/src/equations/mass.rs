@@ -3,9 +3,8 @@
 //!
 //! With c the mass centre and b = B c′ = (A c′)⊥:  M = [m I, m b; m bᵀ, J + m |c′|²].
 
-use crate::expression::Tape;
 use crate::math::{Motion, Real, Vec2};
-use crate::model::{Body, Model};
+use crate::model::{Body, Inertia};
 use crate::solve::Weight;
 
 /// The four numbers that a block holds.
@@ -29,19 +28,15 @@ pub fn block<S: Real>(body: &Body<S>, motion: &Motion<S>) -> MassBlock<S> {
     }
 }
 
-/// The factors of the block's inverse, with `added` to the inertia: shifted to the mass centre by b,
-/// it is diagonal in m and J.
-pub fn inverse<S: Real>(body: &Body<S>, added: S, motion: &Motion<S>) -> Weight<S> {
-    let b = motion.pose.global(body.center).perp();
-    let (m, j) = (S::one() / body.mass, S::one() / (body.inertia + added));
-    Weight { inverse: [m, m, j], shift: [b.x, b.y] }
-}
-
-/// For each moving body, whether its mass centre can be off the origin of its frame: only then are
-/// rotation and translation coupled. Decided by the formulas, whatever the parameters.
-pub fn coupled<S>(model: &Model<S>) -> impl Iterator<Item = bool> + '_ {
-    let zero = |tape: &Tape| tape.constant() == Some(0.0);
-    model.blueprint.bodies[1..].iter().map(move |b| !(zero(&b.center.x) && zero(&b.center.y)))
+/// Puts the factors of the block's inverse, added inertia included, into `weight`: shifted to the mass
+/// centre by b, it is diagonal in m and J.
+#[inline(always)]
+pub fn inverse<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, weight: &mut Weight<S>) {
+    weight.inverse = inertia.inverse;
+    if inertia.coupled {
+        let b = motion.pose.global(inertia.center).perp();
+        weight.shift = [b.x, b.y];
+    }
 }
 
 impl<S: Real> MassBlock<S> {

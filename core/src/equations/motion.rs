@@ -31,12 +31,6 @@ pub struct Singular(pub Dependent);
 pub struct Workspace<S = f64> {
     /// Motion of every body, ground first.
     pub motions: Vec<Motion<S>>,
-    /// Φ.
-    pub residual: Vec<S>,
-    /// Φ_q q̇ + Φ_t.
-    pub rate: Vec<S>,
-    /// γ.
-    pub gamma: Vec<S>,
     /// The augmented matrix.
     pub matrix: Augmented<S>,
     /// Right side, then solution (q̈, λ).
@@ -57,9 +51,6 @@ impl<S: Real> Workspace<S> {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let mut workspace = Self {
             motions: Vec::with_capacity(model.bodies.len()),
-            residual: vec![S::zero(); m],
-            rate: vec![S::zero(); m],
-            gamma: vec![S::zero(); m],
             matrix: Augmented::new(model),
             solution: vec![S::zero(); n + m],
             powers: Powers::zero(),
@@ -94,17 +85,11 @@ impl<S: Real> Workspace<S> {
         gains: Gains,
     ) -> Result<(), Singular> {
         kinematics::motions(q, v, &mut self.motions);
-        let terms = [&mut self.residual[..], &mut self.rate[..], &mut self.gamma[..]];
-        constraints::linearize(model, &self.motions, t, terms, self.matrix.jacobian_mut());
+        let (forces, right) = self.solution.split_at_mut(self.n_q);
+        let entries = self.matrix.jacobian_mut();
+        constraints::linearize(model, &self.motions, t, gains, right, entries);
         self.matrix.set_mass(model, &self.motions);
-        let (forces, lower) = self.solution.split_at_mut(self.n_q);
         self.powers = forces::generalized(model, &self.motions, t, forces);
-        let (damping, stiffness) =
-            (S::constant(2.0 * gains.alpha), S::constant(gains.beta * gains.beta));
-        let terms = self.gamma.iter().zip(&self.rate).zip(&self.residual);
-        for (right, ((gamma, rate), residual)) in lower.iter_mut().zip(terms) {
-            *right = *gamma - damping * *rate - stiffness * *residual;
-        }
         let Some(mut correction) = self.correction.take() else {
             return self.matrix.factor_and_solve(&mut self.solution).map_err(Singular);
         };
@@ -129,6 +114,9 @@ impl<S: Real> Workspace<S> {
     /// Powers at the state of the last [`accelerate`](Self::accelerate), drivers included.
     pub fn powers(&self, model: &Model<S>, v: &[S]) -> Powers<S> {
         let mut powers = self.powers;
+        if !model.driven {
+            return powers;
+        }
         let mut rows = [S::zero(); crate::elements::MOST_EQUATIONS];
         for (k, item) in model.constraints.iter().enumerate().filter(|(_, c)| c.driven) {
             let range = model.layout.constraints[k].rows.clone();

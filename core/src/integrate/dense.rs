@@ -3,6 +3,11 @@
 //! kₛ are the stages and wₛ polynomials without constant term, so that nothing is computed for a step
 //! nobody looks into. Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6.
 
+use super::stages::accumulate;
+
+/// Stages that are added in one pass.
+const TOGETHER: usize = 4;
+
 /// Stages of a step with the polynomials that join them.
 #[derive(Clone, Copy, Debug)]
 pub struct Dense<'a> {
@@ -12,6 +17,11 @@ pub struct Dense<'a> {
     table: &'static [f64],
     degree: usize,
     len: usize,
+}
+
+/// The sum of bₖ θᵏ⁻¹, k = 1….
+fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, b| sum * theta + b)
 }
 
 impl<'a> Dense<'a> {
@@ -32,11 +42,16 @@ impl<'a> Dense<'a> {
 
     pub(super) fn evaluate(&self, y_old: &[f64], h: f64, theta: f64, out: &mut [f64]) {
         out.copy_from_slice(y_old);
-        for (stage, row) in self.terms() {
-            let weight = h * theta * row.iter().rev().fold(0.0, |sum, b| sum * theta + b);
-            for (out, k) in out.iter_mut().zip(stage) {
-                *out += weight * k;
+        let scale = h * theta;
+        let mut terms = self.terms();
+        // a term that is not there repeats the first, by weight zero
+        while let Some((first, row)) = terms.next() {
+            let (mut weights, mut stages) = ([0.0; TOGETHER], [first; TOGETHER]);
+            weights[0] = scale * polynomial(row, theta);
+            for (s, (stage, row)) in (1..TOGETHER).zip(&mut terms) {
+                (weights[s], stages[s]) = (scale * polynomial(row, theta), stage);
             }
+            accumulate(weights, stages, out);
         }
     }
 

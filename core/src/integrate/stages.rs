@@ -21,6 +21,20 @@ pub(super) fn combine<const S: usize>(
     }
 }
 
+/// out += Σₛ aₛ kₛ, one pass over the components.
+#[inline(always)]
+pub(super) fn accumulate<const S: usize>(a: [f64; S], k: [&[f64]; S], out: &mut [f64]) {
+    let n = out.len();
+    let k = k.map(|k| &k[..n]); // equal lengths: no bounds checks below
+    for i in 0..n {
+        let mut sum = a[0] * k[0][i];
+        for s in 1..S {
+            sum += a[s] * k[s][i];
+        }
+        out[i] += sum;
+    }
+}
+
 /// The first S stages in rows of `k`.
 #[inline(always)]
 pub(super) fn rows<const S: usize>(k: &[f64], n: usize) -> [&[f64]; S] {

@@ -6,6 +6,7 @@ mod bodies;
 mod body_fields;
 mod checks;
 mod definition;
+mod inertia;
 mod layout;
 mod link;
 #[allow(clippy::module_inception)] // the model of the module `model`
@@ -17,6 +18,7 @@ mod size;
 pub use blueprint::{build, Blueprint};
 pub use body_fields::body_tables;
 pub use definition::{Definition, Entry, Value};
+pub use inertia::Inertia;
 pub use layout::{columns, Block, Layout, Slots};
 pub use link::{did_you_mean, Reach, Scope};
 pub use model::{variable, Body, ConstraintItem, Dependence, ForceItem, Model};

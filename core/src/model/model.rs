@@ -2,6 +2,7 @@
 
 use super::added_inertia;
 use super::blueprint::Blueprint;
+use super::inertia::{inertias, Inertia};
 use super::layout::Layout;
 use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group};
 use crate::expression::{Symbol, Tape, Values};
@@ -96,8 +97,12 @@ pub struct Model<S = f64> {
     /// Moments of inertia that are added to bodies without their own while the equations are solved,
     /// and taken back then, kg·m²; zero for others and for ground.
     pub added_inertia: Vec<S>,
+    /// Of the moving bodies: without ground.
+    pub inertias: Vec<Inertia<S>>,
     /// Index ranges.
     pub layout: Layout,
+    /// Whether a joint or driver is driven.
+    pub driven: bool,
     /// Whether redundant constraints are accepted; their multipliers are then the smallest that
     /// carry the loads.
     pub allow_redundancy: bool,
@@ -179,11 +184,15 @@ impl<S: Real> Model<S> {
         });
         let forces = forces.collect();
         let bodies: Vec<Body<S>> = blueprint.bodies.iter().map(|body| body.map(value)).collect();
+        let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
+        let added_inertia = added_inertia::added(&bodies, &constraints);
         Self {
             blueprint: Arc::clone(blueprint),
             parameters: parameters.to_vec(),
-            gravity: Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1])),
-            added_inertia: added_inertia::added(&bodies, &constraints),
+            gravity,
+            inertias: inertias(&blueprint.bodies, &bodies, &added_inertia, gravity),
+            added_inertia,
+            driven: constraints.iter().any(|item| item.driven),
             bodies,
             layout: Layout::new(blueprint.bodies.len() - 1, touched.into_iter()),
             constraints,

@@ -25,6 +25,16 @@ pub(super) struct Row<S> {
     pub scaled: [S; 3],
 }
 
+impl<S: Real> Row<S> {
+    /// y += A x.
+    #[inline(always)]
+    pub fn add_times<const N: usize>(rows: &[Self; N], x: &[S; 3], y: &mut [S; N]) {
+        for (y, Self { plain: a, .. }) in y.iter_mut().zip(rows) {
+            *y += a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
+        }
+    }
+}
+
 /// aᵀ b over the first `K` components.
 #[inline(always)]
 fn dot<S: Real, const K: usize>(a: &[S; 3], b: &[S; 3]) -> S {

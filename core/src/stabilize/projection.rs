@@ -59,17 +59,19 @@ pub struct Projector<'a> {
     tolerance: f64,
     size: f64,
     scales: Vec<f64>,
+    /// Φ, Φ̇ and γ.
+    terms: [Vec<f64>; 3],
     /// Right side, then (Δ, μ).
     correction: Vec<f64>,
     /// Factorisations that chord iterations did not spare.
     pub factorisations: usize,
 }
 
-/// What is to be met.
+/// What is to be met, by its place in the terms.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Level {
-    Position,
-    Velocity,
+    Position = 0,
+    Velocity = 1,
 }
 
 impl<'a> Projector<'a> {
@@ -81,6 +83,7 @@ impl<'a> Projector<'a> {
             tolerance: options.tolerance,
             size: size(model),
             scales: row_scales(model),
+            terms: std::array::from_fn(|_| vec![0.0; model.layout.n_rows]),
             correction: vec![0.0; unknowns],
             factorisations: 0,
         }
@@ -147,18 +150,19 @@ impl<'a> Projector<'a> {
 
     /// The largest scaled residual; its row and what it is unscaled go into `worst`.
     fn gap(
-        &self,
+        &mut self,
         level: Level,
         workspace: &mut Workspace,
         t: f64,
         (q, v): (&[f64], &[f64]),
         worst: &mut (usize, f64),
     ) -> f64 {
-        let Workspace { motions, residual, rate, gamma, .. } = workspace;
+        let motions = &mut workspace.motions;
+        let [residual, rate, gamma] = &mut self.terms;
         kinematics::motions(q, v, motions);
         constraints::velocity_terms(self.model, motions, t, residual, rate, gamma);
         let mut gap = 0.0;
-        for (row, (r, scale)) in level.of(workspace).iter().zip(&self.scales).enumerate() {
+        for (row, (r, scale)) in self.terms[level as usize].iter().zip(&self.scales).enumerate() {
             let scaled = r.abs() / scale;
             // NaN, once there, stays
             if scaled > gap || scaled.is_nan() {
@@ -181,7 +185,8 @@ impl<'a> Projector<'a> {
     fn correct(&mut self, level: Level, workspace: &Workspace, x: &mut [f64]) {
         let (upper, lower) = self.correction.split_at_mut(x.len());
         upper.fill(0.0);
-        lower.iter_mut().zip(level.of(workspace)).for_each(|(right, r)| *right = -r);
+        let open = &self.terms[level as usize];
+        lower.iter_mut().zip(open).for_each(|(right, r)| *right = -r);
         workspace.matrix.solve(&mut self.correction);
         x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += dx);
     }
@@ -190,14 +195,5 @@ impl<'a> Projector<'a> {
     fn largest(&self, x: &[f64]) -> f64 {
         let scaled = |(k, x): (usize, &f64)| if k % 3 == 2 { x.abs() } else { x.abs() / self.size };
         x.iter().enumerate().map(scaled).fold(0.0, f64::max)
-    }
-}
-
-impl Level {
-    fn of(self, workspace: &Workspace) -> &[f64] {
-        match self {
-            Self::Position => &workspace.residual,
-            Self::Velocity => &workspace.rate,
-        }
     }
 }

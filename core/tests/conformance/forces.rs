@@ -2,7 +2,7 @@
 
 use crate::mechanisms::{close, worst, Random};
 use crate::samples::{forces, later, motion, random};
-use kempe::elements::{Action, ForceElement, Nature, Situation};
+use kempe::elements::{Acting, Action, BodyId, ForceElement, Nature, Part, Situation};
 use kempe::math::{Dual, Lanes, Lift, Real, Wrench};
 
 fn each(mut check: impl FnMut(&ForceElement, [f64; 6], [f64; 6])) {
@@ -18,12 +18,20 @@ fn at<S: Real>(i: [S; 6], j: [S; 6]) -> Situation<S> {
     Situation { i: motion(i), j: motion(j), t: S::constant(0.7) }
 }
 
+/// Collects the actions of all parts.
+struct Collect<'a, S>(&'a mut Vec<Action<S>>);
+
+impl<S: Real> Acting<S> for Collect<'_, S> {
+    fn take<const P: usize>(self, _: [BodyId; 2], _: &[Part; P], actions: &[Action<S>; P]) {
+        self.0.extend(actions);
+    }
+}
+
 fn actions<S: Real>(f: &ForceElement<S>, at: &Situation<S>) -> Vec<Action<S>> {
-    let mut out = Vec::new();
-    f.action(at, |part, action| {
-        assert_eq!(part, out.len());
-        out.push(action);
-    });
+    let (mut out, [i, j]) = (Vec::new(), f.ends());
+    let mut motions = vec![at.i; 1 + i.0.max(j.0)];
+    motions[j.0] = at.j;
+    f.action(&motions, at.t, Collect(&mut out));
     assert_eq!(out.len(), f.parts().len());
     out
 }

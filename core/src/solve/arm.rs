@@ -1,0 +1,85 @@
+//! Pairs of rows [±I b] of A, such as those of a revolute joint: their products need b alone.
+//!
+//! With W = Lw Dw Lwᵀ, [±I b] Lw⁻ᵀ = [±I b′] keeps its form, so that of U only b′ is stored. The
+//! functions are generic in the size of blocks for the sake of their callers; they are meant for two rows.
+
+use super::pattern::Owner;
+use super::weight::Weight;
+use crate::math::Real;
+
+/// Such a pair in one group.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arm<S> {
+    /// 1/d₀ and 1/d₁.
+    inverse: [S; 2],
+    /// b′.
+    plain: [S; 2],
+    /// b′/d₂.
+    scaled: [S; 2],
+}
+
+impl<S: Real> Arm<S> {
+    /// Nothing yet.
+    pub fn zero() -> Self {
+        let none = [S::zero(); 2];
+        Self { inverse: none, plain: none, scaled: none }
+    }
+
+    /// From the rows of A and the weight of the group.
+    #[inline(always)]
+    pub fn new(rows: &[[S; 3]; 2], weight: &Weight<S>, owner: &Owner) -> Self {
+        let [d0, d1, d2] = weight.inverse;
+        let mut plain = [rows[0][2], rows[1][2]];
+        if owner.coupled {
+            let sign = S::constant(owner.sign);
+            plain = [plain[0] - sign * weight.shift[0], plain[1] - sign * weight.shift[1]];
+        }
+        Self { inverse: [d0, d1], plain, scaled: plain.map(|b| b * d2) }
+    }
+
+    /// target += U Dw⁻¹ Uᵀ, the lower triangle.
+    #[inline(always)]
+    pub fn add_square<const N: usize>(&self, target: &mut [[S; N]; N]) {
+        for (i, target) in target.iter_mut().enumerate() {
+            for (j, target) in target.iter_mut().enumerate().take(i + 1) {
+                *target += self.plain[i] * self.scaled[j];
+            }
+            target[i] += self.inverse[i];
+        }
+    }
+
+    /// target += U Dw⁻¹ U′ᵀ with another pair; `sign` is the product of both signs.
+    #[inline(always)]
+    pub fn add_product<const M: usize, const N: usize>(
+        &self,
+        other: &Self,
+        sign: f64,
+        target: &mut [[S; N]; M],
+    ) {
+        for (i, target) in target.iter_mut().enumerate() {
+            for (j, target) in target.iter_mut().enumerate() {
+                *target += self.plain[i] * other.scaled[j];
+            }
+            target[i] += S::constant(sign) * self.inverse[i];
+        }
+    }
+
+    /// y += U x.
+    #[inline(always)]
+    pub fn add_times<const N: usize>(&self, sign: f64, x: &[S; 3], y: &mut [S; N]) {
+        for (i, y) in y.iter_mut().enumerate() {
+            *y += S::constant(sign) * x[i] + self.plain[i] * x[2];
+        }
+    }
+
+    /// x -= Dw⁻¹ Uᵀ λ.
+    #[inline(always)]
+    pub fn subtract_transposed<const N: usize>(&self, sign: f64, lambda: &[S; N], x: &mut [S; 3]) {
+        let mut turn = x[2];
+        for (i, lambda) in lambda.iter().enumerate() {
+            x[i] -= S::constant(sign) * self.inverse[i] * *lambda;
+            turn -= self.scaled[i] * *lambda;
+        }
+        x[2] = turn;
+    }
+}
