@@ -9,7 +9,7 @@ use crate::stabilize::Projection;
 
 /// Most steps of a run that says nothing of it: a second or so for a small mechanism, and some
 /// hundred megabytes if everything is kept.
-pub const MOST_STEPS: usize = 200_000;
+pub const MOST_STEPS: usize = 100_000;
 /// Most reported states on a grid.
 const MOST_OUTPUTS: f64 = 1e6;
 
