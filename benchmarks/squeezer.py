@@ -1,6 +1,6 @@
 """Andrews' squeezing mechanism to t = 0.03 s, as called from Python.
 
-    python benchmarks/squeezer.py [--repeat 25]
+    python -m benchmarks.squeezer [--repeat 25]
 
 Prints, for each tolerance, the largest error of the seven angles against tests/reference, steps,
 evaluations, and the median CPU time of a call; the time in the core alone beside it.
@@ -10,14 +10,9 @@ from __future__ import annotations
 
 import argparse
 import statistics
-import sys
 import time
-from pathlib import Path
 
 import kempe as kp
-
-if __name__ == "__main__":
-    sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from benchmarks.validation.andrews import T_END, angles, case, run
 from benchmarks.validation.comparison import reference

@@ -21,6 +21,7 @@ def main() -> int:
     numbers = [c for b in results.benchmarks for c in b.comparisons]
     off = [c.quantity for c in numbers if not c.holds]
     off += [f"{c.method} on {c.problem}" for c in results.convergence if not c.holds]
+    off += [f"{c.method} over {c.steps} steps" for c in results.conservation if not c.holds]
     print(f"{sum(c.count for c in numbers)} numbers in {len(numbers)} rows; off: {off or 'none'}")
     return 0 if results.holds else 1
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from benchmarks.validation.comparison import ROOT, Benchmark, Comparison
+from benchmarks.validation.conservation import CLOSED, KEPT, STEPS, Conserved
 from benchmarks.validation.convergence import PROBLEMS, TOLERANCE, Convergence
 from benchmarks.validation.results import Results
 
@@ -33,10 +34,23 @@ within {tolerance} of theory. The multipliers of explicit methods belong to the 
 they converge as the coordinates do.
 """
 
+CONSERVATION = """\
+## Conservation
+
+    python -m benchmarks.validation.conservation --method DOP853
+
+The flagship without its spring-damper, released from rest with the crank at -60°, so that it swings
+through 83° for ever; constant steps of 1/{steps} of the period of {period:.6f} s, with projection.
+The period is twice the time until the crank stands still again. Residual: largest |Φ|, at most
+{closed:.0e} m; drift: largest change of the energy, relative to the largest kinetic energy.
+"""
+
 
 def page(results: Results) -> str:
     """The whole page."""
-    return "\n".join([HEAD, *map(section, results.benchmarks), convergence(results.convergence)])
+    numbers = map(section, results.benchmarks)
+    observed = (convergence(results.convergence), conservation(results.conservation))
+    return "\n".join([HEAD, *numbers, *observed])
 
 
 def section(benchmark: Benchmark) -> str:
@@ -95,3 +109,16 @@ def order_row(c: Convergence, t_end: float) -> str:
     observed = " | ".join(f"{order:.2f}" for order in c.orders)
     theory = ", ".join(f"{order:g}" for order in c.theory)
     return f"| {c.method} | {steps} | {q} | {lam} | {observed}{mark} | {theory} |"
+
+
+def conservation(found: tuple[Conserved, ...]) -> str:
+    """Table of the long runs."""
+    head = CONSERVATION.format(steps=STEPS, period=found[0].period, closed=CLOSED)
+    lines = [head, "| method | steps | residual, m | drift | allowed |", "|---|---|---|---|---|"]
+    for c in found:
+        allowed = f"{KEPT[c.method]:.0e}" if c.method in KEPT else "–"
+        mark = "" if c.holds else " **off**"
+        lines.append(
+            f"| {c.method} | {c.steps} | {c.residual:.1e} | {c.drift:.1e}{mark} | {allowed} |"
+        )
+    return "\n".join([*lines, ""])

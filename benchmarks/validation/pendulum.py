@@ -39,6 +39,7 @@ def simulated(model: kp.Model, start: kp.State, t_end: float, step: float) -> kp
         output_step=step,
         method=METHOD,
         stabilization=kp.Projection(tolerance=1e-14),
+        max_steps=1_000_000,
         dense_output=False,
     )
 

@@ -17,9 +17,13 @@ from benchmarks.validation import (
     pendulum,
 )
 from benchmarks.validation.comparison import Benchmark, Comparison, Missing
-from benchmarks.validation.convergence import Convergence, study
+from benchmarks.validation.conservation import Conserved, conserve, released
+from benchmarks.validation.convergence import METHODS, Convergence, study
 
 FILE = Path(__file__).with_name("results.json")
+
+#: Steps of the long runs.
+MILLION = 1_000_000
 
 #: The benchmarks, in the order of the page; each file of tests/reference has one.
 BENCHMARKS: tuple[Callable[[], Benchmark], ...] = (
@@ -39,21 +43,25 @@ class Results:
     Attributes:
         benchmarks: numbers beside published ones.
         convergence: observed orders.
+        conservation: what a million steps kept.
     """
 
     benchmarks: tuple[Benchmark, ...]
     convergence: tuple[Convergence, ...]
+    conservation: tuple[Conserved, ...]
 
     @property
     def holds(self) -> bool:
         """Whether every number is within its tolerance, and every order is that of theory."""
         numbers = [c.holds for b in self.benchmarks for c in b.comparisons]
-        return all(numbers) and all(c.holds for c in self.convergence)
+        observed = [*self.convergence, *self.conservation]
+        return all(numbers) and all(one.holds for one in observed)
 
 
 def computed() -> Results:
     """From runs of kempe."""
-    return Results(tuple(make() for make in BENCHMARKS), tuple(study()))
+    kept = tuple(conserve(integrator, released(), MILLION) for integrator in METHODS)
+    return Results(tuple(make() for make in BENCHMARKS), tuple(study()), kept)
 
 
 def written(results: Results) -> str:
@@ -67,6 +75,7 @@ def read(path: Path = FILE) -> Results:
     return Results(
         tuple(_benchmark(b) for b in data["benchmarks"]),
         tuple(_convergence(c) for c in data["convergence"]),
+        tuple(Conserved(**c) for c in data["conservation"]),
     )
 
 

@@ -1,12 +1,12 @@
 """Long runs of a conservative mechanism keep their energy and their joints closed.
 
-`python benchmarks/conservation.py` does a million steps.
+`python -m benchmarks.validation.conservation` does a million steps.
 """
 
 import kempe as kp
 import pytest
 
-from benchmarks.conservation import conserve, period, released
+from benchmarks.validation.conservation import conserve, period, released
 from benchmarks.validation.convergence import METHODS
 
 BY_NAME = {integrator.name: integrator for integrator in METHODS}

@@ -7,7 +7,7 @@ import pytest
 from benchmarks.validation.comparison import ROOT, Benchmark, Comparison, compared
 from benchmarks.validation.convergence import PROBLEMS
 from benchmarks.validation.page import FIGURES, PAGE, page, row
-from benchmarks.validation.results import BENCHMARKS, read, written
+from benchmarks.validation.results import BENCHMARKS, MILLION, read, written
 
 COMMITTED = read()
 AGAIN = "run python -m benchmarks.validation"
@@ -21,6 +21,7 @@ def test_the_page_is_that_of_the_numbers() -> None:
 
 def test_the_numbers_are_within_their_tolerances() -> None:
     assert COMMITTED.holds
+    assert all(kept.steps == MILLION for kept in COMMITTED.conservation)
 
 
 def test_every_reference_has_its_benchmark() -> None:
