@@ -2,7 +2,7 @@
 
 mod mechanisms;
 
-use kempe::analyses::dynamics::{dynamics, Failure, Options, Output, Reason, Scheme, MOST_STEPS};
+use kempe::analyses::dynamics::{dynamics, most_steps, Failure, Options, Output, Reason, Scheme};
 use kempe::analyses::State;
 use kempe::integrate::{Flow, Rk4, Rk45};
 use kempe::model::Model;
@@ -100,13 +100,12 @@ value = "0.3 + 2*t"
 #[test]
 fn a_run_without_end_ends() {
     let (m, state) = four_bar();
-    let Scheme::Rk45(method) = Options::new(1.0).scheme else { panic!("the default") };
-    assert_eq!(method.max_steps, Some(MOST_STEPS));
-    let scheme = Scheme::Rk45(Rk45 { max_step: 1e-12, ..method });
+    assert_eq!(most_steps(&m), 333_333);
+    let scheme = Scheme::Rk45(Rk45 { max_step: 1e-12, ..Rk45::default() });
     let failure = failed(&m, &state, &Options { scheme, ..Options::new(1.0) });
     let Reason::Integration { t, message, hint } = failure.reason else { panic!("integration") };
     assert_eq!((t, failure.run.trajectory.t.len()), (0.0, 1));
-    assert!(message.contains("more than max_steps = 100000"), "{message}");
+    assert!(message.contains("more than max_steps = 333333"), "{message}");
     assert!(hint.contains("larger steps"), "{hint}");
 
     let options = Options { output: Output::Every(1e-12), ..Options::new(1.0) };

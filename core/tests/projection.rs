@@ -297,6 +297,15 @@ fn coordinates_without_digits_left_are_refused() {
     assert!(gap.abs() > 1e-8, "{gap:.1e}");
 }
 
+/// A damped mechanism comes to rest, down to the least numbers there are.
+#[test]
+fn rates_below_the_normal_numbers_are_rest() {
+    let (m, mut state) = four_bar();
+    state.v = vec![2e-321, 1e-322, 3e-321, -2e-321, 5e-324, 1e-320, 0.0, 3e-322, 1e-321];
+    let (found, _) = project(&m, &state).unwrap();
+    assert!(largest(&found.v) < 1e-300);
+}
+
 const ROD: &str = r#"
 [bodies.ground]
 points = { O = [0, 0] }

@@ -98,7 +98,7 @@ def test_a_constant_step_is_kept(
 def test_steps_without_end_are_refused_at_once(
     model: kp.Model, start: kp.State, method: kp.RK4 | kp.RK45 | kp.DOP853
 ) -> None:
-    with pytest.raises(kp.IntegrationError, match=r"1e12 steps of 1e-12 s .* = 100000; take") as e:
+    with pytest.raises(kp.IntegrationError, match=r"1e12 steps of 1e-12 s .* = 333333; take") as e:
         kp.dynamics(model, start, t_end=1, method=method)
     np.testing.assert_array_equal(e.value.solution.t, [0.0])
 

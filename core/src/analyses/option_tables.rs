@@ -1,6 +1,5 @@
 //! Which options the analyses have, as data: for the reader of files, the schema, Python and docs.
 
-use super::dynamics::MOST_STEPS;
 use crate::elements::{Default, Field, Shape, Table};
 
 /// One set of options of a family.
@@ -58,7 +57,7 @@ fn dynamics() -> Table {
             Default::Type("baumgarte"),
             "What keeps the constraints from drifting.",
         ),
-        Field::optional("max_steps", Shape::Count, "", Default::Number(MOST_STEPS as f64), "Most steps before the solver gives up; if steps of bounded length cannot get to t_end with so many, at once."),
+        Field::optional("max_steps", Shape::Count, "", Default::Absent, "Most steps before the solver gives up; if steps of bounded length cannot get to t_end with so many, at once. Else 1 000 000 over the number of moving bodies, at least 50 000."),
         Field::optional(
             "from",
             Shape::Name,

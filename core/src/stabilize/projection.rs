@@ -156,7 +156,11 @@ impl<'a> Projector<'a> {
                 let rounding = 8.0 * f64::EPSILON * self.largest(q);
                 (self.tolerance.max(rounding), CLOSED.max(self.tolerance))
             }
-            Level::Velocity => (self.tolerance * self.largest(v).max(gap), f64::INFINITY),
+            // what has come to rest has rates without digits
+            Level::Velocity => {
+                let target = self.tolerance * self.largest(v).max(gap);
+                (target.max(f64::MIN_POSITIVE), f64::INFINITY)
+            }
         };
         (target.min(most), (ROUNDING * target).min(most))
     }

@@ -91,14 +91,11 @@ impl Reason {
     pub(super) fn halt(model: &Model, t: f64, halt: Halt) -> Self {
         match halt {
             Halt::Fault(fault) => Self::fault(model, t, fault),
-            Halt::NotFinite => Self::not_finite(t),
+            Halt::NotFinite => {
+                let (message, hint) = not_finite(t);
+                Self::Integration { t, message, hint }
+            }
         }
-    }
-
-    fn not_finite(t: f64) -> Self {
-        let message = format!("the motion became infinite or undefined at t = {t:.6} s");
-        let hint = "use a smaller step or tolerance; check forces and laws at this state";
-        Self::Integration { t, message, hint }
     }
 
     pub(super) fn from_integrator(
@@ -115,7 +112,7 @@ impl Reason {
                 format!("the step fell to {h:.1e} s at t = {t:.6} s: the tolerance cannot be met"),
                 "a singular position or a discontinuity lies here; look at the solution so far",
             ),
-            Cause::NotFinite { t } => return Self::not_finite(t),
+            Cause::NotFinite { t } => not_finite(t),
             Cause::MaxSteps { steps } => (
                 format!("max_steps = {steps} steps ended at t = {t:.6} s"),
                 "raise max_steps, or loosen the tolerance",
@@ -131,6 +128,11 @@ impl Reason {
         };
         Self::Integration { t, message, hint }
     }
+}
+
+fn not_finite(t: f64) -> (String, &'static str) {
+    let message = format!("the motion became infinite or undefined at t = {t:.6} s");
+    (message, "use a smaller step or tolerance; check forces and laws at this state")
 }
 
 impl fmt::Display for Reason {

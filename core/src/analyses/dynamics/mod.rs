@@ -7,7 +7,7 @@ mod read;
 mod system;
 
 pub use failure::{Failure, Reason};
-pub use options::{Options, Output, Scheme, Stabilization, MOST_STEPS};
+pub use options::{most_steps, Options, Output, Scheme, Stabilization};
 pub use output::{Dense, Trajectory, ENERGIES};
 pub use read::read;
 
@@ -72,7 +72,7 @@ pub fn dynamics(
     })?;
     recorder.report(t0, &y);
     let mut observer = Watched { recorder: &mut recorder, watch: &mut watch };
-    let outcome = match &options.scheme {
+    let outcome = match &options.scheme.bounded(model) {
         Scheme::Rk45(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Dop853(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Rk4(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),

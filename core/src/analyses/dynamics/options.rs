@@ -7,9 +7,11 @@ use crate::integrate::{Atol, Dop853, Rk4, Rk45};
 use crate::model::Model;
 use crate::stabilize::Projection;
 
-/// Most steps of a run that says nothing of it: a second or so for a small mechanism, and some
-/// hundred megabytes if everything is kept.
-pub const MOST_STEPS: usize = 100_000;
+/// Steps times moving bodies of a run that does not bound its steps: some seconds, and half a gigabyte
+/// if everything is kept.
+const MOST_WORK: usize = 1_000_000;
+/// Steps that large models may take in any case.
+const LEAST_BOUND: usize = 50_000;
 /// Most reported states on a grid.
 const MOST_OUTPUTS: f64 = 1e6;
 
@@ -22,6 +24,26 @@ pub enum Scheme {
     Dop853(Dop853),
     /// Classical, fixed step.
     Rk4(Rk4),
+}
+
+/// Most steps of a run that does not bound them: 1 000 000 over the number of moving bodies, and at
+/// least 50 000.
+pub fn most_steps(model: &Model) -> usize {
+    (MOST_WORK / (model.bodies.len() - 1).max(1)).max(LEAST_BOUND)
+}
+
+impl Scheme {
+    /// The scheme with a bound on its steps: its own, or [`most_steps`].
+    pub(super) fn bounded(&self, model: &Model) -> Self {
+        let mut bounded = self.clone();
+        let max_steps = match &mut bounded {
+            Self::Rk45(method) => &mut method.max_steps,
+            Self::Dop853(method) => &mut method.max_steps,
+            Self::Rk4(method) => &mut method.max_steps,
+        };
+        max_steps.get_or_insert(most_steps(model));
+        bounded
+    }
 }
 
 /// What keeps the constraints from drifting.
@@ -53,7 +75,7 @@ pub struct Options {
     pub t_start: Option<f64>,
     /// Which states are reported.
     pub output: Output,
-    /// The scheme.
+    /// The scheme; without a bound on its steps it is bounded by [`most_steps`].
     pub scheme: Scheme,
     /// What keeps the constraints from drifting.
     pub stabilization: Stabilization,
@@ -62,18 +84,13 @@ pub struct Options {
 }
 
 impl Options {
-    /// Dormand–Prince at rtol 1e-6, atol 1e-9 with Baumgarte's α = 10, β = 200; [`MOST_STEPS`].
+    /// Dormand–Prince at rtol 1e-6, atol 1e-9 with Baumgarte's α = 10, β = 200.
     pub fn new(t_end: f64) -> Self {
         Self {
             t_end,
             t_start: None,
             output: Output::Steps,
-            scheme: Scheme::Rk45(Rk45 {
-                rtol: 1e-6,
-                atol: Atol::Scalar(1e-9),
-                max_steps: Some(MOST_STEPS),
-                ..Rk45::default()
-            }),
+            scheme: Scheme::Rk45(Rk45 { rtol: 1e-6, atol: Atol::Scalar(1e-9), ..Rk45::default() }),
             stabilization: Stabilization::Baumgarte(Gains { alpha: 10.0, beta: 200.0 }),
             dense_output: true,
         }

@@ -1,7 +1,7 @@
 //! Options of forward dynamics from a file or from Python. The structure has been checked before by
 //! the tables of options; here values are put in.
 
-use super::options::{Options, Output, Scheme, Stabilization, MOST_STEPS};
+use super::options::{Options, Output, Scheme, Stabilization};
 use crate::equations::{at, Gains};
 use crate::integrate::{Atol, Dop853, Rk4, Rk45};
 use crate::model::{Model, Problem, Reach, Scope, Value};
@@ -46,7 +46,7 @@ impl<'a> Reader<'a> {
         if let Some(Value::Flag(keep)) = self.get("dense_output") {
             options.dense_output = *keep;
         }
-        let max_steps = Some(self.positive("max_steps", "").map_or(MOST_STEPS, |n| n as usize));
+        let max_steps = self.positive("max_steps", "").map(|n| n as usize);
         options.scheme = self.inside("method", |reader, kind| reader.scheme(kind, max_steps));
         options.stabilization =
             self.inside("stabilization", |reader, kind| reader.stabilization(kind));
