@@ -284,3 +284,37 @@ fn constant_steps_are_projected_and_keep_their_order() {
     let (phi, _) = open(&m, &state, &constant(1e-3, projection));
     assert!(phi < 2e-11, "{phi:.2e}");
 }
+
+/// After 1e16 rad the spacing of numbers is 2 rad: no angle closes the joint, and rounding is no excuse.
+#[test]
+fn coordinates_without_digits_left_are_refused() {
+    let m = model(ROD);
+    let turned =
+        |angle: f64| State { t: 0.0, q: vec![-1.0, 0.5, angle], v: vec![0.0; 3], z: vec![] };
+    let (found, _) = project(&m, &turned(1e6)).unwrap();
+    assert!(largest(&residual(&m, &found)) < 1e-8);
+    let Fault::Open { gap, .. } = project(&m, &turned(1e16)).unwrap_err() else { panic!("open") };
+    assert!(gap.abs() > 1e-8, "{gap:.1e}");
+}
+
+/// A damped mechanism comes to rest, down to the least numbers there are.
+#[test]
+fn rates_below_the_normal_numbers_are_rest() {
+    let (m, mut state) = four_bar();
+    state.v = vec![2e-321, 1e-322, 3e-321, -2e-321, 5e-324, 1e-320, 0.0, 3e-322, 1e-321];
+    let (found, _) = project(&m, &state).unwrap();
+    assert!(largest(&found.v) < 1e-300);
+}
+
+const ROD: &str = r#"
+[bodies.ground]
+points = { O = [0, 0] }
+[bodies.rod]
+mass = 1
+inertia = 0
+points = { O = [1, 0] }
+[joints.pin]
+type = "revolute"
+i = "ground.O"
+j = "rod.O"
+"#;

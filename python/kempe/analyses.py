@@ -96,7 +96,8 @@ def dynamics(
         output_step: time between outputs, s; every step when None.
         method: the integrator.
         stabilization: of the constraints; none at all when None.
-        max_steps: it gives up after that many steps; what the core finds enough when None.
+        max_steps: it gives up after that many steps; 1 000 000 over the number
+            of moving bodies when None, at least 50 000.
         dense_output: whether to keep the interpolant between the steps, for ``sol(t)``.
         redundancy: "allow" accepts constraints that repeat others; as the start was assembled
             when None.

@@ -37,12 +37,14 @@ class RK45(Option):
     Attributes:
         rtol: tolerance relative to each component.
         atol: absolute tolerance, m or rad and per s.
+        step: constant step, s, whatever the tolerances say; controlled when None.
         first_step: length of the first step, s; chosen when None.
         max_step: longest step, s; none when None.
     """
 
     rtol: Number = 1e-6
     atol: Number = 1e-9
+    step: Number | None = None
     first_step: Number | None = None
     max_step: Number | None = None
     kind: ClassVar[str] = "rk45"
@@ -58,12 +60,14 @@ class DOP853(Option):
     Attributes:
         rtol: tolerance relative to each component.
         atol: absolute tolerance, m or rad and per s.
+        step: constant step, s, whatever the tolerances say; controlled when None.
         first_step: length of the first step, s; chosen when None.
         max_step: longest step, s; none when None.
     """
 
     rtol: Number = 1e-6
     atol: Number = 1e-9
+    step: Number | None = None
     first_step: Number | None = None
     max_step: Number | None = None
     kind: ClassVar[str] = "dop853"
@@ -129,7 +133,8 @@ class Dynamics:
         output_step: time between outputs, s; every step when None.
         method: the integrator.
         stabilization: of the constraints; none at all when None.
-        max_steps: it gives up after that many steps; what the core finds enough when None.
+        max_steps: it gives up after that many steps; 1 000 000 over the number
+            of moving bodies when None, at least 50 000.
         dense_output: whether to keep the interpolant between the steps.
         name: its name in the case.
         after: where it starts: "start", or the name of an earlier analysis; where the one before

@@ -4,6 +4,7 @@ import json
 from dataclasses import MISSING, fields
 
 import kempe as kp
+import numpy as np
 import pytest
 from kempe import _core
 from kempe.bodies import Bar, Body
@@ -79,6 +80,32 @@ def test_all_options_reach_the_core(model: kp.Model) -> None:
     assert results["other"].dense is not None
     assert results["other"].dense.c.shape[2] == 7
     assert results["second"].statistics["steps"] == 20
+
+
+@pytest.mark.parametrize("method", [kp.RK45, kp.DOP853])
+def test_a_constant_step_is_kept(
+    model: kp.Model, start: kp.State, method: type[kp.RK45] | type[kp.DOP853]
+) -> None:
+    sol = kp.dynamics(model, start, t_end=0.1, method=method(step=0.001))
+    np.testing.assert_allclose(np.diff(sol.t), 0.001, rtol=1e-12)
+    with pytest.raises(kp.ModelError, match=r"max_step: 1; must be absent beside a constant step"):
+        kp.dynamics(model, start, t_end=0.1, method=method(step=0.001, max_step=1))
+
+
+@pytest.mark.parametrize(
+    "method", [kp.RK4(step=1e-12), kp.DOP853(step=1e-12), kp.RK45(max_step=1e-12)], ids=str
+)
+def test_steps_without_end_are_refused_at_once(
+    model: kp.Model, start: kp.State, method: kp.RK4 | kp.RK45 | kp.DOP853
+) -> None:
+    with pytest.raises(kp.IntegrationError, match=r"1e12 steps of 1e-12 s .* = 333333; take") as e:
+        kp.dynamics(model, start, t_end=1, method=method)
+    np.testing.assert_array_equal(e.value.solution.t, [0.0])
+
+
+def test_outputs_without_end_are_refused(model: kp.Model, start: kp.State) -> None:
+    with pytest.raises(kp.ModelError, match=r"output_step: .* must be at least 1e-6 of the time"):
+        kp.dynamics(model, start, t_end=1, output_step=1e-12)
 
 
 def test_a_simulation_may_start_at_another_time(model: kp.Model) -> None:

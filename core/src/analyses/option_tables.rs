@@ -57,7 +57,7 @@ fn dynamics() -> Table {
             Default::Type("baumgarte"),
             "What keeps the constraints from drifting.",
         ),
-        Field::optional("max_steps", Shape::Count, "", Default::Absent, "Most steps before the solver gives up; else without limit."),
+        Field::optional("max_steps", Shape::Count, "", Default::Absent, "Most steps before the solver gives up; if steps of bounded length cannot get to t_end with so many, at once. Else 1 000 000 over the number of moving bodies, at least 50 000."),
         Field::optional(
             "from",
             Shape::Name,
@@ -103,6 +103,12 @@ fn adaptive(class: &'static str, name: &'static str, doc: &str) -> Options {
     let fields = vec![
         number("rtol", "", 1e-6, "Relative tolerance of one step."),
         number("atol", "", 1e-9, "Absolute tolerance of one step, in the units of the state."),
+        number(
+            "step",
+            "s",
+            Default::Absent,
+            "Constant step, whatever the tolerances say, without first_step and max_step; else it is controlled.",
+        ),
         number("first_step", "s", Default::Absent, "First step; else the solver chooses it."),
         number("max_step", "s", Default::Absent, "Largest step; else without limit."),
     ];

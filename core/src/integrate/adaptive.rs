@@ -2,66 +2,14 @@
 //!
 //! Step for step the control of `scipy.integrate.solve_ivp`, so that counts of steps can be compared.
 
-use super::arguments::{check_problem, not_negative, positive, refusal, Refused};
+use super::adaptive_options::{Atol, Options};
+use super::arguments::{check_problem, refusal};
 use super::contract::{Ended, FirstOrder, Flow, Observer, Statistics, Step};
 use super::dense::Dense;
 use super::failure::{Cause, Failure};
+use super::fixed_step::Grid;
 use super::rate::{all_finite, Rate, Trouble};
 use super::step_size::{initial_step, least_step, probing_step, scaled_norm, StepSize};
-
-/// Absolute tolerance: one for all components, or one each (for the controlled ones at least).
-#[derive(Clone, Debug, PartialEq)]
-pub enum Atol {
-    /// The same for every component.
-    Scalar(f64),
-    /// One for each controlled component.
-    Each(Vec<f64>),
-}
-
-/// Options every pair has.
-pub(super) struct Options<'a> {
-    /// Relative tolerance, as it is used.
-    pub rtol: f64,
-    pub atol: &'a Atol,
-    pub max_step: f64,
-    pub first_step: Option<f64>,
-    pub max_steps: Option<usize>,
-}
-
-impl Options<'_> {
-    fn check(&self, controlled: usize, interval: f64) -> Result<(), Refused> {
-        not_negative("rtol", self.rtol)?;
-        match self.atol {
-            Atol::Scalar(atol) => not_negative("atol", *atol)?,
-            Atol::Each(atol) => {
-                if atol.len() != controlled {
-                    return Err(("atol", atol.len() as f64, "one for each controlled component"));
-                }
-                atol.iter().try_for_each(|&a| not_negative("atol", a))?;
-            }
-        }
-        positive("max_step", self.max_step)?;
-        if let Some(h) = self.first_step {
-            positive("first_step", h)?;
-            if h > interval && interval > 0.0 {
-                return Err(("first_step", h, "at most |t_end - t0|"));
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Smallest relative tolerance in use: below it, rounding is all that is estimated.
-const MIN_RTOL: f64 = 100.0 * f64::EPSILON;
-
-/// `rtol`, or 100 ε if that is larger; what is no tolerance is left to be refused.
-pub(super) fn usable_rtol(rtol: f64) -> f64 {
-    if (0.0..MIN_RTOL).contains(&rtol) {
-        MIN_RTOL
-    } else {
-        rtol
-    }
-}
 
 /// An embedded pair that has the derivative at the end of a step as its last stage.
 pub(super) trait EmbeddedPair {
@@ -196,7 +144,11 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         if self.t == self.t_end {
             return Ok(Ended::Reached);
         }
+        let grid = self.options.grid(self.t, self.t_end)?;
         self.rate.at(self.t, y, &mut self.work.k[..self.n]).map_err(hard)?;
+        if let Some(grid) = grid {
+            return self.go_along(&grid, y, observer);
+        }
         let first = match self.options.first_step {
             Some(h) => h,
             None => self.first_step(y)?,
@@ -207,6 +159,23 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
                 return Err(Cause::MaxSteps { steps: self.steps });
             }
             let t_new = self.accepted_step(y, &mut size)?;
+            if self.finish(t_new, y, observer)? == Flow::Stop {
+                return Ok(Ended::Stopped);
+            }
+        }
+        Ok(Ended::Reached)
+    }
+
+    /// Steps of constant length, whatever their error.
+    fn go_along<O: Observer>(
+        &mut self,
+        grid: &Grid,
+        y: &mut [f64],
+        observer: &mut O,
+    ) -> Result<Ended, Cause<Y::Stop>> {
+        for k in 1..=grid.count {
+            let t_new = grid.end(k, self.t)?;
+            self.advance(t_new, y).map_err(hard)?;
             if self.finish(t_new, y, observer)? == Flow::Stop {
                 return Ok(Ended::Stopped);
             }
@@ -282,13 +251,22 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
 
     /// The error norm of a step to `t_new`.
     fn attempt(&mut self, t_new: f64, y: &[f64]) -> Result<f64, Trouble<Y::Stop>> {
-        let Work { k, y_new, trial, atol } = &mut self.work;
+        self.advance(t_new, y)?;
+        let Work { k, y_new, atol, .. } = &self.work;
+        let stages = &k[..P::STAGES * self.n];
+        Ok(P::error_norm(t_new - self.t, stages, y, y_new, self.options.rtol, atol))
+    }
+
+    /// The stages of a step to `t_new`, and the state there.
+    fn advance(&mut self, t_new: f64, y: &[f64]) -> Result<(), Trouble<Y::Stop>> {
+        let Work { k, y_new, trial, .. } = &mut self.work;
         let stages = &mut k[..P::STAGES * self.n];
         P::advance(&mut self.rate, (self.t, t_new), y, stages, trial, y_new)?;
-        if !all_finite(y_new) {
-            return Err(Trouble::NotFinite(t_new));
+        if all_finite(y_new) {
+            Ok(())
+        } else {
+            Err(Trouble::NotFinite(t_new))
         }
-        Ok(P::error_norm(t_new - self.t, stages, y, y_new, self.options.rtol, atol))
     }
 
     /// Offers the accepted state to the system and the step to the observer, and moves on.

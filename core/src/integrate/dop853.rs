@@ -8,7 +8,8 @@
 //! The extension needs three stages more than the step. They are evaluated only for observers that look
 //! between the ends; for others it is the cubic Hermite polynomial.
 
-use super::adaptive::{integrate, usable_rtol, Atol, EmbeddedPair, Options};
+use super::adaptive::{integrate, EmbeddedPair};
+use super::adaptive_options::{usable_rtol, Atol, Options};
 use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::dop853_coefficients::*;
 use super::failure::Failure;
@@ -22,6 +23,8 @@ pub struct Dop853 {
     pub rtol: f64,
     /// Absolute tolerance, in the units of y; a component that stays zero needs one above 0.
     pub atol: Atol,
+    /// Constant step, whatever its error; then there is neither a first nor a largest one.
+    pub step: Option<f64>,
     /// Largest step.
     pub max_step: f64,
     /// First step; chosen if `None`.
@@ -36,6 +39,7 @@ impl Default for Dop853 {
         Self {
             rtol: 1e-3,
             atol: Atol::Scalar(1e-6),
+            step: None,
             max_step: f64::INFINITY,
             first_step: None,
             max_steps: None,
@@ -62,6 +66,7 @@ impl Method for Dop853 {
         let options = Options {
             rtol: usable_rtol(self.rtol),
             atol: &self.atol,
+            step: self.step,
             max_step: self.max_step,
             first_step: self.first_step,
             max_steps: self.max_steps,

@@ -32,6 +32,15 @@ pub enum Cause<E> {
         /// The number.
         steps: usize,
     },
+    /// More steps than are allowed are needed, as their length is bounded; nothing was evaluated.
+    TooManySteps {
+        /// At least so many.
+        needed: f64,
+        /// Largest length of a step.
+        step: f64,
+        /// The allowed number.
+        most: usize,
+    },
     /// The system cannot go on.
     Equations(E),
 }
@@ -58,6 +67,9 @@ impl<E: fmt::Display> fmt::Display for Failure<E> {
             }
             Cause::NotFinite { t } => write!(f, "the derivative is not finite at t = {t}"),
             Cause::MaxSteps { steps } => write!(f, "{steps} steps taken at t = {}", self.t),
+            Cause::TooManySteps { needed, step, most } => {
+                write!(f, "{needed} steps of {step} are more than {most}")
+            }
             Cause::Equations(stop) => stop.fmt(f),
         }
     }

@@ -15,12 +15,14 @@
 //! | `rate` | counted, checked evaluations |
 //! | `dense` | the continuous extension of a step |
 //! | `step_size` | choice of the step from the error estimate |
-//! | `adaptive` | the loop of every embedded pair |
+//! | `adaptive`, `adaptive_options` | the loop of every embedded pair, and its options |
+//! | `fixed_step` | where steps of constant length end |
 //! | `stages` | sums over the stages of a step |
 //! | `rk45`, `dop853`, `rk4` | schemes |
 //! | `events` | where a function of the state changes sign |
 
 mod adaptive;
+mod adaptive_options;
 mod arguments;
 mod contract;
 mod dense;
@@ -28,13 +30,14 @@ mod dop853;
 mod dop853_coefficients;
 mod events;
 mod failure;
+mod fixed_step;
 mod rate;
 mod rk4;
 mod rk45;
 mod stages;
 mod step_size;
 
-pub use adaptive::Atol;
+pub use adaptive_options::Atol;
 pub use contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
 pub use dense::Dense;
 pub use dop853::Dop853;

@@ -1,17 +1,15 @@
 //! The classical Runge–Kutta method of order 4 with a fixed step (Kutta, *Z. Math. Phys.* 46 (1901)
 //! 435); between steps the cubic Hermite polynomial, of order 3.
 
-use super::arguments::{check_problem, finite, positive, refusal, Refused};
+use super::arguments::{check_problem, refusal};
 use super::contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
 use super::dense::Dense;
 use super::failure::{Cause, Failure};
+use super::fixed_step::Grid;
 use super::rate::{all_finite, Rate, Trouble};
 
 /// Coefficients of θ … θ⁴ of: derivative at the beginning, at the end, chord (y - y_old) / h.
 const HERMITE: [f64; 12] = [1.0, -2.0, 1.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0];
-/// Most steps for which t0 + k step still tells neighbours apart.
-const MOST_STEPS: f64 = 1e15;
-
 /// Classical Runge–Kutta 4 with its options.
 ///
 /// Steps end at t0 + k `step`, computed by multiplication; the last is shortened to end at t_end.
@@ -20,7 +18,7 @@ const MOST_STEPS: f64 = 1e15;
 pub struct Rk4 {
     /// Step, > 0, also when integrating backward.
     pub step: f64,
-    /// Largest number of steps.
+    /// Largest number of steps; more are refused before the first.
     pub max_steps: Option<usize>,
 }
 
@@ -28,17 +26,6 @@ impl Rk4 {
     /// With the given step and no bound on their number.
     pub fn new(step: f64) -> Self {
         Self { step, max_steps: None }
-    }
-
-    /// Number of steps over an interval; a remainder of rounding is no step.
-    fn count(&self, interval: f64) -> Result<usize, Refused> {
-        positive("step", self.step)?;
-        finite("step", self.step)?;
-        let ratio = interval / self.step;
-        if ratio > MOST_STEPS {
-            return Err(("step", self.step, "at least 1e-15 of |t_end - t0|"));
-        }
-        Ok((ratio * (1.0 - 4.0 * f64::EPSILON)).ceil() as usize)
     }
 }
 
@@ -102,15 +89,13 @@ impl Method for Rk4 {
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Statistics, Failure<Y::Stop>> {
-        let count =
-            check_problem(t0, t_end, y, system.len()).and_then(|()| self.count((t_end - t0).abs()));
+        let grid = check_problem(t0, t_end, y, system.len())
+            .map_err(refusal)
+            .and_then(|()| Grid::new(t0, t_end, self.step, self.max_steps));
         let mut statistics =
             Statistics { steps: 0, rejected: 0, evaluations: 0, ended: Ended::Stopped, t: t0 };
         let mut rate = Rate { system, evaluations: 0 };
-        let outcome = match count {
-            Ok(count) => self.go(&mut rate, (t0, t_end), count, y, observer, &mut statistics),
-            Err(refused) => Err(refusal(refused)),
-        };
+        let outcome = grid.and_then(|grid| go(&mut rate, t0, &grid, y, observer, &mut statistics));
         statistics.evaluations = rate.evaluations;
         match outcome {
             Ok(ended) => Ok(Statistics { ended, ..statistics }),
@@ -119,41 +104,31 @@ impl Method for Rk4 {
     }
 }
 
-impl Rk4 {
-    fn go<Y: FirstOrder, O: Observer>(
-        &self,
-        rate: &mut Rate<'_, Y>,
-        (t0, t_end): (f64, f64),
-        count: usize,
-        y: &mut [f64],
-        observer: &mut O,
-        statistics: &mut Statistics,
-    ) -> Result<Ended, Cause<Y::Stop>> {
-        if count == 0 {
-            return Ok(Ended::Reached);
-        }
-        let step = self.step.copysign(t_end - t0);
-        let mut work = Work::new(y.len());
-        rate.at(t0, y, &mut work.dense[..y.len()]).map_err(cause)?;
-        for k in 1..=count {
-            if self.max_steps.is_some_and(|most| statistics.steps >= most) {
-                return Err(Cause::MaxSteps { steps: statistics.steps });
-            }
-            let t = statistics.t;
-            let t_new = if k == count { t_end } else { t0 + k as f64 * step };
-            if t_new == t {
-                return Err(Cause::StepTooSmall { t, h: self.step });
-            }
-            work.advance(rate, t, t_new - t, y).map_err(cause)?;
-            let flow = finish(&mut work, rate, (t, t_new), y, observer)?;
-            statistics.steps += 1;
-            statistics.t = t_new;
-            if flow == Flow::Stop {
-                return Ok(Ended::Stopped);
-            }
-        }
-        Ok(Ended::Reached)
+fn go<Y: FirstOrder, O: Observer>(
+    rate: &mut Rate<'_, Y>,
+    t0: f64,
+    grid: &Grid,
+    y: &mut [f64],
+    observer: &mut O,
+    statistics: &mut Statistics,
+) -> Result<Ended, Cause<Y::Stop>> {
+    if grid.count == 0 {
+        return Ok(Ended::Reached);
     }
+    let mut work = Work::new(y.len());
+    rate.at(t0, y, &mut work.dense[..y.len()]).map_err(cause)?;
+    for k in 1..=grid.count {
+        let t = statistics.t;
+        let t_new = grid.end(k, t)?;
+        work.advance(rate, t, t_new - t, y).map_err(cause)?;
+        let flow = finish(&mut work, rate, (t, t_new), y, observer)?;
+        statistics.steps += 1;
+        statistics.t = t_new;
+        if flow == Flow::Stop {
+            return Ok(Ended::Stopped);
+        }
+    }
+    Ok(Ended::Reached)
 }
 
 /// Offers the new state to the system and the step to the observer, and moves on.

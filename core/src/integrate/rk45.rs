@@ -4,7 +4,8 @@
 //! (1980) 19. Extension: Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135,
 //! with the optimal c₆. Control: that of `scipy.integrate.RK45`.
 
-use super::adaptive::{integrate, usable_rtol, Atol, EmbeddedPair, Options};
+use super::adaptive::{integrate, EmbeddedPair};
+use super::adaptive_options::{usable_rtol, Atol, Options};
 use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
@@ -17,6 +18,8 @@ pub struct Rk45 {
     pub rtol: f64,
     /// Absolute tolerance, in the units of y; a component that stays zero needs one above 0.
     pub atol: Atol,
+    /// Constant step, whatever its error; then there is neither a first nor a largest one.
+    pub step: Option<f64>,
     /// Largest step.
     pub max_step: f64,
     /// First step; chosen if `None`.
@@ -31,6 +34,7 @@ impl Default for Rk45 {
         Self {
             rtol: 1e-3,
             atol: Atol::Scalar(1e-6),
+            step: None,
             max_step: f64::INFINITY,
             first_step: None,
             max_steps: None,
@@ -62,6 +66,7 @@ impl Method for Rk45 {
         let options = Options {
             rtol: self.rtol_used(),
             atol: &self.atol,
+            step: self.step,
             max_step: self.max_step,
             first_step: self.first_step,
             max_steps: self.max_steps,

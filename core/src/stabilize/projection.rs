@@ -27,6 +27,9 @@ const MARGIN: f64 = 10.0;
 /// A residual that Newton's own step does not lower is rounding up to this factor of the tolerance.
 const ROUNDING: f64 = 1e3;
 
+/// No residual above this is rounding, however far the coordinates are: the joint is open.
+const CLOSED: f64 = 1e-8;
+
 /// Projection as an option.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
@@ -131,18 +134,13 @@ impl<'a> Projector<'a> {
         (q, v): (&mut [f64], &mut [f64]),
         factored: &mut bool,
     ) -> Result<bool, Fault> {
-        let (mut last, mut target, mut newton) = (f64::INFINITY, 0.0, false);
+        let (mut last, mut newton) = (f64::INFINITY, false);
+        let (mut target, mut rounding) = (0.0, 0.0);
         let mut worst = (0, 0.0);
         for iteration in 0..MOST {
             let gap = self.gap(level, workspace, t, (&*q, &*v), &mut worst);
             if iteration == 0 {
-                target = match level {
-                    Level::Position => self.tolerance.max(8.0 * f64::EPSILON * self.largest(q)),
-                    Level::Velocity => {
-                        self.fastest = self.fastest.max(self.largest(v)).max(gap);
-                        self.tolerance * self.fastest
-                    }
-                };
+                (target, rounding) = self.targets(level, q, v, gap);
             }
             if iteration > 0 {
                 self.lowering = gap / last;
@@ -151,7 +149,7 @@ impl<'a> Projector<'a> {
                 return Ok(iteration > 0);
             }
             let slow = gap > SLOW * last;
-            if slow && newton && gap <= ROUNDING * target {
+            if slow && newton && gap <= rounding {
                 return Ok(true);
             }
             newton = slow || !*factored;
@@ -171,6 +169,23 @@ impl<'a> Projector<'a> {
             last = gap;
         }
         Err(Fault::Open { row: worst.0, gap: worst.1 })
+    }
+
+    /// The residual to be met, and that which is accepted where rounding keeps it from being met.
+    fn targets(&mut self, level: Level, q: &[f64], v: &[f64], gap: f64) -> (f64, f64) {
+        let (target, most) = match level {
+            Level::Position => {
+                let rounding = 8.0 * f64::EPSILON * self.largest(q);
+                (self.tolerance.max(rounding), CLOSED.max(self.tolerance))
+            }
+            // what has come to rest has rates without digits
+            Level::Velocity => {
+                self.fastest = self.fastest.max(self.largest(v)).max(gap);
+                let target = self.tolerance * self.fastest;
+                (target.max(f64::MIN_POSITIVE), f64::INFINITY)
+            }
+        };
+        (target.min(most), (ROUNDING * target).min(most))
     }
 
     /// The largest scaled residual; its row and what it is unscaled go into `worst`.

@@ -134,7 +134,7 @@ impl Observer for Errors {
 }
 
 fn errors(h: f64, look: bool) -> [f64; 2] {
-    let method = Dop853 { max_step: h, first_step: Some(h), ..Dop853::new(1e3, 1e3) };
+    let method = Dop853 { step: Some(h), ..Dop853::default() };
     let (mut y, mut observer) = ([1.0, 0.0], Errors { look, between: 0.0 });
     method.integrate(&mut plain(2, oscillator), 0.0, 4.0, &mut y, &mut observer).unwrap();
     [(y[0] - 4.0_f64.cos()).hypot(y[1] + 4.0_f64.sin()), observer.between]

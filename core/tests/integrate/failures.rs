@@ -1,7 +1,7 @@
 //! Every way an integration fails.
 
 use super::*;
-use kempe::integrate::{Atol, Cause, Rk4, Rk45};
+use kempe::integrate::{Atol, Cause, Dop853, Rk4, Rk45};
 
 fn cause(outcome: Outcome) -> Cause<String> {
     outcome.unwrap_err().cause
@@ -40,7 +40,11 @@ fn arguments_are_refused_by_name() {
         assert_eq!(with(Rk45 { first_step: Some(bad), ..good.clone() }, span, y0), "first_step");
         let fixed = run(&Rk4::new(bad), plain(2, oscillator), span, &mut y0.clone());
         assert_eq!(refused(fixed), "step");
+        assert_eq!(with(Rk45 { step: Some(bad), ..good.clone() }, span, y0), "step");
     }
+    let constant = Rk45 { step: Some(0.1), ..good.clone() };
+    assert_eq!(with(Rk45 { first_step: Some(0.1), ..constant.clone() }, span, y0), "first_step");
+    assert_eq!(with(Rk45 { max_step: 0.1, ..constant }, span, y0), "max_step");
     assert_eq!(with(Rk45 { first_step: Some(2.0), ..good }, span, y0), "first_step");
     for bad in [f64::INFINITY, 1e-20] {
         let fixed = run(&Rk4::new(bad), plain(2, oscillator), span, &mut y0.clone());
@@ -113,11 +117,25 @@ fn the_number_of_steps_can_be_bounded() {
     assert_eq!(failure.cause, Cause::MaxSteps { steps: 5 });
     assert_eq!(failure.statistics.steps, 5);
     assert!(failure.t > 0.0);
-    let most = Rk4 { step: 0.1, max_steps: Some(5) };
-    let outcome = run(&most, plain(2, oscillator), (0.0, 1.0), &mut [2.0, 0.0]);
-    assert_eq!(cause(outcome), Cause::MaxSteps { steps: 5 });
-    let enough = Rk4 { step: 0.1, max_steps: Some(10) };
-    assert!(run(&enough, plain(2, oscillator), (0.0, 1.0), &mut [2.0, 0.0]).is_ok());
+}
+
+/// Nothing is evaluated where it is known before that the steps do not reach the end.
+#[test]
+fn too_many_steps_are_refused_before_the_first() {
+    fn check(method: &impl Method, needed: f64, step: f64) {
+        let failure = run(method, plain(2, oscillator), (0.0, 1.0), &mut [2.0, 0.0]).unwrap_err();
+        assert_eq!(failure.cause, Cause::TooManySteps { needed, step, most: 5 });
+        assert_eq!((failure.statistics.evaluations, failure.y), (0, vec![2.0, 0.0]));
+    }
+    let max_steps = Some(5);
+    check(&Rk4 { step: 0.1, max_steps }, 10.0, 0.1);
+    check(&Rk4 { step: 1e-12, max_steps }, 1e12, 1e-12);
+    check(&Rk45 { step: Some(0.1), max_steps, ..Rk45::default() }, 10.0, 0.1);
+    check(&Dop853 { max_step: 1e-12, max_steps, ..Dop853::default() }, 1e12, 1e-12);
+    for max_steps in [Some(10), None] {
+        let enough = Rk4 { step: 0.1, max_steps };
+        assert!(run(&enough, plain(2, oscillator), (0.0, 1.0), &mut [2.0, 0.0]).is_ok());
+    }
 }
 
 /// y′ = 1 that stops for good past t = 1, in the rate or at acceptance.

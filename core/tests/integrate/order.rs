@@ -1,7 +1,7 @@
 //! Observed orders, the continuous extension, and where fixed steps land.
 
 use super::*;
-use kempe::integrate::{Rk4, Rk45};
+use kempe::integrate::{Dop853, Rk4, Rk45};
 
 /// Slope of log error over log step.
 fn slope(errors: &[(f64, f64)]) -> f64 {
@@ -33,7 +33,7 @@ fn oscillator_errors(method: &impl Method) -> (f64, f64) {
 fn observed_orders() {
     let steps = [0.1, 0.05, 0.025];
     let rk4 = steps.map(|h| (h, oscillator_errors(&Rk4::new(h))));
-    let constant = |h| Rk45 { max_step: h, first_step: Some(h), ..Rk45::new(1e3, 1e3) };
+    let constant = |h| Rk45 { step: Some(h), ..Rk45::default() };
     let rk45 = steps.map(|h| (h, oscillator_errors(&constant(h))));
     let end = |all: [(f64, (f64, f64)); 3]| slope(&all.map(|(h, e)| (h, e.0)));
     let between = |all: [(f64, (f64, f64)); 3]| slope(&all.map(|(h, e)| (h, e.1)));
@@ -90,6 +90,28 @@ fn fixed_steps_land_without_drift() {
             .integrate(&mut system, t0, t_end, &mut [1.0, 0.0], &mut observer)
             .unwrap();
         assert_eq!((done.steps, done.evaluations), (count, 4 * count + 1));
+        assert_eq!(*times.last().unwrap(), t_end);
+        for (k, t) in times[..count - 1].iter().enumerate() {
+            assert_eq!(*t, t0 + (k + 1) as f64 * f64::copysign(step, t_end - t0));
+        }
+    }
+}
+
+/// The tolerances have no say: 1e-14 would ask for hundreds of steps.
+#[test]
+fn a_pair_with_a_constant_step_lands_as_well() {
+    for (t0, t_end, step, count) in [(0.0, 1.0, 0.1, 10), (0.3, 0.75, 0.2, 3), (1.0, -1.0, 0.3, 7)]
+    {
+        let mut times = vec![];
+        let mut observer = |s: &Step<'_>| {
+            times.push(s.t);
+            Flow::Continue
+        };
+        let method = Dop853 { step: Some(step), ..Dop853::new(1e-14, 1e-14) };
+        let mut system = plain(2, oscillator);
+        let done =
+            method.integrate(&mut system, t0, t_end, &mut [1.0, 0.0], &mut observer).unwrap();
+        assert_eq!((done.steps, done.rejected), (count, 0));
         assert_eq!(*times.last().unwrap(), t_end);
         for (k, t) in times[..count - 1].iter().enumerate() {
             assert_eq!(*t, t0 + (k + 1) as f64 * f64::copysign(step, t_end - t0));

@@ -8,39 +8,74 @@ use crate::model::{size, Model};
 
 /// Largest velocity residual that is left alone, relative to what it is computed from.
 const TOLERANCE: f64 = 1e-12;
+/// What is left by more than that after corrections in the metric of the masses is corrected as if all
+/// bodies were alike: masses in a ratio of 1e10 and more leave few digits, and their metric none to choose.
+const ALIKE: f64 = 1e-10;
+/// Corrections that are always made: the second takes out the rounding of the first.
+const LEAST: usize = 2;
+/// Most corrections. Damped rows converge by the ratio of their damping to the compliance at the joint,
+/// which heavy bodies beside light ones bring near 1.
+const MOST: usize = 30;
 
 /// Makes `v` consistent at `q`; one that is consistent is left untouched. Gives the largest part of
 /// Φ_q q̇ - ν that remains, relative; not near zero if the rates asked for contradict each other.
 pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
-    let m = model.layout.n_rows;
     let mut motions = Vec::new();
     kinematics::motions(q, v, &mut motions);
     let rate = velocity_residual(model, t, &motions);
     let scale = scale(model, v, &rate);
-    let largest = |rate: &[f64]| rate.iter().fold(0.0, |a: f64, r| a.max(r.abs())) / scale;
-    if largest(&rate) <= TOLERANCE {
+    if largest(&rate) / scale <= TOLERANCE {
         return 0.0;
     }
     let mut matrix = Augmented::new(model);
     matrix.set_mass(model, &motions);
     constraints::jacobian(model, &motions, t, matrix.jacobian_mut());
+    let lightest = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
+    let left = correct(model, t, q, v, (&mut matrix, lightest, scale));
+    if left <= ALIKE {
+        return left;
+    }
+    let turning = size(model).powi(2);
+    matrix.set_weights(&[1.0, 1.0, turning].repeat(model.bodies.len() - 1));
+    correct(model, t, q, v, (&mut matrix, 1.0, scale))
+}
+
+/// Corrects `v` with the weights of the matrix until that brings no more; what is left.
+fn correct(
+    model: &Model,
+    t: f64,
+    q: &[f64],
+    v: &mut [f64],
+    (matrix, compliance, scale): (&mut Augmented, f64, f64),
+) -> f64 {
+    let m = model.layout.n_rows;
+    matrix.set_damping((0..m).map(|_| 0.0));
     if matrix.factor().is_err() {
-        let compliance = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
         matrix.set_damping((0..m).map(|_| 1e-10 * compliance));
         if matrix.factor().is_err() {
             return f64::INFINITY;
         }
     }
-    for _ in 0..2 {
+    let (mut motions, mut last) = (Vec::new(), f64::INFINITY);
+    for correction in 0..=MOST {
         kinematics::motions(q, v, &mut motions);
         let rate = velocity_residual(model, t, &motions);
+        let left = largest(&rate) / scale;
+        let settled = left <= TOLERANCE || left > 0.5 * last;
+        if (correction >= LEAST && settled) || left.is_nan() {
+            return left;
+        }
+        last = left;
         let mut x = vec![0.0; v.len()];
         x.extend(rate.iter().map(|r| -r));
         matrix.solve(&mut x);
         v.iter_mut().zip(&x).for_each(|(v, dv)| *v += dv);
     }
-    kinematics::motions(q, v, &mut motions);
-    largest(&velocity_residual(model, t, &motions))
+    last
+}
+
+fn largest(rate: &[f64]) -> f64 {
+    rate.iter().fold(0.0, |a: f64, r| a.max(r.abs()))
 }
 
 /// Φ_q q̇ + Φ_t.
@@ -58,6 +93,5 @@ fn scale(model: &Model, v: &[f64], rate: &[f64]) -> f64 {
         .enumerate()
         .map(|(k, v)| if k % 3 == 2 { v.abs() * size } else { v.abs() })
         .fold(0.0, f64::max);
-    let wanted = rate.iter().fold(0.0, |a: f64, r| a.max(r.abs()));
-    fastest.max(wanted).max(f64::MIN_POSITIVE)
+    fastest.max(largest(rate)).max(f64::MIN_POSITIVE)
 }

@@ -1,5 +1,6 @@
 //! How forward dynamics fails, in terms of the mechanism.
 
+use super::output::Halt;
 use super::Run;
 use crate::equations::augmented::Dependent;
 use crate::equations::Singular;
@@ -83,8 +84,18 @@ impl Reason {
             "projection fails at t = {t:.6} s: constraint {}.{} stays open by {gap:.1e}",
             item.name, item.equations[equation].name
         );
-        let hint = "tighten the tolerance; a start must meet the constraints";
+        let hint = "use smaller steps or tolerances; a start must meet the constraints";
         Self::Integration { t, message, hint }
+    }
+
+    pub(super) fn halt(model: &Model, t: f64, halt: Halt) -> Self {
+        match halt {
+            Halt::Fault(fault) => Self::fault(model, t, fault),
+            Halt::NotFinite => {
+                let (message, hint) = not_finite(t);
+                Self::Integration { t, message, hint }
+            }
+        }
     }
 
     pub(super) fn from_integrator(
@@ -101,17 +112,27 @@ impl Reason {
                 format!("the step fell to {h:.1e} s at t = {t:.6} s: the tolerance cannot be met"),
                 "a singular position or a discontinuity lies here; look at the solution so far",
             ),
-            Cause::NotFinite { t } => (
-                format!("the motion became infinite or undefined at t = {t:.6} s"),
-                "use a smaller step or tolerance; check forces and laws at this state",
-            ),
+            Cause::NotFinite { t } => not_finite(t),
             Cause::MaxSteps { steps } => (
                 format!("max_steps = {steps} steps ended at t = {t:.6} s"),
                 "raise max_steps, or loosen the tolerance",
             ),
+            Cause::TooManySteps { needed, step, most } => {
+                let needed =
+                    if needed < 1e9 { format!("{needed}") } else { format!("{needed:.0e}") };
+                let message = format!(
+                    "{needed} steps of {step:e} s to t_end are more than max_steps = {most}"
+                );
+                (message, "take larger steps, or raise max_steps")
+            }
         };
         Self::Integration { t, message, hint }
     }
+}
+
+fn not_finite(t: f64) -> (String, &'static str) {
+    let message = format!("the motion became infinite or undefined at t = {t:.6} s");
+    (message, "use a smaller step or tolerance; check forces and laws at this state")
 }
 
 impl fmt::Display for Reason {

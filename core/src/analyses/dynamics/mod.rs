@@ -7,7 +7,7 @@ mod read;
 mod system;
 
 pub use failure::{Failure, Reason};
-pub use options::{Options, Output, Scheme, Stabilization};
+pub use options::{most_steps, Options, Output, Scheme, Stabilization};
 pub use output::{Dense, Trajectory, ENERGIES};
 pub use read::read;
 
@@ -82,7 +82,7 @@ pub fn dynamics(
         return finish(system, recorder, Ok(nothing), clock);
     }
     let mut observer = Watched { recorder: &mut recorder, watch: &mut watch };
-    let outcome = match &options.scheme {
+    let outcome = match &options.scheme.bounded(model) {
         Scheme::Rk45(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Dop853(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Rk4(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
@@ -115,7 +115,7 @@ fn finish(
     outcome: Result<integrate::Statistics, integrate::Failure<(f64, Fault)>>,
     clock: Instant,
 ) -> Result<Run, Box<Failure>> {
-    let Recorder { trajectory, dense, reported, fault, .. } = recorder;
+    let Recorder { trajectory, dense, reported, halt, .. } = recorder;
     let model = system.model;
     let took = match &outcome {
         Ok(statistics) => *statistics,
@@ -133,10 +133,10 @@ fn finish(
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached);
     let run = Run { trajectory, dense, statistics, reached };
-    let reason = match (outcome, fault) {
+    let reason = match (outcome, halt) {
         (Ok(_), None) => return Ok(run),
         (Err(failure), _) => Reason::from_integrator(model, failure),
-        (_, Some((t, fault))) => Reason::fault(model, t, fault),
+        (_, Some((t, halt))) => Reason::halt(model, t, halt),
     };
     Err(Box::new(Failure { reason, run }))
 }

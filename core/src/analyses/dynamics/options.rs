@@ -7,6 +7,14 @@ use crate::integrate::{Atol, Dop853, Rk4, Rk45};
 use crate::model::Model;
 use crate::stabilize::Projection;
 
+/// Steps times moving bodies of a run that does not bound its steps: some seconds, and half a gigabyte
+/// if everything is kept.
+const MOST_WORK: usize = 1_000_000;
+/// Steps that large models may take in any case.
+const LEAST_BOUND: usize = 50_000;
+/// Most reported states on a grid.
+const MOST_OUTPUTS: f64 = 1e6;
+
 /// The scheme of integration.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Scheme {
@@ -16,6 +24,26 @@ pub enum Scheme {
     Dop853(Dop853),
     /// Classical, fixed step.
     Rk4(Rk4),
+}
+
+/// Most steps of a run that does not bound them: 1 000 000 over the number of moving bodies, and at
+/// least 50 000.
+pub fn most_steps(model: &Model) -> usize {
+    (MOST_WORK / (model.bodies.len() - 1).max(1)).max(LEAST_BOUND)
+}
+
+impl Scheme {
+    /// The scheme with a bound on its steps: its own, or [`most_steps`].
+    pub(super) fn bounded(&self, model: &Model) -> Self {
+        let mut bounded = self.clone();
+        let max_steps = match &mut bounded {
+            Self::Rk45(method) => &mut method.max_steps,
+            Self::Dop853(method) => &mut method.max_steps,
+            Self::Rk4(method) => &mut method.max_steps,
+        };
+        max_steps.get_or_insert(most_steps(model));
+        bounded
+    }
 }
 
 /// What keeps the constraints from drifting.
@@ -47,7 +75,7 @@ pub struct Options {
     pub t_start: Option<f64>,
     /// Which states are reported.
     pub output: Output,
-    /// The scheme.
+    /// The scheme; without a bound on its steps it is bounded by [`most_steps`].
     pub scheme: Scheme,
     /// What keeps the constraints from drifting.
     pub stabilization: Stabilization,
@@ -80,6 +108,9 @@ impl Options {
     pub(super) fn check(&self, model: &Model, start: &State) -> Result<(), Reason> {
         if let Output::Every(h) = self.output {
             require("output_step", h, h > 0.0 && h.is_finite(), "> 0 and finite")?;
+            let interval = (self.t_end - self.t_start.unwrap_or(start.t)).abs();
+            let few = h * MOST_OUTPUTS >= interval * (1.0 - 1e-9);
+            require("output_step", h, few, "at least 1e-6 of the time that is simulated")?;
         }
         if let Stabilization::Baumgarte(Gains { alpha, beta }) = self.stabilization {
             require("alpha", alpha, alpha >= 0.0 && alpha.is_finite(), ">= 0 and finite")?;

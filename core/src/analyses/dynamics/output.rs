@@ -27,6 +27,15 @@ pub struct Trajectory {
     pub energy: Vec<f64>,
 }
 
+/// Why a state cannot be reported.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Halt {
+    /// It cannot be projected, or has no unique accelerations.
+    Fault(Fault),
+    /// A number of it is not finite.
+    NotFinite,
+}
+
 /// The continuous extension of every step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Dense {
@@ -51,8 +60,8 @@ pub(super) struct Recorder<'a> {
     pub dense: Option<Dense>,
     /// Projects what lies between the ends of a step, and solves the equations of motion there.
     pub reported: Equations<'a>,
-    /// Why that was not possible, and when.
-    pub fault: Option<(f64, Fault)>,
+    /// Why it cannot go on, and when.
+    pub halt: Option<(f64, Halt)>,
 }
 
 impl<'a> Recorder<'a> {
@@ -66,7 +75,7 @@ impl<'a> Recorder<'a> {
             trajectory: Trajectory::default(),
             dense: options.dense_output.then(|| Dense { t: vec![t0], ..Dense::default() }),
             reported: Equations::new(model, options),
-            fault: None,
+            halt: None,
         }
     }
 
@@ -81,12 +90,16 @@ impl<'a> Recorder<'a> {
     fn report_placed(&mut self, t: f64, y: &[f64]) -> Flow {
         let Equations { model, workspace, .. } = &mut self.reported;
         if let Err(singular) = workspace.respond(model, t, Gains::default()) {
-            return self.stop((t, Fault::Singular(singular)));
+            return self.stop(t, Halt::Fault(Fault::Singular(singular)));
         }
         let n = model.layout.n_q;
-        let row = &mut self.trajectory;
         let kinetic = energy::kinetic(model, &workspace.motions);
         let potential = energy::potential(model, &workspace.motions, t);
+        let numbers = [y, workspace.a(), workspace.lam(), &[kinetic, potential]];
+        if !numbers.into_iter().all(finite) {
+            return self.stop(t, Halt::NotFinite);
+        }
+        let row = &mut self.trajectory;
         row.t.push(t);
         row.q.extend_from_slice(&y[..n]);
         row.v.extend_from_slice(&y[n..2 * n]);
@@ -97,8 +110,8 @@ impl<'a> Recorder<'a> {
         Flow::Continue
     }
 
-    fn stop(&mut self, fault: (f64, Fault)) -> Flow {
-        self.fault = Some(fault);
+    fn stop(&mut self, t: f64, halt: Halt) -> Flow {
+        self.halt = Some((t, halt));
         Flow::Stop
     }
 
@@ -109,10 +122,14 @@ impl<'a> Recorder<'a> {
             let degree = step.dense.degree();
             let first = dense.c.len();
             dense.degree = degree;
-            dense.t.push(step.t);
-            dense.y.extend_from_slice(step.y_old);
             dense.c.resize(first + degree * step.y.len(), 0.0);
             step.coefficients(&mut dense.c[first..]);
+            if !finite(&dense.c[first..]) {
+                dense.c.truncate(first);
+                return self.stop(step.t, Halt::NotFinite);
+            }
+            dense.t.push(step.t);
+            dense.y.extend_from_slice(step.y_old);
         }
         let Output::Every(h) = self.output else { return self.report(step.t, step.y) };
         let mut y = std::mem::take(&mut self.y);
@@ -121,7 +138,7 @@ impl<'a> Recorder<'a> {
             step.interpolate(t, &mut y);
             flow = match self.reported.place(t, &mut y) {
                 Ok(()) => self.report_placed(t, &y),
-                Err(fault) => self.stop(fault),
+                Err((t, fault)) => self.stop(t, Halt::Fault(fault)),
             };
             if flow == Flow::Continue {
                 flow = watch(t);
@@ -164,4 +181,8 @@ impl<'a> Recorder<'a> {
         }
         Some(t)
     }
+}
+
+fn finite(x: &[f64]) -> bool {
+    x.iter().all(|x| x.is_finite())
 }

@@ -60,12 +60,13 @@ impl<'a> Reader<'a> {
         }
         let rtol = self.not_negative("rtol", "").unwrap_or(1e-6);
         let atol = Atol::Scalar(self.not_negative("atol", "").unwrap_or(1e-9));
+        let step = self.positive("step", "s");
         let first_step = self.positive("first_step", "s");
         let max_step = self.positive("max_step", "s").unwrap_or(f64::INFINITY);
         if kind == "dop853" {
-            return Scheme::Dop853(Dop853 { rtol, atol, max_step, first_step, max_steps });
+            return Scheme::Dop853(Dop853 { rtol, atol, step, max_step, first_step, max_steps });
         }
-        Scheme::Rk45(Rk45 { rtol, atol, max_step, first_step, max_steps })
+        Scheme::Rk45(Rk45 { rtol, atol, step, max_step, first_step, max_steps })
     }
 
     fn stabilization(&mut self, kind: &str) -> Stabilization {

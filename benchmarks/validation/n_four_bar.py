@@ -1,0 +1,134 @@
+"""N windows of parallelograms, through positions where the degree of freedom jumps."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import kempe as kp
+import numpy as np
+
+from benchmarks.validation.comparison import (
+    Benchmark,
+    Comparison,
+    Missing,
+    compared,
+    reference,
+)
+
+#: Vertical force of the pins on the cranks at the start, N: on ground, then those above.
+REACTIONS = {1: ([13.715, 13.715], 4.405), 2: ([13.715, 18.12, 13.715], 4.405)}
+T_END = 20.0
+#: Just before the first singular position of any N, s.
+SINGULAR = 0.69
+#: Enough for 20 s; at a singular position that it cannot pass the step only collapses.
+STEPS = 10_000
+
+
+def windows(n: int) -> kp.Model:
+    """N + 1 cranks and N couplers, uniform rods of 1 m and 1 kg."""
+    m = kp.Model(f"{n} windows", gravity=(0, -9.81))
+    m.ground.points(**{f"P{k}": (k, 0) for k in range(n + 1)})
+    for k in range(n + 1):
+        m.bar(f"crank{k}", mass=1, length=1, ends=("A", "B"))
+    for k in range(n):
+        m.bar(f"coupler{k}", mass=1, length=1, ends=("B", "C"))
+    for k in range(n + 1):
+        m.revolute(f"A{k}", f"ground.P{k}", f"crank{k}.A")
+    for k in range(n):
+        m.revolute(f"B{k}", f"crank{k}.B", f"coupler{k}.B")
+        m.revolute(f"C{k}", f"coupler{k}.C", f"crank{k + 1}.B")
+    return m
+
+
+def assembled(model: kp.Model, n: int) -> kp.State:
+    """Cranks upright, turning at -1 rad/s."""
+    guess: dict[str, float | str] = {f"coupler{k}.angle": 0.0 for k in range(n)}
+    return kp.assemble(model, set={"crank0.angle": "90*deg", "crank0.omega": -1}, guess=guess)
+
+
+def solved(model: kp.Model, start: kp.State) -> tuple[kp.Solution, str | None]:
+    """20 s, or as far as it goes and why."""
+    try:
+        return (
+            kp.dynamics(
+                model,
+                start,
+                t_end=T_END,
+                output_step=0.05,
+                method=kp.DOP853(rtol=1e-12, atol=1e-12),
+                stabilization=kp.Projection(),
+                max_steps=STEPS,
+                dense_output=False,
+            ),
+            None,
+        )
+    except (kp.SingularityError, kp.IntegrationError) as error:
+        return error.solution, type(error).__name__
+
+
+def at_start(n: int, start: kp.State, truth: dict[str, Any]) -> list[Comparison]:
+    """Rates, energy and reactions."""
+    sol = kp.dynamics(start.model, start, t_end=0)
+    energy = float(sol.energy.kinetic[0] + sol.energy.potential[0])
+    published = float(truth["initial_energy_J(V=0 at ground line)"])
+    found = [compared(f"N = {n}: energy at the start", "J", published, energy, 1e-10 * n)]
+    if n in REACTIONS:
+        below, above = REACTIONS[n]
+        pins = [start[f"A{k}"].force(on=f"crank{k}", frame="global") for k in range(n + 1)]
+        expected = [[0.0, force] for force in below]
+        found.append(compared(f"N = {n}: pins on ground, on the cranks", "N", expected, pins, 1e-9))
+        upper = [
+            start[f"{j}{k}"].force(on=f"coupler{k}", frame="global") for k in range(n) for j in "BC"
+        ]
+        expected = [[0.0, above]] * (2 * n)
+        found.append(compared(f"N = {n}: upper pins, on the couplers", "N", expected, upper, 1e-9))
+    return found
+
+
+def in_motion(
+    n: int, sol: kp.Solution, table: dict[str, Any]
+) -> tuple[list[Comparison], list[str]]:
+    """B0 and its velocity at the published times; the times that were not reached."""
+    crank = sol["crank0"]
+    here = np.column_stack([crank.x, crank.y, crank.vx, crank.vy]) * 2.0
+    whole = float(sol.t[-1]) >= T_END - 1e-9
+    # what passes a singular position by luck of rounding is not reached
+    last = T_END if whole else min(float(sol.t[-1]), SINGULAR)
+    reached = [t for t in table if float(t) <= last + 1e-9]
+    at = [int(np.argmin(np.abs(sol.t - float(t)))) for t in reached]
+    span = f"{reached[0]} to {reached[-1]} s"
+    position = [[table[t]["x"], table[t]["y"]] for t in reached]
+    velocity = [[table[t]["vx"], table[t]["vy"]] for t in reached]
+    found = [
+        compared(f"N = {n}: B0, {span}", "m", position, here[at, :2], 1e-7),
+        compared(f"N = {n}: velocity of B0, {span}", "m/s", velocity, here[at, 2:], 1e-6),
+    ]
+    return found, [t for t in table if t not in reached]
+
+
+def benchmark() -> Benchmark:
+    """One, two and forty windows."""
+    data = reference("n_four_bar")
+    found: list[Comparison] = []
+    missing: list[Missing] = []
+    for name, truth in data["N"].items():
+        n = int(name)
+        model = windows(n)
+        start = assembled(model, n)
+        sol, stopped = solved(model, start)
+        found += at_start(n, start, truth)
+        motion, later = in_motion(n, sol, truth["B0"])
+        found += motion
+        if later:
+            what = f"N = {n}: B0 at {', '.join(later)} s"
+            missing.append(
+                Missing(what, f"{stopped} at a singular position; the first is near 0.7 s")
+            )
+    return Benchmark(
+        "N-four-bar",
+        "n_four_bar.json",
+        f"{data['problem']}. Truth: {data['exact']}",
+        "DOP853, rtol 1e-12, atol 1e-12, projection",
+        tuple(found),
+        tuple(missing),
+    )

@@ -1,0 +1,124 @@
+"""The page docs/validation.md from the results."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from benchmarks.validation.comparison import ROOT, Benchmark, Comparison
+from benchmarks.validation.conservation import CLOSED, KEPT, STEPS, Conserved
+from benchmarks.validation.convergence import PROBLEMS, TOLERANCE, Convergence
+from benchmarks.validation.results import Results
+
+PAGE = ROOT / "docs" / "validation.md"
+#: The figure of each problem, from docs/.
+FIGURES = {p.name: f"images/convergence_{p.name.replace('-', '_')}.png" for p in PROBLEMS}
+
+HEAD = """\
+# Validation
+
+    python -m benchmarks.validation
+
+writes this page, its figures and `benchmarks/validation/results.json`, from runs through the public
+Python interface; it ends with exit code 1 if a number is off. The published numbers are in
+`tests/reference/`; nothing of kempe took part in them. Of many numbers of one kind the pair that
+differs most is shown. The tests compute everything anew.
+"""
+
+CONVERGENCE = """
+## Observed orders
+
+Index-3 problems with constant steps and projection: the largest error over times that all runs
+share, relative to the largest value, against DOP853 at rtol 1e-14, for the coarsest step and three
+halvings. The observed order is the slope of log error over log step by least squares; it must be
+within {tolerance} of theory. The multipliers of explicit methods belong to the reported state, so
+they converge as the coordinates do.
+"""
+
+CONSERVATION = """\
+## Conservation
+
+    python -m benchmarks.validation.conservation --method DOP853
+
+The flagship without its spring-damper, released from rest with the crank at -60°, so that it swings
+through 83° for ever; constant steps of 1/{steps} of the period of {period:.6f} s, with projection.
+The period is twice the time until the crank stands still again. Residual: largest |Φ|, at most
+{closed:.0e} m; drift: largest change of the energy, relative to the largest kinetic energy.
+"""
+
+
+def page(results: Results) -> str:
+    """The whole page."""
+    numbers = map(section, results.benchmarks)
+    observed = (convergence(results.convergence), conservation(results.conservation))
+    return "\n".join([HEAD, *numbers, *observed])
+
+
+def section(benchmark: Benchmark) -> str:
+    """One benchmark: source, settings, table, what is missing."""
+    return "\n".join(_section(benchmark))
+
+
+def _section(benchmark: Benchmark) -> Iterator[str]:
+    yield f"## {benchmark.title}\n"
+    yield f"Source (`tests/reference/{benchmark.reference}`): {benchmark.source}.\n"
+    yield f"Settings: {benchmark.settings}.\n"
+    yield "| quantity | unit | numbers | published | kempe | difference | tolerance |"
+    yield "|---|---|---|---|---|---|---|"
+    yield from map(row, benchmark.comparisons)
+    yield ""
+    if benchmark.missing:
+        yield "Not reproduced yet:\n"
+        yield from (f"- {missing.what}: {missing.reason}" for missing in benchmark.missing)
+        yield ""
+
+
+def row(c: Comparison) -> str:
+    """One line of the table."""
+    mark = "" if c.holds else " **off**"
+    numbers = f"{digits(c.published, c.tolerance)} | {digits(c.kempe, c.tolerance)}"
+    return (
+        f"| {c.quantity} | {c.unit} | {c.count} | {numbers} "
+        f"| {c.difference:.1e}{mark} | {c.tolerance:.0e} |"
+    )
+
+
+def digits(x: float, tolerance: float) -> str:
+    """As many digits as the tolerance speaks of, and one more."""
+    places = max(1, 1 - int(f"{tolerance:e}".split("e")[1]))
+    return f"{x:.{min(places, 15)}f}"
+
+
+def convergence(found: tuple[Convergence, ...]) -> str:
+    """Table and figures of the observed orders."""
+    lines = [CONVERGENCE.format(tolerance=TOLERANCE)]
+    for problem in PROBLEMS:
+        name = problem.name.capitalize()
+        lines += [f"### {name}: {problem.told}, {problem.t_end:g} s\n"]
+        lines += [f"![error over step]({FIGURES[problem.name]})\n"]
+        lines += ["| method | steps | errors of q | errors of λ | order of q | of λ | theory |"]
+        lines += ["|---|---|---|---|---|---|---|"]
+        lines += [order_row(c, problem.t_end) for c in found if c.problem == problem.name] + [""]
+    return "\n".join(lines)
+
+
+def order_row(c: Convergence, t_end: float) -> str:
+    """One method."""
+    steps = f"{t_end / c.steps[0]:.0f} … {t_end / c.steps[-1]:.0f}"
+    q, lam = (", ".join(f"{error:.0e}" for error in errors) for errors in (c.q, c.lam))
+    mark = "" if c.holds else " **off**"
+    observed = " | ".join(f"{order:.2f}" for order in c.orders)
+    theory = ", ".join(f"{order:g}" for order in c.theory)
+    return f"| {c.method} | {steps} | {q} | {lam} | {observed}{mark} | {theory} |"
+
+
+def conservation(found: tuple[Conserved, ...]) -> str:
+    """Table of the long runs."""
+    head = CONSERVATION.format(steps=STEPS, period=found[0].period, closed=CLOSED)
+    lines = [head, "| method | steps | residual, m | drift | allowed |", "|---|---|---|---|---|"]
+    for c in found:
+        allowed = f"{KEPT[c.method]:.0e}" if c.method in KEPT else "–"
+        mark = "" if c.holds else " **off**"
+        lines.append(
+            f"| {c.method} | {c.steps} | {c.residual:.1e} | {c.drift:.1e}{mark} | {allowed} |"
+        )
+    return "\n".join([*lines, ""])

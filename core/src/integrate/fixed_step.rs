@@ -1,0 +1,66 @@
+//! Steps of constant length: where they end, and whether there are too many of them.
+
+use super::arguments::{finite, positive, refusal, Refused};
+use super::failure::Cause;
+
+/// Most steps for which t0 + k step still tells neighbours apart.
+const MOST_STEPS: f64 = 1e15;
+/// A remainder of the interval that is so small a part of it is rounding, and no step.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// The ends of the steps: t0 + k step, by multiplication and so without drift; the last is t_end.
+pub(super) struct Grid {
+    t0: f64,
+    t_end: f64,
+    /// With the sign of the direction.
+    step: f64,
+    /// Number of steps.
+    pub count: usize,
+}
+
+impl Grid {
+    /// Checks `step` and the number of steps.
+    pub fn new<E>(
+        t0: f64,
+        t_end: f64,
+        step: f64,
+        max_steps: Option<usize>,
+    ) -> Result<Self, Cause<E>> {
+        let interval = (t_end - t0).abs();
+        check(step).map_err(refusal)?;
+        affordable(interval, step, max_steps)?;
+        let ratio = interval / step;
+        if ratio > MOST_STEPS {
+            return Err(refusal(("step", step, "at least 1e-15 of |t_end - t0|")));
+        }
+        let count = (ratio * (1.0 - ROUNDING)).ceil() as usize;
+        Ok(Self { t0, t_end, step: step.copysign(t_end - t0), count })
+    }
+
+    /// The end of step `k`, counted from 1, which begins at `t`.
+    pub fn end<E>(&self, k: usize, t: f64) -> Result<f64, Cause<E>> {
+        let end = if k == self.count { self.t_end } else { self.t0 + k as f64 * self.step };
+        if end == t {
+            return Err(Cause::StepTooSmall { t, h: self.step.abs() });
+        }
+        Ok(end)
+    }
+}
+
+fn check(step: f64) -> Result<(), Refused> {
+    positive("step", step)?;
+    finite("step", step)
+}
+
+/// Refuses an interval that `max_steps` steps of at most `step` cannot cover.
+pub(super) fn affordable<E>(
+    interval: f64,
+    step: f64,
+    max_steps: Option<usize>,
+) -> Result<(), Cause<E>> {
+    let needed = (interval / step * (1.0 - ROUNDING)).ceil();
+    match max_steps {
+        Some(most) if needed > most as f64 => Err(Cause::TooManySteps { needed, step, most }),
+        _ => Ok(()),
+    }
+}

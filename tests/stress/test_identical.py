@@ -1,0 +1,44 @@
+"""The same build and the same input give the same bits: again, in another process, in threads."""
+
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+from house.places import ROOT
+from stress.fingerprint import DRAWN, fingerprints
+
+# of random mechanisms assembled on the way; to be set here, for all threads at once
+pytestmark = pytest.mark.filterwarnings("ignore")
+
+
+@pytest.fixture(scope="module")
+def first() -> list[str]:
+    return fingerprints()
+
+
+def test_run_after_run(first: list[str]) -> None:
+    assert fingerprints() == first
+    # not all of them fail, and no two are the same
+    assert len(set(first)) > DRAWN // 2
+
+
+@pytest.mark.parametrize("seed", ["0", "4711"])
+def test_in_another_process(first: list[str], seed: str) -> None:
+    paths = os.pathsep.join(str(ROOT / name) for name in ("python", "tests"))
+    told = subprocess.run(
+        [sys.executable, "-m", "stress.fingerprint"],
+        env={**os.environ, "PYTHONPATH": paths, "PYTHONHASHSEED": seed},
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    assert told.stdout.splitlines() == first
+
+
+def test_in_threads_side_by_side(first: list[str]) -> None:
+    with ThreadPoolExecutor(4) as pool:
+        for made in pool.map(lambda _: fingerprints(), range(4)):
+            assert made == first
