@@ -46,7 +46,9 @@ def line(axes: Axes, records: list[Record], tool: str, name: str, dash: str) -> 
     """One curve with its name at its end."""
     colour, marker = STYLE[tool]
     x, y = [1e3 * r.seconds for r in records], [r.error for r in records]
-    axes.plot(x, y, dash, color=colour, marker=marker, markersize=5, linewidth=1.4, label=name)
+    looks = {"marker": marker, "markersize": 5, "linewidth": 1.4}
+    filled = colour if dash == "-" else "white"
+    axes.plot(x, y, dash, color=colour, markerfacecolor=filled, label=name, **looks)
 
 
 def work_precision(records: list[Record], title: str, error_of: str, path: Path) -> None:

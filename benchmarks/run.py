@@ -28,14 +28,12 @@ import floor_program
 import turns
 from page import page
 from peers import tools
-from problems import COST, NAMES, problem
+from problems import ACCEPTED, COST, NAMES, problem
 from record import Record
 from shows import targets
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "benchmarks" / "results.json"
-#: LIM's bound for the error of B0, m.
-ACCEPTED = 1e-3
 
 
 def processor() -> str:
