@@ -111,8 +111,7 @@ def dynamics(
     compiled = _allowing(compiled_model(model), redundancy or inherited)
     asked = Dynamics(t_end, output_step, method, stabilization, max_steps, dense_output)
     entry = asked.tree()
-    case = json.dumps({**json.loads(compiled.case), "analyses": {asked.name: entry}})
-    return simulate(CompiledModel(compiled.core, case), start, entry, progress)
+    return simulate(compiled.with_analyses({asked.name: entry}), start, entry, progress)
 
 
 def simulate(

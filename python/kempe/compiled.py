@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -101,18 +102,31 @@ class CompiledModel:
 
     Attributes:
         core: the model in the core.
-        case: JSON of the case that it can be compiled from again.
     """
 
     def __init__(self, core: _core.Model, case: str) -> None:
         self.core = core
-        self.case = case
+        self._case = case
+        self._analyses: Mapping[str, Any] | None = None
         self._about: dict[str, Any] = json.loads(core.describe())
 
     @classmethod
     def from_case(cls, case: str) -> CompiledModel:
         """Compile the model of a case given as JSON."""
         return cls(_core.Case(case, "json", None).model("{}"), case)
+
+    @property
+    def case(self) -> str:
+        """JSON of the case that it can be compiled from again."""
+        if self._analyses is None:
+            return self._case
+        return json.dumps({**json.loads(self._case), "analyses": self._analyses})
+
+    def with_analyses(self, analyses: Mapping[str, Any]) -> CompiledModel:
+        """The same model in a case with these analyses, by name, instead of its own."""
+        other = copy.copy(self)
+        other._analyses = analyses
+        return other
 
     def allowing_redundancy(self) -> CompiledModel:
         """The same model with redundant constraints accepted."""

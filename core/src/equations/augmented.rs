@@ -5,7 +5,7 @@
 
 use super::mass;
 use crate::math::{Motion, Real};
-use crate::model::{Block, ConstraintItem, Model};
+use crate::model::{Block, Layout, Model, Slots};
 pub use crate::solve::Dependent;
 use crate::solve::{Pattern, RowBlock, Saddle, Weight};
 
@@ -21,7 +21,7 @@ impl<S: Real> Augmented<S> {
     /// degree, so that every pivot is safe while Φ_q has full rank.
     pub fn new<P>(model: &Model<P>) -> Self {
         let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
-        let pattern = Pattern::new(coupled.collect(), &row_blocks(model));
+        let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout));
         Self { saddle: Saddle::new(&pattern), pattern }
     }
 
@@ -87,23 +87,13 @@ impl<S: Real> Augmented<S> {
 }
 
 /// The constraints as blocks of rows.
-fn row_blocks<P>(model: &Model<P>) -> Vec<RowBlock> {
+fn row_blocks(layout: &Layout) -> Vec<RowBlock> {
     let touches =
         |blocks: &[Block]| blocks.iter().map(|block| (block.body.0 - 1, block.first)).collect();
-    let block = |(slots, item): (&crate::model::Slots, &ConstraintItem<P>)| RowBlock {
+    let block = |slots: &Slots| RowBlock {
         size: slots.rows.len(),
         touches: touches(&slots.blocks),
-        signs: signs(item, &slots.blocks),
+        signs: slots.blocks.iter().map(|block| block.sign).filter(|sign| *sign != 0.0).collect(),
     };
-    model.layout.constraints.iter().zip(&model.constraints).map(block).collect()
-}
-
-/// Of the translations of each body in the equations of a joint that pins two points, where it does so
-/// to two bodies: Φ = point_j - point_i (Haug 3.3.12).
-fn signs<P>(item: &ConstraintItem<P>, blocks: &[Block]) -> Vec<f64> {
-    let [i, j] = item.element.ends();
-    if !item.element.pins() || item.equations.len() != 2 || item.law.is_some() || i == j {
-        return vec![];
-    }
-    blocks.iter().map(|block| if block.body == j { 1.0 } else { -1.0 }).collect()
+    layout.constraints.iter().map(block).collect()
 }

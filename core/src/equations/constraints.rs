@@ -61,7 +61,30 @@ fn store<S: Real>(ends: [BodyId; 2], rows: &[[S; 6]], slots: &Slots, entries: &m
     }
 }
 
-/// Φ_q into `entries` as [`jacobian`], and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m), into `right`, in one pass.
+/// The same, but for the columns ±I of joints that pin, which never change: they stand there already.
+#[inline(always)]
+fn update<S: Real, const M: usize>(
+    ends: [BodyId; 2],
+    rows: &[[S; 6]; M],
+    slots: &Slots,
+    entries: &mut [S],
+) {
+    match slots.blocks.as_slice() {
+        [i, j] if M == 2 && j.sign != 0.0 => {
+            let out = &mut entries[i.first..i.first + 12]; // that of j follows
+            (out[2], out[5]) = (rows[0][2], rows[1][2]);
+            (out[8], out[11]) = (rows[0][5], rows[1][5]);
+        }
+        [one] if M == 2 && one.sign != 0.0 => {
+            let angle = if one.sign > 0.0 { 5 } else { 2 };
+            let out = &mut entries[one.first..one.first + 6];
+            (out[2], out[5]) = (rows[0][angle], rows[1][angle]);
+        }
+        _ => store(ends, rows, slots, entries),
+    }
+}
+
+/// Φ_q into `entries` as [`jacobian`], where such an entry stands already, and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m), into `right`, in one pass.
 pub fn linearize<S: Real>(
     model: &Model<S>,
     motions: &[Motion<S>],
@@ -125,7 +148,7 @@ impl<S: Real> Linear<S> for Target<'_, S> {
         rows: &[[S; 6]; M],
     ) {
         self.right_side(M, terms);
-        store(ends, rows, self.slots, self.entries);
+        update(ends, rows, self.slots, self.entries);
     }
 }
 

@@ -13,6 +13,13 @@ pub fn motions<S: Real>(q: &[S], v: &[S], out: &mut Vec<Motion<S>>) {
     }));
 }
 
+/// Gives the moving bodies the rates v (3 n_b); their positions stay.
+pub fn set_rates<S: Real>(v: &[S], motions: &mut [Motion<S>]) {
+    for (motion, v) in motions[1..].iter_mut().zip(v.chunks_exact(3)) {
+        motion.twist = Twist { velocity: Vec2::new(v[0], v[1]), omega: v[2] };
+    }
+}
+
 /// Motion of every body at rest.
 pub fn at_rest<S: Real>(q: &[S]) -> Vec<Motion<S>> {
     let mut out = Vec::with_capacity(q.len() / 3 + 1);

@@ -85,6 +85,15 @@ impl<S: Real> Workspace<S> {
         gains: Gains,
     ) -> Result<(), Singular> {
         kinematics::motions(q, v, &mut self.motions);
+        self.respond(model, t, gains)
+    }
+
+    /// The same at the state that the [`motions`](Self::motions) describe.
+    ///
+    /// # Errors
+    /// As [`accelerate`](Self::accelerate).
+    #[inline(always)]
+    pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
         let (forces, right) = self.solution.split_at_mut(self.n_q);
         let entries = self.matrix.jacobian_mut();
         constraints::linearize(model, &self.motions, t, gains, right, entries);

@@ -58,8 +58,19 @@ impl<'a> Dense<'a> {
     pub(super) fn coefficients(&self, out: &mut [f64]) {
         assert_eq!(out.len(), self.len * self.degree, "len of y x degree");
         out.fill(0.0);
+        // with a degree that the compiler knows, the inner loop unrolls
+        match self.degree {
+            4 => self.add_coefficients(4, out),
+            7 => self.add_coefficients(7, out),
+            degree => self.add_coefficients(degree, out),
+        }
+    }
+
+    #[inline(always)]
+    fn add_coefficients(&self, degree: usize, out: &mut [f64]) {
         for (stage, row) in self.terms() {
-            for (out, k) in out.chunks_exact_mut(self.degree).zip(stage) {
+            let row = &row[..degree];
+            for (out, k) in out.chunks_exact_mut(degree).zip(stage) {
                 for (out, b) in out.iter_mut().zip(row) {
                     *out += b * k;
                 }

@@ -7,16 +7,30 @@ use crate::elements::BodyId;
 use std::ops::Range;
 
 /// One block of Φ_q: the equations of a constraint by the coordinates of a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
     /// The moving body.
     pub body: BodyId,
     /// Index of the block's first entry; entry (row r, column c) is `first + 3 r + c`.
     pub first: usize,
+    /// ±1 where the first two columns of a block of two rows are ±I, whatever the state: at a joint that
+    /// pins two points, Φ = point_j - point_i (Haug 3.3.12). 0 for other blocks.
+    pub sign: f64,
+}
+
+/// What a constraint touches.
+#[derive(Clone, Debug)]
+pub(super) struct Touched {
+    /// Number of its equations.
+    pub equations: usize,
+    /// Bodies, i and j first.
+    pub bodies: Vec<BodyId>,
+    /// Whether it only pins a point of body i to one of body j, with two equations.
+    pub pins: bool,
 }
 
 /// Rows and blocks of one constraint.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Slots {
     /// Rows of Φ.
     pub rows: Range<usize>,
@@ -25,7 +39,7 @@ pub struct Slots {
 }
 
 /// All index ranges of a model.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layout {
     /// Number of coordinates, three for each moving body.
     pub n_q: usize,
@@ -46,16 +60,23 @@ pub fn columns(body: BodyId) -> Range<usize> {
 }
 
 impl Layout {
-    /// For `n_bodies` moving bodies and constraints given by (equations, bodies touched).
-    pub fn new(n_bodies: usize, constraints: impl Iterator<Item = (usize, Vec<BodyId>)>) -> Self {
+    /// For `n_bodies` moving bodies and what the constraints touch.
+    pub(super) fn new(n_bodies: usize, constraints: impl Iterator<Item = Touched>) -> Self {
         let mut layout = Self { n_q: 3 * n_bodies, ..Self::default() };
-        for (m, bodies) in constraints {
+        for Touched { equations: m, bodies, pins } in constraints {
+            let (i, j) = (bodies.first().copied(), bodies.get(1).copied());
+            let sign = |body| match Some(body) == j {
+                _ if !pins || i == j => 0.0,
+                true => 1.0,
+                false => -1.0,
+            };
             let rows = layout.n_rows..layout.n_rows + m;
             layout.n_rows = rows.end;
             let mut blocks: Vec<Block> = Vec::new();
             for body in bodies {
                 if !body.is_ground() && blocks.iter().all(|b| b.body != body) {
-                    blocks.push(Block { body, first: layout.n_entries });
+                    let first = layout.n_entries;
+                    blocks.push(Block { body, first, sign: sign(body) });
                     layout.n_entries += 3 * m;
                 }
             }

@@ -3,7 +3,7 @@
 use super::added_inertia;
 use super::blueprint::Blueprint;
 use super::inertia::{inertias, Inertia};
-use super::layout::Layout;
+use super::layout::{Layout, Touched};
 use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group};
 use crate::expression::{Symbol, Tape, Values};
 use crate::math::{Lift, Local, Real, Vec2};
@@ -166,7 +166,11 @@ impl<S: Real> Model<S> {
             formula.map(&mut |tape| depends.add(tape));
             let equations = formula.equations();
             let bodies = formula.ends().into_iter().chain(depends.bodies.iter().copied());
-            touched.push((equations.len(), bodies.collect()));
+            touched.push(Touched {
+                equations: equations.len(),
+                bodies: bodies.collect(),
+                pins: formula.pins() && equations.len() == 2 && !depends.any(),
+            });
             constraints.push(ConstraintItem {
                 name: name.clone(),
                 group: *group,

@@ -113,6 +113,15 @@ pub(super) struct Diagonal<S, const N: usize> {
 #[inline(always)]
 pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> Diagonal<S, N> {
     let (mut pivot, mut inverse) = ([S::zero(); N], [S::zero(); N]);
+    if N == 2 {
+        // by the determinant, so that the second division need not wait for the first
+        let det = s[0][0] * s[1][1] - s[1][0] * s[1][0];
+        let (first, second) = (S::one() / s[0][0], S::one() / det);
+        (pivot[0], pivot[1]) = (s[0][0], det * first);
+        (inverse[0], inverse[1]) = (first, s[0][0] * second);
+        s[1][0] = s[1][0] * first;
+        return Diagonal { lower: s, pivot, inverse };
+    }
     for j in 0..N {
         pivot[j] = s[j][j];
         inverse[j] = S::one() / pivot[j];

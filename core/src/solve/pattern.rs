@@ -35,6 +35,8 @@ pub struct Pattern {
     pub(super) general: Vec<Owner>,
     /// Pairs of rows [±I b] that have an arm.
     pub(super) arms: Vec<Owner>,
+    /// First rows of the blocks that begin with ±I, with the sign.
+    pub(super) units: Vec<(usize, f64)>,
     /// Columns of L, in elimination order.
     pub(super) columns: Vec<Column>,
     /// Rows of all blocks of L below the diagonal.
@@ -136,6 +138,7 @@ impl Pattern {
             n_entries: plan::check_entries(blocks),
             general: places.general,
             arms: places.arms,
+            units: plan::units(blocks),
             columns,
             n_lower,
         }

@@ -107,6 +107,15 @@ pub(super) fn check_entries(blocks: &[RowBlock]) -> usize {
     owned.len()
 }
 
+/// First rows of the blocks that begin with ±I, with the sign.
+pub(super) fn units(blocks: &[RowBlock]) -> Vec<(usize, f64)> {
+    let of = |b: &RowBlock| {
+        let firsts = b.touches.iter().map(|(_, first)| first / 3);
+        firsts.zip(b.signs.iter().copied()).collect::<Vec<_>>()
+    };
+    blocks.iter().flat_map(of).collect()
+}
+
 /// Where the transformed rows of each row block are: arms in groups at which all are pairs of rows
 /// [±I b], rows of U in the others.
 pub(super) struct Places {

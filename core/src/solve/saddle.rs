@@ -61,9 +61,14 @@ impl<S: Real> Saddle<S> {
         let (zero, none) = (S::zero(), [S::zero(); 3]);
         let weight = Weight { inverse: [S::one(); 3], shift: [zero; 2] };
         let row = Row { plain: none, scaled: none };
+        let mut entries = vec![none; pattern.n_entries];
+        for &(row, sign) in &pattern.units {
+            let sign = S::constant(sign);
+            (entries[row][0], entries[row + 1][1]) = (sign, sign);
+        }
         Self {
             weights: vec![weight; pattern.coupled.len()],
-            entries: vec![none; pattern.n_entries],
+            entries,
             damping: vec![zero; pattern.n_rows],
             u: vec![row; pattern.general.len()],
             arms: vec![Arm::zero(); pattern.arms.len()],

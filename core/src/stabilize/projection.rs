@@ -20,6 +20,10 @@ use crate::model::{row_scales, size, Model};
 const MOST: usize = 12;
 /// A chord iteration that lowers the residual by less deserves a factor of its own.
 const SLOW: f64 = 1e-2;
+/// What a step for velocities leaves, by the factor of this very state: Φ̇ is linear in them.
+const LINEAR: f64 = 1e-10;
+/// How much worse than measured a step may be that is not checked.
+const MARGIN: f64 = 10.0;
 /// A residual that Newton's own step does not lower is rounding up to this factor of the tolerance.
 const ROUNDING: f64 = 1e3;
 
@@ -27,7 +31,7 @@ const ROUNDING: f64 = 1e3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
     /// Largest residual that is left: of lengths relative to the size of the mechanism, of angles in
-    /// rad, of their rates relative to the largest rate.
+    /// rad, of their rates relative to the largest rate so far.
     pub tolerance: f64,
 }
 
@@ -61,6 +65,12 @@ pub struct Projector<'a> {
     scales: Vec<f64>,
     /// Φ, Φ̇ and γ.
     terms: [Vec<f64>; 3],
+    /// Whether they are those of the state at hand.
+    current: bool,
+    /// By how much the last step with the factor at hand lowered the residual.
+    lowering: f64,
+    /// The largest rate that was seen.
+    fastest: f64,
     /// Right side, then (Δ, μ).
     correction: Vec<f64>,
     /// Factorisations that chord iterations did not spare.
@@ -84,12 +94,16 @@ impl<'a> Projector<'a> {
             size: size(model),
             scales: row_scales(model),
             terms: std::array::from_fn(|_| vec![0.0; model.layout.n_rows]),
+            current: false,
+            lowering: 1.0,
+            fastest: 0.0,
             correction: vec![0.0; unknowns],
             factorisations: 0,
         }
     }
 
-    /// Projects (q, v) in place; whether they changed. With `factored`, the matrix of the workspace
+    /// Projects (q, v) in place; whether they changed. The motions of the workspace are then those of the
+    /// new state, but for rates. With `factored`, the matrix of the workspace
     /// holds the factor of a state nearby.
     ///
     /// # Errors
@@ -102,6 +116,7 @@ impl<'a> Projector<'a> {
         mut factored: bool,
     ) -> Result<bool, Fault> {
         let mut changed = false;
+        (self.current, self.lowering) = (false, 1.0);
         for level in [Level::Position, Level::Velocity] {
             changed |= self.meet(level, workspace, t, (&mut *q, &mut *v), &mut factored)?;
         }
@@ -123,8 +138,14 @@ impl<'a> Projector<'a> {
             if iteration == 0 {
                 target = match level {
                     Level::Position => self.tolerance.max(8.0 * f64::EPSILON * self.largest(q)),
-                    Level::Velocity => self.tolerance * self.largest(v).max(gap),
+                    Level::Velocity => {
+                        self.fastest = self.fastest.max(self.largest(v)).max(gap);
+                        self.tolerance * self.fastest
+                    }
                 };
+            }
+            if iteration > 0 {
+                self.lowering = gap / last;
             }
             if gap <= target {
                 return Ok(iteration > 0);
@@ -137,12 +158,16 @@ impl<'a> Projector<'a> {
             if newton {
                 self.factor(workspace, t)?;
                 *factored = true;
+                self.lowering = if level == Level::Velocity { LINEAR } else { 1.0 };
             }
             self.correct(
                 level,
                 workspace,
                 if level == Level::Position { &mut *q } else { &mut *v },
             );
+            if level == Level::Velocity && MARGIN * self.lowering * gap <= target {
+                return Ok(true);
+            }
             last = gap;
         }
         Err(Fault::Open { row: worst.0, gap: worst.1 })
@@ -157,10 +182,13 @@ impl<'a> Projector<'a> {
         (q, v): (&[f64], &[f64]),
         worst: &mut (usize, f64),
     ) -> f64 {
-        let motions = &mut workspace.motions;
-        let [residual, rate, gamma] = &mut self.terms;
-        kinematics::motions(q, v, motions);
-        constraints::velocity_terms(self.model, motions, t, residual, rate, gamma);
+        if !self.current {
+            let motions = &mut workspace.motions;
+            let [residual, rate, gamma] = &mut self.terms;
+            kinematics::motions(q, v, motions);
+            constraints::velocity_terms(self.model, motions, t, residual, rate, gamma);
+            self.current = true;
+        }
         let mut gap = 0.0;
         for (row, (r, scale)) in self.terms[level as usize].iter().zip(&self.scales).enumerate() {
             let scaled = r.abs() / scale;
@@ -189,6 +217,7 @@ impl<'a> Projector<'a> {
         lower.iter_mut().zip(open).for_each(|(right, r)| *right = -r);
         workspace.matrix.solve(&mut self.correction);
         x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += dx);
+        self.current = false;
     }
 
     /// Largest coordinate or rate, lengths over the size of the mechanism.

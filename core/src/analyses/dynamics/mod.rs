@@ -70,14 +70,24 @@ pub fn dynamics(
         reason: Reason::fault(model, t, fault),
         run: Run::default(),
     })?;
-    recorder.report(t0, &y);
+    let first = recorder.report(t0, &y);
+    if first == Flow::Stop {
+        let nothing = integrate::Statistics {
+            steps: 0,
+            rejected: 0,
+            evaluations: 0,
+            ended: Ended::Stopped,
+            t: t0,
+        };
+        return finish(system, recorder, Ok(nothing), clock);
+    }
     let mut observer = Watched { recorder: &mut recorder, watch: &mut watch };
     let outcome = match &options.scheme {
         Scheme::Rk45(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Dop853(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Rk4(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
     };
-    finish(system, recorder, outcome, (clock, watch))
+    finish(system, recorder, outcome, clock)
 }
 
 /// Output first, then the caller's eye on the time.
@@ -88,7 +98,7 @@ struct Watched<'r, 'a, W> {
 
 impl<W: FnMut(f64) -> Flow> Observer for Watched<'_, '_, W> {
     fn step(&mut self, step: &Step<'_>) -> Flow {
-        match self.recorder.step(step) {
+        match self.recorder.step(step, self.watch) {
             Flow::Continue => (self.watch)(step.t),
             Flow::Stop => Flow::Stop,
         }
@@ -100,18 +110,13 @@ impl<W: FnMut(f64) -> Flow> Observer for Watched<'_, '_, W> {
 }
 
 fn finish(
-    mut system: Equations<'_>,
+    system: Equations<'_>,
     recorder: Recorder<'_>,
     outcome: Result<integrate::Statistics, integrate::Failure<(f64, Fault)>>,
-    (clock, watch): (Instant, impl FnMut(f64) -> Flow),
+    clock: Instant,
 ) -> Result<Run, Box<Failure>> {
-    let Recorder { mut trajectory, dense, between, fault, .. } = recorder;
+    let Recorder { trajectory, dense, reported, fault, .. } = recorder;
     let model = system.model;
-    let reported = trajectory.evaluate(model, &mut system.workspace, watch);
-    let (n, m) = (model.layout.n_q, model.layout.n_rows);
-    let (Ok(rows) | Err((rows, ..))) = reported;
-    let complete = rows == trajectory.t.len();
-    trajectory.truncate(rows, n, m);
     let took = match &outcome {
         Ok(statistics) => *statistics,
         Err(failure) => failure.statistics,
@@ -121,18 +126,17 @@ fn finish(
         rejected: took.rejected,
         evaluations: took.evaluations,
         factorisations: took.evaluations
-            + rows
+            + trajectory.t.len()
             + system.factorisations()
-            + between.factorisations(),
+            + reported.factorisations(),
         seconds: clock.elapsed().as_secs_f64(),
     };
-    let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached) && complete;
+    let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached);
     let run = Run { trajectory, dense, statistics, reached };
-    let reason = match (outcome, fault, reported) {
-        (Ok(_), None, Ok(_)) => return Ok(run),
-        (Err(failure), ..) => Reason::from_integrator(model, failure),
-        (_, Some((t, fault)), _) => Reason::fault(model, t, fault),
-        (.., Err((_, t, singular))) => Reason::singular(model, t, singular),
+    let reason = match (outcome, fault) {
+        (Ok(_), None) => return Ok(run),
+        (Err(failure), _) => Reason::from_integrator(model, failure),
+        (_, Some((t, fault))) => Reason::fault(model, t, fault),
     };
     Err(Box::new(Failure { reason, run }))
 }

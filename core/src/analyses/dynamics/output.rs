@@ -2,9 +2,8 @@
 
 use super::options::{Options, Output};
 use super::system::{Equations, WORKS};
-use crate::equations::{energy, kinematics, Gains, Singular, Workspace};
+use crate::equations::{energy, kinematics, Gains};
 use crate::integrate::{Flow, Step};
-use crate::math::Motion;
 use crate::model::Model;
 use crate::stabilize::Fault;
 
@@ -43,17 +42,15 @@ pub struct Dense {
 
 /// Collects the output while the integrator runs.
 pub(super) struct Recorder<'a> {
-    model: &'a Model,
     output: Output,
     t0: f64,
     t_end: f64,
     next: usize,
     y: Vec<f64>,
-    motions: Vec<Motion>,
     pub trajectory: Trajectory,
     pub dense: Option<Dense>,
-    /// Projects what lies between the ends of a step.
-    pub between: Equations<'a>,
+    /// Projects what lies between the ends of a step, and solves the equations of motion there.
+    pub reported: Equations<'a>,
     /// Why that was not possible, and when.
     pub fault: Option<(f64, Fault)>,
 }
@@ -61,36 +58,53 @@ pub(super) struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     pub fn new(model: &'a Model, options: &Options, t0: f64) -> Self {
         Self {
-            model,
             output: options.output,
             t0,
             t_end: options.t_end,
             next: 1,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
-            motions: Vec::new(),
             trajectory: Trajectory::default(),
             dense: options.dense_output.then(|| Dense { t: vec![t0], ..Dense::default() }),
-            between: Equations::new(model, options),
+            reported: Equations::new(model, options),
             fault: None,
         }
     }
 
     /// Reports a state given as (q, v, works).
-    pub fn report(&mut self, t: f64, y: &[f64]) {
-        let n = self.model.layout.n_q;
-        let (q, v, works) = (&y[..n], &y[n..2 * n], &y[2 * n..]);
-        kinematics::motions(q, v, &mut self.motions);
-        let kinetic = energy::kinetic(self.model, &self.motions);
-        let potential = energy::potential(self.model, &self.motions, t);
-        self.trajectory.t.push(t);
-        self.trajectory.q.extend_from_slice(q);
-        self.trajectory.v.extend_from_slice(v);
-        self.trajectory.energy.extend([kinetic, potential]);
-        self.trajectory.energy.extend_from_slice(works);
+    pub fn report(&mut self, t: f64, y: &[f64]) -> Flow {
+        let n = self.reported.model.layout.n_q;
+        kinematics::motions(&y[..n], &y[n..2 * n], &mut self.reported.workspace.motions);
+        self.report_placed(t, y)
     }
 
-    /// Reports whatever falls into a step; stops where a state between its ends cannot be projected.
-    pub fn step(&mut self, step: &Step<'_>) -> Flow {
+    /// Reports a state whose motions are in the workspace: accelerations and multipliers by γ, never γ̂.
+    fn report_placed(&mut self, t: f64, y: &[f64]) -> Flow {
+        let Equations { model, workspace, .. } = &mut self.reported;
+        if let Err(singular) = workspace.respond(model, t, Gains::default()) {
+            return self.stop((t, Fault::Singular(singular)));
+        }
+        let n = model.layout.n_q;
+        let row = &mut self.trajectory;
+        let kinetic = energy::kinetic(model, &workspace.motions);
+        let potential = energy::potential(model, &workspace.motions, t);
+        row.t.push(t);
+        row.q.extend_from_slice(&y[..n]);
+        row.v.extend_from_slice(&y[n..2 * n]);
+        row.a.extend_from_slice(workspace.a());
+        row.lam.extend_from_slice(workspace.lam());
+        row.energy.extend([kinetic, potential]);
+        row.energy.extend_from_slice(&y[2 * n..]);
+        Flow::Continue
+    }
+
+    fn stop(&mut self, fault: (f64, Fault)) -> Flow {
+        self.fault = Some(fault);
+        Flow::Stop
+    }
+
+    /// Reports whatever falls into a step; stops where `watch` says so, and where a state cannot be
+    /// projected or its equations of motion cannot be solved.
+    pub fn step(&mut self, step: &Step<'_>, watch: &mut impl FnMut(f64) -> Flow) -> Flow {
         if let Some(dense) = &mut self.dense {
             let degree = step.dense.degree();
             let first = dense.c.len();
@@ -100,24 +114,25 @@ impl<'a> Recorder<'a> {
             dense.c.resize(first + degree * step.y.len(), 0.0);
             step.coefficients(&mut dense.c[first..]);
         }
-        let Output::Every(h) = self.output else {
-            self.report(step.t, step.y);
-            return Flow::Continue;
-        };
+        let Output::Every(h) = self.output else { return self.report(step.t, step.y) };
         let mut y = std::mem::take(&mut self.y);
-        while let Some(t) = self.next_time(h, step.t) {
+        let mut flow = Flow::Continue;
+        while let (Flow::Continue, Some(t)) = (flow, self.next_time(h, step.t)) {
             step.interpolate(t, &mut y);
-            if let Err(fault) = self.between.project(t, &mut y, false) {
-                self.fault = Some(fault);
-                return Flow::Stop;
+            flow = match self.reported.place(t, &mut y) {
+                Ok(()) => self.report_placed(t, &y),
+                Err(fault) => self.stop(fault),
+            };
+            if flow == Flow::Continue {
+                flow = watch(t);
             }
-            self.report(t, &y);
         }
         self.y = y;
-        if step.t == self.t_end && self.trajectory.t.last() != Some(&step.t) {
-            self.report(step.t, step.y);
+        let last = step.t == self.t_end && self.trajectory.t.last() != Some(&step.t);
+        if flow == Flow::Continue && last {
+            flow = self.report(step.t, step.y);
         }
-        Flow::Continue
+        flow
     }
 
     /// Whether a step that ends at `t` is needed between its ends.
@@ -148,44 +163,5 @@ impl<'a> Recorder<'a> {
             return None;
         }
         Some(t)
-    }
-}
-
-impl Trajectory {
-    /// Fills accelerations and multipliers at every reported state, by γ, never γ̂, and gives the
-    /// number of rows filled: fewer than all if `watch` ended it.
-    ///
-    /// # Errors
-    /// The first row, and its time, at which the equations of motion are singular; the rows before
-    /// are filled.
-    pub fn evaluate(
-        &mut self,
-        model: &Model,
-        workspace: &mut Workspace,
-        mut watch: impl FnMut(f64) -> Flow,
-    ) -> Result<usize, (usize, f64, Singular)> {
-        let n = model.layout.n_q;
-        for (k, &t) in self.t.iter().enumerate() {
-            if watch(t) == Flow::Stop {
-                return Ok(k);
-            }
-            let row = k * n..(k + 1) * n;
-            let (q, v) = (&self.q[row.clone()], &self.v[row]);
-            let gains = Gains::default();
-            workspace.accelerate(model, t, q, v, gains).map_err(|singular| (k, t, singular))?;
-            self.a.extend_from_slice(workspace.a());
-            self.lam.extend_from_slice(workspace.lam());
-        }
-        Ok(self.t.len())
-    }
-
-    /// Keeps the first `count` rows.
-    pub fn truncate(&mut self, count: usize, n_q: usize, n_rows: usize) {
-        self.t.truncate(count);
-        self.q.truncate(count * n_q);
-        self.v.truncate(count * n_q);
-        self.a.truncate(count * n_q);
-        self.lam.truncate(count * n_rows);
-        self.energy.truncate(count * ENERGIES);
     }
 }

@@ -1,7 +1,7 @@
 //! The equations of motion as a first-order system y = (q, v, work).
 
 use super::options::{Options, Stabilization};
-use crate::equations::{Gains, Workspace};
+use crate::equations::{kinematics, Gains, Workspace};
 use crate::integrate::FirstOrder;
 use crate::model::Model;
 use crate::stabilize::{Fault, Projector};
@@ -47,6 +47,20 @@ impl<'a> Equations<'a> {
     }
 }
 
+impl Equations<'_> {
+    /// Projects y if that was asked for; the workspace then holds the motions at y.
+    pub fn place(&mut self, t: f64, y: &mut [f64]) -> Result<(), (f64, Fault)> {
+        let n = self.model.layout.n_q;
+        if self.projector.is_some() {
+            self.project(t, y, false)?;
+            kinematics::set_rates(&y[n..2 * n], &mut self.workspace.motions);
+        } else {
+            kinematics::motions(&y[..n], &y[n..2 * n], &mut self.workspace.motions);
+        }
+        Ok(())
+    }
+}
+
 impl FirstOrder for Equations<'_> {
     type Stop = (f64, Fault);
 
@@ -70,10 +84,13 @@ impl FirstOrder for Equations<'_> {
             dy.fill(f64::NAN); // the trial state is off, not the mechanism: a shorter step may do
             return Ok(());
         }
-        dy[..n].copy_from_slice(v);
-        dy[n..2 * n].copy_from_slice(self.workspace.a());
+        let (dq, dv, works) = parts(dy, n);
+        // in one loop: two calls to copy would take longer than a few bodies do
+        for ((dq, v), (dv, a)) in dq.iter_mut().zip(v).zip(dv.iter_mut().zip(self.workspace.a())) {
+            (*dq, *dv) = (*v, *a);
+        }
         let powers = self.workspace.powers(self.model, v);
-        dy[2 * n..].copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
+        works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
         Ok(())
     }
 
