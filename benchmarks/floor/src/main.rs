@@ -1,0 +1,53 @@
+//! Times of the floor and of kempe, in turn, as JSON.
+//!
+//! ```text
+//! cargo run --release            evaluations, windows and runs, 21 of each
+//! cargo run --release -- 5       5 of each
+//! cargo run --release -- 5 runs  one part: evaluation, windows or runs
+//! ```
+//!
+//! Medians of CPU times of the thread. "chain" is the floor: by hand, as fast as we know how; "straight" is
+//! what a careful programmer writes at first; "kempe" the general program, called from Rust; "other" is
+//! kempe on a linkage of the same size that nothing was tuned on.
+
+mod evaluations;
+mod runs;
+mod turns;
+
+use serde_json::{json, Value};
+
+/// One part of the measurements, given the number of repetitions.
+type Measure = fn(usize) -> Value;
+
+/// Repetitions unless told otherwise.
+const REPEAT: usize = 21;
+
+fn main() {
+    let mut words = std::env::args().skip(1);
+    let repeat = match words.next().as_deref().map(str::parse) {
+        None => REPEAT,
+        Some(Ok(repeat)) if repeat > 0 => repeat,
+        Some(_) => refuse("repetitions: must be a whole number above 0"),
+    };
+    let parts: [(&str, Measure); 3] = [
+        ("evaluation", evaluations::measure),
+        ("windows", evaluations::windows),
+        ("runs", runs::measure),
+    ];
+    let part = words.next();
+    if part.as_ref().is_some_and(|part| parts.iter().all(|(name, _)| name != part)) {
+        refuse("part: must be evaluation, windows or runs");
+    }
+    let mut found = json!({ "repeat": repeat });
+    for (name, measure) in parts {
+        if part.as_ref().is_none_or(|part| part == name) {
+            found[name] = measure(repeat);
+        }
+    }
+    println!("{found:#}");
+}
+
+fn refuse(why: &str) -> ! {
+    eprintln!("kempe-floor: {why}");
+    std::process::exit(2);
+}

@@ -1,0 +1,45 @@
+"""What a tool is run with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import Any
+
+from problems.planar import Problem
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One way to run a tool: points of one `curve` differ in `tolerance` (or step) alone."""
+
+    curve: str
+    tolerance: float
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def label(self) -> str:
+        """As in tables."""
+        return f"{self.curve}, {self.tolerance:g}" if self.tolerance else self.curve
+
+
+#: Bodies times steps above which the tools with fixed steps take minutes.
+MOST_WORK = 2.5e6
+
+
+def affordable(problem: Problem, quick: bool) -> tuple[float, ...]:
+    """The fixed steps of a problem that end within a minute or so."""
+    work = [len(problem.bodies) * problem.t_end / step for step in problem.steps]
+    steps = tuple(h for h, w in zip(problem.steps, work, strict=True) if w <= MOST_WORK)
+    return steps[:1] if quick else steps
+
+
+def not_installed(*modules: str) -> str | None:
+    """Why a tool cannot be used here, None if it can."""
+    for module in modules:
+        try:
+            import_module(module)
+        except ImportError as error:
+            return f"{module} is not installed here ({error}); pip install 'kempe[bench]' brings it"
+    return None
