@@ -14,6 +14,10 @@ use crate::solve::{Pattern, RowBlock, Saddle, Weight};
 pub struct Augmented<S = f64> {
     pattern: Pattern,
     saddle: Saddle<S>,
+    /// ε² of near singular positions, if they are to be passed.
+    ridge: Option<f64>,
+    /// Whether the factor at hand has it.
+    ridged: bool,
 }
 
 impl<S: Real> Augmented<S> {
@@ -22,7 +26,7 @@ impl<S: Real> Augmented<S> {
     pub fn new<P>(model: &Model<P>) -> Self {
         let layout = &model.layout;
         let pattern = Pattern::new(mass::coupled(model).collect(), &row_blocks(layout));
-        Self { saddle: Saddle::new(&pattern), pattern }
+        Self { saddle: Saddle::new(&pattern), pattern, ridge: None, ridged: false }
     }
 
     /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
@@ -58,19 +62,38 @@ impl<S: Real> Augmented<S> {
         }
     }
 
+    /// From now on near singular positions are factorised with the ridge ε².
+    pub fn pass_singular(&mut self, ridge: f64) {
+        self.saddle.refuse_near();
+        self.ridge = Some(ridge);
+    }
+
+    /// Whether the factor at hand is that of a near singular position, with the ridge.
+    pub fn ridged(&self) -> bool {
+        self.ridged
+    }
+
     /// Factorises.
     ///
     /// # Errors
     /// The row of Φ_q that depends on the others, or a coordinate without mass.
     pub fn factor(&mut self) -> Result<(), Dependent> {
-        self.saddle.factor(&self.pattern)
+        self.ridged = false;
+        match (self.saddle.factor(&self.pattern), self.ridge) {
+            (Err(Dependent::Row(_)), Some(ridge)) => {
+                self.ridged = self.saddle.factor_near(&self.pattern, ridge)?;
+                Ok(())
+            }
+            (outcome, _) => outcome,
+        }
     }
 
     /// Factorises and solves in place, as [`solve`](Self::solve): faster than one after the other.
     ///
     /// # Errors
-    /// As [`factor`](Self::factor); `x` is then lost.
+    /// As [`factor`](Self::factor); `x` is then lost. Near singular positions are refused too.
     pub fn factor_and_solve(&mut self, x: &mut [S]) -> Result<(), Dependent> {
+        self.ridged = false;
         self.saddle.factor_and_solve(&self.pattern, x)
     }
 

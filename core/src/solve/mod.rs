@@ -7,10 +7,12 @@
 //! | `weight` | the blocks of W by their factors |
 //! | `block` | arithmetic of blocks of at most 3 × 3 |
 //! | `saddle` | numbers: [W Aᵀ; A -μI] factorised and solved without allocation |
+//! | `near` | the same where rows of A come near to dependence |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
 //! | `rank` | numerical rank, dependent rows and left null vectors |
 
 mod block;
+mod near;
 pub mod newton;
 mod order;
 mod pattern;

@@ -32,6 +32,10 @@ pub struct Saddle<S> {
     pub entries: Vec<[S; 3]>,
     /// μ, one for each row.
     pub damping: Vec<S>,
+    /// Smallest ratio of a pivot to S_kk that is accepted; [`PIVOT_TOLERANCE`] at first.
+    pub(super) least: f64,
+    /// Part of S_kk that is added to it, 0 at first.
+    pub(super) ridge: f64,
     /// Rows of U, as those of A are stored.
     u: Vec<Row<S>>,
     /// Rows of the diagonal blocks of L.
@@ -61,6 +65,8 @@ impl<S: Real> Saddle<S> {
             weights: vec![weight; pattern.coupled.len()],
             entries: vec![none; pattern.owners.len()],
             damping: vec![zero; pattern.n_rows],
+            least: PIVOT_TOLERANCE,
+            ridge: 0.0,
             u: vec![row; pattern.owners.len()],
             diagonal: vec![Pivot { lower: none, inverse: zero, magnitude: zero }; pattern.n_rows],
             lower: vec![row; pattern.n_lower],
@@ -188,6 +194,9 @@ impl<S: Real> Saddle<S> {
             }
         }
         let magnitude: [S; N] = std::array::from_fn(|i| s[i][i]);
+        for (i, magnitude) in magnitude.iter().enumerate() {
+            s[i][i] += *magnitude * S::constant(self.ridge);
+        }
         for block in &column.earlier {
             self.subtract::<N, N>([block.block, block.block], block.size, &mut s);
             if RHS {
@@ -220,7 +229,7 @@ impl<S: Real> Saddle<S> {
     ) -> Result<(), Dependent> {
         let rows = part_mut::<_, N>(&mut self.diagonal, column.row);
         for (i, row) in rows.iter_mut().enumerate() {
-            let margin = diagonal.pivot[i] - magnitude[i] * S::constant(PIVOT_TOLERANCE);
+            let margin = diagonal.pivot[i] - magnitude[i] * S::constant(self.least);
             if !(above_zero(margin) && diagonal.inverse[i].is_finite()) {
                 return Err(Dependent::Row(column.row as usize + i));
             }

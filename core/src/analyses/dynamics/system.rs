@@ -30,7 +30,12 @@ impl<'a> Equations<'a> {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
-        Self { model, workspace: Workspace::new(model), gains: options.gains(), projector }
+        let mut workspace = Workspace::new(model);
+        let ridge: f64 = std::env::var("RIDGE").map_or(1e-9, |s| s.parse().unwrap());
+        if ridge > 0.0 && !model.allow_redundancy {
+            workspace.pass_singular(ridge);
+        }
+        Self { model, workspace, gains: options.gains(), projector }
     }
 
     /// Factorisations beside those of evaluations.
