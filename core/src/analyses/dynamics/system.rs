@@ -15,6 +15,7 @@ pub(super) struct Equations<'a> {
     pub workspace: Workspace,
     pub gains: Gains,
     pub projector: Option<Projector<'a>>,
+    near: bool,
 }
 
 /// Splits y into q, v and the works.
@@ -35,7 +36,7 @@ impl<'a> Equations<'a> {
         if ridge > 0.0 && !model.allow_redundancy {
             workspace.pass_singular(ridge);
         }
-        Self { model, workspace, gains: options.gains(), projector }
+        Self { model, workspace, gains: options.gains(), projector, near: false }
     }
 
     /// Factorisations beside those of evaluations.
@@ -68,6 +69,7 @@ impl FirstOrder for Equations<'_> {
         let n = self.model.layout.n_q;
         let (q, v) = (&y[..n], &y[n..2 * n]);
         let outcome = self.workspace.accelerate(self.model, t, q, v, self.gains);
+        self.near |= self.workspace.matrix.ridged();
         if let Err(singular) = outcome {
             if y.iter().all(|y| y.is_finite()) {
                 return Err((t, Fault::Singular(singular)));
@@ -82,8 +84,20 @@ impl FirstOrder for Equations<'_> {
         Ok(())
     }
 
+    fn remaining(&mut self, dy: &mut [f64]) -> bool {
+        if std::env::var("NOFILTER").is_ok() || (!self.near && std::env::var("ALWAYS").is_err()) {
+            return false;
+        }
+        let Some(projector) = &mut self.projector else { return false };
+        let (dq, dv, _) = parts(dy, self.model.layout.n_q);
+        projector.tangent(&self.workspace, dq);
+        projector.tangent(&self.workspace, dv);
+        true
+    }
+
     /// The last evaluation was at or near the end of the step: its factor serves.
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
+        self.near = false;
         self.project(t, y, true)
     }
 }
