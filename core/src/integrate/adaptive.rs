@@ -209,8 +209,8 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             if self.options.max_steps.is_some_and(|most| self.steps >= most) {
                 return Err(Cause::MaxSteps { steps: self.steps });
             }
-            let t_new = self.accepted_step(y, &mut size)?;
-            if self.finish(t_new, y, observer)? == Flow::Stop {
+            let (t_new, projected) = self.accepted_step(y, &mut size)?;
+            if self.finish(t_new, projected, y, observer)? == Flow::Stop {
                 return Ok(Ended::Stopped);
             }
         }
@@ -246,18 +246,20 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         Ok(initial_step(h0, d1, d2, P::ERROR_ORDER).min(most))
     }
 
-    /// Tries steps until one is accepted; its end is in `y_new` and the last stage. Returns its time.
-    fn accepted_step(&mut self, y: &[f64], size: &mut StepSize) -> Result<f64, Cause<Y::Stop>> {
+    /// Tries steps until one is accepted, by its error and by the system; its end is in `y_new`. Returns
+    /// its time and whether the system changed it.
+    fn accepted_step(
+        &mut self,
+        y: &[f64],
+        size: &mut StepSize,
+    ) -> Result<(f64, bool), Cause<Y::Stop>> {
         let t = self.t;
         let least = least_step(t, self.direction);
         size.begin(least, self.options.max_step);
-        let mut not_finite = None;
+        let mut refusal = None;
         loop {
             if size.size < least {
-                return Err(match not_finite {
-                    Some(t) => Cause::NotFinite { t },
-                    None => Cause::StepTooSmall { t, h: size.size },
-                });
+                return Err(refusal.unwrap_or(Cause::StepTooSmall { t, h: size.size }));
             }
             let mut t_new = t + size.size * self.direction;
             if self.direction * (t_new - self.t_end) > 0.0 {
@@ -265,16 +267,22 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             }
             let h = t_new - t;
             match self.attempt(t_new, y).map(|norm| self.judged(norm, h, y)) {
-                Ok(norm) if norm < 1.0 => {
-                    size.accept(h.abs(), norm);
-                    return Ok(t_new);
-                }
+                Ok(norm) if norm < 1.0 => match self.project(t_new)? {
+                    Ok(projected) => {
+                        size.accept(h.abs(), norm);
+                        return Ok((t_new, projected));
+                    }
+                    Err(stop) => {
+                        refusal = Some(Cause::Equations(stop));
+                        size.refuse(h.abs());
+                    }
+                },
                 Ok(norm) => {
-                    not_finite = None;
+                    refusal = None;
                     size.reject(h.abs(), norm);
                 }
-                Err(Trouble::NotFinite(at)) => {
-                    not_finite = Some(at);
+                Err(Trouble::NotFinite(t)) => {
+                    refusal = Some(Cause::NotFinite { t });
                     size.reject(h.abs(), f64::NAN);
                 }
                 Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
@@ -312,10 +320,10 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     fn finish<O: Observer>(
         &mut self,
         t_new: f64,
+        projected: bool,
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Flow, Cause<Y::Stop>> {
-        let projected = self.project(t_new)?;
         let table = self.extend(t_new, y, observer)?;
         let n = self.n;
         let Work { k, y_new, .. } = &self.work;
@@ -363,12 +371,13 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     }
 
     /// Lets the system change the accepted state; if it does, the jump and the new derivative go into
-    /// the rows after the stages.
-    fn project(&mut self, t_new: f64) -> Result<bool, Cause<Y::Stop>> {
+    /// the rows after the stages. Inside, why it refuses the state.
+    fn project(&mut self, t_new: f64) -> Result<Result<bool, Y::Stop>, Cause<Y::Stop>> {
         let Work { k, y_new, trial, .. } = &mut self.work;
         trial.copy_from_slice(y_new);
-        if !self.rate.system.accepted(t_new, y_new).map_err(Cause::Equations)? {
-            return Ok(false);
+        match self.rate.system.accepted(t_new, y_new) {
+            Ok(true) => {}
+            other => return Ok(other),
         }
         if !all_finite(y_new) {
             return Err(Cause::NotFinite { t: t_new });
@@ -379,7 +388,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             *jump = (new - old) / h;
         }
         self.rate.at(t_new, y_new, dy).map_err(hard)?;
-        Ok(true)
+        Ok(Ok(true))
     }
 }
 

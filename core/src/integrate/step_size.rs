@@ -2,6 +2,8 @@
 //! Differential Equations I*, II.4, with the constants of `scipy.integrate`.
 
 /// Part of the optimal step that is tried.
+/// Part of a step that is tried after the system refused its end.
+const REFUSED: f64 = 0.7;
 const SAFETY: f64 = 0.9;
 /// Least factor from one step to the next.
 const MIN_FACTOR: f64 = 0.2;
@@ -46,6 +48,12 @@ impl StepSize {
     pub fn reject(&mut self, h: f64, norm: f64) {
         self.rejected = true;
         self.size = h * (SAFETY * norm.powf(self.exponent)).max(MIN_FACTOR);
+    }
+
+    /// After a step of magnitude `h` whose end the system refused.
+    pub fn refuse(&mut self, h: f64) {
+        self.rejected = true;
+        self.size = h * REFUSED;
     }
 }
 
