@@ -62,7 +62,10 @@ fn truth(windows: usize) -> Vec<[f64; 2]> {
     let mut all = vec![[0.0, 1.0]];
     for k in 0..(T_END / GRID).round() as usize {
         let ends = (k as f64 * GRID, (k + 1) as f64 * GRID);
-        let done = method.integrate(&mut Pendulum(w2), ends.0, ends.1, &mut y, &mut |_: &Step<'_>| Flow::Continue);
+        let done =
+            method.integrate(&mut Pendulum(w2), ends.0, ends.1, &mut y, &mut |_: &Step<'_>| {
+                Flow::Continue
+            });
         done.expect("a pendulum swings");
         all.push([y[0].sin(), y[0].cos()]);
     }
@@ -118,7 +121,16 @@ fn measure(windows: usize, scheme: &str, rtol: f64, truth: &[[f64; 2]]) {
 fn main() {
     println!(
         "{:>5} {:<7} {:>7} {:>6} {:>9} {:>12} {:>15} {:>10} {:>10} {:>9}",
-        "N", "scheme", "rtol", "steps", "rejected", "evaluations", "factorisations", "error", "residual", "ms"
+        "N",
+        "scheme",
+        "rtol",
+        "steps",
+        "rejected",
+        "evaluations",
+        "factorisations",
+        "error",
+        "residual",
+        "ms"
     );
     let wanted: Vec<usize> = std::env::args().filter_map(|a| a.parse().ok()).collect();
     for windows in [1, 2, 3, 10, 40, 1000] {

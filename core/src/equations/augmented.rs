@@ -9,13 +9,17 @@ use crate::model::{Layout, Model};
 pub use crate::solve::Dependent;
 use crate::solve::{Pattern, RowBlock, Saddle, Weight};
 
+/// ε² of near singular positions: between the noise of positions over ε and the load over a time in
+/// proportion to ε; `docs/performance.md` has the errors for others.
+pub const RIDGE: f64 = 1e-10;
+
 /// Matrix, factors and pattern.
 #[derive(Clone, Debug)]
 pub struct Augmented<S = f64> {
     pattern: Pattern,
     saddle: Saddle<S>,
-    /// ε² of near singular positions, if they are to be passed.
-    ridge: Option<f64>,
+    /// Whether near singular positions are to be passed.
+    passing: bool,
     /// Whether the factor at hand has it.
     ridged: bool,
 }
@@ -26,7 +30,7 @@ impl<S: Real> Augmented<S> {
     pub fn new<P>(model: &Model<P>) -> Self {
         let layout = &model.layout;
         let pattern = Pattern::new(mass::coupled(model).collect(), &row_blocks(layout));
-        Self { saddle: Saddle::new(&pattern), pattern, ridge: None, ridged: false }
+        Self { saddle: Saddle::new(&pattern), pattern, passing: false, ridged: false }
     }
 
     /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
@@ -62,10 +66,10 @@ impl<S: Real> Augmented<S> {
         }
     }
 
-    /// From now on near singular positions are factorised with the ridge ε².
-    pub fn pass_singular(&mut self, ridge: f64) {
+    /// From now on near singular positions are factorised with the ridge ε² = [`RIDGE`].
+    pub fn pass_singular(&mut self) {
         self.saddle.refuse_near();
-        self.ridge = Some(ridge);
+        self.passing = true;
     }
 
     /// Whether the factor at hand is that of a near singular position, with the ridge.
@@ -79,12 +83,12 @@ impl<S: Real> Augmented<S> {
     /// The row of Φ_q that depends on the others, or a coordinate without mass.
     pub fn factor(&mut self) -> Result<(), Dependent> {
         self.ridged = false;
-        match (self.saddle.factor(&self.pattern), self.ridge) {
-            (Err(Dependent::Row(_)), Some(ridge)) => {
-                self.ridged = self.saddle.factor_near(&self.pattern, ridge)?;
+        match self.saddle.factor(&self.pattern) {
+            Err(Dependent::Row(_)) if self.passing => {
+                self.ridged = self.saddle.factor_near(&self.pattern, RIDGE)?;
                 Ok(())
             }
-            (outcome, _) => outcome,
+            outcome => outcome,
         }
     }
 

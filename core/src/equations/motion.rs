@@ -75,10 +75,10 @@ impl<S: Real> Workspace<S> {
         workspace
     }
 
-    /// From now on near singular positions are passed, with the ridge ε² (see [`Augmented`]).
-    pub fn pass_singular(&mut self, ridge: f64) {
+    /// From now on near singular positions are passed, with the ridge of [`Augmented`].
+    pub fn pass_singular(&mut self) {
         self.passing = true;
-        self.matrix.pass_singular(ridge);
+        self.matrix.pass_singular();
     }
 
     /// Accepts redundant constraints: the multipliers become the smallest that carry the loads.

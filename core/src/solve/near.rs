@@ -18,14 +18,14 @@ use super::saddle::{Saddle, PIVOT_TOLERANCE};
 use super::weight::{Dependent, Weight};
 use crate::math::Real;
 
-/// Pivots below this part of S_kk are looked at more closely.
-const NEAR: f64 = 1e-6;
+/// Pivots below this part of S_kk are looked at more closely: σ below about 0.03.
+const NEAR: f64 = 1e-3;
 
 impl<S: Real> Saddle<S> {
     /// Refuses pivots below [`NEAR`] from now on, so that the caller can turn to
     /// [`factor_near`](Self::factor_near).
     pub fn refuse_near(&mut self) {
-        self.least = std::env::var("NEAR").map_or(NEAR, |s| s.parse().unwrap());
+        self.least = NEAR;
     }
 
     /// Factorises a matrix that was refused; whether with the ridge.
@@ -54,7 +54,8 @@ impl<S: Real> Saddle<S> {
             *arm = S::select(moved, arm.max(*angle * *angle / moved), *arm);
         }
         let inverse = |arm: S| S::select(arm, S::one() / arm, S::one());
-        let weight = |arm| Weight { inverse: [S::one(), S::one(), inverse(arm)], shift: [S::zero(); 2] };
+        let weight =
+            |arm| Weight { inverse: [S::one(), S::one(), inverse(arm)], shift: [S::zero(); 2] };
         arms.into_iter().map(weight).collect()
     }
 }

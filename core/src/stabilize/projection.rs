@@ -43,6 +43,8 @@ impl Default for Projection {
 pub enum Fault {
     /// Φ_q lost rank.
     Singular(Singular),
+    /// Φ_q lost rank where the mechanism all but rests under load.
+    AtRest(Singular),
     /// A row of Φ stays open.
     Open {
         /// The row that is worst.
@@ -127,14 +129,12 @@ impl<'a> Projector<'a> {
                 return Ok(iteration > 0);
             }
             let slow = gap > SLOW * last;
-            if *factored && workspace.matrix.ridged() && newton && gap > 0.5 * last {
-                let accept = match level {
-                    Level::Position => 1e-9,
-                    Level::Velocity => 1e-6 * self.largest(v),
-                };
-                if gap <= accept {
-                    return Ok(true);
-                }
+            let bounded = newton && workspace.matrix.ridged() && gap > 0.5 * last;
+            if bounded
+                && gap
+                    <= level.near() * if level == Level::Velocity { self.largest(v) } else { 1.0 }
+            {
+                return Ok(true);
             }
             if slow && newton && gap <= ROUNDING * target {
                 return Ok(true);
@@ -216,6 +216,15 @@ impl<'a> Projector<'a> {
 }
 
 impl Level {
+    /// Residual, relative as the tolerance is, that may stay near a singular position, where a deviation
+    /// e leaves residuals of order e² in positions and e in velocities.
+    fn near(self) -> f64 {
+        match self {
+            Self::Position => 1e-9,
+            Self::Velocity => 1e-6,
+        }
+    }
+
     fn of(self, workspace: &Workspace) -> &[f64] {
         match self {
             Self::Position => &workspace.residual,

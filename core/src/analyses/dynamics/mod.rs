@@ -4,12 +4,14 @@ mod failure;
 mod options;
 mod output;
 mod read;
+mod singularity;
 mod system;
 
 pub use failure::{Failure, Reason};
 pub use options::{Options, Output, Scheme, Stabilization};
 pub use output::{Dense, Trajectory, ENERGIES};
 pub use read::read;
+pub use singularity::Singularity;
 
 use super::State;
 use crate::integrate::{self, Ended, Flow, Method, Observer, Step};
@@ -67,7 +69,11 @@ pub fn dynamics(
     let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();
     y.resize(y.len() + WORKS, 0.0);
     system.project(t0, &mut y, false).map_err(|(t, fault)| Failure {
-        reason: Reason::fault(model, t, fault),
+        reason: Reason::fault(model, t, &start.q, fault),
+        run: Run::default(),
+    })?;
+    system.begin(t0, &y).map_err(|singular| Failure {
+        reason: Reason::singular(model, t0, &start.q, singular),
         run: Run::default(),
     })?;
     recorder.report(t0, &y);
@@ -127,12 +133,13 @@ fn finish(
         seconds: clock.elapsed().as_secs_f64(),
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached) && complete;
+    let last = trajectory.q[trajectory.q.len().saturating_sub(n)..].to_vec();
     let run = Run { trajectory, dense, statistics, reached };
     let reason = match (outcome, fault, reported) {
         (Ok(_), None, Ok(_)) => return Ok(run),
         (Err(failure), ..) => Reason::from_integrator(model, failure),
-        (_, Some((t, fault)), _) => Reason::fault(model, t, fault),
-        (.., Err((_, t, singular))) => Reason::singular(model, t, singular),
+        (_, Some((t, fault)), _) => Reason::fault(model, t, &last, fault),
+        (.., Err((_, t, singular))) => Reason::singular(model, t, &last, singular),
     };
     Err(Box::new(Failure { reason, run }))
 }

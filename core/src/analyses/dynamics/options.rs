@@ -1,6 +1,6 @@
 //! Options of forward dynamics.
 
-use super::Reason;
+use super::{Reason, Singularity};
 use crate::analyses::State;
 use crate::equations::Gains;
 use crate::integrate::{Atol, Dop853, Rk4, Rk45};
@@ -51,6 +51,8 @@ pub struct Options {
     pub scheme: Scheme,
     /// What keeps the constraints from drifting.
     pub stabilization: Stabilization,
+    /// What to do at a singular position where the motion does not decide the branch.
+    pub singularity: Singularity,
     /// Whether the continuous extension of every step is kept.
     pub dense_output: bool,
 }
@@ -64,6 +66,7 @@ impl Options {
             output: Output::Steps,
             scheme: Scheme::Rk45(Rk45 { rtol: 1e-6, atol: Atol::Scalar(1e-9), ..Rk45::default() }),
             stabilization: Stabilization::Baumgarte(Gains { alpha: 10.0, beta: 200.0 }),
+            singularity: Singularity::Stop,
             dense_output: true,
         }
     }

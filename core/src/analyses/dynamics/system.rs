@@ -1,7 +1,10 @@
 //! The equations of motion as a first-order system y = (q, v, work).
 
 use super::options::{Options, Stabilization};
-use crate::equations::{Gains, Workspace};
+use super::singularity::Passage;
+use crate::analyses::mobility;
+use crate::equations::augmented::Dependent;
+use crate::equations::{Gains, Singular, Workspace};
 use crate::integrate::FirstOrder;
 use crate::model::Model;
 use crate::stabilize::{Fault, Projector};
@@ -15,8 +18,7 @@ pub(super) struct Equations<'a> {
     pub workspace: Workspace,
     pub gains: Gains,
     pub projector: Option<Projector<'a>>,
-    near: bool,
-    landings: usize,
+    passage: Passage,
 }
 
 /// Splits y into q, v and the works.
@@ -33,16 +35,32 @@ impl<'a> Equations<'a> {
             _ => None,
         };
         let mut workspace = Workspace::new(model);
-        let ridge: f64 = std::env::var("RIDGE").map_or(1e-9, |s| s.parse().unwrap());
-        if ridge > 0.0 && !model.allow_redundancy {
-            workspace.pass_singular(ridge);
+        if !model.allow_redundancy {
+            workspace.pass_singular();
         }
-        Self { model, workspace, gains: options.gains(), projector, near: false, landings: 0 }
+        let passage = Passage::new(options);
+        Self { model, workspace, gains: options.gains(), projector, passage }
     }
 
     /// Factorisations beside those of evaluations.
     pub fn factorisations(&self) -> usize {
         self.projector.as_ref().map_or(0, |projector| projector.factorisations)
+    }
+
+    /// Refuses a start whose constraints are dependent for good, not in passing.
+    pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Singular> {
+        let n = self.model.layout.n_q;
+        let (q, v) = (&y[..n], &y[n..2 * n]);
+        if self.workspace.accelerate(self.model, t, q, v, self.gains).is_err() {
+            return Ok(()); // the first step tells
+        }
+        let near = self.workspace.matrix.ridged();
+        match self.workspace.matrix.cancellation().filter(|_| near) {
+            Some((row, _)) if !mobility(self.model, t, q).redundant.is_empty() => {
+                Err(Singular(Dependent::Row(row)))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Projects y if that was asked for; whether it changed. The works stay: what projection does to
@@ -70,7 +88,6 @@ impl FirstOrder for Equations<'_> {
         let n = self.model.layout.n_q;
         let (q, v) = (&y[..n], &y[n..2 * n]);
         let outcome = self.workspace.accelerate(self.model, t, q, v, self.gains);
-        self.near |= self.workspace.matrix.ridged();
         if let Err(singular) = outcome {
             if y.iter().all(|y| y.is_finite()) {
                 return Err((t, Fault::Singular(singular)));
@@ -78,6 +95,7 @@ impl FirstOrder for Equations<'_> {
             dy.fill(f64::NAN); // the trial state is off, not the mechanism: a shorter step may do
             return Ok(());
         }
+        self.passage.watch(self.model, &mut self.workspace, v).map_err(|fault| (t, fault))?;
         dy[..n].copy_from_slice(v);
         dy[n..2 * n].copy_from_slice(self.workspace.a());
         let powers = self.workspace.powers(self.model, v);
@@ -85,11 +103,11 @@ impl FirstOrder for Equations<'_> {
         Ok(())
     }
 
+    /// Near a singular position noise along the direction that is lost there would refuse every step.
     fn remaining(&mut self, dy: &mut [f64]) -> bool {
-        if std::env::var("NOFILTER").is_ok() || (!self.near && std::env::var("ALWAYS").is_err()) {
+        let (true, Some(projector)) = (self.passage.near, &mut self.projector) else {
             return false;
-        }
-        let Some(projector) = &mut self.projector else { return false };
+        };
         let (dq, dv, _) = parts(dy, self.model.layout.n_q);
         projector.tangent(&self.workspace, dq);
         projector.tangent(&self.workspace, dv);
@@ -98,12 +116,7 @@ impl FirstOrder for Equations<'_> {
 
     /// The last evaluation was at or near the end of the step: its factor serves.
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
-        self.near = false;
-        if self.workspace.matrix.ridged() && self.landings < std::env::var("LAND").map_or(3, |s| s.parse().unwrap()) {
-            self.landings += 1;
-            return Err((t, Fault::Singular(crate::equations::Singular(crate::equations::augmented::Dependent::Row(0)))));
-        }
-        self.landings = 0;
+        self.passage.land(&self.workspace).map_err(|fault| (t, fault))?;
         self.project(t, y, true)
     }
 }

@@ -1,0 +1,121 @@
+//! Passing singular positions: where Φ_q loses rank for an instant and branches of motion may meet.
+//!
+//! A motion that passes at speed stays on the branch that its velocity is tangent to; that is what the
+//! integration does, since it follows the smooth continuation of what came before. It is undecided
+//!
+//! * where the mechanism all but rests there: 2 T ≤ [`REST`] |a| L, so that the loads turn it back or
+//!   aside within a part of its size in which the branches cannot be told apart;
+//! * where its velocity is tangent to no branch: Φ_q a = γ has no solution.
+
+use super::options::Options;
+use crate::equations::augmented::Dependent;
+use crate::equations::{constraints, mass, Singular, Workspace};
+use crate::model::{size, Model};
+use crate::stabilize::Fault;
+
+/// What to do at a singular position where the motion does not decide the branch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Singularity {
+    /// Stop with an error that names time, position and joints.
+    #[default]
+    Stop,
+    /// Go on; which branch is taken is left to rounding.
+    Pass,
+}
+
+/// Ratio of a pivot to what it was cancelled from below which branches are not told apart: a part of
+/// 1e-3 of the mechanism's size.
+const UNTOLD: f64 = 1e-6;
+/// The same part: how far from turning back a mechanism counts as at rest.
+const REST: f64 = 1e-3;
+/// Part of γ that may stay unmet.
+const UNMET: f64 = 1e-3;
+/// Part of what the joints carry that counts as balanced.
+const BALANCED: f64 = 1e-9;
+/// Most steps in a row that are shortened so as not to end near a singular position.
+const SHORTENED: usize = 3;
+
+/// What a step came by.
+pub(super) struct Passage {
+    /// Whether a stage of the step under way was near a singular position.
+    pub near: bool,
+    singularity: Singularity,
+    /// Whether steps can be shortened.
+    controlled: bool,
+    shortened: usize,
+    residual: Vec<f64>,
+}
+
+impl Passage {
+    pub fn new(options: &Options) -> Self {
+        let controlled = !matches!(options.scheme, super::Scheme::Rk4(_));
+        let singularity = options.singularity;
+        Self { near: false, singularity, controlled, shortened: 0, residual: Vec::new() }
+    }
+
+    /// Looks at the accelerations that were just computed.
+    pub fn watch(&mut self, model: &Model, work: &mut Workspace, v: &[f64]) -> Result<(), Fault> {
+        if !work.matrix.ridged() {
+            return Ok(());
+        }
+        self.near = true;
+        let Some((row, kept)) = work.matrix.cancellation() else { return Ok(()) };
+        if self.singularity == Singularity::Pass || kept > UNTOLD {
+            return Ok(());
+        }
+        let singular = Singular(Dependent::Row(row));
+        if self.unmet(model, work) {
+            return Err(Fault::Singular(singular));
+        }
+        if rests(model, work, v) {
+            return Err(Fault::AtRest(singular));
+        }
+        Ok(())
+    }
+
+    /// A step that would end near a singular position is refused, if that has not been tried already: its
+    /// end can be projected well only at a distance, and a longer step flies over.
+    pub fn land(&mut self, work: &Workspace) -> Result<(), Fault> {
+        self.near = false;
+        if work.matrix.ridged() && self.controlled && self.shortened < SHORTENED {
+            self.shortened += 1;
+            let row = work.matrix.cancellation().map_or(0, |(row, _)| row);
+            return Err(Fault::Singular(Singular(Dependent::Row(row))));
+        }
+        self.shortened = self.shortened.saturating_sub(1);
+        Ok(())
+    }
+
+    /// Whether Φ_q a = γ is missed.
+    fn unmet(&mut self, model: &Model, work: &Workspace) -> bool {
+        self.residual.resize(model.layout.n_rows, 0.0);
+        for (k, slots) in model.layout.constraints.iter().enumerate() {
+            let rows = &mut self.residual[slots.rows.clone()];
+            constraints::times(model, k, work.matrix.jacobian(), work.a(), rows);
+        }
+        let largest = work.gamma.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+        let missed =
+            self.residual.iter().zip(&work.gamma).fold(0.0, |m: f64, (r, g)| m.max((r - g).abs()));
+        missed > UNMET * largest
+    }
+}
+
+/// Whether a mechanism all but rests where loads would move it.
+fn rests(model: &Model, work: &Workspace, v: &[f64]) -> bool {
+    let (mut twice, mut pull, mut mass_all) = (0.0, 0.0, 0.0);
+    let bodies = model.bodies.iter().zip(&work.motions).skip(1);
+    let rates = v.chunks_exact(3).zip(work.a().chunks_exact(3));
+    for ((body, motion), (v, a)) in bodies.zip(rates) {
+        let block = mass::block(body, motion);
+        let square = |x: &[f64]| -> f64 {
+            let m = block.times([x[0], x[1], x[2]]);
+            x.iter().zip(m).map(|(x, m)| x * m).sum()
+        };
+        twice += square(v);
+        pull += square(a);
+        mass_all += body.mass;
+    }
+    let (pull, root) = (f64::sqrt(pull), f64::sqrt(mass_all));
+    let carried = work.lam().iter().fold(0.0, |m: f64, lam| m.max(lam.abs()));
+    pull * root > BALANCED * carried && twice <= REST * pull * size(model) * root
+}
