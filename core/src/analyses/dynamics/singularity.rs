@@ -3,13 +3,13 @@
 //! A motion that passes at speed stays on the branch that its velocity is tangent to; that is what the
 //! integration does, since it follows the smooth continuation of what came before. It is undecided
 //!
-//! * where the mechanism all but rests there: 2 T ≤ [`REST`] |a| L, so that the loads turn it back or
+//! * where the mechanism all but rests there: 2 T ≤ [`REST`] |M⁻¹Q| L, so that the loads turn it back or
 //!   aside within a part of its size in which the branches cannot be told apart;
 //! * where its velocity is tangent to no branch: Φ_q a = γ has no solution.
 
 use super::options::Options;
 use crate::equations::augmented::Dependent;
-use crate::equations::{constraints, mass, Singular, Workspace};
+use crate::equations::{constraints, forces, mass, Singular, Workspace};
 use crate::model::{size, Model};
 use crate::stabilize::Fault;
 
@@ -28,8 +28,8 @@ pub enum Singularity {
 const UNTOLD: f64 = 1e-6;
 /// The same part: how far from turning back a mechanism counts as at rest.
 const REST: f64 = 1e-3;
-/// Part of γ that may stay unmet.
-const UNMET: f64 = 1e-3;
+/// Part of γ that may stay unmet: what the error of a trial state leaves is far less.
+const UNMET: f64 = 0.05;
 /// Part of what the joints carry that counts as balanced.
 const BALANCED: f64 = 1e-9;
 /// Most steps in a row that are shortened so as not to end near a singular position.
@@ -44,17 +44,34 @@ pub(super) struct Passage {
     controlled: bool,
     shortened: usize,
     residual: Vec<f64>,
+    loads: Vec<f64>,
 }
 
 impl Passage {
     pub fn new(options: &Options) -> Self {
         let controlled = !matches!(options.scheme, super::Scheme::Rk4(_));
         let singularity = options.singularity;
-        Self { near: false, singularity, controlled, shortened: 0, residual: Vec::new() }
+        Self {
+            near: false,
+            singularity,
+            controlled,
+            shortened: 0,
+            residual: Vec::new(),
+            loads: Vec::new(),
+        }
     }
 
     /// Looks at the accelerations that were just computed.
-    pub fn watch(&mut self, model: &Model, work: &mut Workspace, v: &[f64]) -> Result<(), Fault> {
+    ///
+    /// # Errors
+    /// The motion does not decide how it goes on, and is not to go on all the same.
+    pub fn watch(
+        &mut self,
+        model: &Model,
+        work: &Workspace,
+        t: f64,
+        v: &[f64],
+    ) -> Result<(), Fault> {
         if !work.matrix.ridged() {
             return Ok(());
         }
@@ -67,7 +84,7 @@ impl Passage {
         if self.unmet(model, work) {
             return Err(Fault::Singular(singular));
         }
-        if rests(model, work, v) {
+        if self.rests(model, work, t, v) {
             return Err(Fault::AtRest(singular));
         }
         Ok(())
@@ -86,6 +103,32 @@ impl Passage {
         Ok(())
     }
 
+    /// Whether the mechanism all but rests where loads would move it. Accelerations of a trial state are
+    /// noisy here, so loads are what rest is measured by, and accelerations tell balance only.
+    fn rests(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
+        self.loads.resize(v.len(), 0.0);
+        forces::generalized(model, &work.motions, t, &mut self.loads);
+        let (mut twice, mut pull, mut applied, mut mass_all) = (0.0, 0.0, 0.0, 0.0);
+        let bodies = model.bodies.iter().zip(&work.motions).skip(1);
+        let rates = v.chunks_exact(3).zip(work.a().chunks_exact(3));
+        for (((body, motion), (v, a)), load) in bodies.zip(rates).zip(self.loads.chunks_exact(3)) {
+            let block = mass::block(body, motion);
+            let square = |x: &[f64]| -> f64 {
+                let m = block.times([x[0], x[1], x[2]]);
+                x.iter().zip(m).map(|(x, m)| x * m).sum()
+            };
+            twice += square(v);
+            pull += square(a);
+            applied += (load[0] * load[0] + load[1] * load[1]) / body.mass;
+            if block.inertia > 0.0 {
+                applied += load[2] * load[2] / block.inertia;
+            }
+            mass_all += body.mass;
+        }
+        let [pull, applied, root] = [pull, applied, mass_all].map(f64::sqrt);
+        pull > BALANCED * applied && twice <= REST * applied * size(model) * root
+    }
+
     /// Whether Φ_q a = γ is missed.
     fn unmet(&mut self, model: &Model, work: &Workspace) -> bool {
         self.residual.resize(model.layout.n_rows, 0.0);
@@ -98,24 +141,4 @@ impl Passage {
             self.residual.iter().zip(&work.gamma).fold(0.0, |m: f64, (r, g)| m.max((r - g).abs()));
         missed > UNMET * largest
     }
-}
-
-/// Whether a mechanism all but rests where loads would move it.
-fn rests(model: &Model, work: &Workspace, v: &[f64]) -> bool {
-    let (mut twice, mut pull, mut mass_all) = (0.0, 0.0, 0.0);
-    let bodies = model.bodies.iter().zip(&work.motions).skip(1);
-    let rates = v.chunks_exact(3).zip(work.a().chunks_exact(3));
-    for ((body, motion), (v, a)) in bodies.zip(rates) {
-        let block = mass::block(body, motion);
-        let square = |x: &[f64]| -> f64 {
-            let m = block.times([x[0], x[1], x[2]]);
-            x.iter().zip(m).map(|(x, m)| x * m).sum()
-        };
-        twice += square(v);
-        pull += square(a);
-        mass_all += body.mass;
-    }
-    let (pull, root) = (f64::sqrt(pull), f64::sqrt(mass_all));
-    let carried = work.lam().iter().fold(0.0, |m: f64, lam| m.max(lam.abs()));
-    pull * root > BALANCED * carried && twice <= REST * pull * size(model) * root
 }

@@ -95,7 +95,7 @@ impl FirstOrder for Equations<'_> {
             dy.fill(f64::NAN); // the trial state is off, not the mechanism: a shorter step may do
             return Ok(());
         }
-        self.passage.watch(self.model, &mut self.workspace, v).map_err(|fault| (t, fault))?;
+        self.passage.watch(self.model, &self.workspace, t, v).map_err(|fault| (t, fault))?;
         dy[..n].copy_from_slice(v);
         dy[n..2 * n].copy_from_slice(self.workspace.a());
         let powers = self.workspace.powers(self.model, v);
