@@ -49,7 +49,9 @@ def test_singular_positions_are_passed(n: int) -> None:
 def test_at_rest_on_one_line_it_stops_or_is_told_to_go_on() -> None:
     model, _ = windows(1)
     with pytest.warns(kp.AssemblyWarning, match="singular position"):
-        flat = kp.assemble(model, set={"crank0.angle": 0}, guess={"crank1.angle": 0, "coupler0.angle": 0})
+        flat = kp.assemble(
+            model, set={"crank0.angle": 0}, guess={"crank1.angle": 0, "coupler0.angle": 0}
+        )
     options = {"t_end": 0.1, "method": kp.DOP853(), "stabilization": kp.Projection()}
     with pytest.raises(kp.SingularityError, match=r"rests.*joints A0, A1, B0, C0; at crank0 x ="):
         kp.dynamics(model, flat, **options)

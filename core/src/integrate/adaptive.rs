@@ -246,8 +246,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         Ok(initial_step(h0, d1, d2, P::ERROR_ORDER).min(most))
     }
 
-    /// Tries steps until one is accepted, by its error and by the system; its end is in `y_new`. Returns
-    /// its time and whether the system changed it.
+    /// Tries steps until error and system accept one. Its time, and whether the system changed it.
     fn accepted_step(
         &mut self,
         y: &[f64],
