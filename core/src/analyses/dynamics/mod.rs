@@ -14,7 +14,7 @@ pub use read::read;
 pub use singularity::Singularity;
 
 use super::State;
-use crate::integrate::{self, Ended, Flow, Method, Observer, Step};
+use crate::integrate::{self, Cause, Ended, Flow, Method, Observer, Step};
 use crate::model::Model;
 use crate::stabilize::Fault;
 use output::Recorder;
@@ -137,7 +137,12 @@ fn finish(
     let run = Run { trajectory, dense, statistics, reached };
     let reason = match (outcome, fault, reported) {
         (Ok(_), None, Ok(_)) => return Ok(run),
-        (Err(failure), ..) => Reason::from_integrator(model, failure),
+        (Err(failure), ..) => match (&failure.cause, system.passage.undecided) {
+            (Cause::NotFinite { .. }, Some((t, fault))) => {
+                Reason::fault(model, t, &failure.y[..n], fault)
+            }
+            _ => Reason::from_integrator(model, failure),
+        },
         (_, Some((t, fault)), _) => Reason::fault(model, t, &last, fault),
         (.., Err((_, t, singular))) => Reason::singular(model, t, &last, singular),
     };

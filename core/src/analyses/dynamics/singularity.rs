@@ -39,6 +39,8 @@ const SHORTENED: usize = 3;
 pub(super) struct Passage {
     /// Whether a stage of the step under way was near a singular position.
     pub near: bool,
+    /// Why the last trial state that was refused was, and when.
+    pub undecided: Option<(f64, Fault)>,
     singularity: Singularity,
     /// Whether steps can be shortened.
     controlled: bool,
@@ -53,6 +55,7 @@ impl Passage {
         let singularity = options.singularity;
         Self {
             near: false,
+            undecided: None,
             singularity,
             controlled,
             shortened: 0,

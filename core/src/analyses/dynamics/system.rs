@@ -18,7 +18,7 @@ pub(super) struct Equations<'a> {
     pub workspace: Workspace,
     pub gains: Gains,
     pub projector: Option<Projector<'a>>,
-    passage: Passage,
+    pub passage: Passage,
 }
 
 /// Splits y into q, v and the works.
@@ -95,7 +95,12 @@ impl FirstOrder for Equations<'_> {
             dy.fill(f64::NAN); // the trial state is off, not the mechanism: a shorter step may do
             return Ok(());
         }
-        self.passage.watch(self.model, &self.workspace, t, v).map_err(|fault| (t, fault))?;
+        if let Err(fault) = self.passage.watch(self.model, &self.workspace, t, v) {
+            // a trial state may be off: it counts where no shorter step avoids it
+            self.passage.undecided = Some((t, fault));
+            dy.fill(f64::NAN);
+            return Ok(());
+        }
         dy[..n].copy_from_slice(v);
         dy[n..2 * n].copy_from_slice(self.workspace.a());
         let powers = self.workspace.powers(self.model, v);
