@@ -35,7 +35,8 @@ impl<'a> Equations<'a> {
             _ => None,
         };
         let mut workspace = Workspace::new(model);
-        if !model.allow_redundancy {
+        // without projection nothing brings a state back to its branch
+        if projector.is_some() && !model.allow_redundancy {
             workspace.pass_singular();
         }
         let passage = Passage::new(options);
