@@ -85,6 +85,7 @@ def dynamics(
     max_steps: int | None = None,
     dense_output: bool = True,
     redundancy: str | None = None,
+    singularity: str = "stop",
     progress: Progress | None = None,
 ) -> Solution:
     """Simulate the motion from a state.
@@ -101,6 +102,8 @@ def dynamics(
         dense_output: whether to keep the interpolant between the steps, for ``sol(t)``.
         redundancy: "allow" accepts constraints that repeat others; as the start was assembled
             when None.
+        singularity: at a singular position where the motion does not decide how it goes on: "stop"
+            with a SingularityError, or "pass" on.
         progress: called now and then with the time reached, s; what it raises ends the simulation.
 
     Raises:
@@ -110,7 +113,15 @@ def dynamics(
     """
     inherited = start.model.redundancy if isinstance(start, State) else None
     compiled = _allowing(compiled_model(model), redundancy or inherited)
-    asked = Dynamics(t_end, output_step, method, stabilization, max_steps, dense_output)
+    asked = Dynamics(
+        t_end,
+        output_step,
+        method,
+        stabilization,
+        max_steps,
+        dense_output,
+        singularity=singularity,
+    )
     entry = asked.tree()
     return simulate(compiled.with_analyses({asked.name: entry}), start, entry, progress)
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
 from kempe.errors import ModelError
+from kempe.names import one_of
 from kempe.values import Number, number, reference
 
 
@@ -140,6 +141,8 @@ class Dynamics:
         after: where it starts: "start", or the name of an earlier analysis; where the one before
             it ended when None.
         t_start: time at which it starts, s; that of the state it starts from when None.
+        singularity: at a singular position where the motion does not decide how it goes on:
+            "stop" with a SingularityError, or "pass" on.
     """
 
     t_end: Number
@@ -151,6 +154,7 @@ class Dynamics:
     name: str = "dynamics"
     after: str | None = None
     t_start: Number | None = None
+    singularity: str = "stop"
 
     def tree(self) -> dict[str, Any]:
         """The entry as in a file.
@@ -169,6 +173,8 @@ class Dynamics:
         entry["method"] = _option(self.method, f"{path}.method")
         chosen = NoStabilization() if self.stabilization is None else self.stabilization
         entry["stabilization"] = _option(chosen, f"{path}.stabilization")
+        if one_of(f"{path}.singularity", self.singularity, ("stop", "pass")) == "pass":
+            entry["singularity"] = "pass"
         entry["dense_output"] = bool(self.dense_output)
         return entry
 

@@ -55,6 +55,22 @@ pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
     Mobility { degrees_of_freedom: n - here.rank, rank: here.rank, redundant, singular }
 }
 
+/// Most equations for which all joints of a near dependence are looked for.
+const MOST_ROWS: usize = 300;
+/// Remainder of a row that counts as dependent near a singular position.
+const NEAR: f64 = 0.05;
+
+/// The constraints (indices) that depend on each other at or near a position, of which that with `row`
+/// is one.
+pub(super) fn dependent(model: &Model, t: f64, q: &[f64], row: usize) -> Vec<usize> {
+    let own = model.layout.owner(row).0;
+    if model.layout.n_rows > MOST_ROWS {
+        return vec![own];
+    }
+    let found = groups(model, &scaled_rank(model, t, q, NEAR));
+    found.into_iter().find(|group| group.contains(&own)).unwrap_or(vec![own])
+}
+
 /// Whether the sparse factorisation alone shows full rank: linear in the size of the model.
 fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
     if model.layout.n_rows > model.layout.n_q {
@@ -68,6 +84,10 @@ fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
 }
 
 fn dense_rank(model: &Model, t: f64, q: &[f64]) -> Rank {
+    scaled_rank(model, t, q, RANK_TOLERANCE)
+}
+
+fn scaled_rank(model: &Model, t: f64, q: &[f64], tolerance: f64) -> Rank {
     let n = model.layout.n_q;
     let mut dense = equations::dense::jacobian(model, &kinematics::at_rest(q), t);
     // metres and radians become comparable by the size of the mechanism
@@ -80,7 +100,7 @@ fn dense_rank(model: &Model, t: f64, q: &[f64]) -> Rank {
     // a law without derivative here constrains nothing
     dense.iter_mut().filter(|entry| !entry.is_finite()).for_each(|entry| *entry = 0.0);
     normalize_rows(&mut dense, n);
-    rank(&dense, n, RANK_TOLERANCE)
+    rank(&dense, n, tolerance)
 }
 
 fn groups(model: &Model, rank: &Rank) -> Vec<Vec<usize>> {

@@ -57,6 +57,13 @@ fn dynamics() -> Table {
             Default::Type("baumgarte"),
             "What keeps the constraints from drifting.",
         ),
+        Field::optional(
+            "singularity",
+            Shape::Word(&["stop", "pass"]),
+            "",
+            Default::Absent,
+            "At a singular position where the motion does not decide how it goes on: \"stop\" with an error, as without this option, or \"pass\" on.",
+        ),
         Field::optional("max_steps", Shape::Count, "", Default::Absent, "Most steps before the solver gives up; if steps of bounded length cannot get to t_end with so many, at once. Else 1 000 000 over the number of moving bodies, at least 50 000."),
         Field::optional(
             "from",

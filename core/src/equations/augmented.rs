@@ -9,11 +9,19 @@ use crate::model::{Block, Layout, Model, Slots};
 pub use crate::solve::Dependent;
 use crate::solve::{Pattern, RowBlock, Saddle, Weight};
 
+/// ε² of near singular positions: between the noise of positions over ε and the load over a time in
+/// proportion to ε; `docs/performance.md` has the errors for others.
+pub const RIDGE: f64 = 1e-10;
+
 /// Matrix, factors and pattern.
 #[derive(Clone, Debug)]
 pub struct Augmented<S = f64> {
     pattern: Pattern,
     saddle: Saddle<S>,
+    /// Whether near singular positions are to be passed.
+    passing: bool,
+    /// Whether the factor at hand has it.
+    ridged: bool,
 }
 
 impl<S: Real> Augmented<S> {
@@ -22,7 +30,7 @@ impl<S: Real> Augmented<S> {
     pub fn new<P>(model: &Model<P>) -> Self {
         let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
         let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout));
-        Self { saddle: Saddle::new(&pattern), pattern }
+        Self { saddle: Saddle::new(&pattern), pattern, passing: false, ridged: false }
     }
 
     /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
@@ -58,19 +66,38 @@ impl<S: Real> Augmented<S> {
         }
     }
 
+    /// From now on near singular positions are factorised with the ridge ε² = [`RIDGE`].
+    pub fn pass_singular(&mut self) {
+        self.saddle.refuse_near();
+        self.passing = true;
+    }
+
+    /// Whether the factor at hand is that of a near singular position, with the ridge.
+    pub fn ridged(&self) -> bool {
+        self.ridged
+    }
+
     /// Factorises.
     ///
     /// # Errors
     /// The row of Φ_q that depends on the others, or a coordinate without mass.
     pub fn factor(&mut self) -> Result<(), Dependent> {
-        self.saddle.factor(&self.pattern)
+        self.ridged = false;
+        match self.saddle.factor(&self.pattern) {
+            Err(Dependent::Row(_)) if self.passing => {
+                self.ridged = self.saddle.factor_near(&self.pattern, RIDGE)?;
+                Ok(())
+            }
+            outcome => outcome,
+        }
     }
 
     /// Factorises and solves in place, as [`solve`](Self::solve): faster than one after the other.
     ///
     /// # Errors
-    /// As [`factor`](Self::factor); `x` is then lost.
+    /// As [`factor`](Self::factor); `x` is then lost. Near singular positions are refused too.
     pub fn factor_and_solve(&mut self, x: &mut [S]) -> Result<(), Dependent> {
+        self.ridged = false;
         self.saddle.factor_and_solve(&self.pattern, x)
     }
 

@@ -39,6 +39,8 @@ pub struct Workspace<S = f64> {
     powers: Powers<S>,
     /// Correction of the solution where the matrix is not that of the equations.
     correction: Option<Vec<S>>,
+    /// Whether near singular positions are passed.
+    passing: bool,
     n_q: usize,
 }
 
@@ -55,12 +57,19 @@ impl<S: Real> Workspace<S> {
             solution: vec![S::zero(); n + m],
             powers: Powers::zero(),
             correction: model.has_added_inertia().then(|| vec![S::zero(); n + m]),
+            passing: false,
             n_q: n,
         };
         if model.allow_redundancy {
             workspace.allow_redundancy(model);
         }
         workspace
+    }
+
+    /// From now on near singular positions are passed, with the ridge of [`Augmented`].
+    pub fn pass_singular(&mut self) {
+        self.passing = true;
+        self.matrix.pass_singular();
     }
 
     /// Accepts redundant constraints: the multipliers become the smallest that carry the loads.
@@ -94,20 +103,39 @@ impl<S: Real> Workspace<S> {
     /// As [`accelerate`](Self::accelerate).
     #[inline(always)]
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
+        self.set_up(model, t, gains);
+        if self.correction.is_none() {
+            match self.matrix.factor_and_solve(&mut self.solution) {
+                Err(Dependent::Row(_)) if self.passing => self.set_up(model, t, gains),
+                outcome => return outcome.map_err(Singular),
+            }
+        }
+        self.factor_and_refine(model).map_err(Singular)
+    }
+
+    /// The matrix and the right side (Q, γ̂).
+    #[inline(always)]
+    fn set_up(&mut self, model: &Model<S>, t: S, gains: Gains) {
         let (forces, right) = self.solution.split_at_mut(self.n_q);
         let entries = self.matrix.jacobian_mut();
         constraints::linearize(model, &self.motions, t, gains, right, entries);
         self.matrix.set_mass(model, &self.motions);
         self.powers = forces::generalized(model, &self.motions, t, forces);
-        let Some(mut correction) = self.correction.take() else {
-            return self.matrix.factor_and_solve(&mut self.solution).map_err(Singular);
+    }
+
+    /// Where the factor is not that of the equations.
+    fn factor_and_refine(&mut self, model: &Model<S>) -> Result<(), Dependent> {
+        self.matrix.factor()?;
+        let mut correction = match self.correction.take() {
+            Some(correction) => correction,
+            None => vec![S::zero(); self.solution.len()],
         };
-        let solved = self.matrix.factor().and_then(|()| {
-            let x = &mut self.solution;
-            refine::solve(model, &self.motions, &self.matrix, x, &mut correction)
-        });
-        self.correction = Some(correction);
-        solved.map_err(Singular)
+        let x = &mut self.solution;
+        let solved = refine::solve(model, &self.motions, &self.matrix, x, &mut correction);
+        if model.has_added_inertia() || model.allow_redundancy {
+            self.correction = Some(correction);
+        }
+        solved
     }
 
     /// q̈, shape (n_q).

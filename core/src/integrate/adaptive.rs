@@ -59,6 +59,8 @@ struct Work {
     y_new: Vec<f64>,
     /// Arguments of stages; the state before a projection.
     trial: Vec<f64>,
+    /// The stages without what projection takes away.
+    remaining: Vec<f64>,
     atol: Vec<f64>,
 }
 
@@ -72,6 +74,7 @@ impl Work {
             k: vec![0.0; (P::STAGES + P::EXTRA + 2) * n],
             y_new: vec![0.0; n],
             trial: vec![0.0; n],
+            remaining: Vec::new(),
             atol,
         }
     }
@@ -158,8 +161,8 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             if self.options.max_steps.is_some_and(|most| self.steps >= most) {
                 return Err(Cause::MaxSteps { steps: self.steps });
             }
-            let t_new = self.accepted_step(y, &mut size)?;
-            if self.finish(t_new, y, observer)? == Flow::Stop {
+            let (t_new, projected) = self.accepted_step(y, &mut size)?;
+            if self.finish(t_new, projected, y, observer)? == Flow::Stop {
                 return Ok(Ended::Stopped);
             }
         }
@@ -176,7 +179,8 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         for k in 1..=grid.count {
             let t_new = grid.end(k, self.t)?;
             self.advance(t_new, y).map_err(hard)?;
-            if self.finish(t_new, y, observer)? == Flow::Stop {
+            let projected = self.project(t_new)?.map_err(Cause::Equations)?;
+            if self.finish(t_new, projected, y, observer)? == Flow::Stop {
                 return Ok(Ended::Stopped);
             }
         }
@@ -212,35 +216,42 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         Ok(initial_step(h0, d1, d2, P::ERROR_ORDER).min(most))
     }
 
-    /// Tries steps until one is accepted; its end is in `y_new` and the last stage. Returns its time.
-    fn accepted_step(&mut self, y: &[f64], size: &mut StepSize) -> Result<f64, Cause<Y::Stop>> {
+    /// Tries steps until error and system accept one. Its time, and whether the system changed it.
+    fn accepted_step(
+        &mut self,
+        y: &[f64],
+        size: &mut StepSize,
+    ) -> Result<(f64, bool), Cause<Y::Stop>> {
         let t = self.t;
         let least = least_step(t, self.direction);
         size.begin(least, self.options.max_step);
-        let mut not_finite = None;
+        let mut refusal = None;
         loop {
             if size.size < least {
-                return Err(match not_finite {
-                    Some(t) => Cause::NotFinite { t },
-                    None => Cause::StepTooSmall { t, h: size.size },
-                });
+                return Err(refusal.unwrap_or(Cause::StepTooSmall { t, h: size.size }));
             }
             let mut t_new = t + size.size * self.direction;
             if self.direction * (t_new - self.t_end) > 0.0 {
                 t_new = self.t_end;
             }
             let h = t_new - t;
-            match self.attempt(t_new, y) {
-                Ok(norm) if norm < 1.0 => {
-                    size.accept(h.abs(), norm);
-                    return Ok(t_new);
-                }
+            match self.attempt(t_new, y).map(|norm| self.judged(norm, h, y)) {
+                Ok(norm) if norm < 1.0 => match self.project(t_new)? {
+                    Ok(projected) => {
+                        size.accept(h.abs(), norm);
+                        return Ok((t_new, projected));
+                    }
+                    Err(stop) => {
+                        refusal = Some(Cause::Equations(stop));
+                        size.refuse(h.abs());
+                    }
+                },
                 Ok(norm) => {
-                    not_finite = None;
+                    refusal = None;
                     size.reject(h.abs(), norm);
                 }
-                Err(Trouble::NotFinite(at)) => {
-                    not_finite = Some(at);
+                Err(Trouble::NotFinite(t)) => {
+                    refusal = Some(Cause::NotFinite { t });
                     size.reject(h.abs(), f64::NAN);
                 }
                 Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
@@ -269,14 +280,28 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         }
     }
 
+    /// The error norm of a refused step without what projection takes away.
+    fn judged(&mut self, norm: f64, h: f64, y: &[f64]) -> f64 {
+        if norm < 1.0 || !norm.is_finite() {
+            return norm;
+        }
+        let Work { k, y_new, remaining, atol, .. } = &mut self.work;
+        remaining.clear();
+        remaining.extend_from_slice(&k[..P::STAGES * self.n]);
+        if !remaining.chunks_exact_mut(self.n).all(|dy| self.rate.system.remaining(dy)) {
+            return norm;
+        }
+        P::error_norm(h, remaining, y, y_new, self.options.rtol, atol).min(norm)
+    }
+
     /// Offers the accepted state to the system and the step to the observer, and moves on.
     fn finish<O: Observer>(
         &mut self,
         t_new: f64,
+        projected: bool,
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Flow, Cause<Y::Stop>> {
-        let projected = self.project(t_new)?;
         let table = self.extend(t_new, y, observer)?;
         let n = self.n;
         let Work { k, y_new, .. } = &self.work;
@@ -324,12 +349,13 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     }
 
     /// Lets the system change the accepted state; if it does, the jump and the new derivative go into
-    /// the rows after the stages.
-    fn project(&mut self, t_new: f64) -> Result<bool, Cause<Y::Stop>> {
+    /// the rows after the stages. Inside, why it refuses the state.
+    fn project(&mut self, t_new: f64) -> Result<Result<bool, Y::Stop>, Cause<Y::Stop>> {
         let Work { k, y_new, trial, .. } = &mut self.work;
         trial.copy_from_slice(y_new);
-        if !self.rate.system.accepted(t_new, y_new).map_err(Cause::Equations)? {
-            return Ok(false);
+        match self.rate.system.accepted(t_new, y_new) {
+            Ok(true) => {}
+            other => return Ok(other),
         }
         if !all_finite(y_new) {
             return Err(Cause::NotFinite { t: t_new });
@@ -340,7 +366,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             *jump = (new - old) / h;
         }
         self.rate.at(t_new, y_new, dy).map_err(hard)?;
-        Ok(true)
+        Ok(Ok(true))
     }
 }
 

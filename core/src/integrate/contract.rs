@@ -34,10 +34,19 @@ pub trait FirstOrder {
     /// extension of the step is bent to end in the changed y.
     ///
     /// # Errors
-    /// Ends the integration; the step is not counted.
+    /// The state is refused: a method with step control tries a shorter step, and stops with this
+    /// where none is short enough; one with constant steps stops at once.
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
         let _ = (t, y);
         Ok(false)
+    }
+
+    /// Of a derivative at the last evaluated state, leaves the part that [`accepted`](Self::accepted)
+    /// would not take away; false if it takes nothing. Linear in `dy`. By it a step is judged that the
+    /// whole error estimate refuses.
+    fn remaining(&mut self, dy: &mut [f64]) -> bool {
+        let _ = dy;
+        false
     }
 }
 

@@ -1,6 +1,8 @@
 //! Choice of the step from the error estimate: Hairer, Nørsett and Wanner, *Solving Ordinary
 //! Differential Equations I*, II.4, with the constants of `scipy.integrate`.
 
+/// Part of a step that is tried after the system refused its end.
+const REFUSED: f64 = 0.7;
 /// Part of the optimal step that is tried.
 const SAFETY: f64 = 0.9;
 /// Least factor from one step to the next.
@@ -46,6 +48,13 @@ impl StepSize {
     pub fn reject(&mut self, h: f64, norm: f64) {
         self.rejected = true;
         self.size = h * (SAFETY * norm.powf(self.exponent)).max(MIN_FACTOR);
+    }
+
+    /// After a step of magnitude `h` whose end the system refused: the next may grow at once, past
+    /// what was refused.
+    pub fn refuse(&mut self, h: f64) {
+        self.rejected = false;
+        self.size = h * REFUSED;
     }
 }
 

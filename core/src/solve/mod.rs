@@ -10,11 +10,13 @@
 //! | `arm` | the same for pairs of rows that begin with ±I |
 //! | `saddle` | numbers: [W Aᵀ; A -μI] factorised and solved without allocation |
 //! | `substitute` | the solution with its factors |
+//! | `near` | the same where rows of A come near to dependence |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
 //! | `rank` | numerical rank, dependent rows and left null vectors |
 
 mod arm;
 mod block;
+mod near;
 pub mod newton;
 mod order;
 mod pattern;

@@ -144,6 +144,13 @@ impl Pattern {
         }
     }
 
+    /// Each row of three entries with the group it belongs to.
+    pub(super) fn groups(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let second = self.arms.iter().map(|arm| (arm.row + 1, arm.group));
+        let first = self.general.iter().chain(&self.arms).map(|owner| (owner.row, owner.group));
+        first.chain(second).map(|(row, group)| (row as usize, group as usize))
+    }
+
     /// Number of unknowns in groups.
     pub fn n_unknowns(&self) -> usize {
         3 * self.coupled.len()

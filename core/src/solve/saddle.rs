@@ -34,6 +34,10 @@ pub struct Saddle<S> {
     pub entries: Vec<[S; 3]>,
     /// μ, one for each row.
     pub damping: Vec<S>,
+    /// Smallest ratio of a pivot to S_kk that is accepted; [`PIVOT_TOLERANCE`] at first.
+    pub(super) least: f64,
+    /// Part of S_kk that is added to it, 0 at first.
+    pub(super) ridge: f64,
     /// Rows of U.
     pub(super) u: Vec<Row<S>>,
     /// Pairs of rows of U that begin with ±I.
@@ -70,6 +74,8 @@ impl<S: Real> Saddle<S> {
             weights: vec![weight; pattern.coupled.len()],
             entries,
             damping: vec![zero; pattern.n_rows],
+            least: PIVOT_TOLERANCE,
+            ridge: 0.0,
             u: vec![row; pattern.general.len()],
             arms: vec![Arm::zero(); pattern.arms.len()],
             diagonal: vec![Pivot { lower: none, inverse: zero, magnitude: zero }; pattern.n_rows],
@@ -181,6 +187,11 @@ impl<S: Real> Saddle<S> {
             }
         }
         let magnitude: [S; N] = std::array::from_fn(|i| s[i][i]);
+        if self.ridge > 0.0 {
+            for (i, magnitude) in magnitude.iter().enumerate() {
+                s[i][i] += *magnitude * S::constant(self.ridge);
+            }
+        }
         for block in &column.earlier {
             self.subtract::<N, N>([block.block, block.block], block.size, &mut s);
             if RHS {
@@ -213,7 +224,7 @@ impl<S: Real> Saddle<S> {
     ) -> Result<(), Dependent> {
         let rows = part_mut::<_, N>(&mut self.diagonal, column.row);
         for (i, row) in rows.iter_mut().enumerate() {
-            let least = magnitude[i] * S::constant(PIVOT_TOLERANCE) + S::constant(LEAST_PIVOT);
+            let least = magnitude[i] * S::constant(self.least) + S::constant(LEAST_PIVOT);
             if !above_zero(diagonal.pivot[i] - least) {
                 return Err(Dependent::Row(column.row as usize + i));
             }

@@ -50,6 +50,8 @@ impl Default for Projection {
 pub enum Fault {
     /// Φ_q lost rank.
     Singular(Singular),
+    /// Φ_q lost rank where the mechanism all but rests under load.
+    AtRest(Singular),
     /// A row of Φ stays open.
     Open {
         /// The row that is worst.
@@ -149,6 +151,12 @@ impl<'a> Projector<'a> {
                 return Ok(iteration > 0);
             }
             let slow = gap > SLOW * last;
+            if newton && workspace.matrix.ridged() && gap > 0.5 * last {
+                let scale = if level == Level::Velocity { self.largest(v) } else { 1.0 };
+                if gap <= level.near() * scale {
+                    return Ok(true);
+                }
+            }
             if slow && newton && gap <= rounding {
                 return Ok(true);
             }
@@ -235,9 +243,33 @@ impl<'a> Projector<'a> {
         self.current = false;
     }
 
+    /// Leaves of a displacement what the constraints admit, by the factor at hand.
+    pub fn tangent(&mut self, workspace: &Workspace, x: &mut [f64]) {
+        let (upper, lower) = self.correction.split_at_mut(x.len());
+        upper.fill(0.0);
+        for (k, slots) in self.model.layout.constraints.iter().enumerate() {
+            let rows = &mut lower[slots.rows.clone()];
+            constraints::times(self.model, k, workspace.matrix.jacobian(), x, rows);
+            rows.iter_mut().for_each(|r| *r = -*r);
+        }
+        workspace.matrix.solve(&mut self.correction);
+        x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += dx);
+    }
+
     /// Largest coordinate or rate, lengths over the size of the mechanism.
     fn largest(&self, x: &[f64]) -> f64 {
         let scaled = |(k, x): (usize, &f64)| if k % 3 == 2 { x.abs() } else { x.abs() / self.size };
         x.iter().enumerate().map(scaled).fold(0.0, f64::max)
+    }
+}
+
+impl Level {
+    /// Residual, relative as the tolerance is, that may stay near a singular position, where a deviation
+    /// e leaves residuals of order e² in positions and e in velocities.
+    fn near(self) -> f64 {
+        match self {
+            Self::Position => 1e-9,
+            Self::Velocity => 1e-6,
+        }
     }
 }

@@ -1,8 +1,12 @@
-//! N windows of parallelograms, up to the first singular position.
+//! N windows of parallelograms: up to the first singular position, and past ten of them.
 
 use crate::mechanisms::{close, largest, model, rate, residual, run, start, tolerances};
 use crate::{number, reference};
+use kempe::analyses::dynamics::{dynamics, Options, Reason, Scheme, Singularity, Stabilization};
+use kempe::analyses::State;
+use kempe::integrate::{Atol, Dop853, Flow};
 use kempe::model::Model;
+use kempe::stabilize::Projection;
 use std::fmt::Write;
 
 fn windows(n: usize) -> Model {
@@ -88,4 +92,92 @@ fn two_windows() {
 #[test]
 fn forty_windows() {
     compare(40);
+}
+
+fn upright(n: usize) -> (Model, State) {
+    let m = windows(n);
+    let guess: Vec<(String, &str)> = (0..n).map(|k| (format!("coupler{k}.angle"), "0")).collect();
+    let guess: Vec<(&str, &str)> = guess.iter().map(|(key, x)| (key.as_str(), *x)).collect();
+    let (state, _) = start(&m, &[("crank0.angle", "pi/2"), ("crank0.omega", "-1")], &guess);
+    (m, state)
+}
+
+fn passing(t_end: f64, rtol: f64) -> Options {
+    let scheme =
+        Scheme::Dop853(Dop853 { rtol, atol: Atol::Scalar(1e-3 * rtol), ..Dop853::default() });
+    let stabilization = Stabilization::Projection(Projection::default());
+    Options { scheme, stabilization, dense_output: false, ..Options::new(t_end) }
+}
+
+/// Every bar lies on one line about twice a turn, of which there are five in 10 s.
+fn passes(n: usize) {
+    let (m, state) = upright(n);
+    let truth = &reference("n_four_bar")["N"][n.to_string()]["B0"];
+    for t in ["1", "2", "3", "4", "5", "10"] {
+        let run = run(&m, &state, &passing(t.parse().unwrap(), 1e-9));
+        assert!(run.statistics.steps < 400, "{:?}", run.statistics);
+        let last = run.trajectory.q.len() - m.layout.n_q;
+        let q = &run.trajectory.q[last..];
+        close("x", 2.0 * q[0], number(&truth[t]["x"]), 1e-7);
+        close("y", 2.0 * q[1], number(&truth[t]["y"]), 1e-7);
+        // no window left its branch: couplers stay level
+        for k in 0..n {
+            close("coupler", q[3 * (n + 1 + k) + 2], 0.0, 1e-6);
+        }
+    }
+}
+
+#[test]
+fn one_window_passes_singular_positions() {
+    passes(1);
+}
+
+#[test]
+fn two_windows_pass_singular_positions() {
+    passes(2);
+}
+
+#[test]
+fn forty_windows_pass_singular_positions() {
+    passes(40);
+}
+
+/// One window with all bars on one line, the cranks turning at the given rates.
+fn flat(rates: [f64; 2]) -> (Model, State) {
+    let m = windows(1);
+    let q = vec![0.5, 0.0, 0.0, 1.5, 0.0, 0.0, 1.5, 0.0, 0.0];
+    let [a, b] = rates;
+    let v = vec![0.0, a / 2.0, a, 0.0, b / 2.0, b, 0.0, (a + b) / 2.0, b - a];
+    (m, State { t: 0.0, q, v, z: vec![] })
+}
+
+#[test]
+fn at_rest_on_one_line_the_motion_is_undecided() {
+    let (m, state) = flat([0.0; 2]);
+    let options = passing(0.2, 1e-9);
+    let failure = dynamics(&m, &state, &options, |_| Flow::Continue).unwrap_err();
+    let Reason::Singular { t, message, .. } = &failure.reason else { panic!("{}", failure.reason) };
+    assert_eq!(*t, 0.0);
+    for part in ["t = 0.000000 s", "rests", "joints A0, A1, B0, C0", "crank1 x = 1.500000"] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+    let told = Options { singularity: Singularity::Pass, ..options };
+    let run = run(&m, &state, &told);
+    assert!(run.reached);
+}
+
+#[test]
+fn a_rate_along_no_branch_is_refused() {
+    let (m, state) = flat([-1.0, -0.5]);
+    let failure = dynamics(&m, &state, &passing(0.2, 1e-9), |_| Flow::Continue).unwrap_err();
+    assert!(matches!(failure.reason, Reason::Singular { t: 0.0, .. }), "{}", failure.reason);
+}
+
+#[test]
+fn at_speed_the_rate_decides_the_branch() {
+    let (m, state) = flat([-3.0, -3.0]);
+    let run = run(&m, &state, &passing(0.1, 1e-9));
+    let q = &run.trajectory.q[run.trajectory.q.len() - 9..];
+    close("a parallelogram it stays", q[8], 0.0, 1e-8);
+    assert!(q[2] < -0.3);
 }

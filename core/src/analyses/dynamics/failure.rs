@@ -2,6 +2,7 @@
 
 use super::output::Halt;
 use super::Run;
+use crate::analyses::mobility::dependent;
 use crate::equations::augmented::Dependent;
 use crate::equations::Singular;
 use crate::integrate::{self, Cause};
@@ -49,7 +50,7 @@ pub struct Failure {
 }
 
 impl Reason {
-    pub(super) fn singular(model: &Model, t: f64, Singular(at): Singular) -> Self {
+    pub(super) fn singular(model: &Model, t: f64, q: &[f64], Singular(at): Singular) -> Self {
         let (name, message) = match at {
             Dependent::Row(row) => {
                 let (k, equation) = model.layout.owner(row);
@@ -57,7 +58,8 @@ impl Reason {
                 let what = format!("{}.{}", item.name, item.equations[equation].name);
                 let message = format!(
                     "singular position at t = {t:.6} s: constraint {what} depends on the others, \
-                     so reactions and accelerations are not unique"
+                     so reactions and accelerations are not unique{}",
+                    place(model, t, q, row)
                 );
                 (item.name.clone(), message)
             }
@@ -73,9 +75,23 @@ impl Reason {
         Self::Singular { t, name, message }
     }
 
-    pub(super) fn fault(model: &Model, t: f64, fault: Fault) -> Self {
+    /// At rest where branches meet.
+    fn at_rest(model: &Model, t: f64, q: &[f64], row: usize) -> Self {
+        let name = model.constraints[model.layout.owner(row).0].name.clone();
+        let message = format!(
+            "singular position at t = {t:.6} s: the mechanism all but rests where it can go on in more \
+             than one way{}",
+            place(model, t, q, row)
+        );
+        Self::Singular { t, name, message }
+    }
+
+    pub(super) fn fault(model: &Model, t: f64, q: &[f64], fault: Fault) -> Self {
         let (row, gap) = match fault {
-            Fault::Singular(singular) => return Self::singular(model, t, singular),
+            Fault::AtRest(Singular(Dependent::Row(row))) => return Self::at_rest(model, t, q, row),
+            Fault::Singular(singular) | Fault::AtRest(singular) => {
+                return Self::singular(model, t, q, singular)
+            }
             Fault::Open { row, gap } => (row, gap),
         };
         let (k, equation) = model.layout.owner(row);
@@ -88,9 +104,9 @@ impl Reason {
         Self::Integration { t, message, hint }
     }
 
-    pub(super) fn halt(model: &Model, t: f64, halt: Halt) -> Self {
+    pub(super) fn halt(model: &Model, t: f64, q: &[f64], halt: Halt) -> Self {
         match halt {
-            Halt::Fault(fault) => Self::fault(model, t, fault),
+            Halt::Fault(fault) => Self::fault(model, t, q, fault),
             Halt::NotFinite => {
                 let (message, hint) = not_finite(t);
                 Self::Integration { t, message, hint }
@@ -104,7 +120,9 @@ impl Reason {
     ) -> Self {
         let t = failure.t;
         let (message, hint) = match failure.cause {
-            Cause::Equations((at, fault)) => return Self::fault(model, at, fault),
+            Cause::Equations((at, fault)) => {
+                return Self::fault(model, at, &failure.y[..model.layout.n_q], fault)
+            }
             Cause::Argument { name, value, must } => {
                 return Self::Option { name, message: format!("{name}: {value}; must be {must}") }
             }
@@ -133,6 +151,21 @@ impl Reason {
 fn not_finite(t: f64) -> (String, &'static str) {
     let message = format!("the motion became infinite or undefined at t = {t:.6} s");
     (message, "use a smaller step or tolerance; check forces and laws at this state")
+}
+
+/// Bodies whose coordinates a message gives.
+const MOST_BODIES: usize = 4;
+
+/// The joints that depend on each other, and where the bodies are.
+fn place(model: &Model, t: f64, q: &[f64], row: usize) -> String {
+    let joints = dependent(model, t, q, row);
+    let joints: Vec<&str> = joints.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+    let bodies = model.bodies[1..].iter().zip(q.chunks_exact(3)).take(MOST_BODIES);
+    let bodies: Vec<String> = bodies
+        .map(|(b, q)| format!("{} x = {:.6} y = {:.6} angle = {:.6}", b.name, q[0], q[1], q[2]))
+        .collect();
+    let more = if model.bodies.len() > MOST_BODIES + 1 { ", …" } else { "" };
+    format!(" (joints {}; at {}{more})", joints.join(", "), bodies.join(", "))
 }
 
 impl fmt::Display for Reason {

@@ -4,15 +4,17 @@ mod failure;
 mod options;
 mod output;
 mod read;
+mod singularity;
 mod system;
 
 pub use failure::{Failure, Reason};
 pub use options::{most_steps, Options, Output, Scheme, Stabilization};
 pub use output::{Dense, Trajectory, ENERGIES};
 pub use read::read;
+pub use singularity::Singularity;
 
 use super::State;
-use crate::integrate::{self, Ended, Flow, Method, Observer, Step};
+use crate::integrate::{self, Cause, Ended, Flow, Method, Observer, Step};
 use crate::model::Model;
 use crate::stabilize::Fault;
 use output::Recorder;
@@ -67,7 +69,11 @@ pub fn dynamics(
     let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();
     y.resize(y.len() + WORKS, 0.0);
     system.project(t0, &mut y, false).map_err(|(t, fault)| Failure {
-        reason: Reason::fault(model, t, fault),
+        reason: Reason::fault(model, t, &start.q, fault),
+        run: Run::default(),
+    })?;
+    system.begin(t0, &y).map_err(|singular| Failure {
+        reason: Reason::singular(model, t0, &start.q, singular),
         run: Run::default(),
     })?;
     let first = recorder.report(t0, &y);
@@ -117,6 +123,7 @@ fn finish(
 ) -> Result<Run, Box<Failure>> {
     let Recorder { trajectory, dense, reported, halt, .. } = recorder;
     let model = system.model;
+    let n = model.layout.n_q;
     let took = match &outcome {
         Ok(statistics) => *statistics,
         Err(failure) => failure.statistics,
@@ -132,11 +139,17 @@ fn finish(
         seconds: clock.elapsed().as_secs_f64(),
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached);
+    let last = trajectory.q[trajectory.q.len().saturating_sub(n)..].to_vec();
     let run = Run { trajectory, dense, statistics, reached };
     let reason = match (outcome, halt) {
         (Ok(_), None) => return Ok(run),
-        (Err(failure), _) => Reason::from_integrator(model, failure),
-        (_, Some((t, halt))) => Reason::halt(model, t, halt),
+        (Err(failure), _) => match (&failure.cause, system.passage.undecided) {
+            (Cause::NotFinite { .. }, Some((t, fault))) => {
+                Reason::fault(model, t, &failure.y[..n], fault)
+            }
+            _ => Reason::from_integrator(model, failure),
+        },
+        (_, Some((t, halt))) => Reason::halt(model, t, &last, halt),
     };
     Err(Box::new(Failure { reason, run }))
 }

@@ -1,6 +1,6 @@
 //! Options of forward dynamics.
 
-use super::Reason;
+use super::{Reason, Singularity};
 use crate::analyses::State;
 use crate::equations::Gains;
 use crate::integrate::{Atol, Dop853, Rk4, Rk45};
@@ -33,6 +33,15 @@ pub fn most_steps(model: &Model) -> usize {
 }
 
 impl Scheme {
+    /// Whether it chooses its steps by their error.
+    pub(super) fn controlled(&self) -> bool {
+        match self {
+            Self::Rk45(method) => method.step.is_none(),
+            Self::Dop853(method) => method.step.is_none(),
+            Self::Rk4(_) => false,
+        }
+    }
+
     /// The scheme with a bound on its steps: its own, or [`most_steps`].
     pub(super) fn bounded(&self, model: &Model) -> Self {
         let mut bounded = self.clone();
@@ -79,6 +88,8 @@ pub struct Options {
     pub scheme: Scheme,
     /// What keeps the constraints from drifting.
     pub stabilization: Stabilization,
+    /// What to do at a singular position where the motion does not decide the branch.
+    pub singularity: Singularity,
     /// Whether the continuous extension of every step is kept.
     pub dense_output: bool,
 }
@@ -92,6 +103,7 @@ impl Options {
             output: Output::Steps,
             scheme: Scheme::Rk45(Rk45 { rtol: 1e-6, atol: Atol::Scalar(1e-9), ..Rk45::default() }),
             stabilization: Stabilization::Baumgarte(Gains { alpha: 10.0, beta: 200.0 }),
+            singularity: Singularity::Stop,
             dense_output: true,
         }
     }

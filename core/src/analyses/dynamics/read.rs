@@ -2,6 +2,7 @@
 //! the tables of options; here values are put in.
 
 use super::options::{Options, Output, Scheme, Stabilization};
+use super::singularity::Singularity;
 use crate::equations::{at, Gains};
 use crate::integrate::{Atol, Dop853, Rk4, Rk45};
 use crate::model::{Model, Problem, Reach, Scope, Value};
@@ -45,6 +46,9 @@ impl<'a> Reader<'a> {
         }
         if let Some(Value::Flag(keep)) = self.get("dense_output") {
             options.dense_output = *keep;
+        }
+        if matches!(self.get("singularity"), Some(Value::Text(word)) if word == "pass") {
+            options.singularity = Singularity::Pass;
         }
         let max_steps = self.positive("max_steps", "").map(|n| n as usize);
         options.scheme = self.inside("method", |reader, kind| reader.scheme(kind, max_steps));

@@ -1,7 +1,10 @@
 //! The equations of motion as a first-order system y = (q, v, work).
 
 use super::options::{Options, Stabilization};
-use crate::equations::{kinematics, Gains, Workspace};
+use super::singularity::Passage;
+use crate::analyses::mobility;
+use crate::equations::augmented::Dependent;
+use crate::equations::{kinematics, Gains, Singular, Workspace};
 use crate::integrate::FirstOrder;
 use crate::model::Model;
 use crate::stabilize::{Fault, Projector};
@@ -15,6 +18,7 @@ pub(super) struct Equations<'a> {
     pub workspace: Workspace,
     pub gains: Gains,
     pub projector: Option<Projector<'a>>,
+    pub passage: Passage,
 }
 
 /// Splits y into q, v and the works.
@@ -30,12 +34,34 @@ impl<'a> Equations<'a> {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
-        Self { model, workspace: Workspace::new(model), gains: options.gains(), projector }
+        let mut workspace = Workspace::new(model);
+        // without projection nothing brings a state back to its branch
+        if projector.is_some() && !model.allow_redundancy {
+            workspace.pass_singular();
+        }
+        let passage = Passage::new(options);
+        Self { model, workspace, gains: options.gains(), projector, passage }
     }
 
     /// Factorisations beside those of evaluations.
     pub fn factorisations(&self) -> usize {
         self.projector.as_ref().map_or(0, |projector| projector.factorisations)
+    }
+
+    /// Refuses a start whose constraints are dependent for good, not in passing.
+    pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Singular> {
+        let n = self.model.layout.n_q;
+        let (q, v) = (&y[..n], &y[n..2 * n]);
+        if self.workspace.accelerate(self.model, t, q, v, self.gains).is_err() {
+            return Ok(()); // the first step tells
+        }
+        let near = self.workspace.matrix.ridged();
+        match self.workspace.matrix.cancellation().filter(|_| near) {
+            Some((row, _)) if !mobility(self.model, t, q).redundant.is_empty() => {
+                Err(Singular(Dependent::Row(row)))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Projects y if that was asked for; whether it changed. The works stay: what projection does to
@@ -84,6 +110,12 @@ impl FirstOrder for Equations<'_> {
             dy.fill(f64::NAN); // the trial state is off, not the mechanism: a shorter step may do
             return Ok(());
         }
+        if let Err(fault) = self.passage.watch(self.model, &self.workspace, t, v) {
+            // a trial state may be off: it counts where no shorter step avoids it
+            self.passage.undecided = Some((t, fault));
+            dy.fill(f64::NAN);
+            return Ok(());
+        }
         let (dq, dv, works) = parts(dy, n);
         // in one loop: two calls to copy would take longer than a few bodies do
         for ((dq, v), (dv, a)) in dq.iter_mut().zip(v).zip(dv.iter_mut().zip(self.workspace.a())) {
@@ -94,8 +126,20 @@ impl FirstOrder for Equations<'_> {
         Ok(())
     }
 
+    /// Near a singular position noise along the direction that is lost there would refuse every step.
+    fn remaining(&mut self, dy: &mut [f64]) -> bool {
+        let (true, Some(projector)) = (self.passage.near, &mut self.projector) else {
+            return false;
+        };
+        let (dq, dv, _) = parts(dy, self.model.layout.n_q);
+        projector.tangent(&self.workspace, dq);
+        projector.tangent(&self.workspace, dv);
+        true
+    }
+
     /// The last evaluation was at or near the end of the step: its factor serves.
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
+        self.passage.land(&self.workspace).map_err(|fault| (t, fault))?;
         self.project(t, y, true)
     }
 }

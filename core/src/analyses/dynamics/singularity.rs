@@ -1,0 +1,149 @@
+//! Passing singular positions: where Φ_q loses rank for an instant and branches of motion may meet.
+//!
+//! A motion that passes at speed stays on the branch that its velocity is tangent to; that is what the
+//! integration does, since it follows the smooth continuation of what came before. It is undecided
+//!
+//! * where the mechanism all but rests there: 2 T ≤ [`REST`] |M⁻¹Q| L, so that the loads turn it back or
+//!   aside within a part of its size in which the branches cannot be told apart;
+//! * where its velocity is tangent to no branch: Φ_q a = γ has no solution.
+
+use super::options::Options;
+use crate::equations::augmented::Dependent;
+use crate::equations::{constraints, forces, mass, Singular, Workspace};
+use crate::model::{size, Model};
+use crate::stabilize::Fault;
+
+/// What to do at a singular position where the motion does not decide the branch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Singularity {
+    /// Stop with an error that names time, position and joints.
+    #[default]
+    Stop,
+    /// Go on; which branch is taken is left to rounding.
+    Pass,
+}
+
+/// Ratio of a pivot to what it was cancelled from below which branches are not told apart: a part of
+/// 1e-3 of the mechanism's size.
+const UNTOLD: f64 = 1e-6;
+/// The same part: how far from turning back a mechanism counts as at rest.
+const REST: f64 = 1e-3;
+/// Part of γ that may stay unmet: what the error of a trial state leaves is far less.
+const UNMET: f64 = 0.05;
+/// Part of what the joints carry that counts as balanced.
+const BALANCED: f64 = 1e-9;
+/// Most steps in a row that are shortened so as not to end near a singular position.
+const SHORTENED: usize = 3;
+
+/// What a step came by.
+pub(super) struct Passage {
+    /// Whether a stage of the step under way was near a singular position.
+    pub near: bool,
+    /// Why the last trial state that was refused was, and when.
+    pub undecided: Option<(f64, Fault)>,
+    singularity: Singularity,
+    /// Whether steps can be shortened.
+    controlled: bool,
+    shortened: usize,
+    residual: Vec<f64>,
+    loads: Vec<f64>,
+}
+
+impl Passage {
+    pub fn new(options: &Options) -> Self {
+        let controlled = options.scheme.controlled();
+        let singularity = options.singularity;
+        Self {
+            near: false,
+            undecided: None,
+            singularity,
+            controlled,
+            shortened: 0,
+            residual: Vec::new(),
+            loads: Vec::new(),
+        }
+    }
+
+    /// Looks at the accelerations that were just computed.
+    ///
+    /// # Errors
+    /// The motion does not decide how it goes on, and is not to go on all the same.
+    pub fn watch(
+        &mut self,
+        model: &Model,
+        work: &Workspace,
+        t: f64,
+        v: &[f64],
+    ) -> Result<(), Fault> {
+        if !work.matrix.ridged() {
+            return Ok(());
+        }
+        self.near = true;
+        let Some((row, kept)) = work.matrix.cancellation() else { return Ok(()) };
+        if self.singularity == Singularity::Pass || kept > UNTOLD {
+            return Ok(());
+        }
+        let singular = Singular(Dependent::Row(row));
+        if self.unmet(model, work, t) {
+            return Err(Fault::Singular(singular));
+        }
+        if self.rests(model, work, t, v) {
+            return Err(Fault::AtRest(singular));
+        }
+        Ok(())
+    }
+
+    /// A step that would end near a singular position is refused, if that has not been tried already: its
+    /// end can be projected well only at a distance, and a longer step flies over.
+    pub fn land(&mut self, work: &Workspace) -> Result<(), Fault> {
+        self.near = false;
+        if work.matrix.ridged() && self.controlled && self.shortened < SHORTENED {
+            self.shortened += 1;
+            let row = work.matrix.cancellation().map_or(0, |(row, _)| row);
+            return Err(Fault::Singular(Singular(Dependent::Row(row))));
+        }
+        self.shortened = self.shortened.saturating_sub(1);
+        Ok(())
+    }
+
+    /// Whether the mechanism all but rests where loads would move it. Accelerations of a trial state are
+    /// noisy here, so loads are what rest is measured by, and accelerations tell balance only.
+    fn rests(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
+        self.loads.resize(v.len(), 0.0);
+        forces::generalized(model, &work.motions, t, &mut self.loads);
+        let (mut twice, mut pull, mut applied, mut mass_all) = (0.0, 0.0, 0.0, 0.0);
+        let bodies = model.bodies.iter().zip(&work.motions).skip(1);
+        let rates = v.chunks_exact(3).zip(work.a().chunks_exact(3));
+        for (((body, motion), (v, a)), load) in bodies.zip(rates).zip(self.loads.chunks_exact(3)) {
+            let block = mass::block(body, motion);
+            let square = |x: &[f64]| -> f64 {
+                let m = block.times([x[0], x[1], x[2]]);
+                x.iter().zip(m).map(|(x, m)| x * m).sum()
+            };
+            twice += square(v);
+            pull += square(a);
+            applied += (load[0] * load[0] + load[1] * load[1]) / body.mass;
+            if block.inertia > 0.0 {
+                applied += load[2] * load[2] / block.inertia;
+            }
+            mass_all += body.mass;
+        }
+        let [pull, applied, root] = [pull, applied, mass_all].map(f64::sqrt);
+        pull > BALANCED * applied && twice <= REST * applied * size(model) * root
+    }
+
+    /// Whether Φ_q a = γ is missed.
+    fn unmet(&mut self, model: &Model, work: &Workspace, t: f64) -> bool {
+        self.residual.resize(model.layout.n_rows, 0.0);
+        let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![0.0; model.layout.n_rows]);
+        constraints::velocity_terms(model, &work.motions, t, &mut phi, &mut rate, &mut gamma);
+        for (k, slots) in model.layout.constraints.iter().enumerate() {
+            let rows = &mut self.residual[slots.rows.clone()];
+            constraints::times(model, k, work.matrix.jacobian(), work.a(), rows);
+        }
+        let largest = gamma.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+        let missed =
+            self.residual.iter().zip(&gamma).fold(0.0, |m: f64, (r, g)| m.max((r - g).abs()));
+        missed > UNMET * largest
+    }
+}

@@ -1,0 +1,60 @@
+"""The N-four-bar (IFToMM benchmark A02) past positions with all bars on one line."""
+
+import json
+from pathlib import Path
+
+import kempe as kp
+import pytest
+
+TRUTH = json.loads((Path(__file__).parents[1] / "reference" / "n_four_bar.json").read_text())
+
+
+def windows(n: int) -> tuple[kp.Model, kp.State]:
+    """N parallelograms side by side, upright, every crank turning at -1 rad/s."""
+    m = kp.Model(f"{n} windows", gravity=(0, -9.81))
+    m.ground.points(**{f"P{k}": (k, 0) for k in range(n + 1)})
+    for k in range(n + 1):
+        m.bar(f"crank{k}", mass=1, length=1, ends=("A", "B"))
+    for k in range(n):
+        m.bar(f"coupler{k}", mass=1, length=1, ends=("B", "C"))
+    for k in range(n + 1):
+        m.revolute(f"A{k}", f"ground.P{k}", f"crank{k}.A")
+    for k in range(n):
+        m.revolute(f"B{k}", f"crank{k}.B", f"coupler{k}.B")
+        m.revolute(f"C{k}", f"coupler{k}.C", f"crank{k + 1}.B")
+    level = {f"coupler{k}.angle": 0 for k in range(n)}
+    return m, kp.assemble(m, set={"crank0.angle": "pi/2", "crank0.omega": -1}, guess=level)
+
+
+@pytest.mark.parametrize("n", [1, 2, 40])
+def test_singular_positions_are_passed(n: int) -> None:
+    model, start = windows(n)
+    sol = kp.dynamics(
+        model,
+        start,
+        t_end=10,
+        output_step=1,
+        method=kp.DOP853(rtol=1e-8, atol=1e-11),
+        stabilization=kp.Projection(),
+    )
+    assert sol.statistics["steps"] < 200
+    crank = sol["crank0"]
+    for t, truth in TRUTH["N"][str(n)]["B0"].items():
+        if float(t) == int(float(t)) <= 10:
+            k = int(float(t))
+            assert 2 * crank.x[k] == pytest.approx(float(truth["x"]), abs=1e-7)
+            assert 2 * crank.y[k] == pytest.approx(float(truth["y"]), abs=1e-7)
+
+
+def test_at_rest_on_one_line_it_stops_or_is_told_to_go_on() -> None:
+    model, _ = windows(1)
+    with pytest.warns(kp.AssemblyWarning, match="singular position"):
+        flat = kp.assemble(
+            model, set={"crank0.angle": 0}, guess={"crank1.angle": 0, "coupler0.angle": 0}
+        )
+    options = {"t_end": 0.1, "method": kp.DOP853(), "stabilization": kp.Projection()}
+    with pytest.raises(kp.SingularityError, match=r"rests.*joints A0, A1, B0, C0; at crank0 x ="):
+        kp.dynamics(model, flat, **options)
+    assert kp.dynamics(model, flat, **options, singularity="pass").success
+    with pytest.raises(kp.ModelError, match="singularity"):
+        kp.dynamics(model, flat, **options, singularity="perhaps")
