@@ -85,7 +85,7 @@ pub fn dynamics(
             ended: Ended::Stopped,
             t: t0,
         };
-        return finish(system, recorder, Ok(nothing), clock);
+        return finish(system, recorder, Ok(nothing), (clock, start));
     }
     let mut observer = Watched { recorder: &mut recorder, watch: &mut watch };
     let outcome = match &options.scheme.bounded(model) {
@@ -93,7 +93,7 @@ pub fn dynamics(
         Scheme::Dop853(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Rk4(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
     };
-    finish(system, recorder, outcome, clock)
+    finish(system, recorder, outcome, (clock, start))
 }
 
 /// Output first, then the caller's eye on the time.
@@ -119,7 +119,7 @@ fn finish(
     system: Equations<'_>,
     recorder: Recorder<'_>,
     outcome: Result<integrate::Statistics, integrate::Failure<(f64, Fault)>>,
-    clock: Instant,
+    (clock, start): (Instant, &State),
 ) -> Result<Run, Box<Failure>> {
     let Recorder { trajectory, dense, reported, halt, .. } = recorder;
     let model = system.model;
@@ -139,7 +139,7 @@ fn finish(
         seconds: clock.elapsed().as_secs_f64(),
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached);
-    let last = trajectory.q[trajectory.q.len().saturating_sub(n)..].to_vec();
+    let last = trajectory.q.rchunks(n.max(1)).next().unwrap_or(&start.q).to_vec();
     let run = Run { trajectory, dense, statistics, reached };
     let reason = match (outcome, halt) {
         (Ok(_), None) => return Ok(run),
