@@ -81,6 +81,28 @@ pub fn linearize<S: Real>(
     }
 }
 
+/// The same for constraint `k` alone: `out` are its own rows of Φ, Φ̇ and γ, `entries` those of all.
+pub(super) fn linearize_one<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &[Motion<S>],
+    t: S,
+    [residual, rate, gamma]: [&mut [S]; 3],
+    entries: &mut [S],
+) {
+    let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
+    let out = Rows { residual, rate, gamma };
+    match &item.law {
+        Some(law) => {
+            law_velocity_terms(model, law, item.element.ends(), motions, t, out);
+            law_blocks(model, item, slots, motions, t, entries);
+        }
+        None => {
+            item.element.linearize(motions, t, out, |ends, rows| store(ends, rows, slots, entries));
+        }
+    }
+}
+
 /// Blocks of a constraint with a law.
 fn law_blocks<S: Real>(
     model: &Model<S>,

@@ -29,7 +29,7 @@ pub(super) struct Options<'a> {
 }
 
 impl Options<'_> {
-    fn check(&self, controlled: usize, interval: f64) -> Result<(), Refused> {
+    pub(super) fn check(&self, controlled: usize, interval: f64) -> Result<(), Refused> {
         not_negative("rtol", self.rtol)?;
         match self.atol {
             Atol::Scalar(atol) => not_negative("atol", *atol)?,
@@ -184,7 +184,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             rejected: self.rejected,
             evaluations: self.rate.evaluations,
             ended,
-            t: self.t,
+            ..Statistics::none(self.t)
         }
     }
 

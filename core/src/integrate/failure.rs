@@ -27,6 +27,13 @@ pub enum Cause<E> {
         /// Where.
         t: f64,
     },
+    /// Newton's iteration does not converge, with a constant step or however short the step.
+    Newton {
+        /// Where the step begins.
+        t: f64,
+        /// Size of the step.
+        h: f64,
+    },
     /// The allowed number of steps was taken.
     MaxSteps {
         /// The number.
@@ -57,6 +64,9 @@ impl<E: fmt::Display> fmt::Display for Failure<E> {
                 write!(f, "step of {h:.1e} at t = {t} falls below the spacing of numbers")
             }
             Cause::NotFinite { t } => write!(f, "the derivative is not finite at t = {t}"),
+            Cause::Newton { t, h } => {
+                write!(f, "Newton's iteration does not converge at t = {t} with a step of {h:.1e}")
+            }
             Cause::MaxSteps { steps } => write!(f, "{steps} steps taken at t = {}", self.t),
             Cause::Equations(stop) => stop.fmt(f),
         }

@@ -18,16 +18,24 @@
 //! | `adaptive` | the loop of every embedded pair |
 //! | `stages` | sums over the stages of a step |
 //! | `rk45`, `dop853`, `rk4` | schemes |
+//! | `constrained` | what a constrained mechanical system and an implicit method promise each other |
+//! | `knot` | what implicit methods share: a state with its derivative, tolerances, counts |
+//! | `alpha_parameters`, `alpha_step`, `generalized_alpha` | generalized-α at index 3 |
 //! | `events` | where a function of the state changes sign |
 
 mod adaptive;
+mod alpha_parameters;
+mod alpha_step;
 mod arguments;
+mod constrained;
 mod contract;
 mod dense;
 mod dop853;
 mod dop853_coefficients;
 mod events;
 mod failure;
+mod generalized_alpha;
+mod knot;
 mod rate;
 mod rk4;
 mod rk45;
@@ -35,10 +43,15 @@ mod stages;
 mod step_size;
 
 pub use adaptive::Atol;
+pub use alpha_parameters::AlphaParameters;
+pub use constrained::{
+    Constrained, ImplicitMethod, Level, Point, Residual, Shares, SingularMatrix,
+};
 pub use contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
 pub use dense::Dense;
 pub use dop853::Dop853;
 pub use events::{locate, Direction};
 pub use failure::{Cause, Failure};
+pub use generalized_alpha::GeneralizedAlpha;
 pub use rk4::Rk4;
 pub use rk45::Rk45;

@@ -1,16 +1,11 @@
 //! The classical Runge–Kutta method of order 4 with a fixed step (Kutta, *Z. Math. Phys.* 46 (1901)
 //! 435); between steps the cubic Hermite polynomial, of order 3.
 
-use super::arguments::{check_problem, finite, positive, refusal, Refused};
+use super::arguments::{check_problem, refusal, step_count};
 use super::contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
-use super::dense::Dense;
+use super::dense::{Dense, HERMITE};
 use super::failure::{Cause, Failure};
 use super::rate::{all_finite, Rate, Trouble};
-
-/// Coefficients of θ … θ⁴ of: derivative at the beginning, at the end, chord (y - y_old) / h.
-const HERMITE: [f64; 12] = [1.0, -2.0, 1.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0];
-/// Most steps for which t0 + k step still tells neighbours apart.
-const MOST_STEPS: f64 = 1e15;
 
 /// Classical Runge–Kutta 4 with its options.
 ///
@@ -28,17 +23,6 @@ impl Rk4 {
     /// With the given step and no bound on their number.
     pub fn new(step: f64) -> Self {
         Self { step, max_steps: None }
-    }
-
-    /// Number of steps over an interval; a remainder of rounding is no step.
-    fn count(&self, interval: f64) -> Result<usize, Refused> {
-        positive("step", self.step)?;
-        finite("step", self.step)?;
-        let ratio = interval / self.step;
-        if ratio > MOST_STEPS {
-            return Err(("step", self.step, "at least 1e-15 of |t_end - t0|"));
-        }
-        Ok((ratio * (1.0 - 4.0 * f64::EPSILON)).ceil() as usize)
     }
 }
 
@@ -103,9 +87,8 @@ impl Method for Rk4 {
         observer: &mut O,
     ) -> Result<Statistics, Failure<Y::Stop>> {
         let count =
-            check_problem(t0, t_end, y, system.len()).and_then(|()| self.count((t_end - t0).abs()));
-        let mut statistics =
-            Statistics { steps: 0, rejected: 0, evaluations: 0, ended: Ended::Stopped, t: t0 };
+            check_problem(t0, t_end, y, system.len()).and_then(|()| step_count(self.step, (t_end - t0).abs()));
+        let mut statistics = Statistics::none(t0);
         let mut rate = Rate { system, evaluations: 0 };
         let outcome = match count {
             Ok(count) => self.go(&mut rate, (t0, t_end), count, y, observer, &mut statistics),

@@ -7,10 +7,14 @@
 //! | `weight` | the blocks of W by their factors |
 //! | `block` | arithmetic of blocks of at most 3 × 3 |
 //! | `saddle` | numbers: [W Aᵀ; A -μI] factorised and solved without allocation |
+//! | `lu_plan` | pattern, order and plan of an unsymmetric block matrix |
+//! | `block_lu` | its numbers, real or complex, factorised and solved without allocation |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
 //! | `rank` | numerical rank, dependent rows and left null vectors |
 
 mod block;
+mod block_lu;
+mod lu_plan;
 pub mod newton;
 mod order;
 mod pattern;
@@ -19,7 +23,9 @@ mod saddle;
 mod weight;
 
 pub use newton::Newton;
-pub use order::groups_first;
+pub use block_lu::{BlockLu, LOST};
+pub use lu_plan::LuPlan;
+pub use order::{groups_first, touched_first};
 pub use pattern::{Pattern, RowBlock};
 pub use rank::{normalize_rows, rank, Rank, RANK_TOLERANCE};
 pub use saddle::{Saddle, PIVOT_TOLERANCE};

@@ -101,6 +101,13 @@ impl Reason {
                 format!("the step fell to {h:.1e} s at t = {t:.6} s: the tolerance cannot be met"),
                 "a singular position or a discontinuity lies here; look at the solution so far",
             ),
+            Cause::Newton { h, .. } => (
+                format!(
+                    "the equations of the step from t = {t:.6} s, {h:.1e} s long, have no solution \
+                     that Newton's iteration finds"
+                ),
+                "use a smaller step, or step control (rtol, atol); check forces and laws at this state",
+            ),
             Cause::NotFinite { t } => (
                 format!("the motion became infinite or undefined at t = {t:.6} s"),
                 "use a smaller step or tolerance; check forces and laws at this state",

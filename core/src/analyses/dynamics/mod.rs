@@ -1,6 +1,7 @@
 //! Forward dynamics: the motion of a mechanism under forces, from a consistent state.
 
 mod failure;
+mod implicit;
 mod options;
 mod output;
 mod read;
@@ -12,9 +13,10 @@ pub use output::{Dense, Trajectory, ENERGIES};
 pub use read::read;
 
 use super::State;
-use crate::integrate::{self, Ended, Flow, Method, Observer, Step};
+use crate::integrate::{self, Ended, Flow, ImplicitMethod, Method, Observer, Step};
 use crate::model::Model;
 use crate::stabilize::Fault;
+use implicit::Implicit;
 use output::Recorder;
 use std::time::Instant;
 use system::{Equations, WORKS};
@@ -28,7 +30,12 @@ pub struct Statistics {
     pub rejected: usize,
     /// Evaluations of the equations of motion, without those for the output.
     pub evaluations: usize,
-    /// Factorisations of the augmented matrix, with those for the output.
+    /// Tangents of the equations of motion; zero for explicit methods.
+    pub jacobians: usize,
+    /// Steps of Newton's iteration; zero for explicit methods.
+    pub iterations: usize,
+    /// Factorisations of the augmented matrix, with those for the output, and of the matrices of
+    /// Newton's iteration.
     pub factorisations: usize,
     /// Wall time, s.
     pub seconds: f64,
@@ -72,12 +79,19 @@ pub fn dynamics(
     })?;
     recorder.report(t0, &y);
     let mut observer = Watched { recorder: &mut recorder, watch: &mut watch };
+    let mut implicitly = 0;
     let outcome = match &options.scheme {
         Scheme::Rk45(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Dop853(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Rk4(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
+        Scheme::GeneralizedAlpha(method) => {
+            let mut implicit = Implicit::new(model, options);
+            let outcome = method.integrate(&mut implicit, t0, t_end, &mut y, &mut observer);
+            implicitly = implicit.factorisations();
+            outcome
+        }
     };
-    finish(system, recorder, outcome, (clock, watch))
+    finish(system, recorder, (outcome, implicitly), (clock, watch))
 }
 
 /// Output first, then the caller's eye on the time.
@@ -99,10 +113,12 @@ impl<W: FnMut(f64) -> Flow> Observer for Watched<'_, '_, W> {
     }
 }
 
+type Outcome = Result<integrate::Statistics, integrate::Failure<(f64, Fault)>>;
+
 fn finish(
     mut system: Equations<'_>,
     recorder: Recorder<'_>,
-    outcome: Result<integrate::Statistics, integrate::Failure<(f64, Fault)>>,
+    (outcome, implicitly): (Outcome, usize),
     (clock, watch): (Instant, impl FnMut(f64) -> Flow),
 ) -> Result<Run, Box<Failure>> {
     let Recorder { mut trajectory, dense, between, fault, .. } = recorder;
@@ -116,11 +132,16 @@ fn finish(
         Ok(statistics) => *statistics,
         Err(failure) => failure.statistics,
     };
+    let explicitly = if took.jacobians == 0 { took.evaluations } else { 0 };
     let statistics = Statistics {
         steps: took.steps,
         rejected: took.rejected,
         evaluations: took.evaluations,
-        factorisations: took.evaluations
+        jacobians: took.jacobians,
+        iterations: took.iterations,
+        factorisations: explicitly
+            + implicitly
+            + took.factorisations
             + rows
             + system.factorisations()
             + between.factorisations(),

@@ -3,7 +3,7 @@
 use super::Reason;
 use crate::analyses::State;
 use crate::equations::Gains;
-use crate::integrate::{Atol, Dop853, Rk4, Rk45};
+use crate::integrate::{Atol, Dop853, GeneralizedAlpha, Rk4, Rk45};
 use crate::model::Model;
 use crate::stabilize::Projection;
 
@@ -16,6 +16,15 @@ pub enum Scheme {
     Dop853(Dop853),
     /// Classical, fixed step.
     Rk4(Rk4),
+    /// Implicit, of order 2, at index 3; HHT is one of them.
+    GeneralizedAlpha(GeneralizedAlpha),
+}
+
+impl Scheme {
+    /// Whether it solves for the end of a step, with the constraints among the equations.
+    pub fn is_implicit(&self) -> bool {
+        matches!(self, Self::GeneralizedAlpha(_))
+    }
 }
 
 /// What keeps the constraints from drifting.
@@ -88,6 +97,12 @@ impl Options {
         if let Stabilization::Projection(Projection { tolerance }) = self.stabilization {
             let holds = tolerance > 0.0 && tolerance.is_finite();
             require("tolerance", tolerance, holds, "> 0 and finite")?;
+        }
+        let baumgarte = matches!(self.stabilization, Stabilization::Baumgarte(_));
+        if self.scheme.is_implicit() && baumgarte {
+            let message = "stabilization: Baumgarte's changes the right side of explicit methods; an \
+                           implicit one has the constraints among its equations: use projection or none";
+            return Err(Reason::Option { name: "stabilization", message: message.to_string() });
         }
         let n = model.layout.n_q;
         let must = format!("as long as the coordinates of the model, {n}");
