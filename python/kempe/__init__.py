@@ -43,10 +43,12 @@ if TYPE_CHECKING:
     from kempe.model import Model as Model
     from kempe.motion import Motion as Motion
     from kempe.options import DOP853 as DOP853
+    from kempe.options import HHT as HHT
     from kempe.options import RK4 as RK4
     from kempe.options import RK45 as RK45
     from kempe.options import Baumgarte as Baumgarte
     from kempe.options import Dynamics as Dynamics
+    from kempe.options import GeneralizedAlpha as GeneralizedAlpha
     from kempe.options import NoStabilization as NoStabilization
     from kempe.options import Projection as Projection
     from kempe.solution import Solution as Solution
@@ -66,6 +68,8 @@ _HOME = {
     "Dynamics": "options",
     "Energy": "energy",
     "FileError": "errors",
+    "GeneralizedAlpha": "options",
+    "HHT": "options",
     "IntegrationError": "errors",
     "InternalError": "errors",
     "KempeError": "errors",

@@ -82,6 +82,57 @@ class RK4(Option):
 
 
 @dataclass(frozen=True)
+class GeneralizedAlpha(Option):
+    """Implicit generalized-α of order 2 (Chung & Hulbert 1993) at index 3 (Arnold & Brüls 2007).
+
+    For stiff forces and moderate accuracy. The constraints are among its equations, so that Φ = 0
+    holds at every step; velocities are put onto them by projection, as the default stabilization of
+    implicit methods does. Between the steps a cubic polynomial.
+
+    Attributes:
+        rho: spectral radius at infinite frequency, in [0, 1); the smaller, the more high
+            frequencies are damped.
+        rtol: tolerance of a step relative to each component, 1e-4 when None. With ``step`` that of
+            Newton's iteration, 1e-10 when None.
+        atol: absolute tolerance of a step, m or rad and per s, 1e-7 when None. With ``step`` that
+            of Newton's iteration, 1e-12 when None.
+        step: constant length of a step, s, without control of the error; steps are chosen when None.
+        first_step: length of the first step, s; chosen when None.
+        max_step: longest step, s; none when None.
+    """
+
+    rho: Number = 0.8
+    rtol: Number | None = None
+    atol: Number | None = None
+    step: Number | None = None
+    first_step: Number | None = None
+    max_step: Number | None = None
+    kind: ClassVar[str] = "generalized_alpha"
+
+
+@dataclass(frozen=True)
+class HHT(Option):
+    """Implicit method of Hilber, Hughes & Taylor (1977): a case of generalized-α, at index 3.
+
+    Attributes:
+        alpha: in [-1/3, 0); the smaller, the more high frequencies are damped.
+        rtol: as of ``GeneralizedAlpha``.
+        atol: as of ``GeneralizedAlpha``.
+        step: constant length of a step, s, without control of the error; steps are chosen when None.
+        first_step: length of the first step, s; chosen when None.
+        max_step: longest step, s; none when None.
+    """
+
+    alpha: Number = -0.1
+    rtol: Number | None = None
+    atol: Number | None = None
+    step: Number | None = None
+    first_step: Number | None = None
+    max_step: Number | None = None
+    kind: ClassVar[str] = "hht"
+
+
+@dataclass(frozen=True)
 class Baumgarte(Option):
     """γ̂ = γ - 2α (Φ_q q̇ + Φ_t) - β² Φ (Baumgarte 1972; Haug 7.3.8).
 
@@ -128,7 +179,8 @@ class Dynamics:
         t_end: time at which it ends, s.
         output_step: time between outputs, s; every step when None.
         method: the integrator.
-        stabilization: of the constraints; none at all when None.
+        stabilization: of the constraints; none at all when None. "auto" is Baumgarte with explicit
+            methods, and projection with implicit ones.
         max_steps: it gives up after that many steps; what the core finds enough when None.
         dense_output: whether to keep the interpolant between the steps.
         name: its name in the case.
@@ -140,7 +192,7 @@ class Dynamics:
     t_end: Number
     output_step: Number | None = None
     method: Option = RK45()
-    stabilization: Option | None = Baumgarte()
+    stabilization: Option | str | None = "auto"
     max_steps: int | None = None
     dense_output: bool = True
     name: str = "dynamics"
@@ -162,8 +214,9 @@ class Dynamics:
             if getattr(self, field) is not None:
                 entry[field] = number(getattr(self, field), f"{path}.{field}")
         entry["method"] = _option(self.method, f"{path}.method")
-        chosen = NoStabilization() if self.stabilization is None else self.stabilization
-        entry["stabilization"] = _option(chosen, f"{path}.stabilization")
+        if self.stabilization != "auto":
+            chosen = NoStabilization() if self.stabilization is None else self.stabilization
+            entry["stabilization"] = _option(chosen, f"{path}.stabilization")
         entry["dense_output"] = bool(self.dense_output)
         return entry
 

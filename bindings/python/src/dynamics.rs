@@ -51,6 +51,8 @@ impl PyRun {
             "steps": s.steps,
             "rejected": s.rejected,
             "evaluations": s.evaluations,
+            "jacobians": s.jacobians,
+            "iterations": s.iterations,
             "factorisations": s.factorisations,
             "seconds": s.seconds,
         });

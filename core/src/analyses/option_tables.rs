@@ -28,7 +28,7 @@ pub fn analysis_tables() -> Vec<Table> {
 /// The families of options that analyses refer to.
 pub fn option_families() -> Vec<Family> {
     vec![
-        Family { name: "method", options: vec![rk45(), dop853(), rk4()] },
+        Family { name: "method", options: vec![rk45(), dop853(), rk4(), generalized_alpha(), hht()] },
         Family { name: "stabilization", options: vec![baumgarte(), projection(), none()] },
     ]
 }
@@ -54,8 +54,9 @@ fn dynamics() -> Table {
             "stabilization",
             Shape::Options("stabilization"),
             "",
-            Default::Type("baumgarte"),
-            "What keeps the constraints from drifting.",
+            Default::Absent,
+            "What keeps the constraints from drifting; if absent, Baumgarte with explicit methods, and \
+             projection with implicit ones.",
         ),
         Field::optional("max_steps", Shape::Count, "", Default::Absent, "Most steps before the solver gives up; else without limit."),
         Field::optional(
@@ -125,6 +126,33 @@ fn rk4() -> Options {
     let fields = vec![Field::required("step", Shape::Number, "s", "Step.")];
     let doc = "Classical Runge-Kutta method of order 4 with a constant step.";
     Options { class: "RK4", table: Table { name: "rk4", doc: doc.to_string(), fields } }
+}
+
+/// Options of generalized-alpha methods, after what selects the member of the family.
+fn alpha_method(class: &'static str, name: &'static str, member: Field, doc: &str) -> Options {
+    let fields = vec![
+        member,
+        number("rtol", "", Default::Absent, "Relative tolerance of one step, 1e-4 if absent; with step that of Newton's iteration, 1e-10."),
+        number("atol", "", Default::Absent, "Absolute tolerance of one step, 1e-7 if absent; with step that of Newton's iteration, 1e-12."),
+        number("step", "s", Default::Absent, "Constant step, without control of the error; else the solver chooses its steps."),
+        number("first_step", "s", Default::Absent, "First step; else the solver chooses it; not together with step."),
+        number("max_step", "s", Default::Absent, "Largest step; else without limit; not together with step."),
+    ];
+    Options { class, table: Table { name, doc: doc.to_string(), fields } }
+}
+
+fn generalized_alpha() -> Options {
+    let doc = "Implicit generalized-alpha method of order 2 (Chung and Hulbert 1993) at index 3 (Arnold \
+               and Bruels 2007): for stiff forces and moderate accuracy.";
+    let rho = number("rho", "", 0.8, "Spectral radius at infinite frequency, in [0, 1): the smaller, the more high frequencies are damped.");
+    alpha_method("GeneralizedAlpha", "generalized_alpha", rho, doc)
+}
+
+fn hht() -> Options {
+    let doc = "Implicit method of order 2 of Hilber, Hughes and Taylor (1977), a case of generalized-alpha, \
+               at index 3.";
+    let alpha = number("alpha", "", -0.1, "In [-1/3, 0): the smaller, the more high frequencies are damped.");
+    alpha_method("HHT", "hht", alpha, doc)
 }
 
 fn baumgarte() -> Options {

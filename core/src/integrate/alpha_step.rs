@@ -28,6 +28,8 @@ const MOST: usize = 10;
 const SLOW: f64 = 0.2;
 /// Steps that differ by less share a matrix: a difference of times is never twice the same.
 const SAME: f64 = 1e-6;
+/// Corrections below this part of the largest coordinate are rounding.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Part of the tolerance that Newton's iteration may leave.
 const PART: f64 = 1e-2;
 
@@ -148,18 +150,19 @@ impl AlphaStep {
         slow: f64,
     ) -> bool {
         let mut last = f64::INFINITY;
+        let enough = PART.max(self.rounding(h, scale));
         for iteration in 0..MOST {
             let norm = self.correct(system, t + h, h, scale);
             let rate = norm / last;
-            if !norm.is_finite() || rate >= 1.0 {
-                // corrections that are rounding alone get no smaller
-                return norm.is_finite() && norm <= PART;
-            }
-            if iteration > 0 && rate > slow && norm > PART {
+            if !norm.is_finite() || (norm > enough && rate > slow.min(1.0)) {
                 return false;
             }
-            let left = if iteration == 0 { 10.0 * norm } else { norm * rate / (1.0 - rate) };
-            if left <= PART {
+            let left = match iteration {
+                0 => 10.0 * norm,
+                _ if rate < 0.5 => norm * rate / (1.0 - rate),
+                _ => norm,
+            };
+            if left <= enough {
                 return true;
             }
             last = norm;
@@ -225,9 +228,23 @@ impl AlphaStep {
         scale.norm(&dq, &dv)
     }
 
-    /// a₁ - a₀ of one component.
+    /// v̇₁ - v̇₀ of one component. (Of a it would be less smooth where the step changes.)
     fn change(&self, i: usize) -> f64 {
-        self.a_end[i] - self.a_start[i]
+        self.end.a[i] - self.start.a[i]
+    }
+
+    /// The norm of corrections that are rounding alone: of q relative to its largest component, since
+    /// the constraints are sums of all of them; of v that over h.
+    fn rounding(&self, h: f64, scale: &mut Scale) -> f64 {
+        let AlphaParameters { beta, gamma, .. } = self.parameters;
+        scale.set(&self.start, &self.end);
+        let q = ROUNDING * self.start.q.iter().fold(0.0, |most: f64, q| most.max(q.abs()));
+        let v = gamma / (beta * h.abs()) * q;
+        let (by_q, by_v) = scale.weights.split_at(self.dv.len());
+        let sum = |x: f64, weights: &[f64]| -> f64 {
+            weights.iter().filter(|w| **w > 0.0).map(|w| (x / w) * (x / w)).sum()
+        };
+        ((sum(q, by_q) + sum(v, by_v)) / scale.weights.len() as f64).sqrt()
     }
 
     /// x ← the solution of [S Φ_qᵀ; Φ_q 0] with M x (1 - α_m)/(1 - α_f) on the right.

@@ -121,11 +121,11 @@ pub struct Statistics {
     /// Evaluations of f; for an implicit method, of residuals and accelerations.
     pub evaluations: usize,
     /// Tangents; zero for an explicit method.
-    pub jacobians: usize,
+    pub jacobians: u32,
     /// Factorisations of matrices of Newton's iteration, a complex one as one.
-    pub factorisations: usize,
+    pub factorisations: u32,
     /// Steps of Newton's iteration.
-    pub iterations: usize,
+    pub iterations: u32,
     /// How it ended; of a failure, not meaningful beyond "not at t_end".
     pub ended: Ended,
     /// Time reached.

@@ -12,7 +12,7 @@ use super::contract::{Ended, Flow, Observer, Statistics, Step};
 use super::dense::{Dense, HERMITE};
 use super::failure::{Cause, Failure};
 use super::knot::{Counted, Scale};
-use super::step_size::{initial_step, least_step, probing_step, scaled_norm, StepSize};
+use super::step_size::{least_step, StepSize};
 
 /// Order of the error estimate.
 const ERROR_ORDER: i32 = 2;
@@ -153,7 +153,12 @@ impl<Y: Constrained> Run<'_, '_, Y> {
         self.accelerate()?;
         let first = match (self.options.step, self.options.first_step) {
             (Some(h), _) | (None, Some(h)) => h,
-            (None, None) => self.first_step()?,
+            (None, None) => {
+                let Self { system, step, scale, .. } = self;
+                let knots = (&step.start, &mut step.end);
+                let first = system.first_step((self.t, self.t_end), knots, scale, ERROR_ORDER);
+                first.map_err(Cause::Equations)?.min(self.options.max_step)
+            }
         };
         self.begin(first.copysign(self.t_end - self.t0))?;
         let mut size = StepSize::new(first, ERROR_ORDER);
@@ -174,37 +179,7 @@ impl<Y: Constrained> Run<'_, '_, Y> {
 
     /// Accelerations at the beginning of a step.
     fn accelerate(&mut self) -> Result<(), Cause<Y::Stop>> {
-        let Self { system, step, t, .. } = self;
-        system.accelerate(*t, &mut step.start).map_err(Cause::Equations)?;
-        let finite = step.start.a.iter().chain(&step.start.lam).all(|x| x.is_finite());
-        if finite { Ok(()) } else { Err(Cause::NotFinite { t: *t }) }
-    }
-
-    /// Hairer's choice of the first step, at the cost of one evaluation.
-    fn first_step(&mut self) -> Result<f64, Cause<Y::Stop>> {
-        let interval = (self.t_end - self.t).abs();
-        let most = interval.min(self.options.max_step);
-        let Self { step, scale, system, .. } = self;
-        let (start, probe) = (&step.start, &mut step.end);
-        scale.set(start, start);
-        let d0 = scale.norm(&start.q, &start.v);
-        let d1 = scale.norm(&start.v, &start.a);
-        let h0 = probing_step(d0, d1, interval);
-        let h = h0.copysign(self.t_end - self.t);
-        for i in 0..start.q.len() {
-            probe.q[i] = start.q[i] + h * start.v[i];
-            probe.v[i] = start.v[i] + h * start.a[i];
-        }
-        system.accelerate(self.t + h, probe).map_err(Cause::Equations)?;
-        let n = start.q.len();
-        let change = |i: usize| {
-            if i < n { probe.v[i] - start.v[i] } else { probe.a[i - n] - start.a[i - n] }
-        };
-        let d2 = scaled_norm((0..2 * n).map(|i| (change(i), scale.weights[i]))) / h0;
-        if !d2.is_finite() {
-            return Ok(h0.min(most));
-        }
-        Ok(initial_step(h0, d1, d2, ERROR_ORDER).min(most))
+        self.system.begin(self.t, &mut self.step.start)
     }
 
     /// What makes order 2 hold from the first step: a for t + Δ h, and velocities off the constraints by

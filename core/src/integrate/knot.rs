@@ -3,6 +3,9 @@
 use super::adaptive::{Atol, Options};
 use super::constrained::{Constrained, Level, Point, Residual, Shares};
 use super::contract::{Ended, Statistics};
+use super::failure::Cause;
+use super::rate::all_finite;
+use super::step_size::{initial_step, probing_step};
 use crate::math::Complex;
 
 /// A state on the constraints with its derivative.
@@ -100,6 +103,45 @@ impl<'a, Y: Constrained> Counted<'a, Y> {
         self.counts.evaluations += 1;
         let Knot { q, v, a, lam, powers } = knot;
         self.system.accelerate(t, [q, v], a, lam, powers)
+    }
+
+    /// The same where it has to be finite.
+    pub fn begin(&mut self, t: f64, knot: &mut Knot) -> Result<(), Cause<Y::Stop>> {
+        self.accelerate(t, knot).map_err(Cause::Equations)?;
+        if all_finite(&knot.a) && all_finite(&knot.lam) {
+            Ok(())
+        } else {
+            Err(Cause::NotFinite { t })
+        }
+    }
+
+    /// Hairer's choice of the magnitude of the first step from `start`, at the cost of one evaluation.
+    pub fn first_step(
+        &mut self,
+        (t, t_end): (f64, f64),
+        (start, probe): (&Knot, &mut Knot),
+        scale: &mut Scale,
+        error_order: i32,
+    ) -> Result<f64, Y::Stop> {
+        let interval = (t_end - t).abs();
+        scale.set(start, start);
+        let d0 = scale.norm(&start.q, &start.v);
+        let d1 = scale.norm(&start.v, &start.a);
+        let h0 = probing_step(d0, d1, interval);
+        let h = h0.copysign(t_end - t);
+        for i in 0..start.q.len() {
+            probe.q[i] = start.q[i] + h * start.v[i];
+            probe.v[i] = start.v[i] + h * start.a[i];
+        }
+        self.accelerate(t + h, probe)?;
+        let change = |new: &[f64], old: &[f64]| -> Vec<f64> {
+            new.iter().zip(old).map(|(new, old)| (new - old) / h0).collect()
+        };
+        let d2 = scale.norm(&change(&probe.v, &start.v), &change(&probe.a, &start.a));
+        if !d2.is_finite() {
+            return Ok(h0);
+        }
+        Ok(initial_step(h0, d1, d2, error_order).min(interval))
     }
 
     pub fn residual(&mut self, t: f64, at: Point<'_>, level: Level, out: Residual<'_>) {

@@ -21,6 +21,7 @@
 //! | `constrained` | what a constrained mechanical system and an implicit method promise each other |
 //! | `knot` | what implicit methods share: a state with its derivative, tolerances, counts |
 //! | `alpha_parameters`, `alpha_step`, `generalized_alpha` | generalized-α at index 3 |
+//! | `radau_coefficients`, `radau_step`, `radau` | Radau IIA of order 5 at index 2 |
 //! | `events` | where a function of the state changes sign |
 
 mod adaptive;
@@ -36,6 +37,9 @@ mod events;
 mod failure;
 mod generalized_alpha;
 mod knot;
+mod radau;
+mod radau_coefficients;
+mod radau_step;
 mod rate;
 mod rk4;
 mod rk45;
@@ -53,5 +57,6 @@ pub use dop853::Dop853;
 pub use events::{locate, Direction};
 pub use failure::{Cause, Failure};
 pub use generalized_alpha::GeneralizedAlpha;
+pub use radau::Radau;
 pub use rk4::Rk4;
 pub use rk45::Rk45;

@@ -3,7 +3,7 @@
 use crate::mechanisms::{every, four_bar, model, run, start, worst};
 use kempe::analyses::dynamics::{Options, Scheme, Stabilization};
 use kempe::analyses::State;
-use kempe::integrate::{AlphaParameters, Dop853, GeneralizedAlpha};
+use kempe::integrate::{AlphaParameters, Dop853, GeneralizedAlpha, Radau};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 
@@ -39,13 +39,14 @@ fn slopes(
             [worst(&f.q, &exact.q), worst(&f.v, &exact.v), worst(&f.lam, &exact.lam)]
         })
         .collect();
-    println!("{errors:.2?}");
+    println!("{errors:.2e?}");
     errors.windows(2).map(|e| std::array::from_fn(|k| (e[0][k] / e[1][k]).log2())).collect()
 }
 
-fn near(slopes: &[[f64; 3]], expected: f64) {
-    let good = |s: &f64| (s - expected).abs() <= 0.15;
-    assert!(slopes.len() >= 3 && slopes.iter().flatten().all(good), "{slopes:.3?}");
+/// Orders of q, v and λ.
+fn near(slopes: &[[f64; 3]], expected: [f64; 3]) {
+    let good = |s: &[f64; 3]| (0..3).all(|k| (s[k] - expected[k]).abs() <= 0.15);
+    assert!(slopes.len() >= 3 && slopes.iter().all(good), "{slopes:.3?}");
 }
 
 const ROD: &str = r#"
@@ -77,15 +78,32 @@ fn generalized_alpha_is_of_order_two_on_a_pendulum() {
     let (state, _) = start(&m, &[("rod.angle", "0.2"), ("rod.omega", "1")], &[]);
     for rho in [0.0, 0.5, 0.8] {
         let scheme = alpha(AlphaParameters::chung_hulbert(rho));
-        near(&slopes((&m, &state), (1.0, 0.125), halvings(1.0 / 128.0), scheme), 2.0);
+        near(&slopes((&m, &state), (1.0, 0.125), halvings(1.0 / 128.0), scheme), [2.0; 3]);
     }
     let scheme = alpha(AlphaParameters::hht(-0.1));
-    near(&slopes((&m, &state), (1.0, 0.125), halvings(1.0 / 128.0), scheme), 2.0);
+    near(&slopes((&m, &state), (1.0, 0.125), halvings(1.0 / 128.0), scheme), [2.0; 3]);
 }
 
 #[test]
 fn generalized_alpha_is_of_order_two_on_the_flagship() {
     let (m, state) = four_bar();
     let scheme = alpha(AlphaParameters::chung_hulbert(0.8));
-    near(&slopes((&m, &state), (0.25, 0.03125), halvings(1.0 / 1024.0), scheme), 2.0);
+    near(&slopes((&m, &state), (0.25, 0.03125), halvings(1.0 / 1024.0), scheme), [2.0; 3]);
+}
+
+fn radau(h: f64) -> Scheme {
+    Scheme::Radau(Radau::constant(h, 1e-13, 1e-14))
+}
+
+#[test]
+fn radau_is_of_order_five_on_a_pendulum() {
+    let m = model(ROD);
+    let (state, _) = start(&m, &[("rod.angle", "0.2"), ("rod.omega", "1")], &[]);
+    near(&slopes((&m, &state), (1.0, 0.25), halvings(1.0 / 16.0), radau), [5.0; 3]);
+}
+
+#[test]
+fn radau_is_of_order_five_on_the_flagship() {
+    let (m, state) = four_bar();
+    near(&slopes((&m, &state), (0.25, 0.125), halvings(1.0 / 256.0), radau), [5.0; 3]);
 }

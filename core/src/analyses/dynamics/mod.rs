@@ -90,6 +90,12 @@ pub fn dynamics(
             implicitly = implicit.factorisations();
             outcome
         }
+        Scheme::Radau(method) => {
+            let mut implicit = Implicit::new(model, options);
+            let outcome = method.integrate(&mut implicit, t0, t_end, &mut y, &mut observer);
+            implicitly = implicit.factorisations();
+            outcome
+        }
     };
     finish(system, recorder, (outcome, implicitly), (clock, watch))
 }
@@ -137,11 +143,11 @@ fn finish(
         steps: took.steps,
         rejected: took.rejected,
         evaluations: took.evaluations,
-        jacobians: took.jacobians,
-        iterations: took.iterations,
+        jacobians: took.jacobians as usize,
+        iterations: took.iterations as usize,
         factorisations: explicitly
             + implicitly
-            + took.factorisations
+            + took.factorisations as usize
             + rows
             + system.factorisations()
             + between.factorisations(),

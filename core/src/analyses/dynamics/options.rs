@@ -3,7 +3,7 @@
 use super::Reason;
 use crate::analyses::State;
 use crate::equations::Gains;
-use crate::integrate::{Atol, Dop853, GeneralizedAlpha, Rk4, Rk45};
+use crate::integrate::{Atol, Dop853, GeneralizedAlpha, Radau, Rk4, Rk45};
 use crate::model::Model;
 use crate::stabilize::Projection;
 
@@ -18,12 +18,14 @@ pub enum Scheme {
     Rk4(Rk4),
     /// Implicit, of order 2, at index 3; HHT is one of them.
     GeneralizedAlpha(GeneralizedAlpha),
+    /// Implicit, of order 5, at index 2.
+    Radau(Radau),
 }
 
 impl Scheme {
     /// Whether it solves for the end of a step, with the constraints among the equations.
     pub fn is_implicit(&self) -> bool {
-        matches!(self, Self::GeneralizedAlpha(_))
+        matches!(self, Self::GeneralizedAlpha(_) | Self::Radau(_))
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::options::{Options, Output, Scheme, Stabilization};
 use crate::equations::{at, Gains};
-use crate::integrate::{Atol, Dop853, Rk4, Rk45};
+use crate::integrate::{AlphaParameters, Atol, Dop853, GeneralizedAlpha, Rk4, Rk45};
 use crate::model::{Model, Problem, Reach, Scope, Value};
 use crate::stabilize::Projection;
 
@@ -48,8 +48,9 @@ impl<'a> Reader<'a> {
         }
         let max_steps = self.positive("max_steps", "").map(|n| n as usize);
         options.scheme = self.inside("method", |reader, kind| reader.scheme(kind, max_steps));
+        let implicit = options.scheme.is_implicit();
         options.stabilization =
-            self.inside("stabilization", |reader, kind| reader.stabilization(kind));
+            self.inside("stabilization", |reader, kind| reader.stabilization(kind, implicit));
         options
     }
 
@@ -57,6 +58,9 @@ impl<'a> Reader<'a> {
         if kind == "rk4" {
             let step = self.positive("step", "s").unwrap_or(f64::NAN);
             return Scheme::Rk4(Rk4 { step, max_steps });
+        }
+        if matches!(kind, "generalized_alpha" | "hht") {
+            return Scheme::GeneralizedAlpha(self.alpha_method(kind, max_steps));
         }
         let rtol = self.not_negative("rtol", "").unwrap_or(1e-6);
         let atol = Atol::Scalar(self.not_negative("atol", "").unwrap_or(1e-9));
@@ -68,9 +72,39 @@ impl<'a> Reader<'a> {
         Scheme::Rk45(Rk45 { rtol, atol, max_step, first_step, max_steps })
     }
 
-    fn stabilization(&mut self, kind: &str) -> Stabilization {
+    /// Generalized-α and HHT, which differ in what selects the member of the family.
+    fn alpha_method(&mut self, kind: &str, max_steps: Option<usize>) -> GeneralizedAlpha {
+        let parameters = if kind == "hht" {
+            let good = |alpha| (-1.0 / 3.0..0.0).contains(&alpha);
+            AlphaParameters::hht(self.checked("alpha", "", good, "in [-1/3, 0)").unwrap_or(-0.1))
+        } else {
+            let good = |rho| (0.0..1.0).contains(&rho);
+            AlphaParameters::chung_hulbert(self.checked("rho", "", good, "in [0, 1)").unwrap_or(0.8))
+        };
+        let step = self.positive("step", "s");
+        for key in ["first_step", "max_step"] {
+            if step.is_some() && self.get(key).is_some() {
+                let path: Vec<String> = self.path.iter().cloned().chain([key.to_string()]).collect();
+                let told = "not together with step, which is constant; remove one of them";
+                self.problems.push(Problem::at(&path, told.to_string()));
+            }
+        }
+        let (rtol, atol) = if step.is_some() { (1e-10, 1e-12) } else { (1e-4, 1e-7) };
+        GeneralizedAlpha {
+            parameters,
+            rtol: self.not_negative("rtol", "").unwrap_or(rtol),
+            atol: Atol::Scalar(self.not_negative("atol", "").unwrap_or(atol)),
+            step,
+            max_step: self.positive("max_step", "s").unwrap_or(f64::INFINITY),
+            first_step: self.positive("first_step", "s"),
+            max_steps,
+        }
+    }
+
+    fn stabilization(&mut self, kind: &str, implicit: bool) -> Stabilization {
         match kind {
             "none" => Stabilization::None,
+            "" if implicit => Stabilization::Projection(Projection::default()),
             "projection" => {
                 let default = Projection::default().tolerance;
                 let tolerance = self.positive("tolerance", "").unwrap_or(default);
