@@ -17,19 +17,42 @@ fn stiff(c: f64) -> (Model, State) {
     (model, state)
 }
 fn go(name: &str, m: &Model, s: &State, t_end: f64, schemes: Vec<(String, Scheme)>) {
-    let opt = |scheme: Scheme| Options { output: Output::Every(0.01), scheme, stabilization: Stabilization::Projection(Projection::default()), dense_output: false, ..Options::new(t_end) };
+    let opt = |scheme: Scheme| Options {
+        output: Output::Every(0.01),
+        scheme,
+        stabilization: Stabilization::Projection(Projection::default()),
+        dense_output: false,
+        ..Options::new(t_end)
+    };
     let exact = dynamics(m, s, &opt(schemes[0].1.clone()), |_| Flow::Continue);
-    let exact = match exact { Ok(r) => r, Err(f) => { println!("{name} exact: {}", f.reason); f.run } };
+    let exact = match exact {
+        Ok(r) => r,
+        Err(f) => {
+            println!("{name} exact: {}", f.reason);
+            f.run
+        }
+    };
     println!("{name}: exact {:?}", exact.statistics);
     for (told, scheme) in &schemes[1..] {
         let bare = Options { output: Output::Every(t_end), ..opt(scheme.clone()) };
         match dynamics(m, s, &opt(scheme.clone()), |_| Flow::Continue) {
             Ok(r) => {
                 let mut e = [0.0f64; 3];
-                for (k, (a, b)) in [(&r.trajectory.q, &exact.trajectory.q), (&r.trajectory.v, &exact.trajectory.v), (&r.trajectory.lam, &exact.trajectory.lam)].into_iter().enumerate() {
+                for (k, (a, b)) in [
+                    (&r.trajectory.q, &exact.trajectory.q),
+                    (&r.trajectory.v, &exact.trajectory.v),
+                    (&r.trajectory.lam, &exact.trajectory.lam),
+                ]
+                .into_iter()
+                .enumerate()
+                {
                     e[k] = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 }
-                let mut ms: Vec<f64> = (0..5).map(|_| dynamics(m, s, &bare, |_| Flow::Continue).unwrap().statistics.seconds * 1e3).collect();
+                let mut ms: Vec<f64> = (0..5)
+                    .map(|_| {
+                        dynamics(m, s, &bare, |_| Flow::Continue).unwrap().statistics.seconds * 1e3
+                    })
+                    .collect();
                 ms.sort_by(f64::total_cmp);
                 let s = r.statistics;
                 println!("{told:<24} steps {:>6} rej {:>4} eval {:>6} jac {:>5} newton {:>6} fact {:>6} | q {:.1e} v {:.1e} lam {:.1e} | {:.2} ms {:.2} us/step", s.steps, s.rejected, s.evaluations, s.jacobians, s.iterations, s.factorisations, e[0], e[1], e[2], ms[2], 1e3*ms[2]/s.steps as f64);
@@ -40,8 +63,15 @@ fn go(name: &str, m: &Model, s: &State, t_end: f64, schemes: Vec<(String, Scheme
 }
 fn schemes(first: Scheme) -> Vec<(String, Scheme)> {
     let mut out = vec![("exact".to_string(), first)];
-    for rtol in [1e-3, 1e-4, 1e-6, 1e-8] {
-        out.push((format!("alpha 0.8 {rtol:.0e}"), Scheme::GeneralizedAlpha(GeneralizedAlpha::new(AlphaParameters::chung_hulbert(0.8), rtol, 1e-3 * rtol))));
+    for rtol in [1e-3] {
+        out.push((
+            format!("alpha 0.8 {rtol:.0e}"),
+            Scheme::GeneralizedAlpha(GeneralizedAlpha::new(
+                AlphaParameters::chung_hulbert(0.8),
+                rtol,
+                1e-3 * rtol,
+            )),
+        ));
     }
     for rtol in [1e-3, 1e-4, 1e-6, 1e-8, 1e-10] {
         out.push((format!("radau {rtol:.0e}"), Scheme::Radau(Radau::new(rtol, 1e-3 * rtol))));
@@ -53,11 +83,15 @@ fn schemes(first: Scheme) -> Vec<(String, Scheme)> {
 }
 fn main() {
     let dop = Scheme::Dop853(Dop853::new(1e-12, 1e-14));
-    for (name, c, t) in [("flagship", 1e4, 15.0), ("flagship c=1e6", 1e6, 2.0), ("flagship c=1e7", 1e7, 0.5)] {
+    for (name, c, t) in
+        [("flagship", 1e4, 15.0), ("flagship c=1e6", 1e6, 2.0), ("flagship c=1e7", 1e7, 0.5)]
+    {
         let (m, s) = stiff(c);
         go(name, &m, &s, t, schemes(dop.clone()));
     }
-    if std::env::args().nth(1).is_none() { return; }
+    if std::env::args().nth(1).is_none() {
+        return;
+    }
     for n in [10, 100] {
         let (m, s) = mechanisms::chain(n);
         let clock = std::time::Instant::now();

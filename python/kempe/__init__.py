@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from kempe.options import GeneralizedAlpha as GeneralizedAlpha
     from kempe.options import NoStabilization as NoStabilization
     from kempe.options import Projection as Projection
+    from kempe.options import Radau as Radau
     from kempe.solution import Solution as Solution
     from kempe.state import AssemblyReport as AssemblyReport
     from kempe.state import State as State
@@ -82,6 +83,7 @@ _HOME = {
     "Projection": "options",
     "RK4": "options",
     "RK45": "options",
+    "Radau": "options",
     "RedundancyError": "errors",
     "Results": "case",
     "SingularityError": "errors",

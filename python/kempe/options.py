@@ -133,6 +133,32 @@ class HHT(Option):
 
 
 @dataclass(frozen=True)
+class Radau(Option):
+    """Implicit Radau IIA of order 5 (Hairer & Wanner 1996) at index 2, for stiff forces.
+
+    The velocities meet their constraints at every stage; positions are put onto theirs by projection,
+    as the default stabilization of implicit methods does. Between the steps it interpolates with
+    order 4 for q and 3 for v.
+
+    Attributes:
+        rtol: tolerance of a step relative to each component, 1e-6 when None. With ``step`` that of
+            Newton's iteration, 1e-10 when None.
+        atol: absolute tolerance of a step, m or rad and per s, 1e-9 when None. With ``step`` that
+            of Newton's iteration, 1e-12 when None.
+        step: constant length of a step, s, without control of the error; steps are chosen when None.
+        first_step: length of the first step, s; chosen when None.
+        max_step: longest step, s; none when None.
+    """
+
+    rtol: Number | None = None
+    atol: Number | None = None
+    step: Number | None = None
+    first_step: Number | None = None
+    max_step: Number | None = None
+    kind: ClassVar[str] = "radau"
+
+
+@dataclass(frozen=True)
 class Baumgarte(Option):
     """γ̂ = γ - 2α (Φ_q q̇ + Φ_t) - β² Φ (Baumgarte 1972; Haug 7.3.8).
 

@@ -28,7 +28,10 @@ pub fn analysis_tables() -> Vec<Table> {
 /// The families of options that analyses refer to.
 pub fn option_families() -> Vec<Family> {
     vec![
-        Family { name: "method", options: vec![rk45(), dop853(), rk4(), generalized_alpha(), hht()] },
+        Family {
+            name: "method",
+            options: vec![rk45(), dop853(), rk4(), generalized_alpha(), hht(), radau()],
+        },
         Family { name: "stabilization", options: vec![baumgarte(), projection(), none()] },
     ]
 }
@@ -128,31 +131,67 @@ fn rk4() -> Options {
     Options { class: "RK4", table: Table { name: "rk4", doc: doc.to_string(), fields } }
 }
 
-/// Options of generalized-alpha methods, after what selects the member of the family.
-fn alpha_method(class: &'static str, name: &'static str, member: Field, doc: &str) -> Options {
-    let fields = vec![
-        member,
-        number("rtol", "", Default::Absent, "Relative tolerance of one step, 1e-4 if absent; with step that of Newton's iteration, 1e-10."),
-        number("atol", "", Default::Absent, "Absolute tolerance of one step, 1e-7 if absent; with step that of Newton's iteration, 1e-12."),
-        number("step", "s", Default::Absent, "Constant step, without control of the error; else the solver chooses its steps."),
-        number("first_step", "s", Default::Absent, "First step; else the solver chooses it; not together with step."),
-        number("max_step", "s", Default::Absent, "Largest step; else without limit; not together with step."),
-    ];
+/// Options of an implicit method, `own` first; `rtol` and `atol` as docs tell them.
+fn implicit(
+    class: &'static str,
+    name: &'static str,
+    own: Option<Field>,
+    [rtol, atol]: [&str; 2],
+    doc: &str,
+) -> Options {
+    let tolerance = |what: &str, usual: &str, tight: &str| {
+        format!("{what} tolerance of one step, {usual} if absent; with step that of Newton's iteration, {tight}.")
+    };
+    let mut fields: Vec<Field> = own.into_iter().collect();
+    fields.extend([
+        number("rtol", "", Default::Absent, &tolerance("Relative", rtol, "1e-10")),
+        number("atol", "", Default::Absent, &tolerance("Absolute", atol, "1e-12")),
+        number(
+            "step",
+            "s",
+            Default::Absent,
+            "Constant step, without control of the error; else the solver chooses its steps.",
+        ),
+        number(
+            "first_step",
+            "s",
+            Default::Absent,
+            "First step; else the solver chooses it; not together with step.",
+        ),
+        number(
+            "max_step",
+            "s",
+            Default::Absent,
+            "Largest step; else without limit; not together with step.",
+        ),
+    ]);
     Options { class, table: Table { name, doc: doc.to_string(), fields } }
 }
 
 fn generalized_alpha() -> Options {
-    let doc = "Implicit generalized-alpha method of order 2 (Chung and Hulbert 1993) at index 3 (Arnold \
+    let doc =
+        "Implicit generalized-alpha method of order 2 (Chung and Hulbert 1993) at index 3 (Arnold \
                and Bruels 2007): for stiff forces and moderate accuracy.";
     let rho = number("rho", "", 0.8, "Spectral radius at infinite frequency, in [0, 1): the smaller, the more high frequencies are damped.");
-    alpha_method("GeneralizedAlpha", "generalized_alpha", rho, doc)
+    implicit("GeneralizedAlpha", "generalized_alpha", Some(rho), ["1e-4", "1e-7"], doc)
 }
 
 fn hht() -> Options {
     let doc = "Implicit method of order 2 of Hilber, Hughes and Taylor (1977), a case of generalized-alpha, \
                at index 3.";
-    let alpha = number("alpha", "", -0.1, "In [-1/3, 0): the smaller, the more high frequencies are damped.");
-    alpha_method("HHT", "hht", alpha, doc)
+    let alpha = number(
+        "alpha",
+        "",
+        -0.1,
+        "In [-1/3, 0): the smaller, the more high frequencies are damped.",
+    );
+    implicit("HHT", "hht", Some(alpha), ["1e-4", "1e-7"], doc)
+}
+
+fn radau() -> Options {
+    let doc = "Implicit Radau IIA method of order 5 at index 2 (Hairer and Wanner 1996), with step control: \
+               for stiff forces.";
+    implicit("Radau", "radau", None, ["1e-6", "1e-9"], doc)
 }
 
 fn baumgarte() -> Options {

@@ -41,13 +41,7 @@ impl Balance {
     }
 
     /// Evaluates all of it.
-    pub fn evaluate(
-        &mut self,
-        model: &Model,
-        t: f64,
-        [q, v, a]: [&[f64]; 3],
-        lam: &[f64],
-    ) {
+    pub fn evaluate(&mut self, model: &Model, t: f64, [q, v, a]: [&[f64]; 3], lam: &[f64]) {
         let Self { motions, forces: out, position, rate, gamma, jacobian, applied, .. } = self;
         kinematics::motions(q, v, motions);
         constraints::linearize(model, motions, t, [position, rate, gamma], jacobian);

@@ -81,8 +81,7 @@ pub fn assemble<F: Field>(
         let block = lu.block_mut(slot);
         for r in 0..3 {
             for c in 0..3 {
-                block[r][c] = c_q * real(stiffness[r][c])
-                    + c_v * real(damping[r][c]);
+                block[r][c] = c_q * real(stiffness[r][c]) + c_v * real(damping[r][c]);
             }
         }
     }

@@ -135,8 +135,7 @@ impl AlphaStep {
             a_end[i] =
                 ((1.0 - alpha_f) * end.a[i] + alpha_f * a - alpha_m * a_start[i]) / (1.0 - alpha_m);
             let v = start.v[i] + h * h * normal[i];
-            end.q[i] = start.q[i]
-                + h * (v + h * ((0.5 - beta) * a_start[i] + beta * a_end[i]));
+            end.q[i] = start.q[i] + h * (v + h * ((0.5 - beta) * a_start[i] + beta * a_end[i]));
             end.v[i] = v + h * ((1.0 - gamma) * a_start[i] + gamma * a_end[i]);
         }
         end.lam.copy_from_slice(&start.lam);

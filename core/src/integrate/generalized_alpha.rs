@@ -110,8 +110,8 @@ impl ImplicitMethod for GeneralizedAlpha {
     ) -> Result<Statistics, Failure<Y::Stop>> {
         let (n, m, works) = (system.coordinates(), system.multipliers(), system.quadratures());
         let len = 2 * n + works;
-        let checked = check_problem(t0, t_end, y, len)
-            .and_then(|()| self.check(2 * n, (t_end - t0).abs()));
+        let checked =
+            check_problem(t0, t_end, y, len).and_then(|()| self.check(2 * n, (t_end - t0).abs()));
         let mut run = Run {
             system: Counted::new(system, t0),
             options: self,

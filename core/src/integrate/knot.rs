@@ -71,7 +71,11 @@ impl Scale {
     /// At the larger of two states.
     pub fn set(&mut self, old: &Knot, new: &Knot) {
         let values = |k: &'_ Knot, i: usize| {
-            if i < k.q.len() { k.q[i].abs() } else { k.v[i - k.q.len()].abs() }
+            if i < k.q.len() {
+                k.q[i].abs()
+            } else {
+                k.v[i - k.q.len()].abs()
+            }
         };
         for (i, (weight, atol)) in self.weights.iter_mut().zip(&self.atol).enumerate() {
             *weight = atol + self.rtol * values(old, i).max(values(new, i));

@@ -130,8 +130,8 @@ impl ImplicitMethod for Radau {
         let (n, m, works) = (system.coordinates(), system.multipliers(), system.quadratures());
         let len = 2 * n + works;
         let options = self.options();
-        let checked = check_problem(t0, t_end, y, len)
-            .and_then(|()| self.check(2 * n, (t_end - t0).abs()));
+        let checked =
+            check_problem(t0, t_end, y, len).and_then(|()| self.check(2 * n, (t_end - t0).abs()));
         let mut run = Run {
             system: Counted::new(system, t0),
             step: RadauStep::new(n, m, works),
@@ -258,8 +258,7 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             };
             unsolved = false;
             let norm = self.error((t, h), rejected)?;
-            let safety =
-                SAFETY * (2 * MOST + 1) as f64 / (2 * MOST + iterations) as f64;
+            let safety = SAFETY * (2 * MOST + 1) as f64 / (2 * MOST + iterations) as f64;
             let wanted = factor(norm, safety);
             if norm < 1.0 {
                 self.keep_tangent = rate <= FAST;

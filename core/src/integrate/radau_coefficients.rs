@@ -14,16 +14,8 @@ pub(super) const C: [f64; 3] = [(4.0 - ROOT) / 10.0, (4.0 + ROOT) / 10.0, 1.0];
 
 /// Matrix; its last row holds the weights.
 pub(super) const A: [[f64; 3]; 3] = [
-    [
-        (88.0 - 7.0 * ROOT) / 360.0,
-        (296.0 - 169.0 * ROOT) / 1800.0,
-        (-2.0 + 3.0 * ROOT) / 225.0,
-    ],
-    [
-        (296.0 + 169.0 * ROOT) / 1800.0,
-        (88.0 + 7.0 * ROOT) / 360.0,
-        (-2.0 - 3.0 * ROOT) / 225.0,
-    ],
+    [(88.0 - 7.0 * ROOT) / 360.0, (296.0 - 169.0 * ROOT) / 1800.0, (-2.0 + 3.0 * ROOT) / 225.0],
+    [(296.0 + 169.0 * ROOT) / 1800.0, (88.0 + 7.0 * ROOT) / 360.0, (-2.0 - 3.0 * ROOT) / 225.0],
     [(16.0 - ROOT) / 36.0, (16.0 + ROOT) / 36.0, 1.0 / 9.0],
 ];
 
@@ -53,9 +45,10 @@ pub(super) const T_INVERSE: [[f64; 3]; 3] = [
     [0.502_872_634_945_786_8, -2.571_926_949_855_605, 0.596_039_204_828_224_9],
 ];
 
-/// Of the error estimate: the difference from an embedded method of order 3, times the real eigenvalue.
+/// Of the error estimate, the difference from an embedded method of order 3: factors of the stages
+/// beside h f(y₀) over the real eigenvalue.
 pub(super) const ERROR: [f64; 3] =
-    [(-13.0 - 7.0 * ROOT) / 3.0, (-13.0 + 7.0 * ROOT) / 3.0, -1.0 / 3.0];
+    [(-13.0 - 7.0 * ROOT) / (3.0 * REAL), (-13.0 + 7.0 * ROOT) / (3.0 * REAL), -1.0 / (3.0 * REAL)];
 
 /// Degree of the continuous extension.
 pub(super) const DEGREE: usize = 4;

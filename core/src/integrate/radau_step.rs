@@ -14,9 +14,7 @@
 
 use super::constrained::{Constrained, Level, Point, Residual, Shares};
 use super::knot::{Counted, Knot, Scale};
-use super::radau_coefficients::{
-    lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE,
-};
+use super::radau_coefficients::{lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
 use crate::math::{Complex, Field};
 
 /// Steps that differ by less share their matrices: a difference of times is never twice the same.
@@ -334,7 +332,6 @@ impl RadauStep {
         self.fresh = false;
     }
 }
-
 
 fn shares(step: f64) -> Shares {
     Shares { mass: 1.0, damping: step, stiffness: step * step, rate: step }

@@ -86,8 +86,8 @@ impl Method for Rk4 {
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Statistics, Failure<Y::Stop>> {
-        let count =
-            check_problem(t0, t_end, y, system.len()).and_then(|()| step_count(self.step, (t_end - t0).abs()));
+        let count = check_problem(t0, t_end, y, system.len())
+            .and_then(|()| step_count(self.step, (t_end - t0).abs()));
         let mut statistics = Statistics::none(t0);
         let mut rate = Rate { system, evaluations: 0 };
         let outcome = match count {

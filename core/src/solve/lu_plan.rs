@@ -48,8 +48,7 @@ impl LuPlan {
             })
             .collect();
         let (columns, below) = structure(&position, entries);
-        let mut plan =
-            Self { sizes, starts, order, position, columns, below, targets: Vec::new() };
+        let mut plan = Self { sizes, starts, order, position, columns, below, targets: Vec::new() };
         plan.targets = plan.plan();
         plan
     }

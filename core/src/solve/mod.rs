@@ -22,9 +22,9 @@ mod rank;
 mod saddle;
 mod weight;
 
-pub use newton::Newton;
 pub use block_lu::{BlockLu, LOST};
 pub use lu_plan::LuPlan;
+pub use newton::Newton;
 pub use order::{groups_first, touched_first};
 pub use pattern::{Pattern, RowBlock};
 pub use rank::{normalize_rows, rank, Rank, RANK_TOLERANCE};

@@ -1,11 +1,11 @@
 //! The tangent against differences of the balance, for every element, with laws of time and state.
 
 use crate::mechanisms::{model, Random};
+use kempe::elements::BodyId;
 use kempe::equations::balance::Balance;
 use kempe::equations::kinematics;
 use kempe::equations::tangent::Tangent;
 use kempe::model::{columns, Model};
-use kempe::elements::BodyId;
 
 /// All joints, all forces, frames off the mass centres, laws that name other bodies.
 const EVERYTHING: &str = r#"
@@ -149,8 +149,18 @@ fn the_tangent_is_the_derivative_of_the_balance() {
             };
             let (dq, dv) = (derivative(by_q), derivative(by_v));
             for r in 0..n {
-                assert!((stiffness[r][c] - dq[r]).abs() < 1e-8, "K {r} {c} {} {}", stiffness[r][c], dq[r]);
-                assert!((damping[r][c] - dv[r]).abs() < 1e-8, "D {r} {c} {} {}", damping[r][c], dv[r]);
+                assert!(
+                    (stiffness[r][c] - dq[r]).abs() < 1e-8,
+                    "K {r} {c} {} {}",
+                    stiffness[r][c],
+                    dq[r]
+                );
+                assert!(
+                    (damping[r][c] - dv[r]).abs() < 1e-8,
+                    "D {r} {c} {} {}",
+                    damping[r][c],
+                    dv[r]
+                );
             }
             for (r, row) in rate.iter().enumerate() {
                 assert!((row[c] - dq[n + r]).abs() < 1e-8, "B {r} {c} {} {}", row[c], dq[n + r]);

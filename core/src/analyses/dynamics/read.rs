@@ -3,7 +3,7 @@
 
 use super::options::{Options, Output, Scheme, Stabilization};
 use crate::equations::{at, Gains};
-use crate::integrate::{AlphaParameters, Atol, Dop853, GeneralizedAlpha, Rk4, Rk45};
+use crate::integrate::{AlphaParameters, Atol, Dop853, GeneralizedAlpha, Radau, Rk4, Rk45};
 use crate::model::{Model, Problem, Reach, Scope, Value};
 use crate::stabilize::Projection;
 
@@ -36,6 +36,15 @@ struct Reader<'a> {
     problems: &'a mut Vec<Problem>,
 }
 
+/// What implicit methods have in common.
+struct Stepping {
+    rtol: f64,
+    atol: Atol,
+    step: Option<f64>,
+    max_step: f64,
+    first_step: Option<f64>,
+}
+
 impl<'a> Reader<'a> {
     fn options(&mut self) -> Options {
         let mut options = Options::new(self.number("t_end", "s").unwrap_or(f64::NAN));
@@ -59,6 +68,10 @@ impl<'a> Reader<'a> {
             let step = self.positive("step", "s").unwrap_or(f64::NAN);
             return Scheme::Rk4(Rk4 { step, max_steps });
         }
+        if kind == "radau" {
+            let Stepping { rtol, atol, step, max_step, first_step } = self.stepping((1e-6, 1e-9));
+            return Scheme::Radau(Radau { rtol, atol, step, max_step, first_step, max_steps });
+        }
         if matches!(kind, "generalized_alpha" | "hht") {
             return Scheme::GeneralizedAlpha(self.alpha_method(kind, max_steps));
         }
@@ -79,25 +92,32 @@ impl<'a> Reader<'a> {
             AlphaParameters::hht(self.checked("alpha", "", good, "in [-1/3, 0)").unwrap_or(-0.1))
         } else {
             let good = |rho| (0.0..1.0).contains(&rho);
-            AlphaParameters::chung_hulbert(self.checked("rho", "", good, "in [0, 1)").unwrap_or(0.8))
+            AlphaParameters::chung_hulbert(
+                self.checked("rho", "", good, "in [0, 1)").unwrap_or(0.8),
+            )
         };
+        let Stepping { rtol, atol, step, max_step, first_step } = self.stepping((1e-4, 1e-7));
+        GeneralizedAlpha { parameters, rtol, atol, step, max_step, first_step, max_steps }
+    }
+
+    /// Tolerances and steps of an implicit method, whose usual tolerances are given.
+    fn stepping(&mut self, usual: (f64, f64)) -> Stepping {
         let step = self.positive("step", "s");
         for key in ["first_step", "max_step"] {
             if step.is_some() && self.get(key).is_some() {
-                let path: Vec<String> = self.path.iter().cloned().chain([key.to_string()]).collect();
+                let path: Vec<String> =
+                    self.path.iter().cloned().chain([key.to_string()]).collect();
                 let told = "not together with step, which is constant; remove one of them";
                 self.problems.push(Problem::at(&path, told.to_string()));
             }
         }
-        let (rtol, atol) = if step.is_some() { (1e-10, 1e-12) } else { (1e-4, 1e-7) };
-        GeneralizedAlpha {
-            parameters,
+        let (rtol, atol) = if step.is_some() { (1e-10, 1e-12) } else { usual };
+        Stepping {
             rtol: self.not_negative("rtol", "").unwrap_or(rtol),
             atol: Atol::Scalar(self.not_negative("atol", "").unwrap_or(atol)),
             step,
             max_step: self.positive("max_step", "s").unwrap_or(f64::INFINITY),
             first_step: self.positive("first_step", "s"),
-            max_steps,
         }
     }
 
