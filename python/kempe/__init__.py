@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from kempe.options import HHT as HHT
     from kempe.options import RK4 as RK4
     from kempe.options import RK45 as RK45
+    from kempe.options import Auto as Auto
     from kempe.options import Baumgarte as Baumgarte
     from kempe.options import Dynamics as Dynamics
     from kempe.options import GeneralizedAlpha as GeneralizedAlpha
@@ -63,6 +64,7 @@ _HOME = {
     "AssemblyError": "errors",
     "AssemblyReport": "state",
     "AssemblyWarning": "analyses",
+    "Auto": "options",
     "Baumgarte": "options",
     "Case": "case",
     "DOP853": "options",

@@ -115,7 +115,7 @@ class Run:
     message: str
     statistics: str
     """JSON: ``{"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations",
-    "seconds"}``."""
+    "seconds"}``, with ``"method"`` and ``"why"`` where the method was chosen."""
 
 def assemble(
     model: Model,

@@ -96,7 +96,7 @@ def dynamics(
         output_step: time between outputs, s; every step when None.
         method: the integrator.
         stabilization: of the constraints; none at all when None. "auto" is Baumgarte with explicit
-            methods, and projection with implicit ones.
+            methods, and projection with the others.
         max_steps: it gives up after that many steps; what the core finds enough when None.
         dense_output: whether to keep the interpolant between the steps, for ``sol(t)``.
         redundancy: "allow" accepts constraints that repeat others; as the start was assembled

@@ -70,6 +70,28 @@ class DOP853(Option):
 
 
 @dataclass(frozen=True)
+class Auto(Option):
+    """DOP853, and Radau where the equations prove stiff.
+
+    It begins with DOP853. Where a damped motion holds its steps at the limit of stability, Radau goes on;
+    where that does not make them longer, DOP853 takes over again. ``sol.statistics["method"]`` tells which
+    came to the end, and ``sol.statistics["why"]`` why.
+
+    Attributes:
+        rtol: tolerance relative to each component.
+        atol: absolute tolerance, m or rad and per s.
+        first_step: length of the first step, s; chosen when None.
+        max_step: longest step, s; none when None.
+    """
+
+    rtol: Number = 1e-8
+    atol: Number = 1e-11
+    first_step: Number | None = None
+    max_step: Number | None = None
+    kind: ClassVar[str] = "auto"
+
+
+@dataclass(frozen=True)
 class RK4(Option):
     """Explicit Runge-Kutta of order 4 with a constant step.
 
@@ -206,7 +228,7 @@ class Dynamics:
         output_step: time between outputs, s; every step when None.
         method: the integrator.
         stabilization: of the constraints; none at all when None. "auto" is Baumgarte with explicit
-            methods, and projection with implicit ones.
+            methods, and projection with the others.
         max_steps: it gives up after that many steps; what the core finds enough when None.
         dense_output: whether to keep the interpolant between the steps.
         name: its name in the case.

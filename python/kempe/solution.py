@@ -58,7 +58,7 @@ class Solution(Motion):
         status: 0 when the end was reached, -1 when it was not.
         message: why it ended.
         statistics: steps, rejected, evaluations, jacobians, iterations (of Newton), factorisations,
-            seconds.
+            seconds; with ``kp.Auto``, method and why.
     """
 
     def __init__(self, model: CompiledModel, run: _core.Run) -> None:

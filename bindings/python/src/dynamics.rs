@@ -47,7 +47,7 @@ impl PyRun {
             None => (None, None, None),
         };
         let s = run.statistics;
-        let statistics = json!({
+        let mut statistics = json!({
             "steps": s.steps,
             "rejected": s.rejected,
             "evaluations": s.evaluations,
@@ -56,6 +56,10 @@ impl PyRun {
             "factorisations": s.factorisations,
             "seconds": s.seconds,
         });
+        if let Some(choice) = run.choice {
+            statistics["method"] = json!(choice.method);
+            statistics["why"] = json!(choice.why);
+        }
         Ok(Self {
             t: t.into_pyarray(py).unbind(),
             q: rows(q, n)?,

@@ -30,7 +30,7 @@ pub fn option_families() -> Vec<Family> {
     vec![
         Family {
             name: "method",
-            options: vec![rk45(), dop853(), rk4(), generalized_alpha(), hht(), radau()],
+            options: vec![rk45(), dop853(), rk4(), generalized_alpha(), hht(), radau(), auto()],
         },
         Family { name: "stabilization", options: vec![baumgarte(), projection(), none()] },
     ]
@@ -59,7 +59,7 @@ fn dynamics() -> Table {
             "",
             Default::Absent,
             "What keeps the constraints from drifting; if absent, Baumgarte with explicit methods, and \
-             projection with implicit ones.",
+             projection with the others.",
         ),
         Field::optional("max_steps", Shape::Count, "", Default::Absent, "Most steps before the solver gives up; else without limit."),
         Field::optional(
@@ -102,11 +102,16 @@ fn output_fields() -> [Field; 3] {
     ]
 }
 
-/// Options of every method with step control.
-fn adaptive(class: &'static str, name: &'static str, doc: &str) -> Options {
+/// Options of every explicit method with step control, and of the automatic choice.
+fn adaptive(
+    class: &'static str,
+    name: &'static str,
+    (rtol, atol): (f64, f64),
+    doc: &str,
+) -> Options {
     let fields = vec![
-        number("rtol", "", 1e-6, "Relative tolerance of one step."),
-        number("atol", "", 1e-9, "Absolute tolerance of one step, in the units of the state."),
+        number("rtol", "", rtol, "Relative tolerance of one step."),
+        number("atol", "", atol, "Absolute tolerance of one step, in the units of the state."),
         number("first_step", "s", Default::Absent, "First step; else the solver chooses it."),
         number("max_step", "s", Default::Absent, "Largest step; else without limit."),
     ];
@@ -115,14 +120,20 @@ fn adaptive(class: &'static str, name: &'static str, doc: &str) -> Options {
 
 fn rk45() -> Options {
     let doc = "Explicit Runge-Kutta method of order 5(4) of Dormand and Prince (1980), with step control.";
-    adaptive("RK45", "rk45", doc)
+    adaptive("RK45", "rk45", (1e-6, 1e-9), doc)
 }
 
 fn dop853() -> Options {
     let doc =
         "Explicit Runge-Kutta method of order 8(5,3) of Dormand and Prince, with step control: \
                for tolerances below about 1e-6 and smooth forces.";
-    adaptive("DOP853", "dop853", doc)
+    adaptive("DOP853", "dop853", (1e-6, 1e-9), doc)
+}
+
+fn auto() -> Options {
+    let doc = "DOP853, and Radau from where a damped motion holds its steps at the limit of stability; the \
+               statistics tell which, and why.";
+    adaptive("Auto", "auto", (1e-8, 1e-11), doc)
 }
 
 fn rk4() -> Options {

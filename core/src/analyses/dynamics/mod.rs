@@ -1,5 +1,7 @@
 //! Forward dynamics: the motion of a mechanism under forces, from a consistent state.
 
+mod automatic;
+mod choice;
 mod failure;
 mod implicit;
 mod options;
@@ -7,8 +9,9 @@ mod output;
 mod read;
 mod system;
 
+pub use choice::Choice;
 pub use failure::{Failure, Reason};
-pub use options::{Options, Output, Scheme, Stabilization};
+pub use options::{Auto, Options, Output, Scheme, Stabilization};
 pub use output::{Dense, Trajectory, ENERGIES};
 pub use read::read;
 
@@ -16,6 +19,7 @@ use super::State;
 use crate::integrate::{self, Ended, Flow, ImplicitMethod, Method, Observer, Step};
 use crate::model::Model;
 use crate::stabilize::Fault;
+use automatic::Automatic;
 use implicit::Implicit;
 use output::Recorder;
 use std::time::Instant;
@@ -50,6 +54,8 @@ pub struct Run {
     pub dense: Option<Dense>,
     /// What it took.
     pub statistics: Statistics,
+    /// The method that was chosen, where none was named.
+    pub choice: Option<Choice>,
     /// Whether t_end was reached; otherwise the observer stopped it.
     pub reached: bool,
 }
@@ -79,7 +85,7 @@ pub fn dynamics(
     })?;
     recorder.report(t0, &y);
     let mut observer = Watched { recorder: &mut recorder, watch: &mut watch };
-    let mut implicitly = 0;
+    let (mut factorisations, mut choice) = (0, None);
     let outcome = match &options.scheme {
         Scheme::Rk45(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
         Scheme::Dop853(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
@@ -87,17 +93,27 @@ pub fn dynamics(
         Scheme::GeneralizedAlpha(method) => {
             let mut implicit = Implicit::new(model, options);
             let outcome = method.integrate(&mut implicit, t0, t_end, &mut y, &mut observer);
-            implicitly = implicit.factorisations();
+            factorisations = implicit.factorisations();
             outcome
         }
         Scheme::Radau(method) => {
             let mut implicit = Implicit::new(model, options);
             let outcome = method.integrate(&mut implicit, t0, t_end, &mut y, &mut observer);
-            implicitly = implicit.factorisations();
+            factorisations = implicit.factorisations();
+            outcome
+        }
+        Scheme::Auto(auto) => {
+            let mut automatic = Automatic::new(model, options, auto, t0);
+            let outcome = automatic.run(&mut system, t0, &mut y, &mut observer);
+            factorisations = automatic.factorisations();
+            choice = Some(automatic.choice);
             outcome
         }
     };
-    finish(system, recorder, (outcome, implicitly), (clock, watch))
+    if options.scheme.is_explicit() {
+        factorisations = taken(&outcome).evaluations;
+    }
+    finish(system, recorder, (outcome, factorisations, choice), (clock, watch))
 }
 
 /// Output first, then the caller's eye on the time.
@@ -121,10 +137,17 @@ impl<W: FnMut(f64) -> Flow> Observer for Watched<'_, '_, W> {
 
 type Outcome = Result<integrate::Statistics, integrate::Failure<(f64, Fault)>>;
 
+fn taken(outcome: &Outcome) -> integrate::Statistics {
+    match outcome {
+        Ok(statistics) => *statistics,
+        Err(failure) => failure.statistics,
+    }
+}
+
 fn finish(
     mut system: Equations<'_>,
     recorder: Recorder<'_>,
-    (outcome, implicitly): (Outcome, usize),
+    (outcome, factorisations, choice): (Outcome, usize, Option<Choice>),
     (clock, watch): (Instant, impl FnMut(f64) -> Flow),
 ) -> Result<Run, Box<Failure>> {
     let Recorder { mut trajectory, dense, between, fault, .. } = recorder;
@@ -134,19 +157,14 @@ fn finish(
     let (Ok(rows) | Err((rows, ..))) = reported;
     let complete = rows == trajectory.t.len();
     trajectory.truncate(rows, n, m);
-    let took = match &outcome {
-        Ok(statistics) => *statistics,
-        Err(failure) => failure.statistics,
-    };
-    let explicitly = if took.jacobians == 0 { took.evaluations } else { 0 };
+    let took = taken(&outcome);
     let statistics = Statistics {
         steps: took.steps,
         rejected: took.rejected,
         evaluations: took.evaluations,
         jacobians: took.jacobians as usize,
         iterations: took.iterations as usize,
-        factorisations: explicitly
-            + implicitly
+        factorisations: factorisations
             + took.factorisations as usize
             + rows
             + system.factorisations()
@@ -154,7 +172,7 @@ fn finish(
         seconds: clock.elapsed().as_secs_f64(),
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached) && complete;
-    let run = Run { trajectory, dense, statistics, reached };
+    let run = Run { trajectory, dense, statistics, choice, reached };
     let reason = match (outcome, fault, reported) {
         (Ok(_), None, Ok(_)) => return Ok(run),
         (Err(failure), ..) => Reason::from_integrator(model, failure),

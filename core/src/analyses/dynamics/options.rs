@@ -20,12 +20,29 @@ pub enum Scheme {
     GeneralizedAlpha(GeneralizedAlpha),
     /// Implicit, of order 5, at index 2.
     Radau(Radau),
+    /// DOP853, and Radau where the equations prove stiff.
+    Auto(Auto),
+}
+
+/// Options of the automatic choice of the method.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Auto {
+    /// Relative tolerance.
+    pub rtol: f64,
+    /// Absolute tolerance.
+    pub atol: Atol,
+    /// Longest step, s.
+    pub max_step: f64,
+    /// First step, s; chosen if none.
+    pub first_step: Option<f64>,
+    /// Largest number of steps.
+    pub max_steps: Option<usize>,
 }
 
 impl Scheme {
-    /// Whether it solves for the end of a step, with the constraints among the equations.
-    pub fn is_implicit(&self) -> bool {
-        matches!(self, Self::GeneralizedAlpha(_) | Self::Radau(_))
+    /// Whether it is explicit whatever the equations are, so that Baumgarte's stabilization serves.
+    pub fn is_explicit(&self) -> bool {
+        matches!(self, Self::Rk45(_) | Self::Dop853(_) | Self::Rk4(_))
     }
 }
 
@@ -101,7 +118,7 @@ impl Options {
             require("tolerance", tolerance, holds, "> 0 and finite")?;
         }
         let baumgarte = matches!(self.stabilization, Stabilization::Baumgarte(_));
-        if self.scheme.is_implicit() && baumgarte {
+        if !self.scheme.is_explicit() && baumgarte {
             let message = "stabilization: Baumgarte's changes the right side of explicit methods; an \
                            implicit one has the constraints among its equations: use projection or none";
             return Err(Reason::Option { name: "stabilization", message: message.to_string() });

@@ -1,6 +1,6 @@
 //! What forward dynamics reports: states at chosen times, with accelerations, multipliers, energies.
 
-use super::options::{Options, Output};
+use super::options::{Options, Output, Scheme};
 use super::system::{Equations, WORKS};
 use crate::equations::{energy, kinematics, Gains, Singular, Workspace};
 use crate::integrate::{Flow, Step};
@@ -69,7 +69,7 @@ impl<'a> Recorder<'a> {
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
             motions: Vec::new(),
             trajectory: Trajectory::default(),
-            dense: options.dense_output.then(|| Dense { t: vec![t0], ..Dense::default() }),
+            dense: options.dense_output.then(|| Dense::new(options, t0)),
             between: Equations::new(model, options),
             fault: None,
         }
@@ -92,13 +92,7 @@ impl<'a> Recorder<'a> {
     /// Reports whatever falls into a step; stops where a state between its ends cannot be projected.
     pub fn step(&mut self, step: &Step<'_>) -> Flow {
         if let Some(dense) = &mut self.dense {
-            let degree = step.dense.degree();
-            let first = dense.c.len();
-            dense.degree = degree;
-            dense.t.push(step.t);
-            dense.y.extend_from_slice(step.y_old);
-            dense.c.resize(first + degree * step.y.len(), 0.0);
-            step.coefficients(&mut dense.c[first..]);
+            dense.add(step);
         }
         let Output::Every(h) = self.output else {
             self.report(step.t, step.y);
@@ -148,6 +142,35 @@ impl<'a> Recorder<'a> {
             return None;
         }
         Some(t)
+    }
+}
+
+impl Dense {
+    /// Degree of a run that may change its method: the largest of those it chooses from.
+    const HIGHEST: usize = 7;
+
+    fn new(options: &Options, t0: f64) -> Self {
+        let degree = if matches!(options.scheme, Scheme::Auto(_)) { Self::HIGHEST } else { 0 };
+        Self { t: vec![t0], degree, ..Self::default() }
+    }
+
+    fn add(&mut self, step: &Step<'_>) {
+        let (own, n) = (step.dense.degree(), step.y.len());
+        let first = self.c.len();
+        self.degree = self.degree.max(own);
+        self.t.push(step.t);
+        self.y.extend_from_slice(step.y_old);
+        self.c.resize(first + self.degree * n, 0.0);
+        let out = &mut self.c[first..];
+        step.coefficients(&mut out[..own * n]);
+        if own < self.degree {
+            // rows of a lesser degree are spread, from the last
+            for row in (0..n).rev() {
+                let to = row * self.degree;
+                out.copy_within(row * own..(row + 1) * own, to);
+                out[to + own..to + self.degree].fill(0.0);
+            }
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Options of forward dynamics from a file or from Python. The structure has been checked before by
 //! the tables of options; here values are put in.
 
-use super::options::{Options, Output, Scheme, Stabilization};
+use super::options::{Auto, Options, Output, Scheme, Stabilization};
 use crate::equations::{at, Gains};
 use crate::integrate::{AlphaParameters, Atol, Dop853, GeneralizedAlpha, Radau, Rk4, Rk45};
 use crate::model::{Model, Problem, Reach, Scope, Value};
@@ -57,7 +57,7 @@ impl<'a> Reader<'a> {
         }
         let max_steps = self.positive("max_steps", "").map(|n| n as usize);
         options.scheme = self.inside("method", |reader, kind| reader.scheme(kind, max_steps));
-        let implicit = options.scheme.is_implicit();
+        let implicit = !options.scheme.is_explicit();
         options.stabilization =
             self.inside("stabilization", |reader, kind| reader.stabilization(kind, implicit));
         options
@@ -75,10 +75,14 @@ impl<'a> Reader<'a> {
         if matches!(kind, "generalized_alpha" | "hht") {
             return Scheme::GeneralizedAlpha(self.alpha_method(kind, max_steps));
         }
-        let rtol = self.not_negative("rtol", "").unwrap_or(1e-6);
-        let atol = Atol::Scalar(self.not_negative("atol", "").unwrap_or(1e-9));
+        let usual = if kind == "auto" { (1e-8, 1e-11) } else { (1e-6, 1e-9) };
+        let rtol = self.not_negative("rtol", "").unwrap_or(usual.0);
+        let atol = Atol::Scalar(self.not_negative("atol", "").unwrap_or(usual.1));
         let first_step = self.positive("first_step", "s");
         let max_step = self.positive("max_step", "s").unwrap_or(f64::INFINITY);
+        if kind == "auto" {
+            return Scheme::Auto(Auto { rtol, atol, max_step, first_step, max_steps });
+        }
         if kind == "dop853" {
             return Scheme::Dop853(Dop853 { rtol, atol, max_step, first_step, max_steps });
         }
