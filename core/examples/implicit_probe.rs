@@ -54,7 +54,9 @@ fn go(name: &str, m: &Model, s: &State, t_end: f64, schemes: Vec<(String, Scheme
                     })
                     .collect();
                 ms.sort_by(f64::total_cmp);
-                if let Some(choice) = &r.choice { println!("  {} {}", choice.method, choice.why); }
+                if let Some(choice) = &r.choice {
+                    println!("  {} {}", choice.method, choice.why);
+                }
                 let s = r.statistics;
                 println!("{told:<24} steps {:>6} rej {:>4} eval {:>6} jac {:>5} newton {:>6} fact {:>6} | q {:.1e} v {:.1e} lam {:.1e} | {:.2} ms {:.2} us/step", s.steps, s.rejected, s.evaluations, s.jacobians, s.iterations, s.factorisations, e[0], e[1], e[2], ms[2], 1e3*ms[2]/s.steps as f64);
             }
@@ -85,9 +87,13 @@ fn schemes(first: Scheme) -> Vec<(String, Scheme)> {
 }
 fn main() {
     let dop = Scheme::Dop853(Dop853::new(1e-12, 1e-14));
-    for (name, c, t) in
-        [("flagship", 1e4, 15.0), ("flagship c=1e6", 1e6, 2.0), ("flagship c=1e7", 1e7, 0.5), ("flagship c=1e7", 1e7, 15.0), ("flagship c=1e8", 1e8, 1.0)]
-    {
+    for (name, c, t) in [
+        ("flagship", 1e4, 15.0),
+        ("flagship c=1e6", 1e6, 2.0),
+        ("flagship c=1e7", 1e7, 0.5),
+        ("flagship c=1e7", 1e7, 15.0),
+        ("flagship c=1e8", 1e8, 1.0),
+    ] {
         let (m, s) = stiff(c);
         go(name, &m, &s, t, schemes(dop.clone()));
     }

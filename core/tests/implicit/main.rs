@@ -5,4 +5,5 @@ mod mechanisms;
 
 mod block_lu;
 mod order;
+mod stiff;
 mod tangent;

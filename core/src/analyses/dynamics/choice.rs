@@ -148,14 +148,17 @@ impl<'a> Detector<'a> {
             }
         }
         // after the rotation: J² x, x, J x
-        let [last, first, second] = self.x.each_ref().map(|x| &x[n..]);
-        dominant(first, second, last)
+        let [last, first, second] = &self.x;
+        dominant(n, first, second, last)
     }
 }
 
-/// The dominant λ from x, J x and J² x: J² x = s J x - p x holds for one pair of eigenvalues.
-fn dominant(x: &[f64], jx: &[f64], jjx: &[f64]) -> Option<Fastest> {
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+/// The dominant λ from x, J x and J² x, each (q part of length n, v part): J² x = s J x - p x holds for one
+/// pair of eigenvalues. Velocities count over |λ|, so that both parts weigh alike.
+fn dominant(n: usize, x: &[f64], jx: &[f64], jjx: &[f64]) -> Option<Fastest> {
+    let plain = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let weight = (plain(&x[n..], &x[n..]) / plain(&jjx[n..], &jjx[n..])).sqrt();
+    let dot = |a: &[f64], b: &[f64]| plain(&a[..n], &b[..n]) + weight * plain(&a[n..], &b[n..]);
     let (xx, xj, jj) = (dot(x, x), dot(x, jx), dot(jx, jx));
     let determinant = xx * jj - xj * xj;
     let (re, size) = if determinant <= 1e-6 * xx * jj {
@@ -186,10 +189,11 @@ mod tests {
     #[test]
     fn damped_and_undamped_pairs_are_told_apart() {
         let pair = |re: f64, im: f64| {
-            // x(t) of one mode: J acts as multiplication by re + i im
-            let times = |[a, b]: [f64; 2]| [re * a - im * b, im * a + re * b];
-            let x = [1.0, 0.3];
-            dominant(&x, &times(x), &times(times(x))).expect("finite")
+            // one coordinate: q̈ = 2 re q̇ - (re² + im²) q
+            let times = |[q, v]: [f64; 2]| [v, 2.0 * re * v - (re * re + im * im) * q];
+            // a real pair is met as the power iteration leaves it
+            let x = if im == 0.0 { [1.0, re] } else { [1.0, 0.3 * im] };
+            dominant(1, &x, &times(x), &times(times(x))).expect("finite")
         };
         let close = |found: f64, expected: f64| (found - expected).abs() < 1e-9 * expected;
         assert!(close(pair(0.0, 50.0).rate, 50.0) && !pair(0.0, 50.0).damped);
