@@ -208,8 +208,8 @@ impl AlphaStep {
     }
 
     /// The estimated error of the step over its tolerance: C_q h² (a₁ - a₀) for q and C_v h³ v⃛ for v,
-    /// v⃛ from the last three accelerations; both filtered by the matrix of the iteration, which leaves
-    /// what is slow and along the constraints, and little of what is stiff.
+    /// v⃛ from the last three accelerations; both without their part normal to the constraints, which the
+    /// constraints themselves prevent. Stiff motions are not filtered out: what rings in a enters q.
     pub fn error<Y: Constrained>(
         &mut self,
         system: &mut Counted<'_, Y>,
@@ -222,8 +222,11 @@ impl AlphaStep {
         let span = 0.5 * (h + self.h_before);
         let bend = |i: usize| c_v * h * h * h * (self.change(i) / h - self.slope[i]) / span;
         let mut dv: Vec<f64> = (0..n).map(bend).collect();
-        self.filter(system, &mut dq);
-        self.filter(system, &mut dv);
+        for x in [&mut dq, &mut dv] {
+            let mut normal = x.clone();
+            system.system.normal(&mut normal);
+            x.iter_mut().zip(normal).for_each(|(x, normal)| *x -= normal);
+        }
         scale.norm(&dq, &dv)
     }
 

@@ -20,6 +20,9 @@ const ERROR_ORDER: i32 = 2;
 const PROBE: f64 = 1e-3;
 /// Part of a step that is tried after one without convergence.
 const SHORTEN: f64 = 0.25;
+/// Most by which a step grows: what is damped of a stiff motion, by ρ in a step, must not be outrun by
+/// what a longer step makes of it.
+const GROWTH: f64 = 1.5;
 /// A step that might grow by less is kept, and the matrix with it.
 const KEEP: f64 = 1.2;
 
@@ -259,6 +262,7 @@ impl<Y: Constrained> Run<'_, '_, Y> {
                 if norm < 1.0 {
                     let at_hand = size.size;
                     size.accept(h.abs(), norm);
+                    size.size = size.size.min(GROWTH * h.abs());
                     if t_new != self.t_end && (at_hand..KEEP * at_hand).contains(&size.size) {
                         size.size = at_hand;
                     }

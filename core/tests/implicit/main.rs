@@ -5,5 +5,6 @@ mod mechanisms;
 
 mod block_lu;
 mod order;
+mod product;
 mod stiff;
 mod tangent;

@@ -104,5 +104,5 @@ fn radau_is_of_order_five_on_a_pendulum() {
 #[test]
 fn radau_is_of_order_five_on_the_flagship() {
     let (m, state) = four_bar();
-    near(&slopes((&m, &state), (0.25, 0.125), halvings(1.0 / 128.0), radau), [5.0; 3]);
+    near(&slopes((&m, &state), (0.125, 0.125), halvings(1.0 / 80.0), radau), [5.0; 3]);
 }

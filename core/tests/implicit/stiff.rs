@@ -1,6 +1,6 @@
 //! Stiff mechanisms, where explicit methods need a million steps, and the automatic choice.
 
-use crate::mechanisms::{asked, every, largest, model, run, start, with, worst, FOUR_BAR};
+use crate::mechanisms::{asked, every, model, run, start, with, worst, FOUR_BAR};
 use kempe::analyses::assemble::{assemble, Request};
 use kempe::analyses::dynamics::{Auto, Options, Scheme, Stabilization};
 use kempe::analyses::State;
@@ -160,8 +160,8 @@ free_length = 1
     let tight =
         run(&m, &state, &every(0.05, options(5.0, Scheme::Radau(Radau::new(1e-10, 1e-13)))));
     assert!(worst(&auto.trajectory.q, &tight.trajectory.q) < 1e-5);
-    assert!(steps < 2500, "{steps}");
-    assert!(largest(&auto.trajectory.q).is_finite());
+    // an explicit method would need 5 s times 5e5 1/s over 6.1
+    assert!(steps < 5000, "{steps}");
 }
 
 /// The interpolant of a run that changed its method: of one degree, continuous, through the outputs.

@@ -153,7 +153,12 @@ impl Constrained for Implicit<'_> {
     }
 
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<bool, Self::Stop> {
-        let Some(projector) = &mut self.projector else { return Ok(false) };
+        let Some(projector) = &mut self.projector else {
+            // `normal` wants the factors of a state nearby, which projection would leave
+            self.accelerations += 1;
+            let outcome = self.workspace.accelerate(self.model, t, q, v, Gains::default());
+            return outcome.map(|()| false).map_err(|singular| (t, Fault::Singular(singular)));
+        };
         projector.project(&mut self.workspace, t, (q, v), false).map_err(|fault| (t, fault))
     }
 
