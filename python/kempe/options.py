@@ -73,9 +73,9 @@ class DOP853(Option):
 class Auto(Option):
     """DOP853, and Radau where the equations prove stiff.
 
-    It begins with DOP853. Where a damped motion holds its steps at the limit of stability, Radau goes on;
-    where that does not make them longer, DOP853 takes over again. ``sol.statistics["method"]`` tells which
-    came to the end, and ``sol.statistics["why"]`` why.
+    It begins with DOP853. Where a damped motion holds its steps at the limit of stability, Radau
+    goes on; where that does not make them longer, DOP853 takes over again.
+    ``sol.statistics["method"]`` tells which came to the end, and ``sol.statistics["why"]`` why.
 
     Attributes:
         rtol: tolerance relative to each component.
@@ -118,7 +118,7 @@ class GeneralizedAlpha(Option):
             Newton's iteration, 1e-10 when None.
         atol: absolute tolerance of a step, m or rad and per s, 1e-7 when None. With ``step`` that
             of Newton's iteration, 1e-12 when None.
-        step: constant length of a step, s, without control of the error; steps are chosen when None.
+        step: constant length of a step, s, without control of the error; chosen steps when None.
         first_step: length of the first step, s; chosen when None.
         max_step: longest step, s; none when None.
     """
@@ -140,7 +140,7 @@ class HHT(Option):
         alpha: in [-1/3, 0); the smaller, the more high frequencies are damped.
         rtol: as of ``GeneralizedAlpha``.
         atol: as of ``GeneralizedAlpha``.
-        step: constant length of a step, s, without control of the error; steps are chosen when None.
+        step: constant length of a step, s, without control of the error; chosen steps when None.
         first_step: length of the first step, s; chosen when None.
         max_step: longest step, s; none when None.
     """
@@ -158,16 +158,16 @@ class HHT(Option):
 class Radau(Option):
     """Implicit Radau IIA of order 5 (Hairer & Wanner 1996) at index 2, for stiff forces.
 
-    The velocities meet their constraints at every stage; positions are put onto theirs by projection,
-    as the default stabilization of implicit methods does. Between the steps it interpolates with
-    order 4 for q and 3 for v.
+    The velocities meet their constraints at every stage; positions are put onto theirs by
+    projection, as the default stabilization of implicit methods does. Between the steps it
+    interpolates with order 4 for q and 3 for v.
 
     Attributes:
         rtol: tolerance of a step relative to each component, 1e-6 when None. With ``step`` that of
             Newton's iteration, 1e-10 when None.
         atol: absolute tolerance of a step, m or rad and per s, 1e-9 when None. With ``step`` that
             of Newton's iteration, 1e-12 when None.
-        step: constant length of a step, s, without control of the error; steps are chosen when None.
+        step: constant length of a step, s, without control of the error; chosen steps when None.
         first_step: length of the first step, s; chosen when None.
         max_step: longest step, s; none when None.
     """

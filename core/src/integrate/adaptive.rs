@@ -173,7 +173,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
     let statistics = run.statistics(outcome.as_ref().copied().unwrap_or(Ended::Stopped));
     match outcome {
         Ok(_) => Ok(statistics),
-        Err(cause) => Err(Failure { cause, t: run.t, y: y.to_vec(), statistics }),
+        Err(cause) => Err(Failure { cause, t: run.t, y: Box::from(&*y), statistics }),
     }
 }
 

@@ -50,6 +50,8 @@ pub(super) struct AlphaStep {
     a_end: Vec<f64>,
     x: Vec<f64>,
     dv: Vec<f64>,
+    /// Estimated errors of q and v.
+    error: [Vec<f64>; 2],
     rows: Vec<f64>,
     /// The step for which the matrix at hand was made.
     factored: Option<f64>,
@@ -72,6 +74,7 @@ impl AlphaStep {
             a_end: row(),
             x: vec![0.0; n + m],
             dv: row(),
+            error: [row(), row()],
             rows: vec![0.0; m],
             factored: None,
             singular: false,
@@ -218,16 +221,18 @@ impl AlphaStep {
     ) -> f64 {
         let n = self.dv.len();
         let (c_q, c_v) = (self.parameters.position_error(), self.parameters.velocity_error());
-        let mut dq: Vec<f64> = (0..n).map(|i| c_q * h * h * self.change(i)).collect();
         let span = 0.5 * (h + self.h_before);
-        let bend = |i: usize| c_v * h * h * h * (self.change(i) / h - self.slope[i]) / span;
-        let mut dv: Vec<f64> = (0..n).map(bend).collect();
-        for x in [&mut dq, &mut dv] {
-            let mut normal = x.clone();
-            system.system.normal(&mut normal);
-            x.iter_mut().zip(normal).for_each(|(x, normal)| *x -= normal);
+        for i in 0..n {
+            let change = self.change(i);
+            self.error[0][i] = c_q * h * h * change;
+            self.error[1][i] = c_v * h * h * h * (change / h - self.slope[i]) / span;
         }
-        scale.norm(&dq, &dv)
+        for x in &mut self.error {
+            self.dv.copy_from_slice(x);
+            system.system.normal(&mut self.dv);
+            x.iter_mut().zip(&self.dv).for_each(|(x, normal)| *x -= normal);
+        }
+        scale.norm(&self.error[0], &self.error[1])
     }
 
     /// v̇₁ - v̇₀ of one component. (Of a it would be less smooth where the step changes.)

@@ -51,7 +51,7 @@ pub struct Failure<E> {
     /// Last accepted time.
     pub t: f64,
     /// State there.
-    pub y: Vec<f64>,
+    pub y: Box<[f64]>,
     /// Steps and evaluations up to the failure.
     pub statistics: Statistics,
 }

@@ -136,7 +136,7 @@ impl ImplicitMethod for GeneralizedAlpha {
         let statistics = Statistics { ended, t: run.t, ..run.system.counts };
         match outcome {
             Ok(_) => Ok(statistics),
-            Err(cause) => Err(Failure { cause, t: run.t, y: y.to_vec(), statistics }),
+            Err(cause) => Err(Failure { cause, t: run.t, y: Box::from(&*y), statistics }),
         }
     }
 }

@@ -115,6 +115,8 @@ struct Run<'a, 'b, Y: Constrained> {
     /// Length and error of the step before.
     before: Option<(f64, f64)>,
     y_new: Vec<f64>,
+    /// Derivatives at both ends of a step; rows of its continuous extension.
+    dy: Vec<f64>,
     rows: Vec<f64>,
 }
 
@@ -146,6 +148,7 @@ impl ImplicitMethod for Radau {
             keep_tangent: false,
             before: None,
             y_new: vec![0.0; len],
+            dy: vec![0.0; 2 * len],
             rows: vec![0.0; ROWS * len],
         };
         let outcome = match checked {
@@ -156,7 +159,7 @@ impl ImplicitMethod for Radau {
         let statistics = Statistics { ended, t: run.t, ..run.system.counts };
         match outcome {
             Ok(_) => Ok(statistics),
-            Err(cause) => Err(Failure { cause, t: run.t, y: y.to_vec(), statistics }),
+            Err(cause) => Err(Failure { cause, t: run.t, y: Box::from(&*y), statistics }),
         }
     }
 }
@@ -327,7 +330,7 @@ impl<Y: Constrained> Run<'_, '_, Y> {
         observer: &mut O,
     ) -> Result<Flow, Cause<Y::Stop>> {
         let (t, h) = (self.t, t_new - self.t);
-        let Self { system, step, y_new, rows, .. } = self;
+        let Self { system, step, y_new, dy, rows, .. } = self;
         let (n, len) = (step.start.q.len(), y.len());
         step.evaluate(system, (t, h)); // for the powers
         step.extension(rows);
@@ -336,7 +339,6 @@ impl<Y: Constrained> Run<'_, '_, Y> {
         for (k, w) in (2 * n..len).enumerate() {
             y_new[w] = y[w] + step.work(k, h);
         }
-        let mut dy = vec![0.0; 2 * len];
         let (dy_old, dy_new) = dy.split_at_mut(len);
         step.start.derivative(dy_old);
         let (q, rest) = y_new.split_at_mut(n);

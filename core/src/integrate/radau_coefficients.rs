@@ -33,7 +33,7 @@ pub(super) const COMPLEX: [f64; 2] = [2.681_082_873_627_752_3, -3.050_430_199_24
 
 /// T.
 pub(super) const T: [[f64; 3]; 3] = [
-    [0.094_438_762_488_975_24, -0.141_255_295_020_954_21, 0.030_029_194_105_147_42],
+    [0.094_438_762_488_975_24, -0.141_255_295_020_954_2, 0.030_029_194_105_147_42],
     [0.250_213_122_965_333_3, 0.204_129_352_293_799_94, -0.382_942_112_757_261_9],
     [1.0, 1.0, 0.0],
 ];
@@ -139,9 +139,9 @@ mod tests {
     fn the_extension_ends_where_the_step_does() {
         let at_end = |row: usize| EXTENSION[row * DEGREE..][..DEGREE].iter().sum::<f64>();
         assert!(at_end(0).abs() < 1e-15);
-        for k in 0..3 {
-            assert!((at_end(1 + k) - A[2][k]).abs() < 1e-15);
-            assert!((at_end(4 + k) - A[2][k]).abs() < 1e-15);
+        for (k, weight) in A[2].iter().enumerate() {
+            assert!((at_end(1 + k) - weight).abs() < 1e-15);
+            assert!((at_end(4 + k) - weight).abs() < 1e-15);
         }
     }
 }

@@ -57,7 +57,11 @@ pub(super) struct RadauStep {
     real: Vec<f64>,
     complex: Vec<Complex>,
     dq: Vec<f64>,
+    /// Estimated errors of q and v.
     error: [Vec<f64>; 2],
+    /// The start moved by them, and the move along it that the error estimate sees.
+    moved: Knot,
+    along: Vec<f64>,
     /// Whether the tangent is that of the beginning of this step.
     pub fresh: bool,
     factored: Option<f64>,
@@ -78,6 +82,8 @@ impl RadauStep {
             complex: vec![Complex::zero(); n + m],
             dq: vec![0.0; n],
             error: std::array::from_fn(|_| vec![0.0; n]),
+            moved: Knot::new(n, m, works),
+            along: vec![0.0; n],
             fresh: false,
             factored: None,
         }
@@ -225,8 +231,8 @@ impl RadauStep {
             } else {
                 (REAL / h * real[k], unscaled * complex[k])
             };
-            for i in 0..3 {
-                let change = dot(&T[i], &[first, pair.re, pair.im]);
+            for (i, row) in T.iter().enumerate() {
+                let change = dot(row, &[first, pair.re, pair.im]);
                 // kept in place of the residual, for the norm
                 self.residuals[i][k] = change;
                 if k < n {
@@ -275,31 +281,30 @@ impl RadauStep {
         again: bool,
     ) -> Result<f64, Y::Stop> {
         let n = self.dq.len();
-        let mut moved = self.start.clone();
+        let Self { start, moved, stages, z, error, real, along, .. } = self;
+        moved.copy_from(start);
         if again {
             let add = |x: &mut [f64], dx: &[f64]| x.iter_mut().zip(dx).for_each(|(x, d)| *x += d);
-            add(&mut moved.q, &self.error[0]);
-            add(&mut moved.v, &self.error[1]);
-            system.accelerate(t, &mut moved)?;
+            add(&mut moved.q, &error[0]);
+            add(&mut moved.v, &error[1]);
+            system.accelerate(t, moved)?;
         }
         let step = h / REAL;
-        let mut along = vec![0.0; n];
-        let mut force = vec![0.0; n];
+        // the error's memory holds what is multiplied by K and by M first
+        let [stiff, force] = error;
         for k in 0..n {
-            let z = [self.z[0][k], self.z[1][k], self.z[2][k]];
-            let q = std::array::from_fn(|i| self.stages[i].q[k] - self.start.q[k]);
+            let q = std::array::from_fn(|i| stages[i].q[k] - start.q[k]);
             along[k] = step * moved.v[k] + dot(&ERROR, &q);
-            force[k] = step * moved.a[k] + dot(&ERROR, &z);
+            force[k] = step * moved.a[k] + dot(&ERROR, &[z[0][k], z[1][k], z[2][k]]);
+            stiff[k] = step * along[k];
         }
-        let stiff: Vec<f64> = along.iter().map(|x| step * x).collect();
-        system.system.times(&force, &stiff, &mut self.real);
+        system.system.times(force, stiff, real);
         // B comes without the h/μ that K has once more
-        self.real[n..].iter_mut().for_each(|row| *row /= step);
-        system.system.solve(&mut self.real);
-        for k in 0..n {
-            self.error[1][k] = self.real[k];
-            self.error[0][k] = along[k] + step * self.real[k];
-        }
+        real[n..].iter_mut().for_each(|row| *row /= step);
+        system.system.solve(real);
+        force.copy_from_slice(&real[..n]);
+        let along = along.iter().zip(&real[..n]);
+        stiff.iter_mut().zip(along).for_each(|(dq, (along, dv))| *dq = along + step * dv);
         Ok(scale.norm(&self.error[0], &self.error[1]))
     }
 

@@ -97,7 +97,7 @@ impl Method for Rk4 {
         statistics.evaluations = rate.evaluations;
         match outcome {
             Ok(ended) => Ok(Statistics { ended, ..statistics }),
-            Err(cause) => Err(Failure { cause, t: statistics.t, y: y.to_vec(), statistics }),
+            Err(cause) => Err(Failure { cause, t: statistics.t, y: Box::from(&*y), statistics }),
         }
     }
 }

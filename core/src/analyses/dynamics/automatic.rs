@@ -121,7 +121,7 @@ impl<'a, 'o> Automatic<'a, 'o> {
         let detector = &mut self.detector;
         let judge = |step: &Step<'_>| detector.stiff(step, t_end);
         let mut judged = Judged { observer, judge, judged: false, last: None };
-        let outcome = method.integrate(system, t, t_end, y, &mut judged);
+        let outcome = method.integrate(system, t, t_end, y, &mut judged).map_err(Box::new);
         let (stiff, last) = (judged.judged, judged.last);
         let outcome = self.add(outcome, last, true);
         if stiff {
@@ -163,7 +163,7 @@ impl<'a, 'o> Automatic<'a, 'o> {
         };
         let mut judged = Judged { observer, judge, judged: false, last: None };
         let implicit = self.implicit.get_or_insert_with(|| Implicit::new(self.model, self.options));
-        let outcome = method.integrate(implicit, t, t_end, y, &mut judged);
+        let outcome = method.integrate(implicit, t, t_end, y, &mut judged).map_err(Box::new);
         let (back, last) = (judged.judged, judged.last);
         let outcome = self.add(outcome, last, false);
         if back {

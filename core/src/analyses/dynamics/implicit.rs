@@ -22,6 +22,8 @@ pub(super) struct Implicit<'a> {
     tangent: Tangent,
     places: Places,
     real: BlockLu<f64>,
+    /// Of the augmented matrix.
+    solution: Vec<f64>,
     /// Made for the first complex matrix.
     complex: Option<BlockLu<Complex>>,
     /// Factorisations of the augmented matrix, for accelerations.
@@ -42,6 +44,7 @@ impl<'a> Implicit<'a> {
             projector,
             balance: Balance::new(model),
             real: BlockLu::new(&places.plan),
+            solution: vec![0.0; model.layout.n_q + model.layout.n_rows],
             complex: None,
             tangent,
             places,
@@ -142,13 +145,14 @@ impl Constrained for Implicit<'_> {
     }
 
     fn normal(&mut self, x: &mut [f64]) {
-        let (n, m) = (self.model.layout.n_q, self.model.layout.n_rows);
-        let mut solution = vec![0.0; n + m];
+        let n = self.model.layout.n_q;
+        let Self { solution, workspace, .. } = self;
+        solution[..n].fill(0.0);
         for (k, slots) in self.model.layout.constraints.iter().enumerate() {
             let rows = &mut solution[n..][slots.rows.clone()];
-            constraints::times(self.model, k, self.workspace.matrix.jacobian(), x, rows);
+            constraints::times(self.model, k, workspace.matrix.jacobian(), x, rows);
         }
-        self.workspace.matrix.solve(&mut solution);
+        workspace.matrix.solve(solution);
         x.copy_from_slice(&solution[..n]);
     }
 

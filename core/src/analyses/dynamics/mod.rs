@@ -86,21 +86,27 @@ pub fn dynamics(
     recorder.report(t0, &y);
     let mut observer = Watched { recorder: &mut recorder, watch: &mut watch };
     let (mut factorisations, mut choice) = (0, None);
-    let outcome = match &options.scheme {
-        Scheme::Rk45(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
-        Scheme::Dop853(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
-        Scheme::Rk4(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
+    let outcome: Outcome = match &options.scheme {
+        Scheme::Rk45(method) => {
+            method.integrate(&mut system, t0, t_end, &mut y, &mut observer).map_err(Box::new)
+        }
+        Scheme::Dop853(method) => {
+            method.integrate(&mut system, t0, t_end, &mut y, &mut observer).map_err(Box::new)
+        }
+        Scheme::Rk4(method) => {
+            method.integrate(&mut system, t0, t_end, &mut y, &mut observer).map_err(Box::new)
+        }
         Scheme::GeneralizedAlpha(method) => {
             let mut implicit = Implicit::new(model, options);
             let outcome = method.integrate(&mut implicit, t0, t_end, &mut y, &mut observer);
             factorisations = implicit.factorisations();
-            outcome
+            outcome.map_err(Box::new)
         }
         Scheme::Radau(method) => {
             let mut implicit = Implicit::new(model, options);
             let outcome = method.integrate(&mut implicit, t0, t_end, &mut y, &mut observer);
             factorisations = implicit.factorisations();
-            outcome
+            outcome.map_err(Box::new)
         }
         Scheme::Auto(auto) => {
             let mut automatic = Automatic::new(model, options, auto, t0);
@@ -135,7 +141,7 @@ impl<W: FnMut(f64) -> Flow> Observer for Watched<'_, '_, W> {
     }
 }
 
-type Outcome = Result<integrate::Statistics, integrate::Failure<(f64, Fault)>>;
+type Outcome = Result<integrate::Statistics, Box<integrate::Failure<(f64, Fault)>>>;
 
 fn taken(outcome: &Outcome) -> integrate::Statistics {
     match outcome {
@@ -175,7 +181,7 @@ fn finish(
     let run = Run { trajectory, dense, statistics, choice, reached };
     let reason = match (outcome, fault, reported) {
         (Ok(_), None, Ok(_)) => return Ok(run),
-        (Err(failure), ..) => Reason::from_integrator(model, failure),
+        (Err(failure), ..) => Reason::from_integrator(model, *failure),
         (_, Some((t, fault)), _) => Reason::fault(model, t, fault),
         (.., Err((_, t, singular))) => Reason::singular(model, t, singular),
     };
