@@ -109,7 +109,7 @@ const TOML: &[Row] = &[
         5,
         1,
         "method.type: missing",
-        "\"rk45\", \"dop853\" or \"rk4\"",
+        "\"rk45\", \"dop853\", \"rk4\", \"generalized_alpha\", \"hht\", \"radau\" or \"auto\"",
     ),
     (
         "[analyses.a]\ntype = 'dynamics'\nt_end = 1\nmethod = { type = 'rk4', stp = 1, step = 1 }\n",

@@ -43,12 +43,16 @@ if TYPE_CHECKING:
     from kempe.model import Model as Model
     from kempe.motion import Motion as Motion
     from kempe.options import DOP853 as DOP853
+    from kempe.options import HHT as HHT
     from kempe.options import RK4 as RK4
     from kempe.options import RK45 as RK45
+    from kempe.options import Auto as Auto
     from kempe.options import Baumgarte as Baumgarte
     from kempe.options import Dynamics as Dynamics
+    from kempe.options import GeneralizedAlpha as GeneralizedAlpha
     from kempe.options import NoStabilization as NoStabilization
     from kempe.options import Projection as Projection
+    from kempe.options import Radau as Radau
     from kempe.solution import Solution as Solution
     from kempe.state import AssemblyReport as AssemblyReport
     from kempe.state import State as State
@@ -60,12 +64,15 @@ _HOME = {
     "AssemblyError": "errors",
     "AssemblyReport": "state",
     "AssemblyWarning": "analyses",
+    "Auto": "options",
     "Baumgarte": "options",
     "Case": "case",
     "DOP853": "options",
     "Dynamics": "options",
     "Energy": "energy",
     "FileError": "errors",
+    "GeneralizedAlpha": "options",
+    "HHT": "options",
     "IntegrationError": "errors",
     "InternalError": "errors",
     "KempeError": "errors",
@@ -78,6 +85,7 @@ _HOME = {
     "Projection": "options",
     "RK4": "options",
     "RK45": "options",
+    "Radau": "options",
     "RedundancyError": "errors",
     "Results": "case",
     "SingularityError": "errors",

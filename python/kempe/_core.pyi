@@ -114,7 +114,8 @@ class Run:
     """"reached" or "stopped"."""
     message: str
     statistics: str
-    """JSON: ``{"steps", "rejected", "evaluations", "factorisations", "seconds"}``."""
+    """JSON: ``{"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations",
+    "seconds"}``, with ``"method"`` and ``"why"`` where the method was chosen."""
 
 def assemble(
     model: Model,

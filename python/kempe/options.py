@@ -75,6 +75,28 @@ class DOP853(Option):
 
 
 @dataclass(frozen=True)
+class Auto(Option):
+    """DOP853, and Radau where the equations prove stiff.
+
+    It begins with DOP853. Where a damped motion holds its steps at the limit of stability, Radau
+    goes on; where that does not make them longer, DOP853 takes over again.
+    ``sol.statistics["method"]`` tells which came to the end, and ``sol.statistics["why"]`` why.
+
+    Attributes:
+        rtol: tolerance relative to each component.
+        atol: absolute tolerance, m or rad and per s.
+        first_step: length of the first step, s; chosen when None.
+        max_step: longest step, s; none when None.
+    """
+
+    rtol: Number = 1e-8
+    atol: Number = 1e-11
+    first_step: Number | None = None
+    max_step: Number | None = None
+    kind: ClassVar[str] = "auto"
+
+
+@dataclass(frozen=True)
 class RK4(Option):
     """Explicit Runge-Kutta of order 4 with a constant step.
 
@@ -84,6 +106,83 @@ class RK4(Option):
 
     step: Number
     kind: ClassVar[str] = "rk4"
+
+
+@dataclass(frozen=True)
+class GeneralizedAlpha(Option):
+    """Implicit generalized-α of order 2 (Chung & Hulbert 1993) at index 3 (Arnold & Brüls 2007).
+
+    For stiff forces and moderate accuracy. The constraints are among its equations, so that Φ = 0
+    holds at every step; velocities are put onto them by projection, as the default stabilization of
+    implicit methods does. Between the steps a cubic polynomial.
+
+    Attributes:
+        rho: spectral radius at infinite frequency, in [0, 1); the smaller, the more high
+            frequencies are damped.
+        rtol: tolerance of a step relative to each component, 1e-4 when None. With ``step`` that of
+            Newton's iteration, 1e-10 when None.
+        atol: absolute tolerance of a step, m or rad and per s, 1e-7 when None. With ``step`` that
+            of Newton's iteration, 1e-12 when None.
+        step: constant length of a step, s, without control of the error; chosen steps when None.
+        first_step: length of the first step, s; chosen when None.
+        max_step: longest step, s; none when None.
+    """
+
+    rho: Number = 0.8
+    rtol: Number | None = None
+    atol: Number | None = None
+    step: Number | None = None
+    first_step: Number | None = None
+    max_step: Number | None = None
+    kind: ClassVar[str] = "generalized_alpha"
+
+
+@dataclass(frozen=True)
+class HHT(Option):
+    """Implicit method of Hilber, Hughes & Taylor (1977): a case of generalized-α, at index 3.
+
+    Attributes:
+        alpha: in [-1/3, 0); the smaller, the more high frequencies are damped.
+        rtol: as of ``GeneralizedAlpha``.
+        atol: as of ``GeneralizedAlpha``.
+        step: constant length of a step, s, without control of the error; chosen steps when None.
+        first_step: length of the first step, s; chosen when None.
+        max_step: longest step, s; none when None.
+    """
+
+    alpha: Number = -0.1
+    rtol: Number | None = None
+    atol: Number | None = None
+    step: Number | None = None
+    first_step: Number | None = None
+    max_step: Number | None = None
+    kind: ClassVar[str] = "hht"
+
+
+@dataclass(frozen=True)
+class Radau(Option):
+    """Implicit Radau IIA of order 5 (Hairer & Wanner 1996) at index 2, for stiff forces.
+
+    The velocities meet their constraints at every stage; positions are put onto theirs by
+    projection, as the default stabilization of implicit methods does. Between the steps it
+    interpolates with order 4 for q and 3 for v.
+
+    Attributes:
+        rtol: tolerance of a step relative to each component, 1e-6 when None. With ``step`` that of
+            Newton's iteration, 1e-10 when None.
+        atol: absolute tolerance of a step, m or rad and per s, 1e-9 when None. With ``step`` that
+            of Newton's iteration, 1e-12 when None.
+        step: constant length of a step, s, without control of the error; chosen steps when None.
+        first_step: length of the first step, s; chosen when None.
+        max_step: longest step, s; none when None.
+    """
+
+    rtol: Number | None = None
+    atol: Number | None = None
+    step: Number | None = None
+    first_step: Number | None = None
+    max_step: Number | None = None
+    kind: ClassVar[str] = "radau"
 
 
 @dataclass(frozen=True)
@@ -133,7 +232,8 @@ class Dynamics:
         t_end: time at which it ends, s.
         output_step: time between outputs, s; every step when None.
         method: the integrator.
-        stabilization: of the constraints; none at all when None.
+        stabilization: of the constraints; none at all when None. "auto" is Baumgarte with explicit
+            methods, and projection with the others.
         max_steps: it gives up after that many steps; 1 000 000 over the number
             of moving bodies when None, at least 50 000.
         dense_output: whether to keep the interpolant between the steps.
@@ -148,7 +248,7 @@ class Dynamics:
     t_end: Number
     output_step: Number | None = None
     method: Option = RK45()
-    stabilization: Option | None = Baumgarte()
+    stabilization: Option | str | None = "auto"
     max_steps: int | None = None
     dense_output: bool = True
     name: str = "dynamics"
@@ -171,8 +271,9 @@ class Dynamics:
             if getattr(self, field) is not None:
                 entry[field] = number(getattr(self, field), f"{path}.{field}")
         entry["method"] = _option(self.method, f"{path}.method")
-        chosen = NoStabilization() if self.stabilization is None else self.stabilization
-        entry["stabilization"] = _option(chosen, f"{path}.stabilization")
+        if self.stabilization != "auto":
+            chosen = NoStabilization() if self.stabilization is None else self.stabilization
+            entry["stabilization"] = _option(chosen, f"{path}.stabilization")
         if one_of(f"{path}.singularity", self.singularity, ("stop", "pass")) == "pass":
             entry["singularity"] = "pass"
         entry["dense_output"] = bool(self.dense_output)

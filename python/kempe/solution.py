@@ -46,8 +46,8 @@ class Solution(Motion):
     """The solution of a simulation: arrays with time first, read-only, SI units.
 
     ``sol["rocker"].angle``, ``sol["C"].force(on="coupler")``, ``sol["spring"].torque(on="rocker")``
-    and ``sol(0.123)`` between the outputs. The names ``t``, ``nfev``, ``nlu``, ``status``,
-    ``message`` and ``success`` mean what they mean in scipy.
+    and ``sol(0.123)`` between the outputs. The names ``t``, ``nfev``, ``njev``, ``nlu``,
+    ``status``, ``message`` and ``success`` mean what they mean in scipy.
 
     Attributes:
         model: the model in numbers.
@@ -57,7 +57,8 @@ class Solution(Motion):
         dense: the interpolant between the steps; None if it was not kept.
         status: 0 when the end was reached, -1 when it was not.
         message: why it ended.
-        statistics: steps, rejected, evaluations, factorisations, seconds.
+        statistics: steps, rejected, evaluations, jacobians, iterations (of Newton), factorisations,
+            seconds; with ``kp.Auto``, method and why.
     """
 
     def __init__(self, model: CompiledModel, run: _core.Run) -> None:
@@ -97,6 +98,11 @@ class Solution(Motion):
     def nfev(self) -> int:
         """Number of evaluations of the accelerations."""
         return int(self.statistics["evaluations"])
+
+    @property
+    def njev(self) -> int:
+        """Number of tangents of the equations of motion; 0 with explicit methods."""
+        return int(self.statistics.get("jacobians", 0))
 
     @property
     def nlu(self) -> int:

@@ -108,6 +108,36 @@ def test_outputs_without_end_are_refused(model: kp.Model, start: kp.State) -> No
         kp.dynamics(model, start, t_end=1, output_step=1e-12)
 
 
+@pytest.mark.parametrize(
+    "method",
+    [
+        kp.GeneralizedAlpha(rho=0.6, rtol=1e-5, atol=1e-8, first_step=1e-4, max_step=0.01),
+        kp.GeneralizedAlpha(step="1/500"),
+        kp.HHT(alpha=-0.2, rtol=1e-5, atol=1e-8),
+        kp.Radau(rtol="1e-7", atol=1e-10, first_step=1e-4, max_step=0.02),
+        kp.Radau(step=0.005, rtol=1e-9, atol=1e-11),
+        kp.Auto(rtol=1e-7, atol=1e-10, first_step=1e-4, max_step=0.02),
+    ],
+    ids=str,
+)
+def test_methods_for_stiff_models(model: kp.Model, start: kp.State, method: Option) -> None:
+    sol = kp.dynamics(model, start, t_end=0.2, output_step=0.01, method=method)
+    exact = kp.dynamics(
+        model, start, t_end=0.2, method=kp.DOP853(1e-11, 1e-13), stabilization=kp.Projection()
+    )
+    assert sol.final["crank"].angle == pytest.approx(exact.final["crank"].angle, abs=2e-3)
+    assert sol.drift.position.max() < 1e-9
+    assert sol(0.105)["crank"].angle == pytest.approx(exact(0.105)["crank"].angle, abs=2e-3)
+    if getattr(method, "step", None) is not None:
+        assert sol.statistics["rejected"] == 0
+    if isinstance(method, kp.Auto):
+        assert sol.statistics["method"] == "dop853"
+        assert sol.statistics["why"].startswith("not stiff")
+    else:
+        assert sol.njev > 0
+        assert sol.statistics["iterations"] >= sol.statistics["steps"]
+
+
 def test_a_simulation_may_start_at_another_time(model: kp.Model) -> None:
     start = {"set": {"crank.angle": "70*deg"}, "guess": {"rocker.angle": "240*deg"}}
     sol = kp.Case(model, start, [kp.Dynamics(1.1, t_start=1)]).run()[0]
@@ -122,6 +152,12 @@ def test_a_simulation_may_start_at_another_time(model: kp.Model) -> None:
         {"t_end": 1, "stabilization": kp.Baumgarte(alpha=-1)},
         {"t_end": 1, "stabilization": kp.Projection(tolerance=0)},
         {"t_end": 1, "method": kp.DOP853(atol=-1)},
+        {"t_end": 1, "method": kp.GeneralizedAlpha(rho=1)},
+        {"t_end": 1, "method": kp.HHT(alpha=0)},
+        {"t_end": 1, "method": kp.HHT(step=0.1, max_step=1)},
+        {"t_end": 1, "method": kp.Radau(step=0.1, first_step=1)},
+        {"t_end": 1, "method": kp.Radau(), "stabilization": kp.Baumgarte()},
+        {"t_end": 1, "method": kp.Auto(), "stabilization": kp.Baumgarte()},
         {"t_end": 1, "output_step": -0.1},
         {"t_end": "unknown"},
         {"t_end": 1, "max_steps": 0},

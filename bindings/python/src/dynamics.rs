@@ -47,13 +47,19 @@ impl PyRun {
             None => (None, None, None),
         };
         let s = run.statistics;
-        let statistics = json!({
+        let mut statistics = json!({
             "steps": s.steps,
             "rejected": s.rejected,
             "evaluations": s.evaluations,
+            "jacobians": s.jacobians,
+            "iterations": s.iterations,
             "factorisations": s.factorisations,
             "seconds": s.seconds,
         });
+        if let Some(choice) = run.choice {
+            statistics["method"] = json!(choice.method);
+            statistics["why"] = json!(choice.why);
+        }
         Ok(Self {
             t: t.into_pyarray(py).unbind(),
             q: rows(q, n)?,

@@ -28,7 +28,10 @@ pub fn analysis_tables() -> Vec<Table> {
 /// The families of options that analyses refer to.
 pub fn option_families() -> Vec<Family> {
     vec![
-        Family { name: "method", options: vec![rk45(), dop853(), rk4()] },
+        Family {
+            name: "method",
+            options: vec![rk45(), dop853(), rk4(), generalized_alpha(), hht(), radau(), auto()],
+        },
         Family { name: "stabilization", options: vec![baumgarte(), projection(), none()] },
     ]
 }
@@ -54,8 +57,9 @@ fn dynamics() -> Table {
             "stabilization",
             Shape::Options("stabilization"),
             "",
-            Default::Type("baumgarte"),
-            "What keeps the constraints from drifting.",
+            Default::Absent,
+            "What keeps the constraints from drifting; if absent, Baumgarte with explicit methods, and \
+             projection with the others.",
         ),
         Field::optional(
             "singularity",
@@ -105,11 +109,16 @@ fn output_fields() -> [Field; 3] {
     ]
 }
 
-/// Options of every method with step control.
-fn adaptive(class: &'static str, name: &'static str, doc: &str) -> Options {
+/// Options of every explicit method with step control, and of the automatic choice.
+fn adaptive(
+    class: &'static str,
+    name: &'static str,
+    (rtol, atol): (f64, f64),
+    doc: &str,
+) -> Options {
     let fields = vec![
-        number("rtol", "", 1e-6, "Relative tolerance of one step."),
-        number("atol", "", 1e-9, "Absolute tolerance of one step, in the units of the state."),
+        number("rtol", "", rtol, "Relative tolerance of one step."),
+        number("atol", "", atol, "Absolute tolerance of one step, in the units of the state."),
         number(
             "step",
             "s",
@@ -124,20 +133,89 @@ fn adaptive(class: &'static str, name: &'static str, doc: &str) -> Options {
 
 fn rk45() -> Options {
     let doc = "Explicit Runge-Kutta method of order 5(4) of Dormand and Prince (1980), with step control.";
-    adaptive("RK45", "rk45", doc)
+    adaptive("RK45", "rk45", (1e-6, 1e-9), doc)
 }
 
 fn dop853() -> Options {
     let doc =
         "Explicit Runge-Kutta method of order 8(5,3) of Dormand and Prince, with step control: \
                for tolerances below about 1e-6 and smooth forces.";
-    adaptive("DOP853", "dop853", doc)
+    adaptive("DOP853", "dop853", (1e-6, 1e-9), doc)
+}
+
+fn auto() -> Options {
+    let doc = "DOP853, and Radau from where a damped motion holds its steps at the limit of stability; the \
+               statistics tell which, and why.";
+    adaptive("Auto", "auto", (1e-8, 1e-11), doc)
 }
 
 fn rk4() -> Options {
     let fields = vec![Field::required("step", Shape::Number, "s", "Step.")];
     let doc = "Classical Runge-Kutta method of order 4 with a constant step.";
     Options { class: "RK4", table: Table { name: "rk4", doc: doc.to_string(), fields } }
+}
+
+/// Options of an implicit method, `own` first; `rtol` and `atol` as docs tell them.
+fn implicit(
+    class: &'static str,
+    name: &'static str,
+    own: Option<Field>,
+    [rtol, atol]: [&str; 2],
+    doc: &str,
+) -> Options {
+    let tolerance = |what: &str, usual: &str, tight: &str| {
+        format!("{what} tolerance of one step, {usual} if absent; with step that of Newton's iteration, {tight}.")
+    };
+    let mut fields: Vec<Field> = own.into_iter().collect();
+    fields.extend([
+        number("rtol", "", Default::Absent, &tolerance("Relative", rtol, "1e-10")),
+        number("atol", "", Default::Absent, &tolerance("Absolute", atol, "1e-12")),
+        number(
+            "step",
+            "s",
+            Default::Absent,
+            "Constant step, without control of the error; else the solver chooses its steps.",
+        ),
+        number(
+            "first_step",
+            "s",
+            Default::Absent,
+            "First step; else the solver chooses it; not together with step.",
+        ),
+        number(
+            "max_step",
+            "s",
+            Default::Absent,
+            "Largest step; else without limit; not together with step.",
+        ),
+    ]);
+    Options { class, table: Table { name, doc: doc.to_string(), fields } }
+}
+
+fn generalized_alpha() -> Options {
+    let doc =
+        "Implicit generalized-alpha method of order 2 (Chung and Hulbert 1993) at index 3 (Arnold \
+               and Bruels 2007): for stiff forces and moderate accuracy.";
+    let rho = number("rho", "", 0.8, "Spectral radius at infinite frequency, in [0, 1): the smaller, the more high frequencies are damped.");
+    implicit("GeneralizedAlpha", "generalized_alpha", Some(rho), ["1e-4", "1e-7"], doc)
+}
+
+fn hht() -> Options {
+    let doc = "Implicit method of order 2 of Hilber, Hughes and Taylor (1977), a case of generalized-alpha, \
+               at index 3.";
+    let alpha = number(
+        "alpha",
+        "",
+        -0.1,
+        "In [-1/3, 0): the smaller, the more high frequencies are damped.",
+    );
+    implicit("HHT", "hht", Some(alpha), ["1e-4", "1e-7"], doc)
+}
+
+fn radau() -> Options {
+    let doc = "Implicit Radau IIA method of order 5 at index 2 (Hairer and Wanner 1996), with step control: \
+               for stiff forces.";
+    implicit("Radau", "radau", None, ["1e-6", "1e-9"], doc)
 }
 
 fn baumgarte() -> Options {

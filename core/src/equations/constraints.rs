@@ -152,6 +152,34 @@ impl<S: Real> Linear<S> for Target<'_, S> {
     }
 }
 
+/// Φ, Φ̇ and γ of constraint `k` alone into its own rows, and its blocks of Φ_q into `entries` of all.
+pub(super) fn linearize_one<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &[Motion<S>],
+    t: S,
+    [residual, rate, gamma]: [&mut [S]; 3],
+    entries: &mut [S],
+) {
+    let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
+    let out = Rows { residual, rate, gamma };
+    match &item.law {
+        Some(law) => {
+            law_velocity_terms(model, law, item.element.ends(), motions, t, out);
+            law_blocks(model, item, slots, motions, t, entries);
+        }
+        None => {
+            let ends = item.element.ends();
+            let [i, j] = ends.map(|b| &motions[b.0]);
+            item.element.velocity_terms(i, j, t, out);
+            let mut rows = [[S::zero(); 6]; MOST_EQUATIONS];
+            let rows = &mut rows[..slots.rows.len()];
+            item.element.jacobian(&i.pose, &j.pose, t, rows);
+            store(ends, rows, slots, entries);
+        }
+    }
+}
+
 /// Blocks of a constraint with a law.
 fn law_blocks<S: Real>(
     model: &Model<S>,

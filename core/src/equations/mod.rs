@@ -3,16 +3,19 @@
 //! Functions of a [`Model`](crate::model::Model) and plain slices; scratch is a [`Workspace`].
 
 pub mod augmented;
+pub mod balance;
 pub mod constraints;
 pub mod dense;
 pub mod energy;
 pub mod forces;
+pub mod iteration;
 pub mod kinematics;
 mod laws;
 pub mod mass;
 pub mod motion;
 pub mod reactions;
 mod refine;
+pub mod tangent;
 
 pub use laws::{at, Laws};
 pub use motion::{Gains, Singular, Workspace};

@@ -124,7 +124,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
     let statistics = run.statistics(outcome.as_ref().copied().unwrap_or(Ended::Stopped));
     match outcome {
         Ok(_) => Ok(statistics),
-        Err(cause) => Err(Failure { cause, t: run.t, y: y.to_vec(), statistics }),
+        Err(cause) => Err(Failure { cause, t: run.t, y: Box::from(&*y), statistics }),
     }
 }
 
@@ -135,7 +135,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             rejected: self.rejected,
             evaluations: self.rate.evaluations,
             ended,
-            t: self.t,
+            ..Statistics::none(self.t)
         }
     }
 

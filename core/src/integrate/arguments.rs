@@ -2,6 +2,11 @@
 
 use super::failure::Cause;
 
+/// Most steps for which t0 + k step still tells neighbours apart.
+const MOST_STEPS: f64 = 1e15;
+/// A remainder of the interval that is so small a part of it is rounding, and no step.
+pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// A refused argument: name, value, what it must be.
 pub(super) type Refused = (&'static str, f64, &'static str);
 
@@ -44,4 +49,15 @@ pub(super) fn not_negative(name: &'static str, value: f64) -> Result<(), Refused
     } else {
         Err((name, value, ">= 0"))
     }
+}
+
+/// Number of constant steps over an interval; a remainder of rounding is no step.
+pub(super) fn step_count(step: f64, interval: f64) -> Result<usize, Refused> {
+    positive("step", step)?;
+    finite("step", step)?;
+    let ratio = interval / step;
+    if ratio > MOST_STEPS {
+        return Err(("step", step, "at least 1e-15 of |t_end - t0|"));
+    }
+    Ok((ratio * (1.0 - ROUNDING)).ceil() as usize)
 }

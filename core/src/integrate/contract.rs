@@ -127,12 +127,34 @@ pub struct Statistics {
     pub steps: usize,
     /// Rejected steps.
     pub rejected: usize,
-    /// Evaluations of f.
+    /// Evaluations of f; for an implicit method, of residuals and accelerations.
     pub evaluations: usize,
+    /// Tangents; zero for an explicit method.
+    pub jacobians: u32,
+    /// Factorisations of matrices of Newton's iteration, a complex one as one.
+    pub factorisations: u32,
+    /// Steps of Newton's iteration.
+    pub iterations: u32,
     /// How it ended; of a failure, not meaningful beyond "not at t_end".
     pub ended: Ended,
     /// Time reached.
     pub t: f64,
+}
+
+impl Statistics {
+    /// Before the first step.
+    pub(crate) fn none(t: f64) -> Self {
+        Self {
+            steps: 0,
+            rejected: 0,
+            evaluations: 0,
+            jacobians: 0,
+            factorisations: 0,
+            iterations: 0,
+            ended: Ended::Stopped,
+            t,
+        }
+    }
 }
 
 /// A scheme with its options.

@@ -8,6 +8,11 @@ use super::stages::accumulate;
 /// Stages that are added in one pass.
 const TOGETHER: usize = 4;
 
+/// The cubic polynomial of Hermite, of order 3: coefficients of θ … θ⁴ of the derivative at the beginning,
+/// at the end, and the chord (y - y_old) / h.
+pub(super) const HERMITE: [f64; 12] =
+    [1.0, -2.0, 1.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0];
+
 /// Stages of a step with the polynomials that join them.
 #[derive(Clone, Copy, Debug)]
 pub struct Dense<'a> {

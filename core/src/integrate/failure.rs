@@ -27,6 +27,13 @@ pub enum Cause<E> {
         /// Where.
         t: f64,
     },
+    /// Newton's iteration does not converge, with a constant step or however short the step.
+    Newton {
+        /// Where the step begins.
+        t: f64,
+        /// Size of the step.
+        h: f64,
+    },
     /// The allowed number of steps was taken.
     MaxSteps {
         /// The number.
@@ -53,7 +60,7 @@ pub struct Failure<E> {
     /// Last accepted time.
     pub t: f64,
     /// State there.
-    pub y: Vec<f64>,
+    pub y: Box<[f64]>,
     /// Steps and evaluations up to the failure.
     pub statistics: Statistics,
 }
@@ -66,6 +73,9 @@ impl<E: fmt::Display> fmt::Display for Failure<E> {
                 write!(f, "step of {h:.1e} at t = {t} falls below the spacing of numbers")
             }
             Cause::NotFinite { t } => write!(f, "the derivative is not finite at t = {t}"),
+            Cause::Newton { t, h } => {
+                write!(f, "Newton's iteration does not converge at t = {t} with a step of {h:.1e}")
+            }
             Cause::MaxSteps { steps } => write!(f, "{steps} steps taken at t = {}", self.t),
             Cause::TooManySteps { needed, step, most } => {
                 write!(f, "{needed} steps of {step} are more than {most}")

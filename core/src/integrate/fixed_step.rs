@@ -1,12 +1,7 @@
 //! Steps of constant length: where they end, and whether there are too many of them.
 
-use super::arguments::{finite, positive, refusal, Refused};
+use super::arguments::{finite, positive, refusal, step_count, ROUNDING};
 use super::failure::Cause;
-
-/// Most steps for which t0 + k step still tells neighbours apart.
-const MOST_STEPS: f64 = 1e15;
-/// A remainder of the interval that is so small a part of it is rounding, and no step.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The ends of the steps: t0 + k step, by multiplication and so without drift; the last is t_end.
 pub(super) struct Grid {
@@ -27,13 +22,9 @@ impl Grid {
         max_steps: Option<usize>,
     ) -> Result<Self, Cause<E>> {
         let interval = (t_end - t0).abs();
-        check(step).map_err(refusal)?;
+        positive("step", step).and_then(|()| finite("step", step)).map_err(refusal)?;
         affordable(interval, step, max_steps)?;
-        let ratio = interval / step;
-        if ratio > MOST_STEPS {
-            return Err(refusal(("step", step, "at least 1e-15 of |t_end - t0|")));
-        }
-        let count = (ratio * (1.0 - ROUNDING)).ceil() as usize;
+        let count = step_count(step, interval).map_err(refusal)?;
         Ok(Self { t0, t_end, step: step.copysign(t_end - t0), count })
     }
 
@@ -45,11 +36,6 @@ impl Grid {
         }
         Ok(end)
     }
-}
-
-fn check(step: f64) -> Result<(), Refused> {
-    positive("step", step)?;
-    finite("step", step)
 }
 
 /// Refuses an interval that `max_steps` steps of at most `step` cannot cover.

@@ -19,11 +19,18 @@
 //! | `fixed_step` | where steps of constant length end |
 //! | `stages` | sums over the stages of a step |
 //! | `rk45`, `dop853`, `rk4` | schemes |
+//! | `constrained` | what a constrained mechanical system and an implicit method promise each other |
+//! | `knot` | what implicit methods share: a state with its derivative, tolerances, counts |
+//! | `alpha_parameters`, `alpha_step`, `generalized_alpha` | generalized-α at index 3 |
+//! | `radau_coefficients`, `radau_step`, `radau` | Radau IIA of order 5 at index 2 |
 //! | `events` | where a function of the state changes sign |
 
 mod adaptive;
 mod adaptive_options;
+mod alpha_parameters;
+mod alpha_step;
 mod arguments;
+mod constrained;
 mod contract;
 mod dense;
 mod dop853;
@@ -31,6 +38,11 @@ mod dop853_coefficients;
 mod events;
 mod failure;
 mod fixed_step;
+mod generalized_alpha;
+mod knot;
+mod radau;
+mod radau_coefficients;
+mod radau_step;
 mod rate;
 mod rk4;
 mod rk45;
@@ -38,10 +50,16 @@ mod stages;
 mod step_size;
 
 pub use adaptive_options::Atol;
+pub use alpha_parameters::AlphaParameters;
+pub use constrained::{
+    Constrained, ImplicitMethod, Level, Point, Residual, Shares, SingularMatrix,
+};
 pub use contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
 pub use dense::Dense;
 pub use dop853::Dop853;
 pub use events::{locate, Direction};
 pub use failure::{Cause, Failure};
+pub use generalized_alpha::GeneralizedAlpha;
+pub use radau::Radau;
 pub use rk4::Rk4;
 pub use rk45::Rk45;

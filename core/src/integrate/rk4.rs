@@ -3,13 +3,11 @@
 
 use super::arguments::{check_problem, refusal};
 use super::contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
-use super::dense::Dense;
+use super::dense::{Dense, HERMITE};
 use super::failure::{Cause, Failure};
 use super::fixed_step::Grid;
 use super::rate::{all_finite, Rate, Trouble};
 
-/// Coefficients of θ … θ⁴ of: derivative at the beginning, at the end, chord (y - y_old) / h.
-const HERMITE: [f64; 12] = [1.0, -2.0, 1.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0];
 /// Classical Runge–Kutta 4 with its options.
 ///
 /// Steps end at t0 + k `step`, computed by multiplication; the last is shortened to end at t_end.
@@ -92,14 +90,13 @@ impl Method for Rk4 {
         let grid = check_problem(t0, t_end, y, system.len())
             .map_err(refusal)
             .and_then(|()| Grid::new(t0, t_end, self.step, self.max_steps));
-        let mut statistics =
-            Statistics { steps: 0, rejected: 0, evaluations: 0, ended: Ended::Stopped, t: t0 };
+        let mut statistics = Statistics::none(t0);
         let mut rate = Rate { system, evaluations: 0 };
         let outcome = grid.and_then(|grid| go(&mut rate, t0, &grid, y, observer, &mut statistics));
         statistics.evaluations = rate.evaluations;
         match outcome {
             Ok(ended) => Ok(Statistics { ended, ..statistics }),
-            Err(cause) => Err(Failure { cause, t: statistics.t, y: y.to_vec(), statistics }),
+            Err(cause) => Err(Failure { cause, t: statistics.t, y: Box::from(&*y), statistics }),
         }
     }
 }

@@ -3,14 +3,19 @@
 //! Every formula of the core is written once over [`Real`]; which scalar it runs on decides what it
 //! yields: `f64` a value, [`Dual`] first derivatives, [`Jet`] time derivatives, [`Lanes`] several
 //! simulations at once. They nest: `Dual<3, Lanes<4>>` is the Jacobian of four designs.
+//! Linear equations alone may also be [`Complex`]: what they need is a [`Field`].
 
+mod complex;
 mod dual;
+mod field;
 mod jet;
 mod lanes;
 mod plane;
 mod real;
 
+pub use complex::Complex;
 pub use dual::Dual;
+pub use field::Field;
 pub use jet::Jet;
 pub use lanes::Lanes;
 pub use plane::{Local, Motion, Pose, Rotation, Twist, Vec2, Wrench};

@@ -11,11 +11,15 @@
 //! | `saddle` | numbers: [W Aᵀ; A -μI] factorised and solved without allocation |
 //! | `substitute` | the solution with its factors |
 //! | `near` | the same where rows of A come near to dependence |
+//! | `lu_plan` | pattern, order and plan of an unsymmetric block matrix |
+//! | `block_lu` | its numbers, real or complex, factorised and solved without allocation |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
 //! | `rank` | numerical rank, dependent rows and left null vectors |
 
 mod arm;
 mod block;
+mod block_lu;
+mod lu_plan;
 mod near;
 pub mod newton;
 mod order;
@@ -26,8 +30,10 @@ mod saddle;
 mod substitute;
 mod weight;
 
+pub use block_lu::{BlockLu, LOST};
+pub use lu_plan::LuPlan;
 pub use newton::Newton;
-pub use order::groups_first;
+pub use order::{groups_first, touched_first};
 pub use pattern::{Pattern, RowBlock};
 pub use rank::{normalize_rows, rank, Rank, RANK_TOLERANCE};
 pub use saddle::{Saddle, PIVOT_TOLERANCE};

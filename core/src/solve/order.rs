@@ -50,6 +50,30 @@ pub fn groups_first(
     order
 }
 
+/// Order in which `n` blocks are eliminated: each of those from `n_first` on after all of the first
+/// `n_first` that it has an entry with, but not after the others of them.
+///
+/// For [S Gᵀ; G 0] with a definite S this is as safe as [`groups_first`]: a row of G meets its pivot as
+/// the Schur complement of those unknowns alone that its constraint touches. Where the unknowns are
+/// coupled with each other along a chain, it keeps the cost linear: with all unknowns first, G S⁻¹ Gᵀ
+/// would be dense.
+///
+/// `entries` are structural positions (block, block) of one triangle.
+///
+/// # Panics
+/// If an index is outside `0..n`.
+pub fn touched_first(n_first: usize, n: usize, entries: &[(usize, usize)]) -> Vec<usize> {
+    let starts: Vec<usize> = (0..n).collect();
+    let mut graph = Graph::new(&starts, n_first, n, entries);
+    graph.release(n_first);
+    let mut order = Vec::with_capacity(n);
+    while let Some(block) = graph.next() {
+        order.push(block);
+        graph.eliminate(block);
+    }
+    order
+}
+
 fn check_blocks(starts: &[usize], n_first: usize, n: usize) {
     assert!(n_first <= n, "n_first = {n_first} exceeds n = {n}");
     assert!(n == 0 || starts.first() == Some(&0), "the first block begins at 0");
@@ -59,7 +83,7 @@ fn check_blocks(starts: &[usize], n_first: usize, n: usize) {
     assert!(boundary, "n_first = {n_first} cuts a block");
 }
 
-/// (second set?, approximate degree, level, block): the smallest goes next.
+/// (not yet?, approximate degree, level, block): the smallest goes next.
 type Key = (bool, usize, u32, usize);
 
 /// The quotient graph: blocks not yet eliminated, and elements (cliques left by eliminated ones).
@@ -80,6 +104,10 @@ struct Graph {
     /// Weight of an element outside the newest one, valid where `outside_of` names that newest one.
     outside: Vec<usize>,
     outside_of: Vec<usize>,
+    /// The blocks of the second set that a block of the first keeps waiting, and for how many each of
+    /// them waits; empty if all wait for all.
+    waiters: Vec<Vec<usize>>,
+    waits_for: Vec<usize>,
 }
 
 const NOBODY: usize = usize::MAX;
@@ -115,7 +143,23 @@ impl Graph {
             mark: vec![NOBODY; count],
             outside: vec![0; count],
             outside_of: vec![NOBODY; count],
+            waiters: Vec::new(),
+            waits_for: Vec::new(),
         }
+    }
+
+    /// Lets each block from `n_first` on wait for none but its own neighbours before.
+    fn release(&mut self, n_first: usize) {
+        self.waits_for = vec![0; self.weight.len()];
+        self.waiters = vec![Vec::new(); n_first];
+        for (b, waits_for) in self.waits_for.iter_mut().enumerate().skip(n_first) {
+            for &first in self.neighbours[b].iter().filter(|&&v| v < n_first) {
+                self.waiters[first].push(b);
+                *waits_for += 1;
+            }
+            self.key[b].0 = *waits_for > 0;
+        }
+        self.queue = self.key.iter().copied().map(Reverse).collect();
     }
 
     /// The block to eliminate next; keys that have changed since they were queued are skipped.
@@ -133,6 +177,12 @@ impl Graph {
         self.done[p] = true;
         let members = self.gather(p);
         let total: usize = members.iter().map(|&i| self.weight[i]).sum();
+        if let Some(waiters) = self.waiters.get_mut(p) {
+            for b in std::mem::take(waiters) {
+                self.waits_for[b] -= 1;
+                self.key[b].0 = self.waits_for[b] > 0; // a neighbour of p: queued below
+            }
+        }
         for &i in &members {
             self.detach(i, p);
         }

@@ -87,7 +87,7 @@ fn a_derivative_that_is_not_finite_is_named_with_its_time() {
     let Cause::NotFinite { t } = failure.cause else { panic!("{:?}", failure.cause) };
     assert!(t > 1.0 && t < 1.0 + 1e-14, "{t:e}");
     assert!(failure.t <= 1.0 && failure.t > 1.0 - 1e-14, "steps shrink up to the edge");
-    assert_eq!(failure.y, y);
+    assert_eq!(*failure.y, y);
     assert!((y[0] - failure.t).abs() < 1e-14);
 
     let failure = run(&Rk4::new(0.3), plain(1, half_defined), (0.0, 2.0), &mut [0.0]).unwrap_err();

@@ -4,7 +4,7 @@ use crate::mechanisms::{close, largest, model, rate, residual, run, start, toler
 use crate::{number, reference};
 use kempe::analyses::dynamics::{dynamics, Options, Reason, Scheme, Singularity, Stabilization};
 use kempe::analyses::State;
-use kempe::integrate::{Atol, Dop853, Flow};
+use kempe::integrate::{AlphaParameters, Atol, Dop853, Flow, GeneralizedAlpha, Radau};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 use std::fmt::Write;
@@ -76,6 +76,34 @@ fn compare(n: usize) {
         close("y", 2.0 * q[1], number(&truth["y"]), 1e-7);
         close("vx", 2.0 * v[0], number(&truth["vx"]), 1e-6);
         close("vy", 2.0 * v[1], number(&truth["vy"]), 1e-6);
+    }
+}
+
+/// Implicit methods up to the first singular position, of one window and of forty.
+#[test]
+fn by_implicit_methods() {
+    for n in [1, 40] {
+        let m = windows(n);
+        let level: Vec<(String, &str)> =
+            (0..n).map(|k| (format!("coupler{k}.angle"), "0")).collect();
+        let level: Vec<(&str, &str)> = level.iter().map(|(key, x)| (key.as_str(), *x)).collect();
+        let (state, _) = start(&m, &[("crank0.angle", "pi/2"), ("crank0.omega", "-1")], &level);
+        let truth = &reference("n_four_bar")["N"][n.to_string()]["B0"]["0.5"];
+        let parameters = AlphaParameters::chung_hulbert(0.8);
+        for (scheme, bound) in [
+            (Scheme::Radau(Radau::new(1e-9, 1e-12)), 1e-8),
+            (Scheme::GeneralizedAlpha(GeneralizedAlpha::new(parameters, 1e-6, 1e-9)), 1e-4),
+        ] {
+            let stabilization = Stabilization::Projection(Projection::default());
+            let options = Options { scheme, stabilization, ..Options::new(0.5) };
+            let run = run(&m, &state, &options);
+            let last = (run.trajectory.t.len() - 1) * m.layout.n_q;
+            let (q, v) = (&run.trajectory.q[last..], &run.trajectory.v[last..]);
+            close("x", 2.0 * q[0], number(&truth["x"]), bound);
+            close("y", 2.0 * q[1], number(&truth["y"]), bound);
+            close("vx", 2.0 * v[0], number(&truth["vx"]), 10.0 * bound);
+            close("vy", 2.0 * v[1], number(&truth["vy"]), 10.0 * bound);
+        }
     }
 }
 

@@ -24,7 +24,11 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     console.print()
     counts = f"{cost['steps']} steps, {cost['rejected']} rejected"
     work = f"{cost['evaluations']} evaluations, {cost['factorisations']} factorisations"
+    if cost.get("jacobians"):
+        work += f", {cost['jacobians']} tangents, {cost['iterations']} Newton iterations"
     console.print(Text(f"  {counts}, {work}, {cost['seconds']:.3g} s"))
+    if "why" in cost:
+        console.print(Text(f"  method {cost['method']}: {cost['why']}"))
 
 
 def _show_peaks(console: Console, peaks: dict[str, Any]) -> None:

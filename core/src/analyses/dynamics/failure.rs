@@ -131,6 +131,13 @@ impl Reason {
                 "a singular position or a discontinuity lies here; look at the solution so far",
             ),
             Cause::NotFinite { t } => not_finite(t),
+            Cause::Newton { h, .. } => (
+                format!(
+                    "the equations of the step from t = {t:.6} s, {h:.1e} s long, have no solution \
+                     that Newton's iteration finds"
+                ),
+                "use a smaller step, or step control (rtol, atol); check forces and laws at this state",
+            ),
             Cause::MaxSteps { steps } => (
                 format!("max_steps = {steps} steps ended at t = {t:.6} s"),
                 "raise max_steps, or loosen the tolerance",

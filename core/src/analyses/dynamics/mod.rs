@@ -1,22 +1,28 @@
 //! Forward dynamics: the motion of a mechanism under forces, from a consistent state.
 
+mod automatic;
+mod choice;
 mod failure;
+mod implicit;
 mod options;
 mod output;
 mod read;
 mod singularity;
 mod system;
 
+pub use choice::Choice;
 pub use failure::{Failure, Reason};
-pub use options::{most_steps, Options, Output, Scheme, Stabilization};
+pub use options::{most_steps, Auto, Options, Output, Scheme, Stabilization};
 pub use output::{Dense, Trajectory, ENERGIES};
 pub use read::read;
 pub use singularity::Singularity;
 
 use super::State;
-use crate::integrate::{self, Cause, Ended, Flow, Method, Observer, Step};
+use crate::integrate::{self, Cause, Ended, Flow, ImplicitMethod, Method, Observer, Step};
 use crate::model::Model;
 use crate::stabilize::Fault;
+use automatic::Automatic;
+use implicit::Implicit;
 use output::Recorder;
 use std::time::Instant;
 use system::{Equations, WORKS};
@@ -30,7 +36,12 @@ pub struct Statistics {
     pub rejected: usize,
     /// Evaluations of the equations of motion, without those for the output.
     pub evaluations: usize,
-    /// Factorisations of the augmented matrix, with those for the output.
+    /// Tangents of the equations of motion; zero for explicit methods.
+    pub jacobians: usize,
+    /// Steps of Newton's iteration; zero for explicit methods.
+    pub iterations: usize,
+    /// Factorisations of the augmented matrix, with those for the output, and of the matrices of
+    /// Newton's iteration.
     pub factorisations: usize,
     /// Wall time, s.
     pub seconds: f64,
@@ -45,6 +56,8 @@ pub struct Run {
     pub dense: Option<Dense>,
     /// What it took.
     pub statistics: Statistics,
+    /// The method that was chosen, where none was named.
+    pub choice: Option<Choice>,
     /// Whether t_end was reached; otherwise the observer stopped it.
     pub reached: bool,
 }
@@ -78,22 +91,46 @@ pub fn dynamics(
     })?;
     let first = recorder.report(t0, &y);
     if first == Flow::Stop {
-        let nothing = integrate::Statistics {
-            steps: 0,
-            rejected: 0,
-            evaluations: 0,
-            ended: Ended::Stopped,
-            t: t0,
-        };
-        return finish(system, recorder, Ok(nothing), (clock, start));
+        let nothing = (Ok(integrate::Statistics::none(t0)), 0, None);
+        return finish(system, recorder, nothing, (clock, start));
     }
     let mut observer = Watched { recorder: &mut recorder, watch: &mut watch };
-    let outcome = match &options.scheme.bounded(model) {
-        Scheme::Rk45(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
-        Scheme::Dop853(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
-        Scheme::Rk4(method) => method.integrate(&mut system, t0, t_end, &mut y, &mut observer),
+    let scheme = options.scheme.bounded(model);
+    let (mut factorisations, mut choice) = (0, None);
+    let outcome: Outcome = match &scheme {
+        Scheme::Rk45(method) => {
+            method.integrate(&mut system, t0, t_end, &mut y, &mut observer).map_err(Box::new)
+        }
+        Scheme::Dop853(method) => {
+            method.integrate(&mut system, t0, t_end, &mut y, &mut observer).map_err(Box::new)
+        }
+        Scheme::Rk4(method) => {
+            method.integrate(&mut system, t0, t_end, &mut y, &mut observer).map_err(Box::new)
+        }
+        Scheme::GeneralizedAlpha(method) => {
+            let mut implicit = Implicit::new(model, options);
+            let outcome = method.integrate(&mut implicit, t0, t_end, &mut y, &mut observer);
+            factorisations = implicit.factorisations();
+            outcome.map_err(Box::new)
+        }
+        Scheme::Radau(method) => {
+            let mut implicit = Implicit::new(model, options);
+            let outcome = method.integrate(&mut implicit, t0, t_end, &mut y, &mut observer);
+            factorisations = implicit.factorisations();
+            outcome.map_err(Box::new)
+        }
+        Scheme::Auto(auto) => {
+            let mut automatic = Automatic::new(model, options, auto, t0);
+            let outcome = automatic.run(&mut system, t0, &mut y, &mut observer);
+            factorisations = automatic.factorisations();
+            choice = Some(automatic.choice);
+            outcome
+        }
     };
-    finish(system, recorder, outcome, (clock, start))
+    if options.scheme.is_explicit() {
+        factorisations = taken(&outcome).evaluations;
+    }
+    finish(system, recorder, (outcome, factorisations, choice), (clock, start))
 }
 
 /// Output first, then the caller's eye on the time.
@@ -115,24 +152,33 @@ impl<W: FnMut(f64) -> Flow> Observer for Watched<'_, '_, W> {
     }
 }
 
+type Outcome = Result<integrate::Statistics, Box<integrate::Failure<(f64, Fault)>>>;
+
+fn taken(outcome: &Outcome) -> integrate::Statistics {
+    match outcome {
+        Ok(statistics) => *statistics,
+        Err(failure) => failure.statistics,
+    }
+}
+
 fn finish(
     system: Equations<'_>,
     recorder: Recorder<'_>,
-    outcome: Result<integrate::Statistics, integrate::Failure<(f64, Fault)>>,
+    (outcome, factorisations, choice): (Outcome, usize, Option<Choice>),
     (clock, start): (Instant, &State),
 ) -> Result<Run, Box<Failure>> {
     let Recorder { trajectory, dense, reported, halt, .. } = recorder;
     let model = system.model;
     let n = model.layout.n_q;
-    let took = match &outcome {
-        Ok(statistics) => *statistics,
-        Err(failure) => failure.statistics,
-    };
+    let took = taken(&outcome);
     let statistics = Statistics {
         steps: took.steps,
         rejected: took.rejected,
         evaluations: took.evaluations,
-        factorisations: took.evaluations
+        jacobians: took.jacobians as usize,
+        iterations: took.iterations as usize,
+        factorisations: factorisations
+            + took.factorisations as usize
             + trajectory.t.len()
             + system.factorisations()
             + reported.factorisations(),
@@ -140,14 +186,14 @@ fn finish(
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached);
     let last = trajectory.q.rchunks(n.max(1)).next().unwrap_or(&start.q).to_vec();
-    let run = Run { trajectory, dense, statistics, reached };
+    let run = Run { trajectory, dense, statistics, choice, reached };
     let reason = match (outcome, halt) {
         (Ok(_), None) => return Ok(run),
         (Err(failure), _) => match (&failure.cause, system.passage.undecided) {
             (Cause::NotFinite { .. }, Some((t, fault))) => {
                 Reason::fault(model, t, &failure.y[..n], fault)
             }
-            _ => Reason::from_integrator(model, failure),
+            _ => Reason::from_integrator(model, *failure),
         },
         (_, Some((t, halt))) => Reason::halt(model, t, &last, halt),
     };

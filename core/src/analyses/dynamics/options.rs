@@ -3,7 +3,7 @@
 use super::{Reason, Singularity};
 use crate::analyses::State;
 use crate::equations::Gains;
-use crate::integrate::{Atol, Dop853, Rk4, Rk45};
+use crate::integrate::{Atol, Dop853, GeneralizedAlpha, Radau, Rk4, Rk45};
 use crate::model::Model;
 use crate::stabilize::Projection;
 
@@ -24,6 +24,34 @@ pub enum Scheme {
     Dop853(Dop853),
     /// Classical, fixed step.
     Rk4(Rk4),
+    /// Implicit, of order 2, at index 3; HHT is one of them.
+    GeneralizedAlpha(GeneralizedAlpha),
+    /// Implicit, of order 5, at index 2.
+    Radau(Radau),
+    /// DOP853, and Radau where the equations prove stiff.
+    Auto(Auto),
+}
+
+/// Options of the automatic choice of the method.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Auto {
+    /// Relative tolerance.
+    pub rtol: f64,
+    /// Absolute tolerance.
+    pub atol: Atol,
+    /// Longest step, s.
+    pub max_step: f64,
+    /// First step, s; chosen if none.
+    pub first_step: Option<f64>,
+    /// Largest number of steps.
+    pub max_steps: Option<usize>,
+}
+
+impl Scheme {
+    /// Whether it is explicit whatever the equations are, so that Baumgarte's stabilization serves.
+    pub fn is_explicit(&self) -> bool {
+        matches!(self, Self::Rk45(_) | Self::Dop853(_) | Self::Rk4(_))
+    }
 }
 
 /// Most steps of a run that does not bound them: 1 000 000 over the number of moving bodies, and at
@@ -39,6 +67,9 @@ impl Scheme {
             Self::Rk45(method) => method.step.is_none(),
             Self::Dop853(method) => method.step.is_none(),
             Self::Rk4(_) => false,
+            Self::GeneralizedAlpha(method) => method.step.is_none(),
+            Self::Radau(method) => method.step.is_none(),
+            Self::Auto(_) => true,
         }
     }
 
@@ -49,6 +80,9 @@ impl Scheme {
             Self::Rk45(method) => &mut method.max_steps,
             Self::Dop853(method) => &mut method.max_steps,
             Self::Rk4(method) => &mut method.max_steps,
+            Self::GeneralizedAlpha(method) => &mut method.max_steps,
+            Self::Radau(method) => &mut method.max_steps,
+            Self::Auto(method) => &mut method.max_steps,
         };
         max_steps.get_or_insert(most_steps(model));
         bounded
@@ -131,6 +165,12 @@ impl Options {
         if let Stabilization::Projection(Projection { tolerance }) = self.stabilization {
             let holds = tolerance > 0.0 && tolerance.is_finite();
             require("tolerance", tolerance, holds, "> 0 and finite")?;
+        }
+        let baumgarte = matches!(self.stabilization, Stabilization::Baumgarte(_));
+        if !self.scheme.is_explicit() && baumgarte {
+            let message = "stabilization: Baumgarte's changes the right side of explicit methods; an \
+                           implicit one has the constraints among its equations: use projection or none";
+            return Err(Reason::Option { name: "stabilization", message: message.to_string() });
         }
         let n = model.layout.n_q;
         let must = format!("as long as the coordinates of the model, {n}");

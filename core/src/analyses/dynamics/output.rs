@@ -1,6 +1,6 @@
 //! What forward dynamics reports: states at chosen times, with accelerations, multipliers, energies.
 
-use super::options::{Options, Output};
+use super::options::{Options, Output, Scheme};
 use super::system::{Equations, WORKS};
 use crate::equations::{energy, kinematics, Gains};
 use crate::integrate::{Flow, Step};
@@ -73,7 +73,7 @@ impl<'a> Recorder<'a> {
             next: 1,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
             trajectory: Trajectory::default(),
-            dense: options.dense_output.then(|| Dense { t: vec![t0], ..Dense::default() }),
+            dense: options.dense_output.then(|| Dense::new(options, t0)),
             reported: Equations::new(model, options),
             halt: None,
         }
@@ -119,17 +119,9 @@ impl<'a> Recorder<'a> {
     /// projected or its equations of motion cannot be solved.
     pub fn step(&mut self, step: &Step<'_>, watch: &mut impl FnMut(f64) -> Flow) -> Flow {
         if let Some(dense) = &mut self.dense {
-            let degree = step.dense.degree();
-            let first = dense.c.len();
-            dense.degree = degree;
-            dense.c.resize(first + degree * step.y.len(), 0.0);
-            step.coefficients(&mut dense.c[first..]);
-            if !finite(&dense.c[first..]) {
-                dense.c.truncate(first);
+            if !dense.add(step) {
                 return self.stop(step.t, Halt::NotFinite);
             }
-            dense.t.push(step.t);
-            dense.y.extend_from_slice(step.y_old);
         }
         let Output::Every(h) = self.output else { return self.report(step.t, step.y) };
         let mut y = std::mem::take(&mut self.y);
@@ -180,6 +172,41 @@ impl<'a> Recorder<'a> {
             return None;
         }
         Some(t)
+    }
+}
+
+impl Dense {
+    /// Degree of a run that may change its method: the largest of those it chooses from.
+    const HIGHEST: usize = 7;
+
+    fn new(options: &Options, t0: f64) -> Self {
+        let degree = if matches!(options.scheme, Scheme::Auto(_)) { Self::HIGHEST } else { 0 };
+        Self { t: vec![t0], degree, ..Self::default() }
+    }
+
+    /// Whether all numbers of the step are finite; else nothing is kept of it.
+    fn add(&mut self, step: &Step<'_>) -> bool {
+        let (own, n) = (step.dense.degree(), step.y.len());
+        let first = self.c.len();
+        self.degree = self.degree.max(own);
+        self.c.resize(first + self.degree * n, 0.0);
+        let out = &mut self.c[first..];
+        step.coefficients(&mut out[..own * n]);
+        if !finite(&out[..own * n]) {
+            self.c.truncate(first);
+            return false;
+        }
+        if own < self.degree {
+            // rows of a lesser degree are spread, from the last
+            for row in (0..n).rev() {
+                let to = row * self.degree;
+                out.copy_within(row * own..(row + 1) * own, to);
+                out[to + own..to + self.degree].fill(0.0);
+            }
+        }
+        self.t.push(step.t);
+        self.y.extend_from_slice(step.y_old);
+        true
     }
 }
 

@@ -1,10 +1,10 @@
 //! Options of forward dynamics from a file or from Python. The structure has been checked before by
 //! the tables of options; here values are put in.
 
-use super::options::{Options, Output, Scheme, Stabilization};
+use super::options::{Auto, Options, Output, Scheme, Stabilization};
 use super::singularity::Singularity;
 use crate::equations::{at, Gains};
-use crate::integrate::{Atol, Dop853, Rk4, Rk45};
+use crate::integrate::{AlphaParameters, Atol, Dop853, GeneralizedAlpha, Radau, Rk4, Rk45};
 use crate::model::{Model, Problem, Reach, Scope, Value};
 use crate::stabilize::Projection;
 
@@ -37,6 +37,15 @@ struct Reader<'a> {
     problems: &'a mut Vec<Problem>,
 }
 
+/// What implicit methods have in common.
+struct Stepping {
+    rtol: f64,
+    atol: Atol,
+    step: Option<f64>,
+    max_step: f64,
+    first_step: Option<f64>,
+}
+
 impl<'a> Reader<'a> {
     fn options(&mut self) -> Options {
         let mut options = Options::new(self.number("t_end", "s").unwrap_or(f64::NAN));
@@ -52,8 +61,9 @@ impl<'a> Reader<'a> {
         }
         let max_steps = self.positive("max_steps", "").map(|n| n as usize);
         options.scheme = self.inside("method", |reader, kind| reader.scheme(kind, max_steps));
+        let implicit = !options.scheme.is_explicit();
         options.stabilization =
-            self.inside("stabilization", |reader, kind| reader.stabilization(kind));
+            self.inside("stabilization", |reader, kind| reader.stabilization(kind, implicit));
         options
     }
 
@@ -62,20 +72,68 @@ impl<'a> Reader<'a> {
             let step = self.positive("step", "s").unwrap_or(f64::NAN);
             return Scheme::Rk4(Rk4 { step, max_steps });
         }
-        let rtol = self.not_negative("rtol", "").unwrap_or(1e-6);
-        let atol = Atol::Scalar(self.not_negative("atol", "").unwrap_or(1e-9));
+        if kind == "radau" {
+            let Stepping { rtol, atol, step, max_step, first_step } = self.stepping((1e-6, 1e-9));
+            return Scheme::Radau(Radau { rtol, atol, step, max_step, first_step, max_steps });
+        }
+        if matches!(kind, "generalized_alpha" | "hht") {
+            return Scheme::GeneralizedAlpha(self.alpha_method(kind, max_steps));
+        }
+        let usual = if kind == "auto" { (1e-8, 1e-11) } else { (1e-6, 1e-9) };
+        let rtol = self.not_negative("rtol", "").unwrap_or(usual.0);
+        let atol = Atol::Scalar(self.not_negative("atol", "").unwrap_or(usual.1));
         let step = self.positive("step", "s");
         let first_step = self.positive("first_step", "s");
         let max_step = self.positive("max_step", "s").unwrap_or(f64::INFINITY);
+        if kind == "auto" {
+            return Scheme::Auto(Auto { rtol, atol, max_step, first_step, max_steps });
+        }
         if kind == "dop853" {
             return Scheme::Dop853(Dop853 { rtol, atol, step, max_step, first_step, max_steps });
         }
         Scheme::Rk45(Rk45 { rtol, atol, step, max_step, first_step, max_steps })
     }
 
-    fn stabilization(&mut self, kind: &str) -> Stabilization {
+    /// Generalized-α and HHT, which differ in what selects the member of the family.
+    fn alpha_method(&mut self, kind: &str, max_steps: Option<usize>) -> GeneralizedAlpha {
+        let parameters = if kind == "hht" {
+            let good = |alpha| (-1.0 / 3.0..0.0).contains(&alpha);
+            AlphaParameters::hht(self.checked("alpha", "", good, "in [-1/3, 0)").unwrap_or(-0.1))
+        } else {
+            let good = |rho| (0.0..1.0).contains(&rho);
+            AlphaParameters::chung_hulbert(
+                self.checked("rho", "", good, "in [0, 1)").unwrap_or(0.8),
+            )
+        };
+        let Stepping { rtol, atol, step, max_step, first_step } = self.stepping((1e-4, 1e-7));
+        GeneralizedAlpha { parameters, rtol, atol, step, max_step, first_step, max_steps }
+    }
+
+    /// Tolerances and steps of an implicit method, whose usual tolerances are given.
+    fn stepping(&mut self, usual: (f64, f64)) -> Stepping {
+        let step = self.positive("step", "s");
+        for key in ["first_step", "max_step"] {
+            if step.is_some() && self.get(key).is_some() {
+                let path: Vec<String> =
+                    self.path.iter().cloned().chain([key.to_string()]).collect();
+                let told = "not together with step, which is constant; remove one of them";
+                self.problems.push(Problem::at(&path, told.to_string()));
+            }
+        }
+        let (rtol, atol) = if step.is_some() { (1e-10, 1e-12) } else { usual };
+        Stepping {
+            rtol: self.not_negative("rtol", "").unwrap_or(rtol),
+            atol: Atol::Scalar(self.not_negative("atol", "").unwrap_or(atol)),
+            step,
+            max_step: self.positive("max_step", "s").unwrap_or(f64::INFINITY),
+            first_step: self.positive("first_step", "s"),
+        }
+    }
+
+    fn stabilization(&mut self, kind: &str, implicit: bool) -> Stabilization {
         match kind {
             "none" => Stabilization::None,
+            "" if implicit => Stabilization::Projection(Projection::default()),
             "projection" => {
                 let default = Projection::default().tolerance;
                 let tolerance = self.positive("tolerance", "").unwrap_or(default);

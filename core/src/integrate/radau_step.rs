@@ -1,0 +1,353 @@
+//! One step of Radau IIA of order 5 at index 2: Φ_q v + Φ_t = 0 at every stage.
+//!
+//! Unknown are Zᵢ = vᵢ - v₀ and λᵢ of the stages; the positions follow as q₀ + h Σ aᵢⱼ vⱼ, the
+//! accelerations as Σ (A⁻¹)ᵢⱼ Zⱼ / h. With μ an eigenvalue of A⁻¹, the equations of Newton's iteration
+//! are for the transformed unknowns
+//!
+//! ```text
+//! [ M + h/μ D + (h/μ)² K   Φ_qᵀ ] [    w    ]     [ h/μ r ]
+//! [ Φ_q + h/μ B             0   ] [ h/μ Δλ ] = - [  Φ̇   ]
+//! ```
+//!
+//! once real and once complex (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8 and
+//! VII.6), whose condition does not grow as h falls. Of q and v the order is 5, of λ 3.
+
+use super::constrained::{Constrained, Level, Point, Residual, Shares};
+use super::knot::{Counted, Knot, Scale};
+use super::radau_coefficients::{lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
+use crate::math::{Complex, Field};
+
+/// Steps that differ by less share their matrices: a difference of times is never twice the same.
+const SAME: f64 = 1e-6;
+/// Corrections of velocities below this part of the largest are rounding.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Rows of the continuous extension: v at the beginning and the stages, derivatives at the stages, the
+/// jump of a projection.
+pub(super) const ROWS: usize = 8;
+
+/// How Newton's iteration ended.
+pub(super) enum Solved {
+    /// After so many iterations, with this rate of convergence.
+    Converged(usize, f64),
+    Diverged,
+    /// The matrix has no factorisation.
+    Singular,
+}
+
+/// When Newton's iteration is content, and when it gives up.
+#[derive(Clone, Copy)]
+pub(super) struct Enough {
+    /// Norm of what may be left.
+    pub tolerance: f64,
+    /// Most iterations.
+    pub most: usize,
+}
+
+/// State and memory of a run.
+pub(super) struct RadauStep {
+    pub start: Knot,
+    /// v - v₀ at the stages is `z`; knots hold q, v, a, λ and the powers.
+    pub stages: [Knot; 3],
+    z: [Vec<f64>; 3],
+    /// Stages of the step before, for the prediction, and its length.
+    z_before: [Vec<f64>; 3],
+    lam_before: [Vec<f64>; 3],
+    h_before: Option<f64>,
+    residuals: [Vec<f64>; 3],
+    real: Vec<f64>,
+    complex: Vec<Complex>,
+    dq: Vec<f64>,
+    /// Estimated errors of q and v.
+    error: [Vec<f64>; 2],
+    /// The start moved by them, and the move along it that the error estimate sees.
+    moved: Knot,
+    along: Vec<f64>,
+    /// Whether the tangent is that of the beginning of this step.
+    pub fresh: bool,
+    factored: Option<f64>,
+}
+
+impl RadauStep {
+    pub fn new(n: usize, m: usize, works: usize) -> Self {
+        let rows = |len: usize| std::array::from_fn(|_| vec![0.0; len]);
+        Self {
+            start: Knot::new(n, m, works),
+            stages: std::array::from_fn(|_| Knot::new(n, m, works)),
+            z: rows(n),
+            z_before: rows(n),
+            lam_before: rows(m),
+            h_before: None,
+            residuals: rows(n + m),
+            real: vec![0.0; n + m],
+            complex: vec![Complex::zero(); n + m],
+            dq: vec![0.0; n],
+            error: std::array::from_fn(|_| vec![0.0; n]),
+            moved: Knot::new(n, m, works),
+            along: vec![0.0; n],
+            fresh: false,
+            factored: None,
+        }
+    }
+
+    /// Solves for the stages of a step.
+    pub fn advance<Y: Constrained>(
+        &mut self,
+        system: &mut Counted<'_, Y>,
+        (t, h): (f64, f64),
+        scale: &mut Scale,
+        enough: Enough,
+    ) -> Solved {
+        if !self.factored.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs()) {
+            self.factored = None;
+            if !(system.factor(shares(h / REAL)) && system.factor_complex(complex_shares(h))) {
+                return Solved::Singular;
+            }
+            self.factored = Some(h);
+        }
+        self.predict(h);
+        self.newton(system, (t, h), scale, enough)
+    }
+
+    /// Finds the tangent at the beginning of the step, but for the positions, which are taken from its
+    /// middle: bodies turn, and the iteration converges twice as fast.
+    pub fn linearize<Y: Constrained>(&mut self, system: &mut Counted<'_, Y>, t: f64, h: f64) {
+        let Knot { q, v, a, lam, .. } = &self.start;
+        self.dq.iter_mut().zip(q.iter().zip(v)).for_each(|(mid, (q, v))| *mid = q + 0.5 * h * v);
+        system.linearize(t + 0.5 * h, Point { q: &self.dq, v, a, lam });
+        self.fresh = true;
+        self.factored = None;
+    }
+
+    /// First guess: the polynomials of the step before go on.
+    fn predict(&mut self, h: f64) {
+        let nodes = [0.0, C[0], C[1], C[2]];
+        for (i, stage) in self.stages.iter_mut().enumerate() {
+            let Some(h_before) = self.h_before else {
+                let step = C[i] * h;
+                self.z[i].iter_mut().zip(&self.start.a).for_each(|(z, a)| *z = step * a);
+                stage.lam.copy_from_slice(&self.start.lam);
+                continue;
+            };
+            let theta = 1.0 + C[i] * h / h_before;
+            let [_, one, two, three] = lagrange(nodes, theta);
+            let z = self.z_before.each_ref();
+            for (k, out) in self.z[i].iter_mut().enumerate() {
+                *out = one * z[0][k] + two * z[1][k] + (three - 1.0) * z[2][k];
+            }
+            let [one, two, three] = lagrange(C, theta);
+            let lam = self.lam_before.each_ref();
+            for (k, out) in stage.lam.iter_mut().enumerate() {
+                *out = one * lam[0][k] + two * lam[1][k] + three * lam[2][k];
+            }
+        }
+    }
+
+    fn newton<Y: Constrained>(
+        &mut self,
+        system: &mut Counted<'_, Y>,
+        (t, h): (f64, f64),
+        scale: &mut Scale,
+        Enough { tolerance, most }: Enough,
+    ) -> Solved {
+        self.spread(h);
+        scale.set(&self.start, &self.stages[2]);
+        let mut last = f64::INFINITY;
+        let mut rate = 0.0;
+        for iteration in 1..=most {
+            self.evaluate(system, (t, h));
+            let norm = self.correct(system, h, scale);
+            if !norm.is_finite() {
+                return Solved::Diverged;
+            }
+            let enough = tolerance.max(self.rounding(scale));
+            if iteration > 1 {
+                rate = norm / last;
+                let to_come = rate.powi((most - iteration) as i32) / (1.0 - rate) * norm;
+                if rate >= 1.0 && norm > enough || rate < 1.0 && to_come > enough {
+                    return Solved::Diverged;
+                }
+                let left = if rate < 0.5 { norm * rate / (1.0 - rate) } else { norm };
+                if left <= enough {
+                    return Solved::Converged(iteration, rate);
+                }
+            }
+            if norm <= 0.1 * enough {
+                return Solved::Converged(iteration, rate);
+            }
+            last = norm;
+        }
+        Solved::Diverged
+    }
+
+    /// q, v and a of the stages from Z.
+    fn spread(&mut self, h: f64) {
+        let Self { start, stages, z, .. } = self;
+        for (i, stage) in stages.iter_mut().enumerate() {
+            for k in 0..start.q.len() {
+                let z = [z[0][k], z[1][k], z[2][k]];
+                stage.v[k] = start.v[k] + z[i];
+                stage.q[k] = start.q[k] + h * (C[i] * start.v[k] + dot(&A[i], &z));
+                stage.a[k] = dot(&INVERSE[i], &z) / h;
+            }
+        }
+    }
+
+    /// Residuals of all stages, and their powers.
+    pub fn evaluate<Y: Constrained>(&mut self, system: &mut Counted<'_, Y>, (t, h): (f64, f64)) {
+        let n = self.dq.len();
+        for ((stage, residual), c) in self.stages.iter_mut().zip(&mut self.residuals).zip(C) {
+            let Knot { q, v, a, lam, powers } = stage;
+            let (forces, rows) = residual.split_at_mut(n);
+            let at = Point { q, v, a, lam };
+            let out = Residual { forces, rows, powers };
+            system.residual(t + c * h, at, Level::Velocity, out);
+        }
+    }
+
+    /// One correction of the stages; its norm.
+    fn correct<Y: Constrained>(
+        &mut self,
+        system: &mut Counted<'_, Y>,
+        h: f64,
+        scale: &Scale,
+    ) -> f64 {
+        let n = self.dq.len();
+        system.counts.iterations += 1;
+        let Self { residuals: r, real, complex, .. } = self;
+        let scaled = Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h);
+        for k in 0..real.len() {
+            let r = [r[0][k], r[1][k], r[2][k]];
+            let [first, second, third] = T_INVERSE.map(|row| dot(&row, &r));
+            let pair = Complex::new(second, third);
+            (real[k], complex[k]) =
+                if k < n { (-h / REAL * first, -(scaled * pair)) } else { (-first, -pair) };
+        }
+        system.system.solve(real);
+        system.system.solve_complex(complex);
+        let unscaled = scaled.reciprocal();
+        for k in 0..real.len() {
+            let (first, pair) = if k < n {
+                (real[k], complex[k])
+            } else {
+                (REAL / h * real[k], unscaled * complex[k])
+            };
+            for (i, row) in T.iter().enumerate() {
+                let change = dot(row, &[first, pair.re, pair.im]);
+                // kept in place of the residual, for the norm
+                self.residuals[i][k] = change;
+                if k < n {
+                    self.z[i][k] += change;
+                } else {
+                    self.stages[i].lam[k - n] += change;
+                }
+            }
+        }
+        self.spread(h);
+        self.norm(h, scale)
+    }
+
+    /// Of the last correction, as mean over the stages.
+    fn norm(&mut self, h: f64, scale: &Scale) -> f64 {
+        let n = self.dq.len();
+        let mut sum = 0.0;
+        for i in 0..3 {
+            let r = self.residuals.each_ref();
+            for (k, dq) in self.dq.iter_mut().enumerate() {
+                *dq = h * dot(&A[i], &[r[0][k], r[1][k], r[2][k]]);
+            }
+            let norm = scale.norm(&self.dq, &r[i][..n]);
+            sum += norm * norm;
+        }
+        (sum / 3.0_f64).sqrt()
+    }
+
+    /// The norm of corrections that are rounding alone.
+    fn rounding(&self, scale: &Scale) -> f64 {
+        let n = self.dq.len();
+        let largest = self.stages[2].v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let parts = scale.weights[n..].iter().filter(|w| **w > 0.0);
+        let sum: f64 = parts.map(|w| (ROUNDING * largest / w) * (ROUNDING * largest / w)).sum();
+        (sum / scale.weights.len().max(1) as f64).sqrt()
+    }
+
+    /// The estimated error of the step over its tolerance: the difference from an embedded method of
+    /// order 3, filtered by the real matrix (IV.8.19 and IV.8.20 of the book). With `again`, that of a
+    /// step from the start moved by the estimate, which is what a stiff start needs.
+    pub fn error<Y: Constrained>(
+        &mut self,
+        system: &mut Counted<'_, Y>,
+        (t, h): (f64, f64),
+        scale: &Scale,
+        again: bool,
+    ) -> Result<f64, Y::Stop> {
+        let n = self.dq.len();
+        let Self { start, moved, stages, z, error, real, along, .. } = self;
+        moved.copy_from(start);
+        if again {
+            let add = |x: &mut [f64], dx: &[f64]| x.iter_mut().zip(dx).for_each(|(x, d)| *x += d);
+            add(&mut moved.q, &error[0]);
+            add(&mut moved.v, &error[1]);
+            system.accelerate(t, moved)?;
+        }
+        let step = h / REAL;
+        // the error's memory holds what is multiplied by K and by M first
+        let [stiff, force] = error;
+        for k in 0..n {
+            let q = std::array::from_fn(|i| stages[i].q[k] - start.q[k]);
+            along[k] = step * moved.v[k] + dot(&ERROR, &q);
+            force[k] = step * moved.a[k] + dot(&ERROR, &[z[0][k], z[1][k], z[2][k]]);
+            stiff[k] = step * along[k];
+        }
+        system.system.times(force, stiff, real);
+        // B comes without the h/μ that K has once more
+        real[n..].iter_mut().for_each(|row| *row /= step);
+        system.system.solve(real);
+        force.copy_from_slice(&real[..n]);
+        let along = along.iter().zip(&real[..n]);
+        stiff.iter_mut().zip(along).for_each(|(dq, (along, dv))| *dq = along + step * dv);
+        Ok(scale.norm(&self.error[0], &self.error[1]))
+    }
+
+    /// Rows of the continuous extension of y = (q, v, quadratures), but for the last.
+    pub fn extension(&self, rows: &mut [f64]) {
+        let (n, works) = (self.dq.len(), self.start.powers.len());
+        let len = 2 * n + works;
+        rows.fill(0.0);
+        rows[..n].copy_from_slice(&self.start.v);
+        for (i, stage) in self.stages.iter().enumerate() {
+            rows[(1 + i) * len..][..n].copy_from_slice(&stage.v);
+            let rest = &mut rows[(4 + i) * len..][n..len];
+            rest[..n].copy_from_slice(&stage.a);
+            rest[n..].copy_from_slice(&stage.powers);
+        }
+    }
+
+    /// h Σ bᵢ powerᵢ of one quadrature.
+    pub fn work(&self, k: usize, h: f64) -> f64 {
+        h * (0..3).map(|i| A[2][i] * self.stages[i].powers[k]).sum::<f64>()
+    }
+
+    /// Keeps the stages for the prediction of the next step.
+    pub fn move_on(&mut self, h: f64) {
+        for i in 0..3 {
+            self.z_before[i].copy_from_slice(&self.z[i]);
+            self.lam_before[i].copy_from_slice(&self.stages[i].lam);
+        }
+        self.h_before = Some(h);
+        self.fresh = false;
+    }
+}
+
+fn shares(step: f64) -> Shares {
+    Shares { mass: 1.0, damping: step, stiffness: step * step, rate: step }
+}
+
+fn complex_shares(h: f64) -> Shares<Complex> {
+    let step = Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h);
+    Shares { mass: Complex::one(), damping: step, stiffness: step * step, rate: step }
+}
+
+#[inline(always)]
+fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
