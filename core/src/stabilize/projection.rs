@@ -34,7 +34,7 @@ const CLOSED: f64 = 1e-8;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
     /// Largest residual that is left: of lengths relative to the size of the mechanism, of angles in
-    /// rad, of their rates relative to the largest rate so far.
+    /// rad, of their rates relative to the largest rate; of states between steps to the largest so far.
     pub tolerance: f64,
 }
 
@@ -74,8 +74,8 @@ pub struct Projector<'a> {
     current: bool,
     /// By how much the last step with the factor at hand lowered the residual.
     lowering: f64,
-    /// The largest rate that was seen.
-    fastest: f64,
+    /// The largest rate that was seen; none if each state has to be as good as its own rates.
+    fastest: Option<f64>,
     /// Right side, then (Δ, μ).
     correction: Vec<f64>,
     /// Factorisations that chord iterations did not spare.
@@ -101,10 +101,16 @@ impl<'a> Projector<'a> {
             terms: std::array::from_fn(|_| vec![0.0; model.layout.n_rows]),
             current: false,
             lowering: 1.0,
-            fastest: 0.0,
+            fastest: None,
             correction: vec![0.0; unknowns],
             factorisations: 0,
         }
+    }
+
+    /// For states that are reported, and not gone on from: rates need only be as good as the fastest of
+    /// them, so that what is nearly at rest is not projected for digits that nobody sees.
+    pub fn for_reports(self) -> Self {
+        Self { fastest: Some(0.0), ..self }
     }
 
     /// Projects (q, v) in place; whether they changed. The motions of the workspace are then those of the
@@ -188,8 +194,9 @@ impl<'a> Projector<'a> {
             }
             // what has come to rest has rates without digits
             Level::Velocity => {
-                self.fastest = self.fastest.max(self.largest(v)).max(gap);
-                let target = self.tolerance * self.fastest;
+                let largest = self.largest(v).max(gap);
+                self.fastest = self.fastest.map(|fastest| fastest.max(largest));
+                let target = self.tolerance * self.fastest.unwrap_or(largest);
                 (target.max(f64::MIN_POSITIVE), f64::INFINITY)
             }
         };

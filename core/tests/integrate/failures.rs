@@ -125,7 +125,7 @@ fn too_many_steps_are_refused_before_the_first() {
     fn check(method: &impl Method, needed: f64, step: f64) {
         let failure = run(method, plain(2, oscillator), (0.0, 1.0), &mut [2.0, 0.0]).unwrap_err();
         assert_eq!(failure.cause, Cause::TooManySteps { needed, step, most: 5 });
-        assert_eq!((failure.statistics.evaluations, failure.y), (0, vec![2.0, 0.0]));
+        assert_eq!((failure.statistics.evaluations, failure.y), (0, Box::from([2.0, 0.0])));
     }
     let max_steps = Some(5);
     check(&Rk4 { step: 0.1, max_steps }, 10.0, 0.1);

@@ -74,7 +74,7 @@ impl<'a> Recorder<'a> {
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
             trajectory: Trajectory::default(),
             dense: options.dense_output.then(|| Dense::new(options, t0)),
-            reported: Equations::new(model, options),
+            reported: Equations::new(model, options).for_reports(),
             halt: None,
         }
     }

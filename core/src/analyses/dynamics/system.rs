@@ -43,6 +43,11 @@ impl<'a> Equations<'a> {
         Self { model, workspace, gains: options.gains(), projector, passage }
     }
 
+    /// The same for reported states.
+    pub fn for_reports(self) -> Self {
+        Self { projector: self.projector.map(Projector::for_reports), ..self }
+    }
+
     /// Factorisations beside those of evaluations.
     pub fn factorisations(&self) -> usize {
         self.projector.as_ref().map_or(0, |projector| projector.factorisations)
