@@ -46,7 +46,9 @@ def main() -> None:
     medians = {tool: statistics.median(values) for tool, values in times.items()}
     print(f"flagship, 15 s, rtol {asked.rtol:g}, {asked.repeat} turns")
     for record, _, _ in programs:
-        print(f"  {record.tool:<6} {1e3 * medians[record.tool]:10.2f} ms   error {record.error:.1e}")
+        print(
+            f"  {record.tool:<6} {1e3 * medians[record.tool]:10.2f} ms   error {record.error:.1e}"
+        )
     print(f"  ratio of medians {medians['scipy'] / medians['kempe']:.0f}")
 
 

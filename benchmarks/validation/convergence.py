@@ -42,12 +42,27 @@ class Integrator:
     steps: dict[str, int]
 
 
-#: The list of methods, in one place. With explicit methods the multipliers belong to the state, so
-#: that λ converges as q does.
+#: The list of methods, in one place. The multipliers that are reported belong to the state, so that λ
+#: converges as q does.
 METHODS = (
     Integrator("RK4", 4, 4, lambda h: kp.RK4(step=h), {"pendulum": 32, "four-bar": 128}),
     Integrator("RK45", 5, 5, lambda h: kp.RK45(step=h), {"pendulum": 32, "four-bar": 24}),
     Integrator("DOP853", 8, 8, lambda h: kp.DOP853(step=h), {"pendulum": 4, "four-bar": 2}),
+    Integrator(
+        "generalized-α, ρ = 0.8",
+        2,
+        2,
+        lambda h: kp.GeneralizedAlpha(step=h),
+        {"pendulum": 64, "four-bar": 128},
+    ),
+    Integrator("HHT, α = -0.1", 2, 2, lambda h: kp.HHT(step=h), {"pendulum": 64, "four-bar": 128}),
+    Integrator(
+        "Radau IIA",
+        5,
+        5,
+        lambda h: kp.Radau(step=h, rtol=1e-12, atol=1e-14),
+        {"pendulum": 16, "four-bar": 8},
+    ),
 )
 
 

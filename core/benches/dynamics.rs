@@ -25,7 +25,7 @@ fn time(name: &str, (model, start): (Model, State), t_end: f64, windows: usize) 
     let options = dynamics::Options {
         output: dynamics::Output::Every(0.01),
         dense_output: false,
-        ..dynamics::Options::new(t_end)
+        ..dynamics::Options::classical(t_end)
     };
     let run = || {
         let run = dynamics::dynamics(&model, &start, &options, |_| Flow::Continue);

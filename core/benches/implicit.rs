@@ -39,7 +39,7 @@ fn run(model: &Model, start: &State, t_end: f64, scheme: &Scheme, output: f64) -
         scheme: scheme.clone(),
         stabilization: Stabilization::Projection(Projection::default()),
         dense_output: false,
-        ..Options::new(t_end)
+        ..Options::classical(t_end)
     };
     dynamics(model, start, &options, |_| Flow::Continue).expect("the run ends well")
 }

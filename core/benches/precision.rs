@@ -37,7 +37,7 @@ fn scheme(name: &str, rtol: f64) -> Scheme {
 
 fn options(t_end: f64, scheme: Scheme, stabilization: Stabilization) -> Options {
     let output = Output::Every(0.01);
-    Options { output, scheme, stabilization, dense_output: false, ..Options::new(t_end) }
+    Options { output, scheme, stabilization, dense_output: false, ..Options::classical(t_end) }
 }
 
 fn run(model: &Model, start: &State, options: &Options) -> Run {

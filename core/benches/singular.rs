@@ -82,7 +82,7 @@ fn options(scheme: &str, rtol: f64) -> Options {
             "rk45" => Scheme::Rk45(Rk45 { rtol, atol, ..Rk45::default() }),
             _ => Scheme::Dop853(Dop853 { rtol, atol, ..Dop853::default() }),
         },
-        ..Options::new(T_END)
+        ..Options::classical(T_END)
     }
 }
 

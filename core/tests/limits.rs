@@ -34,7 +34,8 @@ fn a_kinetic_energy_that_is_no_number_is_no_success() {
     state.v = vec![0.0, 5e154, 1e155];
     let scheme = Scheme::Rk4(Rk4::new(1e-200));
     for dense_output in [false, true] {
-        let options = Options { scheme: scheme.clone(), dense_output, ..Options::new(3e-200) };
+        let options =
+            Options { scheme: scheme.clone(), dense_output, ..Options::classical(3e-200) };
         let failure = failed(&m, &state, &options);
         let told = failure.reason.to_string();
         assert!(told.contains("infinite or undefined"), "{told}");
@@ -52,7 +53,7 @@ fn a_partial_solution_is_finite() {
     );
     let (state, _) = start(&m, &[("ball.angle", "1")], &[]);
     let scheme = Scheme::Rk4(Rk4::new(0.25));
-    let failure = failed(&m, &state, &Options { scheme, ..Options::new(100.0) });
+    let failure = failed(&m, &state, &Options { scheme, ..Options::classical(100.0) });
     assert!(matches!(failure.reason, Reason::Integration { .. }), "{:?}", failure.reason);
     let run = &failure.run;
     assert!(run.trajectory.t.len() > 3);
@@ -102,13 +103,13 @@ fn a_run_without_end_ends() {
     let (m, state) = four_bar();
     assert_eq!(most_steps(&m), 333_333);
     let scheme = Scheme::Rk45(Rk45 { max_step: 1e-12, ..Rk45::default() });
-    let failure = failed(&m, &state, &Options { scheme, ..Options::new(1.0) });
+    let failure = failed(&m, &state, &Options { scheme, ..Options::classical(1.0) });
     let Reason::Integration { t, message, hint } = failure.reason else { panic!("integration") };
     assert_eq!((t, failure.run.trajectory.t.len()), (0.0, 1));
     assert!(message.contains("more than max_steps = 333333"), "{message}");
     assert!(hint.contains("larger steps"), "{hint}");
 
-    let options = Options { output: Output::Every(1e-12), ..Options::new(1.0) };
+    let options = Options { output: Output::Every(1e-12), ..Options::classical(1.0) };
     let Reason::Option { name, .. } = failed(&m, &state, &options).reason else { panic!("option") };
     assert_eq!(name, "output_step");
 }

@@ -14,7 +14,7 @@ from kempe.compiled import CompiledModel
 from kempe.errors import ModelError
 from kempe.model import Model
 from kempe.names import one_of
-from kempe.options import RK45, Dynamics, Option, core_options
+from kempe.options import Auto, Dynamics, Option, Projection, core_options
 from kempe.solution import Solution
 from kempe.state import AssemblyReport, State
 from kempe.values import Number, number, numbers
@@ -80,8 +80,8 @@ def dynamics(
     *,
     t_end: Number,
     output_step: Number | None = None,
-    method: Option = RK45(),  # noqa: B008 - frozen
-    stabilization: Option | str | None = "auto",
+    method: Option = Auto(),  # noqa: B008 - frozen
+    stabilization: Option | None = Projection(),  # noqa: B008 - frozen
     max_steps: int | None = None,
     dense_output: bool = True,
     redundancy: str | None = None,
@@ -96,8 +96,7 @@ def dynamics(
         t_end: time at which it ends, s.
         output_step: time between outputs, s; every step when None.
         method: the integrator.
-        stabilization: of the constraints; none at all when None. "auto" is Baumgarte with explicit
-            methods, and projection with the others.
+        stabilization: of the constraints; none at all when None.
         max_steps: it gives up after that many steps; 1 000 000 over the number
             of moving bodies when None, at least 50 000.
         dense_output: whether to keep the interpolant between the steps, for ``sol(t)``.

@@ -232,8 +232,7 @@ class Dynamics:
         t_end: time at which it ends, s.
         output_step: time between outputs, s; every step when None.
         method: the integrator.
-        stabilization: of the constraints; none at all when None. "auto" is Baumgarte with explicit
-            methods, and projection with the others.
+        stabilization: of the constraints; none at all when None.
         max_steps: it gives up after that many steps; 1 000 000 over the number
             of moving bodies when None, at least 50 000.
         dense_output: whether to keep the interpolant between the steps.
@@ -247,8 +246,8 @@ class Dynamics:
 
     t_end: Number
     output_step: Number | None = None
-    method: Option = RK45()
-    stabilization: Option | str | None = "auto"
+    method: Option = Auto()
+    stabilization: Option | None = Projection()
     max_steps: int | None = None
     dense_output: bool = True
     name: str = "dynamics"
@@ -271,9 +270,8 @@ class Dynamics:
             if getattr(self, field) is not None:
                 entry[field] = number(getattr(self, field), f"{path}.{field}")
         entry["method"] = _option(self.method, f"{path}.method")
-        if self.stabilization != "auto":
-            chosen = NoStabilization() if self.stabilization is None else self.stabilization
-            entry["stabilization"] = _option(chosen, f"{path}.stabilization")
+        chosen = NoStabilization() if self.stabilization is None else self.stabilization
+        entry["stabilization"] = _option(chosen, f"{path}.stabilization")
         if one_of(f"{path}.singularity", self.singularity, ("stop", "pass")) == "pass":
             entry["singularity"] = "pass"
         entry["dense_output"] = bool(self.dense_output)

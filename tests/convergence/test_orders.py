@@ -32,7 +32,7 @@ def test_every_method_is_studied() -> None:
 
     known = {table["name"] for table in json.loads(_core.catalogue())["methods"]}
     studied: set[str] = {_kind(integrator.method(0.1)) for integrator in METHODS}
-    assert studied == known
+    assert studied == known - {"auto"}  # it is one of the others
 
 
 def _kind(method: Option) -> str:

@@ -56,7 +56,9 @@ def test_a_case_built_in_python_is_the_case_in_the_file(
         "set": {"crank.angle": "70*deg"},
         "guess": {"coupler.angle": "14*deg", "rocker.angle": "240*deg"},
     }
-    case = kp.Case(model, start, [kp.Dynamics(0.5, output_step=0.01, name="release")])
+    classical = {"method": kp.RK45(), "stabilization": kp.Baumgarte()}
+    release = kp.Dynamics(0.5, output_step=0.01, name="release", **classical)
+    case = kp.Case(model, start, [release])
     case.save(tmp_path / "built.toml")
     built, written = kp.load(tmp_path / "built.toml").run()[0], kp.load(four_bar_file).run()[0]
     np.testing.assert_array_equal(built.q, written.q)

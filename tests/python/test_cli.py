@@ -106,6 +106,7 @@ def test_names_are_shown_verbatim(four_bar_file: Path, tmp_path: Path) -> None:
 def test_several_analyses_have_folders_of_their_own(four_bar_file: Path, tmp_path: Path) -> None:
     with four_bar_file.open("a", encoding="utf-8") as file:
         file.write('\n[analyses.on]\ntype = "dynamics"\nt_end = 0.6\n')
+        file.write('stabilization = { type = "baumgarte" }\nmethod = { type = "rk45" }\n')
     done = kempe("run", four_bar_file, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     first, second = (

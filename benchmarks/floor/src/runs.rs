@@ -32,7 +32,7 @@ pub fn measure(repeat: usize) -> Value {
             output: Output::Every(GRID),
             dense_output: false,
             scheme: Scheme::Rk45(Rk45::new(rtol, 1e-3 * rtol)),
-            ..Options::new(T_END)
+            ..Options::classical(T_END)
         };
         let general = || dynamics(&model, &start, &options, |_| Flow::Continue).expect("runs well");
         let found = medians(

@@ -52,14 +52,13 @@ fn dynamics() -> Table {
     ];
     fields.extend(output_fields());
     fields.extend([
-        Field::optional("method", Shape::Options("method"), "", Default::Type("rk45"), "Method of integration."),
+        Field::optional("method", Shape::Options("method"), "", Default::Type("auto"), "Method of integration."),
         Field::optional(
             "stabilization",
             Shape::Options("stabilization"),
             "",
-            Default::Absent,
-            "What keeps the constraints from drifting; if absent, Baumgarte with explicit methods, and \
-             projection with the others.",
+            Default::Type("projection"),
+            "What keeps the constraints from drifting.",
         ),
         Field::optional(
             "singularity",
@@ -146,7 +145,9 @@ fn dop853() -> Options {
 fn auto() -> Options {
     let doc = "DOP853, and Radau from where a damped motion holds its steps at the limit of stability; the \
                statistics tell which, and why.";
-    adaptive("Auto", "auto", (1e-8, 1e-11), doc)
+    let mut options = adaptive("Auto", "auto", (1e-8, 1e-11), doc);
+    options.table.fields.retain(|field| field.name != "step"); // there is nothing to choose with it
+    options
 }
 
 fn rk4() -> Options {

@@ -18,7 +18,7 @@ fn the_law_holds_at_the_time_of_assembly() {
         close("angle", state.q[2], 1.0 + 0.5 * t + 0.1 * (3.0 * t).sin(), 1e-13);
         close("omega", state.v[2], 0.5 + 0.3 * (3.0 * t).cos(), 1e-12);
         assert!(largest(&residual(&m, &state)) < 1e-11 && largest(&rate(&m, &state)) < 1e-11);
-        let run = run(&m, &state, &Options::new(t));
+        let run = run(&m, &state, &Options::classical(t));
         close("alpha", run.trajectory.a[2], -0.9 * (3.0 * t).sin(), 1e-11);
     }
 }

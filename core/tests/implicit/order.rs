@@ -19,7 +19,7 @@ fn found(m: &Model, state: &State, t_end: f64, grid: f64, scheme: Scheme) -> Fou
         scheme,
         stabilization: Stabilization::Projection(Projection::default()),
         dense_output: false,
-        ..Options::new(t_end)
+        ..Options::classical(t_end)
     };
     let trajectory = run(m, state, &every(grid, options)).trajectory;
     Found { q: trajectory.q, v: trajectory.v, lam: trajectory.lam }

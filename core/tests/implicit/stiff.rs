@@ -12,7 +12,7 @@ fn options(t_end: f64, scheme: Scheme) -> Options {
     Options {
         scheme,
         stabilization: Stabilization::Projection(Projection::default()),
-        ..Options::new(t_end)
+        ..Options::classical(t_end)
     }
 }
 

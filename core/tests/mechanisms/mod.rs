@@ -77,7 +77,7 @@ pub fn four_bar() -> (Model, State) {
 /// Options with the given tolerances.
 pub fn tolerances(t_end: f64, rtol: f64, atol: f64) -> Options {
     let scheme = Scheme::Rk45(Rk45 { rtol, atol: Atol::Scalar(atol), ..Rk45::default() });
-    Options { scheme, dense_output: false, ..Options::new(t_end) }
+    Options { scheme, dense_output: false, ..Options::classical(t_end) }
 }
 
 /// Runs to the end, or panics with what is wrong.

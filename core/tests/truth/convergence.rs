@@ -21,7 +21,7 @@ fn rk4(t_end: f64, step: f64) -> Options {
         scheme,
         stabilization: Stabilization::None,
         dense_output: false,
-        ..Options::new(t_end)
+        ..Options::classical(t_end)
     }
 }
 

@@ -35,7 +35,7 @@ fn the_jacobian_with_its_signs() {
 fn accelerations_and_multipliers_at_the_start() {
     let truth = &reference("four_bar")["start"];
     let (m, start) = four_bar();
-    let run = run(&m, &start, &Options::new(0.0));
+    let run = run(&m, &start, &Options::classical(0.0));
     assert_eq!(run.trajectory.t, [0.0]);
     let (a, lam) = (numbers(&truth["a"]), numbers(&truth["lam"]));
     assert!(worst(&run.trajectory.a, &a) < 1e-9 * largest(&a));

@@ -63,7 +63,7 @@ fn both_closures_with_first_and_second_derivatives() {
         let guess = guess.each_ref().map(|(key, text)| (*key, text.as_str()));
         let (state, report) = start(&m, &[], &guess);
         assert_eq!(report.degrees_of_freedom, 0);
-        let run = run(&m, &state, &Options::new(0.0));
+        let run = run(&m, &state, &Options::classical(0.0));
         close(name, state.q[5].to_degrees(), phi2, 1e-10);
         close(name, state.q[8].to_degrees(), phi3, 1e-10);
         close(name, state.v[5], number(&values["dphi2/dth"]), 1e-12);

@@ -77,7 +77,7 @@ pub fn dynamics(
     let clock = Instant::now();
     options.check(model, start).map_err(|reason| Failure { reason, run: Run::default() })?;
     let mut system = Equations::new(model, options);
-    let (t0, t_end) = (options.t_start.unwrap_or(start.t), options.t_end);
+    let t0 = options.t_start.unwrap_or(start.t);
     let mut recorder = Recorder::new(model, options, t0);
     let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();
     y.resize(y.len() + WORKS, 0.0);
@@ -95,42 +95,46 @@ pub fn dynamics(
         return finish(system, recorder, nothing, (clock, start));
     }
     let mut observer = Watched { recorder: &mut recorder, watch: &mut watch };
-    let scheme = options.scheme.bounded(model);
-    let (mut factorisations, mut choice) = (0, None);
-    let outcome: Outcome = match &scheme {
-        Scheme::Rk45(method) => {
-            method.integrate(&mut system, t0, t_end, &mut y, &mut observer).map_err(Box::new)
-        }
-        Scheme::Dop853(method) => {
-            method.integrate(&mut system, t0, t_end, &mut y, &mut observer).map_err(Box::new)
-        }
-        Scheme::Rk4(method) => {
-            method.integrate(&mut system, t0, t_end, &mut y, &mut observer).map_err(Box::new)
-        }
+    let end = integrate_by(options, &mut system, t0, &mut y, &mut observer);
+    finish(system, recorder, end, (clock, start))
+}
+
+/// How the integration ended; factorisations beside those that it counts itself; what was chosen.
+type End = (Outcome, usize, Option<Choice>);
+
+fn integrate_by<'a, O: Observer>(
+    options: &'a Options,
+    system: &mut Equations<'a>,
+    t0: f64,
+    y: &mut [f64],
+    observer: &mut O,
+) -> End {
+    let (model, t_end) = (system.model, options.t_end);
+    let explicit = |outcome: Result<integrate::Statistics, integrate::Failure<_>>| -> End {
+        let outcome = outcome.map_err(Box::new);
+        let evaluations = taken(&outcome).evaluations;
+        (outcome, evaluations, None)
+    };
+    match &options.scheme.bounded(model) {
+        Scheme::Rk45(method) => explicit(method.integrate(system, t0, t_end, y, observer)),
+        Scheme::Dop853(method) => explicit(method.integrate(system, t0, t_end, y, observer)),
+        Scheme::Rk4(method) => explicit(method.integrate(system, t0, t_end, y, observer)),
         Scheme::GeneralizedAlpha(method) => {
             let mut implicit = Implicit::new(model, options);
-            let outcome = method.integrate(&mut implicit, t0, t_end, &mut y, &mut observer);
-            factorisations = implicit.factorisations();
-            outcome.map_err(Box::new)
+            let outcome = method.integrate(&mut implicit, t0, t_end, y, observer);
+            (outcome.map_err(Box::new), implicit.factorisations(), None)
         }
         Scheme::Radau(method) => {
             let mut implicit = Implicit::new(model, options);
-            let outcome = method.integrate(&mut implicit, t0, t_end, &mut y, &mut observer);
-            factorisations = implicit.factorisations();
-            outcome.map_err(Box::new)
+            let outcome = method.integrate(&mut implicit, t0, t_end, y, observer);
+            (outcome.map_err(Box::new), implicit.factorisations(), None)
         }
         Scheme::Auto(auto) => {
             let mut automatic = Automatic::new(model, options, auto, t0);
-            let outcome = automatic.run(&mut system, t0, &mut y, &mut observer);
-            factorisations = automatic.factorisations();
-            choice = Some(automatic.choice);
-            outcome
+            let outcome = automatic.run(system, t0, y, observer);
+            (outcome, automatic.factorisations(), Some(automatic.choice))
         }
-    };
-    if options.scheme.is_explicit() {
-        factorisations = taken(&outcome).evaluations;
     }
-    finish(system, recorder, (outcome, factorisations, choice), (clock, start))
 }
 
 /// Output first, then the caller's eye on the time.
@@ -164,7 +168,7 @@ fn taken(outcome: &Outcome) -> integrate::Statistics {
 fn finish(
     system: Equations<'_>,
     recorder: Recorder<'_>,
-    (outcome, factorisations, choice): (Outcome, usize, Option<Choice>),
+    (outcome, factorisations, choice): End,
     (clock, start): (Instant, &State),
 ) -> Result<Run, Box<Failure>> {
     let Recorder { trajectory, dense, reported, halt, .. } = recorder;

@@ -129,16 +129,25 @@ pub struct Options {
 }
 
 impl Options {
-    /// Dormand–Prince at rtol 1e-6, atol 1e-9 with Baumgarte's α = 10, β = 200.
+    /// What a user gets who says nothing: the automatic choice of the method, and projection.
     pub fn new(t_end: f64) -> Self {
         Self {
             t_end,
             t_start: None,
             output: Output::Steps,
-            scheme: Scheme::Rk45(Rk45 { rtol: 1e-6, atol: Atol::Scalar(1e-9), ..Rk45::default() }),
-            stabilization: Stabilization::Baumgarte(Gains { alpha: 10.0, beta: 200.0 }),
+            scheme: Scheme::Auto(Auto::new()),
+            stabilization: Stabilization::Projection(Projection::default()),
             singularity: Singularity::Stop,
             dense_output: true,
+        }
+    }
+
+    /// The classical way: Dormand–Prince at rtol 1e-6, atol 1e-9 with Baumgarte's α = 10, β = 200.
+    pub fn classical(t_end: f64) -> Self {
+        Self {
+            scheme: Scheme::Rk45(Rk45::new(1e-6, 1e-9)),
+            stabilization: Stabilization::Baumgarte(Gains { alpha: 10.0, beta: 200.0 }),
+            ..Self::new(t_end)
         }
     }
 

@@ -61,9 +61,8 @@ impl<'a> Reader<'a> {
         }
         let max_steps = self.positive("max_steps", "").map(|n| n as usize);
         options.scheme = self.inside("method", |reader, kind| reader.scheme(kind, max_steps));
-        let implicit = !options.scheme.is_explicit();
         options.stabilization =
-            self.inside("stabilization", |reader, kind| reader.stabilization(kind, implicit));
+            self.inside("stabilization", |reader, kind| reader.stabilization(kind));
         options
     }
 
@@ -79,13 +78,14 @@ impl<'a> Reader<'a> {
         if matches!(kind, "generalized_alpha" | "hht") {
             return Scheme::GeneralizedAlpha(self.alpha_method(kind, max_steps));
         }
-        let usual = if kind == "auto" { (1e-8, 1e-11) } else { (1e-6, 1e-9) };
+        let automatic = matches!(kind, "auto" | "");
+        let usual = if automatic { (1e-8, 1e-11) } else { (1e-6, 1e-9) };
         let rtol = self.not_negative("rtol", "").unwrap_or(usual.0);
         let atol = Atol::Scalar(self.not_negative("atol", "").unwrap_or(usual.1));
         let step = self.positive("step", "s");
         let first_step = self.positive("first_step", "s");
         let max_step = self.positive("max_step", "s").unwrap_or(f64::INFINITY);
-        if kind == "auto" {
+        if automatic {
             return Scheme::Auto(Auto { rtol, atol, max_step, first_step, max_steps });
         }
         if kind == "dop853" {
@@ -130,11 +130,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn stabilization(&mut self, kind: &str, implicit: bool) -> Stabilization {
+    fn stabilization(&mut self, kind: &str) -> Stabilization {
         match kind {
             "none" => Stabilization::None,
-            "" if implicit => Stabilization::Projection(Projection::default()),
-            "projection" => {
+            "projection" | "" => {
                 let default = Projection::default().tolerance;
                 let tolerance = self.positive("tolerance", "").unwrap_or(default);
                 Stabilization::Projection(Projection { tolerance })
