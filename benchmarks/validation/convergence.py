@@ -42,8 +42,8 @@ class Integrator:
     steps: dict[str, int]
 
 
-#: The list of methods, in one place. The multipliers that are reported belong to the state, so that λ
-#: converges as q does.
+#: The list of methods, in one place. The multipliers that are reported belong to the state, so that
+#: λ converges as q does.
 METHODS = (
     Integrator("RK4", 4, 4, lambda h: kp.RK4(step=h), {"pendulum": 32, "four-bar": 128}),
     Integrator("RK45", 5, 5, lambda h: kp.RK45(step=h), {"pendulum": 32, "four-bar": 24}),
