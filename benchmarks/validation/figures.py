@@ -21,12 +21,14 @@ def convergence(found: list[Convergence], path: Path) -> None:
     """Errors of q and λ over the step, with the slopes of theory."""
     with style.applied():
         made = style.figure()
+        made.set_figheight(1.45 * made.get_figheight())
         axes = made.subplots(1, len(PANELS), sharey=True)
         for ax, (key, title) in zip(axes, PANELS, strict=True):
             for number, one in enumerate(found):
                 draw(ax, one, key, number)
             ax.set(xscale="log", yscale="log", xlabel="step h [s]", title=title)
-            ax.legend()
+            # below the panel: the curves fill it from corner to corner
+            ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2))
         axes[0].set_ylabel("largest error, relative")
         style.save(made, path.with_suffix(""))
 
