@@ -9,6 +9,7 @@ mod jet;
 mod lanes;
 mod plane;
 mod real;
+mod sine;
 
 pub use dual::Dual;
 pub use jet::Jet;
