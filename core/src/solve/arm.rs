@@ -75,11 +75,11 @@ impl<S: Real> Arm<S> {
     /// x -= Dw⁻¹ Uᵀ λ.
     #[inline(always)]
     pub fn subtract_transposed<const N: usize>(&self, sign: f64, lambda: &[S; N], x: &mut [S; 3]) {
-        let mut turn = x[2];
+        let mut found = *x;
         for (i, lambda) in lambda.iter().enumerate() {
-            x[i] -= S::constant(sign) * self.inverse[i] * *lambda;
-            turn -= self.scaled[i] * *lambda;
+            found[i] -= S::constant(sign) * self.inverse[i] * *lambda;
+            found[2] -= self.scaled[i] * *lambda;
         }
-        x[2] = turn;
+        *x = found;
     }
 }

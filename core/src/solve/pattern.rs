@@ -61,6 +61,8 @@ pub(super) struct Column {
     pub size: u32,
     /// The first of them.
     pub row: u32,
+    /// Whether nothing but pairs of rows with arms takes part in it, as at pin joints among themselves.
+    pub pins: bool,
     pub touches: Box<[Touch]>,
     /// The blocks left of its diagonal block.
     pub earlier: Box<[Earlier]>,
@@ -157,5 +159,20 @@ impl Pattern {
     /// Number of blocks of L below the diagonal, fill included.
     pub fn fill(&self) -> usize {
         self.columns.iter().map(|c| c.below.len()).sum()
+    }
+}
+
+impl Column {
+    /// Whether every block that meets here has two rows, and every product is one of arms.
+    pub(super) fn is_of_pins(&self) -> bool {
+        let below = |below: &Below| {
+            below.size == 2
+                && below.pairs.iter().all(|pair| pair.sign != 0.0)
+                && below.updates.iter().all(|update| update.size == 2)
+        };
+        self.size == 2
+            && self.touches.iter().all(|touch| touch.sign != 0.0)
+            && self.earlier.iter().all(|earlier| earlier.size == 2)
+            && self.below.iter().all(below)
     }
 }

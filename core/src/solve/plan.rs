@@ -30,13 +30,16 @@ pub(super) fn columns(
             pairs: places.pairs(order[r], own).into(),
             updates: updates.as_slice().into(),
         });
-        columns.push(Column {
+        let mut column = Column {
             size,
             row,
+            pins: false,
             touches: places.touches[own].as_slice().into(),
             earlier: lists.earlier[place].as_slice().into(),
             below: below.collect(),
-        });
+        };
+        column.pins = column.is_of_pins();
+        columns.push(column);
     }
     (columns, n_lower)
 }

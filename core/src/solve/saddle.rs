@@ -143,18 +143,33 @@ impl<S: Real> Saddle<S> {
     ) -> Result<(), Dependent> {
         let (x, g) = x.split_at_mut(if RHS { pattern.n_unknowns() } else { 0 });
         for column in &pattern.columns {
-            match column.size {
-                1 => self.column::<1, RHS>(column, x, g)?,
-                2 => self.column::<2, RHS>(column, x, g)?,
-                _ => self.column::<3, RHS>(column, x, g)?,
+            if column.pins {
+                self.column::<2, RHS, true>(column, x, g)?;
+            } else {
+                self.mixed_column::<RHS>(column, x, g)?;
             }
         }
         Ok(())
     }
 
-    /// One column of L, of N rows and columns on the diagonal.
+    /// A column of any kind, apart from those of pins alone: the loop over these stays in registers.
+    #[inline(never)]
+    fn mixed_column<const RHS: bool>(
+        &mut self,
+        column: &Column,
+        x: &[S],
+        g: &mut [S],
+    ) -> Result<(), Dependent> {
+        match column.size {
+            1 => self.column::<1, RHS, false>(column, x, g),
+            2 => self.column::<2, RHS, false>(column, x, g),
+            _ => self.column::<3, RHS, false>(column, x, g),
+        }
+    }
+
+    /// One column of L, of N rows and columns on the diagonal; with `PINS` one of pins alone.
     #[inline(always)]
-    fn column<const N: usize, const RHS: bool>(
+    fn column<const N: usize, const RHS: bool, const PINS: bool>(
         &mut self,
         column: &Column,
         x: &[S],
@@ -166,7 +181,7 @@ impl<S: Real> Saddle<S> {
         }
         let mut y = if RHS { part(g, column.row).map(|g: S| -g) } else { [S::zero(); N] };
         for touch in &column.touches {
-            if N == 2 && touch.sign != 0.0 {
+            if PINS || N == 2 && touch.sign != 0.0 {
                 let arm = &self.arms[touch.first as usize];
                 arm.add_square(&mut s);
                 if RHS {
@@ -182,9 +197,10 @@ impl<S: Real> Saddle<S> {
         }
         let magnitude: [S; N] = std::array::from_fn(|i| s[i][i]);
         for block in &column.earlier {
-            self.subtract::<N, N>([block.block, block.block], block.size, &mut s);
+            let size = if PINS { 2 } else { block.size };
+            self.subtract::<N, N>([block.block, block.block], size, &mut s);
             if RHS {
-                block.subtract(&self.lower, g, &mut y);
+                block.subtract(size, &self.lower, g, &mut y);
             }
         }
         let diagonal = factorise(s);
@@ -195,9 +211,10 @@ impl<S: Real> Saddle<S> {
         self.keep(column, &diagonal, magnitude)?;
         for block in &column.below {
             match block.size {
-                1 => self.below::<1, N>(block, &diagonal),
-                2 => self.below::<2, N>(block, &diagonal),
-                _ => self.below::<3, N>(block, &diagonal),
+                _ if PINS => self.below::<2, N, true>(block, &diagonal),
+                1 => self.below::<1, N, false>(block, &diagonal),
+                2 => self.below::<2, N, false>(block, &diagonal),
+                _ => self.below::<3, N, false>(block, &diagonal),
             }
         }
         Ok(())
@@ -226,11 +243,15 @@ impl<S: Real> Saddle<S> {
 
     /// One block below the diagonal: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ and · D⁻¹.
     #[inline(always)]
-    fn below<const M: usize, const N: usize>(&mut self, block: &Below, diagonal: &Diagonal<S, N>) {
+    fn below<const M: usize, const N: usize, const PINS: bool>(
+        &mut self,
+        block: &Below,
+        diagonal: &Diagonal<S, N>,
+    ) {
         let mut s = [[S::zero(); N]; M];
         for pair in &block.pairs {
             let [own, other] = pair.first;
-            if N == 2 && M == 2 && pair.sign != 0.0 {
+            if PINS || N == 2 && M == 2 && pair.sign != 0.0 {
                 let other = &self.arms[other as usize];
                 self.arms[own as usize].add_product(other, pair.sign, &mut s);
             } else {
@@ -238,7 +259,8 @@ impl<S: Real> Saddle<S> {
             }
         }
         for update in &block.updates {
-            self.subtract::<M, N>(update.blocks, update.size, &mut s);
+            let size = if PINS { 2 } else { update.size };
+            self.subtract::<M, N>(update.blocks, size, &mut s);
         }
         let rows = part_mut::<_, M>(&mut self.lower, block.block);
         for (s, row) in s.iter_mut().zip(rows) {

@@ -51,7 +51,7 @@ impl<S: Real> Saddle<S> {
             }
         }
         for block in &column.earlier {
-            block.subtract(&self.lower, g, &mut y);
+            block.subtract(block.size, &self.lower, g, &mut y);
         }
         let rows = part::<_, N>(&self.diagonal, column.row);
         for i in 1..N {
@@ -67,10 +67,10 @@ impl<S: Real> Saddle<S> {
     pub(super) fn substitute_back(&self, pattern: &Pattern, x: &mut [S]) {
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
         for column in pattern.columns.iter().rev() {
-            match column.size {
-                1 => self.back::<1>(column, f, g),
-                2 => self.back::<2>(column, f, g),
-                _ => self.back::<3>(column, f, g),
+            if column.pins {
+                self.back::<2, true>(column, f, g);
+            } else {
+                self.mixed_back(column, f, g);
             }
         }
         let groups = f.chunks_exact_mut(3).zip(&self.weights).zip(&pattern.coupled);
@@ -82,14 +82,24 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// λ of one column, into g, and its share of x.
+    #[inline(never)]
+    fn mixed_back(&self, column: &Column, x: &mut [S], g: &mut [S]) {
+        match column.size {
+            1 => self.back::<1, false>(column, x, g),
+            2 => self.back::<2, false>(column, x, g),
+            _ => self.back::<3, false>(column, x, g),
+        }
+    }
+
+    /// λ of one column, into g, and its share of x; with `PINS` one of pins alone.
     #[inline(always)]
-    fn back<const N: usize>(&self, column: &Column, x: &mut [S], g: &mut [S]) {
+    fn back<const N: usize, const PINS: bool>(&self, column: &Column, x: &mut [S], g: &mut [S]) {
         let rows = part::<_, N>(&self.diagonal, column.row);
         let y = part::<S, N>(g, column.row);
         let mut lambda: [S; N] = std::array::from_fn(|i| y[i] * rows[i].inverse);
         for block in column.below.iter().rev() {
             match block.size {
+                _ if PINS => self.pull::<2, N>(block, g, &mut lambda),
                 1 => self.pull::<1, N>(block, g, &mut lambda),
                 2 => self.pull::<2, N>(block, g, &mut lambda),
                 _ => self.pull::<3, N>(block, g, &mut lambda),
@@ -103,7 +113,7 @@ impl<S: Real> Saddle<S> {
         *part_mut(g, column.row) = lambda;
         for Touch { first, unknown, sign } in &column.touches {
             let x = part_mut::<S, 3>(x, *unknown);
-            if N == 2 && *sign != 0.0 {
+            if PINS || N == 2 && *sign != 0.0 {
                 self.arms[*first as usize].subtract_transposed(*sign, &lambda, x);
             } else {
                 let u = part::<Row<S>, N>(&self.u, *first).iter().map(|u| u.scaled);
@@ -121,16 +131,17 @@ impl<S: Real> Saddle<S> {
 }
 
 impl Earlier {
-    /// y -= L y' with the y' of the column where the block stands.
+    /// y -= L y' with the y' of the column where the block stands, of `size` rows.
     #[inline(always)]
     pub(super) fn subtract<S: Real, const N: usize>(
         &self,
+        size: u32,
         lower: &[Row<S>],
         g: &[S],
         y: &mut [S; N],
     ) {
         let block = part::<_, N>(lower, self.block);
-        match self.size {
+        match size {
             1 => subtract_times(y, block, part::<S, 1>(g, self.row)),
             2 => subtract_times(y, block, part::<S, 2>(g, self.row)),
             _ => subtract_times(y, block, part::<S, 3>(g, self.row)),
