@@ -11,9 +11,9 @@
 //! when d ≤ [`PIVOT_TOLERANCE`] S_kk. A dependent row of A leaves a ratio near 1e-16 whatever its scale;
 //! a mechanism near a singular position a small one, which [`Saddle::cancellation`] shows.
 
-use super::arm::Arm;
-use super::block::{add, factorise, part, part_mut, subtract, Diagonal, Row};
-use super::pattern::{Below, Column, Pattern};
+use super::arm::{bent, Arm};
+use super::block::{add, factorise, part, part_mut, subtract, Diagonal, Twin};
+use super::pattern::{Below, Column, Owner, Pattern, Touch, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -35,13 +35,13 @@ pub struct Saddle<S> {
     /// μ, one for each row.
     pub damping: Vec<S>,
     /// Rows of U.
-    pub(super) u: Vec<Row<S>>,
+    pub(super) u: Vec<Twin<S>>,
     /// Pairs of rows of U that begin with ±I.
     pub(super) arms: Vec<Arm<S>>,
     /// Rows of the diagonal blocks of L.
     pub(super) diagonal: Vec<Pivot<S>>,
-    /// Rows of the blocks of L D and of L below the diagonal.
-    pub(super) lower: Vec<Row<S>>,
+    /// Columns of the blocks of L D and of L below the diagonal.
+    pub(super) lower: Vec<Twin<S>>,
 }
 
 /// One row of a diagonal block.
@@ -60,7 +60,7 @@ impl<S: Real> Saddle<S> {
     pub fn new(pattern: &Pattern) -> Self {
         let (zero, none) = (S::zero(), [S::zero(); 3]);
         let weight = Weight { inverse: [S::one(); 3], shift: [zero; 2] };
-        let row = Row { plain: none, scaled: none };
+        let twin = Twin { plain: none, scaled: none };
         let mut entries = vec![none; pattern.n_entries];
         for &(row, sign) in &pattern.units {
             let sign = S::constant(sign);
@@ -70,10 +70,10 @@ impl<S: Real> Saddle<S> {
             weights: vec![weight; pattern.coupled.len()],
             entries,
             damping: vec![zero; pattern.n_rows],
-            u: vec![row; pattern.general.len()],
-            arms: vec![Arm::zero(); pattern.arms.len()],
+            u: vec![twin; pattern.general.len()],
+            arms: vec![Arm::zero(); pattern.n_arms],
             diagonal: vec![Pivot { lower: none, inverse: zero, magnitude: zero }; pattern.n_rows],
-            lower: vec![row; pattern.n_lower],
+            lower: vec![twin; pattern.n_lower],
         }
     }
 
@@ -115,7 +115,7 @@ impl<S: Real> Saddle<S> {
         ratios.map(S::least_magnitude).enumerate().min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// U = A Lw⁻ᵀ and U Dw⁻¹.
+    /// U = A Lw⁻ᵀ and U Dw⁻¹, but for the arms: each is made where its column is.
     #[inline(always)]
     fn transform(&mut self, pattern: &Pattern) {
         assert_eq!(self.entries.len(), pattern.n_entries, "a matrix of this pattern");
@@ -127,10 +127,6 @@ impl<S: Real> Saddle<S> {
             }
             u.plain = row;
             u.scaled = [row[0] * inverse[0], row[1] * inverse[1], row[2] * inverse[2]];
-        }
-        for (owner, arm) in pattern.arms.iter().zip(&mut self.arms) {
-            let weight = &self.weights[owner.group as usize];
-            *arm = Arm::new(part(&self.entries, owner.row), weight, owner);
         }
     }
 
@@ -180,19 +176,20 @@ impl<S: Real> Saddle<S> {
             s[i][i] = *mu;
         }
         let mut y = if RHS { part(g, column.row).map(|g: S| -g) } else { [S::zero(); N] };
-        for touch in &column.touches {
-            if PINS || N == 2 && touch.sign != 0.0 {
-                let arm = &self.arms[touch.first as usize];
+        for Touch { first, owner } in &column.touches {
+            if PINS || N == 2 && owner.sign != 0.0 {
+                let arm = Arm::new(self.bent(owner), &self.weights[owner.group as usize]);
                 arm.add_square(&mut s);
                 if RHS {
-                    arm.add_times(touch.sign, part(x, touch.unknown), &mut y);
+                    arm.add_times(owner.sign, part(x, owner.unknown()), &mut y);
                 }
+                self.arms[*first as usize] = arm;
                 continue;
             }
-            let u = part::<_, N>(&self.u, touch.first);
+            let u = part::<_, N>(&self.u, *first);
             add::<S, N, N, 3>(&mut s, u, u);
             if RHS {
-                Row::add_times(u, part(x, touch.unknown), &mut y);
+                Twin::add_times(u, part(x, owner.unknown()), &mut y);
             }
         }
         let magnitude: [S; N] = std::array::from_fn(|i| s[i][i]);
@@ -205,8 +202,9 @@ impl<S: Real> Saddle<S> {
         }
         let diagonal = factorise(s);
         if RHS {
+            let mut y = y.map(|y| [y]);
             diagonal.forward(&mut y);
-            *part_mut(g, column.row) = y;
+            *part_mut(g, column.row) = y.map(|[y]| y);
         }
         self.keep(column, &diagonal, magnitude)?;
         for block in &column.below {
@@ -248,31 +246,36 @@ impl<S: Real> Saddle<S> {
         block: &Below,
         diagonal: &Diagonal<S, N>,
     ) {
-        let mut s = [[S::zero(); N]; M];
+        // transposed, as it is stored
+        let mut s = [[S::zero(); M]; N];
         for pair in &block.pairs {
             let [own, other] = pair.first;
             if PINS || N == 2 && M == 2 && pair.sign != 0.0 {
-                let other = &self.arms[other as usize];
-                self.arms[own as usize].add_product(other, pair.sign, &mut s);
+                let own = self.bent(&pair.own);
+                self.arms[other as usize].add_product(&own, pair.sign, &mut s);
             } else {
-                add::<S, M, N, 3>(&mut s, part(&self.u, own), part(&self.u, other));
+                add::<S, N, M, 3>(&mut s, part(&self.u, other), part(&self.u, own));
             }
         }
-        for update in &block.updates {
-            let size = if PINS { 2 } else { update.size };
-            self.subtract::<M, N>(update.blocks, size, &mut s);
+        for Update { blocks: [left, right], size } in &block.updates {
+            let size = if PINS { 2 } else { *size };
+            self.subtract::<N, M>([*right, *left], size, &mut s);
         }
-        let rows = part_mut::<_, M>(&mut self.lower, block.block);
-        for (s, row) in s.iter_mut().zip(rows) {
-            diagonal.forward(s);
-            row.plain[..N].copy_from_slice(s);
-            for ((scaled, s), inverse) in row.scaled.iter_mut().zip(s).zip(&diagonal.inverse) {
-                *scaled = *s * *inverse;
-            }
+        diagonal.forward(&mut s);
+        let columns = part_mut::<_, N>(&mut self.lower, block.block);
+        for ((s, column), inverse) in s.iter().zip(columns).zip(&diagonal.inverse) {
+            column.plain[..M].copy_from_slice(s);
+            column.scaled[..M].copy_from_slice(&s.map(|s| s * *inverse));
         }
     }
 
-    /// s -= (L D) Lᵀ with two blocks of one earlier column.
+    /// b′ of a pair of rows.
+    #[inline(always)]
+    fn bent(&self, owner: &Owner) -> [S; 2] {
+        bent(part(&self.entries, owner.row), &self.weights[owner.group as usize], owner)
+    }
+
+    /// s -= (L D) Lᵀ with two blocks of one earlier column, of `size` rows.
     #[inline(always)]
     fn subtract<const M: usize, const N: usize>(
         &self,
@@ -280,11 +283,11 @@ impl<S: Real> Saddle<S> {
         size: u32,
         s: &mut [[S; N]; M],
     ) {
-        let (left, right) = (part(&self.lower, left), part(&self.lower, right));
+        let l = &self.lower;
         match size {
-            1 => subtract::<S, M, N, 1>(s, left, right),
-            2 => subtract::<S, M, N, 2>(s, left, right),
-            _ => subtract::<S, M, N, 3>(s, left, right),
+            1 => subtract::<S, M, N, 1>(s, part(l, left), part(l, right)),
+            2 => subtract::<S, M, N, 2>(s, part(l, left), part(l, right)),
+            _ => subtract::<S, M, N, 3>(s, part(l, left), part(l, right)),
         }
     }
 }

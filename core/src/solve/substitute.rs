@@ -1,6 +1,6 @@
 //! The solution with the factors of a [`Saddle`]: forward through L, then back.
 
-use super::block::{part, part_mut, subtract_times, subtract_transposed, Row};
+use super::block::{part, part_mut, subtract_products, subtract_times, subtract_transposed, Twin};
 use super::pattern::{Below, Column, Earlier, Pattern, Touch};
 use super::saddle::Saddle;
 use super::weight::Weight;
@@ -42,12 +42,12 @@ impl<S: Real> Saddle<S> {
     /// y = L⁻¹ (A W⁻¹ f - g) of one column, into g.
     fn forward<const N: usize>(&self, column: &Column, x: &[S], g: &mut [S]) {
         let mut y = part::<S, N>(g, column.row).map(|g| -g);
-        for touch in &column.touches {
-            let x = part(x, touch.unknown);
-            if N == 2 && touch.sign != 0.0 {
-                self.arms[touch.first as usize].add_times(touch.sign, x, &mut y);
+        for Touch { first, owner } in &column.touches {
+            let x = part(x, owner.unknown());
+            if N == 2 && owner.sign != 0.0 {
+                self.arms[*first as usize].add_times(owner.sign, x, &mut y);
             } else {
-                Row::add_times(part(&self.u, touch.first), x, &mut y);
+                Twin::add_times(part(&self.u, *first), x, &mut y);
             }
         }
         for block in &column.earlier {
@@ -111,12 +111,12 @@ impl<S: Real> Saddle<S> {
             }
         }
         *part_mut(g, column.row) = lambda;
-        for Touch { first, unknown, sign } in &column.touches {
-            let x = part_mut::<S, 3>(x, *unknown);
-            if PINS || N == 2 && *sign != 0.0 {
-                self.arms[*first as usize].subtract_transposed(*sign, &lambda, x);
+        for Touch { first, owner } in &column.touches {
+            let x = part_mut::<S, 3>(x, owner.unknown());
+            if PINS || N == 2 && owner.sign != 0.0 {
+                self.arms[*first as usize].subtract_transposed(owner.sign, &lambda, x);
             } else {
-                let u = part::<Row<S>, N>(&self.u, *first).iter().map(|u| u.scaled);
+                let u = part::<Twin<S>, N>(&self.u, *first).iter().map(|u| u.scaled);
                 subtract_transposed(x, u, &lambda);
             }
         }
@@ -125,8 +125,7 @@ impl<S: Real> Saddle<S> {
     /// λ -= Lᵀ λ' of a block whose rows are solved for in g.
     #[inline(always)]
     fn pull<const M: usize, const N: usize>(&self, block: &Below, g: &[S], lambda: &mut [S; N]) {
-        let rows = part::<Row<S>, M>(&self.lower, block.block).iter().map(|row| row.scaled);
-        subtract_transposed(lambda, rows, part::<S, M>(g, block.row));
+        subtract_products::<S, M, N>(lambda, part(&self.lower, block.block), part(g, block.row));
     }
 }
 
@@ -136,15 +135,14 @@ impl Earlier {
     pub(super) fn subtract<S: Real, const N: usize>(
         &self,
         size: u32,
-        lower: &[Row<S>],
+        lower: &[Twin<S>],
         g: &[S],
         y: &mut [S; N],
     ) {
-        let block = part::<_, N>(lower, self.block);
         match size {
-            1 => subtract_times(y, block, part::<S, 1>(g, self.row)),
-            2 => subtract_times(y, block, part::<S, 2>(g, self.row)),
-            _ => subtract_times(y, block, part::<S, 3>(g, self.row)),
+            1 => subtract_times::<S, N, 1>(y, part(lower, self.block), part(g, self.row)),
+            2 => subtract_times::<S, N, 2>(y, part(lower, self.block), part(g, self.row)),
+            _ => subtract_times::<S, N, 3>(y, part(lower, self.block), part(g, self.row)),
         }
     }
 }
