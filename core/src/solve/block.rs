@@ -162,8 +162,9 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
     pub fn forward<const M: usize>(&self, x: &mut [[S; M]; N]) {
         for i in 1..N {
             for j in 0..i {
-                for k in 0..M {
-                    x[i][k] -= self.lower[i][j] * x[j][k];
+                let known = x[j];
+                for (x, known) in x[i].iter_mut().zip(known) {
+                    *x -= self.lower[i][j] * known;
                 }
             }
         }
