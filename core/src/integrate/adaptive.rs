@@ -48,8 +48,15 @@ pub(super) trait EmbeddedPair {
         Ok(())
     }
 
-    /// √(mean (errorᵢ / (atolᵢ + rtol max(|yᵢ|, |y_newᵢ|)))²) over as many components as `atol` has.
-    fn error_norm(h: f64, k: &[f64], y: &[f64], y_new: &[f64], rtol: f64, atol: &[f64]) -> f64;
+    /// √(mean (errorᵢ / (atolᵢ + rtol max(|yᵢ|, |y_newᵢ|)))²) over as many components as `atol` has;
+    /// `states` are y and y_new, `tolerances` rtol and atol, `work` is scratch as long as y.
+    fn error_norm(
+        h: f64,
+        k: &[f64],
+        states: (&[f64], &[f64]),
+        tolerances: (f64, &[f64]),
+        work: &mut [f64],
+    ) -> f64;
 }
 
 /// What one accepted step needs, taken once.
@@ -263,9 +270,10 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     /// The error norm of a step to `t_new`.
     fn attempt(&mut self, t_new: f64, y: &[f64]) -> Result<f64, Trouble<Y::Stop>> {
         self.advance(t_new, y)?;
-        let Work { k, y_new, atol, .. } = &self.work;
+        let Work { k, y_new, trial, atol, .. } = &mut self.work;
         let stages = &k[..P::STAGES * self.n];
-        Ok(P::error_norm(t_new - self.t, stages, y, y_new, self.options.rtol, atol))
+        let tolerances = (self.options.rtol, atol.as_slice());
+        Ok(P::error_norm(t_new - self.t, stages, (y, y_new), tolerances, trial))
     }
 
     /// The stages of a step to `t_new`, and the state there.
@@ -285,13 +293,14 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         if norm < 1.0 || !norm.is_finite() {
             return norm;
         }
-        let Work { k, y_new, remaining, atol, .. } = &mut self.work;
+        let Work { k, y_new, trial, remaining, atol } = &mut self.work;
         remaining.clear();
         remaining.extend_from_slice(&k[..P::STAGES * self.n]);
         if !remaining.chunks_exact_mut(self.n).all(|dy| self.rate.system.remaining(dy)) {
             return norm;
         }
-        P::error_norm(h, remaining, y, y_new, self.options.rtol, atol).min(norm)
+        let tolerances = (self.options.rtol, atol.as_slice());
+        P::error_norm(h, remaining, (y, y_new), tolerances, trial).min(norm)
     }
 
     /// Offers the accepted state to the system and the step to the observer, and moves on.

@@ -196,7 +196,13 @@ impl EmbeddedPair for Pair {
         Ok(())
     }
 
-    fn error_norm(h: f64, k: &[f64], y: &[f64], y_new: &[f64], rtol: f64, atol: &[f64]) -> f64 {
+    fn error_norm(
+        h: f64,
+        k: &[f64],
+        (y, y_new): (&[f64], &[f64]),
+        (rtol, atol): (f64, &[f64]),
+        _: &mut [f64],
+    ) -> f64 {
         let controlled = atol.len();
         let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] =
             rows(k, y.len()).map(|k| &k[..controlled]);

@@ -9,7 +9,7 @@ use super::adaptive_options::{usable_rtol, Atol, Options};
 use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
-use super::stages::{combine, rows};
+use super::stages::{combine, larger, rows, sum_of_squares};
 
 /// Dormand–Prince 5(4) with its options.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,14 +139,21 @@ impl EmbeddedPair for DormandPrince {
         rate.at(t_new, y_new, &mut k[6 * n..7 * n])
     }
 
-    fn error_norm(h: f64, k: &[f64], y: &[f64], y_new: &[f64], rtol: f64, atol: &[f64]) -> f64 {
+    fn error_norm(
+        h: f64,
+        k: &[f64],
+        (y, y_new): (&[f64], &[f64]),
+        (rtol, atol): (f64, &[f64]),
+        work: &mut [f64],
+    ) -> f64 {
         let controlled = atol.len();
         if controlled == 0 {
             return 0.0;
         }
         let [k1, _, k3, k4, k5, k6, k7] = rows(k, y.len()).map(|k| &k[..controlled]);
         let (y, y_new) = (&y[..controlled], &y_new[..controlled]);
-        let mut sum = 0.0;
+        let scaled = &mut work[..controlled];
+        // stored first: a sum would have to be taken one after the other
         for i in 0..controlled {
             let slope = E[0] * k1[i]
                 + E[1] * k3[i]
@@ -154,9 +161,8 @@ impl EmbeddedPair for DormandPrince {
                 + E[3] * k5[i]
                 + E[4] * k6[i]
                 + E[5] * k7[i];
-            let scaled = h * slope / (atol[i] + rtol * y[i].abs().max(y_new[i].abs()));
-            sum += scaled * scaled;
+            scaled[i] = h * slope / (atol[i] + rtol * larger(y[i].abs(), y_new[i].abs()));
         }
-        (sum / controlled as f64).sqrt()
+        (sum_of_squares(scaled) / controlled as f64).sqrt()
     }
 }

@@ -40,3 +40,25 @@ pub(super) fn accumulate<const S: usize>(a: [f64; S], k: [&[f64]; S], out: &mut 
 pub(super) fn rows<const S: usize>(k: &[f64], n: usize) -> [&[f64]; S] {
     std::array::from_fn(|s| &k[s * n..(s + 1) * n])
 }
+
+/// The larger of two numbers that are not NaN: one instruction, unlike `f64::max`.
+#[inline(always)]
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a > b {
+        a
+    } else {
+        b
+    }
+}
+
+/// Σ xᵢ², even and odd ones apart, so that two are computed at once.
+#[inline(always)]
+pub(super) fn sum_of_squares(x: &[f64]) -> f64 {
+    let mut sums = [0.0; 2];
+    let pairs = x.chunks_exact(2);
+    let last: f64 = pairs.remainder().iter().map(|x| x * x).sum();
+    for pair in pairs {
+        sums = [sums[0] + pair[0] * pair[0], sums[1] + pair[1] * pair[1]];
+    }
+    sums[0] + sums[1] + last
+}

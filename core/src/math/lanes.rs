@@ -63,7 +63,7 @@ impl<const W: usize> Real for Lanes<W> {
         Self([x; W])
     }
     fn sin_cos(self) -> (Self, Self) {
-        (self.each(f64::sin), self.each(f64::cos))
+        (self.each(Real::sin), self.each(Real::cos))
     }
     fn sqrt(self) -> Self {
         self.each(f64::sqrt)

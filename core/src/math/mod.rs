@@ -12,6 +12,7 @@ mod jet;
 mod lanes;
 mod plane;
 mod real;
+mod sine;
 
 pub use complex::Complex;
 pub use dual::Dual;

@@ -102,8 +102,9 @@ impl Real for f64 {
     fn constant(x: f64) -> Self {
         x
     }
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        f64::sin_cos(self)
+        super::sine::sin_cos(self)
     }
     fn sqrt(self) -> Self {
         f64::sqrt(self)

@@ -18,6 +18,17 @@ pub(super) struct Arm<S> {
     scaled: [S; 2],
 }
 
+/// b′ of the pair from the rows of A and the weight of the group.
+#[inline(always)]
+pub(super) fn bent<S: Real>(rows: &[[S; 3]; 2], weight: &Weight<S>, owner: &Owner) -> [S; 2] {
+    let b = [rows[0][2], rows[1][2]];
+    if !owner.coupled {
+        return b;
+    }
+    let sign = S::constant(owner.sign);
+    [b[0] - sign * weight.shift[0], b[1] - sign * weight.shift[1]]
+}
+
 impl<S: Real> Arm<S> {
     /// Nothing yet.
     pub fn zero() -> Self {
@@ -25,15 +36,10 @@ impl<S: Real> Arm<S> {
         Self { inverse: none, plain: none, scaled: none }
     }
 
-    /// From the rows of A and the weight of the group.
+    /// From b′ and the weight of the group.
     #[inline(always)]
-    pub fn new(rows: &[[S; 3]; 2], weight: &Weight<S>, owner: &Owner) -> Self {
+    pub fn new(plain: [S; 2], weight: &Weight<S>) -> Self {
         let [d0, d1, d2] = weight.inverse;
-        let mut plain = [rows[0][2], rows[1][2]];
-        if owner.coupled {
-            let sign = S::constant(owner.sign);
-            plain = [plain[0] - sign * weight.shift[0], plain[1] - sign * weight.shift[1]];
-        }
         Self { inverse: [d0, d1], plain, scaled: plain.map(|b| b * d2) }
     }
 
@@ -48,38 +54,42 @@ impl<S: Real> Arm<S> {
         }
     }
 
-    /// target += U Dw⁻¹ U′ᵀ with another pair; `sign` is the product of both signs.
+    /// target += U Dw⁻¹ U′ᵀ with the b′ of another pair; `sign` is the product of both signs.
     #[inline(always)]
     pub fn add_product<const M: usize, const N: usize>(
         &self,
-        other: &Self,
+        other: &[S; 2],
         sign: f64,
         target: &mut [[S; N]; M],
     ) {
-        for (i, target) in target.iter_mut().enumerate() {
-            for (j, target) in target.iter_mut().enumerate() {
-                *target += self.plain[i] * other.scaled[j];
-            }
-            target[i] += S::constant(sign) * self.inverse[i];
+        // the diagonal and what is beside it, two numbers at a time
+        let along = [0, 1].map(|i| S::constant(sign) * self.inverse[i] + self.scaled[i] * other[i]);
+        let across = [0, 1].map(|i| self.scaled[i] * other[1 - i]);
+        for i in 0..2 {
+            target[i][i] += along[i];
+            target[i][1 - i] += across[i];
         }
     }
 
     /// y += U x.
     #[inline(always)]
     pub fn add_times<const N: usize>(&self, sign: f64, x: &[S; 3], y: &mut [S; N]) {
-        for (i, y) in y.iter_mut().enumerate() {
-            *y += S::constant(sign) * x[i] + self.plain[i] * x[2];
+        for (y, b) in y.iter_mut().zip(&self.plain) {
+            *y += *b * x[2];
+        }
+        for (y, x) in y.iter_mut().zip(x) {
+            *y += S::constant(sign) * *x;
         }
     }
 
     /// x -= Dw⁻¹ Uᵀ λ.
     #[inline(always)]
     pub fn subtract_transposed<const N: usize>(&self, sign: f64, lambda: &[S; N], x: &mut [S; 3]) {
-        let mut turn = x[2];
+        let mut found = *x;
         for (i, lambda) in lambda.iter().enumerate() {
-            x[i] -= S::constant(sign) * self.inverse[i] * *lambda;
-            turn -= self.scaled[i] * *lambda;
+            found[i] -= S::constant(sign) * self.inverse[i] * *lambda;
+            found[2] -= self.scaled[i] * *lambda;
         }
-        x[2] = turn;
+        *x = found;
     }
 }

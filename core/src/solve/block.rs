@@ -1,6 +1,8 @@
 //! Arithmetic of blocks of at most 3 × 3, in registers: sizes are constants, so loops unroll.
 //!
-//! A block is stored as rows of three, of which it may use fewer.
+//! A block of U is stored by rows, one of L below the diagonal by columns: lists of three numbers, of which
+//! it may use fewer. Then products with few rows are sums of whole rows, and what was written as a pair of
+//! numbers is read as one.
 
 use crate::math::Real;
 
@@ -18,15 +20,16 @@ pub(super) fn part_mut<T, const N: usize>(x: &mut [T], first: u32) -> &mut [T; N
     x[first..first + N].first_chunk_mut().expect("as long as the range")
 }
 
-/// A row of a block in two forms, side by side: plain, and scaled by the inverse of D.
+/// A row of a block of U, or a column of one of L, in two forms, side by side: plain (of L: L D), and scaled by
+/// the inverse of D.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Row<S> {
+pub(super) struct Twin<S> {
     pub plain: [S; 3],
     pub scaled: [S; 3],
 }
 
-impl<S: Real> Row<S> {
-    /// y += A x.
+impl<S: Real> Twin<S> {
+    /// y += A x by rows.
     #[inline(always)]
     pub fn add_times<const N: usize>(rows: &[Self; N], x: &[S; 3], y: &mut [S; N]) {
         for (y, Self { plain: a, .. }) in y.iter_mut().zip(rows) {
@@ -49,8 +52,8 @@ fn dot<S: Real, const K: usize>(a: &[S; 3], b: &[S; 3]) -> S {
 #[inline(always)]
 pub(super) fn add<S: Real, const M: usize, const N: usize, const K: usize>(
     target: &mut [[S; N]; M],
-    a: &[Row<S>; M],
-    b: &[Row<S>; N],
+    a: &[Twin<S>; M],
+    b: &[Twin<S>; N],
 ) {
     for (target, a) in target.iter_mut().zip(a) {
         for (target, b) in target.iter_mut().zip(b) {
@@ -59,26 +62,42 @@ pub(super) fn add<S: Real, const M: usize, const N: usize, const K: usize>(
     }
 }
 
-/// target -= A D⁻¹ Bᵀ over `K` columns.
+/// target -= A D⁻¹ Bᵀ, both by their `K` columns.
 #[inline(always)]
 pub(super) fn subtract<S: Real, const M: usize, const N: usize, const K: usize>(
     target: &mut [[S; N]; M],
-    a: &[Row<S>; M],
-    b: &[Row<S>; N],
+    a: &[Twin<S>; K],
+    b: &[Twin<S>; K],
 ) {
-    for (target, a) in target.iter_mut().zip(a) {
-        for (target, b) in target.iter_mut().zip(b) {
-            *target -= dot::<S, K>(&a.plain, &b.scaled);
+    for (a, b) in a.iter().zip(b) {
+        for (target, a) in target.iter_mut().zip(&a.plain) {
+            for (target, b) in target.iter_mut().zip(&b.scaled) {
+                *target -= *a * *b;
+            }
         }
     }
 }
 
-/// y -= A D⁻¹ x over `K` columns.
+/// y -= A D⁻¹ x by the `K` columns of A.
 #[inline(always)]
 pub(super) fn subtract_times<S: Real, const M: usize, const K: usize>(
     y: &mut [S; M],
-    a: &[Row<S>; M],
+    a: &[Twin<S>; K],
     x: &[S; K],
+) {
+    for (a, x) in a.iter().zip(x) {
+        for (y, a) in y.iter_mut().zip(&a.scaled) {
+            *y -= *a * *x;
+        }
+    }
+}
+
+/// y -= (A D⁻¹)ᵀ x by the columns of A.
+#[inline(always)]
+pub(super) fn subtract_products<S: Real, const M: usize, const N: usize>(
+    y: &mut [S; N],
+    a: &[Twin<S>; N],
+    x: &[S; M],
 ) {
     for (y, a) in y.iter_mut().zip(a) {
         for (a, x) in a.scaled.iter().zip(x) {
@@ -87,7 +106,7 @@ pub(super) fn subtract_times<S: Real, const M: usize, const K: usize>(
     }
 }
 
-/// y -= Aᵀ x for the first `N` columns.
+/// y -= Aᵀ x by rows, for the first `N` columns.
 #[inline(always)]
 pub(super) fn subtract_transposed<S: Real, const N: usize>(
     y: &mut [S; N],
@@ -138,12 +157,15 @@ pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> Diagonal
 }
 
 impl<S: Real, const N: usize> Diagonal<S, N> {
-    /// x ← L⁻¹ x.
+    /// x ← L⁻¹ x, for one or more right sides.
     #[inline(always)]
-    pub fn forward(&self, x: &mut [S; N]) {
+    pub fn forward<const M: usize>(&self, x: &mut [[S; M]; N]) {
         for i in 1..N {
             for j in 0..i {
-                x[i] -= self.lower[i][j] * x[j];
+                let known = x[j];
+                for (x, known) in x[i].iter_mut().zip(known) {
+                    *x -= self.lower[i][j] * known;
+                }
             }
         }
     }

@@ -33,13 +33,13 @@ pub struct Pattern {
     pub(super) n_entries: usize,
     /// Rows of entries that have a row in U.
     pub(super) general: Vec<Owner>,
-    /// Pairs of rows [±I b] that have an arm.
-    pub(super) arms: Vec<Owner>,
+    /// Number of pairs of rows [±I b] that have an arm.
+    pub(super) n_arms: usize,
     /// First rows of the blocks that begin with ±I, with the sign.
     pub(super) units: Vec<(usize, f64)>,
     /// Columns of L, in elimination order.
     pub(super) columns: Vec<Column>,
-    /// Rows of all blocks of L below the diagonal.
+    /// Columns of all blocks of L below the diagonal.
     pub(super) n_lower: usize,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Owner {
     pub row: u32,
     pub group: u32,
     pub coupled: bool,
-    /// Of the unit block of a pair.
+    /// Of the unit block of an arm; 0 for rows of U.
     pub sign: f64,
 }
 
@@ -61,6 +61,8 @@ pub(super) struct Column {
     pub size: u32,
     /// The first of them.
     pub row: u32,
+    /// Whether nothing but pairs of rows with arms takes part in it, as at pin joints among themselves.
+    pub pins: bool,
     pub touches: Box<[Touch]>,
     /// The blocks left of its diagonal block.
     pub earlier: Box<[Earlier]>,
@@ -72,16 +74,14 @@ pub(super) struct Column {
 pub(super) struct Touch {
     /// First row of U, or the arm.
     pub first: u32,
-    /// First unknown of the group.
-    pub unknown: u32,
-    /// Of the unit block of an arm; 0 where rows of U are touched.
-    pub sign: f64,
+    /// Where its entries are.
+    pub owner: Owner,
 }
 
 /// A block of L left of a diagonal block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Earlier {
-    /// Its first row in the store of L.
+    /// Its first column in the store of L.
     pub block: u32,
     /// First row, and size, of the row block eliminated there.
     pub row: u32,
@@ -91,7 +91,7 @@ pub(super) struct Earlier {
 /// A block of L below the diagonal.
 #[derive(Clone, Debug)]
 pub(super) struct Below {
-    /// Its first row in the store of L.
+    /// Its first column in the store of L.
     pub block: u32,
     /// Size and first row of its row block.
     pub size: u32,
@@ -106,6 +106,8 @@ pub(super) struct Below {
 pub(super) struct Pair {
     /// First rows of U, or arms: of the block's own row block, of the column's.
     pub first: [u32; 2],
+    /// Where the entries of the block's own row block are, since its arm is not yet made.
+    pub own: Owner,
     /// Product of the signs of two arms; 0 for rows of U.
     pub sign: f64,
 }
@@ -117,6 +119,14 @@ pub(super) struct Update {
     pub blocks: [u32; 2],
     /// Size of the row block eliminated there.
     pub size: u32,
+}
+
+impl Owner {
+    /// First unknown of the group.
+    #[inline(always)]
+    pub fn unknown(&self) -> u32 {
+        3 * self.group
+    }
 }
 
 impl Pattern {
@@ -137,7 +147,7 @@ impl Pattern {
             n_rows: starts[blocks.len()],
             n_entries: plan::check_entries(blocks),
             general: places.general,
-            arms: places.arms,
+            n_arms: places.n_arms,
             units: plan::units(blocks),
             columns,
             n_lower,
@@ -146,9 +156,11 @@ impl Pattern {
 
     /// Each row of three entries with the group it belongs to.
     pub(super) fn groups(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let second = self.arms.iter().map(|arm| (arm.row + 1, arm.group));
-        let first = self.general.iter().chain(&self.arms).map(|owner| (owner.row, owner.group));
-        first.chain(second).map(|(row, group)| (row as usize, group as usize))
+        let touches = self.columns.iter().flat_map(|column| &column.touches);
+        let arms = touches.map(|touch| touch.owner).filter(|owner| owner.sign != 0.0);
+        let of_arms = arms.flat_map(|arm| [(arm.row, arm.group), (arm.row + 1, arm.group)]);
+        let general = self.general.iter().map(|owner| (owner.row, owner.group));
+        general.chain(of_arms).map(|(row, group)| (row as usize, group as usize))
     }
 
     /// Number of unknowns in groups.
@@ -164,5 +176,20 @@ impl Pattern {
     /// Number of blocks of L below the diagonal, fill included.
     pub fn fill(&self) -> usize {
         self.columns.iter().map(|c| c.below.len()).sum()
+    }
+}
+
+impl Column {
+    /// Whether every block that meets here has two rows, and every product is one of arms.
+    pub(super) fn is_of_pins(&self) -> bool {
+        let below = |below: &Below| {
+            below.size == 2
+                && below.pairs.iter().all(|pair| pair.sign != 0.0)
+                && below.updates.iter().all(|update| update.size == 2)
+        };
+        self.size == 2
+            && self.touches.iter().all(|touch| touch.owner.sign != 0.0)
+            && self.earlier.iter().all(|earlier| earlier.size == 2)
+            && self.below.iter().all(below)
     }
 }

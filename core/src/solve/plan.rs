@@ -3,7 +3,7 @@
 use super::order::groups_first;
 use super::pattern::{Below, Column, Earlier, Owner, Pair, RowBlock, Touch, Update, MOST};
 
-/// Lists every product, column by column; with the number of rows of the blocks below the diagonal.
+/// Lists every product, column by column; with the number of columns of the blocks below the diagonal.
 pub(super) fn columns(
     blocks: &[RowBlock],
     starts: &[usize],
@@ -17,9 +17,9 @@ pub(super) fn columns(
         let own = order[place];
         let (size, row) = (index(blocks[own].size), index(starts[own]));
         let mut offsets = Vec::with_capacity(rows.len());
-        for &r in rows {
+        for _ in rows {
             offsets.push(index(n_lower));
-            n_lower += blocks[order[r]].size;
+            n_lower += blocks[own].size;
         }
         lists.eliminate(rows_below, place, &offsets, (row, size));
         let below = rows.iter().zip(&offsets).zip(&lists.updates[place]);
@@ -30,13 +30,16 @@ pub(super) fn columns(
             pairs: places.pairs(order[r], own).into(),
             updates: updates.as_slice().into(),
         });
-        columns.push(Column {
+        let mut column = Column {
             size,
             row,
+            pins: false,
             touches: places.touches[own].as_slice().into(),
             earlier: lists.earlier[place].as_slice().into(),
             below: below.collect(),
-        });
+        };
+        column.pins = column.is_of_pins();
+        columns.push(column);
     }
     (columns, n_lower)
 }
@@ -122,7 +125,7 @@ pub(super) struct Places {
     /// For each row block.
     pub touches: Vec<Vec<Touch>>,
     pub general: Vec<Owner>,
-    pub arms: Vec<Owner>,
+    pub n_arms: usize,
 }
 
 impl Places {
@@ -133,7 +136,7 @@ impl Places {
             assert!(unit || block.signs.is_empty(), "one sign for each group, of two rows");
             block.touches.iter().for_each(|&(group, _)| with_arms[group] &= unit);
         }
-        let mut places = Self { touches: vec![], general: vec![], arms: vec![] };
+        let mut places = Self { touches: vec![], general: vec![], n_arms: 0 };
         for block in blocks {
             let touch = |(k, &(group, first)): (usize, &(usize, usize))| {
                 let sign = if with_arms[group] { block.signs[k] } else { 0.0 };
@@ -143,13 +146,14 @@ impl Places {
                     coupled: coupled[group],
                     sign,
                 };
-                let (list, rows) = match with_arms[group] {
-                    true => (&mut places.arms, 1),
-                    false => (&mut places.general, block.size),
+                let first = if with_arms[group] {
+                    places.n_arms += 1;
+                    places.n_arms - 1
+                } else {
+                    places.general.extend((0..block.size).map(owner));
+                    places.general.len() - block.size
                 };
-                let first = index(list.len());
-                list.extend((0..rows).map(owner));
-                Touch { first, unknown: index(3 * group), sign }
+                Touch { first: index(first), owner: owner(0) }
             };
             let touches = block.touches.iter().enumerate().map(touch).collect();
             places.touches.push(touches);
@@ -161,8 +165,9 @@ impl Places {
     fn pairs(&self, one: usize, other: usize) -> Vec<Pair> {
         let other = &self.touches[other];
         let with = |own: &Touch| {
-            let partner = other.iter().find(|t| t.unknown == own.unknown)?;
-            Some(Pair { first: [own.first, partner.first], sign: own.sign * partner.sign })
+            let partner = other.iter().find(|t| t.owner.group == own.owner.group)?;
+            let sign = own.owner.sign * partner.owner.sign;
+            Some(Pair { first: [own.first, partner.first], own: own.owner, sign })
         };
         self.touches[one].iter().filter_map(with).collect()
     }

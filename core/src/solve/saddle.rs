@@ -11,9 +11,9 @@
 //! when d ≤ [`PIVOT_TOLERANCE`] S_kk. A dependent row of A leaves a ratio near 1e-16 whatever its scale;
 //! a mechanism near a singular position a small one, which [`Saddle::cancellation`] shows.
 
-use super::arm::Arm;
-use super::block::{add, factorise, part, part_mut, subtract, Diagonal, Row};
-use super::pattern::{Below, Column, Pattern};
+use super::arm::{bent, Arm};
+use super::block::{add, factorise, part, part_mut, subtract, Diagonal, Twin};
+use super::pattern::{Below, Column, Owner, Pattern, Touch, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -39,13 +39,13 @@ pub struct Saddle<S> {
     /// Part of S_kk that is added to it, 0 at first.
     pub(super) ridge: f64,
     /// Rows of U.
-    pub(super) u: Vec<Row<S>>,
+    pub(super) u: Vec<Twin<S>>,
     /// Pairs of rows of U that begin with ±I.
     pub(super) arms: Vec<Arm<S>>,
     /// Rows of the diagonal blocks of L.
     pub(super) diagonal: Vec<Pivot<S>>,
-    /// Rows of the blocks of L D and of L below the diagonal.
-    pub(super) lower: Vec<Row<S>>,
+    /// Columns of the blocks of L D and of L below the diagonal.
+    pub(super) lower: Vec<Twin<S>>,
 }
 
 /// One row of a diagonal block.
@@ -64,7 +64,7 @@ impl<S: Real> Saddle<S> {
     pub fn new(pattern: &Pattern) -> Self {
         let (zero, none) = (S::zero(), [S::zero(); 3]);
         let weight = Weight { inverse: [S::one(); 3], shift: [zero; 2] };
-        let row = Row { plain: none, scaled: none };
+        let twin = Twin { plain: none, scaled: none };
         let mut entries = vec![none; pattern.n_entries];
         for &(row, sign) in &pattern.units {
             let sign = S::constant(sign);
@@ -76,10 +76,10 @@ impl<S: Real> Saddle<S> {
             damping: vec![zero; pattern.n_rows],
             least: PIVOT_TOLERANCE,
             ridge: 0.0,
-            u: vec![row; pattern.general.len()],
-            arms: vec![Arm::zero(); pattern.arms.len()],
+            u: vec![twin; pattern.general.len()],
+            arms: vec![Arm::zero(); pattern.n_arms],
             diagonal: vec![Pivot { lower: none, inverse: zero, magnitude: zero }; pattern.n_rows],
-            lower: vec![row; pattern.n_lower],
+            lower: vec![twin; pattern.n_lower],
         }
     }
 
@@ -121,7 +121,7 @@ impl<S: Real> Saddle<S> {
         ratios.map(S::least_magnitude).enumerate().min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// U = A Lw⁻ᵀ and U Dw⁻¹.
+    /// U = A Lw⁻ᵀ and U Dw⁻¹, but for the arms: each is made where its column is.
     #[inline(always)]
     fn transform(&mut self, pattern: &Pattern) {
         assert_eq!(self.entries.len(), pattern.n_entries, "a matrix of this pattern");
@@ -134,10 +134,6 @@ impl<S: Real> Saddle<S> {
             u.plain = row;
             u.scaled = [row[0] * inverse[0], row[1] * inverse[1], row[2] * inverse[2]];
         }
-        for (owner, arm) in pattern.arms.iter().zip(&mut self.arms) {
-            let weight = &self.weights[owner.group as usize];
-            *arm = Arm::new(part(&self.entries, owner.row), weight, owner);
-        }
     }
 
     /// Column by column; with `RHS` the right side as well.
@@ -149,18 +145,33 @@ impl<S: Real> Saddle<S> {
     ) -> Result<(), Dependent> {
         let (x, g) = x.split_at_mut(if RHS { pattern.n_unknowns() } else { 0 });
         for column in &pattern.columns {
-            match column.size {
-                1 => self.column::<1, RHS>(column, x, g)?,
-                2 => self.column::<2, RHS>(column, x, g)?,
-                _ => self.column::<3, RHS>(column, x, g)?,
+            if column.pins {
+                self.column::<2, RHS, true>(column, x, g)?;
+            } else {
+                self.mixed_column::<RHS>(column, x, g)?;
             }
         }
         Ok(())
     }
 
-    /// One column of L, of N rows and columns on the diagonal.
+    /// A column of any kind, apart from those of pins alone: the loop over these stays in registers.
+    #[inline(never)]
+    fn mixed_column<const RHS: bool>(
+        &mut self,
+        column: &Column,
+        x: &[S],
+        g: &mut [S],
+    ) -> Result<(), Dependent> {
+        match column.size {
+            1 => self.column::<1, RHS, false>(column, x, g),
+            2 => self.column::<2, RHS, false>(column, x, g),
+            _ => self.column::<3, RHS, false>(column, x, g),
+        }
+    }
+
+    /// One column of L, of N rows and columns on the diagonal; with `PINS` one of pins alone.
     #[inline(always)]
-    fn column<const N: usize, const RHS: bool>(
+    fn column<const N: usize, const RHS: bool, const PINS: bool>(
         &mut self,
         column: &Column,
         x: &[S],
@@ -171,19 +182,20 @@ impl<S: Real> Saddle<S> {
             s[i][i] = *mu;
         }
         let mut y = if RHS { part(g, column.row).map(|g: S| -g) } else { [S::zero(); N] };
-        for touch in &column.touches {
-            if N == 2 && touch.sign != 0.0 {
-                let arm = &self.arms[touch.first as usize];
+        for Touch { first, owner } in &column.touches {
+            if PINS || N == 2 && owner.sign != 0.0 {
+                let arm = Arm::new(self.bent(owner), &self.weights[owner.group as usize]);
                 arm.add_square(&mut s);
                 if RHS {
-                    arm.add_times(touch.sign, part(x, touch.unknown), &mut y);
+                    arm.add_times(owner.sign, part(x, owner.unknown()), &mut y);
                 }
+                self.arms[*first as usize] = arm;
                 continue;
             }
-            let u = part::<_, N>(&self.u, touch.first);
+            let u = part::<_, N>(&self.u, *first);
             add::<S, N, N, 3>(&mut s, u, u);
             if RHS {
-                Row::add_times(u, part(x, touch.unknown), &mut y);
+                Twin::add_times(u, part(x, owner.unknown()), &mut y);
             }
         }
         let magnitude: [S; N] = std::array::from_fn(|i| s[i][i]);
@@ -193,22 +205,25 @@ impl<S: Real> Saddle<S> {
             }
         }
         for block in &column.earlier {
-            self.subtract::<N, N>([block.block, block.block], block.size, &mut s);
+            let size = if PINS { 2 } else { block.size };
+            self.subtract::<N, N>([block.block, block.block], size, &mut s);
             if RHS {
-                block.subtract(&self.lower, g, &mut y);
+                block.subtract(size, &self.lower, g, &mut y);
             }
         }
         let diagonal = factorise(s);
         if RHS {
+            let mut y = y.map(|y| [y]);
             diagonal.forward(&mut y);
-            *part_mut(g, column.row) = y;
+            *part_mut(g, column.row) = y.map(|[y]| y);
         }
         self.keep(column, &diagonal, magnitude)?;
         for block in &column.below {
             match block.size {
-                1 => self.below::<1, N>(block, &diagonal),
-                2 => self.below::<2, N>(block, &diagonal),
-                _ => self.below::<3, N>(block, &diagonal),
+                _ if PINS => self.below::<2, N, true>(block, &diagonal),
+                1 => self.below::<1, N, false>(block, &diagonal),
+                2 => self.below::<2, N, false>(block, &diagonal),
+                _ => self.below::<3, N, false>(block, &diagonal),
             }
         }
         Ok(())
@@ -237,31 +252,41 @@ impl<S: Real> Saddle<S> {
 
     /// One block below the diagonal: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ and · D⁻¹.
     #[inline(always)]
-    fn below<const M: usize, const N: usize>(&mut self, block: &Below, diagonal: &Diagonal<S, N>) {
-        let mut s = [[S::zero(); N]; M];
+    fn below<const M: usize, const N: usize, const PINS: bool>(
+        &mut self,
+        block: &Below,
+        diagonal: &Diagonal<S, N>,
+    ) {
+        // transposed, as it is stored
+        let mut s = [[S::zero(); M]; N];
         for pair in &block.pairs {
             let [own, other] = pair.first;
-            if N == 2 && M == 2 && pair.sign != 0.0 {
-                let other = &self.arms[other as usize];
-                self.arms[own as usize].add_product(other, pair.sign, &mut s);
+            if PINS || N == 2 && M == 2 && pair.sign != 0.0 {
+                let own = self.bent(&pair.own);
+                self.arms[other as usize].add_product(&own, pair.sign, &mut s);
             } else {
-                add::<S, M, N, 3>(&mut s, part(&self.u, own), part(&self.u, other));
+                add::<S, N, M, 3>(&mut s, part(&self.u, other), part(&self.u, own));
             }
         }
-        for update in &block.updates {
-            self.subtract::<M, N>(update.blocks, update.size, &mut s);
+        for Update { blocks: [left, right], size } in &block.updates {
+            let size = if PINS { 2 } else { *size };
+            self.subtract::<N, M>([*right, *left], size, &mut s);
         }
-        let rows = part_mut::<_, M>(&mut self.lower, block.block);
-        for (s, row) in s.iter_mut().zip(rows) {
-            diagonal.forward(s);
-            row.plain[..N].copy_from_slice(s);
-            for ((scaled, s), inverse) in row.scaled.iter_mut().zip(s).zip(&diagonal.inverse) {
-                *scaled = *s * *inverse;
-            }
+        diagonal.forward(&mut s);
+        let columns = part_mut::<_, N>(&mut self.lower, block.block);
+        for ((s, column), inverse) in s.iter().zip(columns).zip(&diagonal.inverse) {
+            column.plain[..M].copy_from_slice(s);
+            column.scaled[..M].copy_from_slice(&s.map(|s| s * *inverse));
         }
     }
 
-    /// s -= (L D) Lᵀ with two blocks of one earlier column.
+    /// b′ of a pair of rows.
+    #[inline(always)]
+    fn bent(&self, owner: &Owner) -> [S; 2] {
+        bent(part(&self.entries, owner.row), &self.weights[owner.group as usize], owner)
+    }
+
+    /// s -= (L D) Lᵀ with two blocks of one earlier column, of `size` rows.
     #[inline(always)]
     fn subtract<const M: usize, const N: usize>(
         &self,
@@ -269,11 +294,11 @@ impl<S: Real> Saddle<S> {
         size: u32,
         s: &mut [[S; N]; M],
     ) {
-        let (left, right) = (part(&self.lower, left), part(&self.lower, right));
+        let l = &self.lower;
         match size {
-            1 => subtract::<S, M, N, 1>(s, left, right),
-            2 => subtract::<S, M, N, 2>(s, left, right),
-            _ => subtract::<S, M, N, 3>(s, left, right),
+            1 => subtract::<S, M, N, 1>(s, part(l, left), part(l, right)),
+            2 => subtract::<S, M, N, 2>(s, part(l, left), part(l, right)),
+            _ => subtract::<S, M, N, 3>(s, part(l, left), part(l, right)),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The solution with the factors of a [`Saddle`]: forward through L, then back.
 
-use super::block::{part, part_mut, subtract_times, subtract_transposed, Row};
+use super::block::{part, part_mut, subtract_products, subtract_times, subtract_transposed, Twin};
 use super::pattern::{Below, Column, Earlier, Pattern, Touch};
 use super::saddle::Saddle;
 use super::weight::Weight;
@@ -42,16 +42,16 @@ impl<S: Real> Saddle<S> {
     /// y = L⁻¹ (A W⁻¹ f - g) of one column, into g.
     fn forward<const N: usize>(&self, column: &Column, x: &[S], g: &mut [S]) {
         let mut y = part::<S, N>(g, column.row).map(|g| -g);
-        for touch in &column.touches {
-            let x = part(x, touch.unknown);
-            if N == 2 && touch.sign != 0.0 {
-                self.arms[touch.first as usize].add_times(touch.sign, x, &mut y);
+        for Touch { first, owner } in &column.touches {
+            let x = part(x, owner.unknown());
+            if N == 2 && owner.sign != 0.0 {
+                self.arms[*first as usize].add_times(owner.sign, x, &mut y);
             } else {
-                Row::add_times(part(&self.u, touch.first), x, &mut y);
+                Twin::add_times(part(&self.u, *first), x, &mut y);
             }
         }
         for block in &column.earlier {
-            block.subtract(&self.lower, g, &mut y);
+            block.subtract(block.size, &self.lower, g, &mut y);
         }
         let rows = part::<_, N>(&self.diagonal, column.row);
         for i in 1..N {
@@ -67,10 +67,10 @@ impl<S: Real> Saddle<S> {
     pub(super) fn substitute_back(&self, pattern: &Pattern, x: &mut [S]) {
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
         for column in pattern.columns.iter().rev() {
-            match column.size {
-                1 => self.back::<1>(column, f, g),
-                2 => self.back::<2>(column, f, g),
-                _ => self.back::<3>(column, f, g),
+            if column.pins {
+                self.back::<2, true>(column, f, g);
+            } else {
+                self.mixed_back(column, f, g);
             }
         }
         let groups = f.chunks_exact_mut(3).zip(&self.weights).zip(&pattern.coupled);
@@ -82,14 +82,24 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// λ of one column, into g, and its share of x.
+    #[inline(never)]
+    fn mixed_back(&self, column: &Column, x: &mut [S], g: &mut [S]) {
+        match column.size {
+            1 => self.back::<1, false>(column, x, g),
+            2 => self.back::<2, false>(column, x, g),
+            _ => self.back::<3, false>(column, x, g),
+        }
+    }
+
+    /// λ of one column, into g, and its share of x; with `PINS` one of pins alone.
     #[inline(always)]
-    fn back<const N: usize>(&self, column: &Column, x: &mut [S], g: &mut [S]) {
+    fn back<const N: usize, const PINS: bool>(&self, column: &Column, x: &mut [S], g: &mut [S]) {
         let rows = part::<_, N>(&self.diagonal, column.row);
         let y = part::<S, N>(g, column.row);
         let mut lambda: [S; N] = std::array::from_fn(|i| y[i] * rows[i].inverse);
         for block in column.below.iter().rev() {
             match block.size {
+                _ if PINS => self.pull::<2, N>(block, g, &mut lambda),
                 1 => self.pull::<1, N>(block, g, &mut lambda),
                 2 => self.pull::<2, N>(block, g, &mut lambda),
                 _ => self.pull::<3, N>(block, g, &mut lambda),
@@ -101,12 +111,12 @@ impl<S: Real> Saddle<S> {
             }
         }
         *part_mut(g, column.row) = lambda;
-        for Touch { first, unknown, sign } in &column.touches {
-            let x = part_mut::<S, 3>(x, *unknown);
-            if N == 2 && *sign != 0.0 {
-                self.arms[*first as usize].subtract_transposed(*sign, &lambda, x);
+        for Touch { first, owner } in &column.touches {
+            let x = part_mut::<S, 3>(x, owner.unknown());
+            if PINS || N == 2 && owner.sign != 0.0 {
+                self.arms[*first as usize].subtract_transposed(owner.sign, &lambda, x);
             } else {
-                let u = part::<Row<S>, N>(&self.u, *first).iter().map(|u| u.scaled);
+                let u = part::<Twin<S>, N>(&self.u, *first).iter().map(|u| u.scaled);
                 subtract_transposed(x, u, &lambda);
             }
         }
@@ -115,25 +125,24 @@ impl<S: Real> Saddle<S> {
     /// λ -= Lᵀ λ' of a block whose rows are solved for in g.
     #[inline(always)]
     fn pull<const M: usize, const N: usize>(&self, block: &Below, g: &[S], lambda: &mut [S; N]) {
-        let rows = part::<Row<S>, M>(&self.lower, block.block).iter().map(|row| row.scaled);
-        subtract_transposed(lambda, rows, part::<S, M>(g, block.row));
+        subtract_products::<S, M, N>(lambda, part(&self.lower, block.block), part(g, block.row));
     }
 }
 
 impl Earlier {
-    /// y -= L y' with the y' of the column where the block stands.
+    /// y -= L y' with the y' of the column where the block stands, of `size` rows.
     #[inline(always)]
     pub(super) fn subtract<S: Real, const N: usize>(
         &self,
-        lower: &[Row<S>],
+        size: u32,
+        lower: &[Twin<S>],
         g: &[S],
         y: &mut [S; N],
     ) {
-        let block = part::<_, N>(lower, self.block);
-        match self.size {
-            1 => subtract_times(y, block, part::<S, 1>(g, self.row)),
-            2 => subtract_times(y, block, part::<S, 2>(g, self.row)),
-            _ => subtract_times(y, block, part::<S, 3>(g, self.row)),
+        match size {
+            1 => subtract_times::<S, N, 1>(y, part(lower, self.block), part(g, self.row)),
+            2 => subtract_times::<S, N, 2>(y, part(lower, self.block), part(g, self.row)),
+            _ => subtract_times::<S, N, 3>(y, part(lower, self.block), part(g, self.row)),
         }
     }
 }

@@ -1,7 +1,8 @@
-//! Random trees: their value by a direct evaluation, and print → parse → print.
+//! Random trees: their value by a direct evaluation (sine is that of the core, tested beside it), and print → parse → print.
 
 use super::{value, Model, PARAMETERS, SCOPE, VARIABLES};
 use kempe::expression::Expression;
+use kempe::math::Real;
 
 /// A small generator of pseudo-random numbers (Marsaglia 2003, xorshift64).
 struct Random(u64);
@@ -29,7 +30,7 @@ fn tree(random: &mut Random, depth: usize) -> (String, f64) {
         3 => (format!("({x})/(2 + ({y})^2)"), x_value / (2.0 + y_value * y_value)),
         4 => (format!("-({x})"), -x_value),
         5 => (format!("({x})^2"), x_value * x_value),
-        6 => (format!("sin({x})"), x_value.sin()),
+        6 => (format!("sin({x})"), Real::sin(x_value)),
         7 => (format!("max({x} , {y})"), x_value.max(y_value)),
         8 => (format!("atan2({x},{y})"), x_value.atan2(y_value)),
         _ => {

@@ -27,6 +27,29 @@ pub struct Trajectory {
     pub energy: Vec<f64>,
 }
 
+/// Most numbers that room is made for beforehand; what is longer grows.
+const MOST_ROOM: usize = 1 << 20;
+
+impl Trajectory {
+    /// Empty, with room for the states that a grid asks for: growing would copy them again and again.
+    fn with_room(model: &Model, output: Output, span: f64) -> Self {
+        let (n, m) = (model.layout.n_q, model.layout.n_rows);
+        let rows = match output {
+            Output::Every(h) => ((span / h).abs() + 2.0) as usize, // NaN gives none
+            Output::Steps => 0,
+        };
+        let room = |width: usize| Vec::with_capacity(rows.min(MOST_ROOM / (3 * n + m + 6)) * width);
+        Self {
+            t: room(1),
+            q: room(n),
+            v: room(n),
+            a: room(n),
+            lam: room(m),
+            energy: room(ENERGIES),
+        }
+    }
+}
+
 /// Why a state cannot be reported.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Halt {
@@ -72,7 +95,7 @@ impl<'a> Recorder<'a> {
             t_end: options.t_end,
             next: 1,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
-            trajectory: Trajectory::default(),
+            trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
             dense: options.dense_output.then(|| Dense::new(options, t0)),
             reported: Equations::new(model, options).for_reports(),
             halt: None,
