@@ -32,13 +32,17 @@ const REST: f64 = 1e-3;
 const UNMET: f64 = 0.05;
 /// Part of what the joints carry that counts as balanced.
 const BALANCED: f64 = 1e-9;
-/// Most steps in a row that are shortened so as not to end near a singular position.
+/// Ratio below which the ridge bends accelerations: a step with such a stage is better taken otherwise.
+const BENT: f64 = 1e-6;
+/// Most steps in a row that are shortened so as not to end near a singular position, or to look at it.
 const SHORTENED: usize = 3;
 
 /// What a step came by.
 pub(super) struct Passage {
     /// Whether a stage of the step under way was near a singular position.
     pub near: bool,
+    /// Least ratio of a pivot to what it was cancelled from, of all stages since the last step was judged.
+    closest: f64,
     /// Why the last trial state that was refused was, and when.
     pub undecided: Option<(f64, Fault)>,
     singularity: Singularity,
@@ -55,6 +59,7 @@ impl Passage {
         let singularity = options.singularity;
         Self {
             near: false,
+            closest: f64::INFINITY,
             undecided: None,
             singularity,
             controlled,
@@ -80,6 +85,7 @@ impl Passage {
         }
         self.near = true;
         let Some((row, kept)) = work.matrix.cancellation() else { return Ok(()) };
+        self.closest = self.closest.min(kept);
         if self.singularity == Singularity::Pass || kept > UNTOLD {
             return Ok(());
         }
@@ -94,10 +100,12 @@ impl Passage {
     }
 
     /// A step that would end near a singular position is refused, if that has not been tried already: its
-    /// end can be projected well only at a distance, and a longer step flies over.
+    /// end can be projected well only at a distance, and a longer step flies over. So is one that came so
+    /// near on its way that the ridge bent its accelerations, which its error estimate does not see.
     pub fn land(&mut self, work: &Workspace) -> Result<(), Fault> {
         self.near = false;
-        if work.matrix.ridged() && self.controlled && self.shortened < SHORTENED {
+        let bent = std::mem::replace(&mut self.closest, f64::INFINITY) < BENT;
+        if (work.matrix.ridged() || bent) && self.controlled && self.shortened < SHORTENED {
             self.shortened += 1;
             let row = work.matrix.cancellation().map_or(0, |(row, _)| row);
             return Err(Fault::Singular(Singular(Dependent::Row(row))));
