@@ -43,5 +43,6 @@ pub use dense::Dense;
 pub use dop853::Dop853;
 pub use events::{locate, Direction};
 pub use failure::{Cause, Failure};
+pub(crate) use rate::all_finite;
 pub use rk4::Rk4;
 pub use rk45::Rk45;

@@ -3,7 +3,7 @@
 use super::options::{Options, Output};
 use super::system::{Equations, WORKS};
 use crate::equations::{energy, kinematics, Gains};
-use crate::integrate::{Flow, Step};
+use crate::integrate::{all_finite, Flow, Step};
 use crate::model::Model;
 use crate::stabilize::Fault;
 
@@ -119,7 +119,7 @@ impl<'a> Recorder<'a> {
         let kinetic = energy::kinetic(model, &workspace.motions);
         let potential = energy::potential(model, &workspace.motions, t);
         let numbers = [y, workspace.a(), workspace.lam(), &[kinetic, potential]];
-        if !numbers.into_iter().all(finite) {
+        if !numbers.into_iter().all(all_finite) {
             return self.stop(t, Halt::NotFinite);
         }
         let row = &mut self.trajectory;
@@ -147,7 +147,7 @@ impl<'a> Recorder<'a> {
             dense.degree = degree;
             dense.c.resize(first + degree * step.y.len(), 0.0);
             step.coefficients(&mut dense.c[first..]);
-            if !finite(&dense.c[first..]) {
+            if !all_finite(&dense.c[first..]) {
                 dense.c.truncate(first);
                 return self.stop(step.t, Halt::NotFinite);
             }
@@ -204,8 +204,4 @@ impl<'a> Recorder<'a> {
         }
         Some(t)
     }
-}
-
-fn finite(x: &[f64]) -> bool {
-    x.iter().all(|x| x.is_finite())
 }
