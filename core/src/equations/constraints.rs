@@ -85,6 +85,7 @@ fn update<S: Real, const M: usize>(
 }
 
 /// Φ_q into `entries` as [`jacobian`], where such an entry stands already, and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m), into `right`, in one pass.
+#[inline(always)] // once in an evaluation: a call saves and restores more than it shares
 pub fn linearize<S: Real>(
     model: &Model<S>,
     motions: &[Motion<S>],

@@ -5,12 +5,12 @@
 use super::{forces, mass};
 use crate::elements::Nature;
 use crate::math::{Motion, Real};
-use crate::model::Model;
+use crate::model::{Body, Model};
 
 /// Kinetic energy ½ q̇ᵀ M q̇, J.
 pub fn kinetic<S: Real>(model: &Model<S>, motions: &[Motion<S>]) -> S {
     let mut twice = S::zero();
-    for (body, motion) in model.bodies.iter().zip(motions).skip(1) {
+    for (body, motion) in moving(model, motions) {
         let v = [motion.twist.velocity.x, motion.twist.velocity.y, motion.twist.omega];
         let p = mass::block(body, motion).times(v);
         twice += v[0] * p[0] + v[1] * p[1] + v[2] * p[2];
@@ -21,13 +21,21 @@ pub fn kinetic<S: Real>(model: &Model<S>, motions: &[Motion<S>]) -> S {
 /// Potential energy of gravity (zero at the global origin) and of the forces, J.
 pub fn potential<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S) -> S {
     let mut sum = S::zero();
-    for (body, motion) in model.bodies.iter().zip(motions).skip(1) {
+    for (body, motion) in moving(model, motions) {
         sum -= body.mass * model.gravity.dot(motion.pose.point(body.center));
     }
     for item in &model.forces {
         sum += forces::potential(item, motions, t);
     }
     sum
+}
+
+/// All bodies but ground.
+fn moving<'a, S>(
+    model: &'a Model<S>,
+    motions: &'a [Motion<S>],
+) -> impl Iterator<Item = (&'a Body<S>, &'a Motion<S>)> {
+    model.bodies[1..].iter().zip(&motions[1..])
 }
 
 /// Powers that the energy balance integrates, W.

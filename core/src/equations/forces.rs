@@ -7,6 +7,7 @@ use crate::math::{Motion, Real, Wrench};
 use crate::model::{columns, ForceItem, Inertia, Model};
 
 /// Q into `out`, shape (n_q); the powers of the force elements come with it.
+#[inline(always)] // as constraints::linearize
 pub fn generalized<S: Real>(
     model: &Model<S>,
     motions: &[Motion<S>],

@@ -2,15 +2,17 @@
 
 use crate::math::{Motion, Pose, Real, Twist, Vec2};
 
-/// Motion of every body, ground first, from q (3 n_b) and v (3 n_b). No allocation if `out` has
-/// held as many bodies before.
+/// Motion of every body, ground first, from q (3 n_b) and v (3 n_b). What `out` holds must come from here or
+/// be empty: ground is not written again. No allocation if it has held as many bodies before.
 pub fn motions<S: Real>(q: &[S], v: &[S], out: &mut Vec<Motion<S>>) {
-    out.clear();
-    out.push(Motion { pose: Pose::identity(), twist: Twist::zero() });
-    out.extend(q.chunks_exact(3).zip(v.chunks_exact(3)).map(|(q, v)| Motion {
-        pose: Pose::new(q[0], q[1], q[2]),
-        twist: Twist { velocity: Vec2::new(v[0], v[1]), omega: v[2] },
-    }));
+    out.resize(q.len() / 3 + 1, Motion { pose: Pose::identity(), twist: Twist::zero() });
+    let moving = out[1..].iter_mut().zip(q.chunks_exact(3).zip(v.chunks_exact(3)));
+    for (motion, (q, v)) in moving {
+        *motion = Motion {
+            pose: Pose::new(q[0], q[1], q[2]),
+            twist: Twist { velocity: Vec2::new(v[0], v[1]), omega: v[2] },
+        };
+    }
 }
 
 /// Gives the moving bodies the rates v (3 n_b); their positions stay.

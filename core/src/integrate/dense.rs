@@ -40,15 +40,27 @@ impl<'a> Dense<'a> {
         self.degree
     }
 
-    /// Each stage with its row of the table.
-    fn terms(&self) -> impl Iterator<Item = (&'a [f64], &'static [f64])> {
-        self.stages.chunks_exact(self.len.max(1)).zip(self.table.chunks_exact(self.degree))
+    /// Each stage with its row of the table, as long as the degree.
+    #[inline(always)]
+    fn terms(&self, degree: usize) -> impl Iterator<Item = (&'a [f64], &'static [f64])> {
+        let rows = self.table.chunks_exact(degree).map(move |row| &row[..degree]);
+        self.stages.chunks_exact(self.len.max(1)).zip(rows)
     }
 
     pub(super) fn evaluate(&self, y_old: &[f64], h: f64, theta: f64, out: &mut [f64]) {
         out.copy_from_slice(y_old);
+        // with a degree that the compiler knows, inner loops unroll: here and for the coefficients
+        match self.degree {
+            4 => self.add_at(4, h, theta, out),
+            7 => self.add_at(7, h, theta, out),
+            degree => self.add_at(degree, h, theta, out),
+        }
+    }
+
+    #[inline(always)]
+    fn add_at(&self, degree: usize, h: f64, theta: f64, out: &mut [f64]) {
         let scale = h * theta;
-        let mut terms = self.terms();
+        let mut terms = self.terms(degree);
         // a term that is not there repeats the first, by weight zero
         while let Some((first, row)) = terms.next() {
             let (mut weights, mut stages) = ([0.0; TOGETHER], [first; TOGETHER]);
@@ -63,7 +75,6 @@ impl<'a> Dense<'a> {
     pub(super) fn coefficients(&self, out: &mut [f64]) {
         assert_eq!(out.len(), self.len * self.degree, "len of y x degree");
         out.fill(0.0);
-        // with a degree that the compiler knows, the inner loop unrolls
         match self.degree {
             4 => self.add_coefficients(4, out),
             7 => self.add_coefficients(7, out),
@@ -73,8 +84,7 @@ impl<'a> Dense<'a> {
 
     #[inline(always)]
     fn add_coefficients(&self, degree: usize, out: &mut [f64]) {
-        for (stage, row) in self.terms() {
-            let row = &row[..degree];
+        for (stage, row) in self.terms(degree) {
             for (out, k) in out.chunks_exact_mut(degree).zip(stage) {
                 for (out, b) in out.iter_mut().zip(row) {
                     *out += b * k;

@@ -61,5 +61,6 @@ pub use events::{locate, Direction};
 pub use failure::{Cause, Failure};
 pub use generalized_alpha::GeneralizedAlpha;
 pub use radau::Radau;
+pub(crate) use rate::all_finite;
 pub use rk4::Rk4;
 pub use rk45::Rk45;

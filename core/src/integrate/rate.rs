@@ -32,7 +32,7 @@ impl<Y: FirstOrder> Rate<'_, Y> {
 
 /// Whether every number is finite; as a sum of bits, so that it vectorises.
 #[inline]
-pub(super) fn all_finite(x: &[f64]) -> bool {
+pub(crate) fn all_finite(x: &[f64]) -> bool {
     // 0 x is ±0 for finite x and NaN otherwise; the shift drops the sign
     (x.iter().fold(0, |bits, v| bits | (0.0 * v).to_bits()) << 1) == 0
 }

@@ -3,7 +3,7 @@
 use super::options::{Options, Output, Scheme};
 use super::system::{Equations, WORKS};
 use crate::equations::{energy, kinematics, Gains};
-use crate::integrate::{Flow, Step};
+use crate::integrate::{all_finite, Flow, Step};
 use crate::model::Model;
 use crate::stabilize::Fault;
 
@@ -119,7 +119,7 @@ impl<'a> Recorder<'a> {
         let kinetic = energy::kinetic(model, &workspace.motions);
         let potential = energy::potential(model, &workspace.motions, t);
         let numbers = [y, workspace.a(), workspace.lam(), &[kinetic, potential]];
-        if !numbers.into_iter().all(finite) {
+        if !numbers.into_iter().all(all_finite) {
             return self.stop(t, Halt::NotFinite);
         }
         let row = &mut self.trajectory;
@@ -215,7 +215,7 @@ impl Dense {
         self.c.resize(first + self.degree * n, 0.0);
         let out = &mut self.c[first..];
         step.coefficients(&mut out[..own * n]);
-        if !finite(&out[..own * n]) {
+        if !all_finite(&out[..own * n]) {
             self.c.truncate(first);
             return false;
         }
@@ -231,8 +231,4 @@ impl Dense {
         self.y.extend_from_slice(step.y_old);
         true
     }
-}
-
-fn finite(x: &[f64]) -> bool {
-    x.iter().all(|x| x.is_finite())
 }
