@@ -54,17 +54,18 @@ impl<S: Real> Arm<S> {
         }
     }
 
-    /// target += U Dw⁻¹ U′ᵀ with the b′ of another pair; `sign` is the product of both signs.
+    /// target += U Dw⁻¹ U′ᵀ with another pair; `sign` is the product of both signs.
     #[inline(always)]
     pub fn add_product<const M: usize, const N: usize>(
         &self,
-        other: &[S; 2],
+        other: &Self,
         sign: f64,
         target: &mut [[S; N]; M],
     ) {
         // the diagonal and what is beside it, two numbers at a time
-        let along = [0, 1].map(|i| S::constant(sign) * self.inverse[i] + self.scaled[i] * other[i]);
-        let across = [0, 1].map(|i| self.scaled[i] * other[1 - i]);
+        let along =
+            [0, 1].map(|i| S::constant(sign) * self.inverse[i] + self.scaled[i] * other.plain[i]);
+        let across = [0, 1].map(|i| self.scaled[i] * other.plain[1 - i]);
         for i in 0..2 {
             target[i][i] += along[i];
             target[i][1 - i] += across[i];

@@ -33,8 +33,8 @@ pub struct Pattern {
     pub(super) n_entries: usize,
     /// Rows of entries that have a row in U.
     pub(super) general: Vec<Owner>,
-    /// Number of pairs of rows [±I b] that have an arm.
-    pub(super) n_arms: usize,
+    /// Pairs of rows [±I b] that have an arm.
+    pub(super) arms: Vec<Owner>,
     /// First rows of the blocks that begin with ±I, with the sign.
     pub(super) units: Vec<(usize, f64)>,
     /// Columns of L, in elimination order.
@@ -50,7 +50,7 @@ pub(super) struct Owner {
     pub row: u32,
     pub group: u32,
     pub coupled: bool,
-    /// Of the unit block of an arm; 0 for rows of U.
+    /// Of the unit block of an arm.
     pub sign: f64,
 }
 
@@ -74,8 +74,10 @@ pub(super) struct Column {
 pub(super) struct Touch {
     /// First row of U, or the arm.
     pub first: u32,
-    /// Where its entries are.
-    pub owner: Owner,
+    /// First unknown of the group.
+    pub unknown: u32,
+    /// Of the unit block of an arm; 0 where rows of U are touched.
+    pub sign: f64,
 }
 
 /// A block of L left of a diagonal block.
@@ -106,8 +108,6 @@ pub(super) struct Below {
 pub(super) struct Pair {
     /// First rows of U, or arms: of the block's own row block, of the column's.
     pub first: [u32; 2],
-    /// Where the entries of the block's own row block are, since its arm is not yet made.
-    pub own: Owner,
     /// Product of the signs of two arms; 0 for rows of U.
     pub sign: f64,
 }
@@ -119,14 +119,6 @@ pub(super) struct Update {
     pub blocks: [u32; 2],
     /// Size of the row block eliminated there.
     pub size: u32,
-}
-
-impl Owner {
-    /// First unknown of the group.
-    #[inline(always)]
-    pub fn unknown(&self) -> u32 {
-        3 * self.group
-    }
 }
 
 impl Pattern {
@@ -147,7 +139,7 @@ impl Pattern {
             n_rows: starts[blocks.len()],
             n_entries: plan::check_entries(blocks),
             general: places.general,
-            n_arms: places.n_arms,
+            arms: places.arms,
             units: plan::units(blocks),
             columns,
             n_lower,
@@ -188,7 +180,7 @@ impl Column {
                 && below.updates.iter().all(|update| update.size == 2)
         };
         self.size == 2
-            && self.touches.iter().all(|touch| touch.owner.sign != 0.0)
+            && self.touches.iter().all(|touch| touch.sign != 0.0)
             && self.earlier.iter().all(|earlier| earlier.size == 2)
             && self.below.iter().all(below)
     }

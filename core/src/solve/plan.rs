@@ -125,7 +125,7 @@ pub(super) struct Places {
     /// For each row block.
     pub touches: Vec<Vec<Touch>>,
     pub general: Vec<Owner>,
-    pub n_arms: usize,
+    pub arms: Vec<Owner>,
 }
 
 impl Places {
@@ -136,7 +136,7 @@ impl Places {
             assert!(unit || block.signs.is_empty(), "one sign for each group, of two rows");
             block.touches.iter().for_each(|&(group, _)| with_arms[group] &= unit);
         }
-        let mut places = Self { touches: vec![], general: vec![], n_arms: 0 };
+        let mut places = Self { touches: vec![], general: vec![], arms: vec![] };
         for block in blocks {
             let touch = |(k, &(group, first)): (usize, &(usize, usize))| {
                 let sign = if with_arms[group] { block.signs[k] } else { 0.0 };
@@ -146,14 +146,13 @@ impl Places {
                     coupled: coupled[group],
                     sign,
                 };
-                let first = if with_arms[group] {
-                    places.n_arms += 1;
-                    places.n_arms - 1
-                } else {
-                    places.general.extend((0..block.size).map(owner));
-                    places.general.len() - block.size
+                let (list, rows) = match with_arms[group] {
+                    true => (&mut places.arms, 1),
+                    false => (&mut places.general, block.size),
                 };
-                Touch { first: index(first), owner: owner(0) }
+                let first = index(list.len());
+                list.extend((0..rows).map(owner));
+                Touch { first, unknown: index(3 * group), sign }
             };
             let touches = block.touches.iter().enumerate().map(touch).collect();
             places.touches.push(touches);
@@ -165,9 +164,8 @@ impl Places {
     fn pairs(&self, one: usize, other: usize) -> Vec<Pair> {
         let other = &self.touches[other];
         let with = |own: &Touch| {
-            let partner = other.iter().find(|t| t.owner.group == own.owner.group)?;
-            let sign = own.owner.sign * partner.owner.sign;
-            Some(Pair { first: [own.first, partner.first], own: own.owner, sign })
+            let partner = other.iter().find(|t| t.unknown == own.unknown)?;
+            Some(Pair { first: [own.first, partner.first], sign: own.sign * partner.sign })
         };
         self.touches[one].iter().filter_map(with).collect()
     }

@@ -13,7 +13,7 @@
 
 use super::arm::{bent, Arm};
 use super::block::{add, factorise, part, part_mut, subtract, Diagonal, Twin};
-use super::pattern::{Below, Column, Owner, Pattern, Touch, Update};
+use super::pattern::{Below, Column, Pattern, Touch, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -77,7 +77,7 @@ impl<S: Real> Saddle<S> {
             least: PIVOT_TOLERANCE,
             ridge: 0.0,
             u: vec![twin; pattern.general.len()],
-            arms: vec![Arm::zero(); pattern.n_arms],
+            arms: vec![Arm::zero(); pattern.arms.len()],
             diagonal: vec![Pivot { lower: none, inverse: zero, magnitude: zero }; pattern.n_rows],
             lower: vec![twin; pattern.n_lower],
         }
@@ -121,7 +121,7 @@ impl<S: Real> Saddle<S> {
         ratios.map(S::least_magnitude).enumerate().min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// U = A Lw⁻ᵀ and U Dw⁻¹, but for the arms: each is made where its column is.
+    /// U = A Lw⁻ᵀ and U Dw⁻¹, one after the other as they are stored.
     #[inline(always)]
     fn transform(&mut self, pattern: &Pattern) {
         assert_eq!(self.entries.len(), pattern.n_entries, "a matrix of this pattern");
@@ -133,6 +133,10 @@ impl<S: Real> Saddle<S> {
             }
             u.plain = row;
             u.scaled = [row[0] * inverse[0], row[1] * inverse[1], row[2] * inverse[2]];
+        }
+        for (owner, arm) in pattern.arms.iter().zip(&mut self.arms) {
+            let weight = &self.weights[owner.group as usize];
+            *arm = Arm::new(bent(part(&self.entries, owner.row), weight, owner), weight);
         }
     }
 
@@ -182,20 +186,19 @@ impl<S: Real> Saddle<S> {
             s[i][i] = *mu;
         }
         let mut y = if RHS { part(g, column.row).map(|g: S| -g) } else { [S::zero(); N] };
-        for Touch { first, owner } in &column.touches {
-            if PINS || N == 2 && owner.sign != 0.0 {
-                let arm = Arm::new(self.bent(owner), &self.weights[owner.group as usize]);
+        for Touch { first, unknown, sign } in &column.touches {
+            if PINS || N == 2 && *sign != 0.0 {
+                let arm = &self.arms[*first as usize];
                 arm.add_square(&mut s);
                 if RHS {
-                    arm.add_times(owner.sign, part(x, owner.unknown()), &mut y);
+                    arm.add_times(*sign, part(x, *unknown), &mut y);
                 }
-                self.arms[*first as usize] = arm;
                 continue;
             }
             let u = part::<_, N>(&self.u, *first);
             add::<S, N, N, 3>(&mut s, u, u);
             if RHS {
-                Twin::add_times(u, part(x, owner.unknown()), &mut y);
+                Twin::add_times(u, part(x, *unknown), &mut y);
             }
         }
         let magnitude: [S; N] = std::array::from_fn(|i| s[i][i]);
@@ -262,8 +265,8 @@ impl<S: Real> Saddle<S> {
         for pair in &block.pairs {
             let [own, other] = pair.first;
             if PINS || N == 2 && M == 2 && pair.sign != 0.0 {
-                let own = self.bent(&pair.own);
-                self.arms[other as usize].add_product(&own, pair.sign, &mut s);
+                let own = &self.arms[own as usize];
+                self.arms[other as usize].add_product(own, pair.sign, &mut s);
             } else {
                 add::<S, N, M, 3>(&mut s, part(&self.u, other), part(&self.u, own));
             }
@@ -278,12 +281,6 @@ impl<S: Real> Saddle<S> {
             column.plain[..M].copy_from_slice(s);
             column.scaled[..M].copy_from_slice(&s.map(|s| s * *inverse));
         }
-    }
-
-    /// b′ of a pair of rows.
-    #[inline(always)]
-    fn bent(&self, owner: &Owner) -> [S; 2] {
-        bent(part(&self.entries, owner.row), &self.weights[owner.group as usize], owner)
     }
 
     /// s -= (L D) Lᵀ with two blocks of one earlier column, of `size` rows.

@@ -42,10 +42,10 @@ impl<S: Real> Saddle<S> {
     /// y = L⁻¹ (A W⁻¹ f - g) of one column, into g.
     fn forward<const N: usize>(&self, column: &Column, x: &[S], g: &mut [S]) {
         let mut y = part::<S, N>(g, column.row).map(|g| -g);
-        for Touch { first, owner } in &column.touches {
-            let x = part(x, owner.unknown());
-            if N == 2 && owner.sign != 0.0 {
-                self.arms[*first as usize].add_times(owner.sign, x, &mut y);
+        for Touch { first, unknown, sign } in &column.touches {
+            let x = part(x, *unknown);
+            if N == 2 && *sign != 0.0 {
+                self.arms[*first as usize].add_times(*sign, x, &mut y);
             } else {
                 Twin::add_times(part(&self.u, *first), x, &mut y);
             }
@@ -111,10 +111,10 @@ impl<S: Real> Saddle<S> {
             }
         }
         *part_mut(g, column.row) = lambda;
-        for Touch { first, owner } in &column.touches {
-            let x = part_mut::<S, 3>(x, owner.unknown());
-            if PINS || N == 2 && owner.sign != 0.0 {
-                self.arms[*first as usize].subtract_transposed(owner.sign, &lambda, x);
+        for Touch { first, unknown, sign } in &column.touches {
+            let x = part_mut::<S, 3>(x, *unknown);
+            if PINS || N == 2 && *sign != 0.0 {
+                self.arms[*first as usize].subtract_transposed(*sign, &lambda, x);
             } else {
                 let u = part::<Twin<S>, N>(&self.u, *first).iter().map(|u| u.scaled);
                 subtract_transposed(x, u, &lambda);
