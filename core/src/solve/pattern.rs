@@ -148,9 +148,8 @@ impl Pattern {
 
     /// Each row of three entries with the group it belongs to.
     pub(super) fn groups(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let touches = self.columns.iter().flat_map(|column| &column.touches);
-        let arms = touches.map(|touch| touch.owner).filter(|owner| owner.sign != 0.0);
-        let of_arms = arms.flat_map(|arm| [(arm.row, arm.group), (arm.row + 1, arm.group)]);
+        let of_arm = |arm: &Owner| [(arm.row, arm.group), (arm.row + 1, arm.group)];
+        let of_arms = self.arms.iter().flat_map(of_arm);
         let general = self.general.iter().map(|owner| (owner.row, owner.group));
         general.chain(of_arms).map(|(row, group)| (row as usize, group as usize))
     }
