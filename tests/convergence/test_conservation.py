@@ -37,5 +37,5 @@ def test_dop853_keeps_the_energy(start: kp.State) -> None:
 def test_every_method_keeps_the_joints_closed(start: kp.State, name: str) -> None:
     found = conserve(BY_NAME[name], start, 2000)
     assert found.residual < 1e-10
-    # fourth order drifts most: 5e-6 in twenty periods
-    assert found.drift < 1e-5
+    # in twenty periods order 4 drifts by 5e-6; the methods of order 2 damp, and lose up to 7e-3
+    assert found.drift < (1e-5 if BY_NAME[name].order_q > 2 else 1e-2)
