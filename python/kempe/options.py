@@ -113,8 +113,8 @@ class GeneralizedAlpha(Option):
     """Implicit generalized-α of order 2 (Chung & Hulbert 1993) at index 3 (Arnold & Brüls 2007).
 
     For stiff forces and moderate accuracy. The constraints are among its equations, so that Φ = 0
-    holds at every step; velocities are put onto them by projection, as the default stabilization of
-    implicit methods does. Between the steps a cubic polynomial.
+    holds at every step; velocities are put onto them by the default stabilization, projection.
+    Between the steps a cubic polynomial.
 
     Attributes:
         rho: spectral radius at infinite frequency, in [0, 1); the smaller, the more high
@@ -164,8 +164,8 @@ class Radau(Option):
     """Implicit Radau IIA of order 5 (Hairer & Wanner 1996) at index 2, for stiff forces.
 
     The velocities meet their constraints at every stage; positions are put onto theirs by
-    projection, as the default stabilization of implicit methods does. Between the steps it
-    interpolates with order 4 for q and 3 for v.
+    the default stabilization, projection. Between the steps it interpolates with order 4 for q and
+    3 for v.
 
     Attributes:
         rtol: tolerance of a step relative to each component, 1e-6 when None. With ``step`` that of

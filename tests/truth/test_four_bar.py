@@ -146,3 +146,15 @@ def test_without_stabilization_the_joints_open_by_metres(case: kp.Case, start: k
     method = kp.RK45(rtol=1e-3, atol=1e-6)
     sol = kp.dynamics(case.model, start, t_end=15, method=method, stabilization=None)
     assert 1.0 < sol.drift.position[-1] < 20.0
+
+
+def test_what_a_user_gets_who_says_nothing(
+    case: kp.Case, start: kp.State, reference: dict[str, Any]
+) -> None:
+    sol = kp.dynamics(case.model, start, t_end=15, output_step=0.01)
+    assert sol.statistics["method"] == "dop853"
+    assert sol.drift.position.max() < 1e-10
+    for state in [reference["start"], *reference["states"]]:
+        at = int(np.argmin(np.abs(sol.t - state["t"])))
+        truth = np.array(state["q"])[ANGLES]
+        np.testing.assert_allclose(sol.q[at, ANGLES], truth, rtol=0, atol=1e-6)
