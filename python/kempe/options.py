@@ -280,7 +280,8 @@ class Dynamics:
 
 def _option(value: object, path: str) -> dict[str, Any]:
     if not isinstance(value, Option):
-        raise ModelError(f"{path}: {value!r}", hint="pass an object such as kp.RK45(rtol=1e-6)")
+        example = "kp.RK45(rtol=1e-6)" if path.endswith("method") else "kp.Projection()"
+        raise ModelError(f"{path}: {value!r}", hint=f"pass an object such as {example}")
     return value.tree(path)
 
 

@@ -167,3 +167,12 @@ def test_a_simulation_may_start_at_another_time(model: kp.Model) -> None:
 def test_options_that_cannot_be_are_refused(model: kp.Model, start: kp.State, wrong: dict) -> None:
     with pytest.raises(kp.ModelError):
         kp.dynamics(model, start, **wrong)
+
+
+@pytest.mark.parametrize(
+    ("field", "remedy"), [("method", "kp.RK45"), ("stabilization", "kp.Projection")]
+)
+def test_a_word_is_no_option(model: kp.Model, start: kp.State, field: str, remedy: str) -> None:
+    words: dict = {field: "auto"}
+    with pytest.raises(kp.ModelError, match=rf"{field}: 'auto'; pass an object such as {remedy}"):
+        kp.dynamics(model, start, t_end=1, **words)
