@@ -1,9 +1,10 @@
 //! What forward dynamics reports: states at chosen times, with accelerations, multipliers, energies.
 
 use super::options::{Options, Output, Scheme};
-use super::system::{Equations, WORKS};
-use crate::equations::{energy, kinematics, Gains};
+use super::report::{Batch, Solver};
+use super::system::WORKS;
 use crate::integrate::{all_finite, Flow, Step};
+use crate::math::Lanes;
 use crate::model::Model;
 use crate::stabilize::Fault;
 
@@ -27,6 +28,14 @@ pub struct Trajectory {
     pub energy: Vec<f64>,
 }
 
+/// Whether a grid has so many states that solving several at once is worth a model over lanes.
+pub(super) fn many(output: Output, span: f64) -> bool {
+    match output {
+        Output::Every(h) => (span / h).abs() >= 4.0 * Lanes::WIDTH as f64,
+        Output::Steps => false,
+    }
+}
+
 /// Most numbers that room is made for beforehand; what is longer grows.
 const MOST_ROOM: usize = 1 << 20;
 
@@ -47,6 +56,20 @@ impl Trajectory {
             lam: room(m),
             energy: room(ENERGIES),
         }
+    }
+
+    /// Adds what was solved at y = (q, v, works), by the number that is meant.
+    fn add<S: Copy>(&mut self, t: f64, y: &[S], found: [&[S]; 3], number: impl Fn(S) -> f64) {
+        let [a, lam, energies] = found;
+        let n = a.len();
+        let add = |to: &mut Vec<f64>, x: &[S]| to.extend(x.iter().map(|x| number(*x)));
+        self.t.push(t);
+        add(&mut self.q, &y[..n]);
+        add(&mut self.v, &y[n..2 * n]);
+        add(&mut self.a, a);
+        add(&mut self.lam, lam);
+        add(&mut self.energy, energies);
+        add(&mut self.energy, &y[2 * n..]);
     }
 }
 
@@ -81,14 +104,22 @@ pub(super) struct Recorder<'a> {
     y: Vec<f64>,
     pub trajectory: Trajectory,
     pub dense: Option<Dense>,
-    /// Projects what lies between the ends of a step, and solves the equations of motion there.
-    pub reported: Equations<'a>,
+    /// Solves the equations of motion at reported states.
+    one: Solver<'a>,
+    /// The same for those of a grid, if they are many.
+    many: Option<Batch<'a>>,
     /// Why it cannot go on, and when.
     pub halt: Option<(f64, Halt)>,
 }
 
 impl<'a> Recorder<'a> {
-    pub fn new(model: &'a Model, options: &Options, t0: f64) -> Self {
+    /// With the model over lanes, if there are to be many.
+    pub fn new(
+        model: &'a Model,
+        wide: Option<&'a Model<Lanes>>,
+        options: &Options,
+        t0: f64,
+    ) -> Self {
         Self {
             output: options.output,
             t0,
@@ -97,39 +128,69 @@ impl<'a> Recorder<'a> {
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
             trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
             dense: options.dense_output.then(|| Dense::new(options, t0)),
-            reported: Equations::new(model, options).for_reports(),
+            one: Solver::new(model, options),
+            many: wide.map(|wide| Batch::new(wide, options)),
             halt: None,
         }
     }
 
-    /// Reports a state given as (q, v, works).
-    pub fn report(&mut self, t: f64, y: &[f64]) -> Flow {
-        let n = self.reported.model.layout.n_q;
-        kinematics::motions(&y[..n], &y[n..2 * n], &mut self.reported.workspace.motions);
-        self.report_placed(t, y)
+    /// Factorisations, those of lanes one by one.
+    pub fn factorisations(&self) -> usize {
+        let many = self.many.as_ref().map_or(0, |batch| batch.solver.factorisations());
+        self.one.factorisations() + Lanes::WIDTH * many
     }
 
-    /// Reports a state whose motions are in the workspace: accelerations and multipliers by γ, never γ̂.
-    fn report_placed(&mut self, t: f64, y: &[f64]) -> Flow {
-        let Equations { model, workspace, .. } = &mut self.reported;
-        if let Err(singular) = workspace.respond(model, t, Gains::default()) {
-            return self.stop(t, Halt::Fault(Fault::Singular(singular)));
+    /// Reports a state given as (q, v, works), as it is.
+    pub fn report(&mut self, t: f64, y: &[f64]) -> Flow {
+        if self.flush() == Flow::Stop {
+            return Flow::Stop;
         }
-        let n = model.layout.n_q;
-        let kinetic = energy::kinetic(model, &workspace.motions);
-        let potential = energy::potential(model, &workspace.motions, t);
-        let numbers = [y, workspace.a(), workspace.lam(), &[kinetic, potential]];
-        if !numbers.into_iter().all(all_finite) {
+        let solved = self.one.solve(t, y);
+        self.keep(t, y, solved)
+    }
+
+    /// Reports a state between the ends of a step; whether it can is known once it is solved with others.
+    fn report_between(&mut self, t: f64, y: &mut [f64]) -> Flow {
+        if let Some(batch) = &mut self.many {
+            batch.add(t, y);
+            return if batch.is_full() { self.flush() } else { Flow::Continue };
+        }
+        let solved = self.one.place_and_solve(t, y);
+        self.keep(t, y, solved)
+    }
+
+    /// Reports the states that wait for others.
+    pub fn flush(&mut self) -> Flow {
+        let Some(mut batch) = self.many.take_if(|batch| !batch.is_empty()) else {
+            return Flow::Continue;
+        };
+        let regular = batch.solve();
+        let mut flow = Flow::Continue;
+        for (lane, t) in batch.take() {
+            if regular {
+                let found = batch.solver.found();
+                self.trajectory.add(t, batch.y(), found, |x| x.to_array()[lane]);
+            } else if flow == Flow::Continue {
+                let mut y = vec![0.0; batch.y().len()];
+                batch.given(lane, &mut y);
+                let solved = self.one.place_and_solve(t, &mut y);
+                flow = self.keep(t, &y, solved);
+            }
+        }
+        self.many = Some(batch);
+        flow
+    }
+
+    /// Keeps a state that was solved.
+    fn keep(&mut self, t: f64, y: &[f64], solved: Result<(), Fault>) -> Flow {
+        if let Err(fault) = solved {
+            return self.stop(t, Halt::Fault(fault));
+        }
+        let found = self.one.found();
+        if !all_finite(y) || !found.into_iter().all(all_finite) {
             return self.stop(t, Halt::NotFinite);
         }
-        let row = &mut self.trajectory;
-        row.t.push(t);
-        row.q.extend_from_slice(&y[..n]);
-        row.v.extend_from_slice(&y[n..2 * n]);
-        row.a.extend_from_slice(workspace.a());
-        row.lam.extend_from_slice(workspace.lam());
-        row.energy.extend([kinetic, potential]);
-        row.energy.extend_from_slice(&y[2 * n..]);
+        self.trajectory.add(t, y, found, |x| x);
         Flow::Continue
     }
 
@@ -151,10 +212,7 @@ impl<'a> Recorder<'a> {
         let mut flow = Flow::Continue;
         while let (Flow::Continue, Some(t)) = (flow, self.next_time(h, step.t)) {
             step.interpolate(t, &mut y);
-            flow = match self.reported.place(t, &mut y) {
-                Ok(()) => self.report_placed(t, &y),
-                Err((t, fault)) => self.stop(t, Halt::Fault(fault)),
-            };
+            flow = self.report_between(t, &mut y);
             if flow == Flow::Continue {
                 flow = watch(t);
             }
