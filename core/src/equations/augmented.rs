@@ -32,7 +32,13 @@ impl<S: Real> Augmented<S> {
     pub fn new<P>(model: &Model<P>) -> Self {
         let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
         let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout));
-        Self { saddle: Saddle::new(&pattern), pattern, passing: false, refusing: false, ridged: false }
+        Self {
+            saddle: Saddle::new(&pattern),
+            pattern,
+            passing: false,
+            refusing: false,
+            ridged: false,
+        }
     }
 
     /// W = M at the given motions, with the inertia that the model adds to bodies without their own.

@@ -95,6 +95,9 @@ pub struct Dense {
     pub degree: usize,
 }
 
+/// Times of the grid that fall into one step.
+type Times = [f64; Lanes::WIDTH];
+
 /// Collects the output while the integrator runs.
 pub(super) struct Recorder<'a> {
     output: Output,
@@ -149,14 +152,42 @@ impl<'a> Recorder<'a> {
         self.keep(t, y, solved)
     }
 
-    /// Reports a state between the ends of a step; whether it can is known once it is solved with others.
-    fn report_between(&mut self, t: f64, y: &mut [f64]) -> Flow {
+    /// Reports the first `n` of the `times`, which are between the ends of a step; whether it can is known
+    /// once they are solved.
+    fn report_between(&mut self, step: &Step<'_>, times: Times, n: usize) -> Flow {
         if let Some(batch) = &mut self.many {
-            batch.add(t, y);
-            return if batch.is_full() { self.flush() } else { Flow::Continue };
+            batch.interpolate(step, times);
         }
-        let solved = self.one.place_and_solve(t, y);
-        self.keep(t, y, solved)
+        let mut flow = Flow::Continue;
+        for (lane, t) in times.into_iter().enumerate().take(n) {
+            if flow == Flow::Stop {
+                break;
+            }
+            flow = match &mut self.many {
+                Some(batch) => {
+                    batch.add(t, lane);
+                    if batch.is_full() {
+                        self.flush()
+                    } else {
+                        Flow::Continue
+                    }
+                }
+                None => {
+                    step.interpolate(t, &mut self.y);
+                    self.report_alone(t)
+                }
+            };
+        }
+        flow
+    }
+
+    /// Projects and reports the state in the scratch.
+    fn report_alone(&mut self, t: f64) -> Flow {
+        let mut y = std::mem::take(&mut self.y);
+        let solved = self.one.place_and_solve(t, &mut y);
+        let flow = self.keep(t, &y, solved);
+        self.y = y;
+        flow
     }
 
     /// Reports the states that wait for others.
@@ -171,10 +202,8 @@ impl<'a> Recorder<'a> {
                 let found = batch.solver.found();
                 self.trajectory.add(t, batch.y(), found, |x| x.to_array()[lane]);
             } else if flow == Flow::Continue {
-                let mut y = vec![0.0; batch.y().len()];
-                batch.given(lane, &mut y);
-                let solved = self.one.place_and_solve(t, &mut y);
-                flow = self.keep(t, &y, solved);
+                batch.given(lane, &mut self.y);
+                flow = self.report_alone(t);
             }
         }
         self.many = Some(batch);
@@ -208,16 +237,13 @@ impl<'a> Recorder<'a> {
             }
         }
         let Output::Every(h) = self.output else { return self.report(step.t, step.y) };
-        let mut y = std::mem::take(&mut self.y);
         let mut flow = Flow::Continue;
-        while let (Flow::Continue, Some(t)) = (flow, self.next_time(h, step.t)) {
-            step.interpolate(t, &mut y);
-            flow = self.report_between(t, &mut y);
-            if flow == Flow::Continue {
-                flow = watch(t);
+        while let (Flow::Continue, Some((times, n))) = (flow, self.next_times(h, step.t)) {
+            flow = self.report_between(step, times, n);
+            for t in &times[..n] {
+                flow = if flow == Flow::Continue { watch(*t) } else { flow };
             }
         }
-        self.y = y;
         let last = step.t == self.t_end && self.trajectory.t.last() != Some(&step.t);
         if flow == Flow::Continue && last {
             flow = self.report(step.t, step.y);
@@ -233,11 +259,15 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Takes the next time of the grid if it has been reached.
-    fn next_time(&mut self, h: f64, reached: f64) -> Option<f64> {
-        let t = self.due(h, reached)?;
-        self.next += 1;
-        Some(t)
+    /// Takes the next times of the grid that have been reached: how many, and the end of the step behind them.
+    fn next_times(&mut self, h: f64, reached: f64) -> Option<(Times, usize)> {
+        let (mut times, mut n) = ([reached; Lanes::WIDTH], 0);
+        while let (true, Some(t)) = (n < Lanes::WIDTH, self.due(h, reached)) {
+            times[n] = t;
+            self.next += 1;
+            n += 1;
+        }
+        (n > 0).then_some((times, n))
     }
 
     /// The next time of the grid if it has been reached: t₀ + k h by multiplication, without drift.

@@ -7,6 +7,7 @@
 use super::options::{Options, Stabilization};
 use super::system::{parts, WORKS};
 use crate::equations::{energy, kinematics, Gains, Workspace};
+use crate::integrate::Step;
 use crate::math::{Lanes, Real};
 use crate::model::Model;
 use crate::stabilize::{Fault, Projector};
@@ -81,6 +82,8 @@ impl<'a, S: Real> Solver<'a, S> {
 pub(super) struct Batch<'a> {
     pub solver: Solver<'a, Lanes>,
     t: [f64; Lanes::WIDTH],
+    /// What the last step was interpolated to.
+    between: Vec<Lanes>,
     /// As they were put in.
     given: Vec<Lanes>,
     /// Projected.
@@ -93,17 +96,20 @@ impl<'a> Batch<'a> {
         let none = vec![Lanes::zero(); 2 * model.layout.n_q + WORKS];
         let mut solver = Solver::new(model, options);
         solver.workspace.refuse_singular();
-        Self { solver, t: [0.0; Lanes::WIDTH], given: none.clone(), y: none, waiting: 0 }
+        let t = [0.0; Lanes::WIDTH];
+        Self { solver, t, between: none.clone(), given: none.clone(), y: none, waiting: 0 }
     }
 
-    /// Puts in a state.
-    pub fn add(&mut self, t: f64, y: &[f64]) {
-        // the lanes behind it repeat it until there is another
-        for lane in self.waiting..Lanes::WIDTH {
-            self.t[lane] = t;
-        }
-        for (lanes, y) in self.given.iter_mut().zip(y) {
-            lanes.as_array_mut()[self.waiting..].fill(*y);
+    /// Interpolates a step, at several times at once.
+    pub fn interpolate(&mut self, step: &Step<'_>, times: [f64; Lanes::WIDTH]) {
+        step.interpolate(Lanes::new(times), &mut self.between);
+    }
+
+    /// Puts in one of the states that were interpolated.
+    pub fn add(&mut self, t: f64, lane: usize) {
+        self.t[self.waiting] = t;
+        for (given, between) in self.given.iter_mut().zip(&self.between) {
+            given.as_array_mut()[self.waiting] = between.to_array()[lane];
         }
         self.waiting += 1;
     }
@@ -125,10 +131,23 @@ impl<'a> Batch<'a> {
 
     /// Solves all; whether every one is regular. Else the lanes are of no use.
     pub fn solve(&mut self) -> bool {
+        self.fill_up();
         self.y.copy_from_slice(&self.given);
         let solved = self.solver.place_and_solve(Lanes::new(self.t), &mut self.y);
         let [a, lam, energies] = self.solver.found();
         solved.is_ok() && [&self.y, a, lam, energies].into_iter().all(are_finite)
+    }
+
+    /// Lanes without a state of their own repeat the last.
+    fn fill_up(&mut self) {
+        let last = self.waiting.max(1) - 1;
+        let t = self.t[last];
+        self.t[last..].fill(t);
+        for given in &mut self.given {
+            let lanes = given.as_array_mut();
+            let y = lanes[last];
+            lanes[last..].fill(y);
+        }
     }
 
     /// The projected states.
