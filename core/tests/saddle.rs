@@ -332,7 +332,8 @@ fn lanes_equal_scalars() {
         *mass = weight(&std::array::from_fn(lane));
     }
     for (k, row) in saddle.entries.iter_mut().enumerate() {
-        *row = std::array::from_fn(|c| Lanes::new(std::array::from_fn(|w| designs[w].entries[k][c])));
+        *row =
+            std::array::from_fn(|c| Lanes::new(std::array::from_fn(|w| designs[w].entries[k][c])));
     }
     let mut x: Vec<Lanes> =
         (0..designs[0].n()).map(|_| Lanes::new(std::array::from_fn(|_| random.next()))).collect();

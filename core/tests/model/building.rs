@@ -113,7 +113,10 @@ fn a_model_over_lanes_is_many_models() {
     let wide: Model<Lanes> = Model::new(&m.blueprint, &parameters);
     for (lane, h) in half.into_iter().enumerate() {
         let one = with(BAR, &[("half", h)]);
-        assert_eq!(wide.bodies[1].inertia.to_array()[lane].to_bits(), one.bodies[1].inertia.to_bits());
+        assert_eq!(
+            wide.bodies[1].inertia.to_array()[lane].to_bits(),
+            one.bodies[1].inertia.to_bits()
+        );
         let (a, b) = (wide.bodies[1].point("N").unwrap(), one.bodies[1].point("N").unwrap());
         assert_eq!(a.y.to_array()[lane].to_bits(), b.y.to_bits());
     }

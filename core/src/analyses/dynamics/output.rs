@@ -104,6 +104,8 @@ pub(super) struct Recorder<'a> {
     t0: f64,
     t_end: f64,
     next: usize,
+    /// The last time that was asked for.
+    latest: f64,
     y: Vec<f64>,
     pub trajectory: Trajectory,
     pub dense: Option<Dense>,
@@ -128,6 +130,7 @@ impl<'a> Recorder<'a> {
             t0,
             t_end: options.t_end,
             next: 1,
+            latest: t0,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
             trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
             dense: options.dense_output.then(|| Dense::new(options, t0)),
@@ -244,8 +247,7 @@ impl<'a> Recorder<'a> {
                 flow = if flow == Flow::Continue { watch(*t) } else { flow };
             }
         }
-        let last = step.t == self.t_end && self.trajectory.t.last() != Some(&step.t);
-        if flow == Flow::Continue && last {
+        if flow == Flow::Continue && step.t == self.t_end && self.latest != step.t {
             flow = self.report(step.t, step.y);
         }
         flow
@@ -263,7 +265,7 @@ impl<'a> Recorder<'a> {
     fn next_times(&mut self, h: f64, reached: f64) -> Option<(Times, usize)> {
         let (mut times, mut n) = ([reached; Lanes::WIDTH], 0);
         while let (true, Some(t)) = (n < Lanes::WIDTH, self.due(h, reached)) {
-            times[n] = t;
+            (times[n], self.latest) = (t, t);
             self.next += 1;
             n += 1;
         }
