@@ -100,8 +100,8 @@ fn lanes_match_scalars() {
         let a = Lanes::new(std::array::from_fn(|k| point(k).0));
         let b = Lanes::new(std::array::from_fn(|k| point(k).1));
         let lanes = at(&tape, a, b).to_array();
-        for k in 0..4 {
-            assert_eq!(lanes[k].to_bits(), at(&tape, point(k).0, point(k).1).to_bits(), "{text}");
+        for (k, lane) in lanes.into_iter().enumerate() {
+            assert_eq!(lane.to_bits(), at(&tape, point(k).0, point(k).1).to_bits(), "{text}");
         }
     }
 }
