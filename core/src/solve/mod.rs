@@ -5,6 +5,8 @@
 //! | `order` | in which order unknowns are eliminated |
 //! | `pattern` | the pattern of a saddle-point matrix and the plan of its elimination |
 //! | `plan` | working them out, once |
+//! | `places` | where rows and entries stand |
+//! | `steps` | the plan as records, in the order in which they are used |
 //! | `weight` | the blocks of W by their factors |
 //! | `block` | arithmetic of blocks of at most 3 × 3 |
 //! | `arm` | the same for pairs of rows that begin with ±I |
@@ -24,9 +26,11 @@ mod near;
 pub mod newton;
 mod order;
 mod pattern;
+mod places;
 mod plan;
 mod rank;
 mod saddle;
+mod steps;
 mod substitute;
 mod weight;
 

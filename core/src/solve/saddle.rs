@@ -11,9 +11,12 @@
 //! when d ≤ [`PIVOT_TOLERANCE`] S_kk. A dependent row of A leaves a ratio near 1e-16 whatever its scale;
 //! a mechanism near a singular position a small one, which [`Saddle::cancellation`] shows.
 
-use super::arm::{bent, Arm};
-use super::block::{add, factorise, part, part_mut, subtract, Diagonal, Twin};
-use super::pattern::{Below, Column, Pattern, Touch, Update};
+use super::arm::Arm;
+use super::block::{
+    add, columns, factorise, part, part_mut, scaled, store, subtract, subtract_times, Diagonal, Twin,
+};
+use super::pattern::Pattern;
+use super::steps::{next, Ahead, Below, Column, Earlier, Touch, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -32,6 +35,9 @@ pub struct Saddle<S> {
     pub weights: Vec<Weight<S>>,
     /// Entries of A in rows of three, as the pattern places them.
     pub entries: Vec<[S; 3]>,
+    /// b of the pairs of rows [±I b] where [`Pattern::armed`] has it, for
+    /// [`factor_and_solve_armed`](Self::factor_and_solve_armed); after a factorisation b′.
+    pub arms: Vec<[S; 2]>,
     /// μ, one for each row.
     pub damping: Vec<S>,
     /// Smallest ratio of a pivot to S_kk that is accepted; [`PIVOT_TOLERANCE`] at first.
@@ -40,19 +46,15 @@ pub struct Saddle<S> {
     pub(super) ridge: f64,
     /// Rows of U.
     pub(super) u: Vec<Twin<S>>,
-    /// Pairs of rows of U that begin with ±I.
-    pub(super) arms: Vec<Arm<S>>,
-    /// Rows of the diagonal blocks of L.
-    pub(super) diagonal: Vec<Pivot<S>>,
-    /// Columns of the blocks of L D and of L below the diagonal.
-    pub(super) lower: Vec<Twin<S>>,
+    /// D, one for each row.
+    pub(super) pivots: Vec<Pivot<S>>,
+    /// For each column of blocks, L of the diagonal block, then L D of those below.
+    pub(super) lower: Vec<S>,
 }
 
-/// One row of a diagonal block.
+/// A pivot d.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pivot<S> {
-    /// L left of the diagonal, within the block.
-    pub lower: [S; 3],
     /// 1 / d.
     pub inverse: S,
     /// S_kk.
@@ -64,22 +66,21 @@ impl<S: Real> Saddle<S> {
     pub fn new(pattern: &Pattern) -> Self {
         let (zero, none) = (S::zero(), [S::zero(); 3]);
         let weight = Weight { inverse: [S::one(); 3], shift: [zero; 2] };
-        let twin = Twin { plain: none, scaled: none };
         let mut entries = vec![none; pattern.n_entries];
         for &(row, sign) in &pattern.units {
-            let sign = S::constant(sign);
+            let (row, sign) = (row as usize, S::constant(sign.into()));
             (entries[row][0], entries[row + 1][1]) = (sign, sign);
         }
         Self {
             weights: vec![weight; pattern.coupled.len()],
             entries,
+            arms: vec![[zero; 2]; pattern.places.arms.len()],
             damping: vec![zero; pattern.n_rows],
             least: PIVOT_TOLERANCE,
             ridge: 0.0,
-            u: vec![twin; pattern.general.len()],
-            arms: vec![Arm::zero(); pattern.arms.len()],
-            diagonal: vec![Pivot { lower: none, inverse: zero, magnitude: zero }; pattern.n_rows],
-            lower: vec![twin; pattern.n_lower],
+            u: vec![Twin { plain: none, scaled: none }; pattern.places.general.len()],
+            pivots: vec![Pivot { inverse: zero, magnitude: zero }; pattern.n_rows],
+            lower: vec![zero; pattern.n_lower],
         }
     }
 
@@ -93,6 +94,7 @@ impl<S: Real> Saddle<S> {
     /// If the matrix is of another pattern.
     pub fn factor(&mut self, pattern: &Pattern) -> Result<(), Dependent> {
         check(&self.weights)?;
+        self.take_arms(pattern);
         self.transform(pattern);
         self.eliminate::<false>(pattern, &mut [])
     }
@@ -106,6 +108,23 @@ impl<S: Real> Saddle<S> {
     /// # Panics
     /// As [`factor`](Self::factor) and [`solve`](Self::solve).
     pub fn factor_and_solve(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
+        self.take_arms(pattern);
+        self.factor_and_solve_armed(pattern, x)
+    }
+
+    /// The same with the row blocks of [`Pattern::armed`] given by `arms`: their entries are not read.
+    ///
+    /// # Errors
+    /// As [`factor`](Self::factor); `x` is then lost.
+    ///
+    /// # Panics
+    /// As [`factor`](Self::factor) and [`solve`](Self::solve).
+    #[inline(always)] // once in an evaluation
+    pub fn factor_and_solve_armed(
+        &mut self,
+        pattern: &Pattern,
+        x: &mut [S],
+    ) -> Result<(), Dependent> {
         self.transform(pattern);
         self.weigh(pattern, x);
         // a useless weight spoils a pivot, or else the unknowns of its group
@@ -114,18 +133,38 @@ impl<S: Real> Saddle<S> {
         Ok(())
     }
 
+    /// The entries of the row blocks that `arms` gave to the last factorisation, from these.
+    pub fn restore_entries(&mut self, pattern: &Pattern) {
+        for (owner, arm) in pattern.places.arms.iter().zip(&self.arms) {
+            let mut arm = *arm;
+            if owner.coupled {
+                bend(&mut arm, &self.weights[owner.group as usize], -owner.sign);
+            }
+            let row = owner.row as usize;
+            (self.entries[row][2], self.entries[row + 1][2]) = (arm[0], arm[1]);
+        }
+    }
+
     /// The row whose pivot was cancelled most, and its ratio d / S_kk: 1 means nothing was lost, 1e-10
     /// that ten digits were. `None` without rows.
     pub fn cancellation(&self) -> Option<(usize, f64)> {
-        let ratios = self.diagonal.iter().map(|p| S::one() / (p.inverse * p.magnitude));
+        let ratios = self.pivots.iter().map(|p| S::one() / (p.inverse * p.magnitude));
         ratios.map(S::least_magnitude).enumerate().min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// U = A Lw⁻ᵀ and U Dw⁻¹, one after the other as they are stored.
+    /// b of all arms from the entries.
+    fn take_arms(&mut self, pattern: &Pattern) {
+        for (owner, arm) in pattern.places.arms.iter().zip(&mut self.arms) {
+            *arm = beside(&self.entries, owner.row);
+        }
+    }
+
+    /// U = A Lw⁻ᵀ and U Dw⁻¹, and b′ of the arms from b.
     #[inline(always)]
     fn transform(&mut self, pattern: &Pattern) {
         assert_eq!(self.entries.len(), pattern.n_entries, "a matrix of this pattern");
-        for (owner, u) in pattern.general.iter().zip(&mut self.u) {
+        let places = &pattern.places;
+        for (owner, u) in places.general.iter().zip(&mut self.u) {
             let Weight { inverse, shift } = &self.weights[owner.group as usize];
             let mut row = self.entries[owner.row as usize];
             if owner.coupled {
@@ -134,9 +173,12 @@ impl<S: Real> Saddle<S> {
             u.plain = row;
             u.scaled = [row[0] * inverse[0], row[1] * inverse[1], row[2] * inverse[2]];
         }
-        for (owner, arm) in pattern.arms.iter().zip(&mut self.arms) {
-            let weight = &self.weights[owner.group as usize];
-            *arm = Arm::new(bent(part(&self.entries, owner.row), weight, owner), weight);
+        for &k in &places.mixed {
+            self.arms[k as usize] = beside(&self.entries, places.arms[k as usize].row);
+        }
+        for &k in &places.bent {
+            let owner = &places.arms[k as usize];
+            bend(&mut self.arms[k as usize], &self.weights[owner.group as usize], owner.sign);
         }
     }
 
@@ -148,11 +190,12 @@ impl<S: Real> Saddle<S> {
         x: &mut [S],
     ) -> Result<(), Dependent> {
         let (x, g) = x.split_at_mut(if RHS { pattern.n_unknowns() } else { 0 });
-        for column in &pattern.columns {
+        let mut ahead = pattern.steps.ahead();
+        for column in &pattern.steps.columns {
             if column.pins {
-                self.column::<2, RHS, true>(column, x, g)?;
+                self.column::<2, RHS, true>(column, &mut ahead, x, g)?;
             } else {
-                self.mixed_column::<RHS>(column, x, g)?;
+                self.mixed_column::<RHS>(column, &mut ahead, x, g)?;
             }
         }
         Ok(())
@@ -163,13 +206,14 @@ impl<S: Real> Saddle<S> {
     fn mixed_column<const RHS: bool>(
         &mut self,
         column: &Column,
+        ahead: &mut Ahead<'_>,
         x: &[S],
         g: &mut [S],
     ) -> Result<(), Dependent> {
         match column.size {
-            1 => self.column::<1, RHS, false>(column, x, g),
-            2 => self.column::<2, RHS, false>(column, x, g),
-            _ => self.column::<3, RHS, false>(column, x, g),
+            1 => self.column::<1, RHS, false>(column, ahead, x, g),
+            2 => self.column::<2, RHS, false>(column, ahead, x, g),
+            _ => self.column::<3, RHS, false>(column, ahead, x, g),
         }
     }
 
@@ -178,6 +222,7 @@ impl<S: Real> Saddle<S> {
     fn column<const N: usize, const RHS: bool, const PINS: bool>(
         &mut self,
         column: &Column,
+        ahead: &mut Ahead<'_>,
         x: &[S],
         g: &mut [S],
     ) -> Result<(), Dependent> {
@@ -186,19 +231,19 @@ impl<S: Real> Saddle<S> {
             s[i][i] = *mu;
         }
         let mut y = if RHS { part(g, column.row).map(|g: S| -g) } else { [S::zero(); N] };
-        for Touch { first, unknown, sign } in &column.touches {
+        for Touch { first, group, sign } in next(&mut ahead.touches, column.touches) {
             if PINS || N == 2 && *sign != 0.0 {
-                let arm = &self.arms[*first as usize];
+                let arm = self.arm(*first, *group);
                 arm.add_square(&mut s);
                 if RHS {
-                    arm.add_times(*sign, part(x, *unknown), &mut y);
+                    arm.add_times((*sign).into(), part(x, 3 * *group), &mut y);
                 }
                 continue;
             }
             let u = part::<_, N>(&self.u, *first);
             add::<S, N, N, 3>(&mut s, u, u);
             if RHS {
-                Twin::add_times(u, part(x, *unknown), &mut y);
+                Twin::add_times(u, part(x, 3 * *group), &mut y);
             }
         }
         let magnitude: [S; N] = std::array::from_fn(|i| s[i][i]);
@@ -207,11 +252,12 @@ impl<S: Real> Saddle<S> {
                 s[i][i] += *magnitude * S::constant(self.ridge);
             }
         }
-        for block in &column.earlier {
-            let size = if PINS { 2 } else { block.size };
-            self.subtract::<N, N>([block.block, block.block], size, &mut s);
-            if RHS {
-                block.subtract(size, &self.lower, g, &mut y);
+        for block in next(&mut ahead.earlier, column.earlier) {
+            match block.size {
+                _ if PINS => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
+                1 => self.subtract_earlier::<N, 1, RHS>(block, g, &mut s, &mut y),
+                2 => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
+                _ => self.subtract_earlier::<N, 3, RHS>(block, g, &mut s, &mut y),
             }
         }
         let diagonal = factorise(s);
@@ -221,15 +267,45 @@ impl<S: Real> Saddle<S> {
             *part_mut(g, column.row) = y.map(|[y]| y);
         }
         self.keep(column, &diagonal, magnitude)?;
-        for block in &column.below {
+        for block in next(&mut ahead.below, column.below) {
             match block.size {
-                _ if PINS => self.below::<2, N, true>(block, &diagonal),
-                1 => self.below::<1, N, false>(block, &diagonal),
-                2 => self.below::<2, N, false>(block, &diagonal),
-                _ => self.below::<3, N, false>(block, &diagonal),
+                _ if PINS => self.below::<2, N, true>(block, ahead, &diagonal),
+                1 => self.below::<1, N, false>(block, ahead, &diagonal),
+                2 => self.below::<2, N, false>(block, ahead, &diagonal),
+                _ => self.below::<3, N, false>(block, ahead, &diagonal),
             }
         }
         Ok(())
+    }
+
+    /// An arm with the weight of its group.
+    #[inline(always)]
+    pub(super) fn arm(&self, arm: u32, group: u32) -> Arm<S> {
+        Arm::new(&self.arms[arm as usize], &self.weights[group as usize].inverse)
+    }
+
+    /// 1 / D of K rows.
+    #[inline(always)]
+    pub(super) fn inverses<const K: usize>(&self, row: u32) -> [S; K] {
+        let pivots = part::<_, K>(&self.pivots, row);
+        std::array::from_fn(|k| pivots[k].inverse)
+    }
+
+    /// s -= (L D) Lᵀ with a block left of the diagonal, of K columns; with `RHS` y -= L y′ as well.
+    #[inline(always)]
+    fn subtract_earlier<const N: usize, const K: usize, const RHS: bool>(
+        &self,
+        &Earlier { block, row, .. }: &Earlier,
+        g: &[S],
+        s: &mut [[S; N]; N],
+        y: &mut [S; N],
+    ) {
+        let plain = columns::<S, N, K>(&self.lower, block);
+        let scaled = scaled(&plain, &self.inverses(row));
+        subtract(s, &plain, &scaled);
+        if RHS {
+            subtract_times(y, &scaled, part::<S, K>(g, row));
+        }
     }
 
     /// Judges and stores a diagonal block.
@@ -240,62 +316,71 @@ impl<S: Real> Saddle<S> {
         diagonal: &Diagonal<S, N>,
         magnitude: [S; N],
     ) -> Result<(), Dependent> {
-        let rows = part_mut::<_, N>(&mut self.diagonal, column.row);
-        for (i, row) in rows.iter_mut().enumerate() {
+        let pivots = part_mut::<_, N>(&mut self.pivots, column.row);
+        for (i, pivot) in pivots.iter_mut().enumerate() {
             let least = magnitude[i] * S::constant(self.least) + S::constant(LEAST_PIVOT);
             if !above_zero(diagonal.pivot[i] - least) {
                 return Err(Dependent::Row(column.row as usize + i));
             }
-            row.inverse = diagonal.inverse[i];
-            row.magnitude = magnitude[i];
-            row.lower[..i].copy_from_slice(&diagonal.lower[i][..i]);
+            *pivot = Pivot { inverse: diagonal.inverse[i], magnitude: magnitude[i] };
         }
+        diagonal.store(&mut self.lower, column.diagonal);
         Ok(())
     }
 
-    /// One block below the diagonal: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ and · D⁻¹.
+    /// One block below the diagonal: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ.
     #[inline(always)]
     fn below<const M: usize, const N: usize, const PINS: bool>(
         &mut self,
         block: &Below,
+        ahead: &mut Ahead<'_>,
         diagonal: &Diagonal<S, N>,
     ) {
         // transposed, as it is stored
         let mut s = [[S::zero(); M]; N];
-        for pair in &block.pairs {
+        for pair in next(&mut ahead.pairs, block.pairs) {
             let [own, other] = pair.first;
             if PINS || N == 2 && M == 2 && pair.sign != 0.0 {
                 let own = &self.arms[own as usize];
-                self.arms[other as usize].add_product(own, pair.sign, &mut s);
+                self.arm(other, pair.group).add_product(own, pair.sign.into(), &mut s);
             } else {
                 add::<S, N, M, 3>(&mut s, part(&self.u, other), part(&self.u, own));
             }
         }
-        for Update { blocks: [left, right], size } in &block.updates {
-            let size = if PINS { 2 } else { *size };
-            self.subtract::<N, M>([*right, *left], size, &mut s);
+        for update in next(&mut ahead.updates, block.updates) {
+            match update.size {
+                _ if PINS => self.subtract_product::<M, N, 2>(update, &mut s),
+                1 => self.subtract_product::<M, N, 1>(update, &mut s),
+                2 => self.subtract_product::<M, N, 2>(update, &mut s),
+                _ => self.subtract_product::<M, N, 3>(update, &mut s),
+            }
         }
         diagonal.forward(&mut s);
-        let columns = part_mut::<_, N>(&mut self.lower, block.block);
-        for ((s, column), inverse) in s.iter().zip(columns).zip(&diagonal.inverse) {
-            column.plain[..M].copy_from_slice(s);
-            column.scaled[..M].copy_from_slice(&s.map(|s| s * *inverse));
-        }
+        store(&mut self.lower, block.block, &s);
     }
 
-    /// s -= (L D) Lᵀ with two blocks of one earlier column, of `size` rows.
+    /// s -= ((L D) Lᵀ)ᵀ with two blocks of one earlier column, of K columns.
     #[inline(always)]
-    fn subtract<const M: usize, const N: usize>(
+    fn subtract_product<const M: usize, const N: usize, const K: usize>(
         &self,
-        [left, right]: [u32; 2],
-        size: u32,
-        s: &mut [[S; N]; M],
+        &Update { blocks: [left, right], row, .. }: &Update,
+        s: &mut [[S; M]; N],
     ) {
-        let l = &self.lower;
-        match size {
-            1 => subtract::<S, M, N, 1>(s, part(l, left), part(l, right)),
-            2 => subtract::<S, M, N, 2>(s, part(l, left), part(l, right)),
-            _ => subtract::<S, M, N, 3>(s, part(l, left), part(l, right)),
-        }
+        let left = scaled(&columns::<S, M, K>(&self.lower, left), &self.inverses(row));
+        subtract(s, &columns::<S, N, K>(&self.lower, right), &left);
     }
+}
+
+/// b of a pair of rows.
+#[inline(always)]
+fn beside<S: Real>(entries: &[[S; 3]], row: u32) -> [S; 2] {
+    let rows: &[[S; 3]; 2] = part(entries, row);
+    rows.map(|row| row[2])
+}
+
+/// b′ = b ∓ shift.
+#[inline(always)]
+fn bend<S: Real>(arm: &mut [S; 2], weight: &Weight<S>, sign: f32) {
+    let sign = S::constant(sign.into());
+    *arm = [arm[0] - sign * weight.shift[0], arm[1] - sign * weight.shift[1]];
 }

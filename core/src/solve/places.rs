@@ -1,0 +1,127 @@
+//! Where the transformed rows U = A Lw⁻ᵀ of a [`Pattern`](super::Pattern) stand, and the entries they come from.
+
+use super::pattern::RowBlock;
+use super::plan::index;
+use super::steps::{Pair, Touch};
+
+/// Arms in groups at which all are pairs of rows [±I b], rows of U in the others; both in the order in which
+/// they are eliminated.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Places {
+    /// Rows of entries that have a row in U.
+    pub general: Vec<Owner>,
+    /// Pairs of rows [±I b] that have an arm.
+    pub arms: Vec<Owner>,
+    /// Arms of row blocks that have rows in U as well.
+    pub mixed: Vec<u32>,
+    /// Arms in coupled groups.
+    pub bent: Vec<u32>,
+    /// Row blocks with nothing but arms, and the first of these.
+    pub armed: Vec<(u32, u32)>,
+}
+
+/// Where a row of three entries of A, or a pair of them, stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Owner {
+    /// The row of entries, the first of a pair.
+    pub row: u32,
+    pub group: u32,
+    /// Of the unit block of an arm.
+    pub sign: f32,
+    pub coupled: bool,
+}
+
+impl Places {
+    /// With what each row block touches.
+    pub fn new(coupled: &[bool], blocks: &[RowBlock], order: &[usize]) -> (Self, Vec<Vec<Touch>>) {
+        let mut with_arms = vec![true; coupled.len()];
+        for block in blocks {
+            let unit = block.size == 2 && block.signs.len() == block.touches.len();
+            assert!(unit || block.signs.is_empty(), "one sign for each group, of two rows");
+            block.touches.iter().for_each(|&(group, _)| with_arms[group] &= unit);
+        }
+        let mut places = Self::default();
+        let mut touches = vec![Vec::new(); blocks.len()];
+        for &k in order {
+            touches[k] = places.push(&blocks[k], coupled, &with_arms);
+            let arms = touches[k].iter().filter(|touch| touch.sign != 0.0).map(|touch| touch.first);
+            if touches[k].iter().any(|touch| touch.sign == 0.0) {
+                places.mixed.extend(arms);
+            } else if let Some(first) = touches[k].first() {
+                places.armed.push((index(k), first.first));
+            }
+        }
+        let bent = places.arms.iter().enumerate().filter(|(_, arm)| arm.coupled);
+        places.bent = bent.map(|(k, _)| index(k)).collect();
+        (places, touches)
+    }
+
+    /// The rows of one block.
+    fn push(&mut self, block: &RowBlock, coupled: &[bool], with_arms: &[bool]) -> Vec<Touch> {
+        let touch = |(k, &(group, first)): (usize, &(usize, usize))| {
+            let sign = if with_arms[group] { block.signs[k] as f32 } else { 0.0 };
+            let owner = |r| Owner {
+                row: index(first / 3 + r),
+                group: index(group),
+                sign,
+                coupled: coupled[group],
+            };
+            let (list, rows) = match with_arms[group] {
+                true => (&mut self.arms, 1),
+                false => (&mut self.general, block.size),
+            };
+            let first = index(list.len());
+            list.extend((0..rows).map(owner));
+            Touch { first, group: index(group), sign }
+        };
+        block.touches.iter().enumerate().map(touch).collect()
+    }
+
+    /// Bytes that they take.
+    pub fn bytes(&self) -> usize {
+        let Self { general, arms, mixed, bent, armed } = self;
+        std::mem::size_of_val(general.as_slice())
+            + std::mem::size_of_val(arms.as_slice())
+            + std::mem::size_of_val(mixed.as_slice())
+            + std::mem::size_of_val(bent.as_slice())
+            + std::mem::size_of_val(armed.as_slice())
+    }
+}
+
+/// Two row blocks in each group that they share.
+pub(super) fn pairs<'a>(
+    one: &'a [Touch],
+    other: &'a [Touch],
+) -> impl Iterator<Item = Pair> + 'a {
+    one.iter().filter_map(|own| {
+        let partner = other.iter().find(|t| t.group == own.group)?;
+        let (first, sign) = ([own.first, partner.first], own.sign * partner.sign);
+        Some(Pair { first, group: own.group, sign })
+    })
+}
+
+/// Number of rows of three entries.
+///
+/// # Panics
+/// If blocks share an entry, or leave one out.
+pub(super) fn check_entries(blocks: &[RowBlock]) -> usize {
+    let touches = || blocks.iter().flat_map(|b| b.touches.iter().map(move |t| (b.size, t.1)));
+    let mut owned = vec![false; touches().map(|(size, _)| size).sum()];
+    for (size, first) in touches() {
+        assert!(first % 3 == 0, "whole rows of entries");
+        for owned in &mut owned[first / 3..first / 3 + size] {
+            assert!(!*owned, "an entry belongs to one block");
+            *owned = true;
+        }
+    }
+    owned.len()
+}
+
+/// First rows of the blocks that begin with ±I, with the sign.
+pub(super) fn units(blocks: &[RowBlock]) -> Vec<(u32, f32)> {
+    let of = |b: &RowBlock| {
+        let firsts = b.touches.iter().map(|(_, first)| index(first / 3));
+        firsts.zip(b.signs.iter().map(|sign| *sign as f32)).collect::<Vec<_>>()
+    };
+    blocks.iter().flat_map(of).collect()
+}
