@@ -22,6 +22,33 @@ pub struct Augmented<S = f64> {
     passing: bool,
     /// Whether the factor at hand has it.
     ridged: bool,
+    /// The pins whose rows of Φ_q [`armed`](Self::armed) gives by their arms.
+    armed: Vec<Armed>,
+    /// The other constraints.
+    others: Vec<u32>,
+    /// Whether the entries of Φ_q are those of all constraints.
+    whole: bool,
+}
+
+/// A pin all of whose rows have arms.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Armed {
+    /// Its place among the pins.
+    pub pin: u32,
+    /// The arm at its first moving body; that at the second follows.
+    pub first: u32,
+}
+
+/// What a state changes of the matrix when pins are given by their arms.
+pub(super) struct Parts<'a, S> {
+    /// The pins given by arms, in the order of elimination.
+    pub armed: &'a [Armed],
+    /// The constraints given by entries.
+    pub others: &'a [u32],
+    /// Columns of Φ_q beside ±I, two numbers for each body of a pin.
+    pub arms: &'a mut [[S; 2]],
+    pub entries: &'a mut [S],
+    pub weights: &'a mut [Weight<S>],
 }
 
 impl<S: Real> Augmented<S> {
@@ -30,7 +57,30 @@ impl<S: Real> Augmented<S> {
     pub fn new<P>(model: &Model<P>) -> Self {
         let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
         let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout));
-        Self { saddle: Saddle::new(&pattern), pattern, passing: false, ridged: false }
+        let (armed, others) = split(model, &pattern);
+        Self {
+            saddle: Saddle::new(&pattern),
+            pattern,
+            passing: false,
+            ridged: false,
+            armed,
+            others,
+            whole: true,
+        }
+    }
+
+    /// What [`factor_and_solve_armed`](Self::factor_and_solve_armed) reads; inertia, which no state changes,
+    /// must stand there already.
+    #[inline(always)]
+    pub(super) fn parts_mut(&mut self) -> Parts<'_, S> {
+        self.whole = self.armed.is_empty();
+        Parts {
+            armed: &self.armed,
+            others: &self.others,
+            arms: &mut self.saddle.arms,
+            entries: self.saddle.entries.as_flattened_mut(),
+            weights: &mut self.saddle.weights,
+        }
     }
 
     /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
@@ -38,6 +88,14 @@ impl<S: Real> Augmented<S> {
         let bodies = model.inertias.iter().zip(&motions[1..]);
         for (weight, (inertia, motion)) in self.saddle.weights.iter_mut().zip(bodies) {
             mass::inverse(inertia, motion, weight);
+        }
+    }
+
+    /// What no state changes of W = M.
+    pub(super) fn set_inertia(&mut self, model: &Model<S>) {
+        for (weight, inertia) in self.saddle.weights.iter_mut().zip(&model.inertias) {
+            let [m, j] = inertia.inverse;
+            weight.inverse = [m, m, j];
         }
     }
 
@@ -51,12 +109,30 @@ impl<S: Real> Augmented<S> {
 
     /// The entries of Φ_q, to be filled.
     pub fn jacobian_mut(&mut self) -> &mut [S] {
+        self.whole = true;
         self.saddle.entries.as_flattened_mut()
     }
 
     /// The entries of Φ_q.
+    ///
+    /// # Panics
+    /// After an evaluation, before [`restore_jacobian`](Self::restore_jacobian): that gives pins by their arms.
     pub fn jacobian(&self) -> &[S] {
+        assert!(self.whole, "entries of Φ_q that an evaluation left out: restore_jacobian()");
         self.saddle.entries.as_flattened()
+    }
+
+    /// The entries of Φ_q, of which those of pins may be of an earlier state.
+    pub(super) fn jacobian_of_others(&self) -> &[S] {
+        self.saddle.entries.as_flattened()
+    }
+
+    /// Fills in the entries of Φ_q that the last evaluation left out.
+    pub fn restore_jacobian(&mut self) {
+        if !self.whole {
+            self.saddle.restore_entries(&self.pattern);
+            self.whole = true;
+        }
     }
 
     /// Sets the damping μ, one for each row.
@@ -101,6 +177,16 @@ impl<S: Real> Augmented<S> {
         self.saddle.factor_and_solve(&self.pattern, x)
     }
 
+    /// The same with pins given by their arms.
+    ///
+    /// # Errors
+    /// As [`factor_and_solve`](Self::factor_and_solve).
+    #[inline(always)] // once in an evaluation
+    pub(super) fn factor_and_solve_armed(&mut self, x: &mut [S]) -> Result<(), Dependent> {
+        self.ridged = false;
+        self.saddle.factor_and_solve_armed(&self.pattern, x)
+    }
+
     /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [S]) {
         self.saddle.solve(&self.pattern, x);
@@ -111,6 +197,21 @@ impl<S: Real> Augmented<S> {
     pub fn cancellation(&self) -> Option<(usize, f64)> {
         self.saddle.cancellation()
     }
+}
+
+/// The pins that arms can give, and the other constraints.
+fn split<P>(model: &Model<P>, pattern: &Pattern) -> (Vec<Armed>, Vec<u32>) {
+    let mut pin: Vec<Option<u32>> = vec![None; model.constraints.len()];
+    (0..).zip(&model.pins).for_each(|(k, p)| pin[p.constraint as usize] = Some(k));
+    let mut others = vec![true; model.constraints.len()];
+    let mut armed = Vec::with_capacity(pattern.armed().len());
+    for &(block, first) in pattern.armed() {
+        if let Some(pin) = pin[block as usize] {
+            others[block as usize] = false;
+            armed.push(Armed { pin, first });
+        }
+    }
+    (armed, (0..).zip(others).filter(|(_, other)| *other).map(|(k, _)| k).collect())
 }
 
 /// The constraints as blocks of rows.

@@ -7,9 +7,10 @@
 //!
 //! For the integrator γ may be replaced by Baumgarte's γ̂ = γ - 2α Φ̇ - β² Φ (Haug 7.3.8).
 
-use super::augmented::{Augmented, Dependent};
+use super::augmented::{Augmented, Dependent, Parts};
+use super::constraints::{self, Stabilized};
 use super::energy::Powers;
-use super::{constraints, forces, kinematics, refine};
+use super::{forces, kinematics, mass, pins, refine};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 
@@ -60,6 +61,7 @@ impl<S: Real> Workspace<S> {
             passing: false,
             n_q: n,
         };
+        workspace.matrix.set_inertia(model);
         if model.allow_redundancy {
             workspace.allow_redundancy(model);
         }
@@ -103,18 +105,35 @@ impl<S: Real> Workspace<S> {
     /// As [`accelerate`](Self::accelerate).
     #[inline(always)]
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
-        self.set_up(model, t, gains);
         if self.correction.is_none() {
-            match self.matrix.factor_and_solve(&mut self.solution) {
-                Err(Dependent::Row(_)) if self.passing => self.set_up(model, t, gains),
+            self.set_up_armed(model, t, gains);
+            match self.matrix.factor_and_solve_armed(&mut self.solution) {
+                Err(Dependent::Row(_)) if self.passing => {}
                 outcome => return outcome.map_err(Singular),
             }
         }
+        self.set_up(model, t, gains);
         self.factor_and_refine(model).map_err(Singular)
     }
 
-    /// The matrix and the right side (Q, γ̂).
+    /// The matrix, pins by their arms, and the right side (Q, γ̂).
     #[inline(always)]
+    fn set_up_armed(&mut self, model: &Model<S>, t: S, gains: Gains) {
+        let (forces, right) = self.solution.split_at_mut(self.n_q);
+        let (motions, stabilized) = (&self.motions, Stabilized::new(gains));
+        let Parts { armed, others, arms, entries, weights } = self.matrix.parts_mut();
+        pins::linearize(&model.pins, armed, motions, stabilized, right, arms);
+        let others = others.iter().map(|k| *k as usize);
+        constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
+        for (weight, (inertia, motion)) in
+            weights.iter_mut().zip(model.inertias.iter().zip(&motions[1..]))
+        {
+            mass::turn(inertia, motion, weight);
+        }
+        self.powers = forces::generalized(model, motions, t, forces);
+    }
+
+    /// The same with all entries.
     fn set_up(&mut self, model: &Model<S>, t: S, gains: Gains) {
         let (forces, right) = self.solution.split_at_mut(self.n_q);
         let entries = self.matrix.jacobian_mut();
@@ -158,7 +177,7 @@ impl<S: Real> Workspace<S> {
         for (k, item) in model.constraints.iter().enumerate().filter(|(_, c)| c.driven) {
             let range = model.layout.constraints[k].rows.clone();
             let rows = &mut rows[..item.equations.len()];
-            constraints::times(model, k, self.matrix.jacobian(), v, rows);
+            constraints::times(model, k, self.matrix.jacobian_of_others(), v, rows);
             for (rate, lam) in rows.iter().zip(&self.lam()[range]) {
                 powers.drivers -= *rate * *lam;
             }

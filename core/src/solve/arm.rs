@@ -43,8 +43,7 @@ impl<S: Real> Arm<S> {
         target: &mut [[S; N]; M],
     ) {
         // the diagonal and what is beside it, two numbers at a time
-        let along =
-            [0, 1].map(|i| S::constant(sign) * self.inverse[i] + self.scaled[i] * other[i]);
+        let along = [0, 1].map(|i| S::constant(sign) * self.inverse[i] + self.scaled[i] * other[i]);
         let across = [0, 1].map(|i| self.scaled[i] * other[1 - i]);
         for i in 0..2 {
             target[i][i] += along[i];

@@ -89,10 +89,7 @@ impl Places {
 }
 
 /// Two row blocks in each group that they share.
-pub(super) fn pairs<'a>(
-    one: &'a [Touch],
-    other: &'a [Touch],
-) -> impl Iterator<Item = Pair> + 'a {
+pub(super) fn pairs<'a>(one: &'a [Touch], other: &'a [Touch]) -> impl Iterator<Item = Pair> + 'a {
     one.iter().filter_map(|own| {
         let partner = other.iter().find(|t| t.group == own.group)?;
         let (first, sign) = ([own.first, partner.first], own.sign * partner.sign);

@@ -13,7 +13,8 @@
 
 use super::arm::Arm;
 use super::block::{
-    add, columns, factorise, part, part_mut, scaled, store, subtract, subtract_times, Diagonal, Twin,
+    add, columns, factorise, part, part_mut, scaled, store, subtract, subtract_times, Diagonal,
+    Twin,
 };
 use super::pattern::Pattern;
 use super::steps::{next, Ahead, Below, Column, Earlier, Touch, Update};
