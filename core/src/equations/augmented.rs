@@ -49,6 +49,8 @@ pub(super) struct Parts<'a, S> {
     pub arms: &'a mut [[S; 2]],
     pub entries: &'a mut [S],
     pub weights: &'a mut [Weight<S>],
+    /// The weights that change with the angle: bodies (from 0, ground left out) off the mass centre.
+    pub coupled: &'a [u32],
 }
 
 impl<S: Real> Augmented<S> {
@@ -80,6 +82,7 @@ impl<S: Real> Augmented<S> {
             arms: &mut self.saddle.arms,
             entries: self.saddle.entries.as_flattened_mut(),
             weights: &mut self.saddle.weights,
+            coupled: self.pattern.coupled(),
         }
     }
 

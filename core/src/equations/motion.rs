@@ -121,14 +121,13 @@ impl<S: Real> Workspace<S> {
     fn set_up_armed(&mut self, model: &Model<S>, t: S, gains: Gains) {
         let (forces, right) = self.solution.split_at_mut(self.n_q);
         let (motions, stabilized) = (&self.motions, Stabilized::new(gains));
-        let Parts { armed, others, arms, entries, weights } = self.matrix.parts_mut();
+        let Parts { armed, others, arms, entries, weights, coupled } = self.matrix.parts_mut();
         pins::linearize(&model.pins, armed, motions, stabilized, right, arms);
         let others = others.iter().map(|k| *k as usize);
         constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
-        for (weight, (inertia, motion)) in
-            weights.iter_mut().zip(model.inertias.iter().zip(&motions[1..]))
-        {
-            mass::turn(inertia, motion, weight);
+        for &k in coupled {
+            let k = k as usize;
+            mass::turn(&model.inertias[k], &motions[k + 1], &mut weights[k]);
         }
         self.powers = forces::generalized(model, motions, t, forces);
     }

@@ -42,12 +42,12 @@ impl<S: Real> Arm<S> {
         sign: f64,
         target: &mut [[S; N]; M],
     ) {
-        // the diagonal and what is beside it, two numbers at a time
-        let along = [0, 1].map(|i| S::constant(sign) * self.inverse[i] + self.scaled[i] * other[i]);
-        let across = [0, 1].map(|i| self.scaled[i] * other[1 - i]);
+        let signed = self.inverse.map(|inverse| S::constant(sign) * inverse);
         for i in 0..2 {
-            target[i][i] += along[i];
-            target[i][1 - i] += across[i];
+            for j in 0..2 {
+                target[i][j] += self.scaled[i] * other[j];
+            }
+            target[i][i] += signed[i];
         }
     }
 

@@ -29,8 +29,9 @@ pub struct RowBlock {
 /// The pattern and the plan, shared by any number of factors.
 #[derive(Clone, Debug)]
 pub struct Pattern {
-    /// Whether the third unknown of each group is coupled to the other two in W.
-    pub(super) coupled: Vec<bool>,
+    pub(super) n_groups: usize,
+    /// The groups whose third unknown is coupled to the other two in W.
+    pub(super) coupled: Vec<u32>,
     pub(super) n_rows: usize,
     pub(super) n_entries: usize,
     /// Where the transformed rows stand.
@@ -56,7 +57,8 @@ impl Pattern {
         let (places, touches) = Places::new(&coupled, blocks, &order);
         let (steps, n_lower) = plan::steps(blocks, &starts, &order, &rows_below, &touches);
         Self {
-            coupled,
+            n_groups: coupled.len(),
+            coupled: (0..).zip(coupled).filter(|(_, coupled)| *coupled).map(|(k, _)| k).collect(),
             n_rows: starts[blocks.len()],
             n_entries: places::check_entries(blocks),
             places,
@@ -80,9 +82,14 @@ impl Pattern {
         &self.places.armed
     }
 
+    /// The groups coupled in W.
+    pub fn coupled(&self) -> &[u32] {
+        &self.coupled
+    }
+
     /// Number of unknowns in groups.
     pub fn n_unknowns(&self) -> usize {
-        3 * self.coupled.len()
+        3 * self.n_groups
     }
 
     /// Number of rows of A.

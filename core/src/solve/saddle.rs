@@ -17,7 +17,7 @@ use super::block::{
     Twin,
 };
 use super::pattern::Pattern;
-use super::steps::{next, Ahead, Below, Column, Earlier, Touch, Update};
+use super::steps::{Ahead, Below, Column, Earlier, Products, Touch, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -73,7 +73,7 @@ impl<S: Real> Saddle<S> {
             (entries[row][0], entries[row + 1][1]) = (sign, sign);
         }
         Self {
-            weights: vec![weight; pattern.coupled.len()],
+            weights: vec![weight; pattern.n_groups],
             entries,
             arms: vec![[zero; 2]; pattern.places.arms.len()],
             damping: vec![zero; pattern.n_rows],
@@ -232,7 +232,7 @@ impl<S: Real> Saddle<S> {
             s[i][i] = *mu;
         }
         let mut y = if RHS { part(g, column.row).map(|g: S| -g) } else { [S::zero(); N] };
-        for Touch { first, group, sign } in next(&mut ahead.touches, column.touches) {
+        for Touch { first, group, sign } in ahead.touches.by_ref().take(column.touches as usize) {
             if PINS || N == 2 && *sign != 0.0 {
                 let arm = self.arm(*first, *group);
                 arm.add_square(&mut s);
@@ -248,12 +248,10 @@ impl<S: Real> Saddle<S> {
             }
         }
         let magnitude: [S; N] = std::array::from_fn(|i| s[i][i]);
-        if self.ridge > 0.0 {
-            for (i, magnitude) in magnitude.iter().enumerate() {
-                s[i][i] += *magnitude * S::constant(self.ridge);
-            }
+        for (i, magnitude) in magnitude.iter().enumerate() {
+            s[i][i] = *magnitude * S::constant(1.0 + self.ridge);
         }
-        for block in next(&mut ahead.earlier, column.earlier) {
+        for block in ahead.earlier.by_ref().take(column.earlier as usize) {
             match block.size {
                 _ if PINS => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
                 1 => self.subtract_earlier::<N, 1, RHS>(block, g, &mut s, &mut y),
@@ -268,12 +266,13 @@ impl<S: Real> Saddle<S> {
             *part_mut(g, column.row) = y.map(|[y]| y);
         }
         self.keep(column, &diagonal, magnitude)?;
-        for block in next(&mut ahead.below, column.below) {
+        let Ahead { below, products, .. } = ahead;
+        for block in below.by_ref().take(column.below as usize) {
             match block.size {
-                _ if PINS => self.below::<2, N, true>(block, ahead, &diagonal),
-                1 => self.below::<1, N, false>(block, ahead, &diagonal),
-                2 => self.below::<2, N, false>(block, ahead, &diagonal),
-                _ => self.below::<3, N, false>(block, ahead, &diagonal),
+                _ if PINS => self.below::<2, N, true>(block, products, &diagonal),
+                1 => self.below::<1, N, false>(block, products, &diagonal),
+                2 => self.below::<2, N, false>(block, products, &diagonal),
+                _ => self.below::<3, N, false>(block, products, &diagonal),
             }
         }
         Ok(())
@@ -334,12 +333,12 @@ impl<S: Real> Saddle<S> {
     fn below<const M: usize, const N: usize, const PINS: bool>(
         &mut self,
         block: &Below,
-        ahead: &mut Ahead<'_>,
+        products: &mut Products<'_>,
         diagonal: &Diagonal<S, N>,
     ) {
         // transposed, as it is stored
         let mut s = [[S::zero(); M]; N];
-        for pair in next(&mut ahead.pairs, block.pairs) {
+        for pair in products.pairs.by_ref().take(block.pairs as usize) {
             let [own, other] = pair.first;
             if PINS || N == 2 && M == 2 && pair.sign != 0.0 {
                 let own = &self.arms[own as usize];
@@ -348,7 +347,7 @@ impl<S: Real> Saddle<S> {
                 add::<S, N, M, 3>(&mut s, part(&self.u, other), part(&self.u, own));
             }
         }
-        for update in next(&mut ahead.updates, block.updates) {
+        for update in products.updates.by_ref().take(block.updates as usize) {
             match update.size {
                 _ if PINS => self.subtract_product::<M, N, 2>(update, &mut s),
                 1 => self.subtract_product::<M, N, 1>(update, &mut s),

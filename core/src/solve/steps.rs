@@ -4,6 +4,8 @@
 //! substitution; a record says how many of the next list belong to it. Nothing is looked up, so that long
 //! lists stream from memory.
 
+use std::slice::Iter;
+
 /// All records.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Steps {
@@ -90,20 +92,30 @@ pub(super) struct Update {
 }
 
 /// The records not yet read.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Ahead<'a> {
-    pub touches: &'a [Touch],
-    pub earlier: &'a [Earlier],
-    pub below: &'a [Below],
-    pub pairs: &'a [Pair],
-    pub updates: &'a [Update],
+    pub touches: Iter<'a, Touch>,
+    pub earlier: Iter<'a, Earlier>,
+    pub below: Iter<'a, Below>,
+    pub products: Products<'a>,
+}
+
+/// The same of what blocks below the diagonal are made of.
+#[derive(Clone, Debug)]
+pub(super) struct Products<'a> {
+    pub pairs: Iter<'a, Pair>,
+    pub updates: Iter<'a, Update>,
 }
 
 impl Steps {
     /// All of them.
     pub fn ahead(&self) -> Ahead<'_> {
-        let Self { touches, earlier, below, pairs, updates, .. } = self;
-        Ahead { touches, earlier, below, pairs, updates }
+        Ahead {
+            touches: self.touches.iter(),
+            earlier: self.earlier.iter(),
+            below: self.below.iter(),
+            products: Products { pairs: self.pairs.iter(), updates: self.updates.iter() },
+        }
     }
 
     /// Bytes that they take.
@@ -114,20 +126,4 @@ impl Steps {
         let Self { columns, touches, earlier, below, pairs, updates } = self;
         of(columns) + of(touches) + of(earlier) + of(below) + of(pairs) + of(updates)
     }
-}
-
-/// The next `count` of a list, which is shortened by them.
-#[inline(always)]
-pub(super) fn next<'a, T>(list: &mut &'a [T], count: u32) -> &'a [T] {
-    let (next, rest) = list.split_at(count as usize);
-    *list = rest;
-    next
-}
-
-/// The last `count` of a list, which is shortened by them.
-#[inline(always)]
-pub(super) fn last<'a, T>(list: &mut &'a [T], count: u32) -> &'a [T] {
-    let (rest, last) = list.split_at(list.len() - count as usize);
-    *list = rest;
-    last
 }

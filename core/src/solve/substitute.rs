@@ -6,7 +6,7 @@ use super::block::{
 };
 use super::pattern::Pattern;
 use super::saddle::Saddle;
-use super::steps::{last, next, Ahead, Below, Column, Earlier, Touch};
+use super::steps::{Ahead, Below, Column, Earlier, Touch};
 use super::weight::Weight;
 use crate::math::Real;
 
@@ -33,11 +33,12 @@ impl<S: Real> Saddle<S> {
     #[inline(always)]
     pub(super) fn weigh(&self, pattern: &Pattern, x: &mut [S]) {
         assert_eq!(x.len(), pattern.n_unknowns() + pattern.n_rows(), "one right side for each row");
-        let groups = x.chunks_exact_mut(3).zip(&self.weights).zip(&pattern.coupled);
-        for ((x, Weight { inverse, shift }), coupled) in groups {
-            if *coupled {
-                x[2] = x[2] - shift[0] * x[0] - shift[1] * x[1];
-            }
+        for &group in &pattern.coupled {
+            let [x, y, angle] = part_mut(x, 3 * group);
+            let Weight { shift, .. } = &self.weights[group as usize];
+            *angle = *angle - shift[0] * *x - shift[1] * *y;
+        }
+        for (x, Weight { inverse, .. }) in x.chunks_exact_mut(3).zip(&self.weights) {
             for (x, inverse) in x.iter_mut().zip(inverse) {
                 *x = *x * *inverse;
             }
@@ -53,7 +54,7 @@ impl<S: Real> Saddle<S> {
         g: &mut [S],
     ) {
         let mut y = part::<S, N>(g, column.row).map(|g| -g);
-        for Touch { first, group, sign } in next(&mut ahead.touches, column.touches) {
+        for Touch { first, group, sign } in ahead.touches.by_ref().take(column.touches as usize) {
             let x = part(x, 3 * *group);
             if N == 2 && *sign != 0.0 {
                 self.arm(*first, *group).add_times((*sign).into(), x, &mut y);
@@ -61,7 +62,7 @@ impl<S: Real> Saddle<S> {
                 Twin::add_times(part(&self.u, *first), x, &mut y);
             }
         }
-        for earlier in next(&mut ahead.earlier, column.earlier) {
+        for earlier in ahead.earlier.by_ref().take(column.earlier as usize) {
             match earlier.size {
                 1 => self.subtract_known::<N, 1>(earlier, g, &mut y),
                 2 => self.subtract_known::<N, 2>(earlier, g, &mut y),
@@ -96,12 +97,11 @@ impl<S: Real> Saddle<S> {
                 self.mixed_back(column, &mut ahead, f, g);
             }
         }
-        let groups = f.chunks_exact_mut(3).zip(&self.weights).zip(&pattern.coupled);
-        for ((f, Weight { shift, .. }), coupled) in groups {
-            if *coupled {
-                f[0] -= shift[0] * f[2];
-                f[1] -= shift[1] * f[2];
-            }
+        for &group in &pattern.coupled {
+            let [x, y, angle] = part_mut(f, 3 * group);
+            let Weight { shift, .. } = &self.weights[group as usize];
+            *x -= shift[0] * *angle;
+            *y -= shift[1] * *angle;
         }
     }
 
@@ -125,7 +125,7 @@ impl<S: Real> Saddle<S> {
     ) {
         let mut lambda = *part::<S, N>(g, column.row);
         // the newest unknown is waited for last
-        for block in last(&mut ahead.below, column.below).iter().rev() {
+        for block in ahead.below.by_ref().rev().take(column.below as usize) {
             match block.size {
                 _ if PINS => self.pull::<2, N>(block, g, &mut lambda),
                 1 => self.pull::<1, N>(block, g, &mut lambda),
@@ -137,7 +137,9 @@ impl<S: Real> Saddle<S> {
         lambda.iter_mut().zip(inverse).for_each(|(lambda, inverse)| *lambda = *lambda * inverse);
         backward(&self.lower, column.diagonal, &mut lambda);
         *part_mut(g, column.row) = lambda;
-        for Touch { first, group, sign } in last(&mut ahead.touches, column.touches) {
+        for Touch { first, group, sign } in
+            ahead.touches.by_ref().rev().take(column.touches as usize)
+        {
             let x = part_mut::<S, 3>(x, 3 * *group);
             if PINS || N == 2 && *sign != 0.0 {
                 self.arm(*first, *group).subtract_transposed((*sign).into(), &lambda, x);
