@@ -7,7 +7,7 @@ use super::mass;
 use crate::math::{Motion, Real};
 use crate::model::{Block, Layout, Model, Slots};
 pub use crate::solve::Dependent;
-use crate::solve::{Pattern, RowBlock, Saddle, Weight};
+use crate::solve::{Armed, Pattern, RowBlock, Saddle, Weight};
 
 /// ε² of near singular positions: between the noise of positions over ε and the load over a time in
 /// proportion to ε; `docs/performance.md` has the errors for others.
@@ -23,7 +23,7 @@ pub struct Augmented<S = f64> {
     /// Whether the factor at hand has it.
     ridged: bool,
     /// The pins whose rows of Φ_q [`armed`](Self::armed) gives by their arms.
-    armed: Vec<Armed>,
+    armed: Vec<ArmedPin>,
     /// The other constraints.
     others: Vec<u32>,
     /// Whether the entries of Φ_q are those of all constraints.
@@ -32,25 +32,21 @@ pub struct Augmented<S = f64> {
 
 /// A pin all of whose rows have arms.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Armed {
+pub(super) struct ArmedPin {
     /// Its place among the pins.
     pub pin: u32,
-    /// The arm at its first moving body; that at the second follows.
-    pub first: u32,
+    /// Its place in the matrix.
+    pub rows: Armed,
 }
 
-/// What a state changes of the matrix when pins are given by their arms.
+/// What an evaluation puts into the matrix piece by piece.
 pub(super) struct Parts<'a, S> {
+    pub pattern: &'a Pattern,
+    pub saddle: &'a mut Saddle<S>,
     /// The pins given by arms, in the order of elimination.
-    pub armed: &'a [Armed],
+    pub armed: &'a [ArmedPin],
     /// The constraints given by entries.
     pub others: &'a [u32],
-    /// Columns of Φ_q beside ±I, two numbers for each body of a pin.
-    pub arms: &'a mut [[S; 2]],
-    pub entries: &'a mut [S],
-    pub weights: &'a mut [Weight<S>],
-    /// The weights that change with the angle: bodies (from 0, ground left out) off the mass centre.
-    pub coupled: &'a [u32],
 }
 
 impl<S: Real> Augmented<S> {
@@ -71,19 +67,13 @@ impl<S: Real> Augmented<S> {
         }
     }
 
-    /// What [`factor_and_solve_armed`](Self::factor_and_solve_armed) reads; inertia, which no state changes,
-    /// must stand there already.
+    /// The pieces; inertia, which no state changes, must stand there already. The factor is then without ridge.
     #[inline(always)]
     pub(super) fn parts_mut(&mut self) -> Parts<'_, S> {
         self.whole = self.armed.is_empty();
-        Parts {
-            armed: &self.armed,
-            others: &self.others,
-            arms: &mut self.saddle.arms,
-            entries: self.saddle.entries.as_flattened_mut(),
-            weights: &mut self.saddle.weights,
-            coupled: self.pattern.coupled(),
-        }
+        self.ridged = false;
+        let Self { pattern, saddle, armed, others, .. } = self;
+        Parts { pattern, saddle, armed, others }
     }
 
     /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
@@ -140,9 +130,8 @@ impl<S: Real> Augmented<S> {
 
     /// Sets the damping μ, one for each row.
     pub fn set_damping(&mut self, mu: impl IntoIterator<Item = S>) {
-        for (value, mu) in self.saddle.damping.iter_mut().zip(mu) {
-            *value = mu;
-        }
+        self.saddle.damping.clear();
+        self.saddle.damping.extend(mu);
     }
 
     /// From now on near singular positions are factorised with the ridge ε² = [`RIDGE`].
@@ -171,25 +160,6 @@ impl<S: Real> Augmented<S> {
         }
     }
 
-    /// Factorises and solves in place, as [`solve`](Self::solve): faster than one after the other.
-    ///
-    /// # Errors
-    /// As [`factor`](Self::factor); `x` is then lost. Near singular positions are refused too.
-    pub fn factor_and_solve(&mut self, x: &mut [S]) -> Result<(), Dependent> {
-        self.ridged = false;
-        self.saddle.factor_and_solve(&self.pattern, x)
-    }
-
-    /// The same with pins given by their arms.
-    ///
-    /// # Errors
-    /// As [`factor_and_solve`](Self::factor_and_solve).
-    #[inline(always)] // once in an evaluation
-    pub(super) fn factor_and_solve_armed(&mut self, x: &mut [S]) -> Result<(), Dependent> {
-        self.ridged = false;
-        self.saddle.factor_and_solve_armed(&self.pattern, x)
-    }
-
     /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [S]) {
         self.saddle.solve(&self.pattern, x);
@@ -198,21 +168,20 @@ impl<S: Real> Augmented<S> {
     /// How many digits the worst pivot lost: the constraint row and the pivot over what it was
     /// cancelled from.
     pub fn cancellation(&self) -> Option<(usize, f64)> {
-        self.saddle.cancellation()
+        self.saddle.cancellation(&self.pattern)
     }
 }
 
 /// The pins that arms can give, and the other constraints.
-fn split<P>(model: &Model<P>, pattern: &Pattern) -> (Vec<Armed>, Vec<u32>) {
+fn split<P>(model: &Model<P>, pattern: &Pattern) -> (Vec<ArmedPin>, Vec<u32>) {
     let mut pin: Vec<Option<u32>> = vec![None; model.constraints.len()];
     (0..).zip(&model.pins).for_each(|(k, p)| pin[p.constraint as usize] = Some(k));
     let mut others = vec![true; model.constraints.len()];
     let mut armed = Vec::with_capacity(pattern.armed().len());
-    for &(block, first) in pattern.armed() {
-        if let Some(pin) = pin[block as usize] {
-            others[block as usize] = false;
-            armed.push(Armed { pin, first });
-        }
+    for &rows in pattern.armed() {
+        let block = rows.block as usize;
+        armed.push(ArmedPin { pin: pin[block].expect("unit blocks are those of pins"), rows });
+        others[block] = false;
     }
     (armed, (0..).zip(others).filter(|(_, other)| *other).map(|(k, _)| k).collect())
 }

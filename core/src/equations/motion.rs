@@ -106,8 +106,7 @@ impl<S: Real> Workspace<S> {
     #[inline(always)]
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
         if self.correction.is_none() {
-            self.set_up_armed(model, t, gains);
-            match self.matrix.factor_and_solve_armed(&mut self.solution) {
+            match self.solve_armed(model, t, gains) {
                 Err(Dependent::Row(_)) if self.passing => {}
                 outcome => return outcome.map_err(Singular),
             }
@@ -116,23 +115,31 @@ impl<S: Real> Workspace<S> {
         self.factor_and_refine(model).map_err(Singular)
     }
 
-    /// The matrix, pins by their arms, and the right side (Q, γ̂).
+    /// q̈ and λ with pins by their arms: one pass over them before elimination, and one after.
     #[inline(always)]
-    fn set_up_armed(&mut self, model: &Model<S>, t: S, gains: Gains) {
-        let (forces, right) = self.solution.split_at_mut(self.n_q);
-        let (motions, stabilized) = (&self.motions, Stabilized::new(gains));
-        let Parts { armed, others, arms, entries, weights, coupled } = self.matrix.parts_mut();
-        pins::linearize(&model.pins, armed, motions, stabilized, right, arms);
-        let others = others.iter().map(|k| *k as usize);
-        constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
-        for &k in coupled {
+    fn solve_armed(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
+        let Self { motions, matrix, solution, powers, n_q, .. } = self;
+        let (stabilized, n) = (Stabilized::new(gains), *n_q);
+        let Parts { pattern, saddle, armed, others } = matrix.parts_mut();
+        for &k in pattern.coupled() {
             let k = k as usize;
-            mass::turn(&model.inertias[k], &motions[k + 1], &mut weights[k]);
+            mass::turn(&model.inertias[k], &motions[k + 1], &mut saddle.weights[k]);
         }
-        self.powers = forces::generalized(model, motions, t, forces);
+        *powers = forces::generalized(model, motions, t, &mut solution[..n]);
+        saddle.weigh(pattern, solution);
+        let (x, right) = solution.split_at_mut(n);
+        let (others, entries) =
+            (others.iter().map(|k| *k as usize), saddle.entries.as_flattened_mut());
+        constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
+        pins::begin(&model.pins, armed, motions, stabilized, saddle, (x, right));
+        saddle.finish_begun(pattern, solution)?;
+        let (x, lam) = solution.split_at_mut(n);
+        pins::spread(&model.pins, armed, saddle, (x, lam));
+        saddle.unbend(pattern, solution);
+        Ok(())
     }
 
-    /// The same with all entries.
+    /// The matrix and the right side (Q, γ̂), with all entries.
     fn set_up(&mut self, model: &Model<S>, t: S, gains: Gains) {
         let (forces, right) = self.solution.split_at_mut(self.n_q);
         let entries = self.matrix.jacobian_mut();

@@ -198,34 +198,64 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
         }
     }
 
-    /// Stores L row by row, what is left of the diagonal.
+    /// Stores 1 / D and L.
     #[inline(always)]
     pub fn store(&self, x: &mut [S], first: u32) {
-        let x = &mut x[first as usize..first as usize + N * (N - 1) / 2];
+        let x = &mut x[first as usize..first as usize + numbers(N)];
+        x[..N].copy_from_slice(&self.inverse);
         for i in 1..N {
-            x[i * (i - 1) / 2..][..i].copy_from_slice(&self.lower[i][..i]);
+            x[2 * N + i * (i - 1) / 2..][..i].copy_from_slice(&self.lower[i][..i]);
         }
     }
 }
 
-/// x ← L⁻¹ x with L stored so.
+/// Numbers that a diagonal block of `n` rows takes: n for 1 / D, n for its diagonal before elimination, and
+/// what is left of the diagonal, row by row: of S, then of L.
+pub(super) fn numbers(n: usize) -> usize {
+    2 * n + n * (n - 1) / 2
+}
+
+/// Stores a diagonal block before elimination.
 #[inline(always)]
-pub(super) fn forward<S: Real, const N: usize>(l: &[S], first: u32, x: &mut [S; N]) {
-    let l = &l[first as usize..first as usize + N * (N - 1) / 2];
+pub(super) fn store_begun<S: Real, const N: usize>(x: &mut [S], first: u32, s: &[[S; N]; N]) {
+    let x = &mut x[first as usize..first as usize + numbers(N)];
+    for i in 0..N {
+        x[N + i] = s[i][i];
+        x[2 * N + i * i.saturating_sub(1) / 2..][..i].copy_from_slice(&s[i][..i]);
+    }
+}
+
+/// Its diagonal, and what is left of that.
+#[inline(always)]
+pub(super) fn begun<S: Real, const N: usize>(x: &[S], first: u32) -> ([S; N], [[S; N]; N]) {
+    let x = &x[first as usize..first as usize + numbers(N)];
+    let mut s = [[S::zero(); N]; N];
+    for i in 1..N {
+        s[i][..i].copy_from_slice(&x[2 * N + i * (i - 1) / 2..][..i]);
+    }
+    (std::array::from_fn(|i| x[N + i]), s)
+}
+
+/// x ← L⁻¹ x.
+#[inline(always)]
+pub(super) fn forward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; N]) {
+    let l = &x[first as usize..first as usize + numbers(N)][2 * N..];
     for i in 1..N {
         for j in 0..i {
-            x[i] -= l[i * (i - 1) / 2 + j] * x[j];
+            y[i] -= l[i * (i - 1) / 2 + j] * y[j];
         }
     }
 }
 
-/// x ← L⁻ᵀ x.
+/// y ← L⁻ᵀ D⁻¹ y.
 #[inline(always)]
-pub(super) fn backward<S: Real, const N: usize>(l: &[S], first: u32, x: &mut [S; N]) {
-    let l = &l[first as usize..first as usize + N * (N - 1) / 2];
+pub(super) fn backward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; N]) {
+    let (inverse, rest) = x[first as usize..first as usize + numbers(N)].split_at(N);
+    let l = &rest[N..];
+    y.iter_mut().zip(inverse).for_each(|(y, inverse)| *y = *y * *inverse);
     for j in (0..N).rev() {
         for i in j + 1..N {
-            x[j] -= l[i * (i - 1) / 2 + j] * x[i];
+            y[j] -= l[i * (i - 1) / 2 + j] * y[i];
         }
     }
 }

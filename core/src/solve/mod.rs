@@ -11,6 +11,7 @@
 //! | `block` | arithmetic of blocks of at most 3 × 3 |
 //! | `arm` | the same for pairs of rows that begin with ±I |
 //! | `saddle` | numbers: [W Aᵀ; A -μI] factorised and solved without allocation |
+//! | `gram` | the diagonal blocks of S = A W⁻¹ Aᵀ + μ I |
 //! | `substitute` | the solution with its factors |
 //! | `near` | the same where rows of A come near to dependence |
 //! | `lu_plan` | pattern, order and plan of an unsymmetric block matrix |
@@ -21,6 +22,7 @@
 mod arm;
 mod block;
 mod block_lu;
+mod gram;
 mod lu_plan;
 mod near;
 pub mod newton;
@@ -35,10 +37,12 @@ mod substitute;
 mod weight;
 
 pub use block_lu::{BlockLu, LOST};
+pub use gram::Begun;
 pub use lu_plan::LuPlan;
 pub use newton::Newton;
 pub use order::{groups_first, touched_first};
 pub use pattern::{Pattern, RowBlock};
+pub use places::Armed;
 pub use rank::{normalize_rows, rank, Rank, RANK_TOLERANCE};
 pub use saddle::{Saddle, PIVOT_TOLERANCE};
 pub use weight::{Dependent, Weight};

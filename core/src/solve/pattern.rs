@@ -6,7 +6,7 @@
 //! ch. 4). The plan is left-looking: for every block of L it names the products that make it, so that a
 //! block is computed in registers and written once.
 
-use super::places::{self, Owner, Places};
+use super::places::{self, Armed, Owner, Places};
 use super::plan;
 use super::steps::Steps;
 
@@ -40,8 +40,8 @@ pub struct Pattern {
     pub(super) units: Vec<(u32, f32)>,
     /// What elimination does, in order.
     pub(super) steps: Steps,
-    /// Numbers of all blocks of L, without what D takes.
-    pub(super) n_lower: usize,
+    /// Numbers of the factors.
+    pub(super) n_factors: usize,
 }
 
 impl Pattern {
@@ -54,8 +54,10 @@ impl Pattern {
         let starts = plan::starts(blocks);
         let order = plan::order(coupled.len(), blocks, &starts);
         let rows_below = plan::rows_below(coupled.len(), blocks, &order);
-        let (places, touches) = Places::new(&coupled, blocks, &order);
-        let (steps, n_lower) = plan::steps(blocks, &starts, &order, &rows_below, &touches);
+        let (mut places, touches) = Places::new(&coupled, blocks, &order);
+        let (steps, n_factors) = plan::steps(blocks, &starts, &order, &rows_below, &touches);
+        let armed = places.armed.iter_mut().zip(&steps.starts[steps.n_mixed..]);
+        armed.for_each(|(armed, start)| armed.diagonal = start.diagonal);
         Self {
             n_groups: coupled.len(),
             coupled: (0..).zip(coupled).filter(|(_, coupled)| *coupled).map(|(k, _)| k).collect(),
@@ -64,7 +66,7 @@ impl Pattern {
             places,
             units: places::units(blocks),
             steps,
-            n_lower,
+            n_factors,
         }
     }
 
@@ -76,9 +78,9 @@ impl Pattern {
         general.chain(of_arms).map(|(row, group)| (row as usize, group as usize))
     }
 
-    /// The row blocks of which [`Saddle::arms`](super::Saddle::arms) say all, in the order in which they are
-    /// eliminated, with the first of their arms: those at other groups they touch follow.
-    pub fn armed(&self) -> &[(u32, u32)] {
+    /// The row blocks that [`Saddle::begin`](super::Saddle::begin) takes, in the order in which they are
+    /// eliminated.
+    pub fn armed(&self) -> &[Armed] {
         &self.places.armed
     }
 

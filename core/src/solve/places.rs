@@ -14,10 +14,25 @@ pub(super) struct Places {
     pub arms: Vec<Owner>,
     /// Arms of row blocks that have rows in U as well.
     pub mixed: Vec<u32>,
-    /// Arms in coupled groups.
-    pub bent: Vec<u32>,
-    /// Row blocks with nothing but arms, and the first of these.
-    pub armed: Vec<(u32, u32)>,
+    /// Row blocks with nothing but arms, in the order in which they are eliminated.
+    pub armed: Vec<Armed>,
+}
+
+/// A row block whose rows are [±I b] at every group that it touches, and which shares these with none but
+/// its like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Armed {
+    /// Its place among the row blocks.
+    pub block: u32,
+    /// The arm at the first group that it touches; those at the others follow.
+    pub arm: u32,
+    /// Where its diagonal block begins.
+    pub diagonal: u32,
+}
+
+/// Whether a row block that touches something has nothing but arms.
+pub(super) fn is_armed(touches: &[Touch]) -> bool {
+    !touches.is_empty() && touches.iter().all(|touch| touch.sign != 0.0)
 }
 
 /// Where a row of three entries of A, or a pair of them, stands.
@@ -45,14 +60,13 @@ impl Places {
         for &k in order {
             touches[k] = places.push(&blocks[k], coupled, &with_arms);
             let arms = touches[k].iter().filter(|touch| touch.sign != 0.0).map(|touch| touch.first);
-            if touches[k].iter().any(|touch| touch.sign == 0.0) {
+            if is_armed(&touches[k]) {
+                let arm = touches[k][0].first;
+                places.armed.push(Armed { block: index(k), arm, diagonal: 0 });
+            } else {
                 places.mixed.extend(arms);
-            } else if let Some(first) = touches[k].first() {
-                places.armed.push((index(k), first.first));
             }
         }
-        let bent = places.arms.iter().enumerate().filter(|(_, arm)| arm.coupled);
-        places.bent = bent.map(|(k, _)| index(k)).collect();
         (places, touches)
     }
 
@@ -79,11 +93,10 @@ impl Places {
 
     /// Bytes that they take.
     pub fn bytes(&self) -> usize {
-        let Self { general, arms, mixed, bent, armed } = self;
+        let Self { general, arms, mixed, armed } = self;
         std::mem::size_of_val(general.as_slice())
             + std::mem::size_of_val(arms.as_slice())
             + std::mem::size_of_val(mixed.as_slice())
-            + std::mem::size_of_val(bent.as_slice())
             + std::mem::size_of_val(armed.as_slice())
     }
 }

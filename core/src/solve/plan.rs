@@ -1,9 +1,10 @@
 //! Working out a [`Pattern`](super::Pattern): order, fill, and the list of products.
 
+use super::block::numbers;
 use super::order::groups_first;
 use super::pattern::{RowBlock, MOST};
-use super::places::pairs;
-use super::steps::{Below, Column, Earlier, Steps, Touch, Update};
+use super::places::{is_armed, pairs};
+use super::steps::{Below, Column, Earlier, Start, Steps, Touch, Update};
 
 /// Lists every product, column by column; with the numbers that the blocks of L take.
 pub(super) fn steps(
@@ -14,12 +15,12 @@ pub(super) fn steps(
     touches: &[Vec<Touch>],
 ) -> (Steps, usize) {
     let mut lists = Lists::new(rows_below);
-    let (mut steps, mut n_lower) = (Steps::default(), 0);
+    let (mut steps, mut n_factors) = (Steps::default(), 0);
     for (place, rows) in rows_below.iter().enumerate() {
         let own = order[place];
         let size = blocks[own].size;
-        let diagonal = index(n_lower);
-        n_lower += size * (size - 1) / 2;
+        let diagonal = index(n_factors);
+        n_factors += numbers(size);
         let first = steps.below.len();
         for (&r, updates) in rows.iter().zip(&std::mem::take(&mut lists.updates[place])) {
             let other = order[r];
@@ -27,23 +28,22 @@ pub(super) fn steps(
             steps.pairs.extend(pairs(&touches[other], &touches[own]));
             steps.updates.extend(updates);
             steps.below.push(Below {
-                block: index(n_lower),
+                block: index(n_factors),
                 size: index(blocks[other].size),
                 row: index(starts[other]),
                 pairs: index(steps.pairs.len() - before),
                 updates: index(updates.len()),
             });
-            n_lower += size * blocks[other].size;
+            n_factors += size * blocks[other].size;
         }
-        let at = (index(starts[own]), index(size));
-        lists.eliminate(rows_below, place, &steps.below[first..], at);
+        let (row, size_there) = (index(starts[own]), index(size));
+        let own_block = Earlier { block: 0, diagonal, row, size: size_there };
+        lists.eliminate(rows_below, place, &steps.below[first..], own_block);
         let earlier = std::mem::take(&mut lists.earlier[place]);
-        steps.touches.extend(&touches[own]);
         steps.earlier.extend(&earlier);
         steps.columns.push(Column {
             row: index(starts[own]),
             diagonal,
-            touches: index(touches[own].len()),
             earlier: index(earlier.len()),
             below: index(rows.len()),
             size: size as u8,
@@ -53,7 +53,27 @@ pub(super) fn steps(
                 && steps.below[first..].iter().all(|below| below.size == 2),
         });
     }
-    (steps, n_lower)
+    steps.starts(order, touches);
+    (steps, n_factors)
+}
+
+impl Steps {
+    /// The row blocks, once their columns are there: those with arms alone last.
+    fn starts(&mut self, order: &[usize], touches: &[Vec<Touch>]) {
+        let armed = |own: usize| is_armed(&touches[own]);
+        let columns = || order.iter().zip(&self.columns);
+        let mixed = columns().filter(|(own, _)| !armed(**own));
+        let all: Vec<_> = mixed.chain(columns().filter(|(own, _)| armed(**own))).collect();
+        self.n_mixed = all.iter().filter(|(own, _)| !armed(**own)).count();
+        let start = |(own, column): &(&usize, &Column)| Start {
+            row: column.row,
+            diagonal: column.diagonal,
+            touches: index(touches[**own].len()),
+            size: column.size.into(),
+        };
+        self.starts = all.iter().map(start).collect();
+        self.touches = all.iter().flat_map(|(own, _)| &touches[**own]).copied().collect();
+    }
 }
 
 /// What elimination subtracts, collected while columns are eliminated one after the other.
@@ -77,17 +97,21 @@ impl Lists {
         rows_below: &[Vec<usize>],
         place: usize,
         below: &[Below],
-        (row, size): (u32, u32),
+        earlier: Earlier,
     ) {
         let rows = &rows_below[place];
         for (a, &r) in rows.iter().enumerate() {
             let block = below[a].block;
-            self.earlier[r].push(Earlier { block, row, size });
+            self.earlier[r].push(Earlier { block, ..earlier });
             let mut at = 0;
             for (b, &s) in rows.iter().enumerate().skip(a + 1) {
                 at += rows_below[r][at..].partition_point(|&row| row < s);
                 let blocks = [below[b].block, block];
-                self.updates[r][at].push(Update { blocks, row, size });
+                self.updates[r][at].push(Update {
+                    blocks,
+                    diagonal: earlier.diagonal,
+                    size: earlier.size,
+                });
             }
         }
     }

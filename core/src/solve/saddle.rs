@@ -11,13 +11,12 @@
 //! when d ≤ [`PIVOT_TOLERANCE`] S_kk. A dependent row of A leaves a ratio near 1e-16 whatever its scale;
 //! a mechanism near a singular position a small one, which [`Saddle::cancellation`] shows.
 
-use super::arm::Arm;
 use super::block::{
-    add, columns, factorise, part, part_mut, scaled, store, subtract, subtract_times, Diagonal,
-    Twin,
+    add, begun, columns, factorise, part, part_mut, scaled, store, subtract, subtract_times,
+    Diagonal, Twin,
 };
 use super::pattern::Pattern;
-use super::steps::{Ahead, Below, Column, Earlier, Products, Touch, Update};
+use super::steps::{Ahead, Below, Column, Earlier, Products, Start, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -36,10 +35,9 @@ pub struct Saddle<S> {
     pub weights: Vec<Weight<S>>,
     /// Entries of A in rows of three, as the pattern places them.
     pub entries: Vec<[S; 3]>,
-    /// b of the pairs of rows [±I b] where [`Pattern::armed`] has it, for
-    /// [`factor_and_solve_armed`](Self::factor_and_solve_armed); after a factorisation b′.
+    /// b′ of the pairs of rows [±I b], as the pattern places them.
     pub arms: Vec<[S; 2]>,
-    /// μ, one for each row.
+    /// μ, one for each row; empty for none.
     pub damping: Vec<S>,
     /// Smallest ratio of a pivot to S_kk that is accepted; [`PIVOT_TOLERANCE`] at first.
     pub(super) least: f64,
@@ -47,19 +45,8 @@ pub struct Saddle<S> {
     pub(super) ridge: f64,
     /// Rows of U.
     pub(super) u: Vec<Twin<S>>,
-    /// D, one for each row.
-    pub(super) pivots: Vec<Pivot<S>>,
-    /// For each column of blocks, L of the diagonal block, then L D of those below.
-    pub(super) lower: Vec<S>,
-}
-
-/// A pivot d.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pivot<S> {
-    /// 1 / d.
-    pub inverse: S,
-    /// S_kk.
-    magnitude: S,
+    /// For each column of blocks what its diagonal block came to, then L D of the blocks below.
+    pub(super) factors: Vec<S>,
 }
 
 impl<S: Real> Saddle<S> {
@@ -76,12 +63,11 @@ impl<S: Real> Saddle<S> {
             weights: vec![weight; pattern.n_groups],
             entries,
             arms: vec![[zero; 2]; pattern.places.arms.len()],
-            damping: vec![zero; pattern.n_rows],
+            damping: Vec::new(),
             least: PIVOT_TOLERANCE,
             ridge: 0.0,
             u: vec![Twin { plain: none, scaled: none }; pattern.places.general.len()],
-            pivots: vec![Pivot { inverse: zero, magnitude: zero }; pattern.n_rows],
-            lower: vec![zero; pattern.n_lower],
+            factors: vec![zero; pattern.n_factors],
         }
     }
 
@@ -95,8 +81,8 @@ impl<S: Real> Saddle<S> {
     /// If the matrix is of another pattern.
     pub fn factor(&mut self, pattern: &Pattern) -> Result<(), Dependent> {
         check(&self.weights)?;
-        self.take_arms(pattern);
-        self.transform(pattern);
+        self.transform::<true>(pattern);
+        self.begin_all(pattern, &pattern.steps.starts);
         self.eliminate::<false>(pattern, &mut [])
     }
 
@@ -109,11 +95,15 @@ impl<S: Real> Saddle<S> {
     /// # Panics
     /// As [`factor`](Self::factor) and [`solve`](Self::solve).
     pub fn factor_and_solve(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
-        self.take_arms(pattern);
-        self.factor_and_solve_armed(pattern, x)
+        self.transform::<true>(pattern);
+        self.weigh(pattern, x);
+        self.finish(pattern, &pattern.steps.starts, x)?;
+        self.unbend(pattern, x);
+        Ok(())
     }
 
-    /// The same with the row blocks of [`Pattern::armed`] given by `arms`: their entries are not read.
+    /// The same once all row blocks of [`Pattern::armed`] are begun: their entries are not read, `x` was
+    /// weighed, their right sides stand in it, and it lacks -Dw⁻¹ Uᵀ λ of these rows in the end.
     ///
     /// # Errors
     /// As [`factor`](Self::factor); `x` is then lost.
@@ -121,66 +111,40 @@ impl<S: Real> Saddle<S> {
     /// # Panics
     /// As [`factor`](Self::factor) and [`solve`](Self::solve).
     #[inline(always)] // once in an evaluation
-    pub fn factor_and_solve_armed(
-        &mut self,
-        pattern: &Pattern,
-        x: &mut [S],
-    ) -> Result<(), Dependent> {
-        self.transform(pattern);
-        self.weigh(pattern, x);
-        // a useless weight spoils a pivot, or else the unknowns of its group
-        self.eliminate::<true>(pattern, x).or_else(|row| check(&self.weights).and(Err(row)))?;
-        self.substitute_back(pattern, x);
-        Ok(())
+    pub fn finish_begun(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
+        self.transform::<false>(pattern);
+        self.finish(pattern, &pattern.steps.starts[..pattern.steps.n_mixed], x)
     }
 
-    /// The entries of the row blocks that `arms` gave to the last factorisation, from these.
-    pub fn restore_entries(&mut self, pattern: &Pattern) {
-        for (owner, arm) in pattern.places.arms.iter().zip(&self.arms) {
-            let mut arm = *arm;
-            if owner.coupled {
-                bend(&mut arm, &self.weights[owner.group as usize], -owner.sign);
-            }
-            let row = owner.row as usize;
-            (self.entries[row][2], self.entries[row + 1][2]) = (arm[0], arm[1]);
-        }
+    /// From x = Dw⁻¹ Lw⁻¹ f to Lwᵀ x, with the row blocks of `starts` still to be begun.
+    #[inline(always)]
+    fn finish(
+        &mut self,
+        pattern: &Pattern,
+        starts: &[Start],
+        x: &mut [S],
+    ) -> Result<(), Dependent> {
+        self.begin_all(pattern, starts);
+        let (f, g) = x.split_at_mut(pattern.n_unknowns());
+        self.right_sides(pattern, starts, f, g);
+        // a useless weight spoils a pivot, or else the unknowns of its group
+        self.eliminate::<true>(pattern, g).or_else(|row| check(&self.weights).and(Err(row)))?;
+        self.substitute_back(pattern, g);
+        self.spread_all(pattern, starts, f, g);
+        Ok(())
     }
 
     /// The row whose pivot was cancelled most, and its ratio d / S_kk: 1 means nothing was lost, 1e-10
     /// that ten digits were. `None` without rows.
-    pub fn cancellation(&self) -> Option<(usize, f64)> {
-        let ratios = self.pivots.iter().map(|p| S::one() / (p.inverse * p.magnitude));
-        ratios.map(S::least_magnitude).enumerate().min_by(|a, b| a.1.total_cmp(&b.1))
-    }
-
-    /// b of all arms from the entries.
-    fn take_arms(&mut self, pattern: &Pattern) {
-        for (owner, arm) in pattern.places.arms.iter().zip(&mut self.arms) {
-            *arm = beside(&self.entries, owner.row);
-        }
-    }
-
-    /// U = A Lw⁻ᵀ and U Dw⁻¹, and b′ of the arms from b.
-    #[inline(always)]
-    fn transform(&mut self, pattern: &Pattern) {
-        assert_eq!(self.entries.len(), pattern.n_entries, "a matrix of this pattern");
-        let places = &pattern.places;
-        for (owner, u) in places.general.iter().zip(&mut self.u) {
-            let Weight { inverse, shift } = &self.weights[owner.group as usize];
-            let mut row = self.entries[owner.row as usize];
-            if owner.coupled {
-                row[2] = row[2] - shift[0] * row[0] - shift[1] * row[1];
-            }
-            u.plain = row;
-            u.scaled = [row[0] * inverse[0], row[1] * inverse[1], row[2] * inverse[2]];
-        }
-        for &k in &places.mixed {
-            self.arms[k as usize] = beside(&self.entries, places.arms[k as usize].row);
-        }
-        for &k in &places.bent {
-            let owner = &places.arms[k as usize];
-            bend(&mut self.arms[k as usize], &self.weights[owner.group as usize], owner.sign);
-        }
+    pub fn cancellation(&self, pattern: &Pattern) -> Option<(usize, f64)> {
+        let of = |column: &Column| {
+            let (row, size) = (column.row as usize, usize::from(column.size));
+            let (inverse, rest) = self.factors[column.diagonal as usize..].split_at(size);
+            let ratios = inverse.iter().zip(rest).map(|(i, m)| S::one() / (*i * *m));
+            ratios.map(S::least_magnitude).enumerate().map(move |(k, ratio)| (row + k, ratio))
+        };
+        let all = pattern.steps.columns.iter().flat_map(of);
+        all.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
     }
 
     /// Column by column; with `RHS` the right side as well.
@@ -188,15 +152,14 @@ impl<S: Real> Saddle<S> {
     fn eliminate<const RHS: bool>(
         &mut self,
         pattern: &Pattern,
-        x: &mut [S],
+        g: &mut [S],
     ) -> Result<(), Dependent> {
-        let (x, g) = x.split_at_mut(if RHS { pattern.n_unknowns() } else { 0 });
         let mut ahead = pattern.steps.ahead();
         for column in &pattern.steps.columns {
             if column.pins {
-                self.column::<2, RHS, true>(column, &mut ahead, x, g)?;
+                self.column::<2, RHS, true>(column, &mut ahead, g)?;
             } else {
-                self.mixed_column::<RHS>(column, &mut ahead, x, g)?;
+                self.mixed_column::<RHS>(column, &mut ahead, g)?;
             }
         }
         Ok(())
@@ -208,13 +171,12 @@ impl<S: Real> Saddle<S> {
         &mut self,
         column: &Column,
         ahead: &mut Ahead<'_>,
-        x: &[S],
         g: &mut [S],
     ) -> Result<(), Dependent> {
         match column.size {
-            1 => self.column::<1, RHS, false>(column, ahead, x, g),
-            2 => self.column::<2, RHS, false>(column, ahead, x, g),
-            _ => self.column::<3, RHS, false>(column, ahead, x, g),
+            1 => self.column::<1, RHS, false>(column, ahead, g),
+            2 => self.column::<2, RHS, false>(column, ahead, g),
+            _ => self.column::<3, RHS, false>(column, ahead, g),
         }
     }
 
@@ -224,33 +186,13 @@ impl<S: Real> Saddle<S> {
         &mut self,
         column: &Column,
         ahead: &mut Ahead<'_>,
-        x: &[S],
         g: &mut [S],
     ) -> Result<(), Dependent> {
-        let mut s = [[S::zero(); N]; N];
-        for (i, mu) in part::<S, N>(&self.damping, column.row).iter().enumerate() {
-            s[i][i] = *mu;
-        }
-        let mut y = if RHS { part(g, column.row).map(|g: S| -g) } else { [S::zero(); N] };
-        for Touch { first, group, sign } in ahead.touches.by_ref().take(column.touches as usize) {
-            if PINS || N == 2 && *sign != 0.0 {
-                let arm = self.arm(*first, *group);
-                arm.add_square(&mut s);
-                if RHS {
-                    arm.add_times((*sign).into(), part(x, 3 * *group), &mut y);
-                }
-                continue;
-            }
-            let u = part::<_, N>(&self.u, *first);
-            add::<S, N, N, 3>(&mut s, u, u);
-            if RHS {
-                Twin::add_times(u, part(x, 3 * *group), &mut y);
-            }
-        }
-        let magnitude: [S; N] = std::array::from_fn(|i| s[i][i]);
+        let (magnitude, mut s) = begun(&self.factors, column.diagonal);
         for (i, magnitude) in magnitude.iter().enumerate() {
             s[i][i] = *magnitude * S::constant(1.0 + self.ridge);
         }
+        let mut y = if RHS { *part(g, column.row) } else { [S::zero(); N] };
         for block in ahead.earlier.by_ref().take(column.earlier as usize) {
             match block.size {
                 _ if PINS => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
@@ -278,30 +220,17 @@ impl<S: Real> Saddle<S> {
         Ok(())
     }
 
-    /// An arm with the weight of its group.
-    #[inline(always)]
-    pub(super) fn arm(&self, arm: u32, group: u32) -> Arm<S> {
-        Arm::new(&self.arms[arm as usize], &self.weights[group as usize].inverse)
-    }
-
-    /// 1 / D of K rows.
-    #[inline(always)]
-    pub(super) fn inverses<const K: usize>(&self, row: u32) -> [S; K] {
-        let pivots = part::<_, K>(&self.pivots, row);
-        std::array::from_fn(|k| pivots[k].inverse)
-    }
-
     /// s -= (L D) Lᵀ with a block left of the diagonal, of K columns; with `RHS` y -= L y′ as well.
     #[inline(always)]
     fn subtract_earlier<const N: usize, const K: usize, const RHS: bool>(
         &self,
-        &Earlier { block, row, .. }: &Earlier,
+        &Earlier { block, diagonal, row, .. }: &Earlier,
         g: &[S],
         s: &mut [[S; N]; N],
         y: &mut [S; N],
     ) {
-        let plain = columns::<S, N, K>(&self.lower, block);
-        let scaled = scaled(&plain, &self.inverses(row));
+        let plain = columns::<S, N, K>(&self.factors, block);
+        let scaled = scaled(&plain, part(&self.factors, diagonal));
         subtract(s, &plain, &scaled);
         if RHS {
             subtract_times(y, &scaled, part::<S, K>(g, row));
@@ -316,15 +245,13 @@ impl<S: Real> Saddle<S> {
         diagonal: &Diagonal<S, N>,
         magnitude: [S; N],
     ) -> Result<(), Dependent> {
-        let pivots = part_mut::<_, N>(&mut self.pivots, column.row);
-        for (i, pivot) in pivots.iter_mut().enumerate() {
-            let least = magnitude[i] * S::constant(self.least) + S::constant(LEAST_PIVOT);
+        for (i, magnitude) in magnitude.iter().enumerate() {
+            let least = *magnitude * S::constant(self.least) + S::constant(LEAST_PIVOT);
             if !above_zero(diagonal.pivot[i] - least) {
                 return Err(Dependent::Row(column.row as usize + i));
             }
-            *pivot = Pivot { inverse: diagonal.inverse[i], magnitude: magnitude[i] };
         }
-        diagonal.store(&mut self.lower, column.diagonal);
+        diagonal.store(&mut self.factors, column.diagonal);
         Ok(())
     }
 
@@ -356,31 +283,17 @@ impl<S: Real> Saddle<S> {
             }
         }
         diagonal.forward(&mut s);
-        store(&mut self.lower, block.block, &s);
+        store(&mut self.factors, block.block, &s);
     }
 
     /// s -= ((L D) Lᵀ)ᵀ with two blocks of one earlier column, of K columns.
     #[inline(always)]
     fn subtract_product<const M: usize, const N: usize, const K: usize>(
         &self,
-        &Update { blocks: [left, right], row, .. }: &Update,
+        &Update { blocks: [left, right], diagonal, .. }: &Update,
         s: &mut [[S; M]; N],
     ) {
-        let left = scaled(&columns::<S, M, K>(&self.lower, left), &self.inverses(row));
-        subtract(s, &columns::<S, N, K>(&self.lower, right), &left);
+        let left = scaled(&columns::<S, M, K>(&self.factors, left), part(&self.factors, diagonal));
+        subtract(s, &columns::<S, N, K>(&self.factors, right), &left);
     }
-}
-
-/// b of a pair of rows.
-#[inline(always)]
-fn beside<S: Real>(entries: &[[S; 3]], row: u32) -> [S; 2] {
-    let rows: &[[S; 3]; 2] = part(entries, row);
-    rows.map(|row| row[2])
-}
-
-/// b′ = b ∓ shift.
-#[inline(always)]
-fn bend<S: Real>(arm: &mut [S; 2], weight: &Weight<S>, sign: f32) {
-    let sign = S::constant(sign.into());
-    *arm = [arm[0] - sign * weight.shift[0], arm[1] - sign * weight.shift[1]];
 }

@@ -9,13 +9,30 @@ use std::slice::Iter;
 /// All records.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Steps {
+    /// Row blocks with their diagonal blocks; those that [`Saddle`](super::Saddle) has to be told by their
+    /// arms last.
+    pub starts: Vec<Start>,
+    pub touches: Vec<Touch>,
+    /// How many of the row blocks are not of these.
+    pub n_mixed: usize,
     /// Columns of L, in elimination order.
     pub columns: Vec<Column>,
-    pub touches: Vec<Touch>,
     pub earlier: Vec<Earlier>,
     pub below: Vec<Below>,
     pub pairs: Vec<Pair>,
     pub updates: Vec<Update>,
+}
+
+/// A row block, and its diagonal block of S.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    /// The first of its rows.
+    pub row: u32,
+    /// Where the diagonal block stands among the factors.
+    pub diagonal: u32,
+    /// Number of groups that it touches.
+    pub touches: u32,
+    pub size: u32,
 }
 
 /// One column of blocks of L.
@@ -23,10 +40,8 @@ pub(super) struct Steps {
 pub(super) struct Column {
     /// First of the rows of its row block.
     pub row: u32,
-    /// L of its diagonal block in the store of L: what is left of the diagonal, row by row.
+    /// Where the diagonal block stands among the factors.
     pub diagonal: u32,
-    /// Number of groups that it touches.
-    pub touches: u32,
     /// Number of blocks left of its diagonal block.
     pub earlier: u32,
     /// Number of blocks below it.
@@ -50,8 +65,9 @@ pub(super) struct Touch {
 /// A block of L left of a diagonal block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Earlier {
-    /// Where it begins in the store of L.
+    /// Where it begins among the factors, and the diagonal block of its column.
     pub block: u32,
+    pub diagonal: u32,
     /// First row, and size, of the row block eliminated there.
     pub row: u32,
     pub size: u32,
@@ -60,7 +76,7 @@ pub(super) struct Earlier {
 /// A block of L below the diagonal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Below {
-    /// Where it begins in the store of L.
+    /// Where it begins among the factors.
     pub block: u32,
     /// Size and first row of its row block.
     pub size: u32,
@@ -86,15 +102,14 @@ pub(super) struct Pair {
 pub(super) struct Update {
     /// In the rows of the block that is made, and in those of the column it stands in.
     pub blocks: [u32; 2],
-    /// First row, and size, of the row block eliminated there.
-    pub row: u32,
+    /// The diagonal block of the earlier column, and its size.
+    pub diagonal: u32,
     pub size: u32,
 }
 
 /// The records not yet read.
 #[derive(Clone, Debug)]
 pub(super) struct Ahead<'a> {
-    pub touches: Iter<'a, Touch>,
     pub earlier: Iter<'a, Earlier>,
     pub below: Iter<'a, Below>,
     pub products: Products<'a>,
@@ -111,7 +126,6 @@ impl Steps {
     /// All of them.
     pub fn ahead(&self) -> Ahead<'_> {
         Ahead {
-            touches: self.touches.iter(),
             earlier: self.earlier.iter(),
             below: self.below.iter(),
             products: Products { pairs: self.pairs.iter(), updates: self.updates.iter() },
@@ -123,7 +137,7 @@ impl Steps {
         fn of<T>(list: &[T]) -> usize {
             std::mem::size_of_val(list)
         }
-        let Self { columns, touches, earlier, below, pairs, updates } = self;
-        of(columns) + of(touches) + of(earlier) + of(below) + of(pairs) + of(updates)
+        let Self { starts, touches, columns, earlier, below, pairs, updates, .. } = self;
+        of(starts) + of(touches) + of(columns) + of(earlier) + of(below) + of(pairs) + of(updates)
     }
 }

@@ -2,11 +2,10 @@
 
 use super::block::{
     backward, columns, forward, part, part_mut, scaled, subtract_products, subtract_times,
-    subtract_transposed, Twin,
 };
 use super::pattern::Pattern;
 use super::saddle::Saddle;
-use super::steps::{Ahead, Below, Column, Earlier, Touch};
+use super::steps::{Ahead, Below, Column, Earlier};
 use super::weight::Weight;
 use crate::math::Real;
 
@@ -18,20 +17,27 @@ impl<S: Real> Saddle<S> {
     pub fn solve(&self, pattern: &Pattern, x: &mut [S]) {
         self.weigh(pattern, x);
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
+        let starts = &pattern.steps.starts;
+        self.right_sides(pattern, starts, f, g);
         let mut ahead = pattern.steps.ahead();
         for column in &pattern.steps.columns {
             match column.size {
-                1 => self.forward::<1>(column, &mut ahead, f, g),
-                2 => self.forward::<2>(column, &mut ahead, f, g),
-                _ => self.forward::<3>(column, &mut ahead, f, g),
+                1 => self.forward::<1>(column, &mut ahead, g),
+                2 => self.forward::<2>(column, &mut ahead, g),
+                _ => self.forward::<3>(column, &mut ahead, g),
             }
         }
-        self.substitute_back(pattern, x);
+        self.substitute_back(pattern, g);
+        self.spread_all(pattern, starts, f, g);
+        self.unbend(pattern, x);
     }
 
     /// f ← Dw⁻¹ Lw⁻¹ f.
+    ///
+    /// # Panics
+    /// If `x` has another length than unknowns and rows together.
     #[inline(always)]
-    pub(super) fn weigh(&self, pattern: &Pattern, x: &mut [S]) {
+    pub fn weigh(&self, pattern: &Pattern, x: &mut [S]) {
         assert_eq!(x.len(), pattern.n_unknowns() + pattern.n_rows(), "one right side for each row");
         for &group in &pattern.coupled {
             let [x, y, angle] = part_mut(x, 3 * group);
@@ -45,23 +51,20 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// y = L⁻¹ (A W⁻¹ f - g) of one column, into g.
-    fn forward<const N: usize>(
-        &self,
-        column: &Column,
-        ahead: &mut Ahead<'_>,
-        x: &[S],
-        g: &mut [S],
-    ) {
-        let mut y = part::<S, N>(g, column.row).map(|g| -g);
-        for Touch { first, group, sign } in ahead.touches.by_ref().take(column.touches as usize) {
-            let x = part(x, 3 * *group);
-            if N == 2 && *sign != 0.0 {
-                self.arm(*first, *group).add_times((*sign).into(), x, &mut y);
-            } else {
-                Twin::add_times(part(&self.u, *first), x, &mut y);
-            }
+    /// x ← Lw⁻ᵀ x.
+    #[inline(always)]
+    pub fn unbend(&self, pattern: &Pattern, x: &mut [S]) {
+        for &group in &pattern.coupled {
+            let [x, y, angle] = part_mut(x, 3 * group);
+            let Weight { shift, .. } = &self.weights[group as usize];
+            *x -= shift[0] * *angle;
+            *y -= shift[1] * *angle;
         }
+    }
+
+    /// y ← L⁻¹ y of one column.
+    fn forward<const N: usize>(&self, column: &Column, ahead: &mut Ahead<'_>, g: &mut [S]) {
+        let mut y = *part::<S, N>(g, column.row);
         for earlier in ahead.earlier.by_ref().take(column.earlier as usize) {
             match earlier.size {
                 1 => self.subtract_known::<N, 1>(earlier, g, &mut y),
@@ -69,7 +72,7 @@ impl<S: Real> Saddle<S> {
                 _ => self.subtract_known::<N, 3>(earlier, g, &mut y),
             }
         }
-        forward(&self.lower, column.diagonal, &mut y);
+        forward(&self.factors, column.diagonal, &mut y);
         *part_mut(g, column.row) = y;
     }
 
@@ -77,50 +80,42 @@ impl<S: Real> Saddle<S> {
     #[inline(always)]
     fn subtract_known<const N: usize, const K: usize>(
         &self,
-        &Earlier { block, row, .. }: &Earlier,
+        &Earlier { block, diagonal, row, .. }: &Earlier,
         g: &[S],
         y: &mut [S; N],
     ) {
-        let plain = columns::<S, N, K>(&self.lower, block);
-        subtract_times(y, &scaled(&plain, &self.inverses(row)), part::<S, K>(g, row));
+        let plain = columns::<S, N, K>(&self.factors, block);
+        subtract_times(y, &scaled(&plain, part(&self.factors, diagonal)), part::<S, K>(g, row));
     }
 
-    /// λ = L⁻ᵀ D⁻¹ y and x = Lw⁻ᵀ (Dw⁻¹ Lw⁻¹ f - Dw⁻¹ Uᵀ λ).
+    /// λ = L⁻ᵀ D⁻¹ y.
     #[inline(always)]
-    pub(super) fn substitute_back(&self, pattern: &Pattern, x: &mut [S]) {
-        let (f, g) = x.split_at_mut(pattern.n_unknowns());
+    pub(super) fn substitute_back(&self, pattern: &Pattern, g: &mut [S]) {
         let mut ahead = pattern.steps.ahead();
         for column in pattern.steps.columns.iter().rev() {
             if column.pins {
-                self.back::<2, true>(column, &mut ahead, f, g);
+                self.back::<2, true>(column, &mut ahead, g);
             } else {
-                self.mixed_back(column, &mut ahead, f, g);
+                self.mixed_back(column, &mut ahead, g);
             }
-        }
-        for &group in &pattern.coupled {
-            let [x, y, angle] = part_mut(f, 3 * group);
-            let Weight { shift, .. } = &self.weights[group as usize];
-            *x -= shift[0] * *angle;
-            *y -= shift[1] * *angle;
         }
     }
 
     #[inline(never)]
-    fn mixed_back(&self, column: &Column, ahead: &mut Ahead<'_>, x: &mut [S], g: &mut [S]) {
+    fn mixed_back(&self, column: &Column, ahead: &mut Ahead<'_>, g: &mut [S]) {
         match column.size {
-            1 => self.back::<1, false>(column, ahead, x, g),
-            2 => self.back::<2, false>(column, ahead, x, g),
-            _ => self.back::<3, false>(column, ahead, x, g),
+            1 => self.back::<1, false>(column, ahead, g),
+            2 => self.back::<2, false>(column, ahead, g),
+            _ => self.back::<3, false>(column, ahead, g),
         }
     }
 
-    /// λ of one column, into g, and its share of x; with `PINS` one of pins alone.
+    /// λ of one column, into g; with `PINS` one of pins alone.
     #[inline(always)]
     fn back<const N: usize, const PINS: bool>(
         &self,
         column: &Column,
         ahead: &mut Ahead<'_>,
-        x: &mut [S],
         g: &mut [S],
     ) {
         let mut lambda = *part::<S, N>(g, column.row);
@@ -133,27 +128,14 @@ impl<S: Real> Saddle<S> {
                 _ => self.pull::<3, N>(block, g, &mut lambda),
             }
         }
-        let inverse = self.inverses::<N>(column.row);
-        lambda.iter_mut().zip(inverse).for_each(|(lambda, inverse)| *lambda = *lambda * inverse);
-        backward(&self.lower, column.diagonal, &mut lambda);
+        backward(&self.factors, column.diagonal, &mut lambda);
         *part_mut(g, column.row) = lambda;
-        for Touch { first, group, sign } in
-            ahead.touches.by_ref().rev().take(column.touches as usize)
-        {
-            let x = part_mut::<S, 3>(x, 3 * *group);
-            if PINS || N == 2 && *sign != 0.0 {
-                self.arm(*first, *group).subtract_transposed((*sign).into(), &lambda, x);
-            } else {
-                let u = part::<Twin<S>, N>(&self.u, *first).iter().map(|u| u.scaled);
-                subtract_transposed(x, u, &lambda);
-            }
-        }
     }
 
     /// λ -= (L D)ᵀ λ′ of a block whose rows are solved for in g.
     #[inline(always)]
     fn pull<const M: usize, const N: usize>(&self, block: &Below, g: &[S], lambda: &mut [S; N]) {
-        let block_columns = columns::<S, M, N>(&self.lower, block.block);
+        let block_columns = columns::<S, M, N>(&self.factors, block.block);
         subtract_products(lambda, &block_columns, part(g, block.row));
     }
 }
