@@ -198,6 +198,17 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
         }
     }
 
+    /// y ← L⁻ᵀ D⁻¹ y.
+    #[inline(always)]
+    pub fn back(&self, y: &mut [S; N]) {
+        for j in (0..N).rev() {
+            y[j] = y[j] * self.inverse[j];
+            for i in j + 1..N {
+                y[j] -= self.lower[i][j] * y[i];
+            }
+        }
+    }
+
     /// Stores 1 / D and L.
     #[inline(always)]
     pub fn store(&self, x: &mut [S], first: u32) {

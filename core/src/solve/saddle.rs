@@ -205,7 +205,11 @@ impl<S: Real> Saddle<S> {
         if RHS {
             let mut y = y.map(|y| [y]);
             diagonal.forward(&mut y);
-            *part_mut(g, column.row) = y.map(|[y]| y);
+            let mut y = y.map(|[y]| y);
+            if column.below == 0 {
+                diagonal.back(&mut y); // λ: nothing else is waited for
+            }
+            *part_mut(g, column.row) = y;
         }
         self.keep(column, &diagonal, magnitude)?;
         let Ahead { below, products, .. } = ahead;

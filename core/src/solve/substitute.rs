@@ -45,9 +45,8 @@ impl<S: Real> Saddle<S> {
             *angle = *angle - shift[0] * *x - shift[1] * *y;
         }
         for (x, Weight { inverse, .. }) in x.chunks_exact_mut(3).zip(&self.weights) {
-            for (x, inverse) in x.iter_mut().zip(inverse) {
-                *x = *x * *inverse;
-            }
+            // all at once: what is written as a pair of numbers is read as one
+            x.copy_from_slice(&[x[0] * inverse[0], x[1] * inverse[1], x[2] * inverse[2]]);
         }
     }
 
@@ -62,7 +61,7 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// y ← L⁻¹ y of one column.
+    /// y ← L⁻¹ y of one column, or λ where nothing is below.
     fn forward<const N: usize>(&self, column: &Column, ahead: &mut Ahead<'_>, g: &mut [S]) {
         let mut y = *part::<S, N>(g, column.row);
         for earlier in ahead.earlier.by_ref().take(column.earlier as usize) {
@@ -73,6 +72,9 @@ impl<S: Real> Saddle<S> {
             }
         }
         forward(&self.factors, column.diagonal, &mut y);
+        if column.below == 0 {
+            backward(&self.factors, column.diagonal, &mut y);
+        }
         *part_mut(g, column.row) = y;
     }
 
@@ -88,11 +90,14 @@ impl<S: Real> Saddle<S> {
         subtract_times(y, &scaled(&plain, part(&self.factors, diagonal)), part::<S, K>(g, row));
     }
 
-    /// λ = L⁻ᵀ D⁻¹ y.
+    /// λ = L⁻ᵀ D⁻¹ y; columns with nothing below have it already.
     #[inline(always)]
     pub(super) fn substitute_back(&self, pattern: &Pattern, g: &mut [S]) {
         let mut ahead = pattern.steps.ahead();
         for column in pattern.steps.columns.iter().rev() {
+            if column.below == 0 {
+                continue;
+            }
             if column.pins {
                 self.back::<2, true>(column, &mut ahead, g);
             } else {
