@@ -7,7 +7,7 @@ use super::mass;
 use crate::math::{Motion, Real};
 use crate::model::{Block, Layout, Model, Slots};
 pub use crate::solve::Dependent;
-use crate::solve::{Armed, Pattern, RowBlock, Saddle, Weight};
+use crate::solve::{Armed, Bytes, Pattern, RowBlock, Saddle, Weight};
 
 /// ε² of near singular positions: between the noise of positions over ε and the load over a time in
 /// proportion to ε; `docs/performance.md` has the errors for others.
@@ -163,6 +163,19 @@ impl<S: Real> Augmented<S> {
     /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [S]) {
         self.saddle.solve(&self.pattern, x);
+    }
+
+    /// Bytes of the plan and of the numbers.
+    pub fn bytes(&self) -> Bytes {
+        self.pattern.bytes()
+            + self.saddle.bytes(&self.pattern)
+            + Bytes::touched(&self.armed)
+            + Bytes::touched(&self.others)
+    }
+
+    /// The work of finding the elimination order and the plan, see [`Pattern::effort`].
+    pub fn effort(&self) -> usize {
+        self.pattern.effort()
     }
 
     /// How many digits the worst pivot lost: the constraint row and the pivot over what it was

@@ -13,6 +13,7 @@ use super::energy::Powers;
 use super::{forces, kinematics, mass, pins, refine};
 use crate::math::{Motion, Real};
 use crate::model::Model;
+use crate::solve::Bytes;
 
 /// Baumgarte's gains; zeros leave γ as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -161,6 +162,15 @@ impl<S: Real> Workspace<S> {
             self.correction = Some(correction);
         }
         solved
+    }
+
+    /// Bytes that evaluations hold and touch: of this, and of the model what they read of bodies and pins;
+    /// other constraints and forces are not counted.
+    pub fn bytes(&self, model: &Model<S>) -> Bytes {
+        let own = Bytes::touched(&self.motions) + Bytes::touched(&self.solution);
+        let aside = self.correction.as_deref().map_or(Bytes::default(), Bytes::aside);
+        let of_model = Bytes::touched(&model.pins) + Bytes::touched(&model.inertias);
+        self.matrix.bytes() + own + aside + of_model
     }
 
     /// q̈, shape (n_q).

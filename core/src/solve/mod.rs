@@ -12,6 +12,7 @@
 //! | `arm` | the same for pairs of rows that begin with ±I |
 //! | `saddle` | numbers: [W Aᵀ; A -μI] factorised and solved without allocation |
 //! | `gram` | the diagonal blocks of S = A W⁻¹ Aᵀ + μ I |
+//! | `bytes` | how much memory that takes |
 //! | `substitute` | the solution with its factors |
 //! | `near` | the same where rows of A come near to dependence |
 //! | `lu_plan` | pattern, order and plan of an unsymmetric block matrix |
@@ -22,6 +23,7 @@
 mod arm;
 mod block;
 mod block_lu;
+mod bytes;
 mod gram;
 mod lu_plan;
 mod near;
@@ -37,6 +39,7 @@ mod substitute;
 mod weight;
 
 pub use block_lu::{BlockLu, LOST};
+pub use bytes::Bytes;
 pub use gram::Begun;
 pub use lu_plan::LuPlan;
 pub use newton::Newton;

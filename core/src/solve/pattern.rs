@@ -40,6 +40,8 @@ pub struct Pattern {
     pub(super) units: Vec<(u32, f32)>,
     /// What elimination does, in order.
     pub(super) steps: Steps,
+    /// Neighbours and elements looked at to find the order.
+    visits: usize,
     /// Numbers of the factors.
     pub(super) n_factors: usize,
 }
@@ -52,7 +54,7 @@ impl Pattern {
     /// not fill a list without gaps, or an index exceeds 32 bits.
     pub fn new(coupled: Vec<bool>, blocks: &[RowBlock]) -> Self {
         let starts = plan::starts(blocks);
-        let order = plan::order(coupled.len(), blocks, &starts);
+        let (order, visits) = plan::order(coupled.len(), blocks, &starts);
         let rows_below = plan::rows_below(coupled.len(), blocks, &order);
         let (mut places, touches) = Places::new(&coupled, blocks, &order);
         let (steps, n_factors) = plan::steps(blocks, &starts, &order, &rows_below, &touches);
@@ -67,6 +69,7 @@ impl Pattern {
             units: places::units(blocks),
             steps,
             n_factors,
+            visits,
         }
     }
 
@@ -97,6 +100,14 @@ impl Pattern {
     /// Number of rows of A.
     pub fn n_rows(&self) -> usize {
         self.n_rows
+    }
+
+    /// The work of finding order and plan, which does not depend on the machine: neighbours looked at, and
+    /// products listed.
+    pub fn effort(&self) -> usize {
+        let Steps { touches, earlier, below, pairs, updates, .. } = &self.steps;
+        let products = earlier.len() + below.len() + pairs.len() + updates.len();
+        self.visits + touches.len() + products
     }
 
     /// Number of blocks of L below the diagonal, fill included.

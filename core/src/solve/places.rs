@@ -90,15 +90,6 @@ impl Places {
         };
         block.touches.iter().enumerate().map(touch).collect()
     }
-
-    /// Bytes that they take.
-    pub fn bytes(&self) -> usize {
-        let Self { general, arms, mixed, armed } = self;
-        std::mem::size_of_val(general.as_slice())
-            + std::mem::size_of_val(arms.as_slice())
-            + std::mem::size_of_val(mixed.as_slice())
-            + std::mem::size_of_val(armed.as_slice())
-    }
 }
 
 /// Two row blocks in each group that they share.

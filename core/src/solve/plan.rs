@@ -1,7 +1,7 @@
 //! Working out a [`Pattern`](super::Pattern): order, fill, and the list of products.
 
 use super::block::numbers;
-use super::order::groups_first;
+use super::order::counted;
 use super::pattern::{RowBlock, MOST};
 use super::places::{is_armed, pairs};
 use super::steps::{Below, Column, Earlier, Start, Steps, Touch, Update};
@@ -131,8 +131,8 @@ pub(super) fn starts(blocks: &[RowBlock]) -> Vec<usize> {
     starts
 }
 
-/// The order in which row blocks are eliminated, after all groups.
-pub(super) fn order(groups: usize, blocks: &[RowBlock], starts: &[usize]) -> Vec<usize> {
+/// The order in which row blocks are eliminated, after all groups; with the work it took.
+pub(super) fn order(groups: usize, blocks: &[RowBlock], starts: &[usize]) -> (Vec<usize>, usize) {
     let n_first = 3 * groups;
     let first: Vec<usize> = (0..n_first)
         .step_by(3)
@@ -143,9 +143,10 @@ pub(super) fn order(groups: usize, blocks: &[RowBlock], starts: &[usize]) -> Vec
         .zip(starts)
         .flat_map(|(b, s)| b.touches.iter().map(move |&(group, _)| (n_first + s, 3 * group)))
         .collect();
-    let order = groups_first(n_first, n_first + starts[blocks.len()], &entries, Some(&first));
+    let n = n_first + starts[blocks.len()];
+    let (order, work) = counted(n_first, n, &entries, Some(&first));
     let starting = |i: &usize| i.checked_sub(n_first).and_then(|i| starts.binary_search(&i).ok());
-    order.iter().filter_map(starting).collect()
+    (order.iter().filter_map(starting).collect(), work)
 }
 
 /// For each column the rows of blocks below its diagonal, by place, ascending: later row blocks that share a

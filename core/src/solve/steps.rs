@@ -131,13 +131,4 @@ impl Steps {
             products: Products { pairs: self.pairs.iter(), updates: self.updates.iter() },
         }
     }
-
-    /// Bytes that they take.
-    pub fn bytes(&self) -> usize {
-        fn of<T>(list: &[T]) -> usize {
-            std::mem::size_of_val(list)
-        }
-        let Self { starts, touches, columns, earlier, below, pairs, updates, .. } = self;
-        of(starts) + of(touches) + of(columns) + of(earlier) + of(below) + of(pairs) + of(updates)
-    }
 }
