@@ -124,6 +124,7 @@ impl FirstOrder for Equations<'_> {
         let (true, Some(projector)) = (self.passage.near, &mut self.projector) else {
             return false;
         };
+        self.workspace.matrix.restore_jacobian();
         let (dq, dv, _) = parts(dy, self.model.layout.n_q);
         projector.tangent(&self.workspace, dq);
         projector.tangent(&self.workspace, dv);
