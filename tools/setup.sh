@@ -22,18 +22,11 @@ give_up() {
 
 # set_up run|test
 set_up() {
-    choose_instructions
     is_set_up "$1" && return
     take_lock
     # Another start may have done the work while this one waited for the lock.
     is_set_up "$1" || do_set_up "$1"
     release_lock
-}
-
-# The core is built for processors with AVX2 (.cargo/config.toml); for one without, for any x86-64.
-choose_instructions() {
-    [ "$(uname -m)" = x86_64 ] && [ -r /proc/cpuinfo ] || return 0
-    grep -qw avx2 /proc/cpuinfo || export RUSTFLAGS="${RUSTFLAGS:--C target-cpu=x86-64}"
 }
 
 is_set_up() { has_venv && has_packages "$1" && has_extension; }
@@ -80,10 +73,17 @@ has_extension() {
     return 1
 }
 
+# The core is built for processors with AVX2 (.cargo/config.toml); on one without, for any x86-64.
+choose_instructions() {
+    if grep -qs '^flags' /proc/cpuinfo && ! grep -qw avx2 /proc/cpuinfo; then
+        export RUSTFLAGS="${RUSTFLAGS:--C target-cpu=x86-64}"
+    fi
+}
+
 # Contents, not times: a file that was only touched, or went and came back, needs no build.
 sources_sum() {
     (
-        cd "$ROOT" && {
+        cd "$ROOT" && choose_instructions && {
             printf '%s\n' "${RUSTFLAGS:-}"
             find .cargo Cargo.toml Cargo.lock pyproject.toml core bindings \
                 \( -path core/tests -o -path core/benches -o -name target \) -prune -o \
@@ -215,6 +215,7 @@ build_extension() {
         # maturin takes the venv from here, and refuses to choose between it and conda's.
         unset CONDA_PREFIX
         export VIRTUAL_ENV="$VENV"
+        choose_instructions
         logged "building the core" "$VENV/bin/python" -m maturin develop --release --locked --skip-install
     ) || exit "$SETUP_FAILED"
     write_stamp build "$sum"
