@@ -20,6 +20,8 @@ pub struct Augmented<S = f64> {
     saddle: Saddle<S>,
     /// Whether near singular positions are to be passed.
     passing: bool,
+    /// Whether they are refused instead.
+    refusing: bool,
     /// Whether the factor at hand has it.
     ridged: bool,
     /// The pins whose rows of Φ_q [`armed`](Self::armed) gives by their arms.
@@ -60,6 +62,7 @@ impl<S: Real> Augmented<S> {
             saddle: Saddle::new(&pattern),
             pattern,
             passing: false,
+            refusing: false,
             ridged: false,
             armed,
             others,
@@ -140,6 +143,12 @@ impl<S: Real> Augmented<S> {
         self.passing = true;
     }
 
+    /// From now on near singular positions are refused.
+    pub fn refuse_singular(&mut self) {
+        self.pass_singular();
+        self.refusing = true;
+    }
+
     /// Whether the factor at hand is that of a near singular position, with the ridge.
     pub fn ridged(&self) -> bool {
         self.ridged
@@ -152,9 +161,12 @@ impl<S: Real> Augmented<S> {
     pub fn factor(&mut self) -> Result<(), Dependent> {
         self.ridged = false;
         match self.saddle.factor(&self.pattern) {
-            Err(Dependent::Row(_)) if self.passing => {
+            Err(Dependent::Row(row)) if self.passing => {
                 self.ridged = self.saddle.factor_near(&self.pattern, RIDGE)?;
-                Ok(())
+                match self.ridged && self.refusing {
+                    true => Err(Dependent::Row(row)),
+                    false => Ok(()),
+                }
             }
             outcome => outcome,
         }
