@@ -93,6 +93,6 @@ fn main() {
             "\n{:<12} {:>7} {:>11} {:>9} {:>9}",
             "", "coord.", "plan, ms", "held, B", "touched"
         );
-        [10, 100, 1000, 4000].map(set_up);
+        [10, 100, 1000, 4000].into_iter().for_each(set_up);
     }
 }

@@ -173,7 +173,9 @@ impl<S: Real> Workspace<S> {
     /// Bytes that evaluations hold and touch: of this, and of the model what they read of bodies and pins;
     /// other constraints and forces are not counted.
     pub fn bytes(&self, model: &Model<S>) -> Bytes {
-        let own = Bytes::touched(&self.motions) + Bytes::touched(&self.solution);
+        // no motion is there before the first evaluation
+        let motions = std::mem::size_of::<Motion<S>>() * model.bodies.len();
+        let own = Bytes { held: motions, touched: motions } + Bytes::touched(&self.solution);
         let aside = self.correction.as_deref().map_or(Bytes::default(), Bytes::aside);
         let of_model = Bytes::touched(&model.pins) + Bytes::touched(&model.inertias);
         self.matrix.bytes() + own + aside + of_model

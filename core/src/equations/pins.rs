@@ -56,7 +56,7 @@ pub(super) fn spread<S: Real>(
     saddle: &Saddle<S>,
     (x, lam): (&mut [S], &[S]),
 ) {
-    for ArmedPin { pin, rows: armed } in armed {
+    for ArmedPin { pin, rows: armed } in armed.iter().rev() {
         let pin = &pins[*pin as usize];
         let row = pin.row as usize;
         let lam = [lam[row], lam[row + 1]];

@@ -258,12 +258,10 @@ pub(super) fn forward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; 
     }
 }
 
-/// y ← L⁻ᵀ D⁻¹ y.
+/// y ← L⁻ᵀ y.
 #[inline(always)]
 pub(super) fn backward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; N]) {
-    let (inverse, rest) = x[first as usize..first as usize + numbers(N)].split_at(N);
-    let l = &rest[N..];
-    y.iter_mut().zip(inverse).for_each(|(y, inverse)| *y = *y * *inverse);
+    let l = &x[first as usize..first as usize + numbers(N)][2 * N..];
     for j in (0..N).rev() {
         for i in j + 1..N {
             y[j] -= l[i * (i - 1) / 2 + j] * y[i];

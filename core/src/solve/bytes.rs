@@ -2,7 +2,7 @@
 
 use super::pattern::Pattern;
 use super::saddle::Saddle;
-use super::steps::{Start, Steps, Touch};
+use super::steps::{Steps, Touch};
 use std::mem::{size_of, size_of_val};
 use std::ops::Add;
 
@@ -54,7 +54,7 @@ impl Steps {
     fn bytes(&self) -> Bytes {
         let starts = &self.starts[..self.n_mixed];
         let touches: usize = starts.iter().map(|start| start.touches as usize).sum();
-        let of_mixed = size_of::<Start>() * starts.len() + size_of::<Touch>() * touches;
+        let of_mixed = size_of_val(starts) + size_of::<Touch>() * touches;
         Bytes::aside(&self.starts)
             + Bytes::aside(&self.touches)
             + Bytes { held: 0, touched: of_mixed }

@@ -159,12 +159,13 @@ impl<S: Real> Saddle<S> {
         *g = y;
     }
 
-    /// x -= Dw⁻¹ Uᵀ λ over row blocks.
+    /// x -= Dw⁻¹ Uᵀ λ over row blocks, in the order of substitution.
     #[inline(always)]
     pub(super) fn spread_all(&self, pattern: &Pattern, starts: &[Start], x: &mut [S], g: &[S]) {
-        let mut touches = pattern.steps.touches.iter();
-        for start in starts {
-            let own = touches.by_ref().take(start.touches as usize);
+        let count = starts.iter().map(|start| start.touches as usize).sum();
+        let mut touches = pattern.steps.touches[..count].iter();
+        for start in starts.iter().rev() {
+            let own = touches.by_ref().rev().take(start.touches as usize);
             match start.size {
                 1 => self.spread_rows::<1>(start, own, x, g),
                 2 => self.spread_rows::<2>(start, own, x, g),

@@ -190,7 +190,7 @@ impl<S: Real> Saddle<S> {
     ) -> Result<(), Dependent> {
         let (magnitude, mut s) = begun(&self.factors, column.diagonal);
         for (i, magnitude) in magnitude.iter().enumerate() {
-            s[i][i] = *magnitude * S::constant(1.0 + self.ridge);
+            s[i][i] = *magnitude + *magnitude * S::constant(self.ridge);
         }
         let mut y = if RHS { *part(g, column.row) } else { [S::zero(); N] };
         for block in ahead.earlier.by_ref().take(column.earlier as usize) {

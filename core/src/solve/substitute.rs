@@ -73,6 +73,8 @@ impl<S: Real> Saddle<S> {
         }
         forward(&self.factors, column.diagonal, &mut y);
         if column.below == 0 {
+            let inverse = part::<S, N>(&self.factors, column.diagonal);
+            y = std::array::from_fn(|i| y[i] * inverse[i]);
             backward(&self.factors, column.diagonal, &mut y);
         }
         *part_mut(g, column.row) = y;
@@ -123,24 +125,32 @@ impl<S: Real> Saddle<S> {
         ahead: &mut Ahead<'_>,
         g: &mut [S],
     ) {
-        let mut lambda = *part::<S, N>(g, column.row);
+        let inverse = part::<S, N>(&self.factors, column.diagonal);
+        let y = part::<S, N>(g, column.row);
+        let mut lambda: [S; N] = std::array::from_fn(|i| y[i] * inverse[i]);
         // the newest unknown is waited for last
         for block in ahead.below.by_ref().rev().take(column.below as usize) {
             match block.size {
-                _ if PINS => self.pull::<2, N>(block, g, &mut lambda),
-                1 => self.pull::<1, N>(block, g, &mut lambda),
-                2 => self.pull::<2, N>(block, g, &mut lambda),
-                _ => self.pull::<3, N>(block, g, &mut lambda),
+                _ if PINS => self.pull::<2, N>(block, inverse, g, &mut lambda),
+                1 => self.pull::<1, N>(block, inverse, g, &mut lambda),
+                2 => self.pull::<2, N>(block, inverse, g, &mut lambda),
+                _ => self.pull::<3, N>(block, inverse, g, &mut lambda),
             }
         }
         backward(&self.factors, column.diagonal, &mut lambda);
         *part_mut(g, column.row) = lambda;
     }
 
-    /// λ -= (L D)ᵀ λ′ of a block whose rows are solved for in g.
+    /// λ -= Lᵀ λ′ of a block whose rows are solved for in g.
     #[inline(always)]
-    fn pull<const M: usize, const N: usize>(&self, block: &Below, g: &[S], lambda: &mut [S; N]) {
-        let block_columns = columns::<S, M, N>(&self.factors, block.block);
-        subtract_products(lambda, &block_columns, part(g, block.row));
+    fn pull<const M: usize, const N: usize>(
+        &self,
+        block: &Below,
+        inverse: &[S; N],
+        g: &[S],
+        lambda: &mut [S; N],
+    ) {
+        let plain = columns::<S, M, N>(&self.factors, block.block);
+        subtract_products(lambda, &scaled(&plain, inverse), part(g, block.row));
     }
 }
