@@ -4,6 +4,7 @@
 
 use super::adaptive_options::{Atol, Options};
 use super::arguments::{check_problem, refusal};
+use super::clearance::{Clearance, Gap};
 use super::contract::{Ended, FirstOrder, Flow, Observer, Statistics, Step};
 use super::dense::Dense;
 use super::failure::{Cause, Failure};
@@ -21,6 +22,8 @@ pub(super) trait EmbeddedPair {
     const EXTRA: usize = 0;
     /// Degree of the continuous extension.
     const DEGREE: usize;
+    /// Where an obstacle is passed best.
+    const GAP: Gap;
     /// STAGES + EXTRA + 1 rows of its table; the last, 3θ² - 2θ³, bends it to a projected end.
     const TABLE: &'static [f64];
     /// The table of a lesser extension, with zeros for the extra stages.
@@ -97,6 +100,7 @@ struct Run<'a, Y, P> {
     direction: f64,
     steps: usize,
     rejected: usize,
+    clearance: Clearance,
     work: Work,
     pair: std::marker::PhantomData<P>,
 }
@@ -121,6 +125,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
         direction: (t_end - t0).signum(),
         steps: 0,
         rejected: 0,
+        clearance: Clearance::default(),
         work: Work::new::<P>(n, controlled, options.atol),
         pair: std::marker::PhantomData,
     };
@@ -232,6 +237,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         let t = self.t;
         let least = least_step(t, self.direction);
         size.begin(least, self.options.max_step);
+        self.clearance.begin();
         let mut refusal = None;
         loop {
             if size.size < least {
@@ -242,10 +248,15 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
                 t_new = self.t_end;
             }
             let h = t_new - t;
-            match self.attempt(t_new, y).map(|norm| self.judged(norm, h, y)) {
+            let trial = self.attempt(t_new, y).map(|norm| self.judged(norm, h, y));
+            let placed = self.placed(t_new);
+            match trial {
+                Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
+                _ if placed.is_some() => size.size = placed.unwrap_or(size.size),
                 Ok(norm) if norm < 1.0 => match self.project(t_new)? {
                     Ok(projected) => {
                         size.accept(h.abs(), norm);
+                        size.size = self.clearance.resume(size.size);
                         return Ok((t_new, projected));
                     }
                     Err(stop) => {
@@ -261,10 +272,17 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
                     refusal = Some(Cause::NotFinite { t });
                     size.reject(h.abs(), f64::NAN);
                 }
-                Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
             }
             self.rejected += 1;
         }
+    }
+
+    /// The step to try instead of that to `t_new`, so as to keep clear of an obstacle.
+    fn placed(&mut self, t_new: f64) -> Option<f64> {
+        let obstacle = self.rate.system.obstacle(t_new)?;
+        let [h, left] = [t_new, self.t_end].map(|end| (end - self.t).abs());
+        let left = left.min(self.options.max_step);
+        self.clearance.instead(P::GAP, h, self.direction * (obstacle - self.t), left)
     }
 
     /// The error norm of a step to `t_new`.

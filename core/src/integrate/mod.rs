@@ -15,6 +15,7 @@
 //! | `rate` | counted, checked evaluations |
 //! | `dense` | the continuous extension of a step |
 //! | `step_size` | choice of the step from the error estimate |
+//! | `clearance` | steps that keep clear of a time near which rates are noise |
 //! | `adaptive`, `adaptive_options` | the loop of every embedded pair, and its options |
 //! | `fixed_step` | where steps of constant length end |
 //! | `stages` | sums over the stages of a step |
@@ -30,6 +31,7 @@ mod adaptive_options;
 mod alpha_parameters;
 mod alpha_step;
 mod arguments;
+mod clearance;
 mod constrained;
 mod contract;
 mod dense;

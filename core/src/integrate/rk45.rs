@@ -6,6 +6,7 @@
 
 use super::adaptive::{integrate, EmbeddedPair};
 use super::adaptive_options::{usable_rtol, Atol, Options};
+use super::clearance::Gap;
 use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
@@ -112,6 +113,8 @@ impl EmbeddedPair for DormandPrince {
     const ERROR_ORDER: i32 = 4;
     const STAGES: usize = 7;
     const DEGREE: usize = 4;
+    // between the stages at 3/10 and 4/5
+    const GAP: Gap = Gap { middle: 0.55, half: 0.25 };
     const TABLE: &'static [f64] = &P;
 
     fn advance<Y: FirstOrder>(

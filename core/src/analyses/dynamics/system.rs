@@ -36,10 +36,11 @@ impl<'a> Equations<'a> {
         };
         let mut workspace = Workspace::new(model);
         // without projection nothing brings a state back to its branch
-        if projector.is_some() && !model.allow_redundancy {
+        let passing = projector.is_some() && !model.allow_redundancy;
+        if passing {
             workspace.pass_singular();
         }
-        let passage = Passage::new(options);
+        let passage = Passage::new(options, passing);
         Self { model, workspace, gains: options.gains(), projector, passage }
     }
 
@@ -60,6 +61,7 @@ impl<'a> Equations<'a> {
         if self.workspace.accelerate(self.model, t, q, v, self.gains).is_err() {
             return Ok(()); // the first step tells
         }
+        self.passage.begin(t, &self.workspace);
         let near = self.workspace.matrix.ridged();
         match self.workspace.matrix.cancellation().filter(|_| near) {
             Some((row, _)) if !mobility(self.model, t, q).redundant.is_empty() => {
@@ -142,9 +144,18 @@ impl FirstOrder for Equations<'_> {
         true
     }
 
+    /// A singular position ahead.
+    fn obstacle(&mut self, t: f64) -> Option<f64> {
+        self.passage.foresee(t, &self.workspace)
+    }
+
     /// The last evaluation was at or near the end of the step: its factor serves.
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
-        self.passage.land(&self.workspace).map_err(|fault| (t, fault))?;
-        self.project(t, y, true)
+        if let Some(projector) = &mut self.projector {
+            projector.sharpen(self.passage.in_reach());
+        }
+        let changed = self.project(t, y, true)?;
+        self.passage.accept();
+        Ok(changed)
     }
 }
