@@ -5,7 +5,7 @@
 //! has to begin.
 
 /// Part of the half-width that an obstacle may lie off the middle.
-const OFF: f64 = 0.3;
+const OFF: f64 = 0.8;
 /// A step that ends before an obstacle by more than this part of where the middle is, is let be.
 const BEFORE: f64 = 0.7;
 /// By how much a step may grow to pass an obstacle.
@@ -16,6 +16,9 @@ const BEHIND: f64 = 0.04;
 const LEAST: f64 = 0.05;
 /// Most times that a step is placed.
 const MOST: usize = 3;
+/// What errors count once an obstacle was met: beside it they are judged by the part that the system would not
+/// take away, and that is told by one state for all stages.
+const STRICT: f64 = 2.5;
 
 /// The widest part of a step without a stage of scheme or extension; in parts of the step.
 #[derive(Clone, Copy, Debug)]
@@ -24,9 +27,10 @@ pub(super) struct Gap {
     pub half: f64,
 }
 
-/// How the step under way has been placed.
+/// Obstacles of a run, and how the step under way has been placed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Clearance {
+    met: bool,
     tried: usize,
     /// The step to go on with; 0 if the step was not placed.
     wanted: f64,
@@ -35,12 +39,13 @@ pub(super) struct Clearance {
 impl Clearance {
     /// Before the first trial of a step.
     pub fn begin(&mut self) {
-        *self = Self::default();
+        *self = Self { met: self.met, ..Self::default() };
     }
 
     /// The step to try instead of one of magnitude `h` with an obstacle `ahead` of its start (negative if
     /// it lies behind) and `left` to go to the end of the run.
     pub fn instead(&mut self, gap: Gap, h: f64, ahead: f64, left: f64) -> Option<f64> {
+        self.met = true;
         let Gap { middle, half } = gap;
         let free = ahead <= BEHIND * h
             || (ahead - middle * h).abs() <= OFF * half * h
@@ -61,6 +66,15 @@ impl Clearance {
         Some(placed)
     }
 
+    /// By what error norms are to be multiplied.
+    pub fn strictness(&self) -> f64 {
+        if self.met {
+            STRICT
+        } else {
+            1.0
+        }
+    }
+
     /// The step to go on with after one that was accepted, where its error allows `next`.
     pub fn resume(&self, next: f64) -> f64 {
         next.max(self.wanted)
@@ -75,7 +89,7 @@ mod tests {
 
     #[test]
     fn what_lies_in_the_gap_or_out_of_reach_is_passed_as_it_is() {
-        for ahead in [-1.0, 0.01, 0.48, 0.5, 0.52, 1.4, 9.0] {
+        for ahead in [-1.0, 0.01, 0.43, 0.5, 0.57, 1.4, 9.0] {
             assert_eq!(Clearance::default().instead(GAP, 1.0, ahead, 10.0), None, "{ahead}");
         }
     }

@@ -8,11 +8,12 @@
 //! The extension needs three stages more than the step. They are evaluated only for observers that look
 //! between the ends; for others it is the cubic Hermite polynomial.
 
-use super::adaptive::{integrate, EmbeddedPair};
+use super::adaptive::integrate;
 use super::adaptive_options::{usable_rtol, Atol, Options};
 use super::clearance::Gap;
 use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::dop853_coefficients::*;
+use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
 use super::stages::{combine, rows};

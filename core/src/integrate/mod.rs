@@ -16,7 +16,7 @@
 //! | `dense` | the continuous extension of a step |
 //! | `step_size` | choice of the step from the error estimate |
 //! | `clearance` | steps that keep clear of a time near which rates are noise |
-//! | `adaptive`, `adaptive_options` | the loop of every embedded pair, and its options |
+//! | `adaptive`, `adaptive_options`, `embedded_pair` | the loop of every embedded pair, its options, what it asks of a pair |
 //! | `fixed_step` | where steps of constant length end |
 //! | `stages` | sums over the stages of a step |
 //! | `rk45`, `dop853`, `rk4` | schemes |
@@ -37,6 +37,7 @@ mod contract;
 mod dense;
 mod dop853;
 mod dop853_coefficients;
+mod embedded_pair;
 mod events;
 mod failure;
 mod fixed_step;
