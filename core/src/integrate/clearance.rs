@@ -45,7 +45,7 @@ impl Clearance {
     /// The step to try instead of one of magnitude `h` with an obstacle `ahead` of its start (negative if
     /// it lies behind) and `left` to go to the end of the run.
     pub fn instead(&mut self, gap: Gap, h: f64, ahead: f64, left: f64) -> Option<f64> {
-        self.met = true;
+        self.met |= ahead > 0.0 && ahead < h;
         let Gap { middle, half } = gap;
         let free = ahead <= BEHIND * h
             || (ahead - middle * h).abs() <= OFF * half * h

@@ -9,6 +9,9 @@ const DEEP: f64 = 0.05;
 /// Samples nearer to each other than this part of a step tell nothing new.
 const APART: f64 = 0.01;
 
+/// What an approach within two steps takes away from the pivot, at least: the square of one half.
+const NEARER: f64 = 4.0;
+
 /// A time, and the least ratio of a pivot to what it was cancelled from.
 type Sample = (f64, f64);
 
@@ -46,6 +49,10 @@ impl Approach {
         let stages = std::mem::take(&mut self.stages);
         self.end = Some(end);
         let start = self.start?;
+        if stages.is_empty() && NEARER * end.1 > start.1 {
+            self.position = None; // further than two steps, or behind
+            return None;
+        }
         let step = end.0 - start.0;
         let mut way = vec![start];
         way.extend(stages);
