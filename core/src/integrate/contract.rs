@@ -49,6 +49,14 @@ pub trait FirstOrder {
         let _ = dy;
         false
     }
+
+    /// Called after every trial step, whether it will be accepted or not, with the time of its end, where
+    /// f was evaluated last. A time near which f is little but noise: a method with step control
+    /// places its steps so that no stage comes near it.
+    fn obstacle(&mut self, t: f64) -> Option<f64> {
+        let _ = t;
+        None
+    }
 }
 
 /// Whether to go on after a step.

@@ -8,6 +8,7 @@ mod andrews;
 mod convergence;
 mod four_bar;
 mod n_four_bar;
+mod passing;
 mod pendulum;
 mod point_mass;
 mod position;

@@ -9,7 +9,7 @@ use kempe::model::Model;
 use kempe::stabilize::Projection;
 use std::fmt::Write;
 
-fn windows(n: usize) -> Model {
+pub fn windows(n: usize) -> Model {
     let mut text = String::from("gravity = [0, -9.81]\n[bodies.ground]\npoints = { ");
     for k in 0..=n {
         write!(text, "P{k} = [{k}, 0], ").unwrap();
@@ -122,7 +122,7 @@ fn forty_windows() {
     compare(40);
 }
 
-fn upright(n: usize) -> (Model, State) {
+pub fn upright(n: usize) -> (Model, State) {
     let m = windows(n);
     let guess: Vec<(String, &str)> = (0..n).map(|k| (format!("coupler{k}.angle"), "0")).collect();
     let guess: Vec<(&str, &str)> = guess.iter().map(|(key, x)| (key.as_str(), *x)).collect();

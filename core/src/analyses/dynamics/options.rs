@@ -61,18 +61,6 @@ pub fn most_steps(model: &Model) -> usize {
 }
 
 impl Scheme {
-    /// Whether it chooses its steps by their error.
-    pub(super) fn controlled(&self) -> bool {
-        match self {
-            Self::Rk45(method) => method.step.is_none(),
-            Self::Dop853(method) => method.step.is_none(),
-            Self::Rk4(_) => false,
-            Self::GeneralizedAlpha(method) => method.step.is_none(),
-            Self::Radau(method) => method.step.is_none(),
-            Self::Auto(_) => true,
-        }
-    }
-
     /// The scheme with a bound on its steps: its own, or [`most_steps`].
     pub(super) fn bounded(&self, model: &Model) -> Self {
         let mut bounded = self.clone();

@@ -46,7 +46,8 @@ impl<'a> Equations<'a> {
             _ => None,
         };
         let workspace = workspace(model, projector.is_some());
-        let passage = Passage::new(options);
+        let passing = projector.is_some() && !model.allow_redundancy;
+        let passage = Passage::new(options, passing);
         Self { model, workspace, gains: options.gains(), projector, passage }
     }
 
@@ -62,6 +63,7 @@ impl<'a> Equations<'a> {
         if self.workspace.accelerate(self.model, t, q, v, self.gains).is_err() {
             return Ok(()); // the first step tells
         }
+        self.passage.begin(t, &self.workspace);
         let near = self.workspace.matrix.ridged();
         match self.workspace.matrix.cancellation().filter(|_| near) {
             Some((row, _)) if !mobility(self.model, t, q).redundant.is_empty() => {
@@ -131,9 +133,18 @@ impl FirstOrder for Equations<'_> {
         true
     }
 
+    /// A singular position ahead.
+    fn obstacle(&mut self, t: f64) -> Option<f64> {
+        self.passage.foresee(t, &self.workspace)
+    }
+
     /// The last evaluation was at or near the end of the step: its factor serves.
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
-        self.passage.land(&self.workspace).map_err(|fault| (t, fault))?;
-        self.project(t, y, true)
+        if let Some(projector) = &mut self.projector {
+            projector.sharpen(self.passage.in_reach());
+        }
+        let changed = self.project(t, y, true)?;
+        self.passage.accept();
+        Ok(changed)
     }
 }
