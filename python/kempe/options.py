@@ -189,13 +189,19 @@ class Radau(Option):
 class Baumgarte(Option):
     """γ̂ = γ - 2α (Φ_q q̇ + Φ_t) - β² Φ (Baumgarte 1972; Haug 7.3.8).
 
+    For explicit methods. ``Baumgarte(gains="step")`` needs no numbers: it takes them from each
+    step h that is tried, α = 7/(12 h) and β = 1/(√3 h), and holds the term over the step, so that
+    it neither limits the step nor lowers the order of the method.
+
     Attributes:
-        alpha: 1/s.
-        beta: 1/s; with explicit methods stability limits the step to about 3/β.
+        alpha: 1/s; 10 when None.
+        beta: 1/s; stability limits the step to about 3/β; 200 when None.
+        gains: "step" for gains from the step, without alpha and beta.
     """
 
-    alpha: Number = 10.0
-    beta: Number = 200.0
+    alpha: Number | None = None
+    beta: Number | None = None
+    gains: str | None = None
     kind: ClassVar[str] = "baumgarte"
 
 

@@ -280,6 +280,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     fn advance(&mut self, t_new: f64, y: &[f64]) -> Result<(), Trouble<Y::Stop>> {
         let Work { k, y_new, trial, .. } = &mut self.work;
         let stages = &mut k[..P::STAGES * self.n];
+        self.rate.begin(self.t, t_new - self.t, y, &mut stages[..self.n])?;
         P::advance(&mut self.rate, (self.t, t_new), y, stages, trial, y_new)?;
         if all_finite(y_new) {
             Ok(())

@@ -50,7 +50,8 @@ impl Work {
         y: &[f64],
     ) -> Result<(), Trouble<Y::Stop>> {
         let n = y.len();
-        let k1 = &self.dense[..n];
+        let k1 = &mut self.dense[..n];
+        rate.begin(t, h, y, k1)?;
         let [k2, k3, k4] = &mut self.inner;
         along(y, 0.5 * h, k1, &mut self.trial);
         rate.at(t + 0.5 * h, &self.trial, k2)?;

@@ -5,6 +5,7 @@ mod mechanisms;
 
 mod adams;
 mod andrews;
+mod baumgarte;
 mod convergence;
 mod four_bar;
 mod n_four_bar;
