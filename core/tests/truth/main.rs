@@ -5,6 +5,7 @@ mod mechanisms;
 
 mod adams;
 mod andrews;
+mod apart;
 mod baumgarte;
 mod convergence;
 mod four_bar;

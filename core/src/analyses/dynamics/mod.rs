@@ -1,5 +1,6 @@
 //! Forward dynamics: the motion of a mechanism under forces, from a consistent state.
 
+mod apart;
 mod automatic;
 mod choice;
 mod failure;

@@ -1,5 +1,6 @@
 //! What forward dynamics reports: states at chosen times, with accelerations, multipliers, energies.
 
+use super::apart::{Apart, Guard};
 use super::options::{Options, Output, Scheme};
 use super::system::{Equations, WORKS};
 use crate::equations::{energy, kinematics, Gains};
@@ -55,6 +56,8 @@ impl Trajectory {
 pub(super) enum Halt {
     /// It cannot be projected, or has no unique accelerations.
     Fault(Fault),
+    /// Its joints are apart.
+    Apart(Apart),
     /// A number of it is not finite.
     NotFinite,
 }
@@ -83,6 +86,7 @@ pub(super) struct Recorder<'a> {
     pub dense: Option<Dense>,
     /// Projects what lies between the ends of a step, and solves the equations of motion there.
     pub reported: Equations<'a>,
+    guard: Option<Guard>,
     /// Why it cannot go on, and when.
     pub halt: Option<(f64, Halt)>,
 }
@@ -98,6 +102,7 @@ impl<'a> Recorder<'a> {
             trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
             dense: options.dense_output.then(|| Dense::new(options, t0)),
             reported: Equations::new(model, options).for_reports(),
+            guard: Guard::new(model, options),
             halt: None,
         }
     }
@@ -112,6 +117,10 @@ impl<'a> Recorder<'a> {
     /// Reports a state whose motions are in the workspace: accelerations and multipliers by γ, never γ̂.
     fn report_placed(&mut self, t: f64, y: &[f64]) -> Flow {
         let Equations { model, workspace, .. } = &mut self.reported;
+        let guard = self.guard.as_mut();
+        if let Some(apart) = guard.and_then(|guard| guard.look_at(model, t, &workspace.motions)) {
+            return self.stop(t, Halt::Apart(apart));
+        }
         if let Err(singular) = workspace.respond(model, t, Gains::default()) {
             return self.stop(t, Halt::Fault(Fault::Singular(singular)));
         }
@@ -147,8 +156,8 @@ impl<'a> Recorder<'a> {
             }
         }
         let Output::Every(h) = self.output else { return self.report(step.t, step.y) };
+        let mut flow = self.look_apart(h, step);
         let mut y = std::mem::take(&mut self.y);
-        let mut flow = Flow::Continue;
         while let (Flow::Continue, Some(t)) = (flow, self.next_time(h, step.t)) {
             step.interpolate(t, &mut y);
             flow = match self.reported.place(t, &mut y) {
@@ -165,6 +174,18 @@ impl<'a> Recorder<'a> {
             flow = self.report(step.t, step.y);
         }
         flow
+    }
+
+    /// Looks for joints apart at the end of a step without reported states.
+    fn look_apart(&mut self, h: f64, step: &Step<'_>) -> Flow {
+        if self.guard.is_none() || self.due(h, step.t).is_some() {
+            return Flow::Continue;
+        }
+        let model = self.reported.model;
+        match self.guard.as_mut().and_then(|guard| guard.look(model, step.t, step.y)) {
+            Some(apart) => self.stop(step.t, Halt::Apart(apart)),
+            None => Flow::Continue,
+        }
     }
 
     /// Whether a step that ends at `t` is needed between its ends.
