@@ -62,6 +62,10 @@ impl Guard {
     /// The same of a state whose motions are known.
     pub fn look_at(&mut self, model: &Model, t: f64, motions: &[Motion]) -> Option<Apart> {
         constraints::residual(model, motions, t, &mut self.residual);
+        let mut rows = self.residual.iter().zip(&self.most);
+        if rows.all(|(gap, most)| gap.abs() <= *most) {
+            return None;
+        }
         let over = self.residual.iter().zip(&self.most).map(|(gap, most)| gap.abs() / most);
         let (row, widest) = over.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
         (widest > 1.0).then(|| Apart { row, gap: self.residual[row].abs(), most: self.most[row] })
