@@ -78,8 +78,10 @@ class DOP853(Option):
 class Auto(Option):
     """DOP853, and Radau where the equations prove stiff.
 
-    It begins with DOP853. Where a damped motion holds its steps at the limit of stability, Radau
-    goes on; where that does not make them longer, DOP853 takes over again.
+    The model is judged at the start, by the fastest damped motion of its linearised equations
+    beside the pace of what moves: if that motion is far faster and has died out, Radau begins,
+    else DOP853. Where a damped motion holds its steps at the limit of stability, Radau goes on;
+    where that does not make them longer, DOP853 takes over again.
     ``sol.statistics["method"]`` tells which came to the end, and ``sol.statistics["why"]`` why.
 
     Attributes:

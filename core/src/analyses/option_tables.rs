@@ -143,8 +143,8 @@ fn dop853() -> Options {
 }
 
 fn auto() -> Options {
-    let doc = "DOP853, and Radau from where a damped motion holds its steps at the limit of stability; the \
-               statistics tell which, and why.";
+    let doc = "DOP853, and Radau where a damped motion far faster than what moves makes the model stiff, judged at the \
+               start and by the steps on the way; the statistics tell which, and why.";
     let mut options = adaptive("Auto", "auto", (1e-8, 1e-11), doc);
     options.table.fields.retain(|field| field.name != "step"); // there is nothing to choose with it
     options

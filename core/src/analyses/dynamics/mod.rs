@@ -4,6 +4,7 @@ mod apart;
 mod automatic;
 mod choice;
 mod failure;
+mod forecast;
 mod implicit;
 mod options;
 mod output;
