@@ -87,8 +87,10 @@ def stabilization(random: Random) -> kp.Projection | kp.Baumgarte | None:
     kind = random.random()
     if kind < 0.6:
         return kp.Projection()
-    if kind < 0.75:
+    if kind < 0.7:
         return kp.Baumgarte()
+    if kind < 0.8:
+        return kp.Baumgarte(gains="step")
     if kind < 0.9:
         return kp.Baumgarte(alpha=power(random, -2, 4), beta=power(random, -2, 4))
     return None
