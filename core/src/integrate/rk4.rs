@@ -4,7 +4,7 @@
 use super::arguments::{check_problem, refusal};
 use super::contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
 use super::dense::{Dense, HERMITE};
-use super::failure::{Cause, Failure};
+use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
 use super::rate::{all_finite, Rate, Trouble};
 
@@ -95,10 +95,7 @@ impl Method for Rk4 {
         let mut rate = Rate { system, evaluations: 0 };
         let outcome = grid.and_then(|grid| go(&mut rate, t0, &grid, y, observer, &mut statistics));
         statistics.evaluations = rate.evaluations;
-        match outcome {
-            Ok(ended) => Ok(Statistics { ended, ..statistics }),
-            Err(cause) => Err(Failure { cause, t: statistics.t, y: Box::from(&*y), statistics }),
-        }
+        conclude(outcome, statistics, y)
     }
 }
 
