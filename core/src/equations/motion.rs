@@ -39,6 +39,8 @@ pub struct Workspace<S = f64> {
     solution: Vec<S>,
     /// Powers of the force elements.
     powers: Powers<S>,
+    /// What γ is lessened by, whatever the state; empty if nothing.
+    held: Vec<S>,
     /// Correction of the solution where the matrix is not that of the equations.
     correction: Option<Vec<S>>,
     /// Whether near singular positions are looked at twice.
@@ -58,6 +60,7 @@ impl<S: Real> Workspace<S> {
             matrix: Augmented::new(model),
             solution: vec![S::zero(); n + m],
             powers: Powers::zero(),
+            held: Vec::new(),
             correction: model.has_added_inertia().then(|| vec![S::zero(); n + m]),
             passing: false,
             n_q: n,
@@ -79,6 +82,12 @@ impl<S: Real> Workspace<S> {
     pub fn refuse_singular(&mut self) {
         self.passing = true;
         self.matrix.refuse_singular();
+    }
+
+    /// From now on γ is lessened by `term`, shape (n_rows), at every state.
+    pub fn hold(&mut self, term: &[S]) {
+        self.held.clear();
+        self.held.extend_from_slice(term);
     }
 
     /// Accepts redundant constraints: the multipliers become the smallest that carry the loads.
@@ -151,6 +160,8 @@ impl<S: Real> Workspace<S> {
         let (forces, right) = self.solution.split_at_mut(self.n_q);
         let entries = self.matrix.jacobian_mut();
         constraints::linearize(model, &self.motions, t, gains, right, entries);
+        // none but where a stabilization holds its term over a step
+        right.iter_mut().zip(&self.held).for_each(|(right, held)| *right -= *held);
         self.matrix.set_mass(model, &self.motions);
         self.powers = forces::generalized(model, &self.motions, t, forces);
     }

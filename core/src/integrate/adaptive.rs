@@ -3,12 +3,11 @@
 //! Step for step the control of `scipy.integrate.solve_ivp`, so that counts of steps can be compared.
 
 use super::adaptive_options::{Atol, Options};
-use super::arguments::{check_problem, refusal};
 use super::clearance::Clearance;
 use super::contract::{Ended, FirstOrder, Flow, Observer, Statistics, Step};
 use super::dense::Dense;
 use super::embedded_pair::EmbeddedPair;
-use super::failure::{Cause, Failure};
+use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
 use super::rate::{all_finite, Rate, Trouble};
 use super::step_size::{initial_step, least_step, probing_step, scaled_norm, StepSize};
@@ -65,8 +64,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
     observer: &mut O,
 ) -> Result<Statistics, Failure<Y::Stop>> {
     let (n, controlled) = (system.len(), system.controlled());
-    let checked =
-        check_problem(t0, t_end, y, n).and_then(|()| options.check(controlled, (t_end - t0).abs()));
+    let checked = options.begin((t0, t_end), (y, n), controlled);
     let mut run = Run::<Y, P> {
         rate: Rate { system, evaluations: 0 },
         options,
@@ -80,37 +78,29 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
         work: Work::new::<P>(n, controlled, options.atol),
         pair: std::marker::PhantomData,
     };
-    let outcome = match checked {
-        Ok(()) => run.go(y, observer),
-        Err(refused) => Err(refusal(refused)),
-    };
-    let statistics = run.statistics(outcome.as_ref().copied().unwrap_or(Ended::Stopped));
-    match outcome {
-        Ok(_) => Ok(statistics),
-        Err(cause) => Err(Failure { cause, t: run.t, y: Box::from(&*y), statistics }),
-    }
+    let outcome = checked.and_then(|grid| run.go(grid, y, observer));
+    conclude(outcome, run.statistics(), y)
 }
 
 impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
-    fn statistics(&self, ended: Ended) -> Statistics {
+    fn statistics(&self) -> Statistics {
         Statistics {
             steps: self.steps,
             rejected: self.rejected,
             evaluations: self.rate.evaluations,
-            ended,
             ..Statistics::none(self.t)
         }
     }
 
     fn go<O: Observer>(
         &mut self,
+        grid: Option<Grid>,
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Ended, Cause<Y::Stop>> {
         if self.t == self.t_end {
             return Ok(Ended::Reached);
         }
-        let grid = self.options.grid(self.t, self.t_end)?;
         self.rate.at(self.t, y, &mut self.work.k[..self.n]).map_err(hard)?;
         if let Some(grid) = grid {
             return self.go_along(&grid, y, observer);
@@ -250,6 +240,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     fn advance(&mut self, t_new: f64, y: &[f64]) -> Result<(), Trouble<Y::Stop>> {
         let Work { k, y_new, trial, .. } = &mut self.work;
         let stages = &mut k[..P::STAGES * self.n];
+        self.rate.begin(self.t, t_new - self.t, y, &mut stages[..self.n])?;
         P::advance(&mut self.rate, (self.t, t_new), y, stages, trial, y_new)?;
         if all_finite(y_new) {
             Ok(())

@@ -5,6 +5,8 @@ mod mechanisms;
 
 mod adams;
 mod andrews;
+mod apart;
+mod baumgarte;
 mod convergence;
 mod four_bar;
 mod n_four_bar;

@@ -209,3 +209,12 @@ fn at_speed_the_rate_decides_the_branch() {
     close("a parallelogram it stays", q[8], 0.0, 1e-8);
     assert!(q[2] < -0.3);
 }
+
+#[test]
+fn the_automatic_choice_is_explicit() {
+    for n in [1, 3, 40] {
+        let (m, state) = upright(n);
+        let choice = run(&m, &state, &Options::new(10.0)).choice.expect("a choice was made");
+        assert_eq!(choice.method, "dop853", "{n} windows: {}", choice.why);
+    }
+}

@@ -8,7 +8,7 @@ use crate::equations::{Gains, Singular, Workspace};
 use crate::integrate::FirstOrder;
 use crate::math::Real;
 use crate::model::Model;
-use crate::stabilize::{Fault, Projector};
+use crate::stabilize::{Fault, Held, Projector};
 
 /// Works that are integrated beside the motion: dissipated, of drivers, of applied forces.
 pub(super) const WORKS: usize = 3;
@@ -18,6 +18,8 @@ pub(super) struct Equations<'a> {
     pub model: &'a Model,
     pub workspace: Workspace,
     pub gains: Gains,
+    /// Baumgarte's term, if its gains come from the step.
+    held: Option<Held>,
     pub projector: Option<Projector<'a>>,
     pub passage: Passage,
 }
@@ -48,7 +50,11 @@ impl<'a> Equations<'a> {
         let workspace = workspace(model, projector.is_some());
         let passing = projector.is_some() && !model.allow_redundancy;
         let passage = Passage::new(options, passing);
-        Self { model, workspace, gains: options.gains(), projector, passage }
+        let held = match options.stabilization {
+            Stabilization::BaumgarteFromStep => Some(Held::new(model)),
+            _ => None,
+        };
+        Self { model, workspace, gains: options.gains(), held, projector, passage }
     }
 
     /// Factorisations beside those of evaluations.
@@ -119,6 +125,14 @@ impl FirstOrder for Equations<'_> {
         let powers = self.workspace.powers(self.model, v);
         works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
         Ok(())
+    }
+
+    /// Gains may come from the step.
+    fn trying(&mut self, t: f64, y: &[f64], h: f64) -> bool {
+        let Some(held) = &mut self.held else { return false };
+        let n = self.model.layout.n_q;
+        held.hold(self.model, &mut self.workspace, t, (&y[..n], &y[n..2 * n]), h);
+        true
     }
 
     /// Near a singular position noise along the direction that is lost there would refuse every step.
