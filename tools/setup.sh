@@ -22,11 +22,18 @@ give_up() {
 
 # set_up run|test
 set_up() {
+    choose_instructions
     is_set_up "$1" && return
     take_lock
     # Another start may have done the work while this one waited for the lock.
     is_set_up "$1" || do_set_up "$1"
     release_lock
+}
+
+# The core is built for processors with AVX2 (.cargo/config.toml); for one without, for any x86-64.
+choose_instructions() {
+    [ "$(uname -m)" = x86_64 ] && [ -r /proc/cpuinfo ] || return 0
+    grep -qw avx2 /proc/cpuinfo || export RUSTFLAGS="${RUSTFLAGS:--C target-cpu=x86-64}"
 }
 
 is_set_up() { has_venv && has_packages "$1" && has_extension; }
@@ -76,9 +83,12 @@ has_extension() {
 # Contents, not times: a file that was only touched, or went and came back, needs no build.
 sources_sum() {
     (
-        cd "$ROOT" && find Cargo.toml Cargo.lock pyproject.toml core bindings \
-            \( -path core/tests -o -path core/benches -o -name target \) -prune -o \
-            -type f -exec cksum {} + | LC_ALL=C sort | cksum
+        cd "$ROOT" && {
+            printf '%s\n' "${RUSTFLAGS:-}"
+            find .cargo Cargo.toml Cargo.lock pyproject.toml core bindings \
+                \( -path core/tests -o -path core/benches -o -name target \) -prune -o \
+                -type f -exec cksum {} + | LC_ALL=C sort
+        } | cksum
     )
 }
 

@@ -314,8 +314,8 @@ fn unusable_masses_and_rows_are_refused() {
     for bad in [0.0, f64::NAN, f64::INFINITY] {
         assert_eq!(refused(0, 0, 1.0, [0.0, bad, 0.0]), Some(Dependent::Row(0)), "{bad}");
     }
-    let mut lanes = Saddle::<Lanes<2>>::new(&pattern);
-    lanes.entries[0][0] = Lanes([1.0, 0.0]);
+    let mut lanes = Saddle::<Lanes>::new(&pattern);
+    lanes.entries[0][0] = Lanes::new([1.0, 0.0, 1.0, 1.0]);
     assert_eq!(lanes.factor(&pattern), Err(Dependent::Row(0)));
     let nothing = Pattern::new(vec![], &[RowBlock { size: 2, touches: vec![], signs: vec![] }]);
     assert_eq!(Saddle::<f64>::new(&nothing).factor(&nothing), Err(Dependent::Row(0)));
@@ -326,22 +326,23 @@ fn lanes_equal_scalars() {
     let mut random = Random(5);
     let designs: [Matrix; 4] = std::array::from_fn(|_| four_bar(&mut random));
     let pattern = designs[0].pattern();
-    let mut saddle = Saddle::<Lanes<4>>::new(&pattern);
+    let mut saddle = Saddle::<Lanes>::new(&pattern);
     for (k, mass) in saddle.weights.iter_mut().enumerate() {
-        let lane = |c: usize| Lanes(std::array::from_fn(|w| designs[w].masses[k][c]));
+        let lane = |c: usize| Lanes::new(std::array::from_fn(|w| designs[w].masses[k][c]));
         *mass = weight(&std::array::from_fn(lane));
     }
     for (k, row) in saddle.entries.iter_mut().enumerate() {
-        *row = std::array::from_fn(|c| Lanes(std::array::from_fn(|w| designs[w].entries[k][c])));
+        *row =
+            std::array::from_fn(|c| Lanes::new(std::array::from_fn(|w| designs[w].entries[k][c])));
     }
-    let mut x: Vec<Lanes<4>> =
-        (0..designs[0].n()).map(|_| Lanes(std::array::from_fn(|_| random.next()))).collect();
+    let mut x: Vec<Lanes> =
+        (0..designs[0].n()).map(|_| Lanes::new(std::array::from_fn(|_| random.next()))).collect();
     let b = x.clone();
     saddle.factor_and_solve(&pattern, &mut x).unwrap();
     for (w, design) in designs.iter().enumerate() {
-        let mut y: Vec<f64> = b.iter().map(|b| b.0[w]).collect();
+        let mut y: Vec<f64> = b.iter().map(|b| b.to_array()[w]).collect();
         design.saddle(&pattern).factor_and_solve(&pattern, &mut y).unwrap();
-        let lane: Vec<f64> = x.iter().map(|x| x.0[w]).collect();
+        let lane: Vec<f64> = x.iter().map(|x| x.to_array()[w]).collect();
         assert_eq!(lane, y);
     }
 }

@@ -20,6 +20,8 @@ pub struct Augmented<S = f64> {
     saddle: Saddle<S>,
     /// Whether near singular positions are to be passed.
     passing: bool,
+    /// Whether they are refused instead.
+    refusing: bool,
     /// Whether the factor at hand has it.
     ridged: bool,
 }
@@ -30,7 +32,13 @@ impl<S: Real> Augmented<S> {
     pub fn new<P>(model: &Model<P>) -> Self {
         let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
         let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout));
-        Self { saddle: Saddle::new(&pattern), pattern, passing: false, ridged: false }
+        Self {
+            saddle: Saddle::new(&pattern),
+            pattern,
+            passing: false,
+            refusing: false,
+            ridged: false,
+        }
     }
 
     /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
@@ -72,6 +80,12 @@ impl<S: Real> Augmented<S> {
         self.passing = true;
     }
 
+    /// From now on near singular positions are refused.
+    pub fn refuse_singular(&mut self) {
+        self.pass_singular();
+        self.refusing = true;
+    }
+
     /// Whether the factor at hand is that of a near singular position, with the ridge.
     pub fn ridged(&self) -> bool {
         self.ridged
@@ -84,9 +98,12 @@ impl<S: Real> Augmented<S> {
     pub fn factor(&mut self) -> Result<(), Dependent> {
         self.ridged = false;
         match self.saddle.factor(&self.pattern) {
-            Err(Dependent::Row(_)) if self.passing => {
+            Err(Dependent::Row(row)) if self.passing => {
                 self.ridged = self.saddle.factor_near(&self.pattern, RIDGE)?;
-                Ok(())
+                match self.ridged && self.refusing {
+                    true => Err(Dependent::Row(row)),
+                    false => Ok(()),
+                }
             }
             outcome => outcome,
         }

@@ -41,7 +41,7 @@ pub struct Workspace<S = f64> {
     held: Vec<S>,
     /// Correction of the solution where the matrix is not that of the equations.
     correction: Option<Vec<S>>,
-    /// Whether near singular positions are passed.
+    /// Whether near singular positions are looked at twice.
     passing: bool,
     n_q: usize,
 }
@@ -79,6 +79,12 @@ impl<S: Real> Workspace<S> {
     pub fn hold(&mut self, term: &[S]) {
         self.held.clear();
         self.held.extend_from_slice(term);
+    }
+
+    /// From now on positions near singular ones are refused.
+    pub fn refuse_singular(&mut self) {
+        self.passing = true;
+        self.matrix.refuse_singular();
     }
 
     /// Accepts redundant constraints: the multipliers become the smallest that carry the loads.

@@ -4,6 +4,7 @@
 //! nobody looks into. Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6.
 
 use super::stages::accumulate;
+use crate::math::Real;
 
 /// Stages that are added in one pass.
 const TOGETHER: usize = 4;
@@ -25,8 +26,9 @@ pub struct Dense<'a> {
 }
 
 /// The sum of bₖ θᵏ⁻¹, k = 1….
-fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, b| sum * theta + b)
+#[inline(always)]
+fn polynomial<R: Real>(coefficients: &[f64], theta: R) -> R {
+    coefficients.iter().rev().fold(R::zero(), |sum, b| sum * theta + R::constant(*b))
 }
 
 impl<'a> Dense<'a> {
@@ -47,8 +49,9 @@ impl<'a> Dense<'a> {
         self.stages.chunks_exact(self.len.max(1)).zip(rows)
     }
 
-    pub(super) fn evaluate(&self, y_old: &[f64], h: f64, theta: f64, out: &mut [f64]) {
-        out.copy_from_slice(y_old);
+    pub(super) fn evaluate<R: Real>(&self, y_old: &[f64], h: f64, theta: R, out: &mut [R]) {
+        assert_eq!(out.len(), y_old.len(), "a state");
+        out.iter_mut().zip(y_old).for_each(|(out, y)| *out = R::constant(*y));
         // with a degree that the compiler knows, inner loops unroll: here and for the coefficients
         match self.degree {
             4 => self.add_at(4, h, theta, out),
@@ -58,12 +61,12 @@ impl<'a> Dense<'a> {
     }
 
     #[inline(always)]
-    fn add_at(&self, degree: usize, h: f64, theta: f64, out: &mut [f64]) {
-        let scale = h * theta;
+    fn add_at<R: Real>(&self, degree: usize, h: f64, theta: R, out: &mut [R]) {
+        let scale = R::constant(h) * theta;
         let mut terms = self.terms(degree);
         // a term that is not there repeats the first, by weight zero
         while let Some((first, row)) = terms.next() {
-            let (mut weights, mut stages) = ([0.0; TOGETHER], [first; TOGETHER]);
+            let (mut weights, mut stages) = ([R::zero(); TOGETHER], [first; TOGETHER]);
             weights[0] = scale * polynomial(row, theta);
             for (s, (stage, row)) in (1..TOGETHER).zip(&mut terms) {
                 (weights[s], stages[s]) = (scale * polynomial(row, theta), stage);

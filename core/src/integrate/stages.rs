@@ -1,5 +1,7 @@
 //! Sums over the stages of a Runge–Kutta step.
 
+use crate::math::Real;
+
 /// out = y + h Σₛ aₛ kₛ, one pass over the components.
 #[inline(always)]
 pub(super) fn combine<const S: usize>(
@@ -21,15 +23,15 @@ pub(super) fn combine<const S: usize>(
     }
 }
 
-/// out += Σₛ aₛ kₛ, one pass over the components.
+/// out += Σₛ aₛ kₛ, one pass over the components; in each lane with weights of its own.
 #[inline(always)]
-pub(super) fn accumulate<const S: usize>(a: [f64; S], k: [&[f64]; S], out: &mut [f64]) {
+pub(super) fn accumulate<R: Real, const S: usize>(a: [R; S], k: [&[f64]; S], out: &mut [R]) {
     let n = out.len();
     let k = k.map(|k| &k[..n]); // equal lengths: no bounds checks below
     for i in 0..n {
-        let mut sum = a[0] * k[0][i];
+        let mut sum = a[0] * R::constant(k[0][i]);
         for s in 1..S {
-            sum += a[s] * k[s][i];
+            sum += a[s] * R::constant(k[s][i]);
         }
         out[i] += sum;
     }

@@ -155,6 +155,9 @@ impl<const N: usize, S: Real> Real for Dual<N, S> {
     fn least_magnitude(self) -> f64 {
         self.value.least_magnitude()
     }
+    fn largest_magnitude(self) -> f64 {
+        self.value.largest_magnitude()
+    }
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.slope.iter().all(|d| d.is_finite())
     }

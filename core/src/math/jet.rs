@@ -184,6 +184,9 @@ impl<S: Real> Real for Jet<S> {
     fn least_magnitude(self) -> f64 {
         self.value.least_magnitude()
     }
+    fn largest_magnitude(self) -> f64 {
+        self.value.largest_magnitude()
+    }
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.rate.is_finite() && self.second.is_finite()
     }

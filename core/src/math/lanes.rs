@@ -1,72 +1,109 @@
-//! Several simulations at once: the same formula on `W` numbers side by side.
+//! Several states or designs at once: the same formula on numbers side by side.
 
-use super::real::Real;
+use super::real::{Lift, Real};
+use super::sine;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use wide::f64x4;
 
-/// `W` independent values of one quantity, one for each design.
+/// [`Lanes::WIDTH`] independent values of one quantity, one for each state or design.
+///
+/// The width is that of the vector registers of the processors of today. Each lane has the very bits that
+/// `f64` would give.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
-pub struct Lanes<const W: usize>(pub [f64; W]);
+pub struct Lanes(f64x4);
 
-impl<const W: usize> Lanes<W> {
-    fn zip(self, o: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Self(std::array::from_fn(|k| f(self.0[k], o.0[k])))
+impl Lanes {
+    /// Number of lanes.
+    pub const WIDTH: usize = 4;
+
+    /// From one number for each lane.
+    #[inline(always)]
+    pub fn new(lanes: [f64; Self::WIDTH]) -> Self {
+        Self(f64x4::new(lanes))
     }
-    fn each(self, f: impl Fn(f64) -> f64) -> Self {
-        Self(self.0.map(f))
+    /// The numbers, lane by lane.
+    #[inline(always)]
+    pub fn to_array(self) -> [f64; Self::WIDTH] {
+        self.0.to_array()
+    }
+    /// The numbers, to be changed.
+    #[inline(always)]
+    pub fn as_array_mut(&mut self) -> &mut [f64; Self::WIDTH] {
+        self.0.as_array_mut()
+    }
+    /// A function that is not made for several numbers at once.
+    #[inline(always)]
+    pub(super) fn each(self, f: impl Fn(f64) -> f64) -> Self {
+        Self::new(self.to_array().map(f))
+    }
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let (a, b) = (self.to_array(), other.to_array());
+        Self::new(std::array::from_fn(|k| f(a[k], b[k])))
     }
 }
 
-impl<const W: usize> Add for Lanes<W> {
+impl Add for Lanes {
     type Output = Self;
+    #[inline(always)]
     fn add(self, o: Self) -> Self {
-        self.zip(o, |a, b| a + b)
+        Self(self.0 + o.0)
     }
 }
-impl<const W: usize> Sub for Lanes<W> {
+impl Sub for Lanes {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, o: Self) -> Self {
-        self.zip(o, |a, b| a - b)
+        Self(self.0 - o.0)
     }
 }
-impl<const W: usize> Mul for Lanes<W> {
+impl Mul for Lanes {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, o: Self) -> Self {
-        self.zip(o, |a, b| a * b)
+        Self(self.0 * o.0)
     }
 }
-impl<const W: usize> Div for Lanes<W> {
+impl Div for Lanes {
     type Output = Self;
+    #[inline(always)]
     fn div(self, o: Self) -> Self {
-        self.zip(o, |a, b| a / b)
+        Self(self.0 / o.0)
     }
 }
-impl<const W: usize> Neg for Lanes<W> {
+impl Neg for Lanes {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
-        self.each(|a| -a)
+        // the sign alone: 0 - x would make 0 of -0
+        Self(self.0 ^ f64x4::splat(-0.0))
     }
 }
-impl<const W: usize> AddAssign for Lanes<W> {
+impl AddAssign for Lanes {
+    #[inline(always)]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
-impl<const W: usize> SubAssign for Lanes<W> {
+impl SubAssign for Lanes {
+    #[inline(always)]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;
     }
 }
 
-impl<const W: usize> Real for Lanes<W> {
+impl Real for Lanes {
+    #[inline(always)]
     fn constant(x: f64) -> Self {
-        Self([x; W])
+        Self(f64x4::splat(x))
     }
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        (self.each(Real::sin), self.each(Real::cos))
+        sine::sin_cos_of_lanes(self)
     }
+    #[inline(always)]
     fn sqrt(self) -> Self {
-        self.each(f64::sqrt)
+        Self(self.0.sqrt())
     }
     fn exp(self) -> Self {
         self.each(f64::exp)
@@ -101,16 +138,33 @@ impl<const W: usize> Real for Lanes<W> {
     fn pow(self, exponent: Self) -> Self {
         self.zip(exponent, f64::powf)
     }
+    #[inline(always)]
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
-        Self(std::array::from_fn(|k| Real::select(condition.0[k], positive.0[k], otherwise.0[k])))
+        Self(wide::CmpGt::cmp_gt(condition.0, f64x4::ZERO).blend(positive.0, otherwise.0))
     }
     fn floor(self) -> Self {
         self.each(f64::floor)
     }
+    #[inline(always)]
     fn least_magnitude(self) -> f64 {
-        self.0.iter().fold(f64::INFINITY, |least, x| least.min(x.abs()))
+        let [a, b, c, d] = self.0.abs().to_array();
+        a.min(b).min(c.min(d))
     }
+    #[inline(always)]
+    fn largest_magnitude(self) -> f64 {
+        let [a, b, c, d] = self.0.abs().to_array();
+        // what is not less, NaN included, stays
+        let larger = |a: f64, b: f64| if a < b || b.is_nan() { b } else { a };
+        larger(larger(a, b), larger(c, d))
+    }
+    #[inline(always)]
     fn is_finite(self) -> bool {
-        self.0.iter().all(|x| x.is_finite())
+        self.largest_magnitude().is_finite()
+    }
+}
+
+impl Lift<f64> for Lanes {
+    fn lift(x: f64) -> Self {
+        Self::constant(x)
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Every formula of the core is written once over [`Real`]; which scalar it runs on decides what it
 //! yields: `f64` a value, [`Dual`] first derivatives, [`Jet`] time derivatives, [`Lanes`] several
-//! simulations at once. They nest: `Dual<3, Lanes<4>>` is the Jacobian of four designs.
+//! states or designs at once. They nest: `Dual<3, Lanes>` is the Jacobian of four designs.
 //! Linear equations alone may also be [`Complex`]: what they need is a [`Field`].
 
 mod complex;

@@ -52,6 +52,8 @@ pub trait Real:
 
     /// Smallest |x| over the lanes; derivatives are ignored. Pivots are judged by it.
     fn least_magnitude(self) -> f64;
+    /// Largest |x| over the lanes, NaN if one is; derivatives are ignored.
+    fn largest_magnitude(self) -> f64;
     /// Whether every part, derivatives included, is finite.
     fn is_finite(self) -> bool;
 
@@ -160,7 +162,12 @@ impl Real for f64 {
     fn abs(self) -> Self {
         f64::abs(self)
     }
+    #[inline(always)]
     fn least_magnitude(self) -> f64 {
+        f64::abs(self)
+    }
+    #[inline(always)]
+    fn largest_magnitude(self) -> f64 {
         f64::abs(self)
     }
     fn is_finite(self) -> bool {

@@ -5,6 +5,8 @@
 //! beyond that to come from 1.5 ulp to 1 is left out. There is no branch on the quadrant. What lies outside
 //! ±[`LARGEST`], inf and NaN included, is left to the C library.
 
+use super::lanes::Lanes;
+use super::real::Real;
 use std::f64::consts::FRAC_2_PI;
 
 /// Largest angle reduced here: k has at most 17 bits, so that its products with the first two parts are exact.
@@ -36,12 +38,41 @@ pub(super) fn sin_cos(x: f64) -> (f64, f64) {
     }
 }
 
+/// The same, lane by lane.
+#[inline(always)]
+pub(super) fn sin_cos_of_lanes(x: Lanes) -> (Lanes, Lanes) {
+    if x.largest_magnitude() <= LARGEST {
+        let (r, shifted) = reduce(x);
+        let (s, c) = kernel(r);
+        let (mut s, mut c, shifted) = (s.to_array(), c.to_array(), shifted.to_array());
+        for ((s, c), shifted) in s.iter_mut().zip(&mut c).zip(shifted) {
+            (*s, *c) = turn(*s, *c, shifted.to_bits());
+        }
+        (Lanes::new(s), Lanes::new(c))
+    } else {
+        (x.each(|x| sin_cos(x).0), x.each(|x| sin_cos(x).1))
+    }
+}
+
 #[inline(always)]
 fn within(x: f64) -> (f64, f64) {
-    let shifted = x * FRAC_2_PI + ROUND;
-    let (k, quadrant) = (shifted - ROUND, shifted.to_bits());
-    let r = ((x - k * HALF_PI[0]) - k * HALF_PI[1]) - k * HALF_PI[2];
+    let (r, shifted) = reduce(x);
     let (s, c) = kernel(r);
+    turn(s, c, shifted.to_bits())
+}
+
+/// r, and a number whose last two bits are those of k.
+#[inline(always)]
+fn reduce<S: Real>(x: S) -> (S, S) {
+    let shifted = x * S::constant(FRAC_2_PI) + S::constant(ROUND);
+    let k = shifted - S::constant(ROUND);
+    let [first, second, third] = HALF_PI.map(S::constant);
+    (((x - k * first) - k * second) - k * third, shifted)
+}
+
+/// Sine and cosine of r + k π/2 from those of r.
+#[inline(always)]
+fn turn(s: f64, c: f64, quadrant: u64) -> (f64, f64) {
     // odd quadrants exchange the two; sine changes its sign in 2 and 3, cosine in 1 and 2
     let odd = 0u64.wrapping_sub(quadrant & 1);
     let swap = (s.to_bits() ^ c.to_bits()) & odd;
@@ -51,15 +82,16 @@ fn within(x: f64) -> (f64, f64) {
 
 /// Sine and cosine of |r| ≤ π/4.
 #[inline(always)]
-fn kernel(r: f64) -> (f64, f64) {
+fn kernel<S: Real>(r: S) -> (S, S) {
     let z = r * r;
     let w = z * z;
     // pairs of terms do not wait for each other: all else waits for the result
     let series = |k: usize| {
-        let [a, b, c, d, e, f] = SERIES.map(|both| both[k]);
+        let [a, b, c, d, e, f] = SERIES.map(|both| S::constant(both[k]));
         (f + z * e) + w * ((d + z * c) + w * (b + z * a))
     };
-    (r + r * (z * series(0)), (1.0 - 0.5 * z) + w * series(1))
+    let (sine, cosine) = (r + r * (z * series(0)), w * series(1));
+    (sine, (S::one() - S::constant(0.5) * z) + cosine)
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! What lengths and angles of a mechanism are compared with.
 
 use super::Model;
+use crate::math::Real;
 
 /// The size of a mechanism: the largest distance of a point from the origin of its frame, m.
-pub fn size(model: &Model) -> f64 {
+pub fn size<S: Real>(model: &Model<S>) -> f64 {
     let points = model.bodies.iter().flat_map(|b| &b.points);
-    let largest = points.map(|(_, s)| s.norm()).fold(0.0, f64::max);
+    let largest = points.map(|(_, s)| s.norm().largest_magnitude()).fold(0.0, f64::max);
     if largest > 0.0 {
         largest
     } else {
@@ -14,7 +15,7 @@ pub fn size(model: &Model) -> f64 {
 }
 
 /// Scale of each row of Φ, shape (n_rows): the size for lengths, 1 for angles.
-pub fn row_scales(model: &Model) -> Vec<f64> {
+pub fn row_scales<S: Real>(model: &Model<S>) -> Vec<f64> {
     let size = size(model);
     let units = model.constraints.iter().flat_map(|c| c.equations.iter().map(|e| e.unit));
     units.map(|unit| if unit == "m" { size } else { 1.0 }).collect()

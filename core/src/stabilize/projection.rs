@@ -14,6 +14,7 @@
 //! mechanism's size that is corrected. It is factorised anew only where that is too slow.
 
 use crate::equations::{constraints, kinematics, Singular, Workspace};
+use crate::math::Real;
 use crate::model::{row_scales, size, Model};
 
 /// Most iterations for positions, and for velocities.
@@ -61,15 +62,17 @@ pub enum Fault {
     },
 }
 
-/// Scratch of projections of one model.
+/// Scratch of projections of one model; over lanes all are projected until the last of them is good.
 #[derive(Clone, Debug)]
-pub struct Projector<'a> {
-    model: &'a Model,
+pub struct Projector<'a, S = f64> {
+    model: &'a Model<S>,
     tolerance: f64,
-    size: f64,
-    scales: Vec<f64>,
+    /// 1 / size of the mechanism.
+    per_size: f64,
+    /// 1 / scale of each row.
+    per_scale: Vec<f64>,
     /// Φ, Φ̇ and γ.
-    terms: [Vec<f64>; 3],
+    terms: [Vec<S>; 3],
     /// Whether they are those of the state at hand.
     current: bool,
     /// By how much the last step with the factor at hand lowered the residual.
@@ -77,7 +80,7 @@ pub struct Projector<'a> {
     /// The largest rate that was seen; none if each state has to be as good as its own rates.
     fastest: Option<f64>,
     /// Right side, then (Δ, μ).
-    correction: Vec<f64>,
+    correction: Vec<S>,
     /// Factorisations that chord iterations did not spare.
     pub factorisations: usize,
 }
@@ -89,20 +92,20 @@ enum Level {
     Velocity = 1,
 }
 
-impl<'a> Projector<'a> {
+impl<'a, S: Real> Projector<'a, S> {
     /// For a model.
-    pub fn new(model: &'a Model, options: Projection) -> Self {
+    pub fn new(model: &'a Model<S>, options: Projection) -> Self {
         let unknowns = model.layout.n_q + model.layout.n_rows;
         Self {
             model,
             tolerance: options.tolerance,
-            size: size(model),
-            scales: row_scales(model),
-            terms: std::array::from_fn(|_| vec![0.0; model.layout.n_rows]),
+            per_size: 1.0 / size(model),
+            per_scale: row_scales(model).into_iter().map(|scale| 1.0 / scale).collect(),
+            terms: std::array::from_fn(|_| vec![S::zero(); model.layout.n_rows]),
             current: false,
             lowering: 1.0,
             fastest: None,
-            correction: vec![0.0; unknowns],
+            correction: vec![S::zero(); unknowns],
             factorisations: 0,
         }
     }
@@ -121,9 +124,9 @@ impl<'a> Projector<'a> {
     /// [`Fault`]; q and v are then of no use.
     pub fn project(
         &mut self,
-        workspace: &mut Workspace,
-        t: f64,
-        (q, v): (&mut [f64], &mut [f64]),
+        workspace: &mut Workspace<S>,
+        t: S,
+        (q, v): (&mut [S], &mut [S]),
         mut factored: bool,
     ) -> Result<bool, Fault> {
         let mut changed = false;
@@ -137,9 +140,9 @@ impl<'a> Projector<'a> {
     fn meet(
         &mut self,
         level: Level,
-        workspace: &mut Workspace,
-        t: f64,
-        (q, v): (&mut [f64], &mut [f64]),
+        workspace: &mut Workspace<S>,
+        t: S,
+        (q, v): (&mut [S], &mut [S]),
         factored: &mut bool,
     ) -> Result<bool, Fault> {
         let (mut last, mut newton) = (f64::INFINITY, false);
@@ -186,7 +189,7 @@ impl<'a> Projector<'a> {
     }
 
     /// The residual to be met, and that which is accepted where rounding keeps it from being met.
-    fn targets(&mut self, level: Level, q: &[f64], v: &[f64], gap: f64) -> (f64, f64) {
+    fn targets(&mut self, level: Level, q: &[S], v: &[S], gap: f64) -> (f64, f64) {
         let (target, most) = match level {
             Level::Position => {
                 let rounding = 8.0 * f64::EPSILON * self.largest(q);
@@ -207,9 +210,9 @@ impl<'a> Projector<'a> {
     fn gap(
         &mut self,
         level: Level,
-        workspace: &mut Workspace,
-        t: f64,
-        (q, v): (&[f64], &[f64]),
+        workspace: &mut Workspace<S>,
+        t: S,
+        (q, v): (&[S], &[S]),
         worst: &mut (usize, f64),
     ) -> f64 {
         if !self.current {
@@ -220,18 +223,20 @@ impl<'a> Projector<'a> {
             self.current = true;
         }
         let mut gap = 0.0;
-        for (row, (r, scale)) in self.terms[level as usize].iter().zip(&self.scales).enumerate() {
-            let scaled = r.abs() / scale;
+        let rows = self.terms[level as usize].iter().zip(&self.per_scale);
+        for (row, (r, per_scale)) in rows.enumerate() {
+            let largest = r.largest_magnitude();
+            let scaled = largest * per_scale;
             // NaN, once there, stays
             if scaled > gap || scaled.is_nan() {
-                (gap, *worst) = (scaled, (row, *r));
+                (gap, *worst) = (scaled, (row, largest));
             }
         }
         gap
     }
 
     /// Factorises at the state that `gap` saw last.
-    fn factor(&mut self, workspace: &mut Workspace, t: f64) -> Result<(), Fault> {
+    fn factor(&mut self, workspace: &mut Workspace<S>, t: S) -> Result<(), Fault> {
         let Workspace { motions, matrix, .. } = workspace;
         constraints::jacobian(self.model, motions, t, matrix.jacobian_mut());
         matrix.set_mass(self.model, motions);
@@ -240,33 +245,37 @@ impl<'a> Projector<'a> {
     }
 
     /// One step with the factor at hand.
-    fn correct(&mut self, level: Level, workspace: &Workspace, x: &mut [f64]) {
+    fn correct(&mut self, level: Level, workspace: &Workspace<S>, x: &mut [S]) {
         let (upper, lower) = self.correction.split_at_mut(x.len());
-        upper.fill(0.0);
+        upper.fill(S::zero());
         let open = &self.terms[level as usize];
-        lower.iter_mut().zip(open).for_each(|(right, r)| *right = -r);
+        lower.iter_mut().zip(open).for_each(|(right, r)| *right = -*r);
         workspace.matrix.solve(&mut self.correction);
-        x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += dx);
+        x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += *dx);
         self.current = false;
     }
 
     /// Leaves of a displacement what the constraints admit, by the factor at hand.
-    pub fn tangent(&mut self, workspace: &Workspace, x: &mut [f64]) {
+    pub fn tangent(&mut self, workspace: &Workspace<S>, x: &mut [S]) {
         let (upper, lower) = self.correction.split_at_mut(x.len());
-        upper.fill(0.0);
+        upper.fill(S::zero());
         for (k, slots) in self.model.layout.constraints.iter().enumerate() {
             let rows = &mut lower[slots.rows.clone()];
             constraints::times(self.model, k, workspace.matrix.jacobian(), x, rows);
             rows.iter_mut().for_each(|r| *r = -*r);
         }
         workspace.matrix.solve(&mut self.correction);
-        x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += dx);
+        x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += *dx);
     }
 
     /// Largest coordinate or rate, lengths over the size of the mechanism.
-    fn largest(&self, x: &[f64]) -> f64 {
-        let scaled = |(k, x): (usize, &f64)| if k % 3 == 2 { x.abs() } else { x.abs() / self.size };
-        x.iter().enumerate().map(scaled).fold(0.0, f64::max)
+    fn largest(&self, x: &[S]) -> f64 {
+        let mut largest: f64 = 0.0;
+        for x in x.chunks_exact(3) {
+            let [x, y, angle] = [x[0], x[1], x[2]].map(S::largest_magnitude);
+            largest = largest.max(x.max(y) * self.per_size).max(angle);
+        }
+        largest
     }
 }
 

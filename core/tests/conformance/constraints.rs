@@ -160,23 +160,23 @@ fn lanes_are_scalars_side_by_side() {
     for c in constraints() {
         let states: [[[f64; 6]; 2]; 4] =
             std::array::from_fn(|_| [0, 1].map(|end| of_end(c.ends()[end], random(&mut numbers))));
-        let lanes = |end: usize| -> [Lanes<4>; 6] {
-            std::array::from_fn(|k| Lanes(std::array::from_fn(|lane| states[lane][end][k])))
+        let lanes = |end: usize| -> [Lanes; 6] {
+            std::array::from_fn(|k| Lanes::new(std::array::from_fn(|lane| states[lane][end][k])))
         };
-        let wide = c.map(&mut |x| Lanes([*x; 4]));
-        let time = Lanes([TIME; 4]);
+        let wide = c.map(&mut |x| Lanes::constant(*x));
+        let time = Lanes::constant(TIME);
         let many = terms(&wide, lanes(0), lanes(1), time);
         let rows = jacobian(&wide, lanes(0), lanes(1), time);
         for (lane, [i, j]) in states.iter().enumerate() {
             let one = terms(&c, *i, *j, TIME);
             for (many, one) in many.iter().zip(&one) {
                 for (many, one) in many.iter().zip(one) {
-                    assert_eq!(many.0[lane].to_bits(), one.to_bits(), "{}", c.kind());
+                    assert_eq!(many.to_array()[lane].to_bits(), one.to_bits(), "{}", c.kind());
                 }
             }
             for (many, one) in rows.iter().zip(jacobian(&c, *i, *j, TIME)) {
                 for (many, one) in many.iter().zip(one) {
-                    assert_eq!(many.0[lane].to_bits(), one.to_bits(), "{}", c.kind());
+                    assert_eq!(many.to_array()[lane].to_bits(), one.to_bits(), "{}", c.kind());
                 }
             }
         }

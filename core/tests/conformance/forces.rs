@@ -97,18 +97,18 @@ fn lanes_are_scalars_side_by_side() {
     for f in forces() {
         let states: [[[f64; 6]; 2]; 4] =
             std::array::from_fn(|_| [random(&mut numbers), random(&mut numbers)]);
-        let lanes = |end: usize| -> [Lanes<4>; 6] {
-            std::array::from_fn(|k| Lanes(std::array::from_fn(|lane| states[lane][end][k])))
+        let lanes = |end: usize| -> [Lanes; 6] {
+            std::array::from_fn(|k| Lanes::new(std::array::from_fn(|lane| states[lane][end][k])))
         };
-        let wide = f.map(&mut |x| Lanes([*x; 4]));
+        let wide = f.map(&mut |x| Lanes::constant(*x));
         let there = at(lanes(0), lanes(1));
         let (many, potential) = (flat(&actions(&wide, &there)), wide.potential(&there));
         for (lane, [i, j]) in states.iter().enumerate() {
             let here = at(*i, *j);
             for (many, one) in many.iter().zip(flat(&actions(&f, &here))) {
-                assert_eq!(many.0[lane].to_bits(), one.to_bits(), "{}", f.kind());
+                assert_eq!(many.to_array()[lane].to_bits(), one.to_bits(), "{}", f.kind());
             }
-            assert_eq!(potential.0[lane].to_bits(), f.potential(&here).to_bits());
+            assert_eq!(potential.to_array()[lane].to_bits(), f.potential(&here).to_bits());
         }
     }
 }

@@ -97,11 +97,11 @@ fn lanes_match_scalars() {
     for (text, points) in CASES {
         let tape = tape(text);
         let point = |k: usize| points[k % points.len()];
-        let a = Lanes::<4>(std::array::from_fn(|k| point(k).0));
-        let b = Lanes::<4>(std::array::from_fn(|k| point(k).1));
-        let lanes = at(&tape, a, b);
-        for k in 0..4 {
-            assert_eq!(lanes.0[k].to_bits(), at(&tape, point(k).0, point(k).1).to_bits(), "{text}");
+        let a = Lanes::new(std::array::from_fn(|k| point(k).0));
+        let b = Lanes::new(std::array::from_fn(|k| point(k).1));
+        let lanes = at(&tape, a, b).to_array();
+        for (k, lane) in lanes.into_iter().enumerate() {
+            assert_eq!(lane.to_bits(), at(&tape, point(k).0, point(k).1).to_bits(), "{text}");
         }
     }
 }
@@ -109,16 +109,18 @@ fn lanes_match_scalars() {
 #[test]
 fn scalars_nest() {
     let tape = tape("if(a < b, a^2*b, sin(a))");
-    let a = Lanes([0.5, 2.0, -1.0, 3.0]);
-    let b = Lanes([1.0, 1.0, 1.0, 4.0]);
+    let a = Lanes::new([0.5, 2.0, -1.0, 3.0]);
+    let b = Lanes::new([1.0, 1.0, 1.0, 4.0]);
     let nested = at(
         &tape,
         Dual::<1, _>::variable(a, 0),
         Dual::constant(1.0) + Dual { value: b - Lanes::one(), slope: [Lanes::zero()] },
     );
+    let ([a, b], [value, slope]) =
+        ([a, b].map(Lanes::to_array), [nested.value, nested.slope[0]].map(Lanes::to_array));
     for k in 0..4 {
-        let plain = at(&tape, Dual::<1>::variable(a.0[k], 0), Dual::constant(b.0[k]));
-        assert_eq!((nested.value.0[k], nested.slope[0].0[k]), (plain.value, plain.slope[0]));
+        let plain = at(&tape, Dual::<1>::variable(a[k], 0), Dual::constant(b[k]));
+        assert_eq!((value[k], slope[k]), (plain.value, plain.slope[0]));
     }
 }
 

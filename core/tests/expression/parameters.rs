@@ -23,8 +23,8 @@ fn definitions_are_evaluated_after_what_they_need() {
 fn what_depends_on_a_given_value_follows_it() {
     let parameters =
         Parameters::compile(&definitions(&[("area", "w*h"), ("w", "2"), ("h", "w + 1")])).unwrap();
-    let sweep = parameters.evaluate(|k| (k == 1).then_some(Lanes([2.0, 3.0])));
-    assert_eq!(sweep[0], Lanes([6.0, 12.0]));
+    let sweep = parameters.evaluate(|k| (k == 1).then_some(Lanes::new([2.0, 3.0, -1.0, 0.0])));
+    assert_eq!(sweep[0], Lanes::new([6.0, 12.0, 0.0, 0.0]));
     let slope = parameters.evaluate(|k| (k == 1).then_some(Dual::<1>::variable(2.0, 0)));
     assert_eq!(slope[0].slope, [5.0]);
     assert!(parameters.evaluate(|k| (k == 2).then_some(-1.0))[0].is_finite());

@@ -109,12 +109,15 @@ fn a_model_over_lanes_is_many_models() {
     let m = model(BAR);
     let half = [0.25, 0.5, 1.0, 2.0];
     // the parameters in order are L half g rho
-    let parameters = [Lanes(half.map(|h| 2.0 * h)), Lanes(half), Lanes([9.81; 4]), Lanes([8.0; 4])];
-    let wide: Model<Lanes<4>> = Model::new(&m.blueprint, &parameters);
+    let parameters = [half.map(|h| 2.0 * h), half, [9.81; 4], [8.0; 4]].map(Lanes::new);
+    let wide: Model<Lanes> = Model::new(&m.blueprint, &parameters);
     for (lane, h) in half.into_iter().enumerate() {
         let one = with(BAR, &[("half", h)]);
-        assert_eq!(wide.bodies[1].inertia.0[lane].to_bits(), one.bodies[1].inertia.to_bits());
+        assert_eq!(
+            wide.bodies[1].inertia.to_array()[lane].to_bits(),
+            one.bodies[1].inertia.to_bits()
+        );
         let (a, b) = (wide.bodies[1].point("N").unwrap(), one.bodies[1].point("N").unwrap());
-        assert_eq!(a.y.0[lane].to_bits(), b.y.to_bits());
+        assert_eq!(a.y.to_array()[lane].to_bits(), b.y.to_bits());
     }
 }

@@ -53,15 +53,7 @@ impl Guard {
     pub fn look(&mut self, model: &Model, t: f64, y: &[f64]) -> Option<Apart> {
         let n = model.layout.n_q;
         kinematics::motions(&y[..n], &y[n..2 * n], &mut self.motions);
-        let motions = std::mem::take(&mut self.motions);
-        let found = self.look_at(model, t, &motions);
-        self.motions = motions;
-        found
-    }
-
-    /// The same of a state whose motions are known.
-    pub fn look_at(&mut self, model: &Model, t: f64, motions: &[Motion]) -> Option<Apart> {
-        constraints::residual(model, motions, t, &mut self.residual);
+        constraints::residual(model, &self.motions, t, &mut self.residual);
         let mut rows = self.residual.iter().zip(&self.most);
         if rows.all(|(gap, most)| gap.abs() <= *most) {
             return None;

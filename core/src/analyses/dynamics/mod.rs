@@ -9,6 +9,7 @@ mod implicit;
 mod options;
 mod output;
 mod read;
+mod report;
 mod singularity;
 mod system;
 
@@ -21,6 +22,7 @@ pub use singularity::Singularity;
 
 use super::State;
 use crate::integrate::{self, Cause, Ended, Flow, ImplicitMethod, Method, Observer, Step};
+use crate::math::Lanes;
 use crate::model::Model;
 use crate::stabilize::Fault;
 use automatic::Automatic;
@@ -113,7 +115,8 @@ fn simulate<W: FnMut(f64) -> Flow>(
     options.check(model, start).map_err(|reason| Failure { reason, run: Run::default() })?;
     let mut system = Equations::new(model, options);
     let t0 = options.t_start.unwrap_or(start.t);
-    let mut recorder = Recorder::new(model, options, t0);
+    let wide = output::many(options.output, options.t_end - t0).then(|| model.lift::<Lanes>());
+    let mut recorder = Recorder::new(model, wide.as_ref(), options, t0);
     let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();
     y.resize(y.len() + WORKS, 0.0);
     system.project(t0, &mut y, false).map_err(|(t, fault)| Failure {
@@ -207,11 +210,13 @@ fn taken(outcome: &Outcome) -> integrate::Statistics {
 
 fn finish(
     system: Equations<'_>,
-    recorder: Recorder<'_>,
+    mut recorder: Recorder<'_>,
     (outcome, factorisations, choice): End,
     (clock, start): (Instant, &State),
 ) -> Result<Run, Box<Failure>> {
-    let Recorder { trajectory, dense, reported, halt, .. } = recorder;
+    recorder.flush();
+    let reports = recorder.factorisations();
+    let Recorder { trajectory, dense, halt, .. } = recorder;
     let model = system.model;
     let n = model.layout.n_q;
     let took = taken(&outcome);
@@ -223,9 +228,8 @@ fn finish(
         iterations: took.iterations as usize,
         factorisations: factorisations
             + took.factorisations as usize
-            + trajectory.t.len()
             + system.factorisations()
-            + reported.factorisations(),
+            + reports,
         seconds: clock.elapsed().as_secs_f64(),
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached);

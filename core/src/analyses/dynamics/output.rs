@@ -2,9 +2,10 @@
 
 use super::apart::{Apart, Guard};
 use super::options::{Options, Output, Scheme};
-use super::system::{Equations, WORKS};
-use crate::equations::{energy, kinematics, Gains};
+use super::report::{Batch, Solver};
+use super::system::WORKS;
 use crate::integrate::{all_finite, Flow, Step};
+use crate::math::Lanes;
 use crate::model::Model;
 use crate::stabilize::Fault;
 
@@ -28,6 +29,14 @@ pub struct Trajectory {
     pub energy: Vec<f64>,
 }
 
+/// Whether a grid has so many states that solving several at once is worth a model over lanes.
+pub(super) fn many(output: Output, span: f64) -> bool {
+    match output {
+        Output::Every(h) => (span / h).abs() >= 4.0 * Lanes::WIDTH as f64,
+        Output::Steps => false,
+    }
+}
+
 /// Most numbers that room is made for beforehand; what is longer grows.
 const MOST_ROOM: usize = 1 << 20;
 
@@ -48,6 +57,20 @@ impl Trajectory {
             lam: room(m),
             energy: room(ENERGIES),
         }
+    }
+
+    /// Adds what was solved at y = (q, v, works), by the number that is meant.
+    fn add<S: Copy>(&mut self, t: f64, y: &[S], found: [&[S]; 3], number: impl Fn(S) -> f64) {
+        let [a, lam, energies] = found;
+        let n = a.len();
+        let add = |to: &mut Vec<f64>, x: &[S]| to.extend(x.iter().map(|x| number(*x)));
+        self.t.push(t);
+        add(&mut self.q, &y[..n]);
+        add(&mut self.v, &y[n..2 * n]);
+        add(&mut self.a, a);
+        add(&mut self.lam, lam);
+        add(&mut self.energy, energies);
+        add(&mut self.energy, &y[2 * n..]);
     }
 }
 
@@ -75,70 +98,137 @@ pub struct Dense {
     pub degree: usize,
 }
 
+/// Times of the grid that fall into one step.
+type Times = [f64; Lanes::WIDTH];
+
 /// Collects the output while the integrator runs.
 pub(super) struct Recorder<'a> {
     output: Output,
     t0: f64,
     t_end: f64,
     next: usize,
+    /// The last time that was asked for.
+    latest: f64,
     y: Vec<f64>,
     pub trajectory: Trajectory,
     pub dense: Option<Dense>,
-    /// Projects what lies between the ends of a step, and solves the equations of motion there.
-    pub reported: Equations<'a>,
+    /// Solves the equations of motion at reported states.
+    one: Solver<'a>,
+    /// The same for those of a grid, if they are many.
+    many: Option<Batch<'a>>,
+    /// Looks for joints apart, where nothing closes them.
     guard: Option<Guard>,
     /// Why it cannot go on, and when.
     pub halt: Option<(f64, Halt)>,
 }
 
 impl<'a> Recorder<'a> {
-    pub fn new(model: &'a Model, options: &Options, t0: f64) -> Self {
+    /// With the model over lanes, if there are to be many.
+    pub fn new(
+        model: &'a Model,
+        wide: Option<&'a Model<Lanes>>,
+        options: &Options,
+        t0: f64,
+    ) -> Self {
         Self {
             output: options.output,
             t0,
             t_end: options.t_end,
             next: 1,
+            latest: t0,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
             trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
             dense: options.dense_output.then(|| Dense::new(options, t0)),
-            reported: Equations::new(model, options).for_reports(),
+            one: Solver::new(model, options),
+            many: wide.map(|wide| Batch::new(wide, options)),
             guard: Guard::new(model, options),
             halt: None,
         }
     }
 
-    /// Reports a state given as (q, v, works).
-    pub fn report(&mut self, t: f64, y: &[f64]) -> Flow {
-        let n = self.reported.model.layout.n_q;
-        kinematics::motions(&y[..n], &y[n..2 * n], &mut self.reported.workspace.motions);
-        self.report_placed(t, y)
+    /// Factorisations, those of lanes one by one.
+    pub fn factorisations(&self) -> usize {
+        let many = self.many.as_ref().map_or(0, |batch| batch.solver.factorisations());
+        self.one.factorisations() + Lanes::WIDTH * many
     }
 
-    /// Reports a state whose motions are in the workspace: accelerations and multipliers by γ, never γ̂.
-    fn report_placed(&mut self, t: f64, y: &[f64]) -> Flow {
-        let Equations { model, workspace, .. } = &mut self.reported;
-        let guard = self.guard.as_mut();
-        if let Some(apart) = guard.and_then(|guard| guard.look_at(model, t, &workspace.motions)) {
-            return self.stop(t, Halt::Apart(apart));
+    /// Reports a state given as (q, v, works), as it is.
+    pub fn report(&mut self, t: f64, y: &[f64]) -> Flow {
+        if self.flush() == Flow::Stop || self.together(t, y) == Flow::Stop {
+            return Flow::Stop;
         }
-        if let Err(singular) = workspace.respond(model, t, Gains::default()) {
-            return self.stop(t, Halt::Fault(Fault::Singular(singular)));
+        let solved = self.one.solve(t, y);
+        self.keep(t, y, solved)
+    }
+
+    /// Reports the first `n` of the `times`, which are between the ends of a step; whether it can is known
+    /// once they are solved.
+    fn report_between(&mut self, step: &Step<'_>, times: Times, n: usize) -> Flow {
+        if let Some(batch) = &mut self.many {
+            batch.interpolate(step, times);
         }
-        let n = model.layout.n_q;
-        let kinetic = energy::kinetic(model, &workspace.motions);
-        let potential = energy::potential(model, &workspace.motions, t);
-        let numbers = [y, workspace.a(), workspace.lam(), &[kinetic, potential]];
-        if !numbers.into_iter().all(all_finite) {
+        let mut flow = Flow::Continue;
+        for (lane, t) in times.into_iter().enumerate().take(n) {
+            if flow == Flow::Stop {
+                break;
+            }
+            flow = match &mut self.many {
+                Some(batch) => {
+                    batch.add(t, lane);
+                    if batch.is_full() {
+                        self.flush()
+                    } else {
+                        Flow::Continue
+                    }
+                }
+                None => {
+                    step.interpolate(t, &mut self.y);
+                    self.report_alone(t)
+                }
+            };
+        }
+        flow
+    }
+
+    /// Projects and reports the state in the scratch.
+    fn report_alone(&mut self, t: f64) -> Flow {
+        let mut y = std::mem::take(&mut self.y);
+        let solved = self.one.place_and_solve(t, &mut y);
+        let flow = self.keep(t, &y, solved);
+        self.y = y;
+        flow
+    }
+
+    /// Reports the states that wait for others.
+    pub fn flush(&mut self) -> Flow {
+        let Some(mut batch) = self.many.take_if(|batch| !batch.is_empty()) else {
+            return Flow::Continue;
+        };
+        let regular = batch.solve();
+        let mut flow = Flow::Continue;
+        for (lane, t) in batch.take() {
+            if regular {
+                let found = batch.solver.found();
+                self.trajectory.add(t, batch.y(), found, |x| x.to_array()[lane]);
+            } else if flow == Flow::Continue {
+                batch.given(lane, &mut self.y);
+                flow = self.report_alone(t);
+            }
+        }
+        self.many = Some(batch);
+        flow
+    }
+
+    /// Keeps a state that was solved.
+    fn keep(&mut self, t: f64, y: &[f64], solved: Result<(), Fault>) -> Flow {
+        if let Err(fault) = solved {
+            return self.stop(t, Halt::Fault(fault));
+        }
+        let found = self.one.found();
+        if !all_finite(y) || !found.into_iter().all(all_finite) {
             return self.stop(t, Halt::NotFinite);
         }
-        let row = &mut self.trajectory;
-        row.t.push(t);
-        row.q.extend_from_slice(&y[..n]);
-        row.v.extend_from_slice(&y[n..2 * n]);
-        row.a.extend_from_slice(workspace.a());
-        row.lam.extend_from_slice(workspace.lam());
-        row.energy.extend([kinetic, potential]);
-        row.energy.extend_from_slice(&y[2 * n..]);
+        self.trajectory.add(t, y, found, |x| x);
         Flow::Continue
     }
 
@@ -156,34 +246,28 @@ impl<'a> Recorder<'a> {
             }
         }
         let Output::Every(h) = self.output else { return self.report(step.t, step.y) };
-        let mut flow = self.look_apart(h, step);
-        let mut y = std::mem::take(&mut self.y);
-        while let (Flow::Continue, Some(t)) = (flow, self.next_time(h, step.t)) {
-            step.interpolate(t, &mut y);
-            flow = match self.reported.place(t, &mut y) {
-                Ok(()) => self.report_placed(t, &y),
-                Err((t, fault)) => self.stop(t, Halt::Fault(fault)),
-            };
-            if flow == Flow::Continue {
-                flow = watch(t);
+        if self.together(step.t, step.y) == Flow::Stop {
+            return Flow::Stop;
+        }
+        let mut flow = Flow::Continue;
+        while let (Flow::Continue, Some((times, n))) = (flow, self.next_times(h, step.t)) {
+            flow = self.report_between(step, times, n);
+            for t in &times[..n] {
+                flow = if flow == Flow::Continue { watch(*t) } else { flow };
             }
         }
-        self.y = y;
-        let last = step.t == self.t_end && self.trajectory.t.last() != Some(&step.t);
-        if flow == Flow::Continue && last {
+        if flow == Flow::Continue && step.t == self.t_end && self.latest != step.t {
             flow = self.report(step.t, step.y);
         }
         flow
     }
 
-    /// Looks for joints apart at the end of a step without reported states.
-    fn look_apart(&mut self, h: f64, step: &Step<'_>) -> Flow {
-        if self.guard.is_none() || self.due(h, step.t).is_some() {
-            return Flow::Continue;
-        }
-        let model = self.reported.model;
-        match self.guard.as_mut().and_then(|guard| guard.look(model, step.t, step.y)) {
-            Some(apart) => self.stop(step.t, Halt::Apart(apart)),
+    /// Stops where joints are apart, after what waits was reported.
+    fn together(&mut self, t: f64, y: &[f64]) -> Flow {
+        let model = self.one.model;
+        match self.guard.as_mut().and_then(|guard| guard.look(model, t, y)) {
+            Some(apart) if self.flush() == Flow::Continue => self.stop(t, Halt::Apart(apart)),
+            Some(_) => Flow::Stop,
             None => Flow::Continue,
         }
     }
@@ -196,11 +280,15 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Takes the next time of the grid if it has been reached.
-    fn next_time(&mut self, h: f64, reached: f64) -> Option<f64> {
-        let t = self.due(h, reached)?;
-        self.next += 1;
-        Some(t)
+    /// Takes the next times of the grid that have been reached: how many, and the end of the step behind them.
+    fn next_times(&mut self, h: f64, reached: f64) -> Option<(Times, usize)> {
+        let (mut times, mut n) = ([reached; Lanes::WIDTH], 0);
+        while let (true, Some(t)) = (n < Lanes::WIDTH, self.due(h, reached)) {
+            (times[n], self.latest) = (t, t);
+            self.next += 1;
+            n += 1;
+        }
+        (n > 0).then_some((times, n))
     }
 
     /// The next time of the grid if it has been reached: t₀ + k h by multiplication, without drift.

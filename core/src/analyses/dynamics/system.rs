@@ -4,8 +4,9 @@ use super::options::{Options, Stabilization};
 use super::singularity::Passage;
 use crate::analyses::mobility;
 use crate::equations::augmented::Dependent;
-use crate::equations::{kinematics, Gains, Singular, Workspace};
+use crate::equations::{Gains, Singular, Workspace};
 use crate::integrate::FirstOrder;
+use crate::math::Real;
 use crate::model::Model;
 use crate::stabilize::{Fault, Held, Projector};
 
@@ -24,10 +25,20 @@ pub(super) struct Equations<'a> {
 }
 
 /// Splits y into q, v and the works.
-pub(super) fn parts(y: &mut [f64], n_q: usize) -> (&mut [f64], &mut [f64], &mut [f64]) {
+pub(super) fn parts<S>(y: &mut [S], n_q: usize) -> (&mut [S], &mut [S], &mut [S]) {
     let (q, rest) = y.split_at_mut(n_q);
     let (v, works) = rest.split_at_mut(n_q);
     (q, v, works)
+}
+
+/// Scratch of evaluations for states that are `projected` or not.
+pub(super) fn workspace<S: Real>(model: &Model<S>, projected: bool) -> Workspace<S> {
+    let mut workspace = Workspace::new(model);
+    // without projection nothing brings a state back to its branch
+    if projected && !model.allow_redundancy {
+        workspace.pass_singular();
+    }
+    workspace
 }
 
 impl<'a> Equations<'a> {
@@ -36,22 +47,13 @@ impl<'a> Equations<'a> {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
-        let mut workspace = Workspace::new(model);
-        // without projection nothing brings a state back to its branch
-        if projector.is_some() && !model.allow_redundancy {
-            workspace.pass_singular();
-        }
+        let workspace = workspace(model, projector.is_some());
         let passage = Passage::new(options);
         let held = match options.stabilization {
             Stabilization::BaumgarteFromStep => Some(Held::new(model)),
             _ => None,
         };
         Self { model, workspace, gains: options.gains(), held, projector, passage }
-    }
-
-    /// The same for reported states.
-    pub fn for_reports(self) -> Self {
-        Self { projector: self.projector.map(Projector::for_reports), ..self }
     }
 
     /// Factorisations beside those of evaluations.
@@ -81,20 +83,6 @@ impl<'a> Equations<'a> {
         let Some(projector) = &mut self.projector else { return Ok(false) };
         let (q, v, _) = parts(y, self.model.layout.n_q);
         projector.project(&mut self.workspace, t, (q, v), factored).map_err(|fault| (t, fault))
-    }
-}
-
-impl Equations<'_> {
-    /// Projects y if that was asked for; the workspace then holds the motions at y.
-    pub fn place(&mut self, t: f64, y: &mut [f64]) -> Result<(), (f64, Fault)> {
-        let n = self.model.layout.n_q;
-        if self.projector.is_some() {
-            self.project(t, y, false)?;
-            kinematics::set_rates(&y[n..2 * n], &mut self.workspace.motions);
-        } else {
-            kinematics::motions(&y[..n], &y[n..2 * n], &mut self.workspace.motions);
-        }
-        Ok(())
     }
 }
 

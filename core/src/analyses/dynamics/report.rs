@@ -1,0 +1,168 @@
+//! Reported states: brought onto the constraints, and the equations of motion solved there.
+//!
+//! States of a grid lie between the ends of steps and do not wait for each other, so several are solved
+//! at once: the same formulas over [`Lanes`]. Where one of them is not regular (a position near a singular
+//! one, a gap that does not close, a number that is not finite), each is solved by itself.
+
+use super::options::{Options, Stabilization};
+use super::system::{parts, WORKS};
+use crate::equations::{energy, kinematics, Gains, Workspace};
+use crate::integrate::Step;
+use crate::math::{Lanes, Real};
+use crate::model::Model;
+use crate::stabilize::{Fault, Projector};
+
+/// Solves reported states, one at a time or one in each lane.
+pub(super) struct Solver<'a, S = f64> {
+    pub model: &'a Model<S>,
+    workspace: Workspace<S>,
+    projector: Option<Projector<'a, S>>,
+    /// Kinetic and potential energy, J.
+    energies: [S; 2],
+    /// States whose projection went through.
+    solved: usize,
+}
+
+impl<'a, S: Real> Solver<'a, S> {
+    pub fn new(model: &'a Model<S>, options: &Options) -> Self {
+        let projector = match options.stabilization {
+            Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
+            _ => None,
+        };
+        let workspace = super::system::workspace(model, projector.is_some());
+        let projector = projector.map(Projector::for_reports);
+        Self { model, workspace, projector, energies: [S::zero(); 2], solved: 0 }
+    }
+
+    /// Solves at y = (q, v, works) as it is.
+    ///
+    /// # Errors
+    /// [`Fault`] where the equations of motion have no unique solution.
+    pub fn solve(&mut self, t: S, y: &[S]) -> Result<(), Fault> {
+        let n = self.model.layout.n_q;
+        kinematics::motions(&y[..n], &y[n..2 * n], &mut self.workspace.motions);
+        self.respond(t)
+    }
+
+    /// Solves at y, which is projected first if that was asked for. The works stay: what projection does
+    /// to the energy shows in the balance.
+    ///
+    /// # Errors
+    /// [`Fault`]; of lanes, that of one of them.
+    pub fn place_and_solve(&mut self, t: S, y: &mut [S]) -> Result<(), Fault> {
+        let Some(projector) = &mut self.projector else { return self.solve(t, y) };
+        let (q, v, _) = parts(y, self.model.layout.n_q);
+        projector.project(&mut self.workspace, t, (&mut *q, &mut *v), false)?;
+        kinematics::set_rates(v, &mut self.workspace.motions);
+        self.respond(t)
+    }
+
+    /// Accelerations and multipliers at the motions of the workspace: by γ, never γ̂.
+    fn respond(&mut self, t: S) -> Result<(), Fault> {
+        let Self { model, workspace, .. } = self;
+        workspace.respond(model, t, Gains::default()).map_err(Fault::Singular)?;
+        let kinetic = energy::kinetic(model, &workspace.motions);
+        self.energies = [kinetic, energy::potential(model, &workspace.motions, t)];
+        self.solved += 1;
+        Ok(())
+    }
+
+    /// q̈, λ and the energies.
+    pub fn found(&self) -> [&[S]; 3] {
+        [self.workspace.a(), self.workspace.lam(), &self.energies]
+    }
+
+    /// Factorisations, of all lanes one.
+    pub fn factorisations(&self) -> usize {
+        self.solved + self.projector.as_ref().map_or(0, |projector| projector.factorisations)
+    }
+}
+
+/// States of a grid that wait until there is one for each lane.
+pub(super) struct Batch<'a> {
+    pub solver: Solver<'a, Lanes>,
+    t: [f64; Lanes::WIDTH],
+    /// What the last step was interpolated to.
+    between: Vec<Lanes>,
+    /// As they were put in.
+    given: Vec<Lanes>,
+    /// Projected.
+    y: Vec<Lanes>,
+    waiting: usize,
+}
+
+impl<'a> Batch<'a> {
+    pub fn new(model: &'a Model<Lanes>, options: &Options) -> Self {
+        let none = vec![Lanes::zero(); 2 * model.layout.n_q + WORKS];
+        let mut solver = Solver::new(model, options);
+        solver.workspace.refuse_singular();
+        let t = [0.0; Lanes::WIDTH];
+        Self { solver, t, between: none.clone(), given: none.clone(), y: none, waiting: 0 }
+    }
+
+    /// Interpolates a step, at several times at once.
+    pub fn interpolate(&mut self, step: &Step<'_>, times: [f64; Lanes::WIDTH]) {
+        step.interpolate(Lanes::new(times), &mut self.between);
+    }
+
+    /// Puts in one of the states that were interpolated.
+    pub fn add(&mut self, t: f64, lane: usize) {
+        self.t[self.waiting] = t;
+        for (given, between) in self.given.iter_mut().zip(&self.between) {
+            given.as_array_mut()[self.waiting] = between.to_array()[lane];
+        }
+        self.waiting += 1;
+    }
+
+    /// Whether no state waits.
+    pub fn is_empty(&self) -> bool {
+        self.waiting == 0
+    }
+
+    /// Whether there is a state for each lane.
+    pub fn is_full(&self) -> bool {
+        self.waiting == Lanes::WIDTH
+    }
+
+    /// The times of the states that wait; then nothing waits.
+    pub fn take(&mut self) -> impl Iterator<Item = (usize, f64)> {
+        self.t.into_iter().enumerate().take(std::mem::take(&mut self.waiting))
+    }
+
+    /// Solves all; whether every one is regular. Else the lanes are of no use.
+    pub fn solve(&mut self) -> bool {
+        self.fill_up();
+        self.y.copy_from_slice(&self.given);
+        let solved = self.solver.place_and_solve(Lanes::new(self.t), &mut self.y);
+        let [a, lam, energies] = self.solver.found();
+        solved.is_ok() && [&self.y, a, lam, energies].into_iter().all(are_finite)
+    }
+
+    /// Lanes without a state of their own repeat the last.
+    fn fill_up(&mut self) {
+        let last = self.waiting.max(1) - 1;
+        let t = self.t[last];
+        self.t[last..].fill(t);
+        for given in &mut self.given {
+            let lanes = given.as_array_mut();
+            let y = lanes[last];
+            lanes[last..].fill(y);
+        }
+    }
+
+    /// The projected states.
+    pub fn y(&self) -> &[Lanes] {
+        &self.y
+    }
+
+    /// A state as it was put in.
+    pub fn given(&self, lane: usize, y: &mut [f64]) {
+        y.iter_mut().zip(&self.given).for_each(|(y, given)| *y = given.to_array()[lane]);
+    }
+}
+
+/// Whether every number is finite, in every lane.
+fn are_finite(x: &[Lanes]) -> bool {
+    // 0 x is zero for finite x and NaN otherwise
+    x.iter().fold(Lanes::zero(), |sum, x| sum + Lanes::zero() * *x).is_finite()
+}
