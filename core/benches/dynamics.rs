@@ -3,19 +3,25 @@
 //!
 //! ```text
 //! cargo bench --bench dynamics                      all
-//! cargo bench --bench dynamics -- flagship chain    these
+//! cargo bench --bench dynamics -- flagship chain    these, or set-up
 //! ```
 //!
 //! The flagship; a four-bar linkage that nothing was tuned on (frames off the mass centres, joints
 //! in another order and direction); and the N-four-bar chain of the IFToMM benchmark library, whose
-//! cost for each window must not depend on N.
+//! cost for each window must not depend on N. Then what the chains ask for before and during that: the time
+//! in which order and plan of elimination are found, and bytes.
 
 mod mechanisms;
 
 use kempe::analyses::{dynamics, State};
+use kempe::equations::augmented::Augmented;
+use kempe::equations::Workspace;
 use kempe::integrate::Flow;
 use kempe::model::Model;
+use kempe::solve::Bytes;
 use mechanisms::{assembled, chain, FLAGSHIP, OTHER};
+use std::hint::black_box;
+use std::time::Instant;
 
 /// Runs of which the median is reported.
 const RUNS: usize = 15;
@@ -45,6 +51,26 @@ fn time(name: &str, (model, start): (Model, State), t_end: f64, windows: usize) 
     );
 }
 
+/// Prints the median time to find order and plan, and the bytes that evaluations hold and touch, per window.
+fn set_up(windows: usize) {
+    let (model, _) = chain(windows);
+    let find = || {
+        let clock = Instant::now();
+        black_box(Augmented::<f64>::new(&model));
+        clock.elapsed().as_secs_f64() * 1e3
+    };
+    let mut times: Vec<_> = (0..RUNS).map(|_| find()).collect();
+    times.sort_by(f64::total_cmp);
+    let Bytes { held, touched } = Workspace::new(&model).bytes(&model);
+    println!(
+        "chain {windows:<6} {:>7} {:>11.3} {:>9} {:>9}",
+        model.layout.n_q,
+        times[RUNS / 2],
+        held / windows,
+        touched / windows,
+    );
+}
+
 fn main() {
     println!(
         "{:<12} {:>7} {:>11} {:>9} {:>9} {:>9}",
@@ -61,5 +87,12 @@ fn main() {
         if asked("chain") {
             time(&format!("chain {windows}"), chain(windows), 0.2, windows);
         }
+    }
+    if asked("set-up") {
+        println!(
+            "\n{:<12} {:>7} {:>11} {:>9} {:>9}",
+            "", "coord.", "plan, ms", "held, B", "touched"
+        );
+        [10, 100, 1000, 4000].into_iter().for_each(set_up);
     }
 }

@@ -68,6 +68,7 @@ fn measure(name: &str, (model, start): (Model, State), t_end: f64) {
     let stabilizations = [
         ("baumgarte 10, 200", baumgarte(10.0, 200.0)),
         ("baumgarte 20, 20", baumgarte(20.0, 20.0)),
+        ("baumgarte, step", Stabilization::BaumgarteFromStep),
         ("projection", PROJECTION),
     ];
     for method in ["rk45", "dop853"] {

@@ -176,3 +176,17 @@ def test_a_word_is_no_option(model: kp.Model, start: kp.State, field: str, remed
     words: dict = {field: "auto"}
     with pytest.raises(kp.ModelError, match=rf"{field}: 'auto'; pass an object such as {remedy}"):
         kp.dynamics(model, start, t_end=1, **words)
+
+
+def test_gains_from_the_step_go_without_numbers(model: kp.Model) -> None:
+    start = {"set": {"crank.angle": "70*deg"}, "guess": {"rocker.angle": "240*deg"}}
+
+    def run(stabilization: kp.Baumgarte) -> kp.Solution:
+        simulation = kp.Dynamics(0.1, method=kp.RK45(), stabilization=stabilization)
+        return kp.Case(model, start, [simulation]).run()["dynamics"]
+
+    assert run(kp.Baumgarte(gains="step")).drift.position.max() < 1e-6
+    with pytest.raises(kp.ModelError, match=r"stabilization\.beta: not together with gains"):
+        run(kp.Baumgarte(gains="step", beta=3))
+    with pytest.raises(kp.ModelError, match="gains"):
+        run(kp.Baumgarte(gains="stop"))

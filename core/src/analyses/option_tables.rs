@@ -143,8 +143,8 @@ fn dop853() -> Options {
 }
 
 fn auto() -> Options {
-    let doc = "DOP853, and Radau from where a damped motion holds its steps at the limit of stability; the \
-               statistics tell which, and why.";
+    let doc = "DOP853, and Radau where a damped motion far faster than what moves makes the model stiff, judged at the \
+               start and by the steps on the way; the statistics tell which, and why.";
     let mut options = adaptive("Auto", "auto", (1e-8, 1e-11), doc);
     options.table.fields.retain(|field| field.name != "step"); // there is nothing to choose with it
     options
@@ -221,11 +221,22 @@ fn radau() -> Options {
 
 fn baumgarte() -> Options {
     let fields = vec![
-        number("alpha", "1/s", 10.0, "Factor of the rate of the constraints, as 2 alpha."),
-        number("beta", "1/s", 200.0, "Factor of the constraints, as beta^2."),
+        number(
+            "alpha",
+            "1/s",
+            Default::Absent,
+            "Factor of the rate of the constraints, as 2 alpha; 10 if absent.",
+        ),
+        number("beta", "1/s", Default::Absent, "Factor of the constraints, as beta^2; 200 if absent."),
+        Field::optional(
+            "gains",
+            Shape::Word(&["step"]),
+            "",
+            Default::Absent,
+            "\"step\" takes them from each step that is tried, alpha = 7/(12 h) and beta = 1/(sqrt(3) h), and holds the term over it; not together with alpha and beta.",
+        ),
     ];
-    let doc =
-        "Stabilization of Baumgarte (Haug 7.3.8): gamma - 2 alpha (Phi_q v + Phi_t) - beta^2 Phi.";
+    let doc = "Stabilization of Baumgarte (Haug 7.3.8) for explicit methods: gamma - 2 alpha (Phi_q v + Phi_t) - beta^2 Phi.";
     Options { class: "Baumgarte", table: Table { name: "baumgarte", doc: doc.to_string(), fields } }
 }
 

@@ -7,7 +7,7 @@ use super::mass;
 use crate::math::{Motion, Real};
 use crate::model::{Block, Layout, Model, Slots};
 pub use crate::solve::Dependent;
-use crate::solve::{Pattern, RowBlock, Saddle, Weight};
+use crate::solve::{Armed, Bytes, Pattern, RowBlock, Saddle, Weight};
 
 /// ε² of near singular positions: between the noise of positions over ε and the load over a time in
 /// proportion to ε; `docs/performance.md` has the errors for others.
@@ -24,6 +24,31 @@ pub struct Augmented<S = f64> {
     refusing: bool,
     /// Whether the factor at hand has it.
     ridged: bool,
+    /// The pins whose rows of Φ_q [`armed`](Self::armed) gives by their arms.
+    armed: Vec<ArmedPin>,
+    /// The other constraints.
+    others: Vec<u32>,
+    /// Whether the entries of Φ_q are those of all constraints.
+    whole: bool,
+}
+
+/// A pin all of whose rows have arms.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ArmedPin {
+    /// Its place among the pins.
+    pub pin: u32,
+    /// Its place in the matrix.
+    pub rows: Armed,
+}
+
+/// What an evaluation puts into the matrix piece by piece.
+pub(super) struct Parts<'a, S> {
+    pub pattern: &'a Pattern,
+    pub saddle: &'a mut Saddle<S>,
+    /// The pins given by arms, in the order of elimination.
+    pub armed: &'a [ArmedPin],
+    /// The constraints given by entries.
+    pub others: &'a [u32],
 }
 
 impl<S: Real> Augmented<S> {
@@ -32,13 +57,26 @@ impl<S: Real> Augmented<S> {
     pub fn new<P>(model: &Model<P>) -> Self {
         let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
         let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout));
+        let (armed, others) = split(model, &pattern);
         Self {
             saddle: Saddle::new(&pattern),
             pattern,
             passing: false,
             refusing: false,
             ridged: false,
+            armed,
+            others,
+            whole: true,
         }
+    }
+
+    /// The pieces; inertia, which no state changes, must stand there already. The factor is then without ridge.
+    #[inline(always)]
+    pub(super) fn parts_mut(&mut self) -> Parts<'_, S> {
+        self.whole = self.armed.is_empty();
+        self.ridged = false;
+        let Self { pattern, saddle, armed, others, .. } = self;
+        Parts { pattern, saddle, armed, others }
     }
 
     /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
@@ -46,6 +84,14 @@ impl<S: Real> Augmented<S> {
         let bodies = model.inertias.iter().zip(&motions[1..]);
         for (weight, (inertia, motion)) in self.saddle.weights.iter_mut().zip(bodies) {
             mass::inverse(inertia, motion, weight);
+        }
+    }
+
+    /// What no state changes of W = M.
+    pub(super) fn set_inertia(&mut self, model: &Model<S>) {
+        for (weight, inertia) in self.saddle.weights.iter_mut().zip(&model.inertias) {
+            let [m, j] = inertia.inverse;
+            weight.inverse = [m, m, j];
         }
     }
 
@@ -59,19 +105,36 @@ impl<S: Real> Augmented<S> {
 
     /// The entries of Φ_q, to be filled.
     pub fn jacobian_mut(&mut self) -> &mut [S] {
+        self.whole = true;
         self.saddle.entries.as_flattened_mut()
     }
 
     /// The entries of Φ_q.
+    ///
+    /// # Panics
+    /// After an evaluation, before [`restore_jacobian`](Self::restore_jacobian): that gives pins by their arms.
     pub fn jacobian(&self) -> &[S] {
+        assert!(self.whole, "entries of Φ_q that an evaluation left out: restore_jacobian()");
         self.saddle.entries.as_flattened()
+    }
+
+    /// The entries of Φ_q, of which those of pins may be of an earlier state.
+    pub(super) fn jacobian_of_others(&self) -> &[S] {
+        self.saddle.entries.as_flattened()
+    }
+
+    /// Fills in the entries of Φ_q that the last evaluation left out.
+    pub fn restore_jacobian(&mut self) {
+        if !self.whole {
+            self.saddle.restore_entries(&self.pattern);
+            self.whole = true;
+        }
     }
 
     /// Sets the damping μ, one for each row.
     pub fn set_damping(&mut self, mu: impl IntoIterator<Item = S>) {
-        for (value, mu) in self.saddle.damping.iter_mut().zip(mu) {
-            *value = mu;
-        }
+        self.saddle.damping.clear();
+        self.saddle.damping.extend(mu);
     }
 
     /// From now on near singular positions are factorised with the ridge ε² = [`RIDGE`].
@@ -109,25 +172,43 @@ impl<S: Real> Augmented<S> {
         }
     }
 
-    /// Factorises and solves in place, as [`solve`](Self::solve): faster than one after the other.
-    ///
-    /// # Errors
-    /// As [`factor`](Self::factor); `x` is then lost. Near singular positions are refused too.
-    pub fn factor_and_solve(&mut self, x: &mut [S]) -> Result<(), Dependent> {
-        self.ridged = false;
-        self.saddle.factor_and_solve(&self.pattern, x)
-    }
-
     /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [S]) {
         self.saddle.solve(&self.pattern, x);
     }
 
+    /// Bytes of the plan and of the numbers.
+    pub fn bytes(&self) -> Bytes {
+        self.pattern.bytes()
+            + self.saddle.bytes(&self.pattern)
+            + Bytes::touched(&self.armed)
+            + Bytes::touched(&self.others)
+    }
+
+    /// The work of finding the elimination order and the plan, see [`Pattern::effort`].
+    pub fn effort(&self) -> usize {
+        self.pattern.effort()
+    }
+
     /// How many digits the worst pivot lost: the constraint row and the pivot over what it was
     /// cancelled from.
     pub fn cancellation(&self) -> Option<(usize, f64)> {
-        self.saddle.cancellation()
+        self.saddle.cancellation(&self.pattern)
     }
+}
+
+/// The pins that arms can give, and the other constraints.
+fn split<P>(model: &Model<P>, pattern: &Pattern) -> (Vec<ArmedPin>, Vec<u32>) {
+    let mut pin: Vec<Option<u32>> = vec![None; model.constraints.len()];
+    (0..).zip(&model.pins).for_each(|(k, p)| pin[p.constraint as usize] = Some(k));
+    let mut others = vec![true; model.constraints.len()];
+    let mut armed = Vec::with_capacity(pattern.armed().len());
+    for &rows in pattern.armed() {
+        let block = rows.block as usize;
+        armed.push(ArmedPin { pin: pin[block].expect("unit blocks are those of pins"), rows });
+        others[block] = false;
+    }
+    (armed, (0..).zip(others).filter(|(_, other)| *other).map(|(k, _)| k).collect())
 }
 
 /// The constraints as blocks of rows.

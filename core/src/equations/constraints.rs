@@ -84,8 +84,8 @@ fn update<S: Real, const M: usize>(
     }
 }
 
-/// Φ_q into `entries` as [`jacobian`], where such an entry stands already, and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m), into `right`, in one pass.
-#[inline(always)] // once in an evaluation: a call saves and restores more than it shares
+/// Φ_q into `entries` as [`jacobian`], where such an entry stands already, and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m),
+/// into `right`, in one pass.
 pub fn linearize<S: Real>(
     model: &Model<S>,
     motions: &[Motion<S>],
@@ -94,12 +94,26 @@ pub fn linearize<S: Real>(
     right: &mut [S],
     entries: &mut [S],
 ) {
-    let damping = S::constant(2.0 * gains.alpha);
-    let stiffness = S::constant(gains.beta * gains.beta);
-    for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
-        let mut target = Target { slots, damping, stiffness, right, entries };
+    let all = 0..model.constraints.len();
+    linearize_some(model, all, motions, t, Stabilized::new(gains), right, entries);
+}
+
+/// The same of the constraints `which` alone.
+#[inline(always)] // once in an evaluation: a call saves and restores more than it shares
+pub(super) fn linearize_some<S: Real>(
+    model: &Model<S>,
+    which: impl Iterator<Item = usize>,
+    motions: &[Motion<S>],
+    t: S,
+    stabilized: Stabilized<S>,
+    right: &mut [S],
+    entries: &mut [S],
+) {
+    for k in which {
+        let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
+        let right = &mut right[slots.rows.clone()];
         let Some(law) = &item.law else {
-            item.element.linearize(motions, t, target);
+            item.element.linearize(motions, t, Target { slots, stabilized, right, entries });
             continue;
         };
         let (m, none) = (slots.rows.len(), [S::zero(); MOST_EQUATIONS]);
@@ -111,28 +125,29 @@ pub fn linearize<S: Real>(
             gamma: &mut terms.gamma[..m],
         };
         law_velocity_terms(model, law, item.element.ends(), motions, t, out);
-        target.right_side(m, &terms);
+        stabilized.put(&terms, right);
         law_blocks(model, item, slots, motions, t, entries);
     }
 }
 
-/// Where a constraint puts γ̂ and its rows of Φ_q.
-struct Target<'a, S> {
-    slots: &'a Slots,
+/// Baumgarte's gains as γ̂ takes them.
+#[derive(Clone, Copy)]
+pub(super) struct Stabilized<S> {
     /// 2α.
     damping: S,
     /// β².
     stiffness: S,
-    /// γ̂ of all constraints.
-    right: &'a mut [S],
-    entries: &'a mut [S],
 }
 
-impl<S: Real> Target<'_, S> {
-    /// γ̂ of the first `m` rows.
+impl<S: Real> Stabilized<S> {
+    pub fn new(gains: Gains) -> Self {
+        let damping = S::constant(2.0 * gains.alpha);
+        Self { damping, stiffness: S::constant(gains.beta * gains.beta) }
+    }
+
+    /// γ̂ of the first rows, as many as `right` takes.
     #[inline(always)]
-    fn right_side<const M: usize>(&mut self, m: usize, terms: &VelocityTerms<S, M>) {
-        let right = &mut self.right[self.slots.rows.start..][..m];
+    pub fn put<const M: usize>(&self, terms: &VelocityTerms<S, M>, right: &mut [S]) {
         for (k, right) in right.iter_mut().enumerate() {
             let [gamma, rate, residual] = [terms.gamma[k], terms.rate[k], terms.residual[k]];
             *right = gamma - self.damping * rate - self.stiffness * residual;
@@ -140,15 +155,24 @@ impl<S: Real> Target<'_, S> {
     }
 }
 
+/// Where a constraint puts γ̂ and its rows of Φ_q.
+struct Target<'a, S> {
+    slots: &'a Slots,
+    stabilized: Stabilized<S>,
+    /// γ̂ of its rows.
+    right: &'a mut [S],
+    entries: &'a mut [S],
+}
+
 impl<S: Real> Linear<S> for Target<'_, S> {
     #[inline(always)]
     fn take<const M: usize>(
-        mut self,
+        self,
         ends: [BodyId; 2],
         terms: &VelocityTerms<S, M>,
         rows: &[[S; 6]; M],
     ) {
-        self.right_side(M, terms);
+        self.stabilized.put(terms, &mut self.right[..M]);
         update(ends, rows, self.slots, self.entries);
     }
 }

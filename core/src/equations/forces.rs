@@ -3,7 +3,7 @@
 use super::energy::Powers;
 use super::laws;
 use crate::elements::{Acting, Action, BodyId, Part, Situation};
-use crate::math::{Motion, Real, Wrench};
+use crate::math::{Motion, Real, Vec2, Wrench};
 use crate::model::{columns, ForceItem, Inertia, Model};
 
 /// Q into `out`, shape (n_q); the powers of the force elements come with it.
@@ -16,7 +16,7 @@ pub fn generalized<S: Real>(
 ) -> Powers<S> {
     let moving = model.inertias.iter().zip(&motions[1..]);
     for ((inertia, motion), out) in moving.zip(out.chunks_exact_mut(3)) {
-        let w = gravity_and_inertia(inertia, motion);
+        let w = gravity_and_inertia(inertia, motion, model.gravity);
         out.copy_from_slice(&[w.force.x, w.force.y, w.torque]);
     }
     let mut powers = Powers::zero();
@@ -59,8 +59,12 @@ impl<S: Real> Acting<S> for Sum<'_, S> {
 
 /// Weight, and the centrifugal force m A c′ φ̇² of a mass centre off the frame's origin.
 #[inline(always)]
-fn gravity_and_inertia<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>) -> Wrench<S> {
-    let weight = inertia.weight;
+fn gravity_and_inertia<S: Real>(
+    inertia: &Inertia<S>,
+    motion: &Motion<S>,
+    gravity: Vec2<S>,
+) -> Wrench<S> {
+    let weight = gravity.scale(inertia.mass);
     if !inertia.coupled {
         return Wrench { force: weight, torque: S::zero() };
     }

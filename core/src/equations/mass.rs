@@ -32,7 +32,14 @@ pub fn block<S: Real>(body: &Body<S>, motion: &Motion<S>) -> MassBlock<S> {
 /// centre by b, it is diagonal in m and J.
 #[inline(always)]
 pub fn inverse<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, weight: &mut Weight<S>) {
-    weight.inverse = inertia.inverse;
+    let [m, j] = inertia.inverse;
+    weight.inverse = [m, m, j];
+    turn(inertia, motion, weight);
+}
+
+/// The same where the body's inertia stands there already.
+#[inline(always)]
+pub fn turn<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, weight: &mut Weight<S>) {
     if inertia.coupled {
         let b = motion.pose.global(inertia.center).perp();
         weight.shift = [b.x, b.y];

@@ -13,6 +13,7 @@ pub mod kinematics;
 mod laws;
 pub mod mass;
 pub mod motion;
+mod pins;
 pub mod reactions;
 mod refine;
 pub mod tangent;

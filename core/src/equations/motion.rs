@@ -7,11 +7,13 @@
 //!
 //! For the integrator γ may be replaced by Baumgarte's γ̂ = γ - 2α Φ̇ - β² Φ (Haug 7.3.8).
 
-use super::augmented::{Augmented, Dependent};
+use super::augmented::{Augmented, Dependent, Parts};
+use super::constraints::{self, Stabilized};
 use super::energy::Powers;
-use super::{constraints, forces, kinematics, refine};
+use super::{forces, kinematics, mass, pins, refine};
 use crate::math::{Motion, Real};
 use crate::model::Model;
+use crate::solve::Bytes;
 
 /// Baumgarte's gains; zeros leave γ as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,6 +39,8 @@ pub struct Workspace<S = f64> {
     solution: Vec<S>,
     /// Powers of the force elements.
     powers: Powers<S>,
+    /// What γ is lessened by, whatever the state; empty if nothing.
+    held: Vec<S>,
     /// Correction of the solution where the matrix is not that of the equations.
     correction: Option<Vec<S>>,
     /// Whether near singular positions are looked at twice.
@@ -56,10 +60,12 @@ impl<S: Real> Workspace<S> {
             matrix: Augmented::new(model),
             solution: vec![S::zero(); n + m],
             powers: Powers::zero(),
+            held: Vec::new(),
             correction: model.has_added_inertia().then(|| vec![S::zero(); n + m]),
             passing: false,
             n_q: n,
         };
+        workspace.matrix.set_inertia(model);
         if model.allow_redundancy {
             workspace.allow_redundancy(model);
         }
@@ -76,6 +82,12 @@ impl<S: Real> Workspace<S> {
     pub fn refuse_singular(&mut self) {
         self.passing = true;
         self.matrix.refuse_singular();
+    }
+
+    /// From now on γ is lessened by `term`, shape (n_rows), at every state.
+    pub fn hold(&mut self, term: &[S]) {
+        self.held.clear();
+        self.held.extend_from_slice(term);
     }
 
     /// Accepts redundant constraints: the multipliers become the smallest that carry the loads.
@@ -109,22 +121,47 @@ impl<S: Real> Workspace<S> {
     /// As [`accelerate`](Self::accelerate).
     #[inline(always)]
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
-        self.set_up(model, t, gains);
         if self.correction.is_none() {
-            match self.matrix.factor_and_solve(&mut self.solution) {
-                Err(Dependent::Row(_)) if self.passing => self.set_up(model, t, gains),
+            match self.solve_armed(model, t, gains) {
+                Err(Dependent::Row(_)) if self.passing => {}
                 outcome => return outcome.map_err(Singular),
             }
         }
+        self.set_up(model, t, gains);
         self.factor_and_refine(model).map_err(Singular)
     }
 
-    /// The matrix and the right side (Q, γ̂).
+    /// q̈ and λ with pins by their arms: one pass over them before elimination, and one after.
     #[inline(always)]
+    fn solve_armed(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
+        let Self { motions, matrix, solution, powers, n_q, .. } = self;
+        let (stabilized, n) = (Stabilized::new(gains), *n_q);
+        let Parts { pattern, saddle, armed, others } = matrix.parts_mut();
+        for &k in pattern.coupled() {
+            let k = k as usize;
+            mass::turn(&model.inertias[k], &motions[k + 1], &mut saddle.weights[k]);
+        }
+        *powers = forces::generalized(model, motions, t, &mut solution[..n]);
+        saddle.weigh(pattern, solution);
+        let (x, right) = solution.split_at_mut(n);
+        let (others, entries) =
+            (others.iter().map(|k| *k as usize), saddle.entries.as_flattened_mut());
+        constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
+        pins::begin(&model.pins, armed, motions, stabilized, saddle, (x, right));
+        saddle.finish_begun(pattern, solution)?;
+        let (x, lam) = solution.split_at_mut(n);
+        pins::spread(&model.pins, armed, saddle, (x, lam));
+        saddle.unbend(pattern, solution);
+        Ok(())
+    }
+
+    /// The matrix and the right side (Q, γ̂), with all entries.
     fn set_up(&mut self, model: &Model<S>, t: S, gains: Gains) {
         let (forces, right) = self.solution.split_at_mut(self.n_q);
         let entries = self.matrix.jacobian_mut();
         constraints::linearize(model, &self.motions, t, gains, right, entries);
+        // none but where a stabilization holds its term over a step
+        right.iter_mut().zip(&self.held).for_each(|(right, held)| *right -= *held);
         self.matrix.set_mass(model, &self.motions);
         self.powers = forces::generalized(model, &self.motions, t, forces);
     }
@@ -142,6 +179,17 @@ impl<S: Real> Workspace<S> {
             self.correction = Some(correction);
         }
         solved
+    }
+
+    /// Bytes that evaluations hold and touch: of this, and of the model what they read of bodies and pins;
+    /// other constraints and forces are not counted.
+    pub fn bytes(&self, model: &Model<S>) -> Bytes {
+        // no motion is there before the first evaluation
+        let motions = std::mem::size_of::<Motion<S>>() * model.bodies.len();
+        let own = Bytes { held: motions, touched: motions } + Bytes::touched(&self.solution);
+        let aside = self.correction.as_deref().map_or(Bytes::default(), Bytes::aside);
+        let of_model = Bytes::touched(&model.pins) + Bytes::touched(&model.inertias);
+        self.matrix.bytes() + own + aside + of_model
     }
 
     /// q̈, shape (n_q).
@@ -164,7 +212,7 @@ impl<S: Real> Workspace<S> {
         for (k, item) in model.constraints.iter().enumerate().filter(|(_, c)| c.driven) {
             let range = model.layout.constraints[k].rows.clone();
             let rows = &mut rows[..item.equations.len()];
-            constraints::times(model, k, self.matrix.jacobian(), v, rows);
+            constraints::times(model, k, self.matrix.jacobian_of_others(), v, rows);
             for (rate, lam) in rows.iter().zip(&self.lam()[range]) {
                 powers.drivers -= *rate * *lam;
             }

@@ -3,61 +3,14 @@
 //! Step for step the control of `scipy.integrate.solve_ivp`, so that counts of steps can be compared.
 
 use super::adaptive_options::{Atol, Options};
-use super::arguments::{check_problem, refusal};
+use super::clearance::Clearance;
 use super::contract::{Ended, FirstOrder, Flow, Observer, Statistics, Step};
 use super::dense::Dense;
-use super::failure::{Cause, Failure};
+use super::embedded_pair::EmbeddedPair;
+use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
 use super::rate::{all_finite, Rate, Trouble};
 use super::step_size::{initial_step, least_step, probing_step, scaled_norm, StepSize};
-
-/// An embedded pair that has the derivative at the end of a step as its last stage.
-pub(super) trait EmbeddedPair {
-    /// Order of the error estimate.
-    const ERROR_ORDER: i32;
-    /// Number of stages, the derivative at the end included.
-    const STAGES: usize;
-    /// Number of stages that only the continuous extension needs.
-    const EXTRA: usize = 0;
-    /// Degree of the continuous extension.
-    const DEGREE: usize;
-    /// STAGES + EXTRA + 1 rows of its table; the last, 3θ² - 2θ³, bends it to a projected end.
-    const TABLE: &'static [f64];
-    /// The table of a lesser extension, with zeros for the extra stages.
-    const WITHOUT_EXTRA: &'static [f64] = Self::TABLE;
-
-    /// Stages 2 to the last, of which the first is given, in rows of `k`; the state at `t_new` into
-    /// `y_new`. `work` is scratch as long as y.
-    fn advance<Y: FirstOrder>(
-        rate: &mut Rate<'_, Y>,
-        span: (f64, f64),
-        y: &[f64],
-        k: &mut [f64],
-        work: &mut [f64],
-        y_new: &mut [f64],
-    ) -> Result<(), Trouble<Y::Stop>>;
-
-    /// The extra stages of an accepted step, in the rows of `k` after the others.
-    fn extend<Y: FirstOrder>(
-        _rate: &mut Rate<'_, Y>,
-        _span: (f64, f64),
-        _y: &[f64],
-        _k: &mut [f64],
-        _work: &mut [f64],
-    ) -> Result<(), Trouble<Y::Stop>> {
-        Ok(())
-    }
-
-    /// √(mean (errorᵢ / (atolᵢ + rtol max(|yᵢ|, |y_newᵢ|)))²) over as many components as `atol` has;
-    /// `states` are y and y_new, `tolerances` rtol and atol, `work` is scratch as long as y.
-    fn error_norm(
-        h: f64,
-        k: &[f64],
-        states: (&[f64], &[f64]),
-        tolerances: (f64, &[f64]),
-        work: &mut [f64],
-    ) -> f64;
-}
 
 /// What one accepted step needs, taken once.
 struct Work {
@@ -97,6 +50,7 @@ struct Run<'a, Y, P> {
     direction: f64,
     steps: usize,
     rejected: usize,
+    clearance: Clearance,
     work: Work,
     pair: std::marker::PhantomData<P>,
 }
@@ -110,8 +64,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
     observer: &mut O,
 ) -> Result<Statistics, Failure<Y::Stop>> {
     let (n, controlled) = (system.len(), system.controlled());
-    let checked =
-        check_problem(t0, t_end, y, n).and_then(|()| options.check(controlled, (t_end - t0).abs()));
+    let checked = options.begin((t0, t_end), (y, n), controlled);
     let mut run = Run::<Y, P> {
         rate: Rate { system, evaluations: 0 },
         options,
@@ -121,40 +74,33 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
         direction: (t_end - t0).signum(),
         steps: 0,
         rejected: 0,
+        clearance: Clearance::default(),
         work: Work::new::<P>(n, controlled, options.atol),
         pair: std::marker::PhantomData,
     };
-    let outcome = match checked {
-        Ok(()) => run.go(y, observer),
-        Err(refused) => Err(refusal(refused)),
-    };
-    let statistics = run.statistics(outcome.as_ref().copied().unwrap_or(Ended::Stopped));
-    match outcome {
-        Ok(_) => Ok(statistics),
-        Err(cause) => Err(Failure { cause, t: run.t, y: Box::from(&*y), statistics }),
-    }
+    let outcome = checked.and_then(|grid| run.go(grid, y, observer));
+    conclude(outcome, run.statistics(), y)
 }
 
 impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
-    fn statistics(&self, ended: Ended) -> Statistics {
+    fn statistics(&self) -> Statistics {
         Statistics {
             steps: self.steps,
             rejected: self.rejected,
             evaluations: self.rate.evaluations,
-            ended,
             ..Statistics::none(self.t)
         }
     }
 
     fn go<O: Observer>(
         &mut self,
+        grid: Option<Grid>,
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Ended, Cause<Y::Stop>> {
         if self.t == self.t_end {
             return Ok(Ended::Reached);
         }
-        let grid = self.options.grid(self.t, self.t_end)?;
         self.rate.at(self.t, y, &mut self.work.k[..self.n]).map_err(hard)?;
         if let Some(grid) = grid {
             return self.go_along(&grid, y, observer);
@@ -232,6 +178,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         let t = self.t;
         let least = least_step(t, self.direction);
         size.begin(least, self.options.max_step);
+        self.clearance.begin();
         let mut refusal = None;
         loop {
             if size.size < least {
@@ -242,10 +189,15 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
                 t_new = self.t_end;
             }
             let h = t_new - t;
-            match self.attempt(t_new, y).map(|norm| self.judged(norm, h, y)) {
+            let trial = self.attempt(t_new, y).map(|norm| self.judged(norm, h, y));
+            let placed = self.placed(t_new);
+            match trial {
+                Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
+                _ if placed.is_some() => size.size = placed.unwrap_or(size.size),
                 Ok(norm) if norm < 1.0 => match self.project(t_new)? {
                     Ok(projected) => {
                         size.accept(h.abs(), norm);
+                        size.size = self.clearance.resume(size.size);
                         return Ok((t_new, projected));
                     }
                     Err(stop) => {
@@ -261,10 +213,17 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
                     refusal = Some(Cause::NotFinite { t });
                     size.reject(h.abs(), f64::NAN);
                 }
-                Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
             }
             self.rejected += 1;
         }
+    }
+
+    /// The step to try instead of that to `t_new`, so as to keep clear of an obstacle.
+    fn placed(&mut self, t_new: f64) -> Option<f64> {
+        let obstacle = self.rate.system.obstacle(t_new)?;
+        let [h, left] = [t_new, self.t_end].map(|end| (end - self.t).abs());
+        let left = left.min(self.options.max_step);
+        self.clearance.instead(P::GAP, h, self.direction * (obstacle - self.t), left)
     }
 
     /// The error norm of a step to `t_new`.
@@ -273,13 +232,15 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         let Work { k, y_new, trial, atol, .. } = &mut self.work;
         let stages = &k[..P::STAGES * self.n];
         let tolerances = (self.options.rtol, atol.as_slice());
-        Ok(P::error_norm(t_new - self.t, stages, (y, y_new), tolerances, trial))
+        let norm = P::error_norm(t_new - self.t, stages, (y, y_new), tolerances, trial);
+        Ok(self.clearance.strictness() * norm)
     }
 
     /// The stages of a step to `t_new`, and the state there.
     fn advance(&mut self, t_new: f64, y: &[f64]) -> Result<(), Trouble<Y::Stop>> {
         let Work { k, y_new, trial, .. } = &mut self.work;
         let stages = &mut k[..P::STAGES * self.n];
+        self.rate.begin(self.t, t_new - self.t, y, &mut stages[..self.n])?;
         P::advance(&mut self.rate, (self.t, t_new), y, stages, trial, y_new)?;
         if all_finite(y_new) {
             Ok(())
@@ -300,7 +261,8 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             return norm;
         }
         let tolerances = (self.options.rtol, atol.as_slice());
-        P::error_norm(h, remaining, (y, y_new), tolerances, trial).min(norm)
+        let left = P::error_norm(h, remaining, (y, y_new), tolerances, trial);
+        norm.min(self.clearance.strictness() * left)
     }
 
     /// Offers the accepted state to the system and the step to the observer, and moves on.

@@ -1,6 +1,6 @@
 //! Options that every embedded pair has.
 
-use super::arguments::{not_negative, positive, Refused};
+use super::arguments::{check_problem, not_negative, positive, refusal, Refused};
 use super::failure::Cause;
 use super::fixed_step::{affordable, Grid};
 
@@ -26,7 +26,21 @@ pub(super) struct Options<'a> {
 }
 
 impl Options<'_> {
-    pub fn check(&self, controlled: usize, interval: f64) -> Result<(), Refused> {
+    /// Refuses what cannot be right in them, in the times and in `y`, which must be `len` long; the ends
+    /// of constant steps, if they are.
+    pub fn begin<E>(
+        &self,
+        (t0, t_end): (f64, f64),
+        (y, len): (&[f64], usize),
+        controlled: usize,
+    ) -> Result<Option<Grid>, Cause<E>> {
+        check_problem(t0, t_end, y, len)
+            .and_then(|()| self.check(controlled, (t_end - t0).abs()))
+            .map_err(refusal)?;
+        self.grid(t0, t_end)
+    }
+
+    fn check(&self, controlled: usize, interval: f64) -> Result<(), Refused> {
         not_negative("rtol", self.rtol)?;
         match self.atol {
             Atol::Scalar(atol) => not_negative("atol", *atol)?,
@@ -60,8 +74,8 @@ impl Options<'_> {
         }
     }
 
-    /// The ends of constant steps, if they are; refused where the end cannot be reached in `max_steps`.
-    pub fn grid<E>(&self, t0: f64, t_end: f64) -> Result<Option<Grid>, Cause<E>> {
+    /// Refused where the end cannot be reached in `max_steps`.
+    fn grid<E>(&self, t0: f64, t_end: f64) -> Result<Option<Grid>, Cause<E>> {
         match self.step {
             Some(step) => Grid::new(t0, t_end, step, self.max_steps).map(Some),
             None => affordable((t_end - t0).abs(), self.max_step, self.max_steps).map(|()| None),

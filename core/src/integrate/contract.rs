@@ -30,6 +30,14 @@ pub trait FirstOrder {
     /// instead: an adaptive method then tries a shorter step.
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop>;
 
+    /// Called before every step that is tried, from y at t over h, which is negative when integrating
+    /// backward. May change f for the step, as gains that follow it do, and then returns true: the
+    /// derivative at its beginning is evaluated afresh.
+    fn trying(&mut self, t: f64, y: &[f64], h: f64) -> bool {
+        let _ = (t, y, h);
+        false
+    }
+
     /// Called with every accepted state, before the observer. May change y (projection onto a
     /// manifold) and then returns true: the derivative is evaluated afresh, and the continuous
     /// extension of the step is bent to end in the changed y.
@@ -48,6 +56,14 @@ pub trait FirstOrder {
     fn remaining(&mut self, dy: &mut [f64]) -> bool {
         let _ = dy;
         false
+    }
+
+    /// Called after every trial step, whether it will be accepted or not, with the time of its end, where
+    /// f was evaluated last. A time near which f is little but noise: a method with step control
+    /// places its steps so that no stage comes near it.
+    fn obstacle(&mut self, t: f64) -> Option<f64> {
+        let _ = t;
+        None
     }
 }
 

@@ -8,10 +8,12 @@
 //! The extension needs three stages more than the step. They are evaluated only for observers that look
 //! between the ends; for others it is the cubic Hermite polynomial.
 
-use super::adaptive::{integrate, EmbeddedPair};
+use super::adaptive::integrate;
 use super::adaptive_options::{usable_rtol, Atol, Options};
+use super::clearance::Gap;
 use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::dop853_coefficients::*;
+use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
 use super::stages::{combine, rows};
@@ -142,6 +144,8 @@ impl EmbeddedPair for Pair {
     const STAGES: usize = STAGES;
     const EXTRA: usize = C_EXTRA.len();
     const DEGREE: usize = DEGREE;
+    // between the stages at 1/3 and 3/5
+    const GAP: Gap = Gap { middle: 7.0 / 15.0, half: 2.0 / 15.0 };
     const TABLE: &'static [f64] = &TABLE;
     const WITHOUT_EXTRA: &'static [f64] = &HERMITE;
 

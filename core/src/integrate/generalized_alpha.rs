@@ -6,11 +6,12 @@
 use super::adaptive_options::{Atol, Options};
 use super::alpha_parameters::AlphaParameters;
 use super::alpha_step::AlphaStep;
-use super::arguments::{check_problem, refusal, step_count, Refused};
+use super::arguments::{refusal, Refused};
 use super::constrained::{Constrained, ImplicitMethod};
 use super::contract::{Ended, Flow, Observer, Statistics, Step};
 use super::dense::{Dense, HERMITE};
-use super::failure::{Cause, Failure};
+use super::failure::{conclude, Cause, Failure};
+use super::fixed_step::Grid;
 use super::knot::{Counted, Scale};
 use super::step_size::{least_step, StepSize};
 
@@ -64,14 +65,13 @@ impl GeneralizedAlpha {
         Self { step: Some(step), ..Self::new(parameters, rtol, atol) }
     }
 
-    fn check(&self, controlled: usize, interval: f64) -> Result<usize, Refused> {
+    fn check(&self) -> Result<(), Refused> {
         let AlphaParameters { alpha_m, alpha_f, beta, gamma } = self.parameters;
         // of order 2, and with damping at infinite frequency (α_m < α_f), which index 3 needs
         if !(alpha_m < alpha_f && alpha_f < 1.0 && beta > 0.0 && gamma > 0.0) {
             return Err(("alpha_m", alpha_m, "below alpha_f, and alpha_f below 1"));
         }
-        self.options().check(controlled, interval)?;
-        self.step.map_or(Ok(0), |step| step_count(step, interval))
+        Ok(())
     }
 
     fn options(&self) -> Options<'_> {
@@ -93,10 +93,7 @@ struct Run<'a, 'b, Y: Constrained> {
     step: AlphaStep,
     scale: Scale,
     t: f64,
-    t0: f64,
     t_end: f64,
-    /// Number of constant steps.
-    count: usize,
     /// y at the end of a step; the rows of its continuous extension.
     y_new: Vec<f64>,
     rows: Vec<f64>,
@@ -114,39 +111,30 @@ impl ImplicitMethod for GeneralizedAlpha {
     ) -> Result<Statistics, Failure<Y::Stop>> {
         let (n, m, works) = (system.coordinates(), system.multipliers(), system.quadratures());
         let len = 2 * n + works;
-        let checked = check_problem(t0, t_end, y, len)
-            .and_then(|()| self.check(2 * n, (t_end - t0).abs()))
+        let checked = self
+            .check()
             .map_err(refusal)
-            .and_then(|count| self.options().grid(t0, t_end).map(|_| count));
+            .and_then(|()| self.options().begin((t0, t_end), (y, len), 2 * n));
         let mut run = Run {
             system: Counted::new(system, t0),
             options: self,
             step: AlphaStep::new(self.parameters, n, m, works),
             scale: Scale::new(&self.options(), n),
             t: t0,
-            t0,
             t_end,
-            count: *checked.as_ref().unwrap_or(&0),
             y_new: vec![0.0; len],
             rows: vec![0.0; 3 * len],
             singular: false,
         };
-        let outcome = match checked {
-            Ok(_) => run.go(y, observer),
-            Err(cause) => Err(cause),
-        };
-        let ended = outcome.as_ref().copied().unwrap_or(Ended::Stopped);
-        let statistics = Statistics { ended, t: run.t, ..run.system.counts };
-        match outcome {
-            Ok(_) => Ok(statistics),
-            Err(cause) => Err(Failure { cause, t: run.t, y: Box::from(&*y), statistics }),
-        }
+        let outcome = checked.and_then(|grid| run.go(grid, y, observer));
+        conclude(outcome, Statistics { t: run.t, ..run.system.counts }, y)
     }
 }
 
 impl<Y: Constrained> Run<'_, '_, Y> {
     fn go<O: Observer>(
         &mut self,
+        grid: Option<Grid>,
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Ended, Cause<Y::Stop>> {
@@ -166,14 +154,14 @@ impl<Y: Constrained> Run<'_, '_, Y> {
                 first.map_err(Cause::Equations)?.min(self.options.max_step)
             }
         };
-        self.begin(first.copysign(self.t_end - self.t0))?;
+        self.begin(first.copysign(self.t_end - self.t))?;
         let mut size = StepSize::new(first, ERROR_ORDER);
         while self.t != self.t_end {
             if self.options.max_steps.is_some_and(|most| self.system.counts.steps >= most) {
                 return Err(Cause::MaxSteps { steps: self.system.counts.steps });
             }
-            let t_new = match self.options.step {
-                Some(step) => self.constant_step(step)?,
+            let t_new = match &grid {
+                Some(grid) => self.constant_step(grid)?,
                 None => self.accepted_step(&mut size)?,
             };
             if self.finish(t_new, y, observer)? == Flow::Stop {
@@ -225,24 +213,19 @@ impl<Y: Constrained> Run<'_, '_, Y> {
     }
 
     /// The next step of constant length, of which the last may be shorter. Returns its time.
-    fn constant_step(&mut self, step: f64) -> Result<f64, Cause<Y::Stop>> {
-        let k = self.system.counts.steps + 1;
-        let direction = (self.t_end - self.t0).signum();
-        let t_new =
-            if k == self.count { self.t_end } else { self.t0 + direction * k as f64 * step };
-        if t_new == self.t {
-            return Err(Cause::StepTooSmall { t: self.t, h: step });
-        }
-        if self.attempt(t_new - self.t) {
+    fn constant_step(&mut self, grid: &Grid) -> Result<f64, Cause<Y::Stop>> {
+        let t_new = grid.end(self.system.counts.steps + 1, self.t)?;
+        let h = t_new - self.t;
+        if self.attempt(h) {
             return Ok(t_new);
         }
-        Err(self.gave_up(step))
+        Err(self.gave_up(h.abs()))
     }
 
     /// Tries steps until one is accepted. Returns its time.
     fn accepted_step(&mut self, size: &mut StepSize) -> Result<f64, Cause<Y::Stop>> {
         let t = self.t;
-        let direction = (self.t_end - self.t0).signum();
+        let direction = (self.t_end - self.t).signum();
         let least = least_step(t, direction);
         size.begin(least, self.options.max_step);
         let mut unsolved = false;

@@ -15,7 +15,8 @@
 //! | `rate` | counted, checked evaluations |
 //! | `dense` | the continuous extension of a step |
 //! | `step_size` | choice of the step from the error estimate |
-//! | `adaptive`, `adaptive_options` | the loop of every embedded pair, and its options |
+//! | `clearance` | steps that keep clear of a time near which rates are noise |
+//! | `adaptive`, `adaptive_options`, `embedded_pair` | the loop of every embedded pair, its options, what it asks of a pair |
 //! | `fixed_step` | where steps of constant length end |
 //! | `stages` | sums over the stages of a step |
 //! | `rk45`, `dop853`, `rk4` | schemes |
@@ -30,11 +31,13 @@ mod adaptive_options;
 mod alpha_parameters;
 mod alpha_step;
 mod arguments;
+mod clearance;
 mod constrained;
 mod contract;
 mod dense;
 mod dop853;
 mod dop853_coefficients;
+mod embedded_pair;
 mod events;
 mod failure;
 mod fixed_step;

@@ -6,11 +6,11 @@
 //! *Solving Ordinary Differential Equations II*, IV.8). Between steps the polynomials of collocation.
 
 use super::adaptive_options::{usable_rtol, Atol, Options};
-use super::arguments::{check_problem, refusal, step_count, Refused};
 use super::constrained::{Constrained, ImplicitMethod};
 use super::contract::{Ended, Flow, Observer, Statistics, Step};
 use super::dense::Dense;
-use super::failure::{Cause, Failure};
+use super::failure::{conclude, Cause, Failure};
+use super::fixed_step::Grid;
 use super::knot::{Counted, Scale};
 use super::radau_coefficients::{DEGREE, EXTENSION};
 use super::radau_step::{Enough, RadauStep, Solved, ROWS};
@@ -79,12 +79,6 @@ impl Radau {
         Self { step: Some(step), ..Self::new(rtol, atol) }
     }
 
-    /// What is refused; the number of constant steps.
-    fn check(&self, controlled: usize, interval: f64) -> Result<usize, Refused> {
-        self.options().check(controlled, interval)?;
-        self.step.map_or(Ok(0), |step| step_count(step, interval))
-    }
-
     fn options(&self) -> Options<'_> {
         Options {
             rtol: usable_rtol(self.rtol),
@@ -103,10 +97,7 @@ struct Run<'a, 'b, Y: Constrained> {
     options: Options<'b>,
     step: RadauStep,
     scale: Scale,
-    /// Length and number of constant steps.
-    constant: Option<(f64, usize)>,
     t: f64,
-    t0: f64,
     t_end: f64,
     direction: f64,
     /// Magnitude of the step to try.
@@ -133,18 +124,13 @@ impl ImplicitMethod for Radau {
         let (n, m, works) = (system.coordinates(), system.multipliers(), system.quadratures());
         let len = 2 * n + works;
         let options = self.options();
-        let checked = check_problem(t0, t_end, y, len)
-            .and_then(|()| self.check(2 * n, (t_end - t0).abs()))
-            .map_err(refusal)
-            .and_then(|count| self.options().grid(t0, t_end).map(|_| count));
+        let checked = options.begin((t0, t_end), (y, len), 2 * n);
         let mut run = Run {
             system: Counted::new(system, t0),
             step: RadauStep::new(n, m, works),
             scale: Scale::new(&options, n),
             options,
-            constant: self.step.zip(checked.as_ref().ok().copied()),
             t: t0,
-            t0,
             t_end,
             direction: (t_end - t0).signum(),
             size: 0.0,
@@ -154,22 +140,15 @@ impl ImplicitMethod for Radau {
             dy: vec![0.0; 2 * len],
             rows: vec![0.0; ROWS * len],
         };
-        let outcome = match checked {
-            Ok(_) => run.go(y, observer),
-            Err(cause) => Err(cause),
-        };
-        let ended = outcome.as_ref().copied().unwrap_or(Ended::Stopped);
-        let statistics = Statistics { ended, t: run.t, ..run.system.counts };
-        match outcome {
-            Ok(_) => Ok(statistics),
-            Err(cause) => Err(Failure { cause, t: run.t, y: Box::from(&*y), statistics }),
-        }
+        let outcome = checked.and_then(|grid| run.go(grid, y, observer));
+        conclude(outcome, Statistics { t: run.t, ..run.system.counts }, y)
     }
 }
 
 impl<Y: Constrained> Run<'_, '_, Y> {
     fn go<O: Observer>(
         &mut self,
+        grid: Option<Grid>,
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Ended, Cause<Y::Stop>> {
@@ -180,8 +159,8 @@ impl<Y: Constrained> Run<'_, '_, Y> {
         self.step.start.q.copy_from_slice(&y[..n]);
         self.step.start.v.copy_from_slice(&y[n..2 * n]);
         self.system.begin(self.t, &mut self.step.start)?;
-        self.size = match (self.constant, self.options.first_step) {
-            (Some((h, _)), _) | (None, Some(h)) => h,
+        self.size = match (self.options.step, self.options.first_step) {
+            (Some(h), _) | (None, Some(h)) => h,
             (None, None) => {
                 let Self { system, step, scale, .. } = self;
                 let knots = (&step.start, &mut step.stages[0]);
@@ -193,8 +172,8 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             if self.options.max_steps.is_some_and(|most| self.system.counts.steps >= most) {
                 return Err(Cause::MaxSteps { steps: self.system.counts.steps });
             }
-            let t_new = match self.constant {
-                Some(constant) => self.constant_step(constant)?,
+            let t_new = match &grid {
+                Some(grid) => self.constant_step(grid)?,
                 None => self.accepted_step()?,
             };
             if self.finish(t_new, y, observer)? == Flow::Stop {
@@ -205,14 +184,9 @@ impl<Y: Constrained> Run<'_, '_, Y> {
     }
 
     /// The next step of constant length, of which the last may be shorter. Returns its time.
-    fn constant_step(&mut self, (step, count): (f64, usize)) -> Result<f64, Cause<Y::Stop>> {
-        let k = self.system.counts.steps + 1;
+    fn constant_step(&mut self, grid: &Grid) -> Result<f64, Cause<Y::Stop>> {
         let t = self.t;
-        let t_new =
-            if k == count { self.t_end } else { self.t0 + self.direction * k as f64 * step };
-        if t_new == t {
-            return Err(Cause::StepTooSmall { t, h: step });
-        }
+        let t_new = grid.end(self.system.counts.steps + 1, t)?;
         let mut singular = false;
         for fresh in [false, true] {
             if fresh || !self.keep_tangent {

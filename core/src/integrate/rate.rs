@@ -28,6 +28,23 @@ impl<Y: FirstOrder> Rate<'_, Y> {
             Err(Trouble::NotFinite(t))
         }
     }
+
+    /// Tells the system that a step of length `h` from t is about to be tried; dy, the derivative at
+    /// its beginning, anew where that changes it.
+    #[inline]
+    pub fn begin(
+        &mut self,
+        t: f64,
+        h: f64,
+        y: &[f64],
+        dy: &mut [f64],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        if self.system.trying(t, y, h) {
+            self.at(t, y, dy)
+        } else {
+            Ok(())
+        }
+    }
 }
 
 /// Whether every number is finite; as a sum of bits, so that it vectorises.

@@ -4,7 +4,7 @@
 use super::arguments::{check_problem, refusal};
 use super::contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
 use super::dense::{Dense, HERMITE};
-use super::failure::{Cause, Failure};
+use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
 use super::rate::{all_finite, Rate, Trouble};
 
@@ -50,7 +50,8 @@ impl Work {
         y: &[f64],
     ) -> Result<(), Trouble<Y::Stop>> {
         let n = y.len();
-        let k1 = &self.dense[..n];
+        let k1 = &mut self.dense[..n];
+        rate.begin(t, h, y, k1)?;
         let [k2, k3, k4] = &mut self.inner;
         along(y, 0.5 * h, k1, &mut self.trial);
         rate.at(t + 0.5 * h, &self.trial, k2)?;
@@ -94,10 +95,7 @@ impl Method for Rk4 {
         let mut rate = Rate { system, evaluations: 0 };
         let outcome = grid.and_then(|grid| go(&mut rate, t0, &grid, y, observer, &mut statistics));
         statistics.evaluations = rate.evaluations;
-        match outcome {
-            Ok(ended) => Ok(Statistics { ended, ..statistics }),
-            Err(cause) => Err(Failure { cause, t: statistics.t, y: Box::from(&*y), statistics }),
-        }
+        conclude(outcome, statistics, y)
     }
 }
 

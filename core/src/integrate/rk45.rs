@@ -4,9 +4,11 @@
 //! (1980) 19. Extension: Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135,
 //! with the optimal c₆. Control: that of `scipy.integrate.RK45`.
 
-use super::adaptive::{integrate, EmbeddedPair};
+use super::adaptive::integrate;
 use super::adaptive_options::{usable_rtol, Atol, Options};
+use super::clearance::Gap;
 use super::contract::{FirstOrder, Method, Observer, Statistics};
+use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
 use super::stages::{combine, larger, rows, sum_of_squares};
@@ -112,6 +114,8 @@ impl EmbeddedPair for DormandPrince {
     const ERROR_ORDER: i32 = 4;
     const STAGES: usize = 7;
     const DEGREE: usize = 4;
+    // between the stages at 3/10 and 4/5
+    const GAP: Gap = Gap { middle: 0.55, half: 0.25 };
     const TABLE: &'static [f64] = &P;
 
     fn advance<Y: FirstOrder>(

@@ -12,6 +12,7 @@ mod link;
 #[allow(clippy::module_inception)] // the model of the module `model`
 mod model;
 mod parameters;
+mod pin;
 mod problem;
 mod size;
 
@@ -22,5 +23,6 @@ pub use inertia::Inertia;
 pub use layout::{columns, Block, Layout, Slots};
 pub use link::{did_you_mean, Reach, Scope};
 pub use model::{variable, Body, ConstraintItem, Dependence, ForceItem, Model};
+pub use pin::Pin;
 pub use problem::Problem;
 pub use size::{row_scales, size};

@@ -4,6 +4,7 @@ use super::added_inertia;
 use super::blueprint::Blueprint;
 use super::inertia::{inertias, Inertia};
 use super::layout::{Layout, Touched};
+use super::pin::{pins, Pin};
 use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group};
 use crate::expression::{Symbol, Tape, Values};
 use crate::math::{Lift, Local, Real, Vec2};
@@ -61,7 +62,7 @@ pub struct ConstraintItem<S = f64> {
     /// The element; where `law` is given its laws stand at their value for t = 0.
     pub element: Constraint<S>,
     /// The element over formulas, if one of them depends on time or state.
-    pub law: Option<Constraint<Tape>>,
+    pub law: Option<Box<Constraint<Tape>>>,
     /// Whether time or a driven motion does work through it.
     pub driven: bool,
     /// Equations, in the order of the rows.
@@ -76,7 +77,7 @@ pub struct ForceItem<S = f64> {
     /// The element; where `law` is given its laws stand at their value for t = 0.
     pub element: ForceElement<S>,
     /// The element over formulas, if one of them depends on time or state.
-    pub law: Option<ForceElement<Tape>>,
+    pub law: Option<Box<ForceElement<Tape>>>,
 }
 
 /// A planar mechanism, ready to be evaluated. Immutable.
@@ -92,6 +93,8 @@ pub struct Model<S = f64> {
     pub bodies: Vec<Body<S>>,
     /// Joints and drivers, in the order of their rows.
     pub constraints: Vec<ConstraintItem<S>>,
+    /// Those of them that only pin two points, as numbers.
+    pub pins: Vec<Pin<S>>,
     /// Forces.
     pub forces: Vec<ForceItem<S>>,
     /// Moments of inertia that are added to bodies without their own while the equations are solved,
@@ -175,7 +178,7 @@ impl<S: Real> Model<S> {
                 name: name.clone(),
                 group: *group,
                 element: formula.map(value),
-                law: depends.any().then(|| formula.clone()),
+                law: depends.any().then(|| Box::new(formula.clone())),
                 driven: *group == Group::Drivers,
                 equations,
             });
@@ -183,22 +186,24 @@ impl<S: Real> Model<S> {
         let forces = blueprint.forces.iter().map(|(name, formula)| {
             let mut depends = Dependence::default();
             formula.map(&mut |tape| depends.add(tape));
-            let law = depends.any().then(|| formula.clone());
+            let law = depends.any().then(|| Box::new(formula.clone()));
             ForceItem { name: name.clone(), element: formula.map(value), law }
         });
         let forces = forces.collect();
         let bodies: Vec<Body<S>> = blueprint.bodies.iter().map(|body| body.map(value)).collect();
         let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
         let added_inertia = added_inertia::added(&bodies, &constraints);
+        let layout = Layout::new(blueprint.bodies.len() - 1, touched.into_iter());
         Self {
             blueprint: Arc::clone(blueprint),
             parameters: parameters.to_vec(),
             gravity,
-            inertias: inertias(&blueprint.bodies, &bodies, &added_inertia, gravity),
+            inertias: inertias(&blueprint.bodies, &bodies, &added_inertia),
             added_inertia,
             driven: constraints.iter().any(|item| item.driven),
             bodies,
-            layout: Layout::new(blueprint.bodies.len() - 1, touched.into_iter()),
+            pins: pins(&constraints, &layout),
+            layout,
             constraints,
             forces,
             allow_redundancy: blueprint.allow_redundancy,

@@ -1,8 +1,8 @@
 //! Arithmetic of blocks of at most 3 × 3, in registers: sizes are constants, so loops unroll.
 //!
-//! A block of U is stored by rows, one of L below the diagonal by columns: lists of three numbers, of which
-//! it may use fewer. Then products with few rows are sums of whole rows, and what was written as a pair of
-//! numbers is read as one.
+//! A block of U is stored by rows, lists of three numbers, of which it may use fewer. One of L below the
+//! diagonal is stored by columns, without gaps, and as L D: then products with few rows are sums of whole
+//! rows, and what was written as a pair of numbers is read as one.
 
 use crate::math::Real;
 
@@ -20,8 +20,7 @@ pub(super) fn part_mut<T, const N: usize>(x: &mut [T], first: u32) -> &mut [T; N
     x[first..first + N].first_chunk_mut().expect("as long as the range")
 }
 
-/// A row of a block of U, or a column of one of L, in two forms, side by side: plain (of L: L D), and scaled by
-/// the inverse of D.
+/// A row of a block of U in two forms, side by side: plain, and scaled by the inverse of Dw.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Twin<S> {
     pub plain: [S; 3],
@@ -62,45 +61,74 @@ pub(super) fn add<S: Real, const M: usize, const N: usize, const K: usize>(
     }
 }
 
-/// target -= A D⁻¹ Bᵀ, both by their `K` columns.
+/// The `K` columns, of `M` numbers each, of a block that begins at `first`.
+#[inline(always)]
+pub(super) fn columns<S: Real, const M: usize, const K: usize>(x: &[S], first: u32) -> [[S; M]; K] {
+    let x = &x[first as usize..first as usize + M * K];
+    std::array::from_fn(|k| std::array::from_fn(|i| x[k * M + i]))
+}
+
+/// Stores the columns of a block.
+#[inline(always)]
+pub(super) fn store<S: Real, const M: usize, const K: usize>(
+    x: &mut [S],
+    first: u32,
+    columns: &[[S; M]; K],
+) {
+    let x = &mut x[first as usize..first as usize + M * K];
+    for (k, column) in columns.iter().enumerate() {
+        x[k * M..][..M].copy_from_slice(column);
+    }
+}
+
+/// Columns times the inverse of D.
+#[inline(always)]
+pub(super) fn scaled<S: Real, const M: usize, const K: usize>(
+    a: &[[S; M]; K],
+    inverse: &[S; K],
+) -> [[S; M]; K] {
+    std::array::from_fn(|k| a[k].map(|a| a * inverse[k]))
+}
+
+/// target -= A Bᵀ, both by their `K` columns.
 #[inline(always)]
 pub(super) fn subtract<S: Real, const M: usize, const N: usize, const K: usize>(
     target: &mut [[S; N]; M],
-    a: &[Twin<S>; K],
-    b: &[Twin<S>; K],
+    a: &[[S; M]; K],
+    b: &[[S; N]; K],
 ) {
     for (a, b) in a.iter().zip(b) {
-        for (target, a) in target.iter_mut().zip(&a.plain) {
-            for (target, b) in target.iter_mut().zip(&b.scaled) {
+        for (target, a) in target.iter_mut().zip(a) {
+            for (target, b) in target.iter_mut().zip(b) {
                 *target -= *a * *b;
             }
         }
     }
 }
 
-/// y -= A D⁻¹ x by the `K` columns of A.
+/// y -= A x by the `K` columns of A.
 #[inline(always)]
 pub(super) fn subtract_times<S: Real, const M: usize, const K: usize>(
     y: &mut [S; M],
-    a: &[Twin<S>; K],
+    a: &[[S; M]; K],
     x: &[S; K],
 ) {
     for (a, x) in a.iter().zip(x) {
-        for (y, a) in y.iter_mut().zip(&a.scaled) {
+        for (y, a) in y.iter_mut().zip(a) {
             *y -= *a * *x;
         }
     }
 }
 
-/// y -= (A D⁻¹)ᵀ x by the columns of A.
+/// y -= Aᵀ x by the columns of A.
 #[inline(always)]
 pub(super) fn subtract_products<S: Real, const M: usize, const N: usize>(
     y: &mut [S; N],
-    a: &[Twin<S>; N],
+    a: &[[S; M]; N],
     x: &[S; M],
 ) {
     for (y, a) in y.iter_mut().zip(a) {
-        for (a, x) in a.scaled.iter().zip(x) {
+        for (a, x) in a.iter().zip(x) {
             *y -= *a * *x;
         }
     }
@@ -167,6 +195,76 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
                     *x -= self.lower[i][j] * known;
                 }
             }
+        }
+    }
+
+    /// y ← L⁻ᵀ D⁻¹ y.
+    #[inline(always)]
+    pub fn back(&self, y: &mut [S; N]) {
+        for j in (0..N).rev() {
+            y[j] = y[j] * self.inverse[j];
+            for i in j + 1..N {
+                y[j] -= self.lower[i][j] * y[i];
+            }
+        }
+    }
+
+    /// Stores 1 / D and L.
+    #[inline(always)]
+    pub fn store(&self, x: &mut [S], first: u32) {
+        let x = &mut x[first as usize..first as usize + numbers(N)];
+        x[..N].copy_from_slice(&self.inverse);
+        for i in 1..N {
+            x[2 * N + i * (i - 1) / 2..][..i].copy_from_slice(&self.lower[i][..i]);
+        }
+    }
+}
+
+/// Numbers that a diagonal block of `n` rows takes: n for 1 / D, n for its diagonal before elimination, and
+/// what is left of the diagonal, row by row: of S, then of L.
+pub(super) fn numbers(n: usize) -> usize {
+    2 * n + n * (n - 1) / 2
+}
+
+/// Stores a diagonal block before elimination.
+#[inline(always)]
+pub(super) fn store_begun<S: Real, const N: usize>(x: &mut [S], first: u32, s: &[[S; N]; N]) {
+    let x = &mut x[first as usize..first as usize + numbers(N)];
+    for i in 0..N {
+        x[N + i] = s[i][i];
+        x[2 * N + i * i.saturating_sub(1) / 2..][..i].copy_from_slice(&s[i][..i]);
+    }
+}
+
+/// Its diagonal, and what is left of that.
+#[inline(always)]
+pub(super) fn begun<S: Real, const N: usize>(x: &[S], first: u32) -> ([S; N], [[S; N]; N]) {
+    let x = &x[first as usize..first as usize + numbers(N)];
+    let mut s = [[S::zero(); N]; N];
+    for i in 1..N {
+        s[i][..i].copy_from_slice(&x[2 * N + i * (i - 1) / 2..][..i]);
+    }
+    (std::array::from_fn(|i| x[N + i]), s)
+}
+
+/// x ← L⁻¹ x.
+#[inline(always)]
+pub(super) fn forward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; N]) {
+    let l = &x[first as usize..first as usize + numbers(N)][2 * N..];
+    for i in 1..N {
+        for j in 0..i {
+            y[i] -= l[i * (i - 1) / 2 + j] * y[j];
+        }
+    }
+}
+
+/// y ← L⁻ᵀ y.
+#[inline(always)]
+pub(super) fn backward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; N]) {
+    let l = &x[first as usize..first as usize + numbers(N)][2 * N..];
+    for j in (0..N).rev() {
+        for i in j + 1..N {
+            y[j] -= l[i * (i - 1) / 2 + j] * y[i];
         }
     }
 }

@@ -11,9 +11,12 @@
 //! when d ≤ [`PIVOT_TOLERANCE`] S_kk. A dependent row of A leaves a ratio near 1e-16 whatever its scale;
 //! a mechanism near a singular position a small one, which [`Saddle::cancellation`] shows.
 
-use super::arm::{bent, Arm};
-use super::block::{add, factorise, part, part_mut, subtract, Diagonal, Twin};
-use super::pattern::{Below, Column, Pattern, Touch, Update};
+use super::block::{
+    add, begun, columns, factorise, part, part_mut, scaled, store, subtract, subtract_times,
+    Diagonal, Twin,
+};
+use super::pattern::Pattern;
+use super::steps::{Ahead, Below, Column, Earlier, Products, Start, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -32,7 +35,9 @@ pub struct Saddle<S> {
     pub weights: Vec<Weight<S>>,
     /// Entries of A in rows of three, as the pattern places them.
     pub entries: Vec<[S; 3]>,
-    /// μ, one for each row.
+    /// b′ of the pairs of rows [±I b], as the pattern places them.
+    pub arms: Vec<[S; 2]>,
+    /// μ, one for each row; empty for none.
     pub damping: Vec<S>,
     /// Smallest ratio of a pivot to S_kk that is accepted; [`PIVOT_TOLERANCE`] at first.
     pub(super) least: f64,
@@ -40,23 +45,8 @@ pub struct Saddle<S> {
     pub(super) ridge: f64,
     /// Rows of U.
     pub(super) u: Vec<Twin<S>>,
-    /// Pairs of rows of U that begin with ±I.
-    pub(super) arms: Vec<Arm<S>>,
-    /// Rows of the diagonal blocks of L.
-    pub(super) diagonal: Vec<Pivot<S>>,
-    /// Columns of the blocks of L D and of L below the diagonal.
-    pub(super) lower: Vec<Twin<S>>,
-}
-
-/// One row of a diagonal block.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pivot<S> {
-    /// L left of the diagonal, within the block.
-    pub lower: [S; 3],
-    /// 1 / d.
-    pub inverse: S,
-    /// S_kk.
-    magnitude: S,
+    /// For each column of blocks what its diagonal block came to, then L D of the blocks below.
+    pub(super) factors: Vec<S>,
 }
 
 impl<S: Real> Saddle<S> {
@@ -64,22 +54,20 @@ impl<S: Real> Saddle<S> {
     pub fn new(pattern: &Pattern) -> Self {
         let (zero, none) = (S::zero(), [S::zero(); 3]);
         let weight = Weight { inverse: [S::one(); 3], shift: [zero; 2] };
-        let twin = Twin { plain: none, scaled: none };
         let mut entries = vec![none; pattern.n_entries];
         for &(row, sign) in &pattern.units {
-            let sign = S::constant(sign);
+            let (row, sign) = (row as usize, S::constant(sign.into()));
             (entries[row][0], entries[row + 1][1]) = (sign, sign);
         }
         Self {
-            weights: vec![weight; pattern.coupled.len()],
+            weights: vec![weight; pattern.n_groups],
             entries,
-            damping: vec![zero; pattern.n_rows],
+            arms: vec![[zero; 2]; pattern.places.arms.len()],
+            damping: Vec::new(),
             least: PIVOT_TOLERANCE,
             ridge: 0.0,
-            u: vec![twin; pattern.general.len()],
-            arms: vec![Arm::zero(); pattern.arms.len()],
-            diagonal: vec![Pivot { lower: none, inverse: zero, magnitude: zero }; pattern.n_rows],
-            lower: vec![twin; pattern.n_lower],
+            u: vec![Twin { plain: none, scaled: none }; pattern.places.general.len()],
+            factors: vec![zero; pattern.n_factors],
         }
     }
 
@@ -93,7 +81,8 @@ impl<S: Real> Saddle<S> {
     /// If the matrix is of another pattern.
     pub fn factor(&mut self, pattern: &Pattern) -> Result<(), Dependent> {
         check(&self.weights)?;
-        self.transform(pattern);
+        self.transform::<true>(pattern);
+        self.begin_all(pattern, &pattern.steps.starts);
         self.eliminate::<false>(pattern, &mut [])
     }
 
@@ -106,38 +95,56 @@ impl<S: Real> Saddle<S> {
     /// # Panics
     /// As [`factor`](Self::factor) and [`solve`](Self::solve).
     pub fn factor_and_solve(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
-        self.transform(pattern);
+        self.transform::<true>(pattern);
         self.weigh(pattern, x);
+        self.finish(pattern, &pattern.steps.starts, x)?;
+        self.unbend(pattern, x);
+        Ok(())
+    }
+
+    /// The same once all row blocks of [`Pattern::armed`] are begun: their entries are not read, `x` was
+    /// weighed, their right sides stand in it, and it lacks -Dw⁻¹ Uᵀ λ of these rows in the end.
+    ///
+    /// # Errors
+    /// As [`factor`](Self::factor); `x` is then lost.
+    ///
+    /// # Panics
+    /// As [`factor`](Self::factor) and [`solve`](Self::solve).
+    #[inline(always)] // once in an evaluation
+    pub fn finish_begun(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
+        self.transform::<false>(pattern);
+        self.finish(pattern, &pattern.steps.starts[..pattern.steps.n_mixed], x)
+    }
+
+    /// From x = Dw⁻¹ Lw⁻¹ f to Lwᵀ x, with the row blocks of `starts` still to be begun.
+    #[inline(always)]
+    fn finish(
+        &mut self,
+        pattern: &Pattern,
+        starts: &[Start],
+        x: &mut [S],
+    ) -> Result<(), Dependent> {
+        self.begin_all(pattern, starts);
+        let (f, g) = x.split_at_mut(pattern.n_unknowns());
+        self.right_sides(pattern, starts, f, g);
         // a useless weight spoils a pivot, or else the unknowns of its group
-        self.eliminate::<true>(pattern, x).or_else(|row| check(&self.weights).and(Err(row)))?;
-        self.substitute_back(pattern, x);
+        self.eliminate::<true>(pattern, g).or_else(|row| check(&self.weights).and(Err(row)))?;
+        self.substitute_back(pattern, g);
+        self.spread_all(pattern, starts, f, g);
         Ok(())
     }
 
     /// The row whose pivot was cancelled most, and its ratio d / S_kk: 1 means nothing was lost, 1e-10
     /// that ten digits were. `None` without rows.
-    pub fn cancellation(&self) -> Option<(usize, f64)> {
-        let ratios = self.diagonal.iter().map(|p| S::one() / (p.inverse * p.magnitude));
-        ratios.map(S::least_magnitude).enumerate().min_by(|a, b| a.1.total_cmp(&b.1))
-    }
-
-    /// U = A Lw⁻ᵀ and U Dw⁻¹, one after the other as they are stored.
-    #[inline(always)]
-    fn transform(&mut self, pattern: &Pattern) {
-        assert_eq!(self.entries.len(), pattern.n_entries, "a matrix of this pattern");
-        for (owner, u) in pattern.general.iter().zip(&mut self.u) {
-            let Weight { inverse, shift } = &self.weights[owner.group as usize];
-            let mut row = self.entries[owner.row as usize];
-            if owner.coupled {
-                row[2] = row[2] - shift[0] * row[0] - shift[1] * row[1];
-            }
-            u.plain = row;
-            u.scaled = [row[0] * inverse[0], row[1] * inverse[1], row[2] * inverse[2]];
-        }
-        for (owner, arm) in pattern.arms.iter().zip(&mut self.arms) {
-            let weight = &self.weights[owner.group as usize];
-            *arm = Arm::new(bent(part(&self.entries, owner.row), weight, owner), weight);
-        }
+    pub fn cancellation(&self, pattern: &Pattern) -> Option<(usize, f64)> {
+        let of = |column: &Column| {
+            let (row, size) = (column.row as usize, usize::from(column.size));
+            let (inverse, rest) = self.factors[column.diagonal as usize..].split_at(size);
+            let ratios = inverse.iter().zip(rest).map(|(i, m)| S::one() / (*i * *m));
+            ratios.map(S::least_magnitude).enumerate().map(move |(k, ratio)| (row + k, ratio))
+        };
+        let all = pattern.steps.columns.iter().flat_map(of);
+        all.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
     }
 
     /// Column by column; with `RHS` the right side as well.
@@ -145,14 +152,14 @@ impl<S: Real> Saddle<S> {
     fn eliminate<const RHS: bool>(
         &mut self,
         pattern: &Pattern,
-        x: &mut [S],
+        g: &mut [S],
     ) -> Result<(), Dependent> {
-        let (x, g) = x.split_at_mut(if RHS { pattern.n_unknowns() } else { 0 });
-        for column in &pattern.columns {
+        let mut ahead = pattern.steps.ahead();
+        for column in &pattern.steps.columns {
             if column.pins {
-                self.column::<2, RHS, true>(column, x, g)?;
+                self.column::<2, RHS, true>(column, &mut ahead, g)?;
             } else {
-                self.mixed_column::<RHS>(column, x, g)?;
+                self.mixed_column::<RHS>(column, &mut ahead, g)?;
             }
         }
         Ok(())
@@ -163,13 +170,13 @@ impl<S: Real> Saddle<S> {
     fn mixed_column<const RHS: bool>(
         &mut self,
         column: &Column,
-        x: &[S],
+        ahead: &mut Ahead<'_>,
         g: &mut [S],
     ) -> Result<(), Dependent> {
         match column.size {
-            1 => self.column::<1, RHS, false>(column, x, g),
-            2 => self.column::<2, RHS, false>(column, x, g),
-            _ => self.column::<3, RHS, false>(column, x, g),
+            1 => self.column::<1, RHS, false>(column, ahead, g),
+            2 => self.column::<2, RHS, false>(column, ahead, g),
+            _ => self.column::<3, RHS, false>(column, ahead, g),
         }
     }
 
@@ -178,58 +185,60 @@ impl<S: Real> Saddle<S> {
     fn column<const N: usize, const RHS: bool, const PINS: bool>(
         &mut self,
         column: &Column,
-        x: &[S],
+        ahead: &mut Ahead<'_>,
         g: &mut [S],
     ) -> Result<(), Dependent> {
-        let mut s = [[S::zero(); N]; N];
-        for (i, mu) in part::<S, N>(&self.damping, column.row).iter().enumerate() {
-            s[i][i] = *mu;
+        let (magnitude, mut s) = begun(&self.factors, column.diagonal);
+        for (i, magnitude) in magnitude.iter().enumerate() {
+            s[i][i] = *magnitude + *magnitude * S::constant(self.ridge);
         }
-        let mut y = if RHS { part(g, column.row).map(|g: S| -g) } else { [S::zero(); N] };
-        for Touch { first, unknown, sign } in &column.touches {
-            if PINS || N == 2 && *sign != 0.0 {
-                let arm = &self.arms[*first as usize];
-                arm.add_square(&mut s);
-                if RHS {
-                    arm.add_times(*sign, part(x, *unknown), &mut y);
-                }
-                continue;
-            }
-            let u = part::<_, N>(&self.u, *first);
-            add::<S, N, N, 3>(&mut s, u, u);
-            if RHS {
-                Twin::add_times(u, part(x, *unknown), &mut y);
-            }
-        }
-        let magnitude: [S; N] = std::array::from_fn(|i| s[i][i]);
-        if self.ridge > 0.0 {
-            for (i, magnitude) in magnitude.iter().enumerate() {
-                s[i][i] += *magnitude * S::constant(self.ridge);
-            }
-        }
-        for block in &column.earlier {
-            let size = if PINS { 2 } else { block.size };
-            self.subtract::<N, N>([block.block, block.block], size, &mut s);
-            if RHS {
-                block.subtract(size, &self.lower, g, &mut y);
+        let mut y = if RHS { *part(g, column.row) } else { [S::zero(); N] };
+        for block in ahead.earlier.by_ref().take(column.earlier as usize) {
+            match block.size {
+                _ if PINS => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
+                1 => self.subtract_earlier::<N, 1, RHS>(block, g, &mut s, &mut y),
+                2 => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
+                _ => self.subtract_earlier::<N, 3, RHS>(block, g, &mut s, &mut y),
             }
         }
         let diagonal = factorise(s);
         if RHS {
             let mut y = y.map(|y| [y]);
             diagonal.forward(&mut y);
-            *part_mut(g, column.row) = y.map(|[y]| y);
+            let mut y = y.map(|[y]| y);
+            if column.below == 0 {
+                diagonal.back(&mut y); // λ: nothing else is waited for
+            }
+            *part_mut(g, column.row) = y;
         }
         self.keep(column, &diagonal, magnitude)?;
-        for block in &column.below {
+        let Ahead { below, products, .. } = ahead;
+        for block in below.by_ref().take(column.below as usize) {
             match block.size {
-                _ if PINS => self.below::<2, N, true>(block, &diagonal),
-                1 => self.below::<1, N, false>(block, &diagonal),
-                2 => self.below::<2, N, false>(block, &diagonal),
-                _ => self.below::<3, N, false>(block, &diagonal),
+                _ if PINS => self.below::<2, N, true>(block, products, &diagonal),
+                1 => self.below::<1, N, false>(block, products, &diagonal),
+                2 => self.below::<2, N, false>(block, products, &diagonal),
+                _ => self.below::<3, N, false>(block, products, &diagonal),
             }
         }
         Ok(())
+    }
+
+    /// s -= (L D) Lᵀ with a block left of the diagonal, of K columns; with `RHS` y -= L y′ as well.
+    #[inline(always)]
+    fn subtract_earlier<const N: usize, const K: usize, const RHS: bool>(
+        &self,
+        &Earlier { block, diagonal, row, .. }: &Earlier,
+        g: &[S],
+        s: &mut [[S; N]; N],
+        y: &mut [S; N],
+    ) {
+        let plain = columns::<S, N, K>(&self.factors, block);
+        let scaled = scaled(&plain, part(&self.factors, diagonal));
+        subtract(s, &plain, &scaled);
+        if RHS {
+            subtract_times(y, &scaled, part::<S, K>(g, row));
+        }
     }
 
     /// Judges and stores a diagonal block.
@@ -240,62 +249,55 @@ impl<S: Real> Saddle<S> {
         diagonal: &Diagonal<S, N>,
         magnitude: [S; N],
     ) -> Result<(), Dependent> {
-        let rows = part_mut::<_, N>(&mut self.diagonal, column.row);
-        for (i, row) in rows.iter_mut().enumerate() {
-            let least = magnitude[i] * S::constant(self.least) + S::constant(LEAST_PIVOT);
+        for (i, magnitude) in magnitude.iter().enumerate() {
+            let least = *magnitude * S::constant(self.least) + S::constant(LEAST_PIVOT);
             if !above_zero(diagonal.pivot[i] - least) {
                 return Err(Dependent::Row(column.row as usize + i));
             }
-            row.inverse = diagonal.inverse[i];
-            row.magnitude = magnitude[i];
-            row.lower[..i].copy_from_slice(&diagonal.lower[i][..i]);
         }
+        diagonal.store(&mut self.factors, column.diagonal);
         Ok(())
     }
 
-    /// One block below the diagonal: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ and · D⁻¹.
+    /// One block below the diagonal: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ.
     #[inline(always)]
     fn below<const M: usize, const N: usize, const PINS: bool>(
         &mut self,
         block: &Below,
+        products: &mut Products<'_>,
         diagonal: &Diagonal<S, N>,
     ) {
         // transposed, as it is stored
         let mut s = [[S::zero(); M]; N];
-        for pair in &block.pairs {
+        for pair in products.pairs.by_ref().take(block.pairs as usize) {
             let [own, other] = pair.first;
             if PINS || N == 2 && M == 2 && pair.sign != 0.0 {
                 let own = &self.arms[own as usize];
-                self.arms[other as usize].add_product(own, pair.sign, &mut s);
+                self.arm(other, pair.group).add_product(own, pair.sign.into(), &mut s);
             } else {
                 add::<S, N, M, 3>(&mut s, part(&self.u, other), part(&self.u, own));
             }
         }
-        for Update { blocks: [left, right], size } in &block.updates {
-            let size = if PINS { 2 } else { *size };
-            self.subtract::<N, M>([*right, *left], size, &mut s);
+        for update in products.updates.by_ref().take(block.updates as usize) {
+            match update.size {
+                _ if PINS => self.subtract_product::<M, N, 2>(update, &mut s),
+                1 => self.subtract_product::<M, N, 1>(update, &mut s),
+                2 => self.subtract_product::<M, N, 2>(update, &mut s),
+                _ => self.subtract_product::<M, N, 3>(update, &mut s),
+            }
         }
         diagonal.forward(&mut s);
-        let columns = part_mut::<_, N>(&mut self.lower, block.block);
-        for ((s, column), inverse) in s.iter().zip(columns).zip(&diagonal.inverse) {
-            column.plain[..M].copy_from_slice(s);
-            column.scaled[..M].copy_from_slice(&s.map(|s| s * *inverse));
-        }
+        store(&mut self.factors, block.block, &s);
     }
 
-    /// s -= (L D) Lᵀ with two blocks of one earlier column, of `size` rows.
+    /// s -= ((L D) Lᵀ)ᵀ with two blocks of one earlier column, of K columns.
     #[inline(always)]
-    fn subtract<const M: usize, const N: usize>(
+    fn subtract_product<const M: usize, const N: usize, const K: usize>(
         &self,
-        [left, right]: [u32; 2],
-        size: u32,
-        s: &mut [[S; N]; M],
+        &Update { blocks: [left, right], diagonal, .. }: &Update,
+        s: &mut [[S; M]; N],
     ) {
-        let l = &self.lower;
-        match size {
-            1 => subtract::<S, M, N, 1>(s, part(l, left), part(l, right)),
-            2 => subtract::<S, M, N, 2>(s, part(l, left), part(l, right)),
-            _ => subtract::<S, M, N, 3>(s, part(l, left), part(l, right)),
-        }
+        let left = scaled(&columns::<S, M, K>(&self.factors, left), part(&self.factors, diagonal));
+        subtract(s, &columns::<S, N, K>(&self.factors, right), &left);
     }
 }

@@ -28,6 +28,9 @@ const MARGIN: f64 = 10.0;
 /// A residual that Newton's own step does not lower is rounding up to this factor of the tolerance.
 const ROUNDING: f64 = 1e3;
 
+/// Part of the tolerance that may stay beside a singular position.
+const SHARP: f64 = 1e-3;
+
 /// No residual above this is rounding, however far the coordinates are: the joint is open.
 const CLOSED: f64 = 1e-8;
 
@@ -77,6 +80,8 @@ pub struct Projector<'a, S = f64> {
     current: bool,
     /// By how much the last step with the factor at hand lowered the residual.
     lowering: f64,
+    /// Part of the tolerance that may stay.
+    part: f64,
     /// The largest rate that was seen; none if each state has to be as good as its own rates.
     fastest: Option<f64>,
     /// Right side, then (Δ, μ).
@@ -104,6 +109,7 @@ impl<'a, S: Real> Projector<'a, S> {
             terms: std::array::from_fn(|_| vec![S::zero(); model.layout.n_rows]),
             current: false,
             lowering: 1.0,
+            part: 1.0,
             fastest: None,
             correction: vec![S::zero(); unknowns],
             factorisations: 0,
@@ -114,6 +120,12 @@ impl<'a, S: Real> Projector<'a, S> {
     /// them, so that what is nearly at rest is not projected for digits that nobody sees.
     pub fn for_reports(self) -> Self {
         Self { fastest: Some(0.0), ..self }
+    }
+
+    /// Whether to leave as little as rounding does: beside a singular position accelerations have what is
+    /// left of Φ over σ³.
+    pub fn sharpen(&mut self, sharp: bool) {
+        self.part = if sharp { SHARP } else { 1.0 };
     }
 
     /// Projects (q, v) in place; whether they changed. The motions of the workspace are then those of the
@@ -193,13 +205,13 @@ impl<'a, S: Real> Projector<'a, S> {
         let (target, most) = match level {
             Level::Position => {
                 let rounding = 8.0 * f64::EPSILON * self.largest(q);
-                (self.tolerance.max(rounding), CLOSED.max(self.tolerance))
+                ((self.part * self.tolerance).max(rounding), CLOSED.max(self.tolerance))
             }
             // what has come to rest has rates without digits
             Level::Velocity => {
                 let largest = self.largest(v).max(gap);
                 self.fastest = self.fastest.map(|fastest| fastest.max(largest));
-                let target = self.tolerance * self.fastest.unwrap_or(largest);
+                let target = self.part * self.tolerance * self.fastest.unwrap_or(largest);
                 (target.max(f64::MIN_POSITIVE), f64::INFINITY)
             }
         };

@@ -10,6 +10,7 @@ mod energy;
 mod equilibrium;
 mod forces;
 mod mass;
+mod pins;
 mod samples;
 mod spring_damper;
 mod tables;

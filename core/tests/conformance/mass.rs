@@ -124,7 +124,7 @@ fn m_is_the_second_derivative_of_the_kinetic_energy() {
 #[test]
 fn the_quadratic_term_is_that_of_lagrange() {
     let mut m = pendulum([0.4, -0.7], [-1.1, 0.25]);
-    m.inertias.iter_mut().for_each(|inertia| inertia.weight = kempe::math::Vec2::zero());
+    m.gravity = kempe::math::Vec2::zero();
     m.forces.clear();
     let mut numbers = Random::new(6);
     let (q, v) = (numbers.many(6), numbers.many(6));

@@ -4,6 +4,7 @@
 mod mechanisms;
 
 mod block_lu;
+mod events;
 mod order;
 mod product;
 mod stiff;

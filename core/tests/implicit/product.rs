@@ -4,7 +4,7 @@
 use crate::mechanisms::{
     close, every, four_bar, largest, model, rate, residual, run, start, worst,
 };
-use kempe::analyses::dynamics::{dynamics, Options, Reason, Run, Scheme, Stabilization};
+use kempe::analyses::dynamics::{dynamics, Auto, Options, Reason, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::Gains;
 use kempe::integrate::{AlphaParameters, Dop853, Flow, GeneralizedAlpha, Radau};
@@ -225,10 +225,12 @@ fn refused(options: &Options) -> Reason {
 
 #[test]
 fn baumgarte_is_refused() {
-    let stabilization = Stabilization::Baumgarte(Gains { alpha: 10.0, beta: 200.0 });
-    for scheme in [alpha(1e-4), radau(1e-6)] {
-        let reason = refused(&Options { stabilization, ..options(1.0, scheme) });
-        assert!(reason.to_string().contains("use projection or none"), "{reason}");
+    let given = Stabilization::Baumgarte(Gains { alpha: 10.0, beta: 200.0 });
+    for stabilization in [given, Stabilization::BaumgarteFromStep] {
+        for scheme in [alpha(1e-4), radau(1e-6), Scheme::Auto(Auto::default())] {
+            let reason = refused(&Options { stabilization, ..options(1.0, scheme) });
+            assert!(reason.to_string().contains("use projection or none"), "{reason}");
+        }
     }
 }
 

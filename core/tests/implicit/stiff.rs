@@ -192,3 +192,83 @@ fn dop853_at_the_same_tolerance_agrees_where_it_can() {
     assert!(worst(&implicit.trajectory.q, &explicit.trajectory.q) < 1e-10);
     assert!(worst(&implicit.trajectory.lam, &explicit.trajectory.lam) < 1e-3); // of 1e5 N
 }
+
+/// The model tells at the start: DOP853 follows the fast motion while it dies out, and no longer.
+#[test]
+fn a_stiff_start_is_foretold() {
+    for (c, steps) in [(1e7, 95), (1e8, 50), (1e9, 50)] {
+        let (m, state) = damped(c);
+        let (method, why, taken) = chosen(&m, &state, 15.0);
+        assert!(why.ends_with("s, as the model told at the start"), "{why}");
+        assert!(method == "radau" && taken < steps, "{taken} steps");
+    }
+}
+
+/// Where the fast motion has died out before, nothing is left to an explicit method.
+#[test]
+fn radau_begins_where_the_fast_motion_has_died_out() {
+    let (m, state) = damped(1e7);
+    let first = run(&m, &state, &options(1.0, Scheme::Auto(Auto::default())));
+    let n = m.layout.n_q;
+    let last = |table: &[f64]| table[table.len() - n..].to_vec();
+    let (q, v) = (last(&first.trajectory.q), last(&first.trajectory.v));
+    let later = State { t: 1.0, q, v, z: Vec::new() };
+    let (method, why, steps) = chosen(&m, &later, 15.0);
+    assert!(method == "radau" && steps < 70, "{steps} steps");
+    let told =
+        "stiff: radau from the start, since a damped motion with a rate of 4.74e3 1/s would hold \
+                dop853 to 108";
+    assert!(why.starts_with(told), "{why}");
+    // backward in time what is damped grows
+    let auto = run(&m, &later, &options(0.99, Scheme::Auto(Auto::default())));
+    assert_eq!(auto.choice.expect("a choice was made").method, "dop853");
+}
+
+/// So few steps are not worth a method of their own.
+#[test]
+fn a_stiff_model_that_is_soon_done_stays_explicit() {
+    let (m, state) = damped(1e7);
+    let (method, why, _) = chosen(&m, &state, 1e-3);
+    assert_eq!(method, "dop853");
+    assert!(why.starts_with("not stiff: at the start the fastest motion is damped"), "{why}");
+}
+
+const LATE: &str = r#"
+[bodies.ground]
+points = { O = [0, 0] }
+[bodies.hub]
+mass = 1
+inertia = 1
+points = { O = [0, 0] }
+[bodies.rim]
+mass = 1
+inertia = 1
+points = { O = [0, 0] }
+[joints.pin]
+type = "revolute"
+i = "ground.O"
+j = "hub.O"
+[joints.bearing]
+type = "revolute"
+i = "hub.O"
+j = "rim.O"
+[drivers.motor]
+type = "coordinate_driver"
+coordinate = "hub.angle"
+value = "0.01*t^4*sin(50*t)"
+[forces.clutch]
+type = "torsion_spring"
+i = "hub"
+j = "rim"
+damping = 300
+"#;
+
+/// At rest the model is stiff; once its drive is fast, accuracy holds Radau to steps that DOP853 has longer.
+#[test]
+fn what_moves_later_makes_the_choice_anew() {
+    let m = model(LATE);
+    let (state, _) = start(&m, &[("rim.angle", "0")], &[]);
+    let (method, why, _) = chosen(&m, &state, 6.0);
+    assert_eq!(method, "dop853", "{why}");
+    assert!(why.starts_with("hardly stiff: radau was tried at t = 0.0000 s"), "{why}");
+}

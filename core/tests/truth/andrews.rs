@@ -3,6 +3,7 @@
 
 use crate::mechanisms::{close, model, run, start, tolerances, worst};
 use crate::{number, numbers, reference};
+use kempe::analyses::dynamics::Options;
 use kempe::analyses::State;
 use kempe::model::Model;
 
@@ -39,4 +40,12 @@ fn angles_after_three_hundredths_of_a_second() {
     for (k, expected) in expected.into_iter().enumerate() {
         close(&format!("angle of K{}", k + 1), q[3 * k + 2], expected, 1e-10);
     }
+}
+
+/// Fast and undamped: no case for an implicit method.
+#[test]
+fn the_automatic_choice_is_explicit() {
+    let (m, state) = squeezer();
+    let choice = run(&m, &state, &Options::new(0.03)).choice.expect("a choice was made");
+    assert_eq!(choice.method, "dop853", "{}", choice.why);
 }

@@ -5,9 +5,12 @@ mod mechanisms;
 
 mod adams;
 mod andrews;
+mod apart;
+mod baumgarte;
 mod convergence;
 mod four_bar;
 mod n_four_bar;
+mod passing;
 mod pendulum;
 mod point_mass;
 mod position;

@@ -9,7 +9,7 @@ use kempe::model::Model;
 use kempe::stabilize::Projection;
 use std::fmt::Write;
 
-fn windows(n: usize) -> Model {
+pub fn windows(n: usize) -> Model {
     let mut text = String::from("gravity = [0, -9.81]\n[bodies.ground]\npoints = { ");
     for k in 0..=n {
         write!(text, "P{k} = [{k}, 0], ").unwrap();
@@ -122,7 +122,7 @@ fn forty_windows() {
     compare(40);
 }
 
-fn upright(n: usize) -> (Model, State) {
+pub fn upright(n: usize) -> (Model, State) {
     let m = windows(n);
     let guess: Vec<(String, &str)> = (0..n).map(|k| (format!("coupler{k}.angle"), "0")).collect();
     let guess: Vec<(&str, &str)> = guess.iter().map(|(key, x)| (key.as_str(), *x)).collect();
@@ -208,4 +208,13 @@ fn at_speed_the_rate_decides_the_branch() {
     let q = &run.trajectory.q[run.trajectory.q.len() - 9..];
     close("a parallelogram it stays", q[8], 0.0, 1e-8);
     assert!(q[2] < -0.3);
+}
+
+#[test]
+fn the_automatic_choice_is_explicit() {
+    for n in [1, 3, 40] {
+        let (m, state) = upright(n);
+        let choice = run(&m, &state, &Options::new(10.0)).choice.expect("a choice was made");
+        assert_eq!(choice.method, "dop853", "{n} windows: {}", choice.why);
+    }
 }

@@ -1,7 +1,8 @@
 //! The run of a method that is not named: explicit and implicit pieces, one after the other, as
 //! `choice` decides.
 
-use super::choice::{Choice, Detector, TRIAL, WORTH};
+use super::choice::{Choice, Detector, LIMIT, TRIAL, WORTH};
+use super::forecast::Forecast;
 use super::implicit::Implicit;
 use super::options::{Auto, Options};
 use super::system::Equations;
@@ -80,10 +81,14 @@ impl<'a, 'o> Automatic<'a, 'o> {
         observer: &mut O,
     ) -> Outcome {
         let mut t = t0;
+        let forecast = self.foretell(t0, y);
+        let mut skipped = forecast.implicit();
         let outcome = loop {
-            match self.explicit(system, t, y, observer) {
-                (Ok(took), true) => t = took.t,
-                (outcome, _) => break outcome,
+            if !std::mem::take(&mut skipped) {
+                match self.explicit(system, t, y, observer) {
+                    (Ok(took), true) => t = took.t,
+                    (outcome, _) => break outcome,
+                }
             }
             match self.implicit(t, y, observer) {
                 (Ok(took), true) => t = took.t,
@@ -92,9 +97,23 @@ impl<'a, 'o> Automatic<'a, 'o> {
             self.detector.resume(t);
         };
         if self.choice.why.is_empty() {
-            self.choice.why = self.not_stiff();
+            self.choice.why = self.not_stiff(&forecast);
         }
         outcome
+    }
+
+    /// Judges the model at the start, and has the detector know.
+    fn foretell(&mut self, t: f64, y: &[f64]) -> Forecast {
+        let Self { model, options, auto, detector, choice, .. } = self;
+        let forecast = Forecast::new(model, detector, auto, (t, options.t_end), y);
+        let Some(fastest) = forecast.stiff() else { return forecast };
+        if forecast.implicit() {
+            detector.seen = Some((fastest, LIMIT / fastest.rate));
+            *choice = Choice { method: "radau", why: forecast.why_implicit() };
+        } else {
+            detector.foretold = Some(fastest.rate);
+        }
+        forecast
     }
 
     /// Factorisations beside those that the integrators count.
@@ -120,6 +139,7 @@ impl<'a, 'o> Automatic<'a, 'o> {
             max_steps: self.steps_left(),
         };
         let detector = &mut self.detector;
+        let foretold = detector.foretold.is_some();
         let judge = |step: &Step<'_>| detector.stiff(step, t_end);
         let mut judged = Judged { observer, judge, judged: false, last: None };
         let outcome = method.integrate(system, t, t_end, y, &mut judged).map_err(Box::new);
@@ -131,9 +151,14 @@ impl<'a, 'o> Automatic<'a, 'o> {
                 method: "radau",
                 why: format!(
                     "stiff: from t = {:.4} s on, since a damped motion with a rate of {:.2e} 1/s held the steps \
-                     of dop853 to {h:.1e} s",
+                     of dop853 to {h:.1e} s{}",
                     outcome.as_ref().map_or(t, |took| took.t),
-                    fastest.rate
+                    fastest.rate,
+                    if foretold && self.detector.foretold.is_none() {
+                        ", as the model told at the start"
+                    } else {
+                        ""
+                    }
                 ),
             };
         }
@@ -156,11 +181,15 @@ impl<'a, 'o> Automatic<'a, 'o> {
             ..Radau::new(self.auto.rtol, 0.0)
         };
         let explicit_step = self.detector.seen.map_or(0.0, |(_, h)| h);
-        let mut taken = 0;
+        let (mut taken, mut since) = (0, t);
         let judge = |step: &Step<'_>| {
             taken += 1;
-            let (h, to_go) = ((step.t - t).abs() / TRIAL as f64, (t_end - step.t).abs());
-            taken == TRIAL && h < WORTH * explicit_step && to_go > TRIAL as f64 * explicit_step
+            if taken % TRIAL > 0 {
+                return false;
+            }
+            let h = (step.t - std::mem::replace(&mut since, step.t)).abs() / TRIAL as f64;
+            let to_go = (t_end - step.t).abs();
+            h < WORTH * explicit_step && to_go > TRIAL as f64 * explicit_step
         };
         let mut judged = Judged { observer, judge, judged: false, last: None };
         let implicit = self.implicit.get_or_insert_with(|| Implicit::new(self.model, self.options));
@@ -171,7 +200,7 @@ impl<'a, 'o> Automatic<'a, 'o> {
             self.choice = Choice {
                 method: "dop853",
                 why: format!(
-                    "hardly stiff: radau was tried at t = {t:.4} s, and its steps were no longer than {WORTH} of \
+                    "hardly stiff: radau was tried at t = {t:.4} s, and its steps became no longer than {WORTH} of \
                      {explicit_step:.1e} s"
                 ),
             };
@@ -215,9 +244,9 @@ impl<'a, 'o> Automatic<'a, 'o> {
         })
     }
 
-    fn not_stiff(&self) -> String {
+    fn not_stiff(&self, forecast: &Forecast) -> String {
         match self.detector.seen {
-            None => "not stiff: done before its steps were worth a look".to_string(),
+            None => forecast.why_explicit(),
             Some((fastest, h)) => format!(
                 "not stiff: |lambda| h = {:.2} for {} motion with a rate of {:.2e} 1/s and steps of {h:.1e} s",
                 fastest.rate * h,

@@ -1,8 +1,10 @@
 //! Which method integrates when none is named: DOP853, or Radau where the equations prove stiff.
 //!
-//! No number of a model tells its stiffness: a damper of 1e7 N·m·s/rad is soft on a heavy rocker, and what
-//! is stiff for a second is not for a microsecond. So it is begun with the explicit method, and looked at
-//! its steps now and then: where a damped motion of the linearised equations holds them at the limit
+//! The model is judged at the start (`forecast`), and the steps are on the way, here.
+//!
+//! No number of a model alone tells its stiffness: a damper of 1e7 N·m·s/rad is soft on a heavy rocker, and what
+//! is stiff for a second is not for a microsecond. So the steps of the explicit method are looked at
+//! now and then: where a damped motion of the linearised equations holds them at the limit
 //! of stability, h |λ| ≈ 6.1 for DOP853 (the number of its authors), accuracy would allow longer ones, and
 //! Radau goes on. Undamped vibrations do not count: an implicit method has to follow them as well, in
 //! steps as short. A start costs the explicit method few steps, however stiff: it makes them short.
@@ -19,7 +21,7 @@ use crate::integrate::Step;
 use crate::model::Model;
 
 /// Extent of the stability of DOP853 along the negative real axis.
-const LIMIT: f64 = 6.1;
+pub(super) const LIMIT: f64 = 6.1;
 /// Part of it at which steps count as held by stability.
 const NEAR: f64 = 0.6;
 /// -Re λ / |λ| from which a motion counts as damped.
@@ -29,8 +31,8 @@ const FIRST_LOOK: usize = 15;
 /// Steps until the next look, over those so far.
 const NEXT_LOOK: f64 = 0.25;
 /// Fewer steps than this still to go are not worth a change.
-const TO_GO: f64 = 100.0;
-/// Steps of Radau after which it is judged.
+pub(super) const TO_GO: f64 = 100.0;
+/// Steps of Radau after which it is judged, again and again.
 pub(super) const TRIAL: usize = 20;
 /// By which its steps must be longer: what one of them costs, in steps of DOP853.
 pub(super) const WORTH: f64 = 2.0;
@@ -65,6 +67,8 @@ pub(super) struct Detector<'a> {
     steps: usize,
     next: usize,
     since: (usize, f64),
+    /// The rate of a damped motion that the start foretells to hold the steps.
+    pub foretold: Option<f64>,
     /// The last look: the fastest motion, and the mean step.
     pub seen: Option<(Fastest, f64)>,
 }
@@ -81,6 +85,7 @@ impl<'a> Detector<'a> {
             steps: 0,
             next: FIRST_LOOK,
             since: (0, t0),
+            foretold: None,
             seen: None,
         }
     }
@@ -88,7 +93,10 @@ impl<'a> Detector<'a> {
     /// Whether the explicit method should stop after this step.
     pub fn stiff(&mut self, step: &Step<'_>, t_end: f64) -> bool {
         self.steps += 1;
-        if self.steps < self.next {
+        if self.foretold.is_some_and(|rate| (step.t - step.t_old) * rate > NEAR * LIMIT) {
+            self.foretold = None;
+            self.since = (self.steps - 1, step.t_old);
+        } else if self.steps < self.next {
             return false;
         }
         let h = (step.t - self.since.1) / (self.steps - self.since.0) as f64;
@@ -111,6 +119,21 @@ impl<'a> Detector<'a> {
     pub fn resume(&mut self, t: f64) {
         self.since = (self.steps, t);
         self.wait(4.0);
+    }
+
+    /// Accelerations at a state, and their rate along the motion from a difference over `probe`, s; None
+    /// where the equations are singular.
+    pub fn rates(&mut self, t: f64, [q, v]: [&[f64]; 2], probe: f64) -> Option<[Vec<f64>; 2]> {
+        let gains = Gains::default();
+        self.workspace.accelerate(self.model, t, q, v, gains).ok()?;
+        let a = self.workspace.a().to_vec();
+        let moved = |x: &[f64], rate: &[f64]| -> Vec<f64> {
+            x.iter().zip(rate).map(|(x, rate)| x + probe * rate).collect()
+        };
+        let (q, v) = (moved(q, v), moved(v, &a));
+        self.workspace.accelerate(self.model, t + probe, &q, &v, gains).ok()?;
+        let jerk = self.workspace.a().iter().zip(&a).map(|(new, a)| (new - a) / probe).collect();
+        Some([a, jerk])
     }
 
     /// The fastest motion of the equations linearised at a state; None where they are singular.

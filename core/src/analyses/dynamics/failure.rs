@@ -1,8 +1,10 @@
 //! How forward dynamics fails, in terms of the mechanism.
 
-use super::output::Halt;
+use super::apart::Apart;
+use super::report::Halt;
 use super::Run;
 use crate::analyses::mobility::dependent;
+use crate::elements::Equation;
 use crate::equations::augmented::Dependent;
 use crate::equations::Singular;
 use crate::integrate::{self, Cause};
@@ -104,9 +106,25 @@ impl Reason {
         Self::Integration { t, message, hint }
     }
 
+    /// Joints that nothing keeps together.
+    fn apart(model: &Model, t: f64, Apart { row, gap, most }: Apart) -> Self {
+        let (k, equation) = model.layout.owner(row);
+        let item = &model.constraints[k];
+        let Equation { name, unit } = item.equations[equation];
+        let message = format!(
+            "the joints come apart at t = {t:.6} s: constraint {}.{name} is open by {gap:.1e} {unit}, more \
+             than {most:.1e} {unit}",
+            item.name
+        );
+        let hint = "use stabilization projection, a smaller tolerance or step, or greater gains; a start must \
+                    meet the constraints";
+        Self::Integration { t, message, hint }
+    }
+
     pub(super) fn halt(model: &Model, t: f64, q: &[f64], halt: Halt) -> Self {
         match halt {
             Halt::Fault(fault) => Self::fault(model, t, q, fault),
+            Halt::Apart(apart) => Self::apart(model, t, apart),
             Halt::NotFinite => {
                 let (message, hint) = not_finite(t);
                 Self::Integration { t, message, hint }

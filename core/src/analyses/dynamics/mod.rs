@@ -1,8 +1,11 @@
 //! Forward dynamics: the motion of a mechanism under forces, from a consistent state.
 
+mod apart;
+mod approach;
 mod automatic;
 mod choice;
 mod failure;
+mod forecast;
 mod implicit;
 mod options;
 mod output;
@@ -74,7 +77,40 @@ pub fn dynamics(
     model: &Model,
     start: &State,
     options: &Options,
-    mut watch: impl FnMut(f64) -> Flow,
+    watch: impl FnMut(f64) -> Flow,
+) -> Result<Run, Box<Failure>> {
+    simulate(model, start, options, Eyes { watch, look: None })
+}
+
+/// The same, but `look` sees every accepted step with its continuous extension, after what is reported of
+/// it, and may stop the run; [`locate`](crate::integrate::locate) finds events in it. Of each y = (q, v, works)
+/// both ends are as the stabilization leaves them, what lies between by the extension alone.
+///
+/// # Errors
+/// As [`dynamics`].
+pub fn dynamics_by_steps(
+    model: &Model,
+    start: &State,
+    options: &Options,
+    mut look: impl FnMut(&Step<'_>) -> Flow,
+) -> Result<Run, Box<Failure>> {
+    let watch = |_| Flow::Continue;
+    simulate(model, start, options, Eyes { watch, look: Some(&mut look) })
+}
+
+/// What the caller sees of a run.
+struct Eyes<'l, W> {
+    /// The time after each step and each reported state.
+    watch: W,
+    /// Each step.
+    look: Option<&'l mut dyn FnMut(&Step<'_>) -> Flow>,
+}
+
+fn simulate<W: FnMut(f64) -> Flow>(
+    model: &Model,
+    start: &State,
+    options: &Options,
+    eyes: Eyes<'_, W>,
 ) -> Result<Run, Box<Failure>> {
     let clock = Instant::now();
     options.check(model, start).map_err(|reason| Failure { reason, run: Run::default() })?;
@@ -97,7 +133,7 @@ pub fn dynamics(
         let nothing = (Ok(integrate::Statistics::none(t0)), 0, None);
         return finish(system, recorder, nothing, (clock, start));
     }
-    let mut observer = Watched { recorder: &mut recorder, watch: &mut watch };
+    let mut observer = Watched { recorder: &mut recorder, eyes };
     let end = integrate_by(options, &mut system, t0, &mut y, &mut observer);
     finish(system, recorder, end, (clock, start))
 }
@@ -140,22 +176,27 @@ fn integrate_by<'a, O: Observer>(
     }
 }
 
-/// Output first, then the caller's eye on the time.
-struct Watched<'r, 'a, W> {
+/// Output first, then the caller's eyes.
+struct Watched<'r, 'a, 'l, W> {
     recorder: &'r mut Recorder<'a>,
-    watch: &'r mut W,
+    eyes: Eyes<'l, W>,
 }
 
-impl<W: FnMut(f64) -> Flow> Observer for Watched<'_, '_, W> {
+impl<W: FnMut(f64) -> Flow> Observer for Watched<'_, '_, '_, W> {
     fn step(&mut self, step: &Step<'_>) -> Flow {
-        match self.recorder.step(step, self.watch) {
-            Flow::Continue => (self.watch)(step.t),
-            Flow::Stop => Flow::Stop,
+        let Eyes { watch, look } = &mut self.eyes;
+        let mut flow = self.recorder.step(step, watch);
+        if flow == Flow::Continue {
+            flow = watch(step.t);
+        }
+        match look {
+            Some(look) if flow == Flow::Continue => look(step),
+            _ => flow,
         }
     }
 
     fn looks_inside(&self, _: f64, t: f64) -> bool {
-        self.recorder.looks_inside(t)
+        self.eyes.look.is_some() || self.recorder.looks_inside(t)
     }
 }
 

@@ -61,18 +61,6 @@ pub fn most_steps(model: &Model) -> usize {
 }
 
 impl Scheme {
-    /// Whether it chooses its steps by their error.
-    pub(super) fn controlled(&self) -> bool {
-        match self {
-            Self::Rk45(method) => method.step.is_none(),
-            Self::Dop853(method) => method.step.is_none(),
-            Self::Rk4(_) => false,
-            Self::GeneralizedAlpha(method) => method.step.is_none(),
-            Self::Radau(method) => method.step.is_none(),
-            Self::Auto(_) => true,
-        }
-    }
-
     /// The scheme with a bound on its steps: its own, or [`most_steps`].
     pub(super) fn bounded(&self, model: &Model) -> Self {
         let mut bounded = self.clone();
@@ -96,6 +84,8 @@ pub enum Stabilization {
     None,
     /// Baumgarte's, with gains α and β.
     Baumgarte(Gains),
+    /// Baumgarte's, with gains from the step, and the term held over it ([`Held`](crate::stabilize::Held)).
+    BaumgarteFromStep,
     /// Projection of the start, of every accepted and of every reported state.
     Projection(Projection),
 }
@@ -155,7 +145,7 @@ impl Options {
     pub fn gains(&self) -> Gains {
         match self.stabilization {
             Stabilization::Baumgarte(gains) => gains,
-            Stabilization::None | Stabilization::Projection(_) => Gains::default(),
+            _ => Gains::default(),
         }
     }
 
@@ -175,10 +165,14 @@ impl Options {
             let holds = tolerance > 0.0 && tolerance.is_finite();
             require("tolerance", tolerance, holds, "> 0 and finite")?;
         }
-        let baumgarte = matches!(self.stabilization, Stabilization::Baumgarte(_));
+        let baumgarte = matches!(
+            self.stabilization,
+            Stabilization::Baumgarte(_) | Stabilization::BaumgarteFromStep
+        );
         if !self.scheme.is_explicit() && baumgarte {
             let message = "stabilization: Baumgarte's changes the right side of explicit methods; an \
-                           implicit one has the constraints among its equations: use projection or none";
+                           implicit one has the constraints among its equations: use projection or none, \
+                           or method rk45, dop853 or rk4";
             return Err(Reason::Option { name: "stabilization", message: message.to_string() });
         }
         let n = model.layout.n_q;

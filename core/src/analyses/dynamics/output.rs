@@ -1,12 +1,11 @@
 //! What forward dynamics reports: states at chosen times, with accelerations, multipliers, energies.
 
 use super::options::{Options, Output, Scheme};
-use super::report::{Batch, Solver};
+use super::report::{Batch, Halt, Solver};
 use super::system::WORKS;
 use crate::integrate::{all_finite, Flow, Step};
 use crate::math::Lanes;
 use crate::model::Model;
-use crate::stabilize::Fault;
 
 /// Number of columns of [`Trajectory::energy`].
 pub const ENERGIES: usize = 5;
@@ -71,15 +70,6 @@ impl Trajectory {
         add(&mut self.energy, energies);
         add(&mut self.energy, &y[2 * n..]);
     }
-}
-
-/// Why a state cannot be reported.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Halt {
-    /// It cannot be projected, or has no unique accelerations.
-    Fault(Fault),
-    /// A number of it is not finite.
-    NotFinite,
 }
 
 /// The continuous extension of every step.
@@ -214,9 +204,9 @@ impl<'a> Recorder<'a> {
     }
 
     /// Keeps a state that was solved.
-    fn keep(&mut self, t: f64, y: &[f64], solved: Result<(), Fault>) -> Flow {
-        if let Err(fault) = solved {
-            return self.stop(t, Halt::Fault(fault));
+    fn keep(&mut self, t: f64, y: &[f64], solved: Result<(), Halt>) -> Flow {
+        if let Err(halt) = solved {
+            return self.stop(t, halt);
         }
         let found = self.one.found();
         if !all_finite(y) || !found.into_iter().all(all_finite) {
@@ -240,7 +230,7 @@ impl<'a> Recorder<'a> {
             }
         }
         let Output::Every(h) = self.output else { return self.report(step.t, step.y) };
-        let mut flow = Flow::Continue;
+        let mut flow = self.look_apart(h, step);
         while let (Flow::Continue, Some((times, n))) = (flow, self.next_times(h, step.t)) {
             flow = self.report_between(step, times, n);
             for t in &times[..n] {
@@ -251,6 +241,17 @@ impl<'a> Recorder<'a> {
             flow = self.report(step.t, step.y);
         }
         flow
+    }
+
+    /// Looks for joints apart at the end of a step without reported states.
+    fn look_apart(&mut self, h: f64, step: &Step<'_>) -> Flow {
+        if self.due(h, step.t).is_some() {
+            return Flow::Continue;
+        }
+        match self.one.apart(step.t, step.y) {
+            Some(apart) => self.stop(step.t, Halt::Apart(apart)),
+            None => Flow::Continue,
+        }
     }
 
     /// Whether a step that ends at `t` is needed between its ends.

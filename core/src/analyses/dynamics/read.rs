@@ -112,13 +112,11 @@ impl<'a> Reader<'a> {
     /// Tolerances and steps of an implicit method, whose usual tolerances are given.
     fn stepping(&mut self, usual: (f64, f64)) -> Stepping {
         let step = self.positive("step", "s");
-        for key in ["first_step", "max_step"] {
-            if step.is_some() && self.get(key).is_some() {
-                let path: Vec<String> =
-                    self.path.iter().cloned().chain([key.to_string()]).collect();
-                let told = "not together with step, which is constant; remove one of them";
-                self.problems.push(Problem::at(&path, told.to_string()));
-            }
+        if step.is_some() {
+            self.not_together(
+                &["first_step", "max_step"],
+                "not together with step, which is constant",
+            );
         }
         let (rtol, atol) = if step.is_some() { (1e-10, 1e-12) } else { usual };
         Stepping {
@@ -138,10 +136,28 @@ impl<'a> Reader<'a> {
                 let tolerance = self.positive("tolerance", "").unwrap_or(default);
                 Stabilization::Projection(Projection { tolerance })
             }
+            _ if self.get("gains").is_some() => {
+                self.not_together(
+                    &["alpha", "beta"],
+                    "not together with gains, which come from the step",
+                );
+                Stabilization::BaumgarteFromStep
+            }
             _ => Stabilization::Baumgarte(Gains {
                 alpha: self.not_negative("alpha", "1/s").unwrap_or(10.0),
                 beta: self.not_negative("beta", "1/s").unwrap_or(200.0),
             }),
+        }
+    }
+
+    /// Refuses each of `keys` that is given.
+    fn not_together(&mut self, keys: &[&str], told: &str) {
+        for key in keys {
+            if self.get(key).is_none() {
+                continue;
+            }
+            let path: Vec<String> = self.path.iter().cloned().chain([key.to_string()]).collect();
+            self.problems.push(Problem::at(&path, format!("{told}; remove one of them")));
         }
     }
 

@@ -4,6 +4,7 @@
 //! at once: the same formulas over [`Lanes`]. Where one of them is not regular (a position near a singular
 //! one, a gap that does not close, a number that is not finite), each is solved by itself.
 
+use super::apart::{Apart, Guard};
 use super::options::{Options, Stabilization};
 use super::system::{parts, WORKS};
 use crate::equations::{energy, kinematics, Gains, Workspace};
@@ -12,11 +13,23 @@ use crate::math::{Lanes, Real};
 use crate::model::Model;
 use crate::stabilize::{Fault, Projector};
 
+/// Why a state cannot be reported.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Halt {
+    /// It cannot be projected, or has no unique accelerations.
+    Fault(Fault),
+    /// Its joints are apart.
+    Apart(Apart),
+    /// A number of it is not finite.
+    NotFinite,
+}
+
 /// Solves reported states, one at a time or one in each lane.
 pub(super) struct Solver<'a, S = f64> {
     pub model: &'a Model<S>,
     workspace: Workspace<S>,
     projector: Option<Projector<'a, S>>,
+    guard: Option<Guard<S>>,
     /// Kinetic and potential energy, J.
     energies: [S; 2],
     /// States whose projection went through.
@@ -31,36 +44,54 @@ impl<'a, S: Real> Solver<'a, S> {
         };
         let workspace = super::system::workspace(model, projector.is_some());
         let projector = projector.map(Projector::for_reports);
-        Self { model, workspace, projector, energies: [S::zero(); 2], solved: 0 }
+        let guard = Guard::new(model, options);
+        Self { model, workspace, projector, guard, energies: [S::zero(); 2], solved: 0 }
     }
 
     /// Solves at y = (q, v, works) as it is.
     ///
     /// # Errors
-    /// [`Fault`] where the equations of motion have no unique solution.
-    pub fn solve(&mut self, t: S, y: &[S]) -> Result<(), Fault> {
+    /// [`Halt`] where the equations of motion have no unique solution, or joints are apart.
+    pub fn solve(&mut self, t: S, y: &[S]) -> Result<(), Halt> {
+        self.set_motions(y);
+        self.respond(t)
+    }
+
+    /// The joint that is apart at y, if one is.
+    pub fn apart(&mut self, t: S, y: &[S]) -> Option<Apart> {
+        self.guard.as_ref()?;
+        self.set_motions(y);
+        self.guard.as_mut()?.look(self.model, t, &self.workspace.motions)
+    }
+
+    fn set_motions(&mut self, y: &[S]) {
         let n = self.model.layout.n_q;
         kinematics::motions(&y[..n], &y[n..2 * n], &mut self.workspace.motions);
-        self.respond(t)
     }
 
     /// Solves at y, which is projected first if that was asked for. The works stay: what projection does
     /// to the energy shows in the balance.
     ///
     /// # Errors
-    /// [`Fault`]; of lanes, that of one of them.
-    pub fn place_and_solve(&mut self, t: S, y: &mut [S]) -> Result<(), Fault> {
+    /// [`Halt`]; of lanes, that of one of them.
+    pub fn place_and_solve(&mut self, t: S, y: &mut [S]) -> Result<(), Halt> {
         let Some(projector) = &mut self.projector else { return self.solve(t, y) };
         let (q, v, _) = parts(y, self.model.layout.n_q);
-        projector.project(&mut self.workspace, t, (&mut *q, &mut *v), false)?;
+        let place = (&mut *q, &mut *v);
+        projector.project(&mut self.workspace, t, place, false).map_err(Halt::Fault)?;
         kinematics::set_rates(v, &mut self.workspace.motions);
         self.respond(t)
     }
 
     /// Accelerations and multipliers at the motions of the workspace: by γ, never γ̂.
-    fn respond(&mut self, t: S) -> Result<(), Fault> {
-        let Self { model, workspace, .. } = self;
-        workspace.respond(model, t, Gains::default()).map_err(Fault::Singular)?;
+    fn respond(&mut self, t: S) -> Result<(), Halt> {
+        let Self { model, workspace, guard, .. } = self;
+        let motions = &workspace.motions;
+        if let Some(apart) = guard.as_mut().and_then(|guard| guard.look(model, t, motions)) {
+            return Err(Halt::Apart(apart));
+        }
+        let solved = workspace.respond(model, t, Gains::default());
+        solved.map_err(|singular| Halt::Fault(Fault::Singular(singular)))?;
         let kinetic = energy::kinetic(model, &workspace.motions);
         self.energies = [kinetic, energy::potential(model, &workspace.motions, t)];
         self.solved += 1;

@@ -7,6 +7,7 @@
 //!   aside within a part of its size in which the branches cannot be told apart;
 //! * where its velocity is tangent to no branch: Φ_q a = γ has no solution.
 
+use super::approach::Approach;
 use super::options::Options;
 use crate::equations::augmented::Dependent;
 use crate::equations::{constraints, forces, mass, Singular, Workspace};
@@ -32,38 +33,29 @@ const REST: f64 = 1e-3;
 const UNMET: f64 = 0.05;
 /// Part of what the joints carry that counts as balanced.
 const BALANCED: f64 = 1e-9;
-/// Ratio below which the ridge bends accelerations: a step with such a stage is better taken otherwise.
-const BENT: f64 = 1e-6;
-/// Most steps in a row that are shortened so as not to end near a singular position, or to look at it.
-const SHORTENED: usize = 3;
 
 /// What a step came by.
 pub(super) struct Passage {
-    /// Whether a stage of the step under way was near a singular position.
+    /// Whether a stage of the trial under way was near a singular position.
     pub near: bool,
-    /// Least ratio of a pivot to what it was cancelled from, of all stages since the last step was judged.
-    closest: f64,
     /// Why the last trial state that was refused was, and when.
     pub undecided: Option<(f64, Fault)>,
     singularity: Singularity,
-    /// Whether steps can be shortened.
-    controlled: bool,
-    shortened: usize,
+    /// Whether singular positions are passed at all.
+    passing: bool,
+    approach: Approach,
     residual: Vec<f64>,
     loads: Vec<f64>,
 }
 
 impl Passage {
-    pub fn new(options: &Options) -> Self {
-        let controlled = options.scheme.controlled();
-        let singularity = options.singularity;
+    pub fn new(options: &Options, passing: bool) -> Self {
         Self {
             near: false,
-            closest: f64::INFINITY,
             undecided: None,
-            singularity,
-            controlled,
-            shortened: 0,
+            singularity: options.singularity,
+            passing,
+            approach: Approach::default(),
             residual: Vec::new(),
             loads: Vec::new(),
         }
@@ -80,13 +72,14 @@ impl Passage {
         t: f64,
         v: &[f64],
     ) -> Result<(), Fault> {
-        if !work.matrix.ridged() {
+        let ridged = work.matrix.ridged();
+        if !(ridged || self.approach.in_reach()) {
             return Ok(());
         }
         self.near = true;
         let Some((row, kept)) = work.matrix.cancellation() else { return Ok(()) };
-        self.closest = self.closest.min(kept);
-        if self.singularity == Singularity::Pass || kept > UNTOLD {
+        self.approach.pass((t, kept));
+        if !ridged || self.singularity == Singularity::Pass || kept > UNTOLD {
             return Ok(());
         }
         let singular = Singular(Dependent::Row(row));
@@ -99,19 +92,29 @@ impl Passage {
         Ok(())
     }
 
-    /// A step that would end near a singular position is refused, if that has not been tried already: its
-    /// end can be projected well only at a distance, and a longer step flies over. So is one that came so
-    /// near on its way that the ridge bent its accelerations, which its error estimate does not see.
-    pub fn land(&mut self, work: &Workspace) -> Result<(), Fault> {
+    /// The start of a run.
+    pub fn begin(&mut self, t: f64, work: &Workspace) {
+        self.approach.begin(work.matrix.cancellation().map(|(_, kept)| (t, kept)));
+    }
+
+    /// The singular position ahead, if one is in reach of steps as long as that which was tried.
+    pub fn foresee(&mut self, t: f64, work: &Workspace) -> Option<f64> {
         self.near = false;
-        let bent = std::mem::replace(&mut self.closest, f64::INFINITY) < BENT;
-        if (work.matrix.ridged() || bent) && self.controlled && self.shortened < SHORTENED {
-            self.shortened += 1;
-            let row = work.matrix.cancellation().map_or(0, |(row, _)| row);
-            return Err(Fault::Singular(Singular(Dependent::Row(row))));
+        if !self.passing {
+            return None;
         }
-        self.shortened = self.shortened.saturating_sub(1);
-        Ok(())
+        let (_, kept) = work.matrix.cancellation()?;
+        self.approach.foresee((t, kept))
+    }
+
+    /// Whether the trial that was foreseen last is beside a singular position.
+    pub fn in_reach(&self) -> bool {
+        self.approach.in_reach()
+    }
+
+    /// The trial that was foreseen last is accepted.
+    pub fn accept(&mut self) {
+        self.approach.accept();
     }
 
     /// Whether the mechanism all but rests where loads would move it. Accelerations of a trial state are

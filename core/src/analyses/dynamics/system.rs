@@ -8,7 +8,7 @@ use crate::equations::{Gains, Singular, Workspace};
 use crate::integrate::FirstOrder;
 use crate::math::Real;
 use crate::model::Model;
-use crate::stabilize::{Fault, Projector};
+use crate::stabilize::{Fault, Held, Projector};
 
 /// Works that are integrated beside the motion: dissipated, of drivers, of applied forces.
 pub(super) const WORKS: usize = 3;
@@ -18,6 +18,8 @@ pub(super) struct Equations<'a> {
     pub model: &'a Model,
     pub workspace: Workspace,
     pub gains: Gains,
+    /// Baumgarte's term, if its gains come from the step.
+    held: Option<Held>,
     pub projector: Option<Projector<'a>>,
     pub passage: Passage,
 }
@@ -46,8 +48,13 @@ impl<'a> Equations<'a> {
             _ => None,
         };
         let workspace = workspace(model, projector.is_some());
-        let passage = Passage::new(options);
-        Self { model, workspace, gains: options.gains(), projector, passage }
+        let passing = projector.is_some() && !model.allow_redundancy;
+        let passage = Passage::new(options, passing);
+        let held = match options.stabilization {
+            Stabilization::BaumgarteFromStep => Some(Held::new(model)),
+            _ => None,
+        };
+        Self { model, workspace, gains: options.gains(), held, projector, passage }
     }
 
     /// Factorisations beside those of evaluations.
@@ -62,6 +69,7 @@ impl<'a> Equations<'a> {
         if self.workspace.accelerate(self.model, t, q, v, self.gains).is_err() {
             return Ok(()); // the first step tells
         }
+        self.passage.begin(t, &self.workspace);
         let near = self.workspace.matrix.ridged();
         match self.workspace.matrix.cancellation().filter(|_| near) {
             Some((row, _)) if !mobility(self.model, t, q).redundant.is_empty() => {
@@ -119,20 +127,38 @@ impl FirstOrder for Equations<'_> {
         Ok(())
     }
 
+    /// Gains may come from the step.
+    fn trying(&mut self, t: f64, y: &[f64], h: f64) -> bool {
+        let Some(held) = &mut self.held else { return false };
+        let n = self.model.layout.n_q;
+        held.hold(self.model, &mut self.workspace, t, (&y[..n], &y[n..2 * n]), h);
+        true
+    }
+
     /// Near a singular position noise along the direction that is lost there would refuse every step.
     fn remaining(&mut self, dy: &mut [f64]) -> bool {
         let (true, Some(projector)) = (self.passage.near, &mut self.projector) else {
             return false;
         };
+        self.workspace.matrix.restore_jacobian();
         let (dq, dv, _) = parts(dy, self.model.layout.n_q);
         projector.tangent(&self.workspace, dq);
         projector.tangent(&self.workspace, dv);
         true
     }
 
+    /// A singular position ahead.
+    fn obstacle(&mut self, t: f64) -> Option<f64> {
+        self.passage.foresee(t, &self.workspace)
+    }
+
     /// The last evaluation was at or near the end of the step: its factor serves.
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
-        self.passage.land(&self.workspace).map_err(|fault| (t, fault))?;
-        self.project(t, y, true)
+        if let Some(projector) = &mut self.projector {
+            projector.sharpen(self.passage.in_reach());
+        }
+        let changed = self.project(t, y, true)?;
+        self.passage.accept();
+        Ok(changed)
     }
 }

@@ -1,0 +1,55 @@
+//! What the loop of `adaptive` asks of an embedded Runge–Kutta pair.
+
+use super::clearance::Gap;
+use super::contract::FirstOrder;
+use super::rate::{Rate, Trouble};
+
+/// An embedded pair that has the derivative at the end of a step as its last stage.
+pub(super) trait EmbeddedPair {
+    /// Order of the error estimate.
+    const ERROR_ORDER: i32;
+    /// Number of stages, the derivative at the end included.
+    const STAGES: usize;
+    /// Number of stages that only the continuous extension needs.
+    const EXTRA: usize = 0;
+    /// Degree of the continuous extension.
+    const DEGREE: usize;
+    /// Where an obstacle is passed best.
+    const GAP: Gap;
+    /// STAGES + EXTRA + 1 rows of its table; the last, 3θ² - 2θ³, bends it to a projected end.
+    const TABLE: &'static [f64];
+    /// The table of a lesser extension, with zeros for the extra stages.
+    const WITHOUT_EXTRA: &'static [f64] = Self::TABLE;
+
+    /// Stages 2 to the last, of which the first is given, in rows of `k`; the state at `t_new` into
+    /// `y_new`. `work` is scratch as long as y.
+    fn advance<Y: FirstOrder>(
+        rate: &mut Rate<'_, Y>,
+        span: (f64, f64),
+        y: &[f64],
+        k: &mut [f64],
+        work: &mut [f64],
+        y_new: &mut [f64],
+    ) -> Result<(), Trouble<Y::Stop>>;
+
+    /// The extra stages of an accepted step, in the rows of `k` after the others.
+    fn extend<Y: FirstOrder>(
+        _rate: &mut Rate<'_, Y>,
+        _span: (f64, f64),
+        _y: &[f64],
+        _k: &mut [f64],
+        _work: &mut [f64],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        Ok(())
+    }
+
+    /// √(mean (errorᵢ / (atolᵢ + rtol max(|yᵢ|, |y_newᵢ|)))²) over as many components as `atol` has;
+    /// `states` are y and y_new, `tolerances` rtol and atol, `work` is scratch as long as y.
+    fn error_norm(
+        h: f64,
+        k: &[f64],
+        states: (&[f64], &[f64]),
+        tolerances: (f64, &[f64]),
+        work: &mut [f64],
+    ) -> f64;
+}

@@ -1,0 +1,47 @@
+//! Pins: constraints that only hold a point of one body at a point of another, as numbers side by side.
+//!
+//! Names, equations and formulas of a constraint take a thousand bytes; the equations of motion ask for 48 of
+//! them, and for the same ones whatever the element.
+
+use super::layout::Layout;
+use super::model::ConstraintItem;
+use crate::elements::joints::Revolute;
+use crate::elements::{BodyId, PointOn, Side};
+use crate::math::{Local, Real};
+
+/// A constraint of two equations Φ = point_j - point_i without laws (Haug 3.3.10).
+#[derive(Clone, Copy, Debug)]
+pub struct Pin<S = f64> {
+    /// Points of bodies i and j, m.
+    pub points: [Local<S>; 2],
+    /// Bodies i and j.
+    pub bodies: [u32; 2],
+    /// The first of its rows.
+    pub row: u32,
+    /// Its place among the constraints.
+    pub constraint: u32,
+}
+
+impl<S: Real> Pin<S> {
+    /// The element that states its equations.
+    #[inline(always)]
+    pub fn joint(&self) -> Revolute<S> {
+        let [i, j] = [0, 1]
+            .map(|end| PointOn { body: BodyId(self.bodies[end] as usize), s: self.points[end] });
+        Revolute { i, j, axes: [S::zero(); 2] }
+    }
+}
+
+/// All pins of a model that touch a moving body, in the order of the constraints.
+pub(super) fn pins<S: Real>(constraints: &[ConstraintItem<S>], layout: &Layout) -> Vec<Pin<S>> {
+    let index = |i: usize| u32::try_from(i).expect("fewer than 2^32 rows");
+    let items = constraints.iter().zip(&layout.constraints).enumerate();
+    let pins = items.filter(|(_, (_, slots))| slots.blocks.iter().any(|block| block.sign != 0.0));
+    let pin = |(k, (item, slots)): (usize, (&ConstraintItem<S>, &super::layout::Slots))| Pin {
+        points: [Side::I, Side::J].map(|side| item.element.attachment(side).s),
+        bodies: item.element.ends().map(|body| index(body.0)),
+        row: index(slots.rows.start),
+        constraint: index(k),
+    };
+    pins.map(pin).collect()
+}

@@ -1,0 +1,95 @@
+//! Runs that Baumgarte's stabilization does not keep together end with an error, not as a result.
+
+use crate::mechanisms::{
+    every, four_bar, largest, residual, run, tolerances, with as parameters, FOUR_BAR,
+};
+use kempe::analyses::dynamics::{dynamics, Failure, Options, Reason, Scheme, Stabilization};
+use kempe::analyses::State;
+use kempe::equations::Gains;
+use kempe::integrate::{Flow, Rk4};
+
+/// A hundredth of the largest distance of a point from its frame, that of D on ground.
+const MOST: f64 = 0.2;
+
+fn with(options: Options, alpha: f64, beta: f64) -> Options {
+    Options { stabilization: Stabilization::Baumgarte(Gains { alpha, beta }), ..options }
+}
+
+fn failed(options: &Options) -> (Failure, f64) {
+    let (m, start) = four_bar();
+    let failure = *dynamics(&m, &start, options, |_| Flow::Continue).expect_err("it opens");
+    let Reason::Integration { t, message, hint } = &failure.reason else {
+        panic!("{}", failure.reason)
+    };
+    let t = *t;
+    assert!(message.starts_with(&format!("the joints come apart at t = {t:.6} s: ")), "{message}");
+    assert!(
+        message.contains(" is open by ") && message.contains("more than 2.0e-1 m"),
+        "{message}"
+    );
+    assert!(["A.", "B.", "C.", "D."].iter().any(|name| message.contains(name)), "{message}");
+    assert!(["projection", "tolerance", "gains"].iter().all(|word| hint.contains(word)), "{hint}");
+    // what came before is kept, and is no worse than allowed
+    let n = m.layout.n_q;
+    for (t, q) in failure.run.trajectory.t.iter().zip(failure.run.trajectory.q.chunks_exact(n)) {
+        let state = State { t: *t, q: q.to_vec(), v: Vec::new(), z: Vec::new() };
+        assert!(largest(&residual(&m, &state)) <= MOST);
+    }
+    (failure, t)
+}
+
+#[test]
+fn gains_too_small_for_the_tolerance() {
+    let loose = tolerances(15.0, 1e-3, 1e-6);
+    let (failure, at) = failed(&with(loose.clone(), 0.01, 0.01));
+    let t = &failure.run.trajectory.t;
+    assert!(t.len() > 10 && t[t.len() - 1] < at && at < 15.0, "{at}");
+    let (failure, at) = failed(&every(0.01, with(loose, 0.01, 0.01)));
+    let last = *failure.run.trajectory.t.last().expect("states before");
+    assert!(last < at && at - last < 0.2, "{last} {at}");
+}
+
+/// β h = 5 is beyond the stability of RK4: seen at the end of a step, long before the first report.
+#[test]
+fn gains_too_great_for_the_step() {
+    let options = Options { scheme: Scheme::Rk4(Rk4::new(0.005)), ..tolerances(15.0, 1e-3, 1e-6) };
+    let (failure, at) = failed(&every(5.0, with(options, 1.0, 1000.0)));
+    assert_eq!(failure.run.trajectory.t, [0.0]);
+    assert!(at < 5.0, "{at}");
+}
+
+#[test]
+fn a_start_that_is_open() {
+    let (m, mut start) = four_bar();
+    start.q[0] += 0.5;
+    let options = with(Options::classical(1.0), 10.0, 200.0);
+    let failure = dynamics(&m, &start, &options, |_| Flow::Continue).expect_err("it is open");
+    assert!(failure.reason.to_string().contains("at t = 0.000000 s: constraint "));
+    assert!(failure.run.trajectory.t.is_empty());
+}
+
+/// Neither the documented drift nor what is stabilized well is disturbed.
+#[test]
+fn others_go_on() {
+    let (m, start) = four_bar();
+    let loose = tolerances(15.0, 1e-3, 1e-6);
+    let drifts = Options { stabilization: Stabilization::None, ..loose.clone() };
+    assert!(
+        run(&m, &start, &drifts).reached && run(&m, &start, &with(loose.clone(), 0.0, 0.0)).reached
+    );
+    for (alpha, beta) in [(10.0, 200.0), (1.0, 20.0), (20.0, 20.0), (200.0, 200.0)] {
+        assert!(run(&m, &start, &with(loose.clone(), alpha, beta)).reached);
+    }
+}
+
+/// Who asks for none asks for the drift, not for joints farther apart than the mechanism is large.
+#[test]
+fn without_stabilization_they_drift_so_far_and_no_further() {
+    let (_, start) = four_bar();
+    let free = parameters(FOUR_BAR, &[("k", 0.0), ("c", 0.0)]);
+    let loose = tolerances(300.0, 1e-2, 1e-5);
+    let drifts = Options { stabilization: Stabilization::None, ..loose };
+    let outcome = dynamics(&free, &start, &drifts, |_| Flow::Continue).map(|run| run.reached);
+    let reason = outcome.expect_err("it opens").reason.to_string();
+    assert!(reason.contains("more than 2.0e1 m"), "{reason}");
+}

@@ -1,0 +1,136 @@
+//! N windows of parallelograms past singular positions, against the pendulum that they are: ψ from upright
+//! obeys ψ″ = ω² sin ψ, ω² = 3 g (3 N + 1) / (2 L (4 N + 1)).
+
+use crate::mechanisms::{close, run};
+use crate::n_four_bar::{upright, windows};
+use kempe::analyses::dynamics::{dynamics, Auto, Options, Output, Reason, Scheme, Stabilization};
+use kempe::analyses::State;
+use kempe::integrate::{Atol, Dop853, FirstOrder, Flow, Method, Step};
+use kempe::model::Model;
+use kempe::stabilize::Projection;
+
+struct Pendulum {
+    rate_squared: f64,
+}
+
+impl Pendulum {
+    fn of(windows: usize) -> Self {
+        let n = windows as f64;
+        Self { rate_squared: 1.5 * 9.81 * (3.0 * n + 1.0) / (4.0 * n + 1.0) }
+    }
+
+    /// (ψ, ψ′) at each of the times, from the first on.
+    fn swing(&mut self, start: [f64; 2], times: &[f64]) -> Vec<[f64; 2]> {
+        let method = Dop853 { rtol: 1e-13, atol: Atol::Scalar(1e-14), ..Dop853::default() };
+        let mut y = start;
+        let mut all = vec![start];
+        for ends in times.windows(2) {
+            let quiet = &mut |_: &Step<'_>| Flow::Continue;
+            method.integrate(self, ends[0], ends[1], &mut y, quiet).expect("it swings");
+            all.push(y);
+        }
+        all
+    }
+}
+
+impl FirstOrder for Pendulum {
+    type Stop = ();
+    fn len(&self) -> usize {
+        2
+    }
+    fn rate(&mut self, _: f64, y: &[f64], dy: &mut [f64]) -> Result<(), ()> {
+        dy.copy_from_slice(&[y[1], self.rate_squared * y[0].sin()]);
+        Ok(())
+    }
+}
+
+fn every_tenth(scheme: Scheme, t_end: f64) -> Options {
+    let stabilization = Stabilization::Projection(Projection::default());
+    let output = Output::Every(0.1);
+    Options { scheme, stabilization, output, dense_output: false, ..Options::classical(t_end) }
+}
+
+fn at(rtol: f64) -> Scheme {
+    Scheme::Dop853(Dop853 { rtol, atol: Atol::Scalar(1e-3 * rtol), ..Dop853::default() })
+}
+
+/// Largest error of B0; couplers have to stay level, or a window left its branch.
+fn error(n: usize, m: &Model, state: &State, options: &Options, start: [f64; 2]) -> f64 {
+    let run = run(m, state, options);
+    assert!(run.statistics.steps < 300, "{:?}", run.statistics);
+    let truth = Pendulum::of(n).swing(start, &run.trajectory.t);
+    let mut error = 0.0_f64;
+    for (q, [psi, _]) in run.trajectory.q.chunks_exact(m.layout.n_q).zip(truth) {
+        error = error.max((2.0 * q[0] - psi.sin()).hypot(2.0 * q[1] - psi.cos()));
+        for k in 0..n {
+            close("coupler", q[3 * (n + 1 + k) + 2], 0.0, 1e-5);
+        }
+    }
+    error
+}
+
+/// At the default, all of a thousand windows on one line at once, ten times.
+#[test]
+fn a_thousand_windows_pass() {
+    let (m, state) = upright(1000);
+    let options = every_tenth(Scheme::Auto(Auto::default()), 10.0);
+    let error = error(1000, &m, &state, &options, [0.0, 1.0]);
+    assert!(error < 1e-6, "{error}");
+}
+
+/// The error goes with the tolerance, whatever steps that brings.
+#[test]
+fn no_tolerance_is_unlucky() {
+    for n in [1, 2, 40] {
+        let (m, state) = upright(n);
+        for k in 0..=16 {
+            let rtol = 10_f64.powf(-6.0 - 0.25 * f64::from(k));
+            let error = error(n, &m, &state, &every_tenth(at(rtol), 10.0), [0.0, 1.0]);
+            assert!(error < 100.0 * rtol, "N = {n}, rtol {rtol:.1e}: {error:.1e}");
+        }
+    }
+}
+
+/// One window, `below` the line by an angle, with the rate that leads it to rest on the line times
+/// √(1 + excess).
+fn thrown(below: f64, excess: f64) -> (Model, State, [f64; 2]) {
+    let psi = std::f64::consts::FRAC_PI_2 + below;
+    let rate = -(2.0 * Pendulum::of(1).rate_squared * below.sin() * (1.0 + excess)).sqrt();
+    let (x, y) = (psi.sin(), psi.cos());
+    let angle = std::f64::consts::FRAC_PI_2 - psi;
+    let crank = |at: f64| [at + x / 2.0, y / 2.0, angle];
+    let q = [crank(0.0), crank(1.0), [0.5 + x, y, 0.0]].concat();
+    let turning = [y / 2.0 * rate, -x / 2.0 * rate, -rate];
+    let v = [turning, turning, [y * rate, -x * rate, 0.0]].concat();
+    (windows(1), State { t: 0.0, q, v, z: vec![] }, [psi, rate])
+}
+
+/// It turns back shortly before the line, or passes it slowly and comes back.
+#[test]
+fn what_comes_near_slowly_turns_or_passes() {
+    for below in [0.3, 0.8] {
+        for excess in [-0.01, -0.003, 0.02, 0.1] {
+            let (m, state, start) = thrown(below, excess);
+            for rtol in [1e-6, 1e-8, 1e-9] {
+                let error = error(1, &m, &state, &every_tenth(at(rtol), 5.0), start);
+                assert!(error < 100.0 * rtol, "{below} {excess} {rtol:.1e}: {error:.1e}");
+            }
+        }
+    }
+}
+
+/// What comes to rest on the line could go on along either branch.
+#[test]
+fn what_comes_to_rest_on_the_line_is_undecided() {
+    for below in [0.3, 0.8] {
+        for excess in [-1e-4, -1e-6, 0.0, 1e-6, 1e-4] {
+            let (m, state, _) = thrown(below, excess);
+            for rtol in [1e-6, 1e-8] {
+                let options = every_tenth(at(rtol), 5.0);
+                let failure = dynamics(&m, &state, &options, |_| Flow::Continue).unwrap_err();
+                let singular = matches!(failure.reason, Reason::Singular { t, .. } if t < 0.5);
+                assert!(singular, "{below} {excess} {rtol:.1e}: {}", failure.reason);
+            }
+        }
+    }
+}
