@@ -134,7 +134,7 @@ impl<S: Real> Workspace<S> {
     /// q̈ and λ with pins by their arms: one pass over them before elimination, and one after.
     #[inline(always)]
     fn solve_armed(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
-        let Self { motions, matrix, solution, powers, n_q, .. } = self;
+        let Self { motions, matrix, solution, powers, held, n_q, .. } = self;
         let (stabilized, n) = (Stabilized::new(gains), *n_q);
         let Parts { pattern, saddle, armed, others } = matrix.parts_mut();
         for &k in pattern.coupled() {
@@ -147,7 +147,9 @@ impl<S: Real> Workspace<S> {
         let (others, entries) =
             (others.iter().map(|k| *k as usize), saddle.entries.as_flattened_mut());
         constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
+        right.iter_mut().zip(&*held).for_each(|(right, held)| *right -= *held);
         pins::begin(&model.pins, armed, motions, stabilized, saddle, (x, right));
+        pins::hold(&model.pins, armed, held, right);
         saddle.finish_begun(pattern, solution)?;
         let (x, lam) = solution.split_at_mut(n);
         pins::spread(&model.pins, armed, saddle, (x, lam));

@@ -48,6 +48,20 @@ pub(super) fn begin<S: Real>(
     }
 }
 
+/// Lessens γ̂ of the `armed` pins, which were begun, by `held`, shape (n_rows) or empty.
+pub(super) fn hold<S: Real>(pins: &[Pin<S>], armed: &[ArmedPin], held: &[S], right: &mut [S]) {
+    if held.is_empty() {
+        return;
+    }
+    for ArmedPin { pin, .. } in armed {
+        let row = pins[*pin as usize].row as usize;
+        // begun, the right side has the opposite sign
+        for (right, held) in right[row..row + 2].iter_mut().zip(&held[row..row + 2]) {
+            *right += *held;
+        }
+    }
+}
+
 /// x -= Dw⁻¹ Uᵀ λ over the rows of the `armed` pins.
 #[inline(always)] // as above
 pub(super) fn spread<S: Real>(
