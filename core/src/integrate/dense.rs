@@ -4,10 +4,13 @@
 //! nobody looks into. Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6.
 
 use super::stages::accumulate;
-use crate::math::Real;
+use crate::math::{Lanes, Real};
 
 /// Stages that are added in one pass.
 const TOGETHER: usize = 4;
+
+/// Highest degree that a method has.
+pub(crate) const HIGHEST: usize = 7;
 
 /// The cubic polynomial of Hermite, of order 3: coefficients of θ … θ⁴ of the derivative at the beginning,
 /// at the end, and the chord (y - y_old) / h.
@@ -34,6 +37,7 @@ fn polynomial<R: Real>(coefficients: &[f64], theta: R) -> R {
 impl<'a> Dense<'a> {
     /// `stages` of `len` components each, as many as the caller wants of those in `table`.
     pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
+        assert!(degree <= HIGHEST, "a method of a higher degree");
         Self { stages, table, degree, len }
     }
 
@@ -77,7 +81,6 @@ impl<'a> Dense<'a> {
 
     pub(super) fn coefficients(&self, out: &mut [f64]) {
         assert_eq!(out.len(), self.len * self.degree, "len of y x degree");
-        out.fill(0.0);
         match self.degree {
             4 => self.add_coefficients(4, out),
             7 => self.add_coefficients(7, out),
@@ -87,12 +90,35 @@ impl<'a> Dense<'a> {
 
     #[inline(always)]
     fn add_coefficients(&self, degree: usize, out: &mut [f64]) {
+        let mut first = 0;
+        let mut blocks = out.chunks_exact_mut(Lanes::WIDTH * degree);
+        for out in &mut blocks {
+            let sums = self.sums(degree, |stage| {
+                let block: &[f64; Lanes::WIDTH] = stage[first..].first_chunk().expect("a block");
+                Lanes::new(*block)
+            });
+            for (d, sum) in sums[..degree].iter().enumerate() {
+                let components = out[d..].iter_mut().step_by(degree);
+                components.zip(sum.to_array()).for_each(|(out, sum)| *out = sum);
+            }
+            first += Lanes::WIDTH;
+        }
+        for out in blocks.into_remainder().chunks_exact_mut(degree) {
+            out.copy_from_slice(&self.sums(degree, |stage| stage[first])[..degree]);
+            first += 1;
+        }
+    }
+
+    /// The coefficients of θ, θ², … of what `component` takes from the stages.
+    #[inline(always)]
+    fn sums<R: Real>(&self, degree: usize, component: impl Fn(&[f64]) -> R) -> [R; HIGHEST] {
+        let mut sums = [R::zero(); HIGHEST];
         for (stage, row) in self.terms(degree) {
-            for (out, k) in out.chunks_exact_mut(degree).zip(stage) {
-                for (out, b) in out.iter_mut().zip(row) {
-                    *out += b * k;
-                }
+            let k = component(stage);
+            for (sum, b) in sums.iter_mut().zip(row) {
+                *sum += R::constant(*b) * k;
             }
         }
+        sums
     }
 }

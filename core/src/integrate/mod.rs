@@ -59,6 +59,7 @@ pub use constrained::{
 };
 pub use contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
 pub use dense::Dense;
+pub(crate) use dense::HIGHEST;
 pub use dop853::Dop853;
 pub use events::{locate, Direction};
 pub use failure::{Cause, Failure};

@@ -3,7 +3,7 @@
 use super::options::{Options, Output, Scheme};
 use super::report::{Batch, Halt, Solver};
 use super::system::WORKS;
-use crate::integrate::{all_finite, Flow, Step};
+use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
 use crate::model::Model;
 
@@ -290,11 +290,9 @@ impl<'a> Recorder<'a> {
 }
 
 impl Dense {
-    /// Degree of a run that may change its method: the largest of those it chooses from.
-    const HIGHEST: usize = 7;
-
     fn new(options: &Options, t0: f64) -> Self {
-        let degree = if matches!(options.scheme, Scheme::Auto(_)) { Self::HIGHEST } else { 0 };
+        // one that may change its method has the highest degree from the start
+        let degree = if matches!(options.scheme, Scheme::Auto(_)) { HIGHEST } else { 0 };
         Self { t: vec![t0], degree, ..Self::default() }
     }
 
