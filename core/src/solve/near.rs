@@ -22,7 +22,7 @@ use crate::math::Real;
 const NEAR: f64 = 1e-3;
 
 impl<S: Real> Saddle<S> {
-    /// Refuses pivots below [`NEAR`] from now on, so that the caller can turn to
+    /// Refuses pivots below 1e-3 of S_kk from now on, so that the caller can turn to
     /// [`factor_near`](Self::factor_near).
     pub fn refuse_near(&mut self) {
         self.least = NEAR;
