@@ -5,6 +5,7 @@
 //! one, a gap that does not close, a number that is not finite), each is solved by itself.
 
 use super::apart::{Apart, Guard};
+use super::around;
 use super::options::{Options, Stabilization};
 use super::system::{parts, WORKS};
 use crate::equations::{energy, kinematics, Gains, Workspace};
@@ -83,6 +84,13 @@ impl<'a, S: Real> Solver<'a, S> {
         self.respond(t)
     }
 
+    /// Whether projection has taken rates off the branch that those `given` were tangent to.
+    fn turned(&self, given: &[S], y: &[S]) -> bool {
+        let n = self.model.layout.n_q;
+        let Some(projector) = &self.projector else { return false };
+        around::turned(projector, &given[n..2 * n], &y[n..2 * n])
+    }
+
     /// Accelerations and multipliers at the motions of the workspace: by γ, never γ̂.
     fn respond(&mut self, t: S) -> Result<(), Halt> {
         let Self { model, workspace, guard, .. } = self;
@@ -106,6 +114,27 @@ impl<'a, S: Real> Solver<'a, S> {
     /// Factorisations, of all lanes one.
     pub fn factorisations(&self) -> usize {
         self.solved + self.projector.as_ref().map_or(0, |projector| projector.factorisations)
+    }
+}
+
+impl Solver<'_> {
+    /// The same; where that ends on another branch, from states around.
+    ///
+    /// # Errors
+    /// [`Halt`].
+    pub fn place_on_branch_and_solve(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
+        let given = y.to_vec();
+        let placed = self.place_and_solve(t, y);
+        if placed.is_err() || !self.turned(&given, y) {
+            return placed;
+        }
+        let Some(projector) = &mut self.projector else { return placed };
+        let mut other = given;
+        let (q, v, _) = parts(&mut other, self.model.layout.n_q);
+        if around::take(projector, &mut self.workspace, t, (q, v)).is_ok() {
+            y.copy_from_slice(&other);
+        }
+        self.place_and_solve(t, y)
     }
 }
 
@@ -166,7 +195,9 @@ impl<'a> Batch<'a> {
         self.y.copy_from_slice(&self.given);
         let solved = self.solver.place_and_solve(Lanes::new(self.t), &mut self.y);
         let [a, lam, energies] = self.solver.found();
-        solved.is_ok() && [&self.y, a, lam, energies].into_iter().all(are_finite)
+        solved.is_ok()
+            && [&self.y, a, lam, energies].into_iter().all(are_finite)
+            && !self.solver.turned(&self.given, &self.y)
     }
 
     /// Lanes without a state of their own repeat the last.
