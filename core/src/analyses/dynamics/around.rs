@@ -10,7 +10,7 @@ use crate::math::Real;
 use crate::stabilize::{Fault, Projector};
 
 /// Part of the fastest rate by which projection changes the rates of a state of the right branch at most.
-const TURNED: f64 = 0.1;
+pub(super) const TURNED: f64 = 0.1;
 /// How far ahead, in parts of the mechanism or rad: first where branches are well apart, then closer by,
 /// where curvature leaves less, since rates have what is left over σ.
 const AHEAD: [f64; 3] = [0.2, 0.05, 0.0125];
@@ -18,10 +18,10 @@ const AHEAD: [f64; 3] = [0.2, 0.05, 0.0125];
 const AROUND: [(f64, f64); 4] =
     [(1.0, 2.0 / 3.0), (-1.0, 2.0 / 3.0), (2.0, -1.0 / 6.0), (-2.0, -1.0 / 6.0)];
 
-/// Whether projection of v has taken it off the branch that it was tangent to.
-pub(super) fn turned<S: Real>(projector: &Projector<'_, S>, given: &[S], v: &[S]) -> bool {
+/// Part of the fastest rate by which projection changed v.
+pub(super) fn turn<S: Real>(projector: &Projector<'_, S>, given: &[S], v: &[S]) -> f64 {
     let change: Vec<S> = v.iter().zip(given).map(|(v, given)| *v - *given).collect();
-    projector.largest(&change) > TURNED * projector.fastest()
+    projector.largest(&change) / projector.fastest().max(f64::MIN_POSITIVE)
 }
 
 /// Takes (q, v) from states around; they are to be projected then.

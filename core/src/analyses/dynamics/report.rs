@@ -84,11 +84,11 @@ impl<'a, S: Real> Solver<'a, S> {
         self.respond(t)
     }
 
-    /// Whether projection has taken rates off the branch that those `given` were tangent to.
-    fn turned(&self, given: &[S], y: &[S]) -> bool {
+    /// By what part of the fastest rate projection has changed the rates that were `given`.
+    fn turn(&self, given: &[S], y: &[S]) -> f64 {
         let n = self.model.layout.n_q;
-        let Some(projector) = &self.projector else { return false };
-        around::turned(projector, &given[n..2 * n], &y[n..2 * n])
+        let by = |projector| around::turn(projector, &given[n..2 * n], &y[n..2 * n]);
+        self.projector.as_ref().map_or(0.0, by)
     }
 
     /// Accelerations and multipliers at the motions of the workspace: by γ, never γ̂.
@@ -118,21 +118,24 @@ impl<'a, S: Real> Solver<'a, S> {
 }
 
 impl Solver<'_> {
-    /// The same; where that ends on another branch, from states around.
+    /// The same; where that ends on another branch, from states around if that changes rates less.
     ///
     /// # Errors
     /// [`Halt`].
     pub fn place_on_branch_and_solve(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
         let given = y.to_vec();
-        let placed = self.place_and_solve(t, y);
-        if placed.is_err() || !self.turned(&given, y) {
-            return placed;
-        }
-        let Some(projector) = &mut self.projector else { return placed };
-        let mut other = given;
+        self.place_and_solve(t, y)?;
+        let turn = self.turn(&given, y);
+        let Some(projector) = self.projector.as_mut().filter(|_| turn > around::TURNED) else {
+            return Ok(());
+        };
+        let mut other = given.clone();
         let (q, v, _) = parts(&mut other, self.model.layout.n_q);
-        if around::take(projector, &mut self.workspace, t, (q, v)).is_ok() {
+        let taken = around::take(projector, &mut self.workspace, t, (q, v));
+        let placed = taken.is_ok() && self.place_and_solve(t, &mut other).is_ok();
+        if placed && self.turn(&given, &other) < turn {
             y.copy_from_slice(&other);
+            return Ok(());
         }
         self.place_and_solve(t, y)
     }
@@ -197,7 +200,7 @@ impl<'a> Batch<'a> {
         let [a, lam, energies] = self.solver.found();
         solved.is_ok()
             && [&self.y, a, lam, energies].into_iter().all(are_finite)
-            && !self.solver.turned(&self.given, &self.y)
+            && self.solver.turn(&self.given, &self.y) <= around::TURNED
     }
 
     /// Lanes without a state of their own repeat the last.
