@@ -27,11 +27,11 @@ LINKAGES: dict[str, Callable[[], Linkage]] = {
 }
 T_END = 5.0
 GRID = np.arange(501) * 0.01
-#: At digits of rtol, the largest error of any x, y, cosine or sine, and of the energy, relative. With the
-#: tolerance down to 1e-8; at 1e-10 single runs are bounded by what projection leaves next to the line,
-#: 1e-13 of the size, magnified by every position that is passed (2e-3 and 2e-4 were measured).
+#: At digits of rtol, the largest error of any x, y, cosine or sine, and of the energy, relative.
+#: With the tolerance down to 1e-8. At 1e-10 steps are short, some stages fall next to the line, and
+#: single runs have what rounding is magnified to there: 2e-3 and 2e-4 were measured.
 ALLOWED = {4: (0.2, 5e-3), 6: (2e-3, 5e-4), 8: (1e-4, 2e-5), 10: (5e-3, 5e-4)}
-#: Largest distance from the branch at the same crank angle, of which branches apart have 0.1 and more.
+#: Largest distance from the branch at the same crank angle; on another it is 0.1 and more.
 ASTRAY = 1e-5
 
 
