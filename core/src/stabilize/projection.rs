@@ -122,6 +122,11 @@ impl<'a, S: Real> Projector<'a, S> {
         Self { fastest: Some(0.0), ..self }
     }
 
+    /// The fastest rate of the states that were projected for reports, scaled as by [`Self::largest`]; else 0.
+    pub fn fastest(&self) -> f64 {
+        self.fastest.unwrap_or(0.0)
+    }
+
     /// Whether to leave as little as rounding does: beside a singular position accelerations have what is
     /// left of Φ over σ³.
     pub fn sharpen(&mut self, sharp: bool) {
@@ -281,7 +286,7 @@ impl<'a, S: Real> Projector<'a, S> {
     }
 
     /// Largest coordinate or rate, lengths over the size of the mechanism.
-    fn largest(&self, x: &[S]) -> f64 {
+    pub fn largest(&self, x: &[S]) -> f64 {
         let mut largest: f64 = 0.0;
         for x in x.chunks_exact(3) {
             let [x, y, angle] = [x[0], x[1], x[2]].map(S::largest_magnitude);

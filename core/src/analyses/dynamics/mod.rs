@@ -2,6 +2,7 @@
 
 mod apart;
 mod approach;
+mod around;
 mod automatic;
 mod choice;
 mod failure;

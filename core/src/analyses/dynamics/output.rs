@@ -177,7 +177,7 @@ impl<'a> Recorder<'a> {
     /// Projects and reports the state in the scratch.
     fn report_alone(&mut self, t: f64) -> Flow {
         let mut y = std::mem::take(&mut self.y);
-        let solved = self.one.place_and_solve(t, &mut y);
+        let solved = self.one.place_on_branch_and_solve(t, &mut y);
         let flow = self.keep(t, &y, solved);
         self.y = y;
         flow

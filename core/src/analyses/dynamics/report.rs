@@ -5,6 +5,7 @@
 //! one, a gap that does not close, a number that is not finite), each is solved by itself.
 
 use super::apart::{Apart, Guard};
+use super::around;
 use super::options::{Options, Stabilization};
 use super::system::{parts, WORKS};
 use crate::equations::{energy, kinematics, Gains, Workspace};
@@ -83,6 +84,13 @@ impl<'a, S: Real> Solver<'a, S> {
         self.respond(t)
     }
 
+    /// By what part of the fastest rate projection has changed the rates that were `given`.
+    fn turn(&self, given: &[S], y: &[S]) -> f64 {
+        let n = self.model.layout.n_q;
+        let by = |projector| around::turn(projector, &given[n..2 * n], &y[n..2 * n]);
+        self.projector.as_ref().map_or(0.0, by)
+    }
+
     /// Accelerations and multipliers at the motions of the workspace: by γ, never γ̂.
     fn respond(&mut self, t: S) -> Result<(), Halt> {
         let Self { model, workspace, guard, .. } = self;
@@ -106,6 +114,30 @@ impl<'a, S: Real> Solver<'a, S> {
     /// Factorisations, of all lanes one.
     pub fn factorisations(&self) -> usize {
         self.solved + self.projector.as_ref().map_or(0, |projector| projector.factorisations)
+    }
+}
+
+impl Solver<'_> {
+    /// The same; where that ends on another branch, from states around if that changes rates less.
+    ///
+    /// # Errors
+    /// [`Halt`].
+    pub fn place_on_branch_and_solve(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
+        let given = y.to_vec();
+        self.place_and_solve(t, y)?;
+        let turn = self.turn(&given, y);
+        let Some(projector) = self.projector.as_mut().filter(|_| turn > around::TURNED) else {
+            return Ok(());
+        };
+        let mut other = given.clone();
+        let (q, v, _) = parts(&mut other, self.model.layout.n_q);
+        let taken = around::take(projector, &mut self.workspace, t, (q, v));
+        let placed = taken.is_ok() && self.place_and_solve(t, &mut other).is_ok();
+        if placed && self.turn(&given, &other) < turn {
+            y.copy_from_slice(&other);
+            return Ok(());
+        }
+        self.place_and_solve(t, y)
     }
 }
 
@@ -166,7 +198,9 @@ impl<'a> Batch<'a> {
         self.y.copy_from_slice(&self.given);
         let solved = self.solver.place_and_solve(Lanes::new(self.t), &mut self.y);
         let [a, lam, energies] = self.solver.found();
-        solved.is_ok() && [&self.y, a, lam, energies].into_iter().all(are_finite)
+        solved.is_ok()
+            && [&self.y, a, lam, energies].into_iter().all(are_finite)
+            && self.solver.turn(&self.given, &self.y) <= around::TURNED
     }
 
     /// Lanes without a state of their own repeat the last.
