@@ -16,7 +16,8 @@ HEAD = """# Benchmarks
 
 kempe against other tools on the same mechanisms, against the same truth, in one process and in
 turn. Times are medians of CPU time of one thread, without building the model and without
-compilation; ratios within one run are what counts. What the error is stands with each problem;
+compilation, runs of less than 50 ms right after one that is not timed; ratios within one run are
+what counts. What the error is stands with each problem;
 "gap" is the largest distance that any joint opened, at any output. "rtol or step" is the one or the
 other, as the tool wants it; atol is a thousandth of rtol.
 

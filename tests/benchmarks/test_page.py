@@ -27,7 +27,7 @@ def judged(results: dict[str, Any], what: str) -> Target:
 
 def test_what_is_not_met_is_called_so(results: dict[str, Any]) -> None:
     assert judged(results, "evaluation of the flagship").verdict == "met"
-    assert judged(results, "a mechanism nothing").verdict == "not met"
+    assert judged(results, "a linkage nothing").verdict == "not met"
     assert judged(results, "flagship, RK45").measured.startswith("2.00 ")
 
 

@@ -65,12 +65,14 @@ fn general<S: AsRef<[f64]>>(model: &Model, states: &[S], calls: usize) -> f64 {
     })
 }
 
-/// Floor and kempe on the flagship, and kempe on another linkage.
+/// Floor and kempe on the flagship, and kempe on another linkage with frames off the mass centres and in them.
 pub fn measure(repeat: usize) -> Value {
     let (flagship, start) = assembled(FLAGSHIP);
     let states = states(&start);
     let (other, at) = assembled(mechanisms::OTHER);
     let at = [[at.q, at.v].concat()];
+    let (centred, from) = assembled(&mechanisms::centred());
+    let from = [[from.q, from.v].concat()];
     let found = medians(
         repeat,
         &mut [
@@ -78,17 +80,20 @@ pub fn measure(repeat: usize) -> Value {
             &mut || time(&states, CALLS, by_hand::<Straight>),
             &mut || general(&flagship, &states, CALLS),
             &mut || general(&other, &at, CALLS),
+            &mut || general(&centred, &from, CALLS),
         ],
     );
-    let [chain, straight, kempe, other] = found[..] else { unreachable!("four programs") };
+    let [chain, straight, kempe, other, centred] = found[..] else { unreachable!("five programs") };
     json!({
         "chain_ns": chain,
         "straight_ns": straight,
         "kempe_ns": kempe,
         "other_ns": other,
+        "centred_ns": centred,
         "kempe_over_chain": kempe / chain,
         "kempe_over_straight": kempe / straight,
         "other_over_kempe": other / kempe,
+        "centred_over_kempe": centred / kempe,
     })
 }
 

@@ -63,6 +63,12 @@ set = { "crank.angle" = "100*deg" }
 guess = { "coupler.angle" = "20*deg", "rocker.angle" = "80*deg" }
 "#;
 
+/// The same with every frame in its mass centre: rotation and translation are not coupled, as in the flagship.
+pub fn centred() -> String {
+    let lines: Vec<&str> = OTHER.lines().filter(|line| !line.starts_with("center")).collect();
+    lines.join("\n")
+}
+
 /// Model and assembled start of a case.
 pub fn assembled(text: &str) -> (Model, State) {
     let (case, _) = case::read(text, case::Format::Toml).expect("the case is sound");

@@ -66,10 +66,15 @@ impl Reason {
                 (item.name.clone(), message)
             }
             Dependent::Column(column) => {
-                let name = model.bodies[column / 3 + 1].name.clone();
+                let body = &model.bodies[column / 3 + 1];
+                let (name, inertia) = (body.name.clone(), body.inertia);
+                let (has, remedy) = match inertia > 0.0 {
+                    true => (format!("hardly any inertia ({inertia:.1e} kg·m²)"), "a larger"),
+                    false => ("no inertia".to_string(), "an"),
+                };
                 let message = format!(
-                    "a torque turns {name} at t = {t:.6} s, which has no inertia and which no joint \
-                     keeps from turning: give it an inertia"
+                    "a torque turns {name} at t = {t:.6} s, which has {has} and which no joint keeps \
+                     from turning: give it {remedy} inertia"
                 );
                 (name, message)
             }
