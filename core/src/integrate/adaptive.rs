@@ -12,6 +12,9 @@ use super::fixed_step::Grid;
 use super::rate::{all_finite, Rate, Trouble};
 use super::step_size::{initial_step, least_step, probing_step, scaled_norm, StepSize};
 
+/// Rejected steps after which a run gets nowhere, or half of max_steps if that is more.
+const MANY: usize = 10_000;
+
 /// What one accepted step needs, taken once.
 struct Work {
     /// Stages, extra ones, the jump of a projection over h, the derivative after a projection.
@@ -111,8 +114,13 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         };
         let mut size = StepSize::new(first, P::ERROR_ORDER);
         while self.t != self.t_end {
-            if self.options.max_steps.is_some_and(|most| self.steps >= most) {
-                return Err(Cause::MaxSteps { steps: self.steps });
+            if let Some(most) = self.options.max_steps {
+                if self.steps >= most {
+                    return Err(Cause::MaxSteps { steps: self.steps });
+                }
+                if self.rejected >= (most / 2).max(MANY) {
+                    return Err(Cause::StepTooSmall { t: self.t, h: size.size });
+                }
             }
             let (t_new, projected) = self.accepted_step(y, &mut size)?;
             if self.finish(t_new, projected, y, observer)? == Flow::Stop {

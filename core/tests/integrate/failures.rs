@@ -119,6 +119,40 @@ fn the_number_of_steps_can_be_bounded() {
     assert!(failure.t > 0.0);
 }
 
+/// At rest, and refused six times for each state that is accepted.
+struct Reluctant(usize);
+
+impl FirstOrder for Reluctant {
+    type Stop = String;
+
+    fn len(&self) -> usize {
+        1
+    }
+
+    fn rate(&mut self, _: f64, _: &[f64], dy: &mut [f64]) -> Result<(), String> {
+        dy[0] = 0.0;
+        Ok(())
+    }
+
+    fn accepted(&mut self, _: f64, _: &mut [f64]) -> Result<bool, String> {
+        self.0 += 1;
+        match self.0 % 7 {
+            0 => Ok(false),
+            _ => Err("not here".to_string()),
+        }
+    }
+}
+
+#[test]
+fn a_run_that_gets_nowhere_ends_before_its_steps_are_counted_out() {
+    let first_step = Some(1e-9);
+    let method = Rk45 { max_steps: Some(40_000), first_step, ..Rk45::new(1e-6, 1e-3) };
+    let failure = run(&method, Reluctant(0), (0.0, 1e300), &mut [0.0]).unwrap_err();
+    assert!(matches!(failure.cause, Cause::StepTooSmall { .. }), "{:?}", failure.cause);
+    let found = failure.statistics;
+    assert!((20_000..20_006).contains(&found.rejected) && found.steps < 3_400, "{found:?}");
+}
+
 /// Nothing is evaluated where it is known before that the steps do not reach the end.
 #[test]
 fn too_many_steps_are_refused_before_the_first() {
