@@ -98,7 +98,8 @@ def dynamics(
         method: the integrator.
         stabilization: of the constraints; none at all when None.
         max_steps: it gives up after that many steps; 1 000 000 over the number
-            of moving bodies when None, at least 50 000. So it does after half as many rejected tries, if they are over 10 000.
+            of moving bodies when None, at least 50 000. So it does after half as many
+            rejected ones, if they are over 10 000.
         dense_output: whether to keep the interpolant between the steps, for ``sol(t)``.
         redundancy: "allow" accepts constraints that repeat others; as the start was assembled
             when None.

@@ -242,7 +242,8 @@ class Dynamics:
         method: the integrator.
         stabilization: of the constraints; none at all when None.
         max_steps: it gives up after that many steps; 1 000 000 over the number
-            of moving bodies when None, at least 50 000. So it does after half as many rejected tries, if they are over 10 000.
+            of moving bodies when None, at least 50 000. So it does after half as many
+            rejected ones, if they are over 10 000.
         dense_output: whether to keep the interpolant between the steps.
         name: its name in the case.
         after: where it starts: "start", or the name of an earlier analysis; where the one before
