@@ -1,5 +1,7 @@
 """The flagship as the design states it, once as text and once as Python, and its solution."""
 
+import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import kempe as kp
@@ -49,3 +51,11 @@ def four_bar_file(tmp_path: Path) -> Path:
     path = tmp_path / "four_bar.toml"
     path.write_text(text, encoding="utf-8")
     return path
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _interruptible() -> Iterator[None]:
+    """A shell starts what runs in the background deaf to interruptions; these tests send them."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
