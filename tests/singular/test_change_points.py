@@ -28,8 +28,8 @@ LINKAGES: dict[str, Callable[[], Linkage]] = {
 T_END = 5.0
 GRID = np.arange(501) * 0.01
 #: At digits of rtol, the largest error of any x, y, cosine or sine, and of the energy, relative.
-#: With the tolerance down to 1e-8, each two to five times what was measured. At 1e-10 single runs are
-#: worse than at 1e-8, by 2e-3 and 2e-4 at most; rounding next to the line is suspected, not shown.
+#: With the tolerance down to 1e-8, each two to five times what was measured. At 1e-10 single runs
+#: are worse than at 1e-8, 2e-3 and 2e-4 at most; rounding next to the line is suspected, not shown.
 ALLOWED = {4: (0.2, 5e-3), 6: (2e-3, 5e-4), 8: (1e-4, 2e-5), 10: (5e-3, 5e-4)}
 #: Largest distance from the branch at the same crank angle; on another it is 0.1 and more.
 ASTRAY = 1e-5
