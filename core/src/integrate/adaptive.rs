@@ -140,7 +140,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         for k in 1..=grid.count {
             let t_new = grid.end(k, self.t)?;
             self.advance(t_new, y).map_err(hard)?;
-            let projected = self.project(t_new)?.map_err(Cause::Equations)?;
+            let projected = self.settle(t_new)??;
             if self.finish(t_new, projected, y, observer)? == Flow::Stop {
                 return Ok(Ended::Stopped);
             }
@@ -202,15 +202,18 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             match trial {
                 Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
                 _ if placed.is_some() => size.size = placed.unwrap_or(size.size),
-                Ok(norm) if norm < 1.0 => match self.project(t_new)? {
+                Ok(norm) if norm < 1.0 => match self.settle(t_new)? {
                     Ok(projected) => {
                         size.accept(h.abs(), norm);
                         size.size = self.clearance.resume(size.size);
                         return Ok((t_new, projected));
                     }
-                    Err(stop) => {
-                        refusal = Some(Cause::Equations(stop));
-                        size.refuse(h.abs());
+                    Err(cause) => {
+                        match cause {
+                            Cause::NotFinite { .. } => size.reject(h.abs(), f64::NAN),
+                            _ => size.refuse(h.abs()),
+                        }
+                        refusal = Some(cause);
                     }
                 },
                 Ok(norm) => {
@@ -284,10 +287,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         let table = self.extend(t_new, y, observer)?;
         let n = self.n;
         let Work { k, y_new, .. } = &self.work;
-        let (rows, last) = match projected {
-            false => (P::STAGES + P::EXTRA, P::STAGES - 1),
-            true => (P::STAGES + P::EXTRA + 1, P::STAGES + P::EXTRA + 1),
-        };
+        let (rows, last) = (P::STAGES + P::EXTRA + usize::from(projected), last_row::<P>(projected));
         let step = Step {
             t_old: self.t,
             t: t_new,
@@ -327,25 +327,44 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         }
     }
 
-    /// Lets the system change the accepted state; if it does, the jump and the new derivative go into
-    /// the rows after the stages. Inside, why it refuses the state.
-    fn project(&mut self, t_new: f64) -> Result<Result<bool, Y::Stop>, Cause<Y::Stop>> {
+    /// Lets the system change the accepted state and evaluates the derivative there, where that is not
+    /// known; whether it was changed. Inside, why a shorter step is to be tried.
+    fn settle(&mut self, t_new: f64) -> Result<Result<bool, Cause<Y::Stop>>, Cause<Y::Stop>> {
         let Work { k, y_new, trial, .. } = &mut self.work;
         trial.copy_from_slice(y_new);
-        match self.rate.system.accepted(t_new, y_new) {
-            Ok(true) => {}
-            other => return Ok(other),
+        let projected = match self.rate.system.accepted(t_new, y_new) {
+            Ok(projected) => projected,
+            Err(stop) => return Ok(Err(Cause::Equations(stop))),
+        };
+        if projected {
+            if !all_finite(y_new) {
+                return Err(Cause::NotFinite { t: t_new });
+            }
+            let h = t_new - self.t;
+            let jump = &mut k[(P::STAGES + P::EXTRA) * self.n..][..self.n];
+            for ((jump, new), old) in jump.iter_mut().zip(y_new.iter()).zip(trial.iter()) {
+                *jump = (new - old) / h;
+            }
         }
-        if !all_finite(y_new) {
-            return Err(Cause::NotFinite { t: t_new });
+        if projected || !P::LAST_IN_ERROR {
+            let row = last_row::<P>(projected);
+            match self.rate.at(t_new, y_new, &mut k[row * self.n..][..self.n]) {
+                Ok(()) => {}
+                Err(Trouble::NotFinite(t)) => return Ok(Err(Cause::NotFinite { t })),
+                Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
+            }
         }
-        let h = t_new - self.t;
-        let (jump, dy) = k[(P::STAGES + P::EXTRA) * self.n..].split_at_mut(self.n);
-        for ((jump, new), old) in jump.iter_mut().zip(y_new.iter()).zip(trial.iter()) {
-            *jump = (new - old) / h;
-        }
-        self.rate.at(t_new, y_new, dy).map_err(hard)?;
-        Ok(Ok(true))
+        self.rate.system.stands(t_new);
+        Ok(Ok(projected))
+    }
+}
+
+/// The row of the derivative at the end of a step: the last stage, or behind the jump where that belongs to
+/// the state before a projection.
+fn last_row<P: EmbeddedPair>(projected: bool) -> usize {
+    match projected && P::LAST_IN_ERROR {
+        false => P::STAGES - 1,
+        true => P::STAGES + P::EXTRA + 1,
     }
 }
 

@@ -8,6 +8,9 @@ use super::rate::{Rate, Trouble};
 pub(super) trait EmbeddedPair {
     /// Order of the error estimate.
     const ERROR_ORDER: i32;
+    /// Whether the error estimate takes the last stage. If not it is evaluated once the step stands, and
+    /// rejected steps do without it.
+    const LAST_IN_ERROR: bool;
     /// Number of stages, the derivative at the end included.
     const STAGES: usize;
     /// Number of stages that only the continuous extension needs.
@@ -21,8 +24,9 @@ pub(super) trait EmbeddedPair {
     /// The table of a lesser extension, with zeros for the extra stages.
     const WITHOUT_EXTRA: &'static [f64] = Self::TABLE;
 
-    /// Stages 2 to the last, of which the first is given, in rows of `k`; the state at `t_new` into
-    /// `y_new`. `work` is scratch as long as y.
+    /// The stages after the first, which is given, in rows of `k`, the last one only if it is
+    /// [`LAST_IN_ERROR`](Self::LAST_IN_ERROR); the state at `t_new` into `y_new`. `work` is scratch as long
+    /// as y.
     fn advance<Y: FirstOrder>(
         rate: &mut Rate<'_, Y>,
         span: (f64, f64),

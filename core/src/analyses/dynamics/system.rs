@@ -152,13 +152,16 @@ impl FirstOrder for Equations<'_> {
         self.passage.foresee(t, &self.workspace)
     }
 
-    /// The last evaluation was at or near the end of the step: its factor serves.
+    /// The last evaluation was near the end of the step: its factor serves.
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
         if let Some(projector) = &mut self.projector {
             projector.sharpen(self.passage.in_reach());
         }
-        let changed = self.project(t, y, true)?;
-        self.passage.accept();
-        Ok(changed)
+        self.project(t, y, true)
+    }
+
+    /// From here the way to a singular position is seen on.
+    fn stands(&mut self, t: f64) {
+        self.passage.accept(t, &self.workspace);
     }
 }
