@@ -3,6 +3,7 @@
 //! Step for step the control of `scipy.integrate.solve_ivp`, so that counts of steps can be compared.
 
 use super::adaptive_options::{Atol, Options};
+use super::birkhoff::{Birkhoff, Ends, INSIDE};
 use super::clearance::Clearance;
 use super::contract::{Ended, FirstOrder, Flow, Observer, Statistics, Step};
 use super::dense::Dense;
@@ -25,10 +26,14 @@ struct Work {
     /// The stages without what projection takes away.
     remaining: Vec<f64>,
     atol: Vec<f64>,
+    /// The extension of systems of second order, for pairs whose own takes extra stages.
+    birkhoff: Option<Birkhoff>,
 }
 
 impl Work {
-    fn new<P: EmbeddedPair>(n: usize, controlled: usize, atol: &Atol) -> Self {
+    fn new<P: EmbeddedPair>(system: &impl FirstOrder, atol: &Atol) -> Self {
+        let (n, controlled, positions) = (system.len(), system.controlled(), system.positions());
+        let second_order = positions > 0 && !P::MEAN.is_empty();
         let atol = match atol {
             Atol::Scalar(atol) => vec![*atol; controlled],
             Atol::Each(atol) => atol.clone(),
@@ -39,6 +44,7 @@ impl Work {
             trial: vec![0.0; n],
             remaining: Vec::new(),
             atol,
+            birkhoff: second_order.then(|| Birkhoff::new(n, positions)),
         }
     }
 }
@@ -68,6 +74,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
 ) -> Result<Statistics, Failure<Y::Stop>> {
     let (n, controlled) = (system.len(), system.controlled());
     let checked = options.begin((t0, t_end), (y, n), controlled);
+    let work = Work::new::<P>(system, options.atol);
     let mut run = Run::<Y, P> {
         rate: Rate { system, evaluations: 0 },
         options,
@@ -78,7 +85,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
         steps: 0,
         rejected: 0,
         clearance: Clearance::default(),
-        work: Work::new::<P>(n, controlled, options.atol),
+        work,
         pair: std::marker::PhantomData,
     };
     let outcome = checked.and_then(|grid| run.go(grid, y, observer));
@@ -249,9 +256,11 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
 
     /// The stages of a step to `t_new`, and the state there.
     fn advance(&mut self, t_new: f64, y: &[f64]) -> Result<(), Trouble<Y::Stop>> {
-        let Work { k, y_new, trial, .. } = &mut self.work;
+        let Work { k, y_new, trial, birkhoff, .. } = &mut self.work;
         let stages = &mut k[..P::STAGES * self.n];
-        self.rate.begin(self.t, t_new - self.t, y, &mut stages[..self.n])?;
+        if self.rate.begin(self.t, t_new - self.t, y, &mut stages[..self.n])? {
+            birkhoff.iter_mut().for_each(Birkhoff::forget);
+        }
         P::advance(&mut self.rate, (self.t, t_new), y, stages, trial, y_new)?;
         if all_finite(y_new) {
             Ok(())
@@ -265,7 +274,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         if norm < 1.0 || !norm.is_finite() {
             return norm;
         }
-        let Work { k, y_new, trial, remaining, atol } = &mut self.work;
+        let Work { k, y_new, trial, remaining, atol, .. } = &mut self.work;
         remaining.clear();
         remaining.extend_from_slice(&k[..P::STAGES * self.n]);
         if !remaining.chunks_exact_mut(self.n).all(|dy| self.rate.system.remaining(dy)) {
@@ -276,7 +285,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         norm.min(self.clearance.strictness() * left)
     }
 
-    /// Offers the accepted state to the system and the step to the observer, and moves on.
+    /// Shows an accepted step to the observer, and moves on.
     fn finish<O: Observer>(
         &mut self,
         t_new: f64,
@@ -284,45 +293,66 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Flow, Cause<Y::Stop>> {
-        let table = self.extend(t_new, y, observer)?;
-        let n = self.n;
-        let Work { k, y_new, .. } = &self.work;
-        let (rows, last) = (P::STAGES + P::EXTRA + usize::from(projected), last_row::<P>(projected));
-        let step = Step {
-            t_old: self.t,
-            t: t_new,
-            y_old: y,
-            y: y_new,
-            dy_old: &k[..n],
-            dy: &k[last * n..][..n],
-            dense: Dense::new(&k[..rows * n], n, table, P::DEGREE),
+        let (n, last) = (self.n, last_row::<P>(projected));
+        let extension = self.extend(t_new, last, y, observer)?;
+        let Work { k, y_new, birkhoff, .. } = &mut self.work;
+        let dense = match (extension, &birkhoff) {
+            (None, Some(birkhoff)) => birkhoff.dense(),
+            (table, _) => {
+                let rows = P::STAGES + P::EXTRA + usize::from(projected);
+                Dense::new(&k[..rows * n], n, table.unwrap_or(P::WITHOUT_EXTRA), P::DEGREE)
+            }
         };
+        let (dy_old, dy) = (&k[..n], &k[last * n..][..n]);
+        let step = Step { t_old: self.t, t: t_new, y_old: y, y: y_new, dy_old, dy, dense };
         let flow = observer.step(&step);
+        if let Some(birkhoff) = birkhoff {
+            birkhoff.remember(Ends { h: t_new - self.t, y_old: y, y: y_new, dy_old, dy });
+        }
         y.copy_from_slice(y_new);
-        self.work.k.copy_within(last * n..(last + 1) * n, 0);
+        k.copy_within(last * n..(last + 1) * n, 0);
         self.t = t_new;
         self.steps += 1;
         Ok(flow)
     }
 
-    /// The extra stages, where the observer wants them and they can be had; the table that fits.
+    /// Evaluates what the extension needs, where the observer wants it and it can be had. The table that
+    /// fits; none where there are polynomials. `last` is the row of the derivative at the end.
     fn extend<O: Observer>(
         &mut self,
         t_new: f64,
+        last: usize,
         y: &[f64],
         observer: &O,
-    ) -> Result<&'static [f64], Cause<Y::Stop>> {
-        if P::EXTRA == 0 || !observer.looks_inside(self.t, t_new) {
-            return Ok(P::WITHOUT_EXTRA);
+    ) -> Result<Option<&'static [f64]>, Cause<Y::Stop>> {
+        let Work { k, y_new, trial, birkhoff, .. } = &mut self.work;
+        let (n, h) = (self.n, t_new - self.t);
+        let (stages, extra) = k.split_at_mut(P::STAGES * n);
+        let ends = || Ends { h, y_old: y, y: y_new, dy_old: &stages[..n], dy: &stages[last * n..] };
+        if let Some(birkhoff) = birkhoff {
+            birkhoff.measure(ends(), P::MEAN, stages);
         }
-        let Work { k, trial, .. } = &mut self.work;
-        match P::extend(&mut self.rate, (self.t, t_new), y, k, trial) {
-            Ok(()) => Ok(P::TABLE),
+        if P::EXTRA == 0 || !observer.looks_inside(self.t, t_new) {
+            return Ok(Some(P::WITHOUT_EXTRA));
+        }
+        let outcome = match birkhoff.as_mut().filter(|birkhoff| birkhoff.serves(h)) {
+            Some(birkhoff) => {
+                birkhoff.predict(ends(), trial);
+                let inside = &mut extra[..n];
+                let outcome = self.rate.at(self.t + INSIDE * h, trial, inside);
+                outcome.map(|()| birkhoff.complete(ends(), inside)).map(|()| None)
+            }
+            None => {
+                P::extend(&mut self.rate, (self.t, t_new), y, k, trial).map(|()| Some(P::TABLE))
+            }
+        };
+        match outcome {
+            Ok(table) => Ok(table),
             Err(Trouble::Stop(stop)) => Err(Cause::Equations(stop)),
             Err(Trouble::NotFinite(_)) => {
                 // NaN times zero is NaN
-                k[P::STAGES * self.n..(P::STAGES + P::EXTRA) * self.n].fill(0.0);
-                Ok(P::WITHOUT_EXTRA)
+                k[P::STAGES * n..(P::STAGES + P::EXTRA) * n].fill(0.0);
+                Ok(Some(P::WITHOUT_EXTRA))
             }
         }
     }

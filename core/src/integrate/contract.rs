@@ -23,6 +23,13 @@ pub trait FirstOrder {
         self.len()
     }
 
+    /// How many components, from the first, are positions of a system of second order: their derivatives are
+    /// the next as many components, and the rest are quadratures, on which no derivative depends. Then the
+    /// continuous extension may cost less. 0 for any other system.
+    fn positions(&self) -> usize {
+        0
+    }
+
     /// dy = f(t, y); both of length [`FirstOrder::len`].
     ///
     /// # Errors

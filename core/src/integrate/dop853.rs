@@ -148,6 +148,7 @@ impl EmbeddedPair for Pair {
     // between the stages at 1/3 and 3/5
     const GAP: Gap = Gap { middle: 7.0 / 15.0, half: 2.0 / 15.0 };
     const TABLE: &'static [f64] = &TABLE;
+    const MEAN: &'static [f64] = &MEAN;
     const WITHOUT_EXTRA: &'static [f64] = &HERMITE;
 
     fn advance<Y: FirstOrder>(

@@ -21,6 +21,9 @@ pub(super) trait EmbeddedPair {
     const GAP: Gap;
     /// STAGES + EXTRA + 1 rows of its table; the last, 3θ² - 2θ³, bends it to a projected end.
     const TABLE: &'static [f64];
+    /// Weights wᵢ of the stages by which ∫ y dt = h y_old + h² Σ wᵢ kᵢ over a step, to its order: where
+    /// there are extra stages, for systems that can do without them.
+    const MEAN: &'static [f64] = &[];
     /// The table of a lesser extension, with zeros for the extra stages.
     const WITHOUT_EXTRA: &'static [f64] = Self::TABLE;
 

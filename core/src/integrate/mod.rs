@@ -14,6 +14,7 @@
 //! | `arguments` | what is refused before the first evaluation |
 //! | `rate` | counted, checked evaluations |
 //! | `dense` | the continuous extension of a step |
+//! | `birkhoff` | that of mechanical systems, from the step before and one evaluation |
 //! | `step_size` | choice of the step from the error estimate |
 //! | `clearance` | steps that keep clear of a time near which rates are noise |
 //! | `adaptive`, `adaptive_options`, `embedded_pair` | the loop of every embedded pair, its options, what it asks of a pair |
@@ -31,6 +32,7 @@ mod adaptive_options;
 mod alpha_parameters;
 mod alpha_step;
 mod arguments;
+mod birkhoff;
 mod clearance;
 mod constrained;
 mod contract;

@@ -291,8 +291,9 @@ impl<'a> Recorder<'a> {
 
 impl Dense {
     fn new(options: &Options, t0: f64) -> Self {
-        // one that may change its method has the highest degree from the start
-        let degree = if matches!(options.scheme, Scheme::Auto(_)) { HIGHEST } else { 0 };
+        // of steps of several degrees all have the highest, from the start
+        let several = matches!(options.scheme, Scheme::Auto(_) | Scheme::Dop853(_));
+        let degree = if several { HIGHEST } else { 0 };
         Self { t: vec![t0], degree, ..Self::default() }
     }
 

@@ -95,6 +95,10 @@ impl FirstOrder for Equations<'_> {
         2 * self.model.layout.n_q + WORKS
     }
 
+    fn positions(&self) -> usize {
+        self.model.layout.n_q
+    }
+
     /// Steps are judged by the motion alone.
     fn controlled(&self) -> usize {
         2 * self.model.layout.n_q
