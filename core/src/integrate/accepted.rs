@@ -9,13 +9,13 @@ use super::embedded_pair::EmbeddedPair;
 use super::failure::Cause;
 use super::rate::{all_finite, Trouble};
 
+/// Whether the system changed the state; inside, why a shorter step is to be tried.
+type Settled<E> = Result<Result<bool, Cause<E>>, Cause<E>>;
+
 impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     /// Lets the system change the accepted state and evaluates the derivative there, where that is not
-    /// known; whether it was changed. Inside, why a shorter step is to be tried.
-    pub(super) fn settle(
-        &mut self,
-        t_new: f64,
-    ) -> Result<Result<bool, Cause<Y::Stop>>, Cause<Y::Stop>> {
+    /// known.
+    pub(super) fn settle(&mut self, t_new: f64) -> Settled<Y::Stop> {
         let Work { k, y_new, trial, .. } = &mut self.work;
         trial.copy_from_slice(y_new);
         let projected = match self.rate.system.accepted(t_new, y_new) {

@@ -131,9 +131,7 @@ fn rates_are_the_derivative_of_positions_and_both_meet_the_ends() {
         let (mut c, mut z) = (vec![0.0; 3 * d], [0.0; 3]);
         step.coefficients(&mut c);
         step.interpolate(step.t, &mut z);
-        for k in 0..3 {
-            assert!((z[k] - step.y[k]).abs() < 1e-13, "component {k}");
-        }
+        assert!(z.iter().zip(step.y).all(|(z, y)| (z - y).abs() < 1e-13), "{z:?}");
         if step.t_old > 0.0 {
             assert_eq!(d, 9);
             let (q, v) = c.split_at(d);
