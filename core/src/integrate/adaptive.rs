@@ -262,11 +262,13 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             birkhoff.iter_mut().for_each(Birkhoff::forget);
         }
         P::advance(&mut self.rate, (self.t, t_new), y, stages, trial, y_new)?;
-        if all_finite(y_new) {
-            Ok(())
-        } else {
-            Err(Trouble::NotFinite(t_new))
+        if !all_finite(y_new) {
+            return Err(Trouble::NotFinite(t_new));
         }
+        if !P::LAST_IN_ERROR && self.rate.system.near_obstacle() {
+            self.rate.at(t_new, y_new, &mut stages[(P::STAGES - 1) * self.n..])?;
+        }
+        Ok(())
     }
 
     /// The error norm of a refused step without what projection takes away.

@@ -71,6 +71,12 @@ pub trait FirstOrder {
         false
     }
 
+    /// Whether an obstacle may be near, by the evaluations of the trial under way: then f is evaluated in the
+    /// very end of it too, which the error of a method may do without.
+    fn near_obstacle(&self) -> bool {
+        false
+    }
+
     /// Called after every trial step, whether it will be accepted or not, with the time of its end, at
     /// which f was evaluated last, near the end if not in it. A time near which f is little but noise: a method with step control
     /// places its steps so that no stage comes near it.

@@ -5,8 +5,10 @@
 //! Differential Equations I*, II.5 and II.6. The error is h e₅² / √(e₅² + 0.01 e₃²), which has order 7 and
 //! does not trust an e₅ that happens to vanish (II.10). Control: that of `scipy.integrate.DOP853`.
 //!
-//! The extension needs three stages more than the step. They are evaluated only for observers that look
-//! between the ends; for others it is the cubic Hermite polynomial.
+//! The extension needs three stages more than the step, or for a system of second order one evaluation
+//! (`birkhoff`). They are evaluated only for observers that look between the ends; for others it is the cubic
+//! Hermite polynomial. The derivative at the end is evaluated where the step stands, since the estimate does
+//! without: one evaluation less than scipy's for every step that is rejected.
 
 use super::adaptive::integrate;
 use super::adaptive_options::{usable_rtol, Atol, Options};

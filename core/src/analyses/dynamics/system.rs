@@ -151,6 +151,10 @@ impl FirstOrder for Equations<'_> {
         true
     }
 
+    fn near_obstacle(&self) -> bool {
+        self.passage.near || self.passage.in_reach()
+    }
+
     /// A singular position ahead.
     fn obstacle(&mut self, t: f64) -> Option<f64> {
         self.passage.foresee(t, &self.workspace)
