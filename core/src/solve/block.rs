@@ -220,23 +220,28 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
     }
 }
 
-/// Numbers that a diagonal block of `n` rows takes: n for 1 / D, n for its diagonal before elimination, and
-/// what is left of the diagonal, row by row: of S, then of L.
+/// Numbers that a diagonal block of `n` rows takes: n for its diagonal, then 1 / D, n for what pivots are judged by,
+/// and what is left of the diagonal, row by row: of S, then of L.
 pub(super) fn numbers(n: usize) -> usize {
     2 * n + n * (n - 1) / 2
 }
 
-/// Stores a diagonal block before elimination.
+/// Stores a diagonal block before elimination, with what its pivots are judged by.
 #[inline(always)]
-pub(super) fn store_begun<S: Real, const N: usize>(x: &mut [S], first: u32, s: &[[S; N]; N]) {
+pub(super) fn store_begun<S: Real, const N: usize>(
+    x: &mut [S],
+    first: u32,
+    s: &[[S; N]; N],
+    magnitude: &[S; N],
+) {
     let x = &mut x[first as usize..first as usize + numbers(N)];
     for i in 0..N {
-        x[N + i] = s[i][i];
+        (x[i], x[N + i]) = (s[i][i], magnitude[i]);
         x[2 * N + i * i.saturating_sub(1) / 2..][..i].copy_from_slice(&s[i][..i]);
     }
 }
 
-/// Its diagonal, and what is left of that.
+/// What its pivots are judged by, and its lower triangle.
 #[inline(always)]
 pub(super) fn begun<S: Real, const N: usize>(x: &[S], first: u32) -> ([S; N], [[S; N]; N]) {
     let x = &x[first as usize..first as usize + numbers(N)];
@@ -244,6 +249,7 @@ pub(super) fn begun<S: Real, const N: usize>(x: &[S], first: u32) -> ([S; N], [[
     for i in 1..N {
         s[i][..i].copy_from_slice(&x[2 * N + i * (i - 1) / 2..][..i]);
     }
+    (0..N).for_each(|i| s[i][i] = x[i]);
     (std::array::from_fn(|i| x[N + i]), s)
 }
 

@@ -32,27 +32,31 @@ impl<S: Real> Saddle<S> {
         self.unbend(pattern, x);
     }
 
-    /// f ← Dw⁻¹ Lw⁻¹ f.
+    /// f ← Dw⁻¹ Lw⁻¹ f; with anchors, see there.
     ///
     /// # Panics
     /// If `x` has another length than unknowns and rows together.
     #[inline(always)]
     pub fn weigh(&self, pattern: &Pattern, x: &mut [S]) {
         assert_eq!(x.len(), pattern.n_unknowns() + pattern.n_rows(), "one right side for each row");
+        self.anchor(pattern, x);
         for &group in &pattern.coupled {
             let [x, y, angle] = part_mut(x, 3 * group);
             let Weight { shift, .. } = &self.weights[group as usize];
             *angle = *angle - shift[0] * *x - shift[1] * *y;
         }
-        for (x, Weight { inverse, .. }) in x.chunks_exact_mut(3).zip(&self.weights) {
+        for &group in &pattern.loose {
+            let x = part_mut::<S, 3>(x, 3 * group);
+            let Weight { inverse, .. } = &self.weights[group as usize];
             // all at once: what is written as a pair of numbers is read as one
-            x.copy_from_slice(&[x[0] * inverse[0], x[1] * inverse[1], x[2] * inverse[2]]);
+            *x = [x[0] * inverse[0], x[1] * inverse[1], x[2] * inverse[2]];
         }
     }
 
-    /// x ← Lw⁻ᵀ x.
+    /// x ← Lw⁻ᵀ x, and λ of anchors.
     #[inline(always)]
     pub fn unbend(&self, pattern: &Pattern, x: &mut [S]) {
+        self.release(pattern, x);
         for &group in &pattern.coupled {
             let [x, y, angle] = part_mut(x, 3 * group);
             let Weight { shift, .. } = &self.weights[group as usize];
