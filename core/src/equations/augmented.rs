@@ -101,7 +101,8 @@ impl<S: Real> Augmented<S> {
             mass::turn(inertia, motion, weight);
         }
         for (anchor, held) in model.anchors.iter().zip(&mut self.saddle.anchors) {
-            anchors::turn(anchor, motions, &mut self.saddle.weights, held);
+            let body = anchor.body as usize;
+            anchors::turn(anchor, &motions[body + 1], &mut self.saddle.weights[body], held);
         }
     }
 

@@ -146,7 +146,7 @@ impl<S: Real> Workspace<S> {
         }
         let (forces, right) = solution.split_at_mut(n);
         *powers = forces::generalized(model, motions, t, forces);
-        anchors::begin(model, motions, stabilized, saddle, right);
+        anchors::begin(&model.anchors, motions, stabilized, saddle, right);
         let (others, entries) =
             (others.iter().map(|k| *k as usize), saddle.entries.as_flattened_mut());
         constraints::linearize_some(model, others, motions, t, stabilized, right, entries);

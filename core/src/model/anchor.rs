@@ -5,7 +5,7 @@
 
 use super::model::Body;
 use super::pin::Pin;
-use crate::math::{Local, Real};
+use crate::math::{Local, Real, Vec2};
 
 /// A body with the pin that holds it.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,12 @@ pub struct Anchor<S = f64> {
     pub pin: u32,
     /// Of the body, kg.
     pub mass: S,
+    /// The first row of the pin.
+    pub row: u32,
+    /// 1 where the pin's equations are point of the body minus point of ground, else -1.
+    pub sign: S,
+    /// The pin on ground, m.
+    pub ground: Vec2<S>,
     /// The pin in the body frame, m.
     pub point: Local<S>,
     /// m (c - s), s the pin and c the mass centre: kg·m.
@@ -45,6 +51,9 @@ pub(super) fn anchors<S: Real>(pins: &[Pin<S>], bodies: &[Body<S>], added: &[S])
             body: pin.bodies[end] - 1,
             pin: k,
             mass: body.mass,
+            row: pin.row,
+            sign: S::constant(if end == 1 { 1.0 } else { -1.0 }),
+            ground: Vec2::new(pin.points[1 - end].x, pin.points[1 - end].y),
             point,
             moment: off.scale(body.mass),
             inverse: S::one() / about,

@@ -12,9 +12,11 @@
 //! other rows see of it: a group with the [`Weight`] 1/d₀ = 1/d₁ = 0, 1/d₂ the inverse of the inertia about the pin,
 //! and s as its shift. Its λ follows last, from the first two rows.
 
+use super::block::{part, part_mut};
 use super::pattern::{Pattern, RowBlock};
 use super::plan::index;
 use super::saddle::Saddle;
+use super::steps::next;
 use crate::math::Real;
 
 /// What λ of an anchor asks of W beside the weight of its group.
@@ -107,15 +109,15 @@ impl<S: Real> Saddle<S> {
     pub(super) fn anchor(&self, pattern: &Pattern, x: &mut [S]) {
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
         for (place, anchor) in pattern.anchors.iter().zip(&self.anchors) {
-            let (at, row) = (3 * place.group as usize, place.row as usize);
-            let (f, g) = (&mut f[at..at + 3], &mut g[row..row + 2]);
+            let f = part_mut::<S, 3>(f, 3 * place.group);
+            let g = part_mut::<S, 2>(g, place.row);
             let weight = &self.weights[place.group as usize];
             let sign = S::constant(place.sign.into());
             let p = [sign * g[0], sign * g[1]];
             let across = f[2] - weight.shift[0] * f[0] - weight.shift[1] * f[1];
             let turning = across - anchor.moment[0] * p[0] - anchor.moment[1] * p[1];
-            g.copy_from_slice(&f[..2]);
-            f.copy_from_slice(&[p[0], p[1], turning * weight.inverse[2]]);
+            *g = [f[0], f[1]];
+            *f = [p[0], p[1], turning * weight.inverse[2]];
         }
     }
 
@@ -123,18 +125,18 @@ impl<S: Real> Saddle<S> {
     #[inline(always)]
     pub(super) fn release(&self, pattern: &Pattern, x: &mut [S]) {
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
-        let mut loads = pattern.loads.iter();
+        let mut loads = &pattern.loads[..];
         for (place, anchor) in pattern.anchors.iter().zip(&self.anchors) {
-            let (at, row) = (3 * place.group as usize, place.row as usize);
-            let own = &mut f[at..at + 3];
-            let mut left: [S; 2] = std::array::from_fn(|i| {
-                g[row + i] - anchor.mass * own[i] - anchor.moment[i] * own[2]
-            });
-            for load in loads.by_ref().take(place.loads as usize) {
+            let own = part_mut::<S, 3>(f, 3 * place.group);
+            let mut left = *part::<S, 2>(g, place.row);
+            for i in 0..2 {
+                left[i] -= anchor.mass * own[i] + anchor.moment[i] * own[2];
+            }
+            for load in next(&mut loads, place.loads) {
                 self.subtract_load(load, g, &mut left);
             }
             let sign = S::constant(place.sign.into());
-            (g[row], g[row + 1]) = (sign * left[0], sign * left[1]);
+            *part_mut(g, place.row) = left.map(|left| sign * left);
             let shift = &self.weights[place.group as usize].shift;
             own[0] -= shift[0] * own[2];
             own[1] -= shift[1] * own[2];
@@ -143,12 +145,12 @@ impl<S: Real> Saddle<S> {
 
     #[inline(always)]
     fn subtract_load(&self, load: &Load, g: &[S], left: &mut [S; 2]) {
-        let lambda = &g[load.row as usize..][..load.size as usize];
         if load.sign != 0.0 {
-            let sign = S::constant(load.sign.into());
+            let (sign, lambda) = (S::constant(load.sign.into()), part::<S, 2>(g, load.row));
             left.iter_mut().zip(lambda).for_each(|(left, lambda)| *left -= sign * *lambda);
             return;
         }
+        let lambda = &g[load.row as usize..][..load.size as usize];
         for (entries, lambda) in self.entries[load.entry as usize..].iter().zip(lambda) {
             left.iter_mut().zip(entries).for_each(|(left, a)| *left -= *a * *lambda);
         }

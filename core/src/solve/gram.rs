@@ -9,7 +9,7 @@ use super::block::{add, part, part_mut, store_begun, subtract_transposed, Twin};
 use super::pattern::Pattern;
 use super::places::Armed;
 use super::saddle::Saddle;
-use super::steps::{Start, Touch};
+use super::steps::{last, next, Start, Touch};
 use super::weight::Weight;
 use crate::math::Real;
 
@@ -104,9 +104,9 @@ impl<S: Real> Saddle<S> {
     /// Begins row blocks from U and the arms.
     #[inline(always)]
     pub(super) fn begin_all(&mut self, pattern: &Pattern, starts: &[Start]) {
-        let mut touches = pattern.steps.touches.iter();
+        let mut touches = &pattern.steps.touches[..];
         for start in starts {
-            let own = touches.by_ref().take(start.touches as usize);
+            let own = next(&mut touches, start.touches).iter();
             match start.size {
                 1 => self.begin_rows::<1>(start, own),
                 2 => self.begin_rows::<2>(start, own),
@@ -140,9 +140,9 @@ impl<S: Real> Saddle<S> {
     /// The right sides y of row blocks, into g.
     #[inline(always)]
     pub(super) fn right_sides(&self, pattern: &Pattern, starts: &[Start], x: &[S], g: &mut [S]) {
-        let mut touches = pattern.steps.touches.iter();
+        let mut touches = &pattern.steps.touches[..];
         for start in starts {
-            let own = touches.by_ref().take(start.touches as usize);
+            let own = next(&mut touches, start.touches).iter();
             match start.size {
                 1 => self.right_side::<1>(start, own, x, g),
                 2 => self.right_side::<2>(start, own, x, g),
@@ -175,9 +175,9 @@ impl<S: Real> Saddle<S> {
     #[inline(always)]
     pub(super) fn spread_all(&self, pattern: &Pattern, starts: &[Start], x: &mut [S], g: &[S]) {
         let count = starts.iter().map(|start| start.touches as usize).sum();
-        let mut touches = pattern.steps.touches[..count].iter();
+        let mut touches = &pattern.steps.touches[..count];
         for start in starts.iter().rev() {
-            let own = touches.by_ref().rev().take(start.touches as usize);
+            let own = last(&mut touches, start.touches).iter().rev();
             match start.size {
                 1 => self.spread_rows::<1>(start, own, x, g),
                 2 => self.spread_rows::<2>(start, own, x, g),

@@ -17,7 +17,7 @@ use super::block::{
     Diagonal, Twin,
 };
 use super::pattern::Pattern;
-use super::steps::{Ahead, Below, Column, Earlier, Products, Start, Update};
+use super::steps::{next, Ahead, Below, Column, Earlier, Products, Start, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -198,7 +198,7 @@ impl<S: Real> Saddle<S> {
             s[i][i] += *magnitude * S::constant(self.ridge);
         }
         let mut y = if RHS { *part(g, column.row) } else { [S::zero(); N] };
-        for block in ahead.earlier.by_ref().take(column.earlier as usize) {
+        for block in next(&mut ahead.earlier, column.earlier) {
             match block.size {
                 _ if PINS => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
                 1 => self.subtract_earlier::<N, 1, RHS>(block, g, &mut s, &mut y),
@@ -218,7 +218,7 @@ impl<S: Real> Saddle<S> {
         }
         self.keep(column, &diagonal, magnitude)?;
         let Ahead { below, products, .. } = ahead;
-        for block in below.by_ref().take(column.below as usize) {
+        for block in next(below, column.below) {
             match block.size {
                 _ if PINS => self.below::<2, N, true>(block, products, &diagonal),
                 1 => self.below::<1, N, false>(block, products, &diagonal),
@@ -274,7 +274,7 @@ impl<S: Real> Saddle<S> {
     ) {
         // transposed, as it is stored
         let mut s = [[S::zero(); M]; N];
-        for pair in products.pairs.by_ref().take(block.pairs as usize) {
+        for pair in next(&mut products.pairs, block.pairs) {
             let [own, other] = pair.first;
             if PINS || N == 2 && M == 2 && pair.sign != 0.0 {
                 let own = &self.arms[own as usize];
@@ -283,7 +283,7 @@ impl<S: Real> Saddle<S> {
                 add::<S, N, M, 3>(&mut s, part(&self.u, other), part(&self.u, own));
             }
         }
-        for update in products.updates.by_ref().take(block.updates as usize) {
+        for update in next(&mut products.updates, block.updates) {
             match update.size {
                 _ if PINS => self.subtract_product::<M, N, 2>(update, &mut s),
                 1 => self.subtract_product::<M, N, 1>(update, &mut s),

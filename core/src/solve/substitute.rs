@@ -5,7 +5,7 @@ use super::block::{
 };
 use super::pattern::Pattern;
 use super::saddle::Saddle;
-use super::steps::{Ahead, Below, Column, Earlier};
+use super::steps::{last, next, Ahead, Below, Column, Earlier};
 use super::weight::Weight;
 use crate::math::Real;
 
@@ -68,7 +68,7 @@ impl<S: Real> Saddle<S> {
     /// y ← L⁻¹ y of one column, or λ where nothing is below.
     fn forward<const N: usize>(&self, column: &Column, ahead: &mut Ahead<'_>, g: &mut [S]) {
         let mut y = *part::<S, N>(g, column.row);
-        for earlier in ahead.earlier.by_ref().take(column.earlier as usize) {
+        for earlier in next(&mut ahead.earlier, column.earlier) {
             match earlier.size {
                 1 => self.subtract_known::<N, 1>(earlier, g, &mut y),
                 2 => self.subtract_known::<N, 2>(earlier, g, &mut y),
@@ -133,7 +133,7 @@ impl<S: Real> Saddle<S> {
         let y = part::<S, N>(g, column.row);
         let mut lambda: [S; N] = std::array::from_fn(|i| y[i] * inverse[i]);
         // the newest unknown is waited for last
-        for block in ahead.below.by_ref().rev().take(column.below as usize) {
+        for block in last(&mut ahead.below, column.below).iter().rev() {
             match block.size {
                 _ if PINS => self.pull::<2, N>(block, inverse, g, &mut lambda),
                 1 => self.pull::<1, N>(block, inverse, g, &mut lambda),
