@@ -114,8 +114,11 @@ impl<S: Real> Saddle<S> {
             let weight = &self.weights[place.group as usize];
             let sign = S::constant(place.sign.into());
             let p = [sign * g[0], sign * g[1]];
-            let across = f[2] - weight.shift[0] * f[0] - weight.shift[1] * f[1];
-            let turning = across - anchor.moment[0] * p[0] - anchor.moment[1] * p[1];
+            let mut turning = f[2];
+            for i in 0..2 {
+                turning = turning.minus_product(weight.shift[i], f[i]);
+                turning = turning.minus_product(anchor.moment[i], p[i]);
+            }
             *g = [f[0], f[1]];
             *f = [p[0], p[1], turning * weight.inverse[2]];
         }
@@ -130,7 +133,8 @@ impl<S: Real> Saddle<S> {
             let own = part_mut::<S, 3>(f, 3 * place.group);
             let mut left = *part::<S, 2>(g, place.row);
             for i in 0..2 {
-                left[i] -= anchor.mass * own[i] + anchor.moment[i] * own[2];
+                let without = left[i].minus_product(anchor.mass, own[i]);
+                left[i] = without.minus_product(anchor.moment[i], own[2]);
             }
             for load in next(&mut loads, place.loads) {
                 self.subtract_load(load, g, &mut left);
@@ -138,8 +142,8 @@ impl<S: Real> Saddle<S> {
             let sign = S::constant(place.sign.into());
             *part_mut(g, place.row) = left.map(|left| sign * left);
             let shift = &self.weights[place.group as usize].shift;
-            own[0] -= shift[0] * own[2];
-            own[1] -= shift[1] * own[2];
+            own[0] = own[0].minus_product(shift[0], own[2]);
+            own[1] = own[1].minus_product(shift[1], own[2]);
         }
     }
 
@@ -147,12 +151,12 @@ impl<S: Real> Saddle<S> {
     fn subtract_load(&self, load: &Load, g: &[S], left: &mut [S; 2]) {
         if load.sign != 0.0 {
             let (sign, lambda) = (S::constant(load.sign.into()), part::<S, 2>(g, load.row));
-            left.iter_mut().zip(lambda).for_each(|(left, lambda)| *left -= sign * *lambda);
+            left.iter_mut().zip(lambda).for_each(|(left, lambda)| *left = left.minus_product(sign, *lambda));
             return;
         }
         let lambda = &g[load.row as usize..][..load.size as usize];
         for (entries, lambda) in self.entries[load.entry as usize..].iter().zip(lambda) {
-            left.iter_mut().zip(entries).for_each(|(left, a)| *left -= *a * *lambda);
+            left.iter_mut().zip(entries).for_each(|(left, a)| *left = left.minus_product(*a, *lambda));
         }
     }
 

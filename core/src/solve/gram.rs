@@ -222,5 +222,5 @@ impl<S: Real> Saddle<S> {
 #[inline(always)]
 fn bent<S: Real>(b: [S; 2], sign: f64, weight: &Weight<S>) -> [S; 2] {
     let sign = S::constant(sign);
-    [b[0] - sign * weight.shift[0], b[1] - sign * weight.shift[1]]
+    [0, 1].map(|k| b[k].minus_product(sign, weight.shift[k]))
 }
