@@ -102,6 +102,14 @@ impl Real for Lanes {
         sine::sin_cos_of_lanes(self)
     }
     #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        Self(a.0.mul_add(b.0, self.0))
+    }
+    #[inline(always)]
+    fn minus_product(self, a: Self, b: Self) -> Self {
+        Self(a.0.mul_neg_add(b.0, self.0))
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Self(self.0.sqrt())
     }

@@ -25,6 +25,16 @@ pub trait Real:
 
     /// (sin x, cos x), x in rad.
     fn sin_cos(self) -> (Self, Self);
+    /// self + a b, rounded once where the processor can.
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        self + a * b
+    }
+    /// self - a b, rounded once where the processor can.
+    #[inline(always)]
+    fn minus_product(self, a: Self, b: Self) -> Self {
+        self - a * b
+    }
     /// Square root.
     fn sqrt(self) -> Self;
     /// eˣ.
@@ -107,6 +117,17 @@ impl Real for f64 {
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         super::sine::sin_cos(self)
+    }
+    #[inline(always)]
+    fn plus_product(self, a: f64, b: f64) -> f64 {
+        match cfg!(target_feature = "fma") {
+            true => a.mul_add(b, self),
+            false => self + a * b, // the library's fused product takes a hundred times as long
+        }
+    }
+    #[inline(always)]
+    fn minus_product(self, a: f64, b: f64) -> f64 {
+        self.plus_product(-a, b)
     }
     fn sqrt(self) -> Self {
         f64::sqrt(self)
