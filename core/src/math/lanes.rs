@@ -32,6 +32,29 @@ impl Lanes {
     pub fn as_array_mut(&mut self) -> &mut [f64; Self::WIDTH] {
         self.0.as_array_mut()
     }
+    /// Several quantities as rows, one for each lane: `out` has [`WIDTH`](Self::WIDTH) rows as long as `x`.
+    ///
+    /// # Panics
+    /// Where it has not.
+    pub fn rows(x: &[Self], out: &mut [f64]) {
+        let width = x.len();
+        assert_eq!(out.len(), Self::WIDTH * width, "a row for each lane");
+        let (a, rest) = out.split_at_mut(width);
+        let (b, rest) = rest.split_at_mut(width);
+        let (c, d) = rest.split_at_mut(width);
+        let whole = width - width % Self::WIDTH;
+        for first in (0..whole).step_by(Self::WIDTH) {
+            // blocks of 4 × 4 are transposed in registers
+            let block: [Self; Self::WIDTH] = *x[first..].first_chunk().expect("a block");
+            let columns = block.map(Self::to_array);
+            for (lane, row) in [&mut *a, &mut *b, &mut *c, &mut *d].into_iter().enumerate() {
+                row[first..first + Self::WIDTH].copy_from_slice(&columns.map(|x| x[lane]));
+            }
+        }
+        for (k, x) in x.iter().enumerate().skip(whole) {
+            [a[k], b[k], c[k], d[k]] = x.to_array();
+        }
+    }
     /// A function that is not made for several numbers at once.
     #[inline(always)]
     pub(super) fn each(self, f: impl Fn(f64) -> f64) -> Self {
@@ -144,6 +167,14 @@ impl Real for Lanes {
     }
     fn floor(self) -> Self {
         self.each(f64::floor)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(wide::CmpGt::cmp_gt(self.0, other.0).blend(self.0, other.0))
     }
     #[inline(always)]
     fn least_magnitude(self) -> f64 {

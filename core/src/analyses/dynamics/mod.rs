@@ -4,6 +4,7 @@ mod apart;
 mod approach;
 mod around;
 mod automatic;
+mod batch;
 mod choice;
 mod failure;
 mod forecast;

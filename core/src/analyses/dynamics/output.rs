@@ -1,7 +1,8 @@
 //! What forward dynamics reports: states at chosen times, with accelerations, multipliers, energies.
 
+use super::batch::{Batch, Times};
 use super::options::{Options, Output, Scheme};
-use super::report::{Batch, Halt, Solver};
+use super::report::{Halt, Solver};
 use super::system::WORKS;
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
@@ -57,18 +58,16 @@ impl Trajectory {
         }
     }
 
-    /// Adds what was solved at y = (q, v, works), by the number that is meant.
-    fn add<S: Copy>(&mut self, t: f64, y: &[S], found: [&[S]; 3], number: impl Fn(S) -> f64) {
-        let [a, lam, energies] = found;
+    /// Adds what was solved at y = (q, v, works).
+    fn add(&mut self, t: f64, y: &[f64], (a, lam, energies): (&[f64], &[f64], &[f64; 2])) {
         let n = a.len();
-        let add = |to: &mut Vec<f64>, x: &[S]| to.extend(x.iter().map(|x| number(*x)));
         self.t.push(t);
-        add(&mut self.q, &y[..n]);
-        add(&mut self.v, &y[n..2 * n]);
-        add(&mut self.a, a);
-        add(&mut self.lam, lam);
-        add(&mut self.energy, energies);
-        add(&mut self.energy, &y[2 * n..]);
+        self.q.extend_from_slice(&y[..n]);
+        self.v.extend_from_slice(&y[n..2 * n]);
+        self.a.extend_from_slice(a);
+        self.lam.extend_from_slice(lam);
+        self.energy.extend_from_slice(energies);
+        self.energy.extend_from_slice(&y[2 * n..]);
     }
 }
 
@@ -84,9 +83,6 @@ pub struct Dense {
     /// d.
     pub degree: usize,
 }
-
-/// Times of the grid that fall into one step.
-type Times = [f64; Lanes::WIDTH];
 
 /// Collects the output while the integrator runs.
 pub(super) struct Recorder<'a> {
@@ -148,30 +144,28 @@ impl<'a> Recorder<'a> {
     /// Reports the first `n` of the `times`, which are between the ends of a step; whether it can is known
     /// once they are solved.
     fn report_between(&mut self, step: &Step<'_>, times: Times, n: usize) -> Flow {
-        if let Some(batch) = &mut self.many {
-            batch.interpolate(step, times);
-        }
-        let mut flow = Flow::Continue;
-        for (lane, t) in times.into_iter().enumerate().take(n) {
-            if flow == Flow::Stop {
-                break;
+        let Some(batch) = &mut self.many else {
+            return self.report_one_by_one(step, &times[..n]);
+        };
+        batch.interpolate(step, times);
+        let mut left = &times[..n];
+        while let Some(batch) = self.many.as_mut().filter(|_| !left.is_empty()) {
+            left = &left[batch.add(left)..];
+            if batch.is_full() && self.flush() == Flow::Stop {
+                return Flow::Stop;
             }
-            flow = match &mut self.many {
-                Some(batch) => {
-                    batch.add(t, lane);
-                    if batch.is_full() {
-                        self.flush()
-                    } else {
-                        Flow::Continue
-                    }
-                }
-                None => {
-                    step.interpolate(t, &mut self.y);
-                    self.report_alone(t)
-                }
-            };
         }
-        flow
+        Flow::Continue
+    }
+
+    fn report_one_by_one(&mut self, step: &Step<'_>, times: &[f64]) -> Flow {
+        for &t in times {
+            step.interpolate(t, &mut self.y);
+            if self.report_alone(t) == Flow::Stop {
+                return Flow::Stop;
+            }
+        }
+        Flow::Continue
     }
 
     /// Projects and reports the state in the scratch.
@@ -185,16 +179,17 @@ impl<'a> Recorder<'a> {
 
     /// Reports the states that wait for others.
     pub fn flush(&mut self) -> Flow {
-        let Some(mut batch) = self.many.take_if(|batch| !batch.is_empty()) else {
+        let Some(batch) = self.many.as_mut().filter(|batch| !batch.is_empty()) else {
             return Flow::Continue;
         };
-        let regular = batch.solve();
+        if batch.solve() {
+            batch.keep(&mut self.trajectory);
+            return Flow::Continue;
+        }
+        let Some(mut batch) = self.many.take() else { return Flow::Continue };
         let mut flow = Flow::Continue;
         for (lane, t) in batch.take() {
-            if regular {
-                let found = batch.solver.found();
-                self.trajectory.add(t, batch.y(), found, |x| x.to_array()[lane]);
-            } else if flow == Flow::Continue {
+            if flow == Flow::Continue {
                 batch.given(lane, &mut self.y);
                 flow = self.report_alone(t);
             }
@@ -208,11 +203,11 @@ impl<'a> Recorder<'a> {
         if let Err(halt) = solved {
             return self.stop(t, halt);
         }
-        let found = self.one.found();
-        if !all_finite(y) || !found.into_iter().all(all_finite) {
+        let (a, lam, energies) = self.one.found();
+        if ![y, a, lam, energies].into_iter().all(all_finite) {
             return self.stop(t, Halt::NotFinite);
         }
-        self.trajectory.add(t, y, found, |x| x);
+        self.trajectory.add(t, y, (a, lam, energies));
         Flow::Continue
     }
 
