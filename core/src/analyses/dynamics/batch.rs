@@ -5,6 +5,7 @@ use super::options::Options;
 use super::output::Trajectory;
 use super::report::Solver;
 use super::system::WORKS;
+use crate::equations::Workspace;
 use crate::integrate::Step;
 use crate::math::{Lanes, Real};
 use crate::model::Model;
@@ -20,7 +21,7 @@ pub(super) struct Batch<'a> {
     between: Vec<Lanes>,
     /// As they were put in.
     given: Vec<Lanes>,
-    /// Projected.
+    /// Projected; before that, scratch.
     y: Vec<Lanes>,
     waiting: usize,
     /// Rows of one table, to be kept.
@@ -30,8 +31,9 @@ pub(super) struct Batch<'a> {
 impl<'a> Batch<'a> {
     pub fn new(model: &'a Model<Lanes>, options: &Options) -> Self {
         let none = vec![Lanes::zero(); 2 * model.layout.n_q + WORKS];
-        let mut solver = Solver::new(model, options);
-        solver.refuse_singular();
+        let mut workspace = Workspace::new(model);
+        workspace.refuse_singular();
+        let solver = Solver::new(model, options, workspace);
         let t = [0.0; Lanes::WIDTH];
         Self {
             solver,
@@ -63,9 +65,11 @@ impl<'a> Batch<'a> {
         let mut new = [0.0; Lanes::WIDTH];
         new[first..self.waiting].fill(1.0);
         let new = Lanes::new(new);
-        for (given, between) in self.given.iter_mut().zip(&self.between) {
-            *given = Lanes::select(new, *between, *given);
+        // not in place: of that compilers make masked stores, which some processors take twenty cycles for
+        for ((y, given), between) in self.y.iter_mut().zip(&self.given).zip(&self.between) {
+            *y = Lanes::select(new, *between, *given);
         }
+        std::mem::swap(&mut self.given, &mut self.y);
         count
     }
 

@@ -3,7 +3,7 @@
 use super::batch::{Batch, Times};
 use super::options::{Options, Output, Scheme};
 use super::report::{Halt, Solver};
-use super::system::WORKS;
+use super::system::{Equations, WORKS};
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
 use crate::model::Model;
@@ -38,16 +38,23 @@ pub(super) fn many(output: Output, span: f64) -> bool {
 
 /// Most numbers that room is made for beforehand; what is longer grows.
 const MOST_ROOM: usize = 1 << 20;
+/// Reported states in a step, for room: what takes shorter steps grows.
+const IN_A_STEP: usize = 4;
+
+/// How many states a grid asks for; none if the steps are to be reported.
+fn asked(output: Output, span: f64) -> usize {
+    match output {
+        Output::Every(h) => ((span / h).abs() + 2.0) as usize, // NaN gives none
+        Output::Steps => 0,
+    }
+}
 
 impl Trajectory {
     /// Empty, with room for the states that a grid asks for: growing would copy them again and again.
     fn with_room(model: &Model, output: Output, span: f64) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
-        let rows = match output {
-            Output::Every(h) => ((span / h).abs() + 2.0) as usize, // NaN gives none
-            Output::Steps => 0,
-        };
-        let room = |width: usize| Vec::with_capacity(rows.min(MOST_ROOM / (3 * n + m + 6)) * width);
+        let rows = asked(output, span).min(MOST_ROOM / (3 * n + m + 6));
+        let room = |width: usize| Vec::with_capacity(rows * width);
         Self {
             t: room(1),
             q: room(n),
@@ -95,6 +102,8 @@ pub(super) struct Recorder<'a> {
     y: Vec<f64>,
     pub trajectory: Trajectory,
     pub dense: Option<Dense>,
+    /// Of the continuous extension of the last step.
+    coefficients: Vec<f64>,
     /// Solves the equations of motion at reported states.
     one: Solver<'a>,
     /// The same for those of a grid, if they are many.
@@ -106,11 +115,12 @@ pub(super) struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     /// With the model over lanes, if there are to be many.
     pub fn new(
-        model: &'a Model,
+        system: &Equations<'a>,
         wide: Option<&'a Model<Lanes>>,
         options: &Options,
         t0: f64,
     ) -> Self {
+        let model = system.model;
         Self {
             output: options.output,
             t0,
@@ -119,8 +129,10 @@ impl<'a> Recorder<'a> {
             latest: t0,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
             trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
-            dense: options.dense_output.then(|| Dense::new(options, t0)),
-            one: Solver::new(model, options),
+            dense: options.dense_output.then(|| Dense::with_room(model, options, t0)),
+            coefficients: Vec::new(),
+            // a copy of the plan of elimination is had in a tenth of the time of a plan
+            one: Solver::new(model, options, system.workspace.clone()),
             many: wide.map(|wide| Batch::new(wide, options)),
             halt: None,
         }
@@ -220,7 +232,7 @@ impl<'a> Recorder<'a> {
     /// projected or its equations of motion cannot be solved.
     pub fn step(&mut self, step: &Step<'_>, watch: &mut impl FnMut(f64) -> Flow) -> Flow {
         if let Some(dense) = &mut self.dense {
-            if !dense.add(step) {
+            if !dense.add(step, &mut self.coefficients) {
                 return self.stop(step.t, Halt::NotFinite);
             }
         }
@@ -285,30 +297,34 @@ impl<'a> Recorder<'a> {
 }
 
 impl Dense {
-    fn new(options: &Options, t0: f64) -> Self {
+    /// Empty, with room for the steps that a grid lets expect.
+    fn with_room(model: &Model, options: &Options, t0: f64) -> Self {
         // one that may change its method has the highest degree from the start
         let degree = if matches!(options.scheme, Scheme::Auto(_)) { HIGHEST } else { 0 };
-        Self { t: vec![t0], degree, ..Self::default() }
+        let n = 2 * model.layout.n_q + WORKS;
+        let steps = asked(options.output, options.t_end - t0) / IN_A_STEP;
+        let room = |width: usize| Vec::with_capacity(steps.min(MOST_ROOM / (HIGHEST * n)) * width);
+        let mut dense = Self { t: room(1), y: room(n), c: room(HIGHEST * n), degree };
+        dense.t.push(t0);
+        dense
     }
 
     /// Whether all numbers of the step are finite; else nothing is kept of it.
-    fn add(&mut self, step: &Step<'_>) -> bool {
-        let (own, n) = (step.dense.degree(), step.y.len());
-        let first = self.c.len();
-        self.degree = self.degree.max(own);
-        self.c.resize(first + self.degree * n, 0.0);
-        let out = &mut self.c[first..];
-        step.coefficients(&mut out[..own * n]);
-        if !all_finite(&out[..own * n]) {
-            self.c.truncate(first);
+    fn add(&mut self, step: &Step<'_>, coefficients: &mut Vec<f64>) -> bool {
+        let own = step.dense.degree();
+        coefficients.resize(own * step.y.len(), 0.0);
+        step.coefficients(coefficients);
+        if !all_finite(coefficients) {
             return false;
         }
-        if own < self.degree {
-            // rows of a lesser degree are spread, from the last
-            for row in (0..n).rev() {
-                let to = row * self.degree;
-                out.copy_within(row * own..(row + 1) * own, to);
-                out[to + own..to + self.degree].fill(0.0);
+        self.degree = self.degree.max(own);
+        if own == self.degree {
+            self.c.extend_from_slice(coefficients);
+        } else {
+            // rows of a lesser degree are spread
+            for row in coefficients.chunks_exact(own) {
+                self.c.extend_from_slice(row);
+                self.c.resize(self.c.len() + self.degree - own, 0.0);
             }
         }
         self.t.push(step.t);

@@ -37,20 +37,15 @@ pub(super) struct Solver<'a, S = f64> {
 }
 
 impl<'a, S: Real> Solver<'a, S> {
-    pub fn new(model: &'a Model<S>, options: &Options) -> Self {
+    /// With the workspace of the equations of motion of this run, or a copy of it.
+    pub fn new(model: &'a Model<S>, options: &Options, workspace: Workspace<S>) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
-        let workspace = super::system::workspace(model, projector.is_some());
         let projector = projector.map(Projector::for_reports);
         let guard = Guard::new(model, options);
         Self { model, workspace, projector, guard, energies: [S::zero(); 2], solved: 0 }
-    }
-
-    /// From now on positions near singular ones are a fault.
-    pub fn refuse_singular(&mut self) {
-        self.workspace.refuse_singular();
     }
 
     /// Solves at y = (q, v, works) as it is.
