@@ -42,16 +42,20 @@ impl Lanes {
         let (a, rest) = out.split_at_mut(width);
         let (b, rest) = rest.split_at_mut(width);
         let (c, d) = rest.split_at_mut(width);
-        let whole = width - width % Self::WIDTH;
-        for first in (0..whole).step_by(Self::WIDTH) {
-            // blocks of 4 × 4 are transposed in registers
-            let block: [Self; Self::WIDTH] = *x[first..].first_chunk().expect("a block");
-            let columns = block.map(Self::to_array);
-            for (lane, row) in [&mut *a, &mut *b, &mut *c, &mut *d].into_iter().enumerate() {
-                row[first..first + Self::WIDTH].copy_from_slice(&columns.map(|x| x[lane]));
-            }
+        let blocks = x.chunks_exact(Self::WIDTH);
+        let (last, whole) = (blocks.remainder(), width - blocks.remainder().len());
+        let rows =
+            [&mut *a, &mut *b, &mut *c, &mut *d].map(|row| row.chunks_exact_mut(Self::WIDTH));
+        let [first, second, third, fourth] = rows;
+        // blocks of 4 × 4 are transposed in registers
+        for ((((block, a), b), c), d) in blocks.zip(first).zip(second).zip(third).zip(fourth) {
+            let [p, q, r, s] = [block[0], block[1], block[2], block[3]].map(Self::to_array);
+            a.copy_from_slice(&[p[0], q[0], r[0], s[0]]);
+            b.copy_from_slice(&[p[1], q[1], r[1], s[1]]);
+            c.copy_from_slice(&[p[2], q[2], r[2], s[2]]);
+            d.copy_from_slice(&[p[3], q[3], r[3], s[3]]);
         }
-        for (k, x) in x.iter().enumerate().skip(whole) {
+        for (k, x) in (whole..).zip(last) {
             [a[k], b[k], c[k], d[k]] = x.to_array();
         }
     }
@@ -197,5 +201,48 @@ impl Real for Lanes {
 impl Lift<f64> for Lanes {
     fn lift(x: f64) -> Self {
         Self::constant(x)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Lanes;
+    use crate::math::Largest;
+
+    #[test]
+    fn rows_are_the_lanes() {
+        for width in 0..10 {
+            let number = |lane: usize, k: usize| (10 * lane + k) as f64;
+            let lanes = |k| Lanes::new(std::array::from_fn(|lane| number(lane, k)));
+            let x: Vec<Lanes> = (0..width).map(lanes).collect();
+            let mut rows = vec![f64::NAN; Lanes::WIDTH * width];
+            Lanes::rows(&x, &mut rows);
+            let expected = (0..Lanes::WIDTH).flat_map(|l| (0..width).map(move |k| number(l, k)));
+            assert_eq!(rows, expected.collect::<Vec<_>>(), "width {width}");
+        }
+    }
+
+    #[test]
+    fn the_largest_is_found_in_any_lane_and_nan_is_not_forgotten() {
+        let largest = |numbers: &[f64]| {
+            let (mut alone, mut lanes) = (Largest::new(), Largest::new());
+            for (k, x) in numbers.iter().enumerate() {
+                let mut side_by_side = [0.25; Lanes::WIDTH];
+                side_by_side[k % Lanes::WIDTH] = *x;
+                alone.add(*x);
+                lanes.add(Lanes::new(side_by_side));
+            }
+            let (alone, lanes) = (alone.get(), lanes.get());
+            assert!(alone == lanes || alone.is_nan() && lanes.is_nan(), "{alone} {lanes}");
+            alone
+        };
+        assert_eq!(largest(&[0.5, -3.0, 2.0, 1.0, -0.0]), 3.0);
+        assert_eq!(largest(&[1.0, f64::NEG_INFINITY, 2.0]), f64::INFINITY);
+        assert_eq!(largest(&[1.5e308, -1.7e308, 1.5e308]), 1.7e308); // the sum is not finite
+        for k in 0..6 {
+            let mut numbers = [1.0, 2.0, f64::INFINITY, 3.0, -1.0, 0.5];
+            numbers[k] = f64::NAN;
+            assert!(largest(&numbers).is_nan(), "at {k}");
+        }
     }
 }

@@ -304,19 +304,11 @@ impl<'a, S: Real> Projector<'a, S> {
     }
 
     fn largest_of(&self, bodies: impl Iterator<Item = [S; 3]>) -> f64 {
-        let (mut lengths, mut angles) = (Largest::new(), Largest::new());
+        let (mut largest, per_size) = (Largest::new(), S::constant(self.per_size));
         for [x, y, angle] in bodies {
-            lengths.add(x);
-            lengths.add(y);
-            angles.add(angle);
+            [x * per_size, y * per_size, angle].into_iter().for_each(|x| largest.add(x));
         }
-        let (lengths, angles) = (lengths.get() * self.per_size, angles.get());
-        // NaN of either stays
-        if lengths > angles || lengths.is_nan() {
-            lengths
-        } else {
-            angles
-        }
+        largest.get()
     }
 }
 
