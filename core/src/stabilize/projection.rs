@@ -223,8 +223,13 @@ impl<'a, S: Real> Projector<'a, S> {
     fn targets(&mut self, level: Level, q: &[S], v: &[S], gap: f64) -> (f64, f64) {
         let (target, most) = match level {
             Level::Position => {
-                let rounding = 8.0 * f64::EPSILON * self.largest(q);
-                ((self.part * self.tolerance).max(rounding), CLOSED.max(self.tolerance))
+                let target = self.part * self.tolerance;
+                // what meets the tolerance need not be told from rounding
+                let rounding = match gap <= target {
+                    true => 0.0,
+                    false => 8.0 * f64::EPSILON * self.largest(q),
+                };
+                (target.max(rounding), CLOSED.max(self.tolerance))
             }
             // what has come to rest has rates without digits
             Level::Velocity => {
