@@ -207,3 +207,45 @@ impl<S: Real> Lift<S> for S {
         s
     }
 }
+
+/// The largest magnitude of many numbers, in any lane; NaN if one is that.
+///
+/// It is found lane by lane: looking into the lanes of each number takes longer.
+#[derive(Clone, Copy, Debug)]
+pub struct Largest<S> {
+    most: S,
+    /// A maximum forgets NaN, a sum does not.
+    sum: S,
+}
+
+impl<S: Real> Largest<S> {
+    /// Of none.
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self { most: S::zero(), sum: S::zero() }
+    }
+
+    /// One more.
+    #[inline(always)]
+    pub fn add(&mut self, x: S) {
+        let x = x.abs();
+        self.most = x.max(self.most);
+        self.sum += x;
+    }
+
+    /// The largest magnitude so far.
+    #[inline(always)]
+    pub fn get(&self) -> f64 {
+        let sum = self.sum.largest_magnitude();
+        if sum.is_nan() {
+            return sum;
+        }
+        self.most.largest_magnitude()
+    }
+}
+
+impl<S: Real> Default for Largest<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
