@@ -151,7 +151,7 @@ impl Dice {
             drivers: self.entries(&elements(Group::Drivers), used),
             forces: self.entries(&elements(Group::Forces), used),
         };
-        let analyses = self.entries(&kempe::analyses::analysis_tables(), used);
+        let analyses = self.entries(kempe::analyses::analysis_tables(), used);
         let start = Start { set: self.coordinates(used), guess: self.coordinates(used) };
         Case { definition, start, analyses: analyses.into_iter().map(consistent).collect() }
     }

@@ -1,7 +1,7 @@
 //! Saddle-point matrices solved by blocks against a dense reference, on random mechanisms.
 
 use kempe::math::{Dual, Lanes, Real};
-use kempe::solve::{Dependent, Pattern, RowBlock, Saddle, Weight};
+use kempe::solve::{Anchor, Dependent, Pattern, RowBlock, Saddle, Weight};
 
 /// xorshift64*: reproducible numbers in [-1, 1).
 struct Random(u64);
@@ -68,7 +68,7 @@ impl Matrix {
     }
 
     fn pattern(&self) -> Pattern {
-        Pattern::new(vec![true; self.masses.len()], &self.blocks)
+        Pattern::new(vec![true; self.masses.len()], &self.blocks, &[])
     }
 
     fn weights(&self) -> Vec<Weight> {
@@ -80,6 +80,32 @@ impl Matrix {
         saddle.weights = self.weights();
         saddle.entries.clone_from(&self.entries);
         saddle
+    }
+
+    /// Pairs of rows that hold one group alone, one for each group that has any.
+    fn anchors(&self) -> Vec<usize> {
+        let mut held = vec![false; self.masses.len()];
+        let holds = |b: &RowBlock| b.size == 2 && b.signs.len() == 1;
+        let first = |k: &usize| !std::mem::replace(&mut held[self.blocks[*k].touches[0].0], true);
+        (0..self.blocks.len()).filter(|k| holds(&self.blocks[*k])).filter(first).collect()
+    }
+
+    /// The same matrix with the anchors as such; d₀ = d₁.
+    fn anchored(&self) -> (Pattern, Saddle<f64>) {
+        let anchors = self.anchors();
+        let pattern = Pattern::new(vec![true; self.masses.len()], &self.blocks, &anchors);
+        let mut saddle = self.saddle(&pattern);
+        for (k, block) in anchors.iter().map(|k| &self.blocks[*k]).enumerate() {
+            let (group, entry) = (block.touches[0].0, block.touches[0].1 / 3);
+            let [d, _, d2, b0, b1] = self.masses[group];
+            let shift = [0, 1].map(|i| block.signs[0] * self.entries[entry + i][2]);
+            let moment = [b0 - d * shift[0], b1 - d * shift[1]];
+            let about = d2 - shift[0] * (b0 + moment[0]) - shift[1] * (b1 + moment[1]);
+            saddle.anchors[k] = Anchor { mass: d, moment };
+            let inverse = [0.0, 0.0, 1.0 / about];
+            saddle.weights[group] = Weight { inverse, shift, held: 1.0 / d };
+        }
+        (pattern, saddle)
     }
 
     fn dense(&self) -> Vec<Vec<f64>> {
@@ -114,7 +140,7 @@ fn weight<S: Real>(d: &[S; 5]) -> Weight<S> {
     let shift = [d[3] / d[0], d[4] / d[1]];
     let left = d[2] - shift[0] * d[3] - shift[1] * d[4];
     let one = S::one();
-    Weight { inverse: [one / d[0], one / d[1], one / left], shift }
+    Weight { inverse: [one / d[0], one / d[1], one / left], shift, held: S::zero() }
 }
 
 fn four_bar(random: &mut Random) -> Matrix {
@@ -229,6 +255,35 @@ fn random_mechanisms_are_solved_to_rounding() {
 }
 
 #[test]
+fn anchored_groups_are_solved_to_rounding() {
+    let mut random = Random(17);
+    for mut m in cases(&mut random) {
+        m.masses.iter_mut().for_each(|mass| mass[1] = mass[0]);
+        // more groups with an anchor, and one with a second that stays free
+        for group in [1, 0] {
+            m.push(2, &[(Some(group), -1.0)], &mut random);
+        }
+        let (pattern, mut saddle) = m.anchored();
+        assert_eq!(pattern.anchors().len(), m.anchors().len());
+        let b = right_side(&m, &mut random);
+        let mut x = b.clone();
+        if saddle.factor(&pattern).is_err() {
+            // two pins of one body, or a body too many: the matrix is singular without anchors as well
+            let pattern = m.pattern();
+            assert!(m.saddle(&pattern).factor(&pattern).is_err(), "n = {}", m.n());
+            continue;
+        }
+        saddle.solve(&pattern, &mut x);
+        let residual = relative_residual(&m, &x, &b);
+        assert!(residual < 1e-12, "n = {}: {residual:e}", m.n());
+        let mut beside = b.clone();
+        saddle.factor_and_solve(&pattern, &mut beside).unwrap();
+        let apart: Vec<f64> = x.iter().zip(&beside).map(|(a, b)| a - b).collect();
+        assert!(norm(&apart) <= 1e-12 * norm(&x), "n = {}", m.n());
+    }
+}
+
+#[test]
 fn mass_ratios_of_a_million_million_keep_the_digits() {
     let mut random = Random(13);
     for _ in 0..20 {
@@ -251,7 +306,7 @@ fn mass_ratios_of_a_million_million_keep_the_digits() {
 fn damping_stands_on_the_diagonal() {
     // W = I, A = (1 0 0): [1 1; 1 -μ] (x, λ) = (3, 1)
     let blocks = [RowBlock { size: 1, touches: vec![(0, 0)], signs: vec![] }];
-    let pattern = Pattern::new(vec![false], &blocks);
+    let pattern = Pattern::new(vec![false], &blocks, &[]);
     let mut saddle = Saddle::new(&pattern);
     saddle.entries[0] = [1.0, 0.0, 0.0];
     saddle.damping.push(3.0);
@@ -285,7 +340,7 @@ fn near_dependence_shows_as_cancellation() {
     let apart = [0, 1].map(|r| RowBlock { size: 1, touches: vec![(0, 3 * r)], signs: vec![] });
     let together = [RowBlock { size: 2, touches: vec![(0, 0)], signs: vec![] }];
     for blocks in [&apart[..], &together[..]] {
-        let pattern = Pattern::new(vec![false], blocks);
+        let pattern = Pattern::new(vec![false], blocks, &[]);
         let mut saddle = Saddle::new(&pattern);
         saddle.entries.copy_from_slice(&[[1.0, 0.0, 0.0], [1.0, 1e-4, 0.0]]);
         saddle.factor(&pattern).unwrap();
@@ -298,7 +353,7 @@ fn near_dependence_shows_as_cancellation() {
 #[test]
 fn unusable_masses_and_rows_are_refused() {
     let blocks = [RowBlock { size: 1, touches: vec![(1, 0)], signs: vec![] }];
-    let pattern = Pattern::new(vec![false; 2], &blocks);
+    let pattern = Pattern::new(vec![false; 2], &blocks, &[]);
     let good = [1.0, 2.0, 3.0];
     let refused = |group: usize, column: usize, inverse: f64, entries: [f64; 3]| {
         let mut saddle = Saddle::new(&pattern);
@@ -317,7 +372,8 @@ fn unusable_masses_and_rows_are_refused() {
     let mut lanes = Saddle::<Lanes>::new(&pattern);
     lanes.entries[0][0] = Lanes::new([1.0, 0.0, 1.0, 1.0]);
     assert_eq!(lanes.factor(&pattern), Err(Dependent::Row(0)));
-    let nothing = Pattern::new(vec![], &[RowBlock { size: 2, touches: vec![], signs: vec![] }]);
+    let nothing =
+        Pattern::new(vec![], &[RowBlock { size: 2, touches: vec![], signs: vec![] }], &[]);
     assert_eq!(Saddle::<f64>::new(&nothing).factor(&nothing), Err(Dependent::Row(0)));
 }
 

@@ -22,6 +22,9 @@ from kempe.values import Number, number, numbers
 Progress: TypeAlias = "Callable[[float], None]"
 Coordinates: TypeAlias = "Mapping[str, float | str]"
 
+#: ``json.dumps`` makes such an encoder for each text.
+_json = json.JSONEncoder(allow_nan=False).encode
+
 
 class AssemblyWarning(UserWarning):
     """A mechanism went together, but not as one would expect."""
@@ -58,13 +61,13 @@ def assemble(
         ModelError: the model is wrong, or ``set`` or ``guess`` names what it does not have.
     """
     compiled = _allowing(compiled_model(model), redundancy)
-    held = json.dumps(numbers(set or {}, "set"), allow_nan=False)
+    held = _json(numbers(set or {}, "set"))
     q = v = None
     if isinstance(guess, State):
         _refuse_foreign(compiled, guess)
         q, v, hint = np.array(guess.q), np.array(guess.v), "{}"
     else:
-        hint = json.dumps(numbers(guess or {}, "guess"), allow_nan=False)
+        hint = _json(numbers(guess or {}, "guess"))
     t_found, q_found, v_found, told = _core.assemble(
         compiled.core, held, hint, _time(t), q, v, from_guess
     )
@@ -134,7 +137,7 @@ def simulate(
     if not isinstance(start, State):
         raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) gives one")
     _refuse_foreign(model, start)
-    options = json.dumps(core_options(entry), allow_nan=False)
+    options = _json(core_options(entry))
     try:
         run = _core.dynamics(model.core, float(start.t), start.q, start.v, options, progress)
     except BaseException as error:  # an interruption, and what progress raises, keep it too

@@ -102,7 +102,10 @@ def load_solution(path: Path | str) -> Solution:
         )
     try:
         model = CompiledModel.from_case(json.dumps(about["case"]))
-        return Solution(model, _stored(about, arrays, model))  # type: ignore[arg-type]
+        solution = Solution(model, _stored(about, arrays, model))  # type: ignore[arg-type]
+        for part in ("energy", "statistics", "dense"):  # what is wrong with them shows here
+            getattr(solution, part)
+        return solution
     except (KeyError, ValueError, IndexError, TypeError) as error:
         if isinstance(error, KempeError):
             raise

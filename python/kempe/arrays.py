@@ -9,11 +9,17 @@ from numpy.typing import NDArray
 
 Floats: TypeAlias = NDArray[np.float64]
 
+_FLOAT = np.dtype(np.float64)
+
 
 def fixed(values: Any) -> Floats:
     """The values as a read-only float64 array in C order; shares memory where it can."""
+    if type(values) is np.ndarray and values.dtype is _FLOAT:
+        flags = values.flags
+        if flags.c_contiguous and not flags.writeable:
+            return values
     view: Floats = np.asarray(values, dtype=np.float64, order="C").view()
-    view.flags.writeable = False
+    view.setflags(write=False)
     return view
 
 

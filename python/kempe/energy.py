@@ -2,26 +2,41 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 from kempe.arrays import Floats, fixed
 
 
 class Energy:
-    """Energies over time, (n_t,), J, read-only.
-
-    Attributes:
-        kinetic: T.
-        potential: V of gravity and of conservative forces.
-        dissipated: lost in dampers, from the start.
-        work_of_drivers: done by drivers, from the start.
-        work_of_forces: done by applied forces, from the start.
-    """
+    """Energies over time, (n_t,), J, read-only."""
 
     def __init__(self, columns: Floats) -> None:
-        self.kinetic = fixed(columns[:, 0])
-        self.potential = fixed(columns[:, 1])
-        self.dissipated = fixed(columns[:, 2])
-        self.work_of_drivers = fixed(columns[:, 3])
-        self.work_of_forces = fixed(columns[:, 4])
+        self._columns = fixed(columns)
+
+    @cached_property
+    def kinetic(self) -> Floats:
+        """T."""
+        return fixed(self._columns[:, 0])
+
+    @cached_property
+    def potential(self) -> Floats:
+        """V of gravity and of conservative forces."""
+        return fixed(self._columns[:, 1])
+
+    @cached_property
+    def dissipated(self) -> Floats:
+        """Lost in dampers, from the start."""
+        return fixed(self._columns[:, 2])
+
+    @cached_property
+    def work_of_drivers(self) -> Floats:
+        """Done by drivers, from the start."""
+        return fixed(self._columns[:, 3])
+
+    @cached_property
+    def work_of_forces(self) -> Floats:
+        """Done by applied forces, from the start."""
+        return fixed(self._columns[:, 4])
 
     @property
     def work(self) -> Floats:

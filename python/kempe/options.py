@@ -6,7 +6,7 @@ The core checks the numbers, so that a file and a program are refused in the sam
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from kempe.errors import ModelError
@@ -26,7 +26,7 @@ class Option:
         Args:
             path: where it stands, for messages.
         """
-        given = {field.name: getattr(self, field.name) for field in fields(self)}
+        given = vars(self)  # its fields, in order
         checked = {k: number(v, f"{path}.{k}") for k, v in given.items() if v is not None}
         return {"type": self.kind, **checked}
 

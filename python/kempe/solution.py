@@ -53,24 +53,34 @@ class Solution(Motion):
         model: the model in numbers.
         t: (n_t,), s.
         q, v: (n_t, n_q), m, rad and per s.
-        energy: where the energy went.
-        dense: the interpolant between the steps; None if it was not kept.
         status: 0 when the end was reached, -1 when it was not.
         message: why it ended.
-        statistics: steps, rejected, evaluations, jacobians, iterations (of Newton), factorisations,
-            seconds; with ``kp.Auto``, method and why.
     """
 
     def __init__(self, model: CompiledModel, run: _core.Run) -> None:
         super().__init__(model, run.t, run.q, run.v)
-        self._computed = fixed(run.a), fixed(run.lam)
-        self.energy = Energy(run.energy)
-        self.dense = self._interpolant(run)
+        self._run = run
         self.status = REACHED if run.status == "reached" else STOPPED
         self.message = run.message
-        self.statistics: Mapping[str, Any] = MappingProxyType(json.loads(run.statistics))
 
-    def _interpolant(self, run: _core.Run) -> DenseOutput | None:
+    @cached_property
+    def energy(self) -> Energy:
+        """Where the energy went."""
+        return Energy(self._run.energy)
+
+    @cached_property
+    def statistics(self) -> Mapping[str, Any]:
+        """What it took.
+
+        ``steps``, ``rejected``, ``evaluations``, ``jacobians``, ``iterations`` (of Newton),
+        ``factorisations``, ``seconds``; with ``kp.Auto``, ``method`` and ``why``.
+        """
+        return MappingProxyType(json.loads(self._run.statistics))
+
+    @cached_property
+    def dense(self) -> DenseOutput | None:
+        """The interpolant between the steps; None if it was not kept."""
+        run = self._run
         if run.dense_t is None or run.dense_y is None or run.dense_c is None:
             return None
         if not len(self.t):  # it failed before the first output
@@ -79,15 +89,15 @@ class Solution(Motion):
             return DenseOutput.of_an_instant(self.t[0], np.concatenate([self.q[0], self.v[0]]))
         return DenseOutput(fixed(run.dense_t), fixed(run.dense_y), fixed(run.dense_c))
 
-    @property
+    @cached_property
     def a(self) -> Floats:
         """Accelerations, (n_t, n_q), m/s² and rad/s²: with γ, free of stabilization."""
-        return self._computed[0]
+        return fixed(self._run.a)
 
-    @property
+    @cached_property
     def lam(self) -> Floats:
         """Multipliers λ, (n_t, n_rows): M a + Φ_qᵀ λ = Q (Haug 6.3.18)."""
-        return self._computed[1]
+        return fixed(self._run.lam)
 
     @property
     def success(self) -> bool:

@@ -33,6 +33,8 @@ def number(value: object, path: str) -> float | str:
 
     NumPy scalars and arrays without dimension count as the number they hold.
     """
+    if type(value) is float and math.isfinite(value):
+        return value
     if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
         value = value.item()
     if isinstance(value, str):

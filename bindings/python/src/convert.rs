@@ -3,8 +3,8 @@
 use crate::errors::{Failure, Kind};
 use kempe::analyses::State;
 use kempe::model::Model;
-use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::ndarray::{Array2, Dimension};
+use numpy::{IntoPyArray, PyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 /// One row of numbers from Python.
@@ -75,7 +75,7 @@ pub fn table<'py>(
 }
 
 /// Forgets that an array may be written.
-pub fn frozen<'py>(array: Bound<'py, PyArray2<f64>>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+pub fn frozen<D: Dimension>(array: Bound<'_, PyArray<f64, D>>) -> Bound<'_, PyArray<f64, D>> {
     array.try_readwrite().map(|guard| guard.make_nonwriteable()).ok();
-    Ok(array)
+    array
 }

@@ -16,37 +16,45 @@ use std::time::{Duration, Instant};
 
 /// Time between looks at signals and calls of `progress`.
 const GLANCE: Duration = Duration::from_millis(40);
-/// Steps between looks at the clock: a large model takes milliseconds for one.
-const STEPS: u32 = 4;
+/// Time between looks at the clock: so short that a step which takes hundreds of times as long as the states
+/// reported before it is not late.
+const PACE: Duration = Duration::from_micros(250);
 
 /// What an integration gave.
-#[pyclass(name = "Run", module = "kempe._core", frozen, get_all)]
+#[pyclass(name = "Run", module = "kempe._core", frozen)]
 pub struct PyRun {
+    #[pyo3(get)]
     t: Py<PyArray1<f64>>,
+    #[pyo3(get)]
     q: Py<PyArray2<f64>>,
+    #[pyo3(get)]
     v: Py<PyArray2<f64>>,
+    #[pyo3(get)]
     a: Py<PyArray2<f64>>,
+    #[pyo3(get)]
     lam: Py<PyArray2<f64>>,
+    #[pyo3(get)]
     energy: Py<PyArray2<f64>>,
+    #[pyo3(get)]
     dense_t: Option<Py<PyArray1<f64>>>,
+    #[pyo3(get)]
     dense_y: Option<Py<PyArray2<f64>>>,
+    #[pyo3(get)]
     dense_c: Option<Py<PyArray3<f64>>>,
+    #[pyo3(get)]
     status: &'static str,
+    #[pyo3(get)]
     message: String,
-    statistics: String,
+    statistics: core::Statistics,
+    choice: Option<core::Choice>,
 }
 
+#[pymethods]
 impl PyRun {
-    fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {
-        let (n, m) = (model.model.layout.n_q, model.model.layout.n_rows);
-        let core::Trajectory { t, q, v, a, lam, energy } = run.trajectory;
-        let count = t.len();
-        let rows = |values, width| frozen(table(py, values, (count, width))?).map(Bound::unbind);
-        let (dense_t, dense_y, dense_c) = match run.dense {
-            Some(dense) => dense_arrays(py, dense, 2 * n + 3)?,
-            None => (None, None, None),
-        };
-        let s = run.statistics;
+    /// What it took, as JSON.
+    #[getter]
+    fn statistics(&self) -> String {
+        let s = &self.statistics;
         let mut statistics = json!({
             "steps": s.steps,
             "rejected": s.rejected,
@@ -56,12 +64,26 @@ impl PyRun {
             "factorisations": s.factorisations,
             "seconds": s.seconds,
         });
-        if let Some(choice) = run.choice {
+        if let Some(choice) = &self.choice {
             statistics["method"] = json!(choice.method);
             statistics["why"] = json!(choice.why);
         }
+        statistics.to_string()
+    }
+}
+
+impl PyRun {
+    fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {
+        let (n, m) = (model.model.layout.n_q, model.model.layout.n_rows);
+        let core::Trajectory { t, q, v, a, lam, energy } = run.trajectory;
+        let count = t.len();
+        let rows = |values, width| table(py, values, (count, width)).map(|t| frozen(t).unbind());
+        let (dense_t, dense_y, dense_c) = match run.dense {
+            Some(dense) => dense_arrays(py, dense, 2 * n + 3)?,
+            None => (None, None, None),
+        };
         Ok(Self {
-            t: t.into_pyarray(py).unbind(),
+            t: frozen(t.into_pyarray(py)).unbind(),
             q: rows(q, n)?,
             v: rows(v, n)?,
             a: rows(a, n)?,
@@ -72,7 +94,8 @@ impl PyRun {
             dense_c,
             status: if run.reached { "reached" } else { "stopped" },
             message: message.to_string(),
-            statistics: statistics.to_string(),
+            statistics: run.statistics,
+            choice: run.choice,
         })
     }
 }
@@ -87,28 +110,51 @@ fn dense_arrays(py: Python<'_>, dense: core::Dense, n_y: usize) -> PyResult<Dens
         Failure::new(Kind::Internal, format!("coefficients of shape {shape:?}: {e}")).raise(py)
     })?;
     Ok((
-        Some(dense.t.into_pyarray(py).unbind()),
-        Some(frozen(table(py, dense.y, (steps, n_y))?)?.unbind()),
-        Some(c.into_pyarray(py).unbind()),
+        Some(frozen(dense.t.into_pyarray(py)).unbind()),
+        Some(frozen(table(py, dense.y, (steps, n_y))?).unbind()),
+        Some(frozen(c.into_pyarray(py)).unbind()),
     ))
 }
 
 /// Looks at signals and reports progress, rarely enough to cost nothing.
 struct Watch<'a> {
     progress: Option<&'a Py<PyAny>>,
-    last: Instant,
-    steps: u32,
+    /// The last look at signals.
+    told: Instant,
+    /// The last look at the clock.
+    looked: Instant,
+    /// Steps and reported states from one look at the clock to the next.
+    every: u32,
+    /// And still to come.
+    left: u32,
     raised: Option<PyErr>,
 }
 
-impl Watch<'_> {
+impl<'a> Watch<'a> {
+    fn new(progress: Option<&'a Py<PyAny>>) -> Self {
+        let now = Instant::now();
+        Self { progress, told: now, looked: now, every: 1, left: 1, raised: None }
+    }
+
     fn look(&mut self, t: f64) -> Flow {
-        self.steps += 1;
-        if self.steps < STEPS || self.last.elapsed() < GLANCE {
+        self.left -= 1;
+        if self.left > 0 {
             return Flow::Continue;
         }
-        self.steps = 0;
-        self.last = Instant::now();
+        self.look_at_clock(t)
+    }
+
+    #[cold]
+    fn look_at_clock(&mut self, t: f64) -> Flow {
+        let now = Instant::now();
+        // too early: twice as many until the next; too late: so many fewer
+        let late = (now - self.looked).as_secs_f64() / PACE.as_secs_f64();
+        self.every = (f64::from(self.every) / late.max(0.5)).max(1.0) as u32;
+        (self.left, self.looked) = (self.every, now);
+        if now - self.told < GLANCE {
+            return Flow::Continue;
+        }
+        self.told = now;
         let outcome = Python::attach(|py| {
             py.check_signals()?;
             self.progress.map_or(Ok(()), |call| call.call1(py, (t,)).map(|_| ()))
@@ -139,8 +185,7 @@ pub fn dynamics(
         let start = state(py, &model.model, t, &q, &v)?;
         let options = read_options(py, model, options)?;
         let core_model = std::sync::Arc::clone(&model.model);
-        let mut watch =
-            Watch { progress: progress.as_ref(), last: Instant::now(), steps: 0, raised: None };
+        let mut watch = Watch::new(progress.as_ref());
         let outcome =
             py.detach(|| core::dynamics(&core_model, &start, &options, |t| watch.look(t)));
         match (outcome, watch.raised) {

@@ -1,6 +1,7 @@
 //! Which options the analyses have, as data: for the reader of files, the schema, Python and docs.
 
 use crate::elements::{Default, Field, Shape, Table};
+use std::sync::LazyLock;
 
 /// One set of options of a family.
 #[derive(Clone, Debug)]
@@ -20,20 +21,25 @@ pub struct Family {
     pub options: Vec<Options>,
 }
 
+// made once: every simulation that is asked for is checked by them
+static ANALYSES: LazyLock<Vec<Table>> = LazyLock::new(|| vec![dynamics()]);
+static FAMILIES: LazyLock<Vec<Family>> = LazyLock::new(|| {
+    let methods = vec![rk45(), dop853(), rk4(), generalized_alpha(), hht(), radau(), auto()];
+    let stabilizations = vec![baumgarte(), projection(), none()];
+    vec![
+        Family { name: "method", options: methods },
+        Family { name: "stabilization", options: stabilizations },
+    ]
+});
+
 /// The analyses, by the `type` in the file.
-pub fn analysis_tables() -> Vec<Table> {
-    vec![dynamics()]
+pub fn analysis_tables() -> &'static [Table] {
+    &ANALYSES
 }
 
 /// The families of options that analyses refer to.
-pub fn option_families() -> Vec<Family> {
-    vec![
-        Family {
-            name: "method",
-            options: vec![rk45(), dop853(), rk4(), generalized_alpha(), hht(), radau(), auto()],
-        },
-        Family { name: "stabilization", options: vec![baumgarte(), projection(), none()] },
-    ]
+pub fn option_families() -> &'static [Family] {
+    &FAMILIES
 }
 
 fn number(name: &'static str, unit: &str, default: impl Into<Default>, doc: &str) -> Field {

@@ -26,7 +26,8 @@ impl Bodies {
             return fields::check(report, table, ground, false);
         }
         let general = self.typed.iter().find(|d| d.name == "body");
-        let declared = fields::declared(report, table, &self.typed, "body", general);
+        let typed: Vec<&Declaration> = self.typed.iter().collect();
+        let declared = fields::declared(report, table, &typed, "body", general);
         let Some(declared) = declared else { return };
         fields::check(report, table, declared, true);
         if declared.name == "bar" {

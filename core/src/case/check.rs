@@ -195,6 +195,7 @@ fn elements(
 ) -> Vec<Entry> {
     let known: Vec<Declaration> =
         catalogue().into_iter().filter(|(g, _)| *g == group).map(|(_, table)| table).collect();
+    let known: Vec<&Declaration> = known.iter().collect();
     entries(report, node, |report, name, table| {
         namespace.take(report, name, group.singular());
         if let Some(declared) = fields::declared(report, table, &known, group.singular(), None) {
@@ -204,7 +205,7 @@ fn elements(
 }
 
 fn analyses(report: &mut Report, node: &Node) -> Vec<Entry> {
-    let known = analysis_tables();
+    let known: Vec<&Declaration> = analysis_tables().iter().collect();
     let mut earlier: Vec<String> = vec!["start".to_string()];
     entries(report, node, |report, name, table| {
         match name {

@@ -12,7 +12,7 @@ use crate::model::body_tables;
 pub(super) fn declared<'d>(
     report: &mut Report,
     table: &Table,
-    known: &'d [Declaration],
+    known: &[&'d Declaration],
     noun: &str,
     absent: Option<&'d Declaration>,
 ) -> Option<&'d Declaration> {
@@ -31,7 +31,7 @@ pub(super) fn declared<'d>(
             wrong(report, node, "a text");
             return None;
         };
-        let found = known.iter().find(|d| d.name == name);
+        let found = known.iter().copied().find(|d| d.name == name);
         if found.is_none() {
             let hint = belongs(name)
                 .or_else(|| did_you_mean(name, &names))
@@ -45,10 +45,10 @@ pub(super) fn declared<'d>(
 
 /// Where a type belongs that stands in the wrong section.
 fn belongs(name: &str) -> Option<String> {
-    let elements = catalogue().into_iter().map(|(group, table)| (group.section(), table));
-    let bodies = body_tables().into_iter().map(|table| ("bodies", table));
-    let analyses = analysis_tables().into_iter().map(|table| ("analyses", table));
-    let (section, _) = elements.chain(bodies).chain(analyses).find(|(_, t)| t.name == name)?;
+    let elements = catalogue().into_iter().map(|(group, table)| (group.section(), table.name));
+    let bodies = body_tables().into_iter().map(|table| ("bodies", table.name));
+    let analyses = analysis_tables().iter().map(|table| ("analyses", table.name));
+    let (section, _) = elements.chain(bodies).chain(analyses).find(|(_, known)| *known == name)?;
     (name != "ground").then(|| format!("'{name}' belongs in [{section}]"))
 }
 

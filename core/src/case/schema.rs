@@ -85,7 +85,7 @@ fn sections() -> Fields {
         sections.push(field(group.section(), by_name(one_of(&tables))));
     }
     sections.push(field("start", Value::Table(start)));
-    sections.push(field("analyses", by_name(one_of(&analysis_tables()))));
+    sections.push(field("analyses", by_name(one_of(analysis_tables()))));
     sections
 }
 
@@ -189,7 +189,7 @@ fn definitions() -> Fields {
         field("count", Value::Table(count)),
     ];
     for family in option_families() {
-        let tables: Vec<Table> = family.options.into_iter().map(|o| o.table).collect();
+        let tables: Vec<Table> = family.options.iter().map(|o| o.table.clone()).collect();
         definitions.push(field(family.name, one_of(&tables)));
     }
     definitions

@@ -111,9 +111,8 @@ fn word(report: &mut Report, node: &Node, words: &[&str]) {
 }
 
 fn options(report: &mut Report, node: &Node, family: &str) {
-    let families = option_families();
-    let Some(family) = families.iter().find(|f| f.name == family) else { return };
-    let tables: Vec<_> = family.options.iter().map(|o| o.table.clone()).collect();
+    let Some(family) = option_families().iter().find(|f| f.name == family) else { return };
+    let tables: Vec<_> = family.options.iter().map(|o| &o.table).collect();
     let Data::Table(table) = &node.data else {
         let example = format!("a table such as {{ type = \"{}\" }}", tables[0].name);
         return wrong(report, node, &example);

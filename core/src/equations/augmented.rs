@@ -3,9 +3,9 @@
 //! With W = M and μ = 0 it is the matrix of the equations of motion (Haug 6.3.18); with W = I it
 //! gives the smallest step of Newton's method, with μ > 0 a damped one.
 
-use super::mass;
+use super::{anchors, mass};
 use crate::math::{Motion, Real};
-use crate::model::{Block, Layout, Model, Slots};
+use crate::model::{Anchor, Block, Layout, Model, Slots};
 pub use crate::solve::Dependent;
 use crate::solve::{Armed, Bytes, Pattern, RowBlock, Saddle, Weight};
 
@@ -26,8 +26,10 @@ pub struct Augmented<S = f64> {
     ridged: bool,
     /// The pins whose rows of Φ_q [`armed`](Self::armed) gives by their arms.
     armed: Vec<ArmedPin>,
-    /// The other constraints.
+    /// The other constraints, but for anchors.
     others: Vec<u32>,
+    /// Whether bodies that are pinned to ground are anchored there.
+    anchored: bool,
     /// Whether the entries of Φ_q are those of all constraints.
     whole: bool,
 }
@@ -55,8 +57,19 @@ impl<S: Real> Augmented<S> {
     /// Memory and elimination order for a model: bodies first, then the constraints by minimum
     /// degree, so that every pivot is safe while Φ_q has full rank.
     pub fn new<P>(model: &Model<P>) -> Self {
+        Self::with(model, &[])
+    }
+
+    /// The same for W = M without damping: pins to ground are eliminated with the bodies that they hold.
+    pub fn anchored<P>(model: &Model<P>) -> Self {
+        let constraint = |anchor: &Anchor<P>| model.pins[anchor.pin as usize].constraint as usize;
+        let anchors: Vec<usize> = model.anchors.iter().map(constraint).collect();
+        Self { anchored: true, ..Self::with(model, &anchors) }
+    }
+
+    fn with<P>(model: &Model<P>, anchors: &[usize]) -> Self {
         let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
-        let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout));
+        let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout), anchors);
         let (armed, others) = split(model, &pattern);
         Self {
             saddle: Saddle::new(&pattern),
@@ -66,6 +79,7 @@ impl<S: Real> Augmented<S> {
             ridged: false,
             armed,
             others,
+            anchored: false,
             whole: true,
         }
     }
@@ -73,7 +87,7 @@ impl<S: Real> Augmented<S> {
     /// The pieces; inertia, which no state changes, must stand there already. The factor is then without ridge.
     #[inline(always)]
     pub(super) fn parts_mut(&mut self) -> Parts<'_, S> {
-        self.whole = self.armed.is_empty();
+        self.whole = self.armed.is_empty() && self.pattern.anchors().is_empty();
         self.ridged = false;
         let Self { pattern, saddle, armed, others, .. } = self;
         Parts { pattern, saddle, armed, others }
@@ -81,9 +95,14 @@ impl<S: Real> Augmented<S> {
 
     /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
     pub fn set_mass(&mut self, model: &Model<S>, motions: &[Motion<S>]) {
+        self.set_inertia(model);
         let bodies = model.inertias.iter().zip(&motions[1..]);
         for (weight, (inertia, motion)) in self.saddle.weights.iter_mut().zip(bodies) {
-            mass::inverse(inertia, motion, weight);
+            mass::turn(inertia, motion, weight);
+        }
+        for (anchor, held) in model.anchors.iter().zip(&mut self.saddle.anchors) {
+            let body = anchor.body as usize;
+            anchors::turn(anchor, &motions[body + 1], &mut self.saddle.weights[body], held);
         }
     }
 
@@ -93,13 +112,23 @@ impl<S: Real> Augmented<S> {
             let [m, j] = inertia.inverse;
             weight.inverse = [m, m, j];
         }
+        for (anchor, held) in model.anchors.iter().zip(&mut self.saddle.anchors) {
+            let weight = &mut self.saddle.weights[anchor.body as usize];
+            weight.inverse = [S::zero(), S::zero(), anchor.inverse];
+            weight.held = S::one() / anchor.mass;
+            held.mass = anchor.mass;
+        }
     }
 
     /// W diagonal, shape (n_q).
+    ///
+    /// # Panics
+    /// If bodies are anchored.
     pub fn set_weights(&mut self, weights: &[S]) {
+        assert!(!self.anchored, "anchored bodies weigh what they do");
         for (weight, d) in self.saddle.weights.iter_mut().zip(weights.chunks_exact(3)) {
             let inverse = [d[0], d[1], d[2]].map(|d| S::one() / d);
-            *weight = Weight { inverse, shift: [S::zero(); 2] };
+            *weight = Weight { inverse, shift: [S::zero(); 2], held: S::zero() };
         }
     }
 
@@ -132,7 +161,11 @@ impl<S: Real> Augmented<S> {
     }
 
     /// Sets the damping μ, one for each row.
+    ///
+    /// # Panics
+    /// If bodies are anchored.
     pub fn set_damping(&mut self, mu: impl IntoIterator<Item = S>) {
+        assert!(!self.anchored, "anchors are not damped");
         self.saddle.damping.clear();
         self.saddle.damping.extend(mu);
     }
@@ -202,6 +235,7 @@ fn split<P>(model: &Model<P>, pattern: &Pattern) -> (Vec<ArmedPin>, Vec<u32>) {
     let mut pin: Vec<Option<u32>> = vec![None; model.constraints.len()];
     (0..).zip(&model.pins).for_each(|(k, p)| pin[p.constraint as usize] = Some(k));
     let mut others = vec![true; model.constraints.len()];
+    pattern.anchors().iter().for_each(|anchor| others[anchor.block as usize] = false);
     let mut armed = Vec::with_capacity(pattern.armed().len());
     for &rows in pattern.armed() {
         let block = rows.block as usize;

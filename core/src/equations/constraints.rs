@@ -137,17 +137,24 @@ pub(super) struct Stabilized<S> {
     damping: S,
     /// β².
     stiffness: S,
+    /// Whether there is none.
+    none: bool,
 }
 
 impl<S: Real> Stabilized<S> {
     pub fn new(gains: Gains) -> Self {
         let damping = S::constant(2.0 * gains.alpha);
-        Self { damping, stiffness: S::constant(gains.beta * gains.beta) }
+        let none = gains == Gains::default();
+        Self { damping, stiffness: S::constant(gains.beta * gains.beta), none }
     }
 
     /// γ̂ of the first rows, as many as `right` takes.
     #[inline(always)]
     pub fn put<const M: usize>(&self, terms: &VelocityTerms<S, M>, right: &mut [S]) {
+        if self.none {
+            right.copy_from_slice(&terms.gamma[..right.len()]);
+            return;
+        }
         for (k, right) in right.iter_mut().enumerate() {
             let [gamma, rate, residual] = [terms.gamma[k], terms.rate[k], terms.residual[k]];
             *right = gamma - self.damping * rate - self.stiffness * residual;

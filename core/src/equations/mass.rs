@@ -28,16 +28,8 @@ pub fn block<S: Real>(body: &Body<S>, motion: &Motion<S>) -> MassBlock<S> {
     }
 }
 
-/// Puts the factors of the block's inverse, added inertia included, into `weight`: shifted to the mass
-/// centre by b, it is diagonal in m and J.
-#[inline(always)]
-pub fn inverse<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, weight: &mut Weight<S>) {
-    let [m, j] = inertia.inverse;
-    weight.inverse = [m, m, j];
-    turn(inertia, motion, weight);
-}
-
-/// The same where the body's inertia stands there already.
+/// Shifts the inverse of the block to the mass centre by b, where it is diagonal in m and J: these stand in
+/// `weight` already.
 #[inline(always)]
 pub fn turn<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, weight: &mut Weight<S>) {
     if inertia.coupled {

@@ -2,6 +2,7 @@
 //!
 //! Functions of a [`Model`](crate::model::Model) and plain slices; scratch is a [`Workspace`].
 
+mod anchors;
 pub mod augmented;
 pub mod balance;
 pub mod constraints;

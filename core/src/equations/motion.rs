@@ -10,7 +10,7 @@
 use super::augmented::{Augmented, Dependent, Parts};
 use super::constraints::{self, Stabilized};
 use super::energy::Powers;
-use super::{forces, kinematics, mass, pins, refine};
+use super::{anchors, forces, kinematics, mass, pins, refine};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 use crate::solve::Bytes;
@@ -57,7 +57,10 @@ impl<S: Real> Workspace<S> {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let mut workspace = Self {
             motions: Vec::with_capacity(model.bodies.len()),
-            matrix: Augmented::new(model),
+            matrix: match model.allow_redundancy {
+                true => Augmented::new(model),
+                false => Augmented::anchored(model),
+            },
             solution: vec![S::zero(); n + m],
             powers: Powers::zero(),
             held: Vec::new(),
@@ -141,13 +144,15 @@ impl<S: Real> Workspace<S> {
             let k = k as usize;
             mass::turn(&model.inertias[k], &motions[k + 1], &mut saddle.weights[k]);
         }
-        *powers = forces::generalized(model, motions, t, &mut solution[..n]);
-        saddle.weigh(pattern, solution);
-        let (x, right) = solution.split_at_mut(n);
+        let (forces, right) = solution.split_at_mut(n);
+        *powers = forces::generalized(model, motions, t, forces);
+        anchors::begin(&model.anchors, motions, stabilized, saddle, right);
         let (others, entries) =
             (others.iter().map(|k| *k as usize), saddle.entries.as_flattened_mut());
         constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
         right.iter_mut().zip(&*held).for_each(|(right, held)| *right -= *held);
+        saddle.weigh(pattern, solution);
+        let (x, right) = solution.split_at_mut(n);
         pins::begin(&model.pins, armed, motions, stabilized, saddle, (x, right));
         pins::hold(&model.pins, armed, held, right);
         saddle.finish_begun(pattern, solution)?;
@@ -190,7 +195,9 @@ impl<S: Real> Workspace<S> {
         let motions = std::mem::size_of::<Motion<S>>() * model.bodies.len();
         let own = Bytes { held: motions, touched: motions } + Bytes::touched(&self.solution);
         let aside = self.correction.as_deref().map_or(Bytes::default(), Bytes::aside);
-        let of_model = Bytes::touched(&model.pins) + Bytes::touched(&model.inertias);
+        let of_model = Bytes::touched(&model.pins)
+            + Bytes::touched(&model.inertias)
+            + Bytes::touched(&model.anchors);
         self.matrix.bytes() + own + aside + of_model
     }
 

@@ -32,6 +32,33 @@ impl Lanes {
     pub fn as_array_mut(&mut self) -> &mut [f64; Self::WIDTH] {
         self.0.as_array_mut()
     }
+    /// Several quantities as rows, one for each lane: `out` has [`WIDTH`](Self::WIDTH) rows as long as `x`.
+    ///
+    /// # Panics
+    /// Where it has not.
+    pub fn rows(x: &[Self], out: &mut [f64]) {
+        let width = x.len();
+        assert_eq!(out.len(), Self::WIDTH * width, "a row for each lane");
+        let (a, rest) = out.split_at_mut(width);
+        let (b, rest) = rest.split_at_mut(width);
+        let (c, d) = rest.split_at_mut(width);
+        let blocks = x.chunks_exact(Self::WIDTH);
+        let (last, whole) = (blocks.remainder(), width - blocks.remainder().len());
+        let rows =
+            [&mut *a, &mut *b, &mut *c, &mut *d].map(|row| row.chunks_exact_mut(Self::WIDTH));
+        let [first, second, third, fourth] = rows;
+        // blocks of 4 × 4 are transposed in registers
+        for ((((block, a), b), c), d) in blocks.zip(first).zip(second).zip(third).zip(fourth) {
+            let [p, q, r, s] = [block[0], block[1], block[2], block[3]].map(Self::to_array);
+            a.copy_from_slice(&[p[0], q[0], r[0], s[0]]);
+            b.copy_from_slice(&[p[1], q[1], r[1], s[1]]);
+            c.copy_from_slice(&[p[2], q[2], r[2], s[2]]);
+            d.copy_from_slice(&[p[3], q[3], r[3], s[3]]);
+        }
+        for (k, x) in (whole..).zip(last) {
+            [a[k], b[k], c[k], d[k]] = x.to_array();
+        }
+    }
     /// A function that is not made for several numbers at once.
     #[inline(always)]
     pub(super) fn each(self, f: impl Fn(f64) -> f64) -> Self {
@@ -102,6 +129,14 @@ impl Real for Lanes {
         sine::sin_cos_of_lanes(self)
     }
     #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        Self(a.0.mul_add(b.0, self.0))
+    }
+    #[inline(always)]
+    fn minus_product(self, a: Self, b: Self) -> Self {
+        Self(a.0.mul_neg_add(b.0, self.0))
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Self(self.0.sqrt())
     }
@@ -146,6 +181,14 @@ impl Real for Lanes {
         self.each(f64::floor)
     }
     #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(wide::CmpGt::cmp_gt(self.0, other.0).blend(self.0, other.0))
+    }
+    #[inline(always)]
     fn least_magnitude(self) -> f64 {
         let [a, b, c, d] = self.0.abs().to_array();
         a.min(b).min(c.min(d))
@@ -166,5 +209,48 @@ impl Real for Lanes {
 impl Lift<f64> for Lanes {
     fn lift(x: f64) -> Self {
         Self::constant(x)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Lanes;
+    use crate::math::Largest;
+
+    #[test]
+    fn rows_are_the_lanes() {
+        for width in 0..10 {
+            let number = |lane: usize, k: usize| (10 * lane + k) as f64;
+            let lanes = |k| Lanes::new(std::array::from_fn(|lane| number(lane, k)));
+            let x: Vec<Lanes> = (0..width).map(lanes).collect();
+            let mut rows = vec![f64::NAN; Lanes::WIDTH * width];
+            Lanes::rows(&x, &mut rows);
+            let expected = (0..Lanes::WIDTH).flat_map(|l| (0..width).map(move |k| number(l, k)));
+            assert_eq!(rows, expected.collect::<Vec<_>>(), "width {width}");
+        }
+    }
+
+    #[test]
+    fn the_largest_is_found_in_any_lane_and_nan_is_not_forgotten() {
+        let largest = |numbers: &[f64]| {
+            let (mut alone, mut lanes) = (Largest::new(), Largest::new());
+            for (k, x) in numbers.iter().enumerate() {
+                let mut side_by_side = [0.25; Lanes::WIDTH];
+                side_by_side[k % Lanes::WIDTH] = *x;
+                alone.add(*x);
+                lanes.add(Lanes::new(side_by_side));
+            }
+            let (alone, lanes) = (alone.get(), lanes.get());
+            assert!(alone == lanes || alone.is_nan() && lanes.is_nan(), "{alone} {lanes}");
+            alone
+        };
+        assert_eq!(largest(&[0.5, -3.0, 2.0, 1.0, -0.0]), 3.0);
+        assert_eq!(largest(&[1.0, f64::NEG_INFINITY, 2.0]), f64::INFINITY);
+        assert_eq!(largest(&[1.5e308, -1.7e308, 1.5e308]), 1.7e308); // the sum is not finite
+        for k in 0..6 {
+            let mut numbers = [1.0, 2.0, f64::INFINITY, 3.0, -1.0, 0.5];
+            numbers[k] = f64::NAN;
+            assert!(largest(&numbers).is_nan(), "at {k}");
+        }
     }
 }

@@ -20,4 +20,4 @@ pub use field::Field;
 pub use jet::Jet;
 pub use lanes::Lanes;
 pub use plane::{Local, Motion, Pose, Rotation, Twist, Vec2, Wrench};
-pub use real::{Lift, Real};
+pub use real::{Largest, Lift, Real};

@@ -107,7 +107,8 @@ impl<S: Real> Rotation<S> {
 impl<S: Real> Mul<Local<S>> for Rotation<S> {
     type Output = Vec2<S>;
     fn mul(self, s: Local<S>) -> Vec2<S> {
-        Vec2::new(self.cos * s.x - self.sin * s.y, self.sin * s.x + self.cos * s.y)
+        let (across, along) = (self.cos * s.x, self.sin * s.x);
+        Vec2::new(across.minus_product(self.sin, s.y), along.plus_product(self.cos, s.y))
     }
 }
 

@@ -64,10 +64,11 @@ fn within(x: f64) -> (f64, f64) {
 /// r, and a number whose last two bits are those of k.
 #[inline(always)]
 fn reduce<S: Real>(x: S) -> (S, S) {
-    let shifted = x * S::constant(FRAC_2_PI) + S::constant(ROUND);
+    let shifted = S::constant(ROUND).plus_product(x, S::constant(FRAC_2_PI));
     let k = shifted - S::constant(ROUND);
     let [first, second, third] = HALF_PI.map(S::constant);
-    (((x - k * first) - k * second) - k * third, shifted)
+    let r = x.minus_product(k, first).minus_product(k, second).minus_product(k, third);
+    (r, shifted)
 }
 
 /// Sine and cosine of r + k π/2 from those of r.
@@ -88,10 +89,11 @@ fn kernel<S: Real>(r: S) -> (S, S) {
     // pairs of terms do not wait for each other: all else waits for the result
     let series = |k: usize| {
         let [a, b, c, d, e, f] = SERIES.map(|both| S::constant(both[k]));
-        (f + z * e) + w * ((d + z * c) + w * (b + z * a))
+        let higher = d.plus_product(z, c).plus_product(w, b.plus_product(z, a));
+        f.plus_product(z, e).plus_product(w, higher)
     };
-    let (sine, cosine) = (r + r * (z * series(0)), w * series(1));
-    (sine, (S::one() - S::constant(0.5) * z) + cosine)
+    let half = S::one().minus_product(S::constant(0.5), z);
+    (r.plus_product(r, z * series(0)), half.plus_product(w, series(1)))
 }
 
 #[cfg(test)]

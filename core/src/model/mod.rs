@@ -1,6 +1,7 @@
 //! Models: as written ([`Definition`]), linked ([`Blueprint`]) and as numbers ([`Model`]).
 
 mod added_inertia;
+mod anchor;
 mod blueprint;
 mod bodies;
 mod body_fields;
@@ -16,6 +17,7 @@ mod pin;
 mod problem;
 mod size;
 
+pub use anchor::Anchor;
 pub use blueprint::{build, Blueprint};
 pub use body_fields::body_tables;
 pub use definition::{Definition, Entry, Value};

@@ -1,6 +1,7 @@
 //! A model as numbers: immutable, over any scalar.
 
 use super::added_inertia;
+use super::anchor::{anchors, Anchor};
 use super::blueprint::Blueprint;
 use super::inertia::{inertias, Inertia};
 use super::layout::{Layout, Touched};
@@ -95,6 +96,8 @@ pub struct Model<S = f64> {
     pub constraints: Vec<ConstraintItem<S>>,
     /// Those of them that only pin two points, as numbers.
     pub pins: Vec<Pin<S>>,
+    /// Moving bodies that one of them holds to ground.
+    pub anchors: Vec<Anchor<S>>,
     /// Forces.
     pub forces: Vec<ForceItem<S>>,
     /// Moments of inertia that are added to bodies without their own while the equations are solved,
@@ -194,15 +197,17 @@ impl<S: Real> Model<S> {
         let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
         let added_inertia = added_inertia::added(&bodies, &constraints);
         let layout = Layout::new(blueprint.bodies.len() - 1, touched.into_iter());
+        let pins = pins(&constraints, &layout);
         Self {
             blueprint: Arc::clone(blueprint),
             parameters: parameters.to_vec(),
             gravity,
             inertias: inertias(&blueprint.bodies, &bodies, &added_inertia),
+            anchors: anchors(&pins, &bodies, &added_inertia),
             added_inertia,
             driven: constraints.iter().any(|item| item.driven),
             bodies,
-            pins: pins(&constraints, &layout),
+            pins,
             layout,
             constraints,
             forces,

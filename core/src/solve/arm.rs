@@ -28,7 +28,7 @@ impl<S: Real> Arm<S> {
     pub fn add_square<const N: usize>(&self, target: &mut [[S; N]; N]) {
         for (i, target) in target.iter_mut().enumerate() {
             for (j, target) in target.iter_mut().enumerate().take(i + 1) {
-                *target += self.plain[i] * self.scaled[j];
+                *target = target.plus_product(self.plain[i], self.scaled[j]);
             }
             target[i] += self.inverse[i];
         }
@@ -45,7 +45,7 @@ impl<S: Real> Arm<S> {
         let signed = self.inverse.map(|inverse| S::constant(sign) * inverse);
         for i in 0..2 {
             for j in 0..2 {
-                target[i][j] += self.scaled[i] * other[j];
+                target[i][j] = target[i][j].plus_product(self.scaled[i], other[j]);
             }
             target[i][i] += signed[i];
         }
@@ -55,10 +55,10 @@ impl<S: Real> Arm<S> {
     #[inline(always)]
     pub fn add_times<const N: usize>(&self, sign: f64, x: &[S; 3], y: &mut [S; N]) {
         for (y, b) in y.iter_mut().zip(&self.plain) {
-            *y += *b * x[2];
+            *y = y.plus_product(*b, x[2]);
         }
         for (y, x) in y.iter_mut().zip(x) {
-            *y += S::constant(sign) * *x;
+            *y = y.plus_product(S::constant(sign), *x);
         }
     }
 
@@ -67,8 +67,8 @@ impl<S: Real> Arm<S> {
     pub fn subtract_transposed<const N: usize>(&self, sign: f64, lambda: &[S; N], x: &mut [S; 3]) {
         let mut found = *x;
         for (i, lambda) in lambda.iter().enumerate() {
-            found[i] -= S::constant(sign) * self.inverse[i] * *lambda;
-            found[2] -= self.scaled[i] * *lambda;
+            found[i] = found[i].minus_product(S::constant(sign) * self.inverse[i], *lambda);
+            found[2] = found[2].minus_product(self.scaled[i], *lambda);
         }
         *x = found;
     }

@@ -32,7 +32,7 @@ impl<S: Real> Twin<S> {
     #[inline(always)]
     pub fn add_times<const N: usize>(rows: &[Self; N], x: &[S; 3], y: &mut [S; N]) {
         for (y, Self { plain: a, .. }) in y.iter_mut().zip(rows) {
-            *y += a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
+            *y = y.plus_product(a[0], x[0]).plus_product(a[1], x[1]).plus_product(a[2], x[2]);
         }
     }
 }
@@ -100,7 +100,7 @@ pub(super) fn subtract<S: Real, const M: usize, const N: usize, const K: usize>(
     for (a, b) in a.iter().zip(b) {
         for (target, a) in target.iter_mut().zip(a) {
             for (target, b) in target.iter_mut().zip(b) {
-                *target -= *a * *b;
+                *target = target.minus_product(*a, *b);
             }
         }
     }
@@ -115,7 +115,7 @@ pub(super) fn subtract_times<S: Real, const M: usize, const K: usize>(
 ) {
     for (a, x) in a.iter().zip(x) {
         for (y, a) in y.iter_mut().zip(a) {
-            *y -= *a * *x;
+            *y = y.minus_product(*a, *x);
         }
     }
 }
@@ -129,7 +129,7 @@ pub(super) fn subtract_products<S: Real, const M: usize, const N: usize>(
 ) {
     for (y, a) in y.iter_mut().zip(a) {
         for (a, x) in a.iter().zip(x) {
-            *y -= *a * *x;
+            *y = y.minus_product(*a, *x);
         }
     }
 }
@@ -143,7 +143,7 @@ pub(super) fn subtract_transposed<S: Real, const N: usize>(
 ) {
     for (a, x) in a.zip(x) {
         for c in 0..N {
-            y[c] -= a[c] * *x;
+            y[c] = y[c].minus_product(a[c], *x);
         }
     }
 }
@@ -162,7 +162,7 @@ pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> Diagonal
     let (mut pivot, mut inverse) = ([S::zero(); N], [S::zero(); N]);
     if N == 2 {
         // by the determinant, so that the second division need not wait for the first
-        let det = s[0][0] * s[1][1] - s[1][0] * s[1][0];
+        let det = (s[0][0] * s[1][1]).minus_product(s[1][0], s[1][0]);
         let (first, second) = (S::one() / s[0][0], S::one() / det);
         (pivot[0], pivot[1]) = (s[0][0], det * first);
         (inverse[0], inverse[1]) = (first, s[0][0] * second);
@@ -175,9 +175,9 @@ pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> Diagonal
         for i in j + 1..N {
             let l = s[i][j] * inverse[j];
             for c in j + 1..i {
-                s[i][c] -= s[i][j] * s[c][j]; // s[c][j] is scaled already
+                s[i][c] = s[i][c].minus_product(s[i][j], s[c][j]); // s[c][j] is scaled already
             }
-            s[i][i] -= s[i][j] * l;
+            s[i][i] = s[i][i].minus_product(s[i][j], l);
             s[i][j] = l;
         }
     }
@@ -192,7 +192,7 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
             for j in 0..i {
                 let known = x[j];
                 for (x, known) in x[i].iter_mut().zip(known) {
-                    *x -= self.lower[i][j] * known;
+                    *x = x.minus_product(self.lower[i][j], known);
                 }
             }
         }
@@ -204,7 +204,7 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
         for j in (0..N).rev() {
             y[j] = y[j] * self.inverse[j];
             for i in j + 1..N {
-                y[j] -= self.lower[i][j] * y[i];
+                y[j] = y[j].minus_product(self.lower[i][j], y[i]);
             }
         }
     }
@@ -220,23 +220,28 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
     }
 }
 
-/// Numbers that a diagonal block of `n` rows takes: n for 1 / D, n for its diagonal before elimination, and
-/// what is left of the diagonal, row by row: of S, then of L.
+/// Numbers that a diagonal block of `n` rows takes: n for its diagonal, then 1 / D, n for what pivots are judged by,
+/// and what is left of the diagonal, row by row: of S, then of L.
 pub(super) fn numbers(n: usize) -> usize {
     2 * n + n * (n - 1) / 2
 }
 
-/// Stores a diagonal block before elimination.
+/// Stores a diagonal block before elimination, with what its pivots are judged by.
 #[inline(always)]
-pub(super) fn store_begun<S: Real, const N: usize>(x: &mut [S], first: u32, s: &[[S; N]; N]) {
+pub(super) fn store_begun<S: Real, const N: usize>(
+    x: &mut [S],
+    first: u32,
+    s: &[[S; N]; N],
+    magnitude: &[S; N],
+) {
     let x = &mut x[first as usize..first as usize + numbers(N)];
     for i in 0..N {
-        x[N + i] = s[i][i];
+        (x[i], x[N + i]) = (s[i][i], magnitude[i]);
         x[2 * N + i * i.saturating_sub(1) / 2..][..i].copy_from_slice(&s[i][..i]);
     }
 }
 
-/// Its diagonal, and what is left of that.
+/// What its pivots are judged by, and its lower triangle.
 #[inline(always)]
 pub(super) fn begun<S: Real, const N: usize>(x: &[S], first: u32) -> ([S; N], [[S; N]; N]) {
     let x = &x[first as usize..first as usize + numbers(N)];
@@ -244,6 +249,7 @@ pub(super) fn begun<S: Real, const N: usize>(x: &[S], first: u32) -> ([S; N], [[
     for i in 1..N {
         s[i][..i].copy_from_slice(&x[2 * N + i * (i - 1) / 2..][..i]);
     }
+    (0..N).for_each(|i| s[i][i] = x[i]);
     (std::array::from_fn(|i| x[N + i]), s)
 }
 
@@ -253,7 +259,7 @@ pub(super) fn forward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; 
     let l = &x[first as usize..first as usize + numbers(N)][2 * N..];
     for i in 1..N {
         for j in 0..i {
-            y[i] -= l[i * (i - 1) / 2 + j] * y[j];
+            y[i] = y[i].minus_product(l[i * (i - 1) / 2 + j], y[j]);
         }
     }
 }

@@ -41,6 +41,9 @@ impl Pattern {
     pub fn bytes(&self) -> Bytes {
         let places = &self.places;
         Bytes::touched(&self.coupled)
+            + Bytes::touched(&self.loose)
+            + Bytes::touched(&self.anchors)
+            + Bytes::touched(&self.loads)
             + Bytes::aside(&self.units)
             + Bytes::touched(&places.general)
             + Bytes::aside(&places.arms)
@@ -71,6 +74,7 @@ impl<S> Saddle<S> {
     pub fn bytes(&self, pattern: &Pattern) -> Bytes {
         let of_general = size_of::<[S; 3]>() * pattern.places.general.len();
         Bytes::touched(&self.weights)
+            + Bytes::touched(&self.anchors)
             + Bytes::aside(&self.entries)
             + Bytes { held: 0, touched: of_general }
             + Bytes::touched(&self.arms)

@@ -9,7 +9,7 @@ use super::block::{add, part, part_mut, store_begun, subtract_transposed, Twin};
 use super::pattern::Pattern;
 use super::places::Armed;
 use super::saddle::Saddle;
-use super::steps::{Start, Touch};
+use super::steps::{last, next, Start, Touch};
 use super::weight::Weight;
 use crate::math::Real;
 
@@ -17,6 +17,8 @@ use crate::math::Real;
 #[derive(Clone, Copy, Debug)]
 pub struct Begun<S> {
     s: [[S; 2]; 2],
+    /// What anchored groups would add to its diagonal.
+    held: S,
     /// y.
     pub right: [S; 2],
 }
@@ -25,7 +27,7 @@ impl<S: Real> Begun<S> {
     /// -g; groups are to be added.
     #[inline(always)]
     pub fn new(g: [S; 2]) -> Self {
-        Self { s: [[S::zero(); 2]; 2], right: g.map(|g| -g) }
+        Self { s: [[S::zero(); 2]; 2], held: S::zero(), right: g.map(|g| -g) }
     }
 
     /// Adds a group where the rows are [±I b], with its weight and its part of Dw⁻¹ Lw⁻¹ f; returns b′, to be
@@ -35,6 +37,7 @@ impl<S: Real> Begun<S> {
         let b = bent(b, sign, weight);
         let arm = Arm::new(&b, &weight.inverse);
         arm.add_square(&mut self.s);
+        self.held += weight.held;
         arm.add_times(sign, x, &mut self.right);
         b
     }
@@ -44,15 +47,18 @@ impl<S: Real> Saddle<S> {
     /// Stores the diagonal block of a row block of [`Pattern::armed`], whose first row is `row`.
     #[inline(always)]
     pub fn begin(&mut self, armed: &Armed, row: u32, begun: &Begun<S>) {
-        self.put(row, armed.diagonal, &begun.s);
+        self.put(row, armed.diagonal, &begun.s, [begun.held; 2]);
     }
 
     #[inline(always)]
-    fn put<const N: usize>(&mut self, row: u32, diagonal: u32, s: &[[S; N]; N]) {
-        store_begun(&mut self.factors, diagonal, s);
+    fn put<const N: usize>(&mut self, row: u32, diagonal: u32, s: &[[S; N]; N], held: [S; N]) {
+        let magnitude = std::array::from_fn(|i| s[i][i] + held[i]);
+        store_begun(&mut self.factors, diagonal, s, &magnitude);
         if let Some(damping) = self.damping.get(row as usize..row as usize + N) {
-            let magnitude = part_mut::<S, N>(&mut self.factors, diagonal + N as u32);
-            magnitude.iter_mut().zip(damping).for_each(|(s, mu)| *s += *mu);
+            for first in [diagonal, diagonal + N as u32] {
+                let s = part_mut::<S, N>(&mut self.factors, first);
+                s.iter_mut().zip(damping).for_each(|(s, mu)| *s += *mu);
+            }
         }
     }
 
@@ -62,7 +68,7 @@ impl<S: Real> Saddle<S> {
         assert_eq!(self.entries.len(), pattern.n_entries, "a matrix of this pattern");
         let places = &pattern.places;
         for (owner, u) in places.general.iter().zip(&mut self.u) {
-            let Weight { inverse, shift } = &self.weights[owner.group as usize];
+            let Weight { inverse, shift, .. } = &self.weights[owner.group as usize];
             let mut row = self.entries[owner.row as usize];
             if owner.coupled {
                 row[2] = row[2] - shift[0] * row[0] - shift[1] * row[1];
@@ -92,14 +98,15 @@ impl<S: Real> Saddle<S> {
             let row = owner.row as usize;
             (self.entries[row][2], self.entries[row + 1][2]) = (b[0], b[1]);
         }
+        self.restore_anchors(pattern);
     }
 
     /// Begins row blocks from U and the arms.
     #[inline(always)]
     pub(super) fn begin_all(&mut self, pattern: &Pattern, starts: &[Start]) {
-        let mut touches = pattern.steps.touches.iter();
+        let mut touches = &pattern.steps.touches[..];
         for start in starts {
-            let own = touches.by_ref().take(start.touches as usize);
+            let own = next(&mut touches, start.touches).iter();
             match start.size {
                 1 => self.begin_rows::<1>(start, own),
                 2 => self.begin_rows::<2>(start, own),
@@ -113,24 +120,29 @@ impl<S: Real> Saddle<S> {
         start: &Start,
         touches: impl Iterator<Item = &'a Touch>,
     ) {
-        let mut s = [[S::zero(); N]; N];
+        let (mut s, mut held) = ([[S::zero(); N]; N], [S::zero(); N]);
         for Touch { first, group, sign } in touches {
+            let of_group = self.weights[*group as usize].held;
             if N == 2 && *sign != 0.0 {
                 self.arm(*first, *group).add_square(&mut s);
+                held.iter_mut().for_each(|held| *held += of_group);
             } else {
                 let u = part::<_, N>(&self.u, *first);
                 add::<S, N, N, 3>(&mut s, u, u);
+                for (held, Twin { plain: [x, y, _], .. }) in held.iter_mut().zip(u) {
+                    *held += of_group * (*x * *x + *y * *y);
+                }
             }
         }
-        self.put(start.row, start.diagonal, &s);
+        self.put(start.row, start.diagonal, &s, held);
     }
 
     /// The right sides y of row blocks, into g.
     #[inline(always)]
     pub(super) fn right_sides(&self, pattern: &Pattern, starts: &[Start], x: &[S], g: &mut [S]) {
-        let mut touches = pattern.steps.touches.iter();
+        let mut touches = &pattern.steps.touches[..];
         for start in starts {
-            let own = touches.by_ref().take(start.touches as usize);
+            let own = next(&mut touches, start.touches).iter();
             match start.size {
                 1 => self.right_side::<1>(start, own, x, g),
                 2 => self.right_side::<2>(start, own, x, g),
@@ -163,9 +175,9 @@ impl<S: Real> Saddle<S> {
     #[inline(always)]
     pub(super) fn spread_all(&self, pattern: &Pattern, starts: &[Start], x: &mut [S], g: &[S]) {
         let count = starts.iter().map(|start| start.touches as usize).sum();
-        let mut touches = pattern.steps.touches[..count].iter();
+        let mut touches = &pattern.steps.touches[..count];
         for start in starts.iter().rev() {
-            let own = touches.by_ref().rev().take(start.touches as usize);
+            let own = last(&mut touches, start.touches).iter().rev();
             match start.size {
                 1 => self.spread_rows::<1>(start, own, x, g),
                 2 => self.spread_rows::<2>(start, own, x, g),
@@ -210,5 +222,5 @@ impl<S: Real> Saddle<S> {
 #[inline(always)]
 fn bent<S: Real>(b: [S; 2], sign: f64, weight: &Weight<S>) -> [S; 2] {
     let sign = S::constant(sign);
-    [b[0] - sign * weight.shift[0], b[1] - sign * weight.shift[1]]
+    [0, 1].map(|k| b[k].minus_product(sign, weight.shift[k]))
 }

@@ -10,6 +10,7 @@
 //! | `weight` | the blocks of W by their factors |
 //! | `block` | arithmetic of blocks of at most 3 × 3 |
 //! | `arm` | the same for pairs of rows that begin with ±I |
+//! | `anchor` | such a pair that holds one group alone, eliminated in closed form |
 //! | `saddle` | numbers: [W Aᵀ; A -μI] factorised and solved without allocation |
 //! | `gram` | the diagonal blocks of S = A W⁻¹ Aᵀ + μ I |
 //! | `bytes` | how much memory that takes |
@@ -20,6 +21,7 @@
 //! | `newton` | damped Newton and Gauss–Newton iteration |
 //! | `rank` | numerical rank, dependent rows and left null vectors |
 
+mod anchor;
 mod arm;
 mod block;
 mod block_lu;
@@ -38,6 +40,7 @@ mod steps;
 mod substitute;
 mod weight;
 
+pub use anchor::{Anchor, Anchored};
 pub use block_lu::{BlockLu, LOST};
 pub use bytes::Bytes;
 pub use gram::Begun;

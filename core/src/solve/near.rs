@@ -18,11 +18,11 @@ use super::saddle::{Saddle, PIVOT_TOLERANCE};
 use super::weight::{Dependent, Weight};
 use crate::math::Real;
 
-/// Pivots below this part of S_kk are looked at more closely: σ below about 0.03.
-const NEAR: f64 = 1e-3;
+/// Pivots below this part of S_kk are looked at more closely: σ below about 0.07.
+const NEAR: f64 = 5e-3;
 
 impl<S: Real> Saddle<S> {
-    /// Refuses pivots below 1e-3 of S_kk from now on, so that the caller can turn to
+    /// Refuses pivots below 5e-3 of S_kk from now on, so that the caller can turn to
     /// [`factor_near`](Self::factor_near).
     pub fn refuse_near(&mut self) {
         self.least = NEAR;
@@ -45,18 +45,35 @@ impl<S: Real> Saddle<S> {
         outcome.map(|()| geometric)
     }
 
-    /// Unit masses; radii of gyration such that no row turns its body more than it moves it.
+    /// Unit masses; radii of gyration such that no row turns its body more than it moves it, those of anchored
+    /// groups about the anchor.
     fn without_masses(&self, pattern: &Pattern) -> Vec<Weight<S>> {
         let mut arms = vec![S::zero(); self.weights.len()];
+        let mut held = vec![None; arms.len()];
+        for anchor in &pattern.anchors {
+            held[anchor.group as usize] = Some(self.weights[anchor.group as usize].shift);
+        }
         for (row, group) in pattern.groups() {
             let [x, y, angle] = &self.entries[row];
             let moved = *x * *x + *y * *y;
+            let turned = match held[group] {
+                Some([a, b]) => *angle - a * *x - b * *y,
+                None => *angle,
+            };
             let arm = &mut arms[group];
-            *arm = S::select(moved, arm.max(*angle * *angle / moved), *arm);
+            *arm = S::select(moved, arm.max(turned * turned / moved), *arm);
         }
         let inverse = |arm: S| S::select(arm, S::one() / arm, S::one());
-        let weight =
-            |arm| Weight { inverse: [S::one(), S::one(), inverse(arm)], shift: [S::zero(); 2] };
-        arms.into_iter().map(weight).collect()
+        let weight = |(arm, held): (S, Option<[S; 2]>)| match held {
+            Some(shift) => {
+                Weight { inverse: [S::zero(), S::zero(), inverse(arm)], shift, held: S::one() }
+            }
+            None => Weight {
+                inverse: [S::one(), S::one(), inverse(arm)],
+                shift: [S::zero(); 2],
+                held: S::zero(),
+            },
+        };
+        arms.into_iter().zip(held).map(weight).collect()
     }
 }

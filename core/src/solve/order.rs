@@ -16,8 +16,8 @@ use std::collections::BinaryHeap;
 /// `entries` are the structural positions of one triangle, as for [`Pattern`]. `blocks` holds the
 /// first index of each block of unknowns that stay together and in order (the coordinates of a body,
 /// the rows of a joint): ascending, beginning with 0, with `n_first` on a block boundary; `None` makes
-/// every unknown a block. Among equals the block with the shortest chain of eliminations behind it goes
-/// first, then the lowest index: a chain is eaten from both ends.
+/// every unknown a block. Among equals the lowest index goes first: a chain is
+/// eaten from one end, so that no pivot joins two long parts of it, which would be small by their inertia alone.
 ///
 /// Returns `order`, length `n`: `order[k]` is eliminated k-th. Near-linear in time for chains.
 ///
@@ -93,8 +93,8 @@ fn check_blocks(starts: &[usize], n_first: usize, n: usize) {
     assert!(boundary, "n_first = {n_first} cuts a block");
 }
 
-/// (not yet?, approximate degree, level, block): the smallest goes next.
-type Key = (bool, usize, u32, usize);
+/// (not yet?, approximate degree, block): the smallest goes next.
+type Key = (bool, usize, usize);
 
 /// The quotient graph: blocks not yet eliminated, and elements (cliques left by eliminated ones).
 struct Graph {
@@ -138,7 +138,7 @@ impl Graph {
         let key: Vec<Key> = (0..count)
             .map(|b| {
                 let degree = neighbours[b].iter().map(|&v| weight[v]).sum();
-                (starts[b] >= n_first, degree, 0, b)
+                (starts[b] >= n_first, degree, b)
             })
             .collect();
         let queue = key.iter().copied().map(Reverse).collect();
@@ -178,7 +178,7 @@ impl Graph {
     /// The block to eliminate next; keys that have changed since they were queued are skipped.
     fn next(&mut self) -> Option<usize> {
         while let Some(Reverse(key)) = self.queue.pop() {
-            let block = key.3;
+            let block = key.2;
             if !self.done[block] && self.key[block] == key {
                 return Some(block);
             }
@@ -200,7 +200,7 @@ impl Graph {
             self.detach(i, p);
         }
         for &i in &members {
-            self.update_key(i, p, total);
+            self.update_key(i, total);
             self.elements[i].push(p);
         }
         self.member_weight[p] = total;
@@ -243,15 +243,15 @@ impl Graph {
         }
     }
 
-    /// Approximate external degree (eq. 4.3 of the paper) and the level above p.
-    fn update_key(&mut self, i: usize, p: usize, total: usize) {
-        let (second, old, level, _) = self.key[i];
+    /// Approximate external degree (eq. 4.3 of the paper).
+    fn update_key(&mut self, i: usize, total: usize) {
+        let (second, old, _) = self.key[i];
         let clique = total - self.weight[i];
         self.visits += self.neighbours[i].len() + self.elements[i].len();
         let direct: usize = self.neighbours[i].iter().map(|&v| self.weight[v]).sum();
         let through: usize = self.elements[i].iter().map(|&e| self.outside[e]).sum();
         let degree = (direct + clique + through).min(old + clique);
-        self.key[i] = (second, degree, level.max(self.key[p].2 + 1), i);
+        self.key[i] = (second, degree, i);
         self.queue.push(Reverse(self.key[i]));
     }
 }

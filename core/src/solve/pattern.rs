@@ -6,6 +6,7 @@
 //! ch. 4). The plan is left-looking: for every block of L it names the products that make it, so that a
 //! block is computed in registers and written once.
 
+use super::anchor::{anchors, Anchored, Load};
 use super::places::{self, Armed, Owner, Places};
 use super::plan;
 use super::steps::Steps;
@@ -30,8 +31,14 @@ pub struct RowBlock {
 #[derive(Clone, Debug)]
 pub struct Pattern {
     pub(super) n_groups: usize,
-    /// The groups whose third unknown is coupled to the other two in W.
+    /// The groups whose third unknown is coupled to the other two in W, without those of anchors.
     pub(super) coupled: Vec<u32>,
+    /// The groups without anchor.
+    pub(super) loose: Vec<u32>,
+    /// Row blocks that are eliminated with two unknowns of a group.
+    pub(super) anchors: Vec<Anchored>,
+    /// The other row blocks at their groups.
+    pub(super) loads: Vec<Load>,
     pub(super) n_rows: usize,
     pub(super) n_entries: usize,
     /// Where the transformed rows stand.
@@ -47,22 +54,37 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// For groups of three unknowns, each `coupled` or diagonal in W, and the row blocks of A.
+    /// For groups of three unknowns, each `coupled` or diagonal in W, and the row blocks of A; those of them that
+    /// are to be `anchored` touch one group alone, and no other of these touches it.
     ///
     /// # Panics
     /// If a row block has not 1 to 3 rows, a group does not exist or is touched twice, the entries do
     /// not fill a list without gaps, or an index exceeds 32 bits.
-    pub fn new(coupled: Vec<bool>, blocks: &[RowBlock]) -> Self {
-        let starts = plan::starts(blocks);
-        let (order, visits) = plan::order(coupled.len(), blocks, &starts);
-        let rows_below = plan::rows_below(coupled.len(), blocks, &order);
-        let (mut places, touches) = Places::new(&coupled, blocks, &order);
-        let (steps, n_factors) = plan::steps(blocks, &starts, &order, &rows_below, &touches);
-        let armed = places.armed.iter_mut().zip(&steps.starts[steps.n_mixed..]);
-        armed.for_each(|(armed, start)| armed.diagonal = start.diagonal);
+    pub fn new(coupled: Vec<bool>, blocks: &[RowBlock], anchored: &[usize]) -> Self {
+        let (groups, starts) = (coupled.len(), plan::starts(blocks));
+        let (anchors, loads) = anchors(groups, blocks, &starts, anchored);
+        let free = Free::new(blocks, &starts, anchored);
+        let mut bent = coupled.clone();
+        anchors.iter().for_each(|anchor| bent[anchor.group as usize] = true);
+        let (order, visits) = plan::order(groups, &free.blocks);
+        let rows_below = plan::rows_below(groups, &free.blocks, &order);
+        let (mut places, touches) = Places::new(&bent, &free.blocks, &order);
+        let (steps, n_factors) =
+            plan::steps(&free.blocks, &free.rows, &order, &rows_below, &touches);
+        for (armed, start) in places.armed.iter_mut().zip(&steps.starts[steps.n_mixed..]) {
+            (armed.diagonal, armed.block) = (start.diagonal, free.numbers[armed.block as usize]);
+        }
+        let mut loose = vec![true; groups];
+        anchors.iter().for_each(|anchor| loose[anchor.group as usize] = false);
+        let select = |which: &dyn Fn(usize) -> bool| {
+            (0..groups).filter(|k| which(*k)).map(plan::index).collect::<Vec<u32>>()
+        };
         Self {
-            n_groups: coupled.len(),
-            coupled: (0..).zip(coupled).filter(|(_, coupled)| *coupled).map(|(k, _)| k).collect(),
+            n_groups: groups,
+            coupled: select(&|k| coupled[k] && loose[k]),
+            loose: select(&|k| loose[k]),
+            anchors,
+            loads,
             n_rows: starts[blocks.len()],
             n_entries: places::check_entries(blocks),
             places,
@@ -87,7 +109,12 @@ impl Pattern {
         &self.places.armed
     }
 
-    /// The groups coupled in W.
+    /// The anchors, in the order in which they were given.
+    pub fn anchors(&self) -> &[Anchored] {
+        &self.anchors
+    }
+
+    /// The groups coupled in W, without those of anchors.
     pub fn coupled(&self) -> &[u32] {
         &self.coupled
     }
@@ -113,5 +140,27 @@ impl Pattern {
     /// Number of blocks of L below the diagonal, fill included.
     pub fn fill(&self) -> usize {
         self.steps.below.len()
+    }
+}
+
+/// The row blocks that are no anchors.
+struct Free {
+    blocks: Vec<RowBlock>,
+    /// The first row of each.
+    rows: Vec<usize>,
+    /// Their places among all.
+    numbers: Vec<u32>,
+}
+
+impl Free {
+    fn new(blocks: &[RowBlock], starts: &[usize], anchored: &[usize]) -> Self {
+        let mut free = vec![true; blocks.len()];
+        anchored.iter().for_each(|block| free[*block] = false);
+        let numbers = || (0..blocks.len()).filter(|k| free[*k]);
+        Self {
+            blocks: numbers().map(|k| blocks[k].clone()).collect(),
+            rows: numbers().map(|k| starts[k]).collect(),
+            numbers: numbers().map(plan::index).collect(),
+        }
     }
 }

@@ -9,7 +9,7 @@ use super::steps::{Below, Column, Earlier, Start, Steps, Touch, Update};
 /// Lists every product, column by column; with the numbers that the blocks of L take.
 pub(super) fn steps(
     blocks: &[RowBlock],
-    starts: &[usize],
+    first_rows: &[usize],
     order: &[usize],
     rows_below: &[Vec<usize>],
     touches: &[Vec<Touch>],
@@ -30,19 +30,19 @@ pub(super) fn steps(
             steps.below.push(Below {
                 block: index(n_factors),
                 size: index(blocks[other].size),
-                row: index(starts[other]),
+                row: index(first_rows[other]),
                 pairs: index(steps.pairs.len() - before),
                 updates: index(updates.len()),
             });
             n_factors += size * blocks[other].size;
         }
-        let (row, size_there) = (index(starts[own]), index(size));
+        let (row, size_there) = (index(first_rows[own]), index(size));
         let own_block = Earlier { block: 0, diagonal, row, size: size_there };
         lists.eliminate(rows_below, place, &steps.below[first..], own_block);
         let earlier = std::mem::take(&mut lists.earlier[place]);
         steps.earlier.extend(&earlier);
         steps.columns.push(Column {
-            row: index(starts[own]),
+            row,
             diagonal,
             earlier: index(earlier.len()),
             below: index(rows.len()),
@@ -132,15 +132,15 @@ pub(super) fn starts(blocks: &[RowBlock]) -> Vec<usize> {
 }
 
 /// The order in which row blocks are eliminated, after all groups; with the work it took.
-pub(super) fn order(groups: usize, blocks: &[RowBlock], starts: &[usize]) -> (Vec<usize>, usize) {
-    let n_first = 3 * groups;
+pub(super) fn order(groups: usize, blocks: &[RowBlock]) -> (Vec<usize>, usize) {
+    let (n_first, starts) = (3 * groups, starts(blocks));
     let first: Vec<usize> = (0..n_first)
         .step_by(3)
-        .chain(blocks.iter().zip(starts).map(|(_, s)| n_first + s))
+        .chain(blocks.iter().zip(&starts).map(|(_, s)| n_first + s))
         .collect();
     let entries: Vec<(usize, usize)> = blocks
         .iter()
-        .zip(starts)
+        .zip(&starts)
         .flat_map(|(b, s)| b.touches.iter().map(move |&(group, _)| (n_first + s, 3 * group)))
         .collect();
     let n = n_first + starts[blocks.len()];

@@ -11,12 +11,13 @@
 //! when d ≤ [`PIVOT_TOLERANCE`] S_kk. A dependent row of A leaves a ratio near 1e-16 whatever its scale;
 //! a mechanism near a singular position a small one, which [`Saddle::cancellation`] shows.
 
+use super::anchor::Anchor;
 use super::block::{
     add, begun, columns, factorise, part, part_mut, scaled, store, subtract, subtract_times,
     Diagonal, Twin,
 };
 use super::pattern::Pattern;
-use super::steps::{Ahead, Below, Column, Earlier, Products, Start, Update};
+use super::steps::{next, Ahead, Below, Column, Earlier, Products, Start, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -33,6 +34,8 @@ const LEAST_PIVOT: f64 = 1e-300;
 pub struct Saddle<S> {
     /// W, one for each group.
     pub weights: Vec<Weight<S>>,
+    /// The rest of W where rows are anchored; the weight of such a group is that of its third unknown alone.
+    pub anchors: Vec<Anchor<S>>,
     /// Entries of A in rows of three, as the pattern places them.
     pub entries: Vec<[S; 3]>,
     /// b′ of the pairs of rows [±I b], as the pattern places them.
@@ -53,7 +56,7 @@ impl<S: Real> Saddle<S> {
     /// Memory for matrices of the given pattern: W = I, A = 0 but for the unit blocks, μ = 0.
     pub fn new(pattern: &Pattern) -> Self {
         let (zero, none) = (S::zero(), [S::zero(); 3]);
-        let weight = Weight { inverse: [S::one(); 3], shift: [zero; 2] };
+        let weight = Weight { inverse: [S::one(); 3], shift: [zero; 2], held: zero };
         let mut entries = vec![none; pattern.n_entries];
         for &(row, sign) in &pattern.units {
             let (row, sign) = (row as usize, S::constant(sign.into()));
@@ -61,6 +64,7 @@ impl<S: Real> Saddle<S> {
         }
         Self {
             weights: vec![weight; pattern.n_groups],
+            anchors: vec![Anchor::unit(); pattern.anchors.len()],
             entries,
             arms: vec![[zero; 2]; pattern.places.arms.len()],
             damping: Vec::new(),
@@ -80,7 +84,7 @@ impl<S: Real> Saddle<S> {
     /// # Panics
     /// If the matrix is of another pattern.
     pub fn factor(&mut self, pattern: &Pattern) -> Result<(), Dependent> {
-        check(&self.weights)?;
+        check(&self.weights, &pattern.loose)?;
         self.transform::<true>(pattern);
         self.begin_all(pattern, &pattern.steps.starts);
         self.eliminate::<false>(pattern, &mut [])
@@ -128,7 +132,8 @@ impl<S: Real> Saddle<S> {
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
         self.right_sides(pattern, starts, f, g);
         // a useless weight spoils a pivot, or else the unknowns of its group
-        self.eliminate::<true>(pattern, g).or_else(|row| check(&self.weights).and(Err(row)))?;
+        self.eliminate::<true>(pattern, g)
+            .or_else(|row| check(&self.weights, &pattern.loose).and(Err(row)))?;
         self.substitute_back(pattern, g);
         self.spread_all(pattern, starts, f, g);
         Ok(())
@@ -190,10 +195,10 @@ impl<S: Real> Saddle<S> {
     ) -> Result<(), Dependent> {
         let (magnitude, mut s) = begun(&self.factors, column.diagonal);
         for (i, magnitude) in magnitude.iter().enumerate() {
-            s[i][i] = *magnitude + *magnitude * S::constant(self.ridge);
+            s[i][i] += *magnitude * S::constant(self.ridge);
         }
         let mut y = if RHS { *part(g, column.row) } else { [S::zero(); N] };
-        for block in ahead.earlier.by_ref().take(column.earlier as usize) {
+        for block in next(&mut ahead.earlier, column.earlier) {
             match block.size {
                 _ if PINS => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
                 1 => self.subtract_earlier::<N, 1, RHS>(block, g, &mut s, &mut y),
@@ -213,7 +218,7 @@ impl<S: Real> Saddle<S> {
         }
         self.keep(column, &diagonal, magnitude)?;
         let Ahead { below, products, .. } = ahead;
-        for block in below.by_ref().take(column.below as usize) {
+        for block in next(below, column.below) {
             match block.size {
                 _ if PINS => self.below::<2, N, true>(block, products, &diagonal),
                 1 => self.below::<1, N, false>(block, products, &diagonal),
@@ -269,7 +274,7 @@ impl<S: Real> Saddle<S> {
     ) {
         // transposed, as it is stored
         let mut s = [[S::zero(); M]; N];
-        for pair in products.pairs.by_ref().take(block.pairs as usize) {
+        for pair in next(&mut products.pairs, block.pairs) {
             let [own, other] = pair.first;
             if PINS || N == 2 && M == 2 && pair.sign != 0.0 {
                 let own = &self.arms[own as usize];
@@ -278,7 +283,7 @@ impl<S: Real> Saddle<S> {
                 add::<S, N, M, 3>(&mut s, part(&self.u, other), part(&self.u, own));
             }
         }
-        for update in products.updates.by_ref().take(block.updates as usize) {
+        for update in next(&mut products.updates, block.updates) {
             match update.size {
                 _ if PINS => self.subtract_product::<M, N, 2>(update, &mut s),
                 1 => self.subtract_product::<M, N, 1>(update, &mut s),

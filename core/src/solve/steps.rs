@@ -4,8 +4,6 @@
 //! substitution; a record says how many of the next list belong to it. Nothing is looked up, so that long
 //! lists stream from memory.
 
-use std::slice::Iter;
-
 /// All records.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Steps {
@@ -110,25 +108,41 @@ pub(super) struct Update {
 /// The records not yet read.
 #[derive(Clone, Debug)]
 pub(super) struct Ahead<'a> {
-    pub earlier: Iter<'a, Earlier>,
-    pub below: Iter<'a, Below>,
+    pub earlier: &'a [Earlier],
+    pub below: &'a [Below],
     pub products: Products<'a>,
 }
 
 /// The same of what blocks below the diagonal are made of.
 #[derive(Clone, Debug)]
 pub(super) struct Products<'a> {
-    pub pairs: Iter<'a, Pair>,
-    pub updates: Iter<'a, Update>,
+    pub pairs: &'a [Pair],
+    pub updates: &'a [Update],
 }
 
 impl Steps {
     /// All of them.
     pub fn ahead(&self) -> Ahead<'_> {
         Ahead {
-            earlier: self.earlier.iter(),
-            below: self.below.iter(),
-            products: Products { pairs: self.pairs.iter(), updates: self.updates.iter() },
+            earlier: &self.earlier,
+            below: &self.below,
+            products: Products { pairs: &self.pairs, updates: &self.updates },
         }
     }
+}
+
+/// Takes the next `count` records.
+#[inline(always)]
+pub(super) fn next<'a, T>(ahead: &mut &'a [T], count: u32) -> &'a [T] {
+    let (own, rest) = ahead.split_at(count as usize);
+    *ahead = rest;
+    own
+}
+
+/// Takes the last `count` records.
+#[inline(always)]
+pub(super) fn last<'a, T>(ahead: &mut &'a [T], count: u32) -> &'a [T] {
+    let (rest, own) = ahead.split_at(ahead.len() - count as usize);
+    *ahead = rest;
+    own
 }

@@ -5,7 +5,7 @@ use super::block::{
 };
 use super::pattern::Pattern;
 use super::saddle::Saddle;
-use super::steps::{Ahead, Below, Column, Earlier};
+use super::steps::{last, next, Ahead, Below, Column, Earlier};
 use super::weight::Weight;
 use crate::math::Real;
 
@@ -32,27 +32,31 @@ impl<S: Real> Saddle<S> {
         self.unbend(pattern, x);
     }
 
-    /// f ← Dw⁻¹ Lw⁻¹ f.
+    /// f ← Dw⁻¹ Lw⁻¹ f; with anchors, see there.
     ///
     /// # Panics
     /// If `x` has another length than unknowns and rows together.
     #[inline(always)]
     pub fn weigh(&self, pattern: &Pattern, x: &mut [S]) {
         assert_eq!(x.len(), pattern.n_unknowns() + pattern.n_rows(), "one right side for each row");
+        self.anchor(pattern, x);
         for &group in &pattern.coupled {
             let [x, y, angle] = part_mut(x, 3 * group);
             let Weight { shift, .. } = &self.weights[group as usize];
             *angle = *angle - shift[0] * *x - shift[1] * *y;
         }
-        for (x, Weight { inverse, .. }) in x.chunks_exact_mut(3).zip(&self.weights) {
+        for &group in &pattern.loose {
+            let x = part_mut::<S, 3>(x, 3 * group);
+            let Weight { inverse, .. } = &self.weights[group as usize];
             // all at once: what is written as a pair of numbers is read as one
-            x.copy_from_slice(&[x[0] * inverse[0], x[1] * inverse[1], x[2] * inverse[2]]);
+            *x = [x[0] * inverse[0], x[1] * inverse[1], x[2] * inverse[2]];
         }
     }
 
-    /// x ← Lw⁻ᵀ x.
+    /// x ← Lw⁻ᵀ x, and λ of anchors.
     #[inline(always)]
     pub fn unbend(&self, pattern: &Pattern, x: &mut [S]) {
+        self.release(pattern, x);
         for &group in &pattern.coupled {
             let [x, y, angle] = part_mut(x, 3 * group);
             let Weight { shift, .. } = &self.weights[group as usize];
@@ -64,7 +68,7 @@ impl<S: Real> Saddle<S> {
     /// y ← L⁻¹ y of one column, or λ where nothing is below.
     fn forward<const N: usize>(&self, column: &Column, ahead: &mut Ahead<'_>, g: &mut [S]) {
         let mut y = *part::<S, N>(g, column.row);
-        for earlier in ahead.earlier.by_ref().take(column.earlier as usize) {
+        for earlier in next(&mut ahead.earlier, column.earlier) {
             match earlier.size {
                 1 => self.subtract_known::<N, 1>(earlier, g, &mut y),
                 2 => self.subtract_known::<N, 2>(earlier, g, &mut y),
@@ -129,7 +133,7 @@ impl<S: Real> Saddle<S> {
         let y = part::<S, N>(g, column.row);
         let mut lambda: [S; N] = std::array::from_fn(|i| y[i] * inverse[i]);
         // the newest unknown is waited for last
-        for block in ahead.below.by_ref().rev().take(column.below as usize) {
+        for block in last(&mut ahead.below, column.below).iter().rev() {
             match block.size {
                 _ if PINS => self.pull::<2, N>(block, inverse, g, &mut lambda),
                 1 => self.pull::<1, N>(block, inverse, g, &mut lambda),

@@ -14,7 +14,7 @@
 //! mechanism's size that is corrected. It is factorised anew only where that is too slow.
 
 use crate::equations::{constraints, kinematics, Singular, Workspace};
-use crate::math::Real;
+use crate::math::{Largest, Real};
 use crate::model::{row_scales, size, Model};
 
 /// Most iterations for positions, and for velocities.
@@ -164,9 +164,8 @@ impl<'a, S: Real> Projector<'a, S> {
     ) -> Result<bool, Fault> {
         let (mut last, mut newton) = (f64::INFINITY, false);
         let (mut target, mut rounding) = (0.0, 0.0);
-        let mut worst = (0, 0.0);
         for iteration in 0..MOST {
-            let gap = self.gap(level, workspace, t, (&*q, &*v), &mut worst);
+            let gap = self.gap(level, workspace, t, (&*q, &*v));
             if iteration == 0 {
                 (target, rounding) = self.targets(level, q, v, gap);
             }
@@ -202,15 +201,35 @@ impl<'a, S: Real> Projector<'a, S> {
             }
             last = gap;
         }
-        Err(Fault::Open { row: worst.0, gap: worst.1 })
+        Err(self.open(level))
+    }
+
+    /// The row that was open most when last looked at.
+    fn open(&self, level: Level) -> Fault {
+        let mut worst = (0, 0.0, 0.0);
+        let rows = self.terms[level as usize].iter().zip(&self.per_scale);
+        for (row, (r, per_scale)) in rows.enumerate() {
+            let gap = r.largest_magnitude();
+            let scaled = gap * per_scale;
+            // NaN, once there, stays
+            if scaled > worst.2 || scaled.is_nan() {
+                worst = (row, gap, scaled);
+            }
+        }
+        Fault::Open { row: worst.0, gap: worst.1 }
     }
 
     /// The residual to be met, and that which is accepted where rounding keeps it from being met.
     fn targets(&mut self, level: Level, q: &[S], v: &[S], gap: f64) -> (f64, f64) {
         let (target, most) = match level {
             Level::Position => {
-                let rounding = 8.0 * f64::EPSILON * self.largest(q);
-                ((self.part * self.tolerance).max(rounding), CLOSED.max(self.tolerance))
+                let target = self.part * self.tolerance;
+                // what meets the tolerance need not be told from rounding
+                let rounding = match gap <= target {
+                    true => 0.0,
+                    false => 8.0 * f64::EPSILON * self.largest(q),
+                };
+                (target.max(rounding), CLOSED.max(self.tolerance))
             }
             // what has come to rest has rates without digits
             Level::Velocity => {
@@ -223,14 +242,13 @@ impl<'a, S: Real> Projector<'a, S> {
         (target.min(most), (ROUNDING * target).min(most))
     }
 
-    /// The largest scaled residual; its row and what it is unscaled go into `worst`.
+    /// The largest scaled residual.
     fn gap(
         &mut self,
         level: Level,
         workspace: &mut Workspace<S>,
         t: S,
         (q, v): (&[S], &[S]),
-        worst: &mut (usize, f64),
     ) -> f64 {
         if !self.current {
             let motions = &mut workspace.motions;
@@ -239,17 +257,11 @@ impl<'a, S: Real> Projector<'a, S> {
             constraints::velocity_terms(self.model, motions, t, residual, rate, gamma);
             self.current = true;
         }
-        let mut gap = 0.0;
-        let rows = self.terms[level as usize].iter().zip(&self.per_scale);
-        for (row, (r, per_scale)) in rows.enumerate() {
-            let largest = r.largest_magnitude();
-            let scaled = largest * per_scale;
-            // NaN, once there, stays
-            if scaled > gap || scaled.is_nan() {
-                (gap, *worst) = (scaled, (row, largest));
-            }
+        let mut gap = Largest::new();
+        for (r, per_scale) in self.terms[level as usize].iter().zip(&self.per_scale) {
+            gap.add(*r * S::constant(*per_scale));
         }
-        gap
+        gap.get()
     }
 
     /// Factorises at the state that `gap` saw last.
@@ -287,12 +299,21 @@ impl<'a, S: Real> Projector<'a, S> {
 
     /// Largest coordinate or rate, lengths over the size of the mechanism.
     pub fn largest(&self, x: &[S]) -> f64 {
-        let mut largest: f64 = 0.0;
-        for x in x.chunks_exact(3) {
-            let [x, y, angle] = [x[0], x[1], x[2]].map(S::largest_magnitude);
-            largest = largest.max(x.max(y) * self.per_size).max(angle);
+        self.largest_of(x.chunks_exact(3).map(|x| [x[0], x[1], x[2]]))
+    }
+
+    /// The largest difference of coordinates or rates, scaled as by [`Self::largest`].
+    pub fn largest_difference(&self, a: &[S], b: &[S]) -> f64 {
+        let both = a.chunks_exact(3).zip(b.chunks_exact(3));
+        self.largest_of(both.map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]]))
+    }
+
+    fn largest_of(&self, bodies: impl Iterator<Item = [S; 3]>) -> f64 {
+        let (mut largest, per_size) = (Largest::new(), S::constant(self.per_size));
+        for [x, y, angle] in bodies {
+            [x * per_size, y * per_size, angle].into_iter().for_each(|x| largest.add(x));
         }
-        largest
+        largest.get()
     }
 }
 

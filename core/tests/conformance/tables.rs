@@ -7,9 +7,9 @@ use kempe::model::body_tables;
 use std::collections::HashSet;
 
 fn tables() -> Vec<Table> {
-    let options = option_families().into_iter().flat_map(|f| f.options).map(|o| o.table);
+    let options = option_families().iter().flat_map(|f| &f.options).map(|o| o.table.clone());
     let elements = catalogue().into_iter().map(|(_, table)| table);
-    elements.chain(body_tables()).chain(analysis_tables()).chain(options).collect()
+    elements.chain(body_tables()).chain(analysis_tables().iter().cloned()).chain(options).collect()
 }
 
 #[test]

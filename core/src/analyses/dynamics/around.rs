@@ -20,10 +20,7 @@ const AROUND: [(f64, f64); 4] =
 
 /// Part of the fastest rate by which projection changed v.
 pub(super) fn turn<S: Real>(projector: &Projector<'_, S>, given: &[S], v: &[S]) -> f64 {
-    let rates = v.chunks_exact(3).zip(given.chunks_exact(3));
-    let changes = rates
-        .map(|(v, given)| projector.largest(&[v[0] - given[0], v[1] - given[1], v[2] - given[2]]));
-    changes.fold(0.0, f64::max) / projector.fastest().max(f64::MIN_POSITIVE)
+    projector.largest_difference(v, given) / projector.fastest().max(f64::MIN_POSITIVE)
 }
 
 /// Takes (q, v) from states around; they are to be projected then.

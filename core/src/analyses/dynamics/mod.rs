@@ -4,6 +4,7 @@ mod apart;
 mod approach;
 mod around;
 mod automatic;
+mod batch;
 mod choice;
 mod failure;
 mod forecast;
@@ -118,7 +119,7 @@ fn simulate<W: FnMut(f64) -> Flow>(
     let mut system = Equations::new(model, options);
     let t0 = options.t_start.unwrap_or(start.t);
     let wide = output::many(options.output, options.t_end - t0).then(|| model.lift::<Lanes>());
-    let mut recorder = Recorder::new(model, wide.as_ref(), options, t0);
+    let mut recorder = Recorder::new(&system, wide.as_ref(), options, t0);
     let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();
     y.resize(y.len() + WORKS, 0.0);
     system.project(t0, &mut y, false).map_err(|(t, fault)| Failure {

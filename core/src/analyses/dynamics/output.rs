@@ -1,8 +1,9 @@
 //! What forward dynamics reports: states at chosen times, with accelerations, multipliers, energies.
 
+use super::batch::{Batch, Times};
 use super::options::{Options, Output, Scheme};
-use super::report::{Batch, Halt, Solver};
-use super::system::WORKS;
+use super::report::{Halt, Solver};
+use super::system::{Equations, WORKS};
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
 use crate::model::Model;
@@ -37,16 +38,23 @@ pub(super) fn many(output: Output, span: f64) -> bool {
 
 /// Most numbers that room is made for beforehand; what is longer grows.
 const MOST_ROOM: usize = 1 << 20;
+/// Reported states in a step, for room: what takes shorter steps grows.
+const IN_A_STEP: usize = 4;
+
+/// How many states a grid asks for; none if the steps are to be reported.
+fn asked(output: Output, span: f64) -> usize {
+    match output {
+        Output::Every(h) => ((span / h).abs() + 2.0) as usize, // NaN gives none
+        Output::Steps => 0,
+    }
+}
 
 impl Trajectory {
     /// Empty, with room for the states that a grid asks for: growing would copy them again and again.
     fn with_room(model: &Model, output: Output, span: f64) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
-        let rows = match output {
-            Output::Every(h) => ((span / h).abs() + 2.0) as usize, // NaN gives none
-            Output::Steps => 0,
-        };
-        let room = |width: usize| Vec::with_capacity(rows.min(MOST_ROOM / (3 * n + m + 6)) * width);
+        let rows = asked(output, span).min(MOST_ROOM / (3 * n + m + 6));
+        let room = |width: usize| Vec::with_capacity(rows * width);
         Self {
             t: room(1),
             q: room(n),
@@ -57,18 +65,16 @@ impl Trajectory {
         }
     }
 
-    /// Adds what was solved at y = (q, v, works), by the number that is meant.
-    fn add<S: Copy>(&mut self, t: f64, y: &[S], found: [&[S]; 3], number: impl Fn(S) -> f64) {
-        let [a, lam, energies] = found;
+    /// Adds what was solved at y = (q, v, works).
+    fn add(&mut self, t: f64, y: &[f64], (a, lam, energies): (&[f64], &[f64], &[f64; 2])) {
         let n = a.len();
-        let add = |to: &mut Vec<f64>, x: &[S]| to.extend(x.iter().map(|x| number(*x)));
         self.t.push(t);
-        add(&mut self.q, &y[..n]);
-        add(&mut self.v, &y[n..2 * n]);
-        add(&mut self.a, a);
-        add(&mut self.lam, lam);
-        add(&mut self.energy, energies);
-        add(&mut self.energy, &y[2 * n..]);
+        self.q.extend_from_slice(&y[..n]);
+        self.v.extend_from_slice(&y[n..2 * n]);
+        self.a.extend_from_slice(a);
+        self.lam.extend_from_slice(lam);
+        self.energy.extend_from_slice(energies);
+        self.energy.extend_from_slice(&y[2 * n..]);
     }
 }
 
@@ -85,9 +91,6 @@ pub struct Dense {
     pub degree: usize,
 }
 
-/// Times of the grid that fall into one step.
-type Times = [f64; Lanes::WIDTH];
-
 /// Collects the output while the integrator runs.
 pub(super) struct Recorder<'a> {
     output: Output,
@@ -99,6 +102,8 @@ pub(super) struct Recorder<'a> {
     y: Vec<f64>,
     pub trajectory: Trajectory,
     pub dense: Option<Dense>,
+    /// Of the continuous extension of the last step.
+    coefficients: Vec<f64>,
     /// Solves the equations of motion at reported states.
     one: Solver<'a>,
     /// The same for those of a grid, if they are many.
@@ -110,11 +115,12 @@ pub(super) struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     /// With the model over lanes, if there are to be many.
     pub fn new(
-        model: &'a Model,
+        system: &Equations<'a>,
         wide: Option<&'a Model<Lanes>>,
         options: &Options,
         t0: f64,
     ) -> Self {
+        let model = system.model;
         Self {
             output: options.output,
             t0,
@@ -123,8 +129,10 @@ impl<'a> Recorder<'a> {
             latest: t0,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
             trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
-            dense: options.dense_output.then(|| Dense::new(options, t0)),
-            one: Solver::new(model, options),
+            dense: options.dense_output.then(|| Dense::with_room(model, options, t0)),
+            coefficients: Vec::new(),
+            // a copy of the plan of elimination is had in a tenth of the time of a plan
+            one: Solver::new(model, options, system.workspace.clone()),
             many: wide.map(|wide| Batch::new(wide, options)),
             halt: None,
         }
@@ -148,30 +156,28 @@ impl<'a> Recorder<'a> {
     /// Reports the first `n` of the `times`, which are between the ends of a step; whether it can is known
     /// once they are solved.
     fn report_between(&mut self, step: &Step<'_>, times: Times, n: usize) -> Flow {
-        if let Some(batch) = &mut self.many {
-            batch.interpolate(step, times);
-        }
-        let mut flow = Flow::Continue;
-        for (lane, t) in times.into_iter().enumerate().take(n) {
-            if flow == Flow::Stop {
-                break;
+        let Some(batch) = &mut self.many else {
+            return self.report_one_by_one(step, &times[..n]);
+        };
+        batch.interpolate(step, times);
+        let mut left = &times[..n];
+        while let Some(batch) = self.many.as_mut().filter(|_| !left.is_empty()) {
+            left = &left[batch.add(left)..];
+            if batch.is_full() && self.flush() == Flow::Stop {
+                return Flow::Stop;
             }
-            flow = match &mut self.many {
-                Some(batch) => {
-                    batch.add(t, lane);
-                    if batch.is_full() {
-                        self.flush()
-                    } else {
-                        Flow::Continue
-                    }
-                }
-                None => {
-                    step.interpolate(t, &mut self.y);
-                    self.report_alone(t)
-                }
-            };
         }
-        flow
+        Flow::Continue
+    }
+
+    fn report_one_by_one(&mut self, step: &Step<'_>, times: &[f64]) -> Flow {
+        for &t in times {
+            step.interpolate(t, &mut self.y);
+            if self.report_alone(t) == Flow::Stop {
+                return Flow::Stop;
+            }
+        }
+        Flow::Continue
     }
 
     /// Projects and reports the state in the scratch.
@@ -185,16 +191,17 @@ impl<'a> Recorder<'a> {
 
     /// Reports the states that wait for others.
     pub fn flush(&mut self) -> Flow {
-        let Some(mut batch) = self.many.take_if(|batch| !batch.is_empty()) else {
+        let Some(batch) = self.many.as_mut().filter(|batch| !batch.is_empty()) else {
             return Flow::Continue;
         };
-        let regular = batch.solve();
+        if batch.solve() {
+            batch.keep(&mut self.trajectory);
+            return Flow::Continue;
+        }
+        let Some(mut batch) = self.many.take() else { return Flow::Continue };
         let mut flow = Flow::Continue;
         for (lane, t) in batch.take() {
-            if regular {
-                let found = batch.solver.found();
-                self.trajectory.add(t, batch.y(), found, |x| x.to_array()[lane]);
-            } else if flow == Flow::Continue {
+            if flow == Flow::Continue {
                 batch.given(lane, &mut self.y);
                 flow = self.report_alone(t);
             }
@@ -208,11 +215,11 @@ impl<'a> Recorder<'a> {
         if let Err(halt) = solved {
             return self.stop(t, halt);
         }
-        let found = self.one.found();
-        if !all_finite(y) || !found.into_iter().all(all_finite) {
+        let (a, lam, energies) = self.one.found();
+        if ![y, a, lam, energies].into_iter().all(all_finite) {
             return self.stop(t, Halt::NotFinite);
         }
-        self.trajectory.add(t, y, found, |x| x);
+        self.trajectory.add(t, y, (a, lam, energies));
         Flow::Continue
     }
 
@@ -225,7 +232,7 @@ impl<'a> Recorder<'a> {
     /// projected or its equations of motion cannot be solved.
     pub fn step(&mut self, step: &Step<'_>, watch: &mut impl FnMut(f64) -> Flow) -> Flow {
         if let Some(dense) = &mut self.dense {
-            if !dense.add(step) {
+            if !dense.add(step, &mut self.coefficients) {
                 return self.stop(step.t, Halt::NotFinite);
             }
         }
@@ -290,31 +297,35 @@ impl<'a> Recorder<'a> {
 }
 
 impl Dense {
-    fn new(options: &Options, t0: f64) -> Self {
+    /// Empty, with room for the steps that a grid lets expect.
+    fn with_room(model: &Model, options: &Options, t0: f64) -> Self {
         // of steps of several degrees all have the highest, from the start
         let several = matches!(options.scheme, Scheme::Auto(_) | Scheme::Dop853(_));
         let degree = if several { HIGHEST } else { 0 };
-        Self { t: vec![t0], degree, ..Self::default() }
+        let n = 2 * model.layout.n_q + WORKS;
+        let steps = asked(options.output, options.t_end - t0) / IN_A_STEP;
+        let room = |width: usize| Vec::with_capacity(steps.min(MOST_ROOM / (HIGHEST * n)) * width);
+        let mut dense = Self { t: room(1), y: room(n), c: room(HIGHEST * n), degree };
+        dense.t.push(t0);
+        dense
     }
 
     /// Whether all numbers of the step are finite; else nothing is kept of it.
-    fn add(&mut self, step: &Step<'_>) -> bool {
-        let (own, n) = (step.dense.degree(), step.y.len());
-        let first = self.c.len();
-        self.degree = self.degree.max(own);
-        self.c.resize(first + self.degree * n, 0.0);
-        let out = &mut self.c[first..];
-        step.coefficients(&mut out[..own * n]);
-        if !all_finite(&out[..own * n]) {
-            self.c.truncate(first);
+    fn add(&mut self, step: &Step<'_>, coefficients: &mut Vec<f64>) -> bool {
+        let own = step.dense.degree();
+        coefficients.resize(own * step.y.len(), 0.0);
+        step.coefficients(coefficients);
+        if !all_finite(coefficients) {
             return false;
         }
-        if own < self.degree {
-            // rows of a lesser degree are spread, from the last
-            for row in (0..n).rev() {
-                let to = row * self.degree;
-                out.copy_within(row * own..(row + 1) * own, to);
-                out[to + own..to + self.degree].fill(0.0);
+        self.degree = self.degree.max(own);
+        if own == self.degree {
+            self.c.extend_from_slice(coefficients);
+        } else {
+            // rows of a lesser degree are spread
+            for row in coefficients.chunks_exact(own) {
+                self.c.extend_from_slice(row);
+                self.c.resize(self.c.len() + self.degree - own, 0.0);
             }
         }
         self.t.push(step.t);

@@ -1,16 +1,15 @@
 //! Reported states: brought onto the constraints, and the equations of motion solved there.
 //!
 //! States of a grid lie between the ends of steps and do not wait for each other, so several are solved
-//! at once: the same formulas over [`Lanes`]. Where one of them is not regular (a position near a singular
+//! at once (`batch`): the same formulas over lanes. Where one of them is not regular (a position near a singular
 //! one, a gap that does not close, a number that is not finite), each is solved by itself.
 
 use super::apart::{Apart, Guard};
 use super::around;
 use super::options::{Options, Stabilization};
-use super::system::{parts, WORKS};
+use super::system::parts;
 use crate::equations::{energy, kinematics, Gains, Workspace};
-use crate::integrate::Step;
-use crate::math::{Lanes, Real};
+use crate::math::Real;
 use crate::model::Model;
 use crate::stabilize::{Fault, Projector};
 
@@ -38,12 +37,12 @@ pub(super) struct Solver<'a, S = f64> {
 }
 
 impl<'a, S: Real> Solver<'a, S> {
-    pub fn new(model: &'a Model<S>, options: &Options) -> Self {
+    /// With the workspace of the equations of motion of this run, or a copy of it.
+    pub fn new(model: &'a Model<S>, options: &Options, workspace: Workspace<S>) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
-        let workspace = super::system::workspace(model, projector.is_some());
         let projector = projector.map(Projector::for_reports);
         let guard = Guard::new(model, options);
         Self { model, workspace, projector, guard, energies: [S::zero(); 2], solved: 0 }
@@ -85,7 +84,7 @@ impl<'a, S: Real> Solver<'a, S> {
     }
 
     /// By what part of the fastest rate projection has changed the rates that were `given`.
-    fn turn(&self, given: &[S], y: &[S]) -> f64 {
+    pub fn turn(&self, given: &[S], y: &[S]) -> f64 {
         let n = self.model.layout.n_q;
         let by = |projector| around::turn(projector, &given[n..2 * n], &y[n..2 * n]);
         self.projector.as_ref().map_or(0.0, by)
@@ -107,8 +106,8 @@ impl<'a, S: Real> Solver<'a, S> {
     }
 
     /// q̈, λ and the energies.
-    pub fn found(&self) -> [&[S]; 3] {
-        [self.workspace.a(), self.workspace.lam(), &self.energies]
+    pub fn found(&self) -> (&[S], &[S], &[S; 2]) {
+        (self.workspace.a(), self.workspace.lam(), &self.energies)
     }
 
     /// Factorisations, of all lanes one.
@@ -139,95 +138,4 @@ impl Solver<'_> {
         }
         self.place_and_solve(t, y)
     }
-}
-
-/// States of a grid that wait until there is one for each lane.
-pub(super) struct Batch<'a> {
-    pub solver: Solver<'a, Lanes>,
-    t: [f64; Lanes::WIDTH],
-    /// What the last step was interpolated to.
-    between: Vec<Lanes>,
-    /// As they were put in.
-    given: Vec<Lanes>,
-    /// Projected.
-    y: Vec<Lanes>,
-    waiting: usize,
-}
-
-impl<'a> Batch<'a> {
-    pub fn new(model: &'a Model<Lanes>, options: &Options) -> Self {
-        let none = vec![Lanes::zero(); 2 * model.layout.n_q + WORKS];
-        let mut solver = Solver::new(model, options);
-        solver.workspace.refuse_singular();
-        let t = [0.0; Lanes::WIDTH];
-        Self { solver, t, between: none.clone(), given: none.clone(), y: none, waiting: 0 }
-    }
-
-    /// Interpolates a step, at several times at once.
-    pub fn interpolate(&mut self, step: &Step<'_>, times: [f64; Lanes::WIDTH]) {
-        step.interpolate(Lanes::new(times), &mut self.between);
-    }
-
-    /// Puts in one of the states that were interpolated.
-    pub fn add(&mut self, t: f64, lane: usize) {
-        self.t[self.waiting] = t;
-        for (given, between) in self.given.iter_mut().zip(&self.between) {
-            given.as_array_mut()[self.waiting] = between.to_array()[lane];
-        }
-        self.waiting += 1;
-    }
-
-    /// Whether no state waits.
-    pub fn is_empty(&self) -> bool {
-        self.waiting == 0
-    }
-
-    /// Whether there is a state for each lane.
-    pub fn is_full(&self) -> bool {
-        self.waiting == Lanes::WIDTH
-    }
-
-    /// The times of the states that wait; then nothing waits.
-    pub fn take(&mut self) -> impl Iterator<Item = (usize, f64)> {
-        self.t.into_iter().enumerate().take(std::mem::take(&mut self.waiting))
-    }
-
-    /// Solves all; whether every one is regular. Else the lanes are of no use.
-    pub fn solve(&mut self) -> bool {
-        self.fill_up();
-        self.y.copy_from_slice(&self.given);
-        let solved = self.solver.place_and_solve(Lanes::new(self.t), &mut self.y);
-        let [a, lam, energies] = self.solver.found();
-        solved.is_ok()
-            && [&self.y, a, lam, energies].into_iter().all(are_finite)
-            && self.solver.turn(&self.given, &self.y) <= around::TURNED
-    }
-
-    /// Lanes without a state of their own repeat the last.
-    fn fill_up(&mut self) {
-        let last = self.waiting.max(1) - 1;
-        let t = self.t[last];
-        self.t[last..].fill(t);
-        for given in &mut self.given {
-            let lanes = given.as_array_mut();
-            let y = lanes[last];
-            lanes[last..].fill(y);
-        }
-    }
-
-    /// The projected states.
-    pub fn y(&self) -> &[Lanes] {
-        &self.y
-    }
-
-    /// A state as it was put in.
-    pub fn given(&self, lane: usize, y: &mut [f64]) {
-        y.iter_mut().zip(&self.given).for_each(|(y, given)| *y = given.to_array()[lane]);
-    }
-}
-
-/// Whether every number is finite, in every lane.
-fn are_finite(x: &[Lanes]) -> bool {
-    // 0 x is zero for finite x and NaN otherwise
-    x.iter().fold(Lanes::zero(), |sum, x| sum + Lanes::zero() * *x).is_finite()
 }

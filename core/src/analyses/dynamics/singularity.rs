@@ -31,6 +31,8 @@ const UNTOLD: f64 = 1e-6;
 const REST: f64 = 1e-3;
 /// Part of γ that may stay unmet: what the error of a trial state leaves is far less.
 const UNMET: f64 = 0.05;
+/// Part of the accelerations that rounding may make of a γ that is zero, over [`UNMET`].
+const ROUNDING: f64 = 1e-9;
 /// Part of what the joints carry that counts as balanced.
 const BALANCED: f64 = 1e-9;
 
@@ -154,7 +156,9 @@ impl Passage {
             let rows = &mut self.residual[slots.rows.clone()];
             constraints::times(model, k, work.matrix.jacobian(), work.a(), rows);
         }
-        let largest = gamma.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+        let accelerations = work.a().chunks_exact(3);
+        let fastest = accelerations.fold(0.0, |m: f64, a| m.max(a[0].abs().max(a[1].abs())));
+        let largest = gamma.iter().fold(ROUNDING * fastest, |m: f64, g| m.max(g.abs()));
         let missed =
             self.residual.iter().zip(&gamma).fold(0.0, |m: f64, (r, g)| m.max((r - g).abs()));
         missed > UNMET * largest

@@ -6,7 +6,6 @@ use crate::analyses::mobility;
 use crate::equations::augmented::Dependent;
 use crate::equations::{Gains, Singular, Workspace};
 use crate::integrate::FirstOrder;
-use crate::math::Real;
 use crate::model::Model;
 use crate::stabilize::{Fault, Held, Projector};
 
@@ -31,24 +30,18 @@ pub(super) fn parts<S>(y: &mut [S], n_q: usize) -> (&mut [S], &mut [S], &mut [S]
     (q, v, works)
 }
 
-/// Scratch of evaluations for states that are `projected` or not.
-pub(super) fn workspace<S: Real>(model: &Model<S>, projected: bool) -> Workspace<S> {
-    let mut workspace = Workspace::new(model);
-    // without projection nothing brings a state back to its branch
-    if projected && !model.allow_redundancy {
-        workspace.pass_singular();
-    }
-    workspace
-}
-
 impl<'a> Equations<'a> {
     pub fn new(model: &'a Model, options: &Options) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
-        let workspace = workspace(model, projector.is_some());
+        let mut workspace = Workspace::new(model);
+        // without projection nothing brings a state back to its branch
         let passing = projector.is_some() && !model.allow_redundancy;
+        if passing {
+            workspace.pass_singular();
+        }
         let passage = Passage::new(options, passing);
         let held = match options.stabilization {
             Stabilization::BaumgarteFromStep => Some(Held::new(model)),

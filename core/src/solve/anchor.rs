@@ -1,0 +1,174 @@
+//! Anchors: a pair of rows [±I b] of A that touches one group alone, such as a pin to ground.
+//!
+//! Together with the first two unknowns p of its group such a block is eliminated before everything else, in
+//! closed form and without a division that the state changes: with the third unknown φ, and s = ±b,
+//!
+//! ```text
+//! ±p + b φ = g,   so   [p; φ] = [±g; 0] + [-s; 1] φ,
+//! (d₂ - 2 sᵀ b₀₁ + d sᵀ s) φ = [-s; 1]ᵀ (f - W [±g; 0] - Aᵀ λ)
+//! ```
+//!
+//! with W = [d I, b₀₁; b₀₁ᵀ, d₂]. A body that is pinned to ground turns about the pin, and that is all that the
+//! other rows see of it: a group with the [`Weight`] 1/d₀ = 1/d₁ = 0, 1/d₂ the inverse of the inertia about the pin,
+//! and s as its shift. Its λ follows last, from the first two rows.
+
+use super::block::{part, part_mut};
+use super::pattern::{Pattern, RowBlock};
+use super::plan::index;
+use super::saddle::Saddle;
+use super::steps::next;
+use crate::math::Real;
+
+/// What λ of an anchor asks of W beside the weight of its group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor<S = f64> {
+    /// d.
+    pub mass: S,
+    /// b₀₁ - d s.
+    pub moment: [S; 2],
+}
+
+impl<S: Real> Anchor<S> {
+    /// With d = 1, b₀₁ = 0 and s = 0.
+    pub(super) fn unit() -> Self {
+        Self { mass: S::one(), moment: [S::zero(); 2] }
+    }
+}
+
+/// Where an anchor stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchored {
+    /// Its place among the row blocks.
+    pub block: u32,
+    /// The group that it holds.
+    pub group: u32,
+    /// The first of its rows.
+    pub row: u32,
+    /// Its first row of three entries.
+    pub(super) entry: u32,
+    /// Number of other row blocks that touch the group.
+    pub(super) loads: u32,
+    /// Of the unit block.
+    pub sign: f32,
+}
+
+/// Another row block at the group of an anchor.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Load {
+    /// The first of its rows.
+    row: u32,
+    /// Its first row of three entries in this group.
+    entry: u32,
+    size: u32,
+    /// Of its unit block; 0 where it has none.
+    sign: f32,
+}
+
+/// The anchors among `blocks`, of which `rows` are the first rows, and what loads each of them.
+///
+/// # Panics
+/// If a row block to be an anchor is none, or shares its group with another.
+pub(super) fn anchors(
+    groups: usize,
+    blocks: &[RowBlock],
+    rows: &[usize],
+    anchored: &[usize],
+) -> (Vec<Anchored>, Vec<Load>) {
+    let mut at: Vec<Option<usize>> = vec![None; groups];
+    for (k, &block) in anchored.iter().enumerate() {
+        let RowBlock { size, touches, signs } = &blocks[block];
+        assert!(*size == 2 && touches.len() == 1 && signs.len() == 1, "one pair of rows [±I b]");
+        assert!(at[touches[0].0].replace(k).is_none(), "one anchor for a group");
+    }
+    let mut loads = vec![Vec::new(); anchored.len()];
+    for (k, block) in blocks.iter().enumerate() {
+        for (i, &(group, first)) in block.touches.iter().enumerate() {
+            let Some(anchor) = at[group].filter(|anchor| anchored[*anchor] != k) else { continue };
+            loads[anchor].push(Load {
+                row: index(rows[k]),
+                entry: index(first / 3),
+                size: index(block.size),
+                sign: block.signs.get(i).map_or(0.0, |sign| *sign as f32),
+            });
+        }
+    }
+    let anchor = |(loads, &block): (&Vec<Load>, &usize)| Anchored {
+        block: index(block),
+        group: index(blocks[block].touches[0].0),
+        row: index(rows[block]),
+        entry: index(blocks[block].touches[0].1 / 3),
+        loads: index(loads.len()),
+        sign: blocks[block].signs[0] as f32,
+    };
+    (loads.iter().zip(anchored).map(anchor).collect(), loads.concat())
+}
+
+impl<S: Real> Saddle<S> {
+    /// From f and g of anchored groups to p = ±g and φ for λ = 0; f of their first two rows goes where g was.
+    #[inline(always)]
+    pub(super) fn anchor(&self, pattern: &Pattern, x: &mut [S]) {
+        let (f, g) = x.split_at_mut(pattern.n_unknowns());
+        for (place, anchor) in pattern.anchors.iter().zip(&self.anchors) {
+            let f = part_mut::<S, 3>(f, 3 * place.group);
+            let g = part_mut::<S, 2>(g, place.row);
+            let weight = &self.weights[place.group as usize];
+            let sign = S::constant(place.sign.into());
+            let p = [sign * g[0], sign * g[1]];
+            let mut turning = f[2];
+            for i in 0..2 {
+                turning = turning.minus_product(weight.shift[i], f[i]);
+                turning = turning.minus_product(anchor.moment[i], p[i]);
+            }
+            *g = [f[0], f[1]];
+            *f = [p[0], p[1], turning * weight.inverse[2]];
+        }
+    }
+
+    /// λ of anchors, once all others and φ are known; then p of the origin.
+    #[inline(always)]
+    pub(super) fn release(&self, pattern: &Pattern, x: &mut [S]) {
+        let (f, g) = x.split_at_mut(pattern.n_unknowns());
+        let mut loads = &pattern.loads[..];
+        for (place, anchor) in pattern.anchors.iter().zip(&self.anchors) {
+            let own = part_mut::<S, 3>(f, 3 * place.group);
+            let mut left = *part::<S, 2>(g, place.row);
+            for i in 0..2 {
+                let without = left[i].minus_product(anchor.mass, own[i]);
+                left[i] = without.minus_product(anchor.moment[i], own[2]);
+            }
+            for load in next(&mut loads, place.loads) {
+                self.subtract_load(load, g, &mut left);
+            }
+            let sign = S::constant(place.sign.into());
+            *part_mut(g, place.row) = left.map(|left| sign * left);
+            let shift = &self.weights[place.group as usize].shift;
+            own[0] = own[0].minus_product(shift[0], own[2]);
+            own[1] = own[1].minus_product(shift[1], own[2]);
+        }
+    }
+
+    #[inline(always)]
+    fn subtract_load(&self, load: &Load, g: &[S], left: &mut [S; 2]) {
+        if load.sign != 0.0 {
+            let (sign, lambda) = (S::constant(load.sign.into()), part::<S, 2>(g, load.row));
+            left.iter_mut().zip(lambda).for_each(|(left, lambda)| *left = left.minus_product(sign, *lambda));
+            return;
+        }
+        let lambda = &g[load.row as usize..][..load.size as usize];
+        for (entries, lambda) in self.entries[load.entry as usize..].iter().zip(lambda) {
+            left.iter_mut().zip(entries).for_each(|(left, a)| *left = left.minus_product(*a, *lambda));
+        }
+    }
+
+    /// The entries of anchors, from the shifts of their groups.
+    pub(super) fn restore_anchors(&mut self, pattern: &Pattern) {
+        for place in &pattern.anchors {
+            let sign = S::constant(place.sign.into());
+            let shift = self.weights[place.group as usize].shift;
+            let entry = place.entry as usize;
+            for (row, shift) in self.entries[entry..entry + 2].iter_mut().zip(shift) {
+                row[2] = sign * shift;
+            }
+        }
+    }
+}
