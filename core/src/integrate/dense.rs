@@ -46,7 +46,7 @@ struct Stages<'a> {
 /// The sum of bₖ θᵏ⁻¹, k = 1….
 #[inline(always)]
 fn polynomial<R: Real>(coefficients: &[f64], theta: R) -> R {
-    coefficients.iter().rev().fold(R::zero(), |sum, b| sum * theta + R::constant(*b))
+    coefficients.iter().rev().fold(R::zero(), |sum, b| R::constant(*b).plus_product(sum, theta))
 }
 
 impl<'a> Dense<'a> {
