@@ -151,12 +151,16 @@ impl<S: Real> Saddle<S> {
     fn subtract_load(&self, load: &Load, g: &[S], left: &mut [S; 2]) {
         if load.sign != 0.0 {
             let (sign, lambda) = (S::constant(load.sign.into()), part::<S, 2>(g, load.row));
-            left.iter_mut().zip(lambda).for_each(|(left, lambda)| *left = left.minus_product(sign, *lambda));
+            left.iter_mut()
+                .zip(lambda)
+                .for_each(|(left, lambda)| *left = left.minus_product(sign, *lambda));
             return;
         }
         let lambda = &g[load.row as usize..][..load.size as usize];
         for (entries, lambda) in self.entries[load.entry as usize..].iter().zip(lambda) {
-            left.iter_mut().zip(entries).for_each(|(left, a)| *left = left.minus_product(*a, *lambda));
+            left.iter_mut()
+                .zip(entries)
+                .for_each(|(left, a)| *left = left.minus_product(*a, *lambda));
         }
     }
 
