@@ -18,14 +18,18 @@ use super::saddle::{Saddle, PIVOT_TOLERANCE};
 use super::weight::{Dependent, Weight};
 use crate::math::Real;
 
-/// Pivots below this part of S_kk are looked at more closely: σ below about 0.07.
-const NEAR: f64 = 5e-3;
+/// Pivots below this part of S_kk are looked at more closely: σ below about 0.05.
+const NEAR: f64 = 2e-3;
+/// In long chains rounding of far positions is felt further away: by so many groups the part grows by itself,
+const LONG: f64 = 1e3;
+/// up to this multiple.
+const FARTHEST: f64 = 2.5;
 
 impl<S: Real> Saddle<S> {
-    /// Refuses pivots below 5e-3 of S_kk from now on, so that the caller can turn to
+    /// Refuses pivots below 2e-3 of S_kk from now on, below 5e-3 in long chains, so that the caller can turn to
     /// [`factor_near`](Self::factor_near).
     pub fn refuse_near(&mut self) {
-        self.least = NEAR;
+        self.least = NEAR * (1.0 + self.weights.len() as f64 / LONG).min(FARTHEST);
     }
 
     /// Factorises a matrix that was refused; whether with the ridge.
