@@ -17,7 +17,7 @@ class DenseOutput:
     Attributes:
         t: boundaries of the k steps, (k + 1,), s.
         y: y at the start of each step, (k, n_y).
-        c: coefficients, (k, n_y, degree): degree 4, with DOP853 7.
+        c: coefficients, (k, n_y, degree): degree 4, with DOP853 9.
     """
 
     t: Floats

@@ -56,7 +56,7 @@ class DOP853(Option):
     """Explicit Runge-Kutta of order 8 with error estimates of order 5 and 3 (Hairer et al. 1993).
 
     For tight tolerances and forces that are smooth; between the steps it interpolates with
-    order 7.
+    order 8, at the start and where steps differ much with 7.
 
     Attributes:
         rtol: tolerance relative to each component.

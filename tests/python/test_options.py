@@ -78,7 +78,7 @@ def test_all_options_reach_the_core(model: kp.Model) -> None:
     assert results["first"].dense is None
     assert results["other"].drift.position.max() < 1e-9
     assert results["other"].dense is not None
-    assert results["other"].dense.c.shape[2] == 7
+    assert results["other"].dense.c.shape[2] == 9
     assert results["second"].statistics["steps"] == 20
 
 

@@ -3,9 +3,9 @@
 //! Step for step the control of `scipy.integrate.solve_ivp`, so that counts of steps can be compared.
 
 use super::adaptive_options::{Atol, Options};
+use super::birkhoff::Birkhoff;
 use super::clearance::Clearance;
-use super::contract::{Ended, FirstOrder, Flow, Observer, Statistics, Step};
-use super::dense::Dense;
+use super::contract::{Ended, FirstOrder, Flow, Observer, Statistics};
 use super::embedded_pair::EmbeddedPair;
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
@@ -16,19 +16,24 @@ use super::step_size::{initial_step, least_step, probing_step, scaled_norm, Step
 const MANY: usize = 10_000;
 
 /// What one accepted step needs, taken once.
-struct Work {
-    /// Stages, extra ones, the jump of a projection over h, the derivative after a projection.
-    k: Vec<f64>,
-    y_new: Vec<f64>,
+pub(super) struct Work {
+    /// Stages, extra ones, the jump of a projection over h, the derivative after a projection if it is not
+    /// the last stage.
+    pub k: Vec<f64>,
+    pub y_new: Vec<f64>,
     /// Arguments of stages; the state before a projection.
-    trial: Vec<f64>,
+    pub trial: Vec<f64>,
     /// The stages without what projection takes away.
     remaining: Vec<f64>,
     atol: Vec<f64>,
+    /// The extension of systems of second order, for pairs whose own takes extra stages.
+    pub birkhoff: Option<Birkhoff>,
 }
 
 impl Work {
-    fn new<P: EmbeddedPair>(n: usize, controlled: usize, atol: &Atol) -> Self {
+    fn new<P: EmbeddedPair>(system: &impl FirstOrder, atol: &Atol) -> Self {
+        let (n, controlled, positions) = (system.len(), system.controlled(), system.positions());
+        let second_order = positions > 0 && !P::MEAN.is_empty();
         let atol = match atol {
             Atol::Scalar(atol) => vec![*atol; controlled],
             Atol::Each(atol) => atol.clone(),
@@ -39,22 +44,23 @@ impl Work {
             trial: vec![0.0; n],
             remaining: Vec::new(),
             atol,
+            birkhoff: second_order.then(|| Birkhoff::new(n, positions)),
         }
     }
 }
 
 /// An integration under way.
-struct Run<'a, Y, P> {
-    rate: Rate<'a, Y>,
+pub(super) struct Run<'a, Y, P> {
+    pub rate: Rate<'a, Y>,
     options: &'a Options<'a>,
-    n: usize,
-    t: f64,
+    pub n: usize,
+    pub t: f64,
     t_end: f64,
     direction: f64,
-    steps: usize,
+    pub steps: usize,
     rejected: usize,
     clearance: Clearance,
-    work: Work,
+    pub work: Work,
     pair: std::marker::PhantomData<P>,
 }
 
@@ -68,6 +74,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
 ) -> Result<Statistics, Failure<Y::Stop>> {
     let (n, controlled) = (system.len(), system.controlled());
     let checked = options.begin((t0, t_end), (y, n), controlled);
+    let work = Work::new::<P>(system, options.atol);
     let mut run = Run::<Y, P> {
         rate: Rate { system, evaluations: 0 },
         options,
@@ -78,7 +85,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
         steps: 0,
         rejected: 0,
         clearance: Clearance::default(),
-        work: Work::new::<P>(n, controlled, options.atol),
+        work,
         pair: std::marker::PhantomData,
     };
     let outcome = checked.and_then(|grid| run.go(grid, y, observer));
@@ -140,7 +147,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         for k in 1..=grid.count {
             let t_new = grid.end(k, self.t)?;
             self.advance(t_new, y).map_err(hard)?;
-            let projected = self.project(t_new)?.map_err(Cause::Equations)?;
+            let projected = self.settle(t_new)??;
             if self.finish(t_new, projected, y, observer)? == Flow::Stop {
                 return Ok(Ended::Stopped);
             }
@@ -202,15 +209,18 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             match trial {
                 Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
                 _ if placed.is_some() => size.size = placed.unwrap_or(size.size),
-                Ok(norm) if norm < 1.0 => match self.project(t_new)? {
+                Ok(norm) if norm < 1.0 => match self.settle(t_new)? {
                     Ok(projected) => {
                         size.accept(h.abs(), norm);
                         size.size = self.clearance.resume(size.size);
                         return Ok((t_new, projected));
                     }
-                    Err(stop) => {
-                        refusal = Some(Cause::Equations(stop));
-                        size.refuse(h.abs());
+                    Err(cause) => {
+                        match cause {
+                            Cause::NotFinite { .. } => size.reject(h.abs(), f64::NAN),
+                            _ => size.refuse(h.abs()),
+                        }
+                        refusal = Some(cause);
                     }
                 },
                 Ok(norm) => {
@@ -246,15 +256,19 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
 
     /// The stages of a step to `t_new`, and the state there.
     fn advance(&mut self, t_new: f64, y: &[f64]) -> Result<(), Trouble<Y::Stop>> {
-        let Work { k, y_new, trial, .. } = &mut self.work;
+        let Work { k, y_new, trial, birkhoff, .. } = &mut self.work;
         let stages = &mut k[..P::STAGES * self.n];
-        self.rate.begin(self.t, t_new - self.t, y, &mut stages[..self.n])?;
-        P::advance(&mut self.rate, (self.t, t_new), y, stages, trial, y_new)?;
-        if all_finite(y_new) {
-            Ok(())
-        } else {
-            Err(Trouble::NotFinite(t_new))
+        if self.rate.begin(self.t, t_new - self.t, y, &mut stages[..self.n])? {
+            birkhoff.iter_mut().for_each(Birkhoff::forget);
         }
+        P::advance(&mut self.rate, (self.t, t_new), y, stages, trial, y_new)?;
+        if !all_finite(y_new) {
+            return Err(Trouble::NotFinite(t_new));
+        }
+        if !P::LAST_IN_ERROR && self.rate.system.near_obstacle() {
+            self.rate.at(t_new, y_new, &mut stages[(P::STAGES - 1) * self.n..])?;
+        }
+        Ok(())
     }
 
     /// The error norm of a refused step without what projection takes away.
@@ -262,7 +276,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         if norm < 1.0 || !norm.is_finite() {
             return norm;
         }
-        let Work { k, y_new, trial, remaining, atol } = &mut self.work;
+        let Work { k, y_new, trial, remaining, atol, .. } = &mut self.work;
         remaining.clear();
         remaining.extend_from_slice(&k[..P::STAGES * self.n]);
         if !remaining.chunks_exact_mut(self.n).all(|dy| self.rate.system.remaining(dy)) {
@@ -271,81 +285,6 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         let tolerances = (self.options.rtol, atol.as_slice());
         let left = P::error_norm(h, remaining, (y, y_new), tolerances, trial);
         norm.min(self.clearance.strictness() * left)
-    }
-
-    /// Offers the accepted state to the system and the step to the observer, and moves on.
-    fn finish<O: Observer>(
-        &mut self,
-        t_new: f64,
-        projected: bool,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> Result<Flow, Cause<Y::Stop>> {
-        let table = self.extend(t_new, y, observer)?;
-        let n = self.n;
-        let Work { k, y_new, .. } = &self.work;
-        let (rows, last) = match projected {
-            false => (P::STAGES + P::EXTRA, P::STAGES - 1),
-            true => (P::STAGES + P::EXTRA + 1, P::STAGES + P::EXTRA + 1),
-        };
-        let step = Step {
-            t_old: self.t,
-            t: t_new,
-            y_old: y,
-            y: y_new,
-            dy_old: &k[..n],
-            dy: &k[last * n..][..n],
-            dense: Dense::new(&k[..rows * n], n, table, P::DEGREE),
-        };
-        let flow = observer.step(&step);
-        y.copy_from_slice(y_new);
-        self.work.k.copy_within(last * n..(last + 1) * n, 0);
-        self.t = t_new;
-        self.steps += 1;
-        Ok(flow)
-    }
-
-    /// The extra stages, where the observer wants them and they can be had; the table that fits.
-    fn extend<O: Observer>(
-        &mut self,
-        t_new: f64,
-        y: &[f64],
-        observer: &O,
-    ) -> Result<&'static [f64], Cause<Y::Stop>> {
-        if P::EXTRA == 0 || !observer.looks_inside(self.t, t_new) {
-            return Ok(P::WITHOUT_EXTRA);
-        }
-        let Work { k, trial, .. } = &mut self.work;
-        match P::extend(&mut self.rate, (self.t, t_new), y, k, trial) {
-            Ok(()) => Ok(P::TABLE),
-            Err(Trouble::Stop(stop)) => Err(Cause::Equations(stop)),
-            Err(Trouble::NotFinite(_)) => {
-                // NaN times zero is NaN
-                k[P::STAGES * self.n..(P::STAGES + P::EXTRA) * self.n].fill(0.0);
-                Ok(P::WITHOUT_EXTRA)
-            }
-        }
-    }
-
-    /// Lets the system change the accepted state; if it does, the jump and the new derivative go into
-    /// the rows after the stages. Inside, why it refuses the state.
-    fn project(&mut self, t_new: f64) -> Result<Result<bool, Y::Stop>, Cause<Y::Stop>> {
-        let Work { k, y_new, trial, .. } = &mut self.work;
-        trial.copy_from_slice(y_new);
-        match self.rate.system.accepted(t_new, y_new) {
-            Ok(true) => {}
-            other => return Ok(other),
-        }
-        if !all_finite(y_new) {
-            return Err(Cause::NotFinite { t: t_new });
-        }
-        let h = t_new - self.t;
-        let (jump, dy) = k[(P::STAGES + P::EXTRA) * self.n..].split_at_mut(self.n);
-        for ((jump, new), old) in jump.iter_mut().zip(y_new.iter()).zip(trial.iter()) {
-            *jump = (new - old) / h;
-        }
-        self.rate.at(t_new, y_new, dy).map_err(hard)?;
-        Ok(Ok(true))
     }
 }
 

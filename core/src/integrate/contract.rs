@@ -23,6 +23,13 @@ pub trait FirstOrder {
         self.len()
     }
 
+    /// How many components, from the first, are positions of a system of second order: their derivatives are
+    /// the next as many components, and the rest are quadratures, on which no derivative depends. Then the
+    /// continuous extension may cost less. 0 for any other system.
+    fn positions(&self) -> usize {
+        0
+    }
+
     /// dy = f(t, y); both of length [`FirstOrder::len`].
     ///
     /// # Errors
@@ -38,9 +45,9 @@ pub trait FirstOrder {
         false
     }
 
-    /// Called with every accepted state, before the observer. May change y (projection onto a
-    /// manifold) and then returns true: the derivative is evaluated afresh, and the continuous
-    /// extension of the step is bent to end in the changed y.
+    /// Called with every state whose error is accepted, near which f was evaluated last. May change y
+    /// (projection onto a manifold) and then returns true: the derivative there is that of the changed y,
+    /// and the continuous extension of the step ends in it.
     ///
     /// # Errors
     /// The state is refused: a method with step control tries a shorter step, and stops with this
@@ -48,6 +55,12 @@ pub trait FirstOrder {
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
         let _ = (t, y);
         Ok(false)
+    }
+
+    /// Called by methods with step control where a step stands, before the observer sees it; f was
+    /// evaluated last in its end.
+    fn stands(&mut self, t: f64) {
+        let _ = t;
     }
 
     /// Of a derivative at the last evaluated state, leaves the part that [`accepted`](Self::accepted)
@@ -58,8 +71,14 @@ pub trait FirstOrder {
         false
     }
 
-    /// Called after every trial step, whether it will be accepted or not, with the time of its end, where
-    /// f was evaluated last. A time near which f is little but noise: a method with step control
+    /// Whether an obstacle may be near, by the evaluations of the trial under way: then f is evaluated in the
+    /// very end of it too, which the error of a method may do without.
+    fn near_obstacle(&self) -> bool {
+        false
+    }
+
+    /// Called after every trial step, whether it will be accepted or not, with the time of its end, at
+    /// which f was evaluated last, near the end if not in it. A time near which f is little but noise: a method with step control
     /// places its steps so that no stage comes near it.
     fn obstacle(&mut self, t: f64) -> Option<f64> {
         let _ = t;

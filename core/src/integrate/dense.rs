@@ -1,7 +1,9 @@
-//! The continuous extension of a Runge–Kutta step: y(θ) = y_old + h Σₛ wₛ(θ) kₛ, 0 ≤ θ ≤ 1.
+//! The continuous extension of a step, 0 ≤ θ ≤ 1: by the stages, y(θ) = y_old + h Σₛ wₛ(θ) kₛ, or by one
+//! polynomial for each component.
 //!
-//! kₛ are the stages and wₛ polynomials without constant term, so that nothing is computed for a step
-//! nobody looks into. Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6.
+//! kₛ are the stages of a Runge–Kutta step and wₛ polynomials without constant term, so that nothing is
+//! computed for a step nobody looks into. Hairer, Nørsett and Wanner, *Solving Ordinary Differential
+//! Equations I*, II.6.
 
 use super::stages::accumulate;
 use crate::math::{Lanes, Real};
@@ -10,35 +12,53 @@ use crate::math::{Lanes, Real};
 const TOGETHER: usize = 4;
 
 /// Highest degree that a method has.
-pub(crate) const HIGHEST: usize = 7;
+pub(crate) const HIGHEST: usize = 9;
 
 /// The cubic polynomial of Hermite, of order 3: coefficients of θ … θ⁴ of the derivative at the beginning,
 /// at the end, and the chord (y - y_old) / h.
 pub(super) const HERMITE: [f64; 12] =
     [1.0, -2.0, 1.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0];
 
-/// Stages of a step with the polynomials that join them.
+/// What a step is like between its ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Dense<'a> {
-    /// Stages, row-major (number of stages) × (len of y).
+    form: Form<'a>,
+    degree: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Form<'a> {
+    Stages(Stages<'a>),
+    /// Coefficients of θ, θ², … of each component, row-major (len of y) × degree.
+    Polynomials(&'a [f64]),
+}
+
+/// Stages of a step with the polynomials that join them.
+#[derive(Clone, Copy, Debug)]
+struct Stages<'a> {
+    /// Row-major (number of stages) × (len of y).
     stages: &'a [f64],
     /// Coefficients of θ, θ², … of each stage, row-major (number of stages or more) × degree.
     table: &'static [f64],
-    degree: usize,
     len: usize,
 }
 
 /// The sum of bₖ θᵏ⁻¹, k = 1….
 #[inline(always)]
 fn polynomial<R: Real>(coefficients: &[f64], theta: R) -> R {
-    coefficients.iter().rev().fold(R::zero(), |sum, b| sum * theta + R::constant(*b))
+    coefficients.iter().rev().fold(R::zero(), |sum, b| R::constant(*b).plus_product(sum, theta))
 }
 
 impl<'a> Dense<'a> {
     /// `stages` of `len` components each, as many as the caller wants of those in `table`.
     pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
         assert!(degree <= HIGHEST, "a method of a higher degree");
-        Self { stages, table, degree, len }
+        Self { form: Form::Stages(Stages { stages, table, len }), degree }
+    }
+
+    /// One polynomial of the highest degree for each component.
+    pub(super) fn polynomials(coefficients: &'a [f64]) -> Self {
+        Self { form: Form::Polynomials(coefficients), degree: HIGHEST }
     }
 
     /// Degree of the polynomial.
@@ -46,22 +66,39 @@ impl<'a> Dense<'a> {
         self.degree
     }
 
+    pub(super) fn evaluate<R: Real>(&self, y_old: &[f64], h: f64, theta: R, out: &mut [R]) {
+        assert_eq!(out.len(), y_old.len(), "a state");
+        out.iter_mut().zip(y_old).for_each(|(out, y)| *out = R::constant(*y));
+        // with a degree that the compiler knows, inner loops unroll: here and for the coefficients
+        match (self.form, self.degree) {
+            (Form::Polynomials(rows), _) => {
+                let scale = R::constant(h) * theta;
+                for (out, row) in out.iter_mut().zip(rows.chunks_exact(HIGHEST)) {
+                    *out += scale * polynomial(&row[..HIGHEST], theta);
+                }
+            }
+            (Form::Stages(stages), 4) => stages.add_at(4, h, theta, out),
+            (Form::Stages(stages), 7) => stages.add_at(7, h, theta, out),
+            (Form::Stages(stages), degree) => stages.add_at(degree, h, theta, out),
+        }
+    }
+
+    pub(super) fn coefficients(&self, out: &mut [f64]) {
+        match (self.form, self.degree) {
+            (Form::Polynomials(rows), _) => out.copy_from_slice(rows),
+            (Form::Stages(stages), 4) => stages.add_coefficients(4, out),
+            (Form::Stages(stages), 7) => stages.add_coefficients(7, out),
+            (Form::Stages(stages), degree) => stages.add_coefficients(degree, out),
+        }
+    }
+}
+
+impl<'a> Stages<'a> {
     /// Each stage with its row of the table, as long as the degree.
     #[inline(always)]
     fn terms(&self, degree: usize) -> impl Iterator<Item = (&'a [f64], &'static [f64])> {
         let rows = self.table.chunks_exact(degree).map(move |row| &row[..degree]);
         self.stages.chunks_exact(self.len.max(1)).zip(rows)
-    }
-
-    pub(super) fn evaluate<R: Real>(&self, y_old: &[f64], h: f64, theta: R, out: &mut [R]) {
-        assert_eq!(out.len(), y_old.len(), "a state");
-        out.iter_mut().zip(y_old).for_each(|(out, y)| *out = R::constant(*y));
-        // with a degree that the compiler knows, inner loops unroll: here and for the coefficients
-        match self.degree {
-            4 => self.add_at(4, h, theta, out),
-            7 => self.add_at(7, h, theta, out),
-            degree => self.add_at(degree, h, theta, out),
-        }
     }
 
     #[inline(always)]
@@ -79,17 +116,9 @@ impl<'a> Dense<'a> {
         }
     }
 
-    pub(super) fn coefficients(&self, out: &mut [f64]) {
-        assert_eq!(out.len(), self.len * self.degree, "len of y x degree");
-        match self.degree {
-            4 => self.add_coefficients(4, out),
-            7 => self.add_coefficients(7, out),
-            degree => self.add_coefficients(degree, out),
-        }
-    }
-
     #[inline(always)]
     fn add_coefficients(&self, degree: usize, out: &mut [f64]) {
+        assert_eq!(out.len(), self.len * degree, "len of y x degree");
         let mut first = 0;
         let mut blocks = out.chunks_exact_mut(Lanes::WIDTH * degree);
         for out in &mut blocks {

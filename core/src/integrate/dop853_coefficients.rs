@@ -80,6 +80,13 @@ pub(super) const B: [f64; 8] = [
     0.054293734116568765, 4.450312892752409, 1.8915178993145003, -5.801203960010585,
     0.3111643669578199, -0.1521609496625161, 0.20136540080403034, 0.04471061572777259,
 ];
+/// Weights bᵢ (1 - cᵢ) of stages 1 to 12 for ∫ y dt over a step: by the conditions for order 8 of the trees of
+/// which the root has a leaf more.
+#[rustfmt::skip]
+pub(super) const MEAN: [f64; 12] = [
+    B[0], 0.0, 0.0, 0.0, 0.0, B[1] * (1.0 - C[4]), B[2] * (1.0 - C[5]), B[3] * (1.0 - C[6]),
+    B[4] * (1.0 - C[7]), B[5] * (1.0 - C[8]), B[6] * (1.0 - C[9]), B[7] * (1.0 - C[10]),
+];
 /// The solution of order 8 minus that of order 5: k 1, 6, 7, 8, 9, 10, 11, 12.
 #[rustfmt::skip]
 pub(super) const E5: [f64; 8] = [

@@ -8,6 +8,9 @@ use super::rate::{Rate, Trouble};
 pub(super) trait EmbeddedPair {
     /// Order of the error estimate.
     const ERROR_ORDER: i32;
+    /// Whether the error estimate takes the last stage. If not it is evaluated once the step stands, and
+    /// rejected steps do without it.
+    const LAST_IN_ERROR: bool;
     /// Number of stages, the derivative at the end included.
     const STAGES: usize;
     /// Number of stages that only the continuous extension needs.
@@ -18,11 +21,15 @@ pub(super) trait EmbeddedPair {
     const GAP: Gap;
     /// STAGES + EXTRA + 1 rows of its table; the last, 3θ² - 2θ³, bends it to a projected end.
     const TABLE: &'static [f64];
+    /// Weights wᵢ of the stages by which ∫ y dt = h y_old + h² Σ wᵢ kᵢ over a step, to its order: where
+    /// there are extra stages, for systems that can do without them.
+    const MEAN: &'static [f64] = &[];
     /// The table of a lesser extension, with zeros for the extra stages.
     const WITHOUT_EXTRA: &'static [f64] = Self::TABLE;
 
-    /// Stages 2 to the last, of which the first is given, in rows of `k`; the state at `t_new` into
-    /// `y_new`. `work` is scratch as long as y.
+    /// The stages after the first, which is given, in rows of `k`, the last one only if it is
+    /// [`LAST_IN_ERROR`](Self::LAST_IN_ERROR); the state at `t_new` into `y_new`. `work` is scratch as long
+    /// as y.
     fn advance<Y: FirstOrder>(
         rate: &mut Rate<'_, Y>,
         span: (f64, f64),

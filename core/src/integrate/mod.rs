@@ -14,9 +14,11 @@
 //! | `arguments` | what is refused before the first evaluation |
 //! | `rate` | counted, checked evaluations |
 //! | `dense` | the continuous extension of a step |
+//! | `birkhoff` | that of mechanical systems, from the step before and one evaluation |
 //! | `step_size` | choice of the step from the error estimate |
 //! | `clearance` | steps that keep clear of a time near which rates are noise |
 //! | `adaptive`, `adaptive_options`, `embedded_pair` | the loop of every embedded pair, its options, what it asks of a pair |
+//! | `accepted` | what becomes of a step whose error is accepted |
 //! | `fixed_step` | where steps of constant length end |
 //! | `stages` | sums over the stages of a step |
 //! | `rk45`, `dop853`, `rk4` | schemes |
@@ -26,11 +28,13 @@
 //! | `radau_coefficients`, `radau_step`, `radau` | Radau IIA of order 5 at index 2 |
 //! | `events` | where a function of the state changes sign |
 
+mod accepted;
 mod adaptive;
 mod adaptive_options;
 mod alpha_parameters;
 mod alpha_step;
 mod arguments;
+mod birkhoff;
 mod clearance;
 mod constrained;
 mod contract;

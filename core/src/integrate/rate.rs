@@ -30,7 +30,7 @@ impl<Y: FirstOrder> Rate<'_, Y> {
     }
 
     /// Tells the system that a step of length `h` from t is about to be tried; dy, the derivative at
-    /// its beginning, anew where that changes it.
+    /// its beginning, anew where that changes it; whether it does.
     #[inline]
     pub fn begin(
         &mut self,
@@ -38,12 +38,12 @@ impl<Y: FirstOrder> Rate<'_, Y> {
         h: f64,
         y: &[f64],
         dy: &mut [f64],
-    ) -> Result<(), Trouble<Y::Stop>> {
-        if self.system.trying(t, y, h) {
-            self.at(t, y, dy)
-        } else {
-            Ok(())
+    ) -> Result<bool, Trouble<Y::Stop>> {
+        let changed = self.system.trying(t, y, h);
+        if changed {
+            self.at(t, y, dy)?;
         }
+        Ok(changed)
     }
 }
 

@@ -112,6 +112,7 @@ const P: [f64; 32] = [
 
 impl EmbeddedPair for DormandPrince {
     const ERROR_ORDER: i32 = 4;
+    const LAST_IN_ERROR: bool = true;
     const STAGES: usize = 7;
     const DEGREE: usize = 4;
     // between the stages at 3/10 and 4/5

@@ -171,7 +171,7 @@ fn dense_output_of_both_methods_is_one() {
     let run = run(&m, &state, &options(15.0, Scheme::Auto(Auto::default())));
     let dense = run.dense.expect("it was kept");
     let (n, degree) = (2 * m.layout.n_q + 3, dense.degree);
-    assert_eq!((degree, dense.t.len()), (7, run.statistics.steps + 1));
+    assert_eq!((degree, dense.t.len()), (9, run.statistics.steps + 1));
     for k in 0..run.statistics.steps - 1 {
         let h = dense.t[k + 1] - dense.t[k];
         for i in 0..2 * m.layout.n_q {

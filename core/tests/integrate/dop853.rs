@@ -24,6 +24,11 @@ fn ends<Y: FirstOrder<Stop = String>>(
     method.integrate(&mut system, t0, t_end, y, &mut Ends).unwrap()
 }
 
+/// What scipy would have counted: it evaluates at the end of every trial, here only of those that stand.
+fn as_scipy(done: &Statistics) -> usize {
+    done.evaluations + done.rejected
+}
+
 /// Steps, evaluations and last state of `scipy.integrate.solve_ivp(f, (t0, t1), y0, method="DOP853",
 /// rtol=…, atol=…)`, scipy 1.17.1.
 #[test]
@@ -51,8 +56,8 @@ fn it_takes_the_steps_of_scipy() {
         // in one case scipy itself needs 1586 or 1610, as an ulp in the start decides on rejections
         let slack = if evaluations == 1610 { 24 } else { 0 };
         assert_eq!(done.steps, steps, "{t_end} {rtol}");
-        assert!(done.evaluations.abs_diff(evaluations) <= slack, "{t_end} {rtol}");
-        assert_eq!(done.evaluations, 2 + 12 * (done.steps + done.rejected));
+        assert!(as_scipy(&done).abs_diff(evaluations) <= slack, "{t_end} {rtol}");
+        assert_eq!(done.evaluations, 2 + 12 * done.steps + 11 * done.rejected);
         // an ulp in the start of van der Pol's equation moves scipy's own result by 6e-9 at rtol 1e-3
         assert!((y[0] - last).abs() < (1e-5 * rtol).max(1e-9), "{} {last}", y[0]);
         // looking inside costs three stages for each step and changes nothing else
@@ -67,17 +72,17 @@ fn it_takes_the_steps_of_scipy() {
 fn it_takes_the_steps_of_scipy_backward_and_with_options() {
     let mut y = KEPLER_START.to_vec();
     let done = ends(&Dop853::new(1e-6, 1e-9), plain(4, kepler), (20.0, 0.0), &mut y);
-    assert_eq!((done.steps, done.evaluations), (50, 806));
+    assert_eq!((done.steps, as_scipy(&done)), (50, 806));
     assert!((y[1] + 0.8633708308311508).abs() < 1e-10);
 
     let first = Dop853 { first_step: Some(1.0), ..Dop853::new(1e-6, 1e-9) };
     let done = ends(&first, plain(2, van_der_pol), (0.0, 20.0), &mut [2.0, 0.0]);
-    assert_eq!((done.steps, done.evaluations), (88, 1453));
+    assert_eq!((done.steps, as_scipy(&done)), (88, 1453));
 
     let atol = Atol::Each(vec![1e-9, 1e-5]);
     let each = Dop853 { atol, max_step: 0.05, ..Dop853::new(1e-6, 0.0) };
     let done = ends(&each, plain(2, van_der_pol), (0.0, 20.0), &mut [2.0, 0.0]);
-    assert_eq!((done.steps, done.evaluations), (400, 4802));
+    assert_eq!((done.steps, as_scipy(&done)), (400, 4802));
 }
 
 /// `solve_ivp(…, (0, 3), [2, 0], method="DOP853", rtol=1e-6, atol=1e-9, dense_output=True).sol` of van
@@ -180,7 +185,7 @@ fn projection_is_taken_up_by_state_derivative_and_extension() {
     };
     let (mut y, method) = ([1.0, 0.0], Dop853::new(1e-3, 1e-6));
     let done = method.integrate(&mut OnCircle, 0.0, 5.0, &mut y, &mut observer).unwrap();
-    assert_eq!(done.evaluations, 2 + 16 * done.steps + 12 * done.rejected);
+    assert_eq!(done.evaluations, 2 + 15 * done.steps + 11 * done.rejected);
     assert!((y[0] - 5.0_f64.cos()).abs() < 1e-3);
 }
 

@@ -6,6 +6,7 @@ mod events;
 mod failures;
 mod order;
 mod scipy;
+mod second_order;
 
 use kempe::integrate::{Failure, FirstOrder, Flow, Method, Statistics, Step};
 

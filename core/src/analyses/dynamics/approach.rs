@@ -22,7 +22,7 @@ pub(super) struct Approach {
     start: Option<Sample>,
     /// At stages of the trial under way.
     stages: Vec<Sample>,
-    /// At the end of the last trial.
+    /// At, or near, the end of the last trial.
     end: Option<Sample>,
     /// The singular position within two steps from the start of the last trial.
     position: Option<f64>,
@@ -64,8 +64,9 @@ impl Approach {
         self.position
     }
 
-    /// The last trial is accepted.
-    pub fn accept(&mut self) {
+    /// The last trial is accepted, and ends so: the trial itself had told it from a state nearby.
+    pub fn accept(&mut self, end: Option<Sample>) {
+        self.end = end.or(self.end);
         if let (Some((from, _)), Some((to, _))) = (self.start, self.end) {
             self.position = self.position.filter(|t| (t - to) * (to - from) > 0.0);
         }
@@ -137,11 +138,11 @@ mod tests {
         let mut approach = Approach::default();
         approach.begin(Some(pivot(0.0)));
         assert!(approach.foresee(pivot(0.2)).is_some());
-        approach.accept();
+        approach.accept(Some(pivot(0.2)));
         assert!(approach.in_reach());
         approach.pass(pivot(0.29));
         assert!(approach.foresee(pivot(0.4)).is_some());
-        approach.accept();
+        approach.accept(Some(pivot(0.4)));
         assert!(!approach.in_reach());
     }
 }

@@ -299,8 +299,9 @@ impl<'a> Recorder<'a> {
 impl Dense {
     /// Empty, with room for the steps that a grid lets expect.
     fn with_room(model: &Model, options: &Options, t0: f64) -> Self {
-        // one that may change its method has the highest degree from the start
-        let degree = if matches!(options.scheme, Scheme::Auto(_)) { HIGHEST } else { 0 };
+        // of steps of several degrees all have the highest, from the start
+        let several = matches!(options.scheme, Scheme::Auto(_) | Scheme::Dop853(_));
+        let degree = if several { HIGHEST } else { 0 };
         let n = 2 * model.layout.n_q + WORKS;
         let steps = asked(options.output, options.t_end - t0) / IN_A_STEP;
         let room = |width: usize| Vec::with_capacity(steps.min(MOST_ROOM / (HIGHEST * n)) * width);

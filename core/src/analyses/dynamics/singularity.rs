@@ -114,9 +114,11 @@ impl Passage {
         self.approach.in_reach()
     }
 
-    /// The trial that was foreseen last is accepted.
-    pub fn accept(&mut self) {
-        self.approach.accept();
+    /// The trial that was foreseen last is accepted; the workspace is that of its end.
+    pub fn accept(&mut self, t: f64, work: &Workspace) {
+        if self.passing {
+            self.approach.accept(work.matrix.cancellation().map(|(_, kept)| (t, kept)));
+        }
     }
 
     /// Whether the mechanism all but rests where loads would move it. Accelerations of a trial state are

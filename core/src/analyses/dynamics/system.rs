@@ -88,6 +88,10 @@ impl FirstOrder for Equations<'_> {
         2 * self.model.layout.n_q + WORKS
     }
 
+    fn positions(&self) -> usize {
+        self.model.layout.n_q
+    }
+
     /// Steps are judged by the motion alone.
     fn controlled(&self) -> usize {
         2 * self.model.layout.n_q
@@ -140,18 +144,25 @@ impl FirstOrder for Equations<'_> {
         true
     }
 
+    fn near_obstacle(&self) -> bool {
+        self.passage.near || self.passage.in_reach()
+    }
+
     /// A singular position ahead.
     fn obstacle(&mut self, t: f64) -> Option<f64> {
         self.passage.foresee(t, &self.workspace)
     }
 
-    /// The last evaluation was at or near the end of the step: its factor serves.
+    /// The last evaluation was near the end of the step: its factor serves.
     fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
         if let Some(projector) = &mut self.projector {
             projector.sharpen(self.passage.in_reach());
         }
-        let changed = self.project(t, y, true)?;
-        self.passage.accept();
-        Ok(changed)
+        self.project(t, y, true)
+    }
+
+    /// From here the way to a singular position is seen on.
+    fn stands(&mut self, t: f64) {
+        self.passage.accept(t, &self.workspace);
     }
 }
