@@ -1,7 +1,6 @@
 //! The loop of every embedded Runge–Kutta pair: try, judge, accept or shorten.
 //!
-//! With the elementary control step for step what `scipy.integrate.solve_ivp` does, so that counts of steps
-//! can be compared.
+//! Step for step the control of `scipy.integrate.solve_ivp`, so that counts of steps can be compared.
 
 use super::adaptive_options::{Atol, Options};
 use super::clearance::Clearance;
@@ -113,7 +112,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             Some(h) => h,
             None => self.first_step(y)?,
         };
-        let mut size = StepSize::new(first, P::ERROR_ORDER, P::CONTROL);
+        let mut size = StepSize::new(first, P::ERROR_ORDER);
         while self.t != self.t_end {
             if let Some(most) = self.options.max_steps {
                 if self.steps >= most {

@@ -3,14 +3,11 @@
 use super::clearance::Gap;
 use super::contract::FirstOrder;
 use super::rate::{Rate, Trouble};
-use super::step_size::Control;
 
 /// An embedded pair that has the derivative at the end of a step as its last stage.
 pub(super) trait EmbeddedPair {
     /// Order of the error estimate.
     const ERROR_ORDER: i32;
-    /// How its steps are chosen.
-    const CONTROL: Control;
     /// Number of stages, the derivative at the end included.
     const STAGES: usize;
     /// Number of stages that only the continuous extension needs.
