@@ -1,6 +1,7 @@
 //! The loop of every embedded Runge–Kutta pair: try, judge, accept or shorten.
 //!
-//! Step for step the control of `scipy.integrate.solve_ivp`, so that counts of steps can be compared.
+//! With the elementary control step for step what `scipy.integrate.solve_ivp` does, so that counts of steps
+//! can be compared.
 
 use super::adaptive_options::{Atol, Options};
 use super::birkhoff::Birkhoff;
@@ -119,7 +120,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             Some(h) => h,
             None => self.first_step(y)?,
         };
-        let mut size = StepSize::new(first, P::ERROR_ORDER);
+        let mut size = StepSize::new(first, P::ERROR_ORDER, P::CONTROL);
         while self.t != self.t_end {
             if let Some(most) = self.options.max_steps {
                 if self.steps >= most {

@@ -3,6 +3,7 @@
 use super::clearance::Gap;
 use super::contract::FirstOrder;
 use super::rate::{Rate, Trouble};
+use super::step_size::Control;
 
 /// An embedded pair that has the derivative at the end of a step as its last stage.
 pub(super) trait EmbeddedPair {
@@ -11,6 +12,8 @@ pub(super) trait EmbeddedPair {
     /// Whether the error estimate takes the last stage. If not it is evaluated once the step stands, and
     /// rejected steps do without it.
     const LAST_IN_ERROR: bool;
+    /// How its steps are chosen.
+    const CONTROL: Control;
     /// Number of stages, the derivative at the end included.
     const STAGES: usize;
     /// Number of stages that only the continuous extension needs.

@@ -13,7 +13,7 @@ use super::dense::{Dense, HERMITE};
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
 use super::knot::{Counted, Scale};
-use super::step_size::{least_step, StepSize};
+use super::step_size::{least_step, Control, StepSize};
 
 /// Order of the error estimate.
 const ERROR_ORDER: i32 = 2;
@@ -155,7 +155,7 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             }
         };
         self.begin(first.copysign(self.t_end - self.t))?;
-        let mut size = StepSize::new(first, ERROR_ORDER);
+        let mut size = StepSize::new(first, ERROR_ORDER, Control::ELEMENTARY);
         while self.t != self.t_end {
             if self.options.max_steps.is_some_and(|most| self.system.counts.steps >= most) {
                 return Err(Cause::MaxSteps { steps: self.system.counts.steps });

@@ -12,6 +12,7 @@ use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
 use super::stages::{combine, larger, rows, sum_of_squares};
+use super::step_size::Control;
 
 /// Dormand–Prince 5(4) with its options.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,6 +114,7 @@ const P: [f64; 32] = [
 impl EmbeddedPair for DormandPrince {
     const ERROR_ORDER: i32 = 4;
     const LAST_IN_ERROR: bool = true;
+    const CONTROL: Control = Control::ELEMENTARY;
     const STAGES: usize = 7;
     const DEGREE: usize = 4;
     // between the stages at 3/10 and 4/5

@@ -1,16 +1,38 @@
-//! Choice of the step from the error estimate: Hairer, Nørsett and Wanner, *Solving Ordinary
-//! Differential Equations I*, II.4, with the constants of `scipy.integrate`.
+//! Choice of the step from the error estimate: the elementary controller of Hairer, Nørsett and Wanner,
+//! *Solving Ordinary Differential Equations I*, II.4,
+//!
+//! ```text
+//! h_new = h min(most, factor),   factor = safety norm^(-1/k),   k the order of the estimate + 1,
+//! ```
+//!
+//! of which the constants may differ from method to method, and which may hold its step: a factor above 1
+//! is divided by `hold`, and not below 1. So a step grows only where it is short by more than that, and
+//! then by the rest, without a jump. Controllers that remember errors (Gustafsson 1991; Söderlind,
+//! *Digital filters in adaptive time-stepping*, ACM TOMS 29 (2003) 1) did worse on mechanisms:
+//! `docs/performance.md`.
 
 /// Part of a step that is tried after the system refused its end.
 const REFUSED: f64 = 0.7;
-/// Part of the optimal step that is tried.
-const SAFETY: f64 = 0.9;
 /// Least factor from one step to the next.
 const MIN_FACTOR: f64 = 0.2;
 /// Largest factor from one step to the next.
 const MAX_FACTOR: f64 = 10.0;
 /// Least step, in spacings of numbers at t.
 const MIN_SPACINGS: f64 = 10.0;
+
+/// Constants of the controller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Control {
+    /// Part of the optimal step that is tried.
+    pub safety: f64,
+    /// By how much a step has to be too short before it grows; 1 if it grows at once.
+    pub hold: f64,
+}
+
+impl Control {
+    /// That of `scipy.integrate`.
+    pub const ELEMENTARY: Self = Self { safety: 0.9, hold: 1.0 };
+}
 
 /// The step to try next, as a magnitude.
 pub(super) struct StepSize {
@@ -19,11 +41,12 @@ pub(super) struct StepSize {
     rejected: bool,
     /// -1 / (order of the error estimate + 1).
     exponent: f64,
+    control: Control,
 }
 
 impl StepSize {
-    pub fn new(size: f64, error_order: i32) -> Self {
-        Self { size, rejected: false, exponent: -1.0 / f64::from(error_order + 1) }
+    pub fn new(size: f64, error_order: i32, control: Control) -> Self {
+        Self { size, rejected: false, exponent: -1.0 / f64::from(error_order + 1), control }
     }
 
     /// Brings the step between its bounds, at the beginning of a step.
@@ -39,15 +62,17 @@ impl StepSize {
 
     /// After a step of magnitude `h` with an error norm below 1.
     pub fn accept(&mut self, h: f64, norm: f64) {
-        let wanted = if norm == 0.0 { MAX_FACTOR } else { SAFETY * norm.powf(self.exponent) };
+        let Control { safety, hold } = self.control;
+        let wanted = safety * norm.powf(self.exponent); // ∞ without an error
+        let held = if wanted > 1.0 { (wanted / hold).max(1.0) } else { wanted };
         let most = if self.rejected { 1.0 } else { MAX_FACTOR };
-        self.size = h * wanted.min(most);
+        self.size = h * held.min(most);
     }
 
     /// After a step of magnitude `h` with an error norm of 1 or more, or none at all (NaN).
     pub fn reject(&mut self, h: f64, norm: f64) {
         self.rejected = true;
-        self.size = h * (SAFETY * norm.powf(self.exponent)).max(MIN_FACTOR);
+        self.size = h * (self.control.safety * norm.powf(self.exponent)).max(MIN_FACTOR);
     }
 
     /// After a step of magnitude `h` whose end the system refused: the next may grow at once, past
@@ -91,5 +116,55 @@ pub(super) fn scaled_norm(x: impl ExactSizeIterator<Item = (f64, f64)>) -> f64 {
         0.0
     } else {
         (sum / n as f64).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HELD: Control = Control { safety: 0.8, hold: 1.25 };
+
+    /// The factor after a step that was accepted with an error of order 3.
+    fn after(control: Control, norm: f64) -> f64 {
+        let mut size = StepSize::new(1.0, 3, control);
+        size.accept(2.0, norm);
+        size.size / 2.0
+    }
+
+    #[test]
+    fn the_elementary_controller_takes_its_part_of_the_optimal_step() {
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-15, "{a} {b}");
+        close(after(Control::ELEMENTARY, 0.5_f64.powi(4)), 1.8);
+        close(after(Control::ELEMENTARY, 0.9_f64.powi(4)), 1.0);
+        close(after(Control::ELEMENTARY, 0.95_f64.powi(4)), 0.9 / 0.95);
+        close(after(Control::ELEMENTARY, 0.0), 10.0);
+        close(after(Control::ELEMENTARY, 1e-30), 10.0);
+    }
+
+    #[test]
+    fn a_step_is_held_until_it_is_short_by_more() {
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-15, "{a} {b}");
+        close(after(HELD, 0.5_f64.powi(4)), 1.28);
+        close(after(HELD, 0.64_f64.powi(4)), 1.0);
+        assert_eq!([0.65, 0.7, 0.79].map(|e: f64| after(HELD, e.powi(4))), [1.0; 3]);
+        close(after(HELD, 0.9_f64.powi(4)), 0.8 / 0.9);
+        close(after(HELD, 0.0), 10.0);
+    }
+
+    #[test]
+    fn after_a_rejection_it_shrinks_by_its_part_and_does_not_grow() {
+        let mut size = StepSize::new(1.0, 3, HELD);
+        size.reject(1.0, 16.0);
+        assert!((size.size - 0.4).abs() < 1e-15);
+        size.reject(1.0, 1e9);
+        assert_eq!(size.size, 0.2);
+        size.reject(1.0, f64::NAN);
+        assert_eq!(size.size, 0.2);
+        size.accept(0.2, 1e-9);
+        assert_eq!(size.size, 0.2);
+        size.begin(0.0, 1.0);
+        size.accept(0.2, 1e-9);
+        assert_eq!(size.size, 2.0);
     }
 }
