@@ -116,7 +116,7 @@ def test_stabilization_at_the_classical_tolerances(
         assert sol.t[drift.argmax()] == pytest.approx(0.22, abs=0.02)
 
 
-@pytest.mark.parametrize(("method", "steps"), [(kp.RK45, 2400), (kp.DOP853, 500)])
+@pytest.mark.parametrize(("method", "steps"), [(kp.RK45, 2400), (kp.DOP853, 550)])
 def test_projection_against_the_listed_states(
     case: kp.Case,
     start: kp.State,

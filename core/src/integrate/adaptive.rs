@@ -195,6 +195,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         let least = least_step(t, self.direction);
         size.begin(least, self.options.max_step);
         self.clearance.begin();
+        size.control = self.clearance.control(P::CONTROL);
         let mut refusal = None;
         loop {
             if size.size < least {

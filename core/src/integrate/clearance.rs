@@ -4,6 +4,8 @@
 //! Where it lies too far ahead for that, a shorter step comes first: it ends where the one that passes
 //! has to begin.
 
+use super::step_size::Control;
+
 /// Part of the half-width that an obstacle may lie off the middle.
 const OFF: f64 = 0.8;
 /// A step that ends before an obstacle by more than this part of where the middle is, is let be.
@@ -64,6 +66,16 @@ impl Clearance {
         self.tried += 1;
         self.wanted = self.wanted.max(passing);
         Some(placed)
+    }
+
+    /// How steps are chosen: elementarily once an obstacle was met, since what a low safety factor gains
+    /// there is lost to noise.
+    pub fn control(&self, otherwise: Control) -> Control {
+        if self.met {
+            Control::ELEMENTARY
+        } else {
+            otherwise
+        }
     }
 
     /// By what error norms are to be multiplied.

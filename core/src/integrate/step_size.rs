@@ -41,7 +41,7 @@ pub(super) struct StepSize {
     rejected: bool,
     /// -1 / (order of the error estimate + 1).
     exponent: f64,
-    control: Control,
+    pub control: Control,
 }
 
 impl StepSize {
