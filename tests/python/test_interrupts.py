@@ -36,7 +36,7 @@ def hanging_chain() -> kp.State:
     [
         (four_bar, 1e6, None),
         (four_bar, 1e6, 100.0),
-        (four_bar, 1e5, 0.01),
+        (four_bar, 1e4, 0.01),
         (hanging_chain, 1e4, None),
         (hanging_chain, 1e4, 0.01),
     ],
@@ -51,10 +51,17 @@ def test_an_interruption_arrives_within_a_fifth_of_a_second(
         sent.append(time.monotonic())
         signal.raise_signal(signal.SIGINT)
 
-    timer = threading.Timer(0.2, interrupt)
+    timer = threading.Timer(0.3, interrupt)
     timer.start()
     with pytest.raises(KeyboardInterrupt) as caught:
-        kp.dynamics(start.model, start, t_end=t_end, output_step=output_step, dense_output=False)
+        kp.dynamics(
+            start.model,
+            start,
+            t_end=t_end,
+            output_step=output_step,
+            method=kp.RK45(rtol=1e-10, atol=1e-13),  # what lasts
+            dense_output=False,
+        )
     took = time.monotonic() - sent[0]
     solution = caught.value.solution  # type: ignore[attr-defined]
     assert took < 0.2
