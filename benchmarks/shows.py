@@ -125,7 +125,8 @@ def flagship(records: list[Record], floor: dict[str, Any]) -> list[Target]:
     default = [r for r in kempe if r.curve in DEFAULT]
     hands = (by_hand, python["straight_seconds"])
     found += exact_run(records, default, "default method", hands)
-    return found + exact_run(records, kempe, "any method of kempe", hands)
+    untouched = [r for r in kempe if r.curve == kempe_itself.DEFAULT]
+    return found + exact_run(records, untouched, "the default, no option named", hands)
 
 
 def exact_run(

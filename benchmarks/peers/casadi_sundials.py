@@ -39,7 +39,7 @@ CURVES: dict[str, dict[str, Any]] = {
     },
     "CasADi IDAS": {"plugin": "idas"},
 }
-TOLERANCES = (1e-4, 1e-6, 1e-9)
+TOLERANCES = (1e-4, 1e-6, 1e-7, 1e-8, 1e-9)
 #: Bodies above which expressions and compilation take minutes.
 LARGEST = 25
 

@@ -22,7 +22,7 @@ BAUMGARTE = "kempe RK45, Baumgarte"
 PROJECTION = "kempe DOP853, projection"
 #: The curve of the default method and stabilization, its tolerance varied.
 DEFAULT_METHOD = PROJECTION
-TOLERANCES = (1e-3, 1e-4, 1e-5, 5e-6, 2e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
+TOLERANCES = (1e-3, 1e-4, 5e-5, 2e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
 FEW = (1e-3, 1e-6)
 
 

@@ -21,7 +21,7 @@ TRIED = (
     "took longer than both for a larger error"
 )
 CURVES = {"scipy RK45, Baumgarte": "RK45", "scipy DOP853, Baumgarte": "DOP853"}
-TOLERANCES = (1e-3, 1e-6, 1e-9)
+TOLERANCES = (1e-3, 1e-5, 1e-6, 1e-9)
 #: Bodies above which a dense solve in each evaluation takes minutes.
 LARGEST = 25
 

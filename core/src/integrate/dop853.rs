@@ -5,7 +5,7 @@
 //! Differential Equations I*, II.5 and II.6. The error is h e₅² / √(e₅² + 0.01 e₃²), which has order 7 and
 //! does not trust an e₅ that happens to vanish (II.10): all that of `scipy.integrate.DOP853`. Steps are chosen
 //! as there (II.4), but with a safety factor of 0.8 instead of 0.9, and held until they are short by 10 %: on
-//! 46 mechanisms 4 % fewer evaluations for the same error, since half as many steps are rejected.
+//! 46 mechanisms 4 % fewer evaluations for the same error (`docs/performance.md`).
 //!
 //! The extension needs three stages more than the step, or for a system of second order one evaluation
 //! (`birkhoff`). They are evaluated only for observers that look between the ends; for others it is the cubic

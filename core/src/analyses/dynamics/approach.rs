@@ -12,6 +12,9 @@ const APART: f64 = 0.01;
 /// What an approach within two steps takes away from the pivot, at least: the square of one half.
 const NEARER: f64 = 4.0;
 
+/// Stages of a trial, at most: constant steps are not foreseen, and nobody asks for theirs.
+const MOST: usize = 64;
+
 /// A time, and the least ratio of a pivot to what it was cancelled from.
 type Sample = (f64, f64);
 
@@ -41,6 +44,9 @@ impl Approach {
 
     /// Takes a stage of the trial under way.
     pub fn pass(&mut self, stage: Sample) {
+        if self.stages.len() == MOST {
+            self.stages.clear();
+        }
         self.stages.push(stage);
     }
 

@@ -159,7 +159,8 @@ impl Reason {
                     "the equations of the step from t = {t:.6} s, {h:.1e} s long, have no solution \
                      that Newton's iteration finds"
                 ),
-                "use a smaller step, or step control (rtol, atol); check forces and laws at this state",
+                "use a smaller step, step control (rtol, atol), or an explicit method such as dop853; check \
+                 forces and laws at this state",
             ),
             Cause::MaxSteps { steps } => (
                 format!("max_steps = {steps} steps ended at t = {t:.6} s"),
