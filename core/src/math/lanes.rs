@@ -215,7 +215,22 @@ impl Lift<f64> for Lanes {
 #[cfg(test)]
 mod tests {
     use super::Lanes;
-    use crate::math::Largest;
+    use crate::math::{Largest, Real};
+
+    #[test]
+    fn products_are_fused_alike_in_every_lane() {
+        for k in 1..10_000 {
+            let [x, a, b] = [0.1, 0.7, 1.3].map(|part| (part * f64::from(k)).sin());
+            let [of_x, of_a, of_b] = [x, a, b].map(|x| Lanes::new([x, -x, 2.0 * x, 1.0]));
+            let (plus, minus) = (of_x.plus_product(of_a, of_b), of_x.minus_product(of_a, of_b));
+            for (lane, [x, a, b]) in
+                [[x, a, b], [-x, -a, -b], [2.0 * x, 2.0 * a, 2.0 * b]].into_iter().enumerate()
+            {
+                assert_eq!(plus.to_array()[lane], x.plus_product(a, b));
+                assert_eq!(minus.to_array()[lane], x.minus_product(a, b));
+            }
+        }
+    }
 
     #[test]
     fn rows_are_the_lanes() {

@@ -60,6 +60,23 @@ fn right_side(m: &Matrix, random: &mut Random) -> Vec<f64> {
     (0..m.n()).map(|_| random.next()).collect()
 }
 
+/// Solved with the factor at hand, to a relative residual; the same with the right side beside the blocks.
+fn solved(
+    m: &Matrix,
+    (pattern, saddle): (&Pattern, &mut Saddle<f64>),
+    b: &[f64],
+    bound: f64,
+) -> Vec<f64> {
+    let [mut x, mut beside] = [b.to_vec(), b.to_vec()];
+    saddle.solve(pattern, &mut x);
+    let residual = relative_residual(m, &x, b);
+    assert!(residual < bound, "n = {}: {residual:e}", m.n());
+    saddle.factor_and_solve(pattern, &mut beside).unwrap();
+    let apart: Vec<f64> = x.iter().zip(&beside).map(|(a, b)| a - b).collect();
+    assert!(norm(&apart) <= 1e-12 * norm(&x), "n = {}", m.n());
+    x
+}
+
 #[test]
 fn random_mechanisms_are_solved_to_rounding() {
     let mut random = Random(7);
@@ -68,17 +85,10 @@ fn random_mechanisms_are_solved_to_rounding() {
         let mut saddle = m.saddle(&pattern);
         let b = right_side(&m, &mut random);
         saddle.factor(&pattern).unwrap();
-        let mut x = b.clone();
-        saddle.solve(&pattern, &mut x);
-        let residual = relative_residual(&m, &x, &b);
-        assert!(residual < 1e-13, "n = {}: {residual:e}", m.n());
+        let x = solved(&m, (&pattern, &mut saddle), &b, 1e-13);
         let reference = dense_solve(m.dense(), b.clone());
         let difference: Vec<f64> = x.iter().zip(&reference).map(|(a, b)| a - b).collect();
         assert!(norm(&difference) < 1e-8 * norm(&reference), "n = {}", m.n());
-        let mut beside = b.clone();
-        saddle.factor_and_solve(&pattern, &mut beside).unwrap();
-        let apart: Vec<f64> = x.iter().zip(&beside).map(|(a, b)| a - b).collect();
-        assert!(norm(&apart) <= 1e-12 * norm(&x), "n = {}", m.n());
     }
 }
 
@@ -94,20 +104,13 @@ fn anchored_groups_are_solved_to_rounding() {
         let (pattern, mut saddle) = m.anchored();
         assert_eq!(pattern.anchors().len(), m.anchors().len());
         let b = right_side(&m, &mut random);
-        let mut x = b.clone();
         if saddle.factor(&pattern).is_err() {
             // two pins of one body, or a body too many: the matrix is singular without anchors as well
             let pattern = m.pattern();
             assert!(m.saddle(&pattern).factor(&pattern).is_err(), "n = {}", m.n());
             continue;
         }
-        saddle.solve(&pattern, &mut x);
-        let residual = relative_residual(&m, &x, &b);
-        assert!(residual < 1e-12, "n = {}: {residual:e}", m.n());
-        let mut beside = b.clone();
-        saddle.factor_and_solve(&pattern, &mut beside).unwrap();
-        let apart: Vec<f64> = x.iter().zip(&beside).map(|(a, b)| a - b).collect();
-        assert!(norm(&apart) <= 1e-12 * norm(&x), "n = {}", m.n());
+        solved(&m, (&pattern, &mut saddle), &b, 1e-12);
     }
 }
 
