@@ -35,14 +35,19 @@ pub(super) struct Ends<'a> {
     pub dy: &'a [f64],
 }
 
-/// Four of the polynomials.
-#[derive(Clone, Copy)]
+/// Four of the polynomials in the making.
+#[derive(Clone, Copy, Debug)]
 struct Block {
+    /// (v, w) and its derivative at the beginning.
+    begin: [Lanes; 2],
     /// Coefficients of θ³ … θ⁹, over h².
     c: [Lanes; DEGREE - 2],
     /// The second derivative inside without the last of them.
     inside: Lanes,
 }
+
+/// Values of four components at the beginning, and coefficients of θ … θ⁹, over h.
+type Four = [Lanes; DEGREE + 1];
 
 /// The extension, and what it takes from the step before.
 pub(super) struct Birkhoff {
@@ -57,15 +62,16 @@ pub(super) struct Birkhoff {
     gained: Vec<f64>,
     gain: Vec<f64>,
     blocks: Vec<Block>,
-    /// Coefficients of θ … θ⁹ of each component, over h.
-    coefficients: Vec<f64>,
+    /// What became of them: those of q, then those of (v, w).
+    polynomials: Vec<Four>,
 }
 
 impl Birkhoff {
     /// For y of `len` components, of which the first `positions` are q.
     pub fn new(len: usize, positions: usize) -> Self {
         let m = len - positions;
-        let none = Block { c: [Lanes::zero(); DEGREE - 2], inside: Lanes::zero() };
+        let zero = Lanes::zero();
+        let none = Block { begin: [zero; 2], c: [zero; DEGREE - 2], inside: zero };
         Self {
             positions,
             h_before: 0.0,
@@ -74,7 +80,10 @@ impl Birkhoff {
             gained: vec![0.0; m],
             gain: vec![0.0; m],
             blocks: vec![none; m.div_ceil(Lanes::WIDTH)],
-            coefficients: vec![0.0; len * DEGREE],
+            polynomials: vec![
+                [zero; DEGREE + 1];
+                positions.div_ceil(Lanes::WIDTH) + m.div_ceil(Lanes::WIDTH)
+            ],
         }
     }
 
@@ -133,6 +142,7 @@ impl Birkhoff {
             ];
             let c = through(end, before, r);
             let [position, rate, slope] = at_inside(&c);
+            block.begin = [v, a];
             block.c[..6].copy_from_slice(&c);
             block.inside = a + slope;
             let (theta, square) = (each(INSIDE * h), each(h * h));
@@ -148,38 +158,70 @@ impl Birkhoff {
 
     /// Takes the derivative at the state that was predicted.
     pub fn complete(&mut self, ends: Ends<'_>, inside: &[f64]) {
-        let (h, p) = (ends.h, self.positions);
-        let last = last_term(self.h_before / h);
+        let (p, h) = (self.positions, Lanes::constant(ends.h));
+        let last = last_term(self.h_before / ends.h);
         let per_slope = Lanes::constant(1.0 / at_inside(&last)[2]);
-        for (b, block) in self.blocks.iter_mut().enumerate() {
-            let g = (lanes(&inside[p + b * Lanes::WIDTH..]) - block.inside) * per_slope;
-            block.c[6] = Lanes::zero();
-            for (c, last) in block.c.iter_mut().zip(last) {
-                *c += g * Lanes::constant(last);
+        let last = last.map(Lanes::constant);
+        let half = Lanes::constant(0.5) * h;
+        let (of_q, of_rates) = self.polynomials.split_at_mut(p.div_ceil(Lanes::WIDTH));
+        for (b, (block, rates)) in self.blocks.iter_mut().zip(of_rates).enumerate() {
+            let first = b * Lanes::WIDTH;
+            let ([rate, slope], c) = (block.begin, &mut block.c);
+            let g = (lanes(&inside[p + first..]) - block.inside) * per_slope;
+            c[6] = Lanes::zero();
+            for (c, last) in c.iter_mut().zip(last) {
+                *c = c.plus_product(g, last);
             }
-            let c = block.c.map(Lanes::to_array);
-            let m = self.gain.len();
-            for (lane, i) in (b * Lanes::WIDTH..m).take(Lanes::WIDTH).enumerate() {
-                let rows = &mut self.coefficients;
-                let slope = ends.dy_old[p + i];
-                let row = &mut rows[(p + i) * DEGREE..][..DEGREE];
-                row[0] = slope;
-                for (k, (row, c)) in (3..).zip(row[1..].iter_mut().zip(&c)) {
-                    *row = f64::from(k) * c[lane];
-                }
-                row[DEGREE - 1] = 0.0;
-                if i < p {
-                    let row = &mut rows[i * DEGREE..][..DEGREE];
-                    (row[0], row[1]) = (ends.y_old[p + i], 0.5 * h * slope);
-                    row[2..].iter_mut().zip(&c).for_each(|(row, c)| *row = h * c[lane]);
-                }
+            (rates[0], rates[1], rates[DEGREE]) = (rate, slope, Lanes::zero());
+            for (k, (to, c)) in (3..).map(f64::from).zip(rates[2..].iter_mut().zip(&*c)) {
+                *to = Lanes::constant(k) * *c;
+            }
+            if let Some(q) = of_q.get_mut(b) {
+                (q[0], q[1], q[2]) = (lanes(&ends.y_old[first..]), rate, half * slope);
+                q[3..].iter_mut().zip(&*c).for_each(|(to, c)| *to = h * *c);
             }
         }
     }
 
     /// The extension that was completed.
     pub fn dense(&self) -> Dense<'_> {
-        Dense::polynomials(&self.coefficients)
+        let (q, rates) = self.polynomials.split_at(self.positions.div_ceil(Lanes::WIDTH));
+        Dense::polynomials(Polynomials { q, rates, positions: self.positions })
+    }
+}
+
+/// The extension of a step, component by component.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Polynomials<'a> {
+    q: &'a [Four],
+    rates: &'a [Four],
+    positions: usize,
+}
+
+impl Polynomials<'_> {
+    /// The state at θ, by a time of `ahead` = h θ after the beginning.
+    pub fn evaluate(&self, ahead: f64, theta: f64, out: &mut [f64]) {
+        let (ahead, theta) = (Lanes::constant(ahead), Lanes::constant(theta));
+        // the last four of q run into the rates, which follow
+        for (first, all) in [(0, self.q), (self.positions, self.rates)] {
+            for (four, out) in all.iter().zip(out[first..].chunks_mut(Lanes::WIDTH)) {
+                let [begin, c @ .., last] = four;
+                let sum = c.iter().rev().fold(*last, |sum, c| c.plus_product(sum, theta));
+                store(begin.plus_product(ahead, sum), out);
+            }
+        }
+    }
+
+    /// Coefficients of θ … θ⁹ of each component, over h: row-major (len of y) × 9.
+    pub fn coefficients(&self, out: &mut [f64]) {
+        let (of_q, of_rates) = out.split_at_mut(self.positions * DEGREE);
+        for (all, out) in [(self.q, of_q), (self.rates, of_rates)] {
+            for (four, rows) in all.iter().zip(out.chunks_mut(Lanes::WIDTH * DEGREE)) {
+                for (lane, row) in rows.chunks_exact_mut(DEGREE).enumerate() {
+                    row.iter_mut().zip(&four[1..]).for_each(|(out, c)| *out = c.to_array()[lane]);
+                }
+            }
+        }
     }
 }
 
@@ -191,6 +233,15 @@ fn lanes(x: &[f64]) -> Lanes {
     match x.first_chunk() {
         Some(block) => Lanes::new(*block),
         None => Lanes::new(std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0))),
+    }
+}
+
+/// Puts as many numbers as there is room for.
+#[inline(always)]
+fn store(x: Lanes, out: &mut [f64]) {
+    match out.first_chunk_mut() {
+        Some(four) => *four = x.to_array(),
+        None => out.iter_mut().zip(x.to_array()).for_each(|(out, x)| *out = x),
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::dense::Dense;
 use super::failure::Failure;
-use crate::math::Real;
 
 /// A first-order system y′ = f(t, y).
 pub trait FirstOrder {
@@ -134,11 +133,10 @@ pub struct Step<'a> {
 }
 
 impl Step<'_> {
-    /// The state at a `time` within the step, into `out` (length of y); over lanes at several times.
-    pub fn interpolate<R: Real>(&self, time: R, out: &mut [R]) {
-        let h = self.t - self.t_old;
-        let theta = (time - R::constant(self.t_old)) / R::constant(h);
-        self.dense.evaluate(self.y_old, h, theta, out);
+    /// The state at a `time` within the step, into `out` (length of y).
+    pub fn interpolate(&self, time: f64, out: &mut [f64]) {
+        let (h, ahead) = (self.t - self.t_old, time - self.t_old);
+        self.dense.evaluate(self.y_old, ahead, ahead / h, out);
     }
 
     /// Coefficients b of y(θ) = y_old + h Σₖ bₖ θᵏ, k = 1…[`Dense::degree`], θ = (t - t_old) / h: into

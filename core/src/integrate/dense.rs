@@ -5,6 +5,7 @@
 //! computed for a step nobody looks into. Hairer, Nørsett and Wanner, *Solving Ordinary Differential
 //! Equations I*, II.6.
 
+use super::birkhoff::Polynomials;
 use super::stages::accumulate;
 use crate::math::{Lanes, Real};
 
@@ -29,8 +30,7 @@ pub struct Dense<'a> {
 #[derive(Clone, Copy, Debug)]
 enum Form<'a> {
     Stages(Stages<'a>),
-    /// Coefficients of θ, θ², … of each component, row-major (len of y) × degree.
-    Polynomials(&'a [f64]),
+    Polynomials(Polynomials<'a>),
 }
 
 /// Stages of a step with the polynomials that join them.
@@ -45,8 +45,8 @@ struct Stages<'a> {
 
 /// The sum of bₖ θᵏ⁻¹, k = 1….
 #[inline(always)]
-fn polynomial<R: Real>(coefficients: &[f64], theta: R) -> R {
-    coefficients.iter().rev().fold(R::zero(), |sum, b| R::constant(*b).plus_product(sum, theta))
+fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, b| b.plus_product(sum, theta))
 }
 
 impl<'a> Dense<'a> {
@@ -57,8 +57,8 @@ impl<'a> Dense<'a> {
     }
 
     /// One polynomial of the highest degree for each component.
-    pub(super) fn polynomials(coefficients: &'a [f64]) -> Self {
-        Self { form: Form::Polynomials(coefficients), degree: HIGHEST }
+    pub(super) fn polynomials(polynomials: Polynomials<'a>) -> Self {
+        Self { form: Form::Polynomials(polynomials), degree: HIGHEST }
     }
 
     /// Degree of the polynomial.
@@ -66,26 +66,21 @@ impl<'a> Dense<'a> {
         self.degree
     }
 
-    pub(super) fn evaluate<R: Real>(&self, y_old: &[f64], h: f64, theta: R, out: &mut [R]) {
+    /// The state at θ, by a time of `ahead` = h θ after the beginning.
+    pub(super) fn evaluate(&self, y_old: &[f64], ahead: f64, theta: f64, out: &mut [f64]) {
         assert_eq!(out.len(), y_old.len(), "a state");
-        out.iter_mut().zip(y_old).for_each(|(out, y)| *out = R::constant(*y));
-        // with a degree that the compiler knows, inner loops unroll: here and for the coefficients
-        match (self.form, self.degree) {
-            (Form::Polynomials(rows), _) => {
-                let scale = R::constant(h) * theta;
-                for (out, row) in out.iter_mut().zip(rows.chunks_exact(HIGHEST)) {
-                    *out += scale * polynomial(&row[..HIGHEST], theta);
-                }
+        match self.form {
+            Form::Polynomials(polynomials) => polynomials.evaluate(ahead, theta, out),
+            Form::Stages(stages) => {
+                out.copy_from_slice(y_old);
+                stages.add_at_degree(self.degree, ahead, theta, out);
             }
-            (Form::Stages(stages), 4) => stages.add_at(4, h, theta, out),
-            (Form::Stages(stages), 7) => stages.add_at(7, h, theta, out),
-            (Form::Stages(stages), degree) => stages.add_at(degree, h, theta, out),
         }
     }
 
     pub(super) fn coefficients(&self, out: &mut [f64]) {
         match (self.form, self.degree) {
-            (Form::Polynomials(rows), _) => out.copy_from_slice(rows),
+            (Form::Polynomials(polynomials), _) => polynomials.coefficients(out),
             (Form::Stages(stages), 4) => stages.add_coefficients(4, out),
             (Form::Stages(stages), 7) => stages.add_coefficients(7, out),
             (Form::Stages(stages), degree) => stages.add_coefficients(degree, out),
@@ -101,16 +96,26 @@ impl<'a> Stages<'a> {
         self.stages.chunks_exact(self.len.max(1)).zip(rows)
     }
 
+    /// Not inlined, since polynomials of components need none of its registers.
+    #[inline(never)]
+    fn add_at_degree(&self, degree: usize, ahead: f64, theta: f64, out: &mut [f64]) {
+        // with a degree that the compiler knows, inner loops unroll: here and for the coefficients
+        match degree {
+            4 => self.add_at(4, ahead, theta, out),
+            7 => self.add_at(7, ahead, theta, out),
+            degree => self.add_at(degree, ahead, theta, out),
+        }
+    }
+
     #[inline(always)]
-    fn add_at<R: Real>(&self, degree: usize, h: f64, theta: R, out: &mut [R]) {
-        let scale = R::constant(h) * theta;
+    fn add_at(&self, degree: usize, ahead: f64, theta: f64, out: &mut [f64]) {
         let mut terms = self.terms(degree);
         // a term that is not there repeats the first, by weight zero
         while let Some((first, row)) = terms.next() {
-            let (mut weights, mut stages) = ([R::zero(); TOGETHER], [first; TOGETHER]);
-            weights[0] = scale * polynomial(row, theta);
+            let (mut weights, mut stages) = ([0.0; TOGETHER], [first; TOGETHER]);
+            weights[0] = ahead * polynomial(row, theta);
             for (s, (stage, row)) in (1..TOGETHER).zip(&mut terms) {
-                (weights[s], stages[s]) = (scale * polynomial(row, theta), stage);
+                (weights[s], stages[s]) = (ahead * polynomial(row, theta), stage);
             }
             accumulate(weights, stages, out);
         }

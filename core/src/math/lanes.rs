@@ -39,25 +39,80 @@ impl Lanes {
     pub fn rows(x: &[Self], out: &mut [f64]) {
         let width = x.len();
         assert_eq!(out.len(), Self::WIDTH * width, "a row for each lane");
+        let nothing = Self::nothing();
         let (a, rest) = out.split_at_mut(width);
         let (b, rest) = rest.split_at_mut(width);
         let (c, d) = rest.split_at_mut(width);
         let blocks = x.chunks_exact(Self::WIDTH);
-        let (last, whole) = (blocks.remainder(), width - blocks.remainder().len());
-        let rows =
-            [&mut *a, &mut *b, &mut *c, &mut *d].map(|row| row.chunks_exact_mut(Self::WIDTH));
-        let [first, second, third, fourth] = rows;
-        // blocks of 4 × 4 are transposed in registers
-        for ((((block, a), b), c), d) in blocks.zip(first).zip(second).zip(third).zip(fourth) {
-            let [p, q, r, s] = [block[0], block[1], block[2], block[3]].map(Self::to_array);
-            a.copy_from_slice(&[p[0], q[0], r[0], s[0]]);
-            b.copy_from_slice(&[p[1], q[1], r[1], s[1]]);
-            c.copy_from_slice(&[p[2], q[2], r[2], s[2]]);
-            d.copy_from_slice(&[p[3], q[3], r[3], s[3]]);
+        let whole = blocks.remainder().is_empty();
+        let [p, q, r, s] = [&mut *a, &mut *b, &mut *c, &mut *d].map(|x| x.chunks_exact_mut(4));
+        for ((((x, a), b), c), d) in blocks.zip(p).zip(q).zip(r).zip(s) {
+            let rows = Self::transposed([x[0], x[1], x[2], x[3]], nothing);
+            for (out, row) in [a, b, c, d].into_iter().zip(rows) {
+                out.copy_from_slice(&row.to_array());
+            }
         }
-        for (k, x) in (whole..).zip(last) {
-            [a[k], b[k], c[k], d[k]] = x.to_array();
+        if whole {
+            return;
         }
+        // the last block runs over the one before
+        if let Some(x) = x.last_chunk() {
+            for (out, row) in [a, b, c, d].into_iter().zip(Self::transposed(*x, nothing)) {
+                out[width - Self::WIDTH..].copy_from_slice(&row.to_array());
+            }
+        } else {
+            for (k, x) in x.iter().enumerate() {
+                [a[k], b[k], c[k], d[k]] = x.to_array();
+            }
+        }
+    }
+    /// What [`rows`](Self::rows) undoes: quantities from rows, one for each lane.
+    ///
+    /// # Panics
+    /// Where there are not [`WIDTH`](Self::WIDTH) rows as long as `out`.
+    pub fn from_rows(rows: &[f64], out: &mut [Self]) {
+        let width = out.len();
+        assert_eq!(rows.len(), Self::WIDTH * width, "a row for each lane");
+        let nothing = Self::nothing();
+        let (a, rest) = rows.split_at(width);
+        let (b, rest) = rest.split_at(width);
+        let (c, d) = rest.split_at(width);
+        let [p, q, r, s] = [a, b, c, d].map(|x| x.chunks_exact(Self::WIDTH));
+        let blocks = out.chunks_exact_mut(Self::WIDTH);
+        for ((((out, a), b), c), d) in blocks.zip(p).zip(q).zip(r).zip(s) {
+            let rows = [a, b, c, d].map(|x| Self::new([x[0], x[1], x[2], x[3]]));
+            out.copy_from_slice(&Self::transposed(rows, nothing));
+        }
+        for k in width - width % Self::WIDTH..width {
+            out[k] = Self::new([a[k], b[k], c[k], d[k]]);
+        }
+    }
+    /// Four by four, in registers: by pairs, since compilers make a shuffle of what comes from two. Left alone they
+    /// move number by number, and of what is stored in parts no vector can be loaded soon; so `nothing` is added,
+    /// [`nothing`](Self::nothing) that they know of.
+    #[inline(always)]
+    fn transposed(rows: [Self; Self::WIDTH], nothing: Self) -> [Self; Self::WIDTH] {
+        let together = |x: Self| (x + nothing).to_array();
+        let [p, q, r, s] = rows.map(together);
+        let halves = [
+            [p[0], p[1], r[0], r[1]],
+            [q[0], q[1], s[0], s[1]],
+            [p[2], p[3], r[2], r[3]],
+            [q[2], q[3], s[2], s[3]],
+        ];
+        let [a, b, c, d] = halves.map(|half| together(Self::new(half)));
+        let columns = [
+            [a[0], b[0], a[2], b[2]],
+            [a[1], b[1], a[3], b[3]],
+            [c[0], d[0], c[2], d[2]],
+            [c[1], d[1], c[3], d[3]],
+        ];
+        columns.map(|column| Self::new(column) + nothing)
+    }
+    /// -0, which changes no number, not even -0; compilers do not see that it is.
+    #[inline(always)]
+    fn nothing() -> Self {
+        std::hint::black_box(Self::constant(-0.0))
     }
     /// A function that is not made for several numbers at once.
     #[inline(always)]
@@ -233,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_the_lanes() {
+    fn rows_are_the_lanes_and_lanes_the_rows() {
         for width in 0..10 {
             let number = |lane: usize, k: usize| (10 * lane + k) as f64;
             let lanes = |k| Lanes::new(std::array::from_fn(|lane| number(lane, k)));
@@ -242,6 +297,9 @@ mod tests {
             Lanes::rows(&x, &mut rows);
             let expected = (0..Lanes::WIDTH).flat_map(|l| (0..width).map(move |k| number(l, k)));
             assert_eq!(rows, expected.collect::<Vec<_>>(), "width {width}");
+            let mut back = vec![Lanes::constant(f64::NAN); width];
+            Lanes::from_rows(&rows, &mut back);
+            assert_eq!(back, x, "width {width}");
         }
     }
 

@@ -1,4 +1,4 @@
-//! Reported states of a grid side by side: interpolated, solved and kept four at once.
+//! Reported states of a grid side by side: solved and kept four at once.
 
 use super::around;
 use super::options::Options;
@@ -10,67 +10,40 @@ use crate::integrate::Step;
 use crate::math::{Lanes, Real};
 use crate::model::Model;
 
-/// As many times as there are lanes.
-pub(super) type Times = [f64; Lanes::WIDTH];
-
 /// States of a grid that wait until there is one for each lane.
 pub(super) struct Batch<'a> {
     pub solver: Solver<'a, Lanes>,
-    t: Times,
-    /// What the last step was interpolated to.
-    between: Vec<Lanes>,
-    /// As they were put in.
-    given: Vec<Lanes>,
-    /// Projected; before that, scratch.
-    y: Vec<Lanes>,
+    t: [f64; Lanes::WIDTH],
     waiting: usize,
-    /// Rows of one table, to be kept.
-    rows: Vec<f64>,
+    /// As they were put in, a row for each lane.
+    given: Vec<f64>,
+    /// Their rates.
+    rates: Vec<Lanes>,
+    /// Projected.
+    y: Vec<Lanes>,
 }
 
 impl<'a> Batch<'a> {
     pub fn new(model: &'a Model<Lanes>, options: &Options) -> Self {
-        let none = vec![Lanes::zero(); 2 * model.layout.n_q + WORKS];
+        let (n, len) = (model.layout.n_q, 2 * model.layout.n_q + WORKS);
         let mut workspace = Workspace::new(model);
         workspace.refuse_singular();
-        let solver = Solver::new(model, options, workspace);
-        let t = [0.0; Lanes::WIDTH];
         Self {
-            solver,
-            t,
-            between: none.clone(),
-            given: none.clone(),
-            y: none,
+            solver: Solver::new(model, options, workspace),
+            t: [0.0; Lanes::WIDTH],
             waiting: 0,
-            rows: Vec::new(),
+            given: vec![0.0; Lanes::WIDTH * len],
+            rates: vec![Lanes::zero(); n],
+            y: vec![Lanes::zero(); len],
         }
     }
 
-    /// Interpolates a step at several times at once, each in the lane that it will be put into.
-    pub fn interpolate(&mut self, step: &Step<'_>, mut times: Times) {
-        times.rotate_right(self.waiting);
-        step.interpolate(Lanes::new(times), &mut self.between);
-    }
-
-    /// Puts in the first of the `times` that were interpolated, as many as there are lanes left; how many.
-    pub fn add(&mut self, times: &[f64]) -> usize {
-        let first = self.waiting;
-        let count = times.len().min(Lanes::WIDTH - first);
-        self.waiting += count;
-        self.t[first..self.waiting].copy_from_slice(&times[..count]);
-        if count == Lanes::WIDTH {
-            std::mem::swap(&mut self.given, &mut self.between);
-            return count;
-        }
-        let mut new = [0.0; Lanes::WIDTH];
-        new[first..self.waiting].fill(1.0);
-        let new = Lanes::new(new);
-        // not in place: of that compilers make masked stores, which some processors take twenty cycles for
-        for ((y, given), between) in self.y.iter_mut().zip(&self.given).zip(&self.between) {
-            *y = Lanes::select(new, *between, *given);
-        }
-        std::mem::swap(&mut self.given, &mut self.y);
-        count
+    /// Puts in the state of a step at a time; there must be a lane without one.
+    pub fn add(&mut self, step: &Step<'_>, t: f64) {
+        let (lane, len) = (self.waiting, self.y.len());
+        self.t[lane] = t;
+        step.interpolate(t, &mut self.given[lane * len..(lane + 1) * len]);
+        self.waiting += 1;
     }
 
     /// Whether no state waits.
@@ -91,26 +64,22 @@ impl<'a> Batch<'a> {
     /// Solves all; whether every one is regular. Else the lanes are of no use.
     pub fn solve(&mut self) -> bool {
         self.fill_up();
-        self.y.copy_from_slice(&self.given);
+        Lanes::from_rows(&self.given, &mut self.y);
+        let n = self.rates.len();
+        self.rates.copy_from_slice(&self.y[n..2 * n]);
         let solved = self.solver.place_and_solve(Lanes::new(self.t), &mut self.y);
         let (a, lam, energies) = self.solver.found();
         solved.is_ok()
-            && [&self.y, a, lam, energies].into_iter().all(are_finite)
-            && self.solver.turn(&self.given, &self.y) <= around::TURNED
+            && are_finite([&self.y, a, lam, energies])
+            && self.solver.turn(&self.rates, &self.y[n..2 * n]) <= around::TURNED
     }
 
     /// Lanes without a state of their own repeat the last.
     fn fill_up(&mut self) {
-        let last = self.waiting.max(1) - 1;
-        if last + 1 == Lanes::WIDTH {
-            return;
-        }
-        let t = self.t[last];
-        self.t[last..].fill(t);
-        for given in &mut self.given {
-            let lanes = given.as_array_mut();
-            let y = lanes[last];
-            lanes[last..].fill(y);
+        let (last, len) = (self.waiting.max(1) - 1, self.y.len());
+        for lane in last + 1..Lanes::WIDTH {
+            self.t[lane] = self.t[last];
+            self.given.copy_within(last * len..(last + 1) * len, lane * len);
         }
     }
 
@@ -125,27 +94,23 @@ impl<'a> Batch<'a> {
         t.extend_from_slice(&self.t[..count]);
         let energies = [kinetic, potential, works[0], works[1], works[2]];
         for (to, lanes) in [(to_q, q), (to_v, v), (to_a, a), (to_lam, lam), (energy, &energies)] {
-            self.rows.resize(Lanes::WIDTH * lanes.len(), 0.0);
-            Lanes::rows(lanes, &mut self.rows);
-            to.extend_from_slice(&self.rows[..count * lanes.len()]);
+            let (start, width) = (to.len(), lanes.len());
+            to.resize(start + Lanes::WIDTH * width, 0.0);
+            Lanes::rows(lanes, &mut to[start..]);
+            to.truncate(start + count * width);
         }
     }
 
     /// A state as it was put in.
     pub fn given(&self, lane: usize, y: &mut [f64]) {
-        y.iter_mut().zip(&self.given).for_each(|(y, given)| *y = given.to_array()[lane]);
+        y.copy_from_slice(&self.given[lane * y.len()..][..y.len()]);
     }
 }
 
 /// Whether every number is finite, in every lane.
-fn are_finite(x: &[Lanes]) -> bool {
-    // 0 x is zero for finite x and NaN otherwise; two sums, of which neither waits for the other
-    let mut sums = [Lanes::zero(); 2];
-    let pairs = x.chunks_exact(2);
-    pairs.remainder().iter().for_each(|x| sums[0] += Lanes::zero() * *x);
-    for pair in pairs {
-        sums[0] += Lanes::zero() * pair[0];
-        sums[1] += Lanes::zero() * pair[1];
-    }
-    (sums[0] + sums[1]).is_finite()
+fn are_finite(parts: [&[Lanes]; 4]) -> bool {
+    // 0 x is zero for finite x and NaN otherwise; sums of which none waits for another
+    let nothing = |sum: Lanes, x: &Lanes| sum.plus_product(Lanes::zero(), *x);
+    let [a, b, c, d] = parts.map(|part| part.iter().fold(Lanes::zero(), nothing));
+    (a + b + c + d).is_finite()
 }

@@ -1,6 +1,6 @@
 //! What forward dynamics reports: states at chosen times, with accelerations, multipliers, energies.
 
-use super::batch::{Batch, Times};
+use super::batch::Batch;
 use super::options::{Options, Output, Scheme};
 use super::report::{Halt, Solver};
 use super::system::{Equations, WORKS};
@@ -153,31 +153,17 @@ impl<'a> Recorder<'a> {
         self.keep(t, y, solved)
     }
 
-    /// Reports the first `n` of the `times`, which are between the ends of a step; whether it can is known
-    /// once they are solved.
-    fn report_between(&mut self, step: &Step<'_>, times: Times, n: usize) -> Flow {
+    /// Reports the state of a step at a time between its ends; whether it can is known once it is solved.
+    fn report_between(&mut self, step: &Step<'_>, t: f64) -> Flow {
         let Some(batch) = &mut self.many else {
-            return self.report_one_by_one(step, &times[..n]);
-        };
-        batch.interpolate(step, times);
-        let mut left = &times[..n];
-        while let Some(batch) = self.many.as_mut().filter(|_| !left.is_empty()) {
-            left = &left[batch.add(left)..];
-            if batch.is_full() && self.flush() == Flow::Stop {
-                return Flow::Stop;
-            }
-        }
-        Flow::Continue
-    }
-
-    fn report_one_by_one(&mut self, step: &Step<'_>, times: &[f64]) -> Flow {
-        for &t in times {
             step.interpolate(t, &mut self.y);
-            if self.report_alone(t) == Flow::Stop {
-                return Flow::Stop;
-            }
+            return self.report_alone(t);
+        };
+        batch.add(step, t);
+        match batch.is_full() {
+            true => self.flush(),
+            false => Flow::Continue,
         }
-        Flow::Continue
     }
 
     /// Projects and reports the state in the scratch.
@@ -238,11 +224,11 @@ impl<'a> Recorder<'a> {
         }
         let Output::Every(h) = self.output else { return self.report(step.t, step.y) };
         let mut flow = self.look_apart(h, step);
-        while let (Flow::Continue, Some((times, n))) = (flow, self.next_times(h, step.t)) {
-            flow = self.report_between(step, times, n);
-            for t in &times[..n] {
-                flow = if flow == Flow::Continue { watch(*t) } else { flow };
-            }
+        while let (Flow::Continue, Some(t)) = (flow, self.due(h, step.t)) {
+            self.latest = t;
+            self.next += 1;
+            flow = self.report_between(step, t);
+            flow = if flow == Flow::Continue { watch(t) } else { flow };
         }
         if flow == Flow::Continue && step.t == self.t_end && self.latest != step.t {
             flow = self.report(step.t, step.y);
@@ -267,17 +253,6 @@ impl<'a> Recorder<'a> {
             Output::Every(h) => self.dense.is_some() || self.due(h, t).is_some(),
             Output::Steps => self.dense.is_some(),
         }
-    }
-
-    /// Takes the next times of the grid that have been reached: how many, and the end of the step behind them.
-    fn next_times(&mut self, h: f64, reached: f64) -> Option<(Times, usize)> {
-        let (mut times, mut n) = ([reached; Lanes::WIDTH], 0);
-        while let (true, Some(t)) = (n < Lanes::WIDTH, self.due(h, reached)) {
-            (times[n], self.latest) = (t, t);
-            self.next += 1;
-            n += 1;
-        }
-        (n > 0).then_some((times, n))
     }
 
     /// The next time of the grid if it has been reached: t₀ + k h by multiplication, without drift.

@@ -84,9 +84,8 @@ impl<'a, S: Real> Solver<'a, S> {
     }
 
     /// By what part of the fastest rate projection has changed the rates that were `given`.
-    pub fn turn(&self, given: &[S], y: &[S]) -> f64 {
-        let n = self.model.layout.n_q;
-        let by = |projector| around::turn(projector, &given[n..2 * n], &y[n..2 * n]);
+    pub fn turn(&self, given: &[S], v: &[S]) -> f64 {
+        let by = |projector| around::turn(projector, given, v);
         self.projector.as_ref().map_or(0.0, by)
     }
 
@@ -123,16 +122,18 @@ impl Solver<'_> {
     /// [`Halt`].
     pub fn place_on_branch_and_solve(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
         let given = y.to_vec();
+        let n = self.model.layout.n_q;
+        let turned = |solver: &Self, y: &[f64]| solver.turn(&given[n..2 * n], &y[n..2 * n]);
         self.place_and_solve(t, y)?;
-        let turn = self.turn(&given, y);
+        let turn = turned(self, y);
         let Some(projector) = self.projector.as_mut().filter(|_| turn > around::TURNED) else {
             return Ok(());
         };
         let mut other = given.clone();
-        let (q, v, _) = parts(&mut other, self.model.layout.n_q);
+        let (q, v, _) = parts(&mut other, n);
         let taken = around::take(projector, &mut self.workspace, t, (q, v));
         let placed = taken.is_ok() && self.place_and_solve(t, &mut other).is_ok();
-        if placed && self.turn(&given, &other) < turn {
+        if placed && turned(self, &other) < turn {
             y.copy_from_slice(&other);
             return Ok(());
         }
