@@ -212,11 +212,17 @@ impl<S: Real> Workspace<S> {
     }
 
     /// Powers at the state of the last [`accelerate`](Self::accelerate), drivers included.
+    #[inline]
     pub fn powers(&self, model: &Model<S>, v: &[S]) -> Powers<S> {
-        let mut powers = self.powers;
-        if !model.driven {
-            return powers;
+        match model.driven {
+            true => self.powers_driven(model, v),
+            false => self.powers,
         }
+    }
+
+    #[inline(never)]
+    fn powers_driven(&self, model: &Model<S>, v: &[S]) -> Powers<S> {
+        let mut powers = self.powers;
         let mut rows = [S::zero(); crate::elements::MOST_EQUATIONS];
         for (k, item) in model.constraints.iter().enumerate().filter(|(_, c)| c.driven) {
             let range = model.layout.constraints[k].rows.clone();

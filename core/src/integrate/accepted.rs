@@ -8,6 +8,8 @@ use super::dense::Dense;
 use super::embedded_pair::EmbeddedPair;
 use super::failure::Cause;
 use super::rate::{all_finite, Trouble};
+use super::stages::{chord, row, row_mut};
+use crate::math::Lanes;
 
 /// Whether the system changed the state; inside, why a shorter step is to be tried.
 type Settled<E> = Result<Result<bool, Cause<E>>, Cause<E>>;
@@ -16,25 +18,22 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     /// Lets the system change the accepted state and evaluates the derivative there, where that is not
     /// known.
     pub(super) fn settle(&mut self, t_new: f64) -> Settled<Y::Stop> {
-        let Work { k, y_new, trial, .. } = &mut self.work;
+        let Work { width, k, y_new, trial, .. } = &mut self.work;
         trial.copy_from_slice(y_new);
-        let projected = match self.rate.system.accepted(t_new, y_new) {
+        let y_projected = &mut y_new.as_flattened_mut()[..self.n];
+        let projected = match self.rate.system.accepted(t_new, y_projected) {
             Ok(projected) => projected,
             Err(stop) => return Ok(Err(Cause::Equations(stop))),
         };
         if projected {
-            if !all_finite(y_new) {
+            if !all_finite(y_new.as_flattened()) {
                 return Err(Cause::NotFinite { t: t_new });
             }
-            let h = t_new - self.t;
-            let jump = &mut k[(P::STAGES + P::EXTRA) * self.n..][..self.n];
-            for ((jump, new), old) in jump.iter_mut().zip(y_new.iter()).zip(trial.iter()) {
-                *jump = (new - old) / h;
-            }
+            chord(trial, y_new, t_new - self.t, row_mut(k, *width, P::STAGES + P::EXTRA));
         }
         if projected || !P::LAST_IN_ERROR {
             let row = last_row::<P>(projected);
-            match self.rate.at(t_new, y_new, &mut k[row * self.n..][..self.n]) {
+            match self.rate.at(t_new, y_new, row_mut(k, *width, row)) {
                 Ok(()) => {}
                 Err(Trouble::NotFinite(t)) => return Ok(Err(Cause::NotFinite { t })),
                 Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
@@ -49,27 +48,28 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         &mut self,
         t_new: f64,
         projected: bool,
-        y: &mut [f64],
         observer: &mut O,
     ) -> Result<Flow, Cause<Y::Stop>> {
-        let (n, last) = (self.n, last_row::<P>(projected));
-        let extension = self.extend(t_new, last, y, observer)?;
-        let Work { k, y_new, birkhoff, .. } = &mut self.work;
+        let last = last_row::<P>(projected);
+        let extension = self.extend(t_new, last, observer)?;
+        let Work { width, k, y, y_new, birkhoff, .. } = &mut self.work;
         let dense = match (extension, &birkhoff) {
             (None, Some(birkhoff)) => birkhoff.dense(),
             (table, _) => {
                 let rows = P::STAGES + P::EXTRA + usize::from(projected);
-                Dense::new(&k[..rows * n], n, table.unwrap_or(P::WITHOUT_EXTRA), P::DEGREE)
+                let (stages, table) = (&k[..rows * *width], table.unwrap_or(P::WITHOUT_EXTRA));
+                Dense::new(stages.as_flattened(), Lanes::WIDTH * *width, table, P::DEGREE)
             }
         };
-        let (dy_old, dy) = (&k[..n], &k[last * n..][..n]);
-        let step = Step { t_old: self.t, t: t_new, y_old: y, y: y_new, dy_old, dy, dense };
+        let ends = Ends::new(t_new - self.t, [y, y_new], [0, last].map(|s| row(k, *width, s)), self.n);
+        let Ends { y_old, y: y_end, dy_old, dy, .. } = ends;
+        let step = Step { t_old: self.t, t: t_new, y_old, y: y_end, dy_old, dy, dense };
         let flow = observer.step(&step);
         if let Some(birkhoff) = birkhoff {
-            birkhoff.remember(Ends { h: t_new - self.t, y_old: y, y: y_new, dy_old, dy });
+            birkhoff.remember(ends);
         }
-        y.copy_from_slice(y_new);
-        k.copy_within(last * n..(last + 1) * n, 0);
+        std::mem::swap(y, y_new);
+        k.copy_within(last * *width..(last + 1) * *width, 0);
         self.t = t_new;
         self.steps += 1;
         Ok(flow)
@@ -81,13 +81,12 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         &mut self,
         t_new: f64,
         last: usize,
-        y: &[f64],
         observer: &O,
     ) -> Result<Option<&'static [f64]>, Cause<Y::Stop>> {
-        let Work { k, y_new, trial, birkhoff, .. } = &mut self.work;
+        let Work { width, k, y, y_new, trial, birkhoff, .. } = &mut self.work;
         let (n, h) = (self.n, t_new - self.t);
-        let (stages, extra) = k.split_at_mut(P::STAGES * n);
-        let ends = || Ends { h, y_old: y, y: y_new, dy_old: &stages[..n], dy: &stages[last * n..] };
+        let (stages, extra) = k.split_at_mut(P::STAGES * *width);
+        let ends = || Ends::new(h, [y, y_new], [0, last].map(|s| row(stages, *width, s)), n);
         if let Some(birkhoff) = birkhoff {
             birkhoff.measure(ends(), P::MEAN, stages);
         }
@@ -96,9 +95,10 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         }
         let outcome = match birkhoff.as_mut().filter(|birkhoff| birkhoff.serves(h)) {
             Some(birkhoff) => {
-                birkhoff.predict(ends(), trial);
-                let inside = &mut extra[..n];
+                birkhoff.predict(ends(), &mut trial.as_flattened_mut()[..n]);
+                let inside = row_mut(extra, *width, 0);
                 let outcome = self.rate.at(self.t + INSIDE * h, trial, inside);
+                let inside = &inside.as_flattened()[..n];
                 outcome.map(|()| birkhoff.complete(ends(), inside)).map(|()| None)
             }
             None => {
@@ -110,7 +110,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             Err(Trouble::Stop(stop)) => Err(Cause::Equations(stop)),
             Err(Trouble::NotFinite(_)) => {
                 // NaN times zero is NaN
-                k[P::STAGES * n..(P::STAGES + P::EXTRA) * n].fill(0.0);
+                k[P::STAGES * *width..(P::STAGES + P::EXTRA) * *width].fill([0.0; Lanes::WIDTH]);
                 Ok(Some(P::WITHOUT_EXTRA))
             }
         }

@@ -3,7 +3,7 @@
 //! With the elementary control step for step what `scipy.integrate.solve_ivp` does, so that counts of steps
 //! can be compared.
 
-use super::adaptive_options::{Atol, Options};
+use super::adaptive_options::Options;
 use super::birkhoff::Birkhoff;
 use super::clearance::Clearance;
 use super::contract::{Ended, FirstOrder, Flow, Observer, Statistics};
@@ -11,40 +11,45 @@ use super::embedded_pair::EmbeddedPair;
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
 use super::rate::{all_finite, Rate, Trouble};
-use super::step_size::{initial_step, least_step, probing_step, scaled_norm, StepSize};
+use super::stages::{combine, room, row_mut, rows_mut, width, Block};
+use super::step_size::{initial_step, least_step, probing_step, StepSize};
+use super::tolerances::Tolerances;
+use crate::math::Lanes;
 
 /// Rejected steps after which a run gets nowhere, or half of max_steps if that is more.
 const MANY: usize = 10_000;
 
 /// What one accepted step needs, taken once.
 pub(super) struct Work {
+    /// Blocks in a row.
+    pub width: usize,
     /// Stages, extra ones, the jump of a projection over h, the derivative after a projection if it is not
     /// the last stage.
-    pub k: Vec<f64>,
-    pub y_new: Vec<f64>,
+    pub k: Vec<Block>,
+    /// The last accepted state.
+    pub y: Vec<Block>,
+    pub y_new: Vec<Block>,
     /// Arguments of stages; the state before a projection.
-    pub trial: Vec<f64>,
+    pub trial: Vec<Block>,
     /// The stages without what projection takes away.
-    remaining: Vec<f64>,
-    atol: Vec<f64>,
+    remaining: Vec<Block>,
+    tolerances: Tolerances,
     /// The extension of systems of second order, for pairs whose own takes extra stages.
     pub birkhoff: Option<Birkhoff>,
 }
 
 impl Work {
-    fn new<P: EmbeddedPair>(system: &impl FirstOrder, atol: &Atol) -> Self {
+    fn new<P: EmbeddedPair>(system: &impl FirstOrder, options: &Options<'_>) -> Self {
         let (n, controlled, positions) = (system.len(), system.controlled(), system.positions());
         let second_order = positions > 0 && !P::MEAN.is_empty();
-        let atol = match atol {
-            Atol::Scalar(atol) => vec![*atol; controlled],
-            Atol::Each(atol) => atol.clone(),
-        };
         Self {
-            k: vec![0.0; (P::STAGES + P::EXTRA + 2) * n],
-            y_new: vec![0.0; n],
-            trial: vec![0.0; n],
+            width: width(n),
+            k: room(P::STAGES + P::EXTRA + 2, n),
+            y: room(1, n),
+            y_new: room(1, n),
+            trial: room(1, n),
             remaining: Vec::new(),
-            atol,
+            tolerances: Tolerances::new(options.rtol, options.atol, n, controlled),
             birkhoff: second_order.then(|| Birkhoff::new(n, positions)),
         }
     }
@@ -75,7 +80,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
 ) -> Result<Statistics, Failure<Y::Stop>> {
     let (n, controlled) = (system.len(), system.controlled());
     let checked = options.begin((t0, t_end), (y, n), controlled);
-    let work = Work::new::<P>(system, options.atol);
+    let work = Work::new::<P>(system, options);
     let mut run = Run::<Y, P> {
         rate: Rate { system, evaluations: 0 },
         options,
@@ -89,7 +94,12 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
         work,
         pair: std::marker::PhantomData,
     };
-    let outcome = checked.and_then(|grid| run.go(grid, y, observer));
+    let outcome = checked.and_then(|grid| {
+        run.work.y.as_flattened_mut()[..n].copy_from_slice(y);
+        let outcome = run.go(grid, observer);
+        y.copy_from_slice(&run.work.y.as_flattened()[..n]);
+        outcome
+    });
     conclude(outcome, run.statistics(), y)
 }
 
@@ -106,19 +116,19 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     fn go<O: Observer>(
         &mut self,
         grid: Option<Grid>,
-        y: &mut [f64],
         observer: &mut O,
     ) -> Result<Ended, Cause<Y::Stop>> {
         if self.t == self.t_end {
             return Ok(Ended::Reached);
         }
-        self.rate.at(self.t, y, &mut self.work.k[..self.n]).map_err(hard)?;
+        let Work { k, y, width, .. } = &mut self.work;
+        self.rate.at(self.t, y, row_mut(k, *width, 0)).map_err(hard)?;
         if let Some(grid) = grid {
-            return self.go_along(&grid, y, observer);
+            return self.go_along(&grid, observer);
         }
         let first = match self.options.first_step {
             Some(h) => h,
-            None => self.first_step(y)?,
+            None => self.first_step()?,
         };
         let mut size = StepSize::new(first, P::ERROR_ORDER, P::CONTROL);
         while self.t != self.t_end {
@@ -130,8 +140,8 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
                     return Err(Cause::StepTooSmall { t: self.t, h: size.size });
                 }
             }
-            let (t_new, projected) = self.accepted_step(y, &mut size)?;
-            if self.finish(t_new, projected, y, observer)? == Flow::Stop {
+            let (t_new, projected) = self.accepted_step(&mut size)?;
+            if self.finish(t_new, projected, observer)? == Flow::Stop {
                 return Ok(Ended::Stopped);
             }
         }
@@ -142,14 +152,13 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     fn go_along<O: Observer>(
         &mut self,
         grid: &Grid,
-        y: &mut [f64],
         observer: &mut O,
     ) -> Result<Ended, Cause<Y::Stop>> {
         for k in 1..=grid.count {
             let t_new = grid.end(k, self.t)?;
-            self.advance(t_new, y).map_err(hard)?;
+            self.advance(t_new).map_err(hard)?;
             let projected = self.settle(t_new)??;
-            if self.finish(t_new, projected, y, observer)? == Flow::Stop {
+            if self.finish(t_new, projected, observer)? == Flow::Stop {
                 return Ok(Ended::Stopped);
             }
         }
@@ -157,38 +166,31 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     }
 
     /// Hairer's choice of the first step, at the cost of one evaluation.
-    fn first_step(&mut self, y: &[f64]) -> Result<f64, Cause<Y::Stop>> {
+    fn first_step(&mut self) -> Result<f64, Cause<Y::Stop>> {
         let interval = (self.t_end - self.t).abs();
         let most = interval.min(self.options.max_step);
-        let Work { k, trial, atol, .. } = &mut self.work;
-        if atol.is_empty() {
+        let Work { width, k, y, trial, tolerances, .. } = &mut self.work;
+        if tolerances.controlled == 0 {
             return Ok(most);
         }
-        let (f0, rest) = k.split_at_mut(self.n);
-        let f1 = &mut rest[..self.n];
-        let rtol = self.options.rtol;
-        let scale = |i: usize| atol[i] + rtol * y[i].abs();
-        let controlled = 0..atol.len();
-        let d0 = scaled_norm(controlled.clone().map(|i| (y[i], scale(i))));
-        let d1 = scaled_norm(controlled.clone().map(|i| (f0[i], scale(i))));
+        let [f0, f1] = rows_mut(k, *width);
+        let d0 = tolerances.norm(y, |i| Lanes::new(y[i]));
+        let d1 = tolerances.norm(y, |i| Lanes::new(f0[i]));
         let h0 = probing_step(d0, d1, interval);
-        for ((trial, y), f) in trial.iter_mut().zip(y).zip(f0.iter()) {
-            *trial = y + h0 * self.direction * f;
-        }
+        combine(y, h0 * self.direction, [1.0], [f0], trial);
         match self.rate.at(self.t + h0 * self.direction, trial, f1) {
             Ok(()) => {}
             // the probe left the domain: begin with it as a step, which rejection shortens
             Err(Trouble::NotFinite(_)) => return Ok(h0.min(most)),
             Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
         }
-        let d2 = scaled_norm(controlled.map(|i| (f1[i] - f0[i], scale(i)))) / h0;
+        let d2 = tolerances.norm(y, |i| Lanes::new(f1[i]) - Lanes::new(f0[i])) / h0;
         Ok(initial_step(h0, d1, d2, P::ERROR_ORDER).min(most))
     }
 
     /// Tries steps until error and system accept one. Its time, and whether the system changed it.
     fn accepted_step(
         &mut self,
-        y: &[f64],
         size: &mut StepSize,
     ) -> Result<(f64, bool), Cause<Y::Stop>> {
         let t = self.t;
@@ -206,7 +208,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
                 t_new = self.t_end;
             }
             let h = t_new - t;
-            let trial = self.attempt(t_new, y).map(|norm| self.judged(norm, h, y));
+            let trial = self.attempt(t_new).map(|norm| self.judged(norm, h));
             let placed = self.placed(t_new);
             match trial {
                 Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
@@ -247,45 +249,42 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     }
 
     /// The error norm of a step to `t_new`.
-    fn attempt(&mut self, t_new: f64, y: &[f64]) -> Result<f64, Trouble<Y::Stop>> {
-        self.advance(t_new, y)?;
-        let Work { k, y_new, trial, atol, .. } = &mut self.work;
-        let stages = &k[..P::STAGES * self.n];
-        let tolerances = (self.options.rtol, atol.as_slice());
-        let norm = P::error_norm(t_new - self.t, stages, (y, y_new), tolerances, trial);
+    fn attempt(&mut self, t_new: f64) -> Result<f64, Trouble<Y::Stop>> {
+        self.advance(t_new)?;
+        let Work { k, y, y_new, tolerances, .. } = &self.work;
+        let norm = P::error_norm(t_new - self.t, k, (y, y_new), tolerances);
         Ok(self.clearance.strictness() * norm)
     }
 
     /// The stages of a step to `t_new`, and the state there.
-    fn advance(&mut self, t_new: f64, y: &[f64]) -> Result<(), Trouble<Y::Stop>> {
-        let Work { k, y_new, trial, birkhoff, .. } = &mut self.work;
-        let stages = &mut k[..P::STAGES * self.n];
-        if self.rate.begin(self.t, t_new - self.t, y, &mut stages[..self.n])? {
+    fn advance(&mut self, t_new: f64) -> Result<(), Trouble<Y::Stop>> {
+        let Work { width, k, y, y_new, trial, birkhoff, .. } = &mut self.work;
+        if self.rate.begin(self.t, t_new - self.t, y, row_mut(k, *width, 0))? {
             birkhoff.iter_mut().for_each(Birkhoff::forget);
         }
-        P::advance(&mut self.rate, (self.t, t_new), y, stages, trial, y_new)?;
-        if !all_finite(y_new) {
+        P::advance(&mut self.rate, (self.t, t_new), y, k, trial, y_new)?;
+        if !all_finite(y_new.as_flattened()) {
             return Err(Trouble::NotFinite(t_new));
         }
         if !P::LAST_IN_ERROR && self.rate.system.near_obstacle() {
-            self.rate.at(t_new, y_new, &mut stages[(P::STAGES - 1) * self.n..])?;
+            self.rate.at(t_new, y_new, row_mut(k, *width, P::STAGES - 1))?;
         }
         Ok(())
     }
 
     /// The error norm of a refused step without what projection takes away.
-    fn judged(&mut self, norm: f64, h: f64, y: &[f64]) -> f64 {
+    fn judged(&mut self, norm: f64, h: f64) -> f64 {
         if norm < 1.0 || !norm.is_finite() {
             return norm;
         }
-        let Work { k, y_new, trial, remaining, atol, .. } = &mut self.work;
+        let Work { width, k, y, y_new, remaining, tolerances, .. } = &mut self.work;
         remaining.clear();
-        remaining.extend_from_slice(&k[..P::STAGES * self.n]);
-        if !remaining.chunks_exact_mut(self.n).all(|dy| self.rate.system.remaining(dy)) {
+        remaining.extend_from_slice(&k[..P::STAGES * *width]);
+        let mut rows = remaining.chunks_exact_mut(*width);
+        if !rows.all(|dy| self.rate.system.remaining(&mut dy.as_flattened_mut()[..self.n])) {
             return norm;
         }
-        let tolerances = (self.options.rtol, atol.as_slice());
-        let left = P::error_norm(h, remaining, (y, y_new), tolerances, trial);
+        let left = P::error_norm(h, remaining, (y, y_new), tolerances);
         norm.min(self.clearance.strictness() * left)
     }
 }

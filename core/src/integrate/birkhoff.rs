@@ -17,6 +17,7 @@
 //! An error e of the node before enters by some e / r⁵: steps much longer than that before do without.
 
 use super::dense::{Dense, HIGHEST as DEGREE};
+use super::stages;
 use crate::math::{Lanes, Real};
 
 /// Where the second derivative is evaluated, part of the step. For equal steps the error of v is
@@ -33,6 +34,15 @@ pub(super) struct Ends<'a> {
     pub y: &'a [f64],
     pub dy_old: &'a [f64],
     pub dy: &'a [f64],
+}
+
+impl<'a> Ends<'a> {
+    /// Of `n` components, from states and derivatives at the beginning and at the end.
+    pub fn new(h: f64, y: [&'a [stages::Block]; 2], dy: [&'a [stages::Block]; 2], n: usize) -> Self {
+        let [y_old, y] = y.map(|y| &y.as_flattened()[..n]);
+        let [dy_old, dy] = dy.map(|dy| &dy.as_flattened()[..n]);
+        Self { h, y_old, y, dy_old, dy }
+    }
 }
 
 /// Four of the polynomials in the making.
@@ -98,15 +108,16 @@ impl Birkhoff {
     }
 
     /// Takes what the integrals gain over a step: for q its ends tell, for w the weights `mean` of the
-    /// stages `k`, by which ∫ w dt = h w_old + h² Σ meanᵢ kᵢ.
-    pub fn measure(&mut self, ends: Ends<'_>, mean: &[f64], k: &[f64]) {
+    /// stages in the first rows of `k`, by which ∫ w dt = h w_old + h² Σ meanᵢ kᵢ.
+    pub fn measure(&mut self, ends: Ends<'_>, mean: &[f64], k: &[stages::Block]) {
         let Ends { h, y_old, y, .. } = ends;
         let (n, p) = (y.len(), self.positions);
         for (gain, (y, y_old)) in self.gain.iter_mut().zip(y[..p].iter().zip(y_old)) {
             *gain = y - y_old;
         }
         for i in 2 * p..n {
-            let sum: f64 = mean.iter().zip(k[i..].iter().step_by(n)).map(|(w, k)| w * k).sum();
+            let rows = k.as_flattened()[i..].iter().step_by(Lanes::WIDTH * stages::width(n));
+            let sum: f64 = mean.iter().zip(rows).map(|(w, k)| w * k).sum();
             self.gain[i - p] = h * (y_old[i] + h * sum);
         }
     }

@@ -36,7 +36,7 @@ enum Form<'a> {
 /// Stages of a step with the polynomials that join them.
 #[derive(Clone, Copy, Debug)]
 struct Stages<'a> {
-    /// Row-major (number of stages) × (len of y).
+    /// Row-major (number of stages) × (len of y, or more).
     stages: &'a [f64],
     /// Coefficients of θ, θ², … of each stage, row-major (number of stages or more) × degree.
     table: &'static [f64],
@@ -50,7 +50,7 @@ fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
 }
 
 impl<'a> Dense<'a> {
-    /// `stages` of `len` components each, as many as the caller wants of those in `table`.
+    /// `stages` in rows of `len`, of which the components are the first, as many as the caller wants of those in `table`.
     pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
         assert!(degree <= HIGHEST, "a method of a higher degree");
         Self { form: Form::Stages(Stages { stages, table, len }), degree }
@@ -123,7 +123,7 @@ impl<'a> Stages<'a> {
 
     #[inline(always)]
     fn add_coefficients(&self, degree: usize, out: &mut [f64]) {
-        assert_eq!(out.len(), self.len * degree, "len of y x degree");
+        assert!(out.len() <= self.len * degree, "len of y x degree");
         let mut first = 0;
         let mut blocks = out.chunks_exact_mut(Lanes::WIDTH * degree);
         for out in &mut blocks {

@@ -20,8 +20,10 @@ use super::dop853_coefficients::*;
 use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
-use super::stages::{combine, rows};
+use super::stages::{combine, rows, rows_mut, sum_at, Block, Trial};
 use super::step_size::Control;
+use super::tolerances::Tolerances;
+use crate::math::{Lanes, Real};
 
 /// DOP853 with its options.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,30 +162,25 @@ impl EmbeddedPair for Pair {
     fn advance<Y: FirstOrder>(
         rate: &mut Rate<'_, Y>,
         (t, t_new): (f64, f64),
-        y: &[f64],
-        k: &mut [f64],
-        work: &mut [f64],
-        y_new: &mut [f64],
+        y: &[Block],
+        k: &mut [Block],
+        work: &mut [Block],
+        y_new: &mut [Block],
     ) -> Result<(), Trouble<Y::Stop>> {
-        let (n, h) = (y.len(), t_new - t);
-        for (stage, c) in (1..).zip(C) {
-            let [k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11] = rows(k, n);
-            match stage {
-                1 => combine(y, h, A2, [k1], work),
-                2 => combine(y, h, A3, [k1, k2], work),
-                3 => combine(y, h, A4, [k1, k3], work),
-                4 => combine(y, h, A5, [k1, k3, k4], work),
-                5 => combine(y, h, A6, [k1, k4, k5], work),
-                6 => combine(y, h, A7, [k1, k4, k5, k6], work),
-                7 => combine(y, h, A8, [k1, k4, k5, k6, k7], work),
-                8 => combine(y, h, A9, [k1, k4, k5, k6, k7, k8], work),
-                9 => combine(y, h, A10, [k1, k4, k5, k6, k7, k8, k9], work),
-                10 => combine(y, h, A11, [k1, k4, k5, k6, k7, k8, k9, k10], work),
-                _ => combine(y, h, A12, [k1, k4, k5, k6, k7, k8, k9, k10, k11], work),
-            }
-            rate.at(t + c * h, work, &mut k[stage * n..(stage + 1) * n])?;
-        }
-        let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] = rows(k, n);
+        let h = t_new - t;
+        let [k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12] = rows_mut(k, y.len());
+        let mut trial = Trial { rate, t, h, y, work };
+        trial.stage(C[0], A2, [k1], k2)?;
+        trial.stage(C[1], A3, [k1, k2], k3)?;
+        trial.stage(C[2], A4, [k1, k3], k4)?;
+        trial.stage(C[3], A5, [k1, k3, k4], k5)?;
+        trial.stage(C[4], A6, [k1, k4, k5], k6)?;
+        trial.stage(C[5], A7, [k1, k4, k5, k6], k7)?;
+        trial.stage(C[6], A8, [k1, k4, k5, k6, k7], k8)?;
+        trial.stage(C[7], A9, [k1, k4, k5, k6, k7, k8], k9)?;
+        trial.stage(C[8], A10, [k1, k4, k5, k6, k7, k8, k9], k10)?;
+        trial.stage(C[9], A11, [k1, k4, k5, k6, k7, k8, k9, k10], k11)?;
+        trial.stage(C[10], A12, [k1, k4, k5, k6, k7, k8, k9, k10, k11], k12)?;
         combine(y, h, B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new);
         Ok(())
     }
@@ -191,47 +188,35 @@ impl EmbeddedPair for Pair {
     fn extend<Y: FirstOrder>(
         rate: &mut Rate<'_, Y>,
         (t, t_new): (f64, f64),
-        y: &[f64],
-        k: &mut [f64],
-        work: &mut [f64],
+        y: &[Block],
+        k: &mut [Block],
+        work: &mut [Block],
     ) -> Result<(), Trouble<Y::Stop>> {
-        let (n, h) = (y.len(), t_new - t);
-        for (stage, c) in (STAGES..).zip(C_EXTRA) {
-            let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15] = rows(k, n);
-            match stage {
-                13 => combine(y, h, A14, [k1, k7, k8, k9, k10, k11, k12, k13], work),
-                14 => combine(y, h, A15, [k1, k6, k7, k8, k11, k12, k13, k14], work),
-                _ => combine(y, h, A16, [k1, k6, k7, k8, k9, k13, k14, k15], work),
-            }
-            rate.at(t + c * h, work, &mut k[stage * n..(stage + 1) * n])?;
-        }
-        Ok(())
+        let rows = rows_mut(k, y.len());
+        let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16] = rows;
+        let mut trial = Trial { rate, t, h: t_new - t, y, work };
+        trial.stage(C_EXTRA[0], A14, [k1, k7, k8, k9, k10, k11, k12, k13], k14)?;
+        trial.stage(C_EXTRA[1], A15, [k1, k6, k7, k8, k11, k12, k13, k14], k15)?;
+        trial.stage(C_EXTRA[2], A16, [k1, k6, k7, k8, k9, k13, k14, k15], k16)
     }
 
     fn error_norm(
         h: f64,
-        k: &[f64],
-        (y, y_new): (&[f64], &[f64]),
-        (rtol, atol): (f64, &[f64]),
-        _: &mut [f64],
+        k: &[Block],
+        states: (&[Block], &[Block]),
+        tolerances: &Tolerances,
     ) -> f64 {
-        let controlled = atol.len();
-        let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] =
-            rows(k, y.len()).map(|k| &k[..controlled]);
-        let (y, y_new) = (&y[..controlled], &y_new[..controlled]);
-        let (mut fifth, mut third) = (0.0, 0.0);
-        for i in 0..controlled {
-            let k = [k1[i], k6[i], k7[i], k8[i], k9[i], k10[i], k11[i], k12[i]];
-            let sum = |weights: [f64; 8]| weights.iter().zip(k).map(|(w, k)| w * k).sum::<f64>();
-            let scale = atol[i] + rtol * y[i].abs().max(y_new[i].abs());
-            let e5 = sum(E5) / scale;
-            let e3 = (sum(B) - (B3[0] * k1[i] + B3[1] * k9[i] + B3[2] * k12[i])) / scale;
-            fifth += e5 * e5;
-            third += e3 * e3;
-        }
+        let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] = rows(k, states.0.len());
+        let of_fifth = E5.map(Lanes::constant);
+        let of_third = E3.map(Lanes::constant);
+        let [fifth, third] = tolerances.squares(states, |i| {
+            let k = [k1, k6, k7, k8, k9, k10, k11, k12];
+            [sum_at(i, of_fifth, k), sum_at(i, of_third, k)]
+        });
         if fifth == 0.0 && third == 0.0 {
             return 0.0;
         }
-        h.abs() * fifth / ((fifth + 0.01 * third) * controlled as f64).sqrt()
+        let controlled = tolerances.controlled as f64;
+        h.abs() * fifth / ((fifth + 0.01 * third) * controlled).sqrt()
     }
 }

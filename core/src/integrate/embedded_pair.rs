@@ -3,7 +3,9 @@
 use super::clearance::Gap;
 use super::contract::FirstOrder;
 use super::rate::{Rate, Trouble};
+use super::stages::Block;
 use super::step_size::Control;
+use super::tolerances::Tolerances;
 
 /// An embedded pair that has the derivative at the end of a step as its last stage.
 pub(super) trait EmbeddedPair {
@@ -36,30 +38,28 @@ pub(super) trait EmbeddedPair {
     fn advance<Y: FirstOrder>(
         rate: &mut Rate<'_, Y>,
         span: (f64, f64),
-        y: &[f64],
-        k: &mut [f64],
-        work: &mut [f64],
-        y_new: &mut [f64],
+        y: &[Block],
+        k: &mut [Block],
+        work: &mut [Block],
+        y_new: &mut [Block],
     ) -> Result<(), Trouble<Y::Stop>>;
 
     /// The extra stages of an accepted step, in the rows of `k` after the others.
     fn extend<Y: FirstOrder>(
         _rate: &mut Rate<'_, Y>,
         _span: (f64, f64),
-        _y: &[f64],
-        _k: &mut [f64],
-        _work: &mut [f64],
+        _y: &[Block],
+        _k: &mut [Block],
+        _work: &mut [Block],
     ) -> Result<(), Trouble<Y::Stop>> {
         Ok(())
     }
 
-    /// √(mean (errorᵢ / (atolᵢ + rtol max(|yᵢ|, |y_newᵢ|)))²) over as many components as `atol` has;
-    /// `states` are y and y_new, `tolerances` rtol and atol, `work` is scratch as long as y.
+    /// √(mean (errorᵢ / scaleᵢ)²) over the components that count; `states` are y and y_new.
     fn error_norm(
         h: f64,
-        k: &[f64],
-        states: (&[f64], &[f64]),
-        tolerances: (f64, &[f64]),
-        work: &mut [f64],
+        k: &[Block],
+        states: (&[Block], &[Block]),
+        tolerances: &Tolerances,
     ) -> f64;
 }

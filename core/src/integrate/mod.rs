@@ -20,7 +20,8 @@
 //! | `adaptive`, `adaptive_options`, `embedded_pair` | the loop of every embedded pair, its options, what it asks of a pair |
 //! | `accepted` | what becomes of a step whose error is accepted |
 //! | `fixed_step` | where steps of constant length end |
-//! | `stages` | sums over the stages of a step |
+//! | `stages` | sums over the stages of a step, in blocks of numbers |
+//! | `tolerances` | what errors of a step are measured by |
 //! | `rk45`, `dop853`, `rk4` | schemes |
 //! | `constrained` | what a constrained mechanical system and an implicit method promise each other |
 //! | `knot` | what implicit methods share: a state with its derivative, tolerances, counts |
@@ -55,6 +56,7 @@ mod rk4;
 mod rk45;
 mod stages;
 mod step_size;
+mod tolerances;
 
 pub use adaptive_options::Atol;
 pub use alpha_parameters::AlphaParameters;

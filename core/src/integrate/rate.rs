@@ -1,6 +1,8 @@
 //! Evaluations of f, counted and checked.
 
 use super::contract::FirstOrder;
+use super::stages::Block;
+use crate::math::{Lanes, Real};
 
 /// Why an evaluation is of no use.
 pub(super) enum Trouble<E> {
@@ -17,12 +19,14 @@ pub(super) struct Rate<'a, Y> {
 }
 
 impl<Y: FirstOrder> Rate<'_, Y> {
-    /// dy = f(t, y).
+    /// dy = f(t, y), both in blocks.
     #[inline]
-    pub fn at(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trouble<Y::Stop>> {
+    pub fn at(&mut self, t: f64, y: &[Block], dy: &mut [Block]) -> Result<(), Trouble<Y::Stop>> {
         self.evaluations += 1;
-        self.system.rate(t, y, dy).map_err(Trouble::Stop)?;
-        if all_finite(dy) {
+        let n = self.system.len();
+        let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
+        self.system.rate(t, y, rates).map_err(Trouble::Stop)?;
+        if all_finite(dy.as_flattened()) {
             Ok(())
         } else {
             Err(Trouble::NotFinite(t))
@@ -36,10 +40,10 @@ impl<Y: FirstOrder> Rate<'_, Y> {
         &mut self,
         t: f64,
         h: f64,
-        y: &[f64],
-        dy: &mut [f64],
+        y: &[Block],
+        dy: &mut [Block],
     ) -> Result<bool, Trouble<Y::Stop>> {
-        let changed = self.system.trying(t, y, h);
+        let changed = self.system.trying(t, &y.as_flattened()[..self.system.len()], h);
         if changed {
             self.at(t, y, dy)?;
         }
@@ -47,9 +51,16 @@ impl<Y: FirstOrder> Rate<'_, Y> {
     }
 }
 
-/// Whether every number is finite; as a sum of bits, so that it vectorises.
-#[inline]
+/// Whether every number is finite.
+#[inline(always)]
 pub(crate) fn all_finite(x: &[f64]) -> bool {
-    // 0 x is ±0 for finite x and NaN otherwise; the shift drops the sign
-    (x.iter().fold(0, |bits, v| bits | (0.0 * v).to_bits()) << 1) == 0
+    // 0 x is zero for finite x and NaN otherwise; four at once
+    let zero = Lanes::zero();
+    let blocks = x.chunks_exact(Lanes::WIDTH);
+    let rest: f64 = blocks.remainder().iter().map(|x| 0.0 * x).sum();
+    let sum = blocks.fold(Lanes::constant(rest), |sum, x| {
+        sum.plus_product(zero, Lanes::new([x[0], x[1], x[2], x[3]]))
+    });
+    let [a, b, c, d] = sum.to_array();
+    (a + b) + (c + d) == 0.0
 }

@@ -7,6 +7,8 @@ use super::dense::{Dense, HERMITE};
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
 use super::rate::{all_finite, Rate, Trouble};
+use super::stages::{chord, combine, room, row, row_mut, rows_mut, Block, Trial};
+use crate::math::Lanes;
 
 /// Classical Runge–Kutta 4 with its options.
 ///
@@ -27,18 +29,23 @@ impl Rk4 {
     }
 }
 
-/// Memory of a run: derivatives at both ends, chord, then the inner stages.
+const B: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
+
+/// Memory of a run.
 struct Work {
-    dense: Vec<f64>,
-    inner: [Vec<f64>; 3],
-    trial: Vec<f64>,
-    y_new: Vec<f64>,
+    /// Derivatives at both ends, chord; then the inner stages.
+    k: Vec<Block>,
+    y: Vec<Block>,
+    trial: Vec<Block>,
+    y_new: Vec<Block>,
 }
 
 impl Work {
-    fn new(n: usize) -> Self {
-        let row = || vec![0.0; n];
-        Self { dense: vec![0.0; 3 * n], inner: [row(), row(), row()], trial: row(), y_new: row() }
+    fn new(y: &[f64]) -> Self {
+        let row = || room(1, y.len());
+        let mut work = Self { k: room(6, y.len()), y: row(), trial: row(), y_new: row() };
+        work.y.as_flattened_mut()[..y.len()].copy_from_slice(y);
+        work
     }
 
     /// y at t + h, from y and the derivative there.
@@ -47,35 +54,20 @@ impl Work {
         rate: &mut Rate<'_, Y>,
         t: f64,
         h: f64,
-        y: &[f64],
     ) -> Result<(), Trouble<Y::Stop>> {
-        let n = y.len();
-        let k1 = &mut self.dense[..n];
+        let Self { k, y, trial, y_new } = self;
+        let [k1, _, _, k2, k3, k4] = rows_mut(k, y.len());
         rate.begin(t, h, y, k1)?;
-        let [k2, k3, k4] = &mut self.inner;
-        along(y, 0.5 * h, k1, &mut self.trial);
-        rate.at(t + 0.5 * h, &self.trial, k2)?;
-        along(y, 0.5 * h, k2, &mut self.trial);
-        rate.at(t + 0.5 * h, &self.trial, k3)?;
-        along(y, h, k3, &mut self.trial);
-        rate.at(t + h, &self.trial, k4)?;
-        let (k2, k3, k4) = (&k2[..n], &k3[..n], &k4[..n]);
-        let y_new = &mut self.y_new[..n];
-        for i in 0..n {
-            y_new[i] = y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
-        }
-        if all_finite(y_new) {
+        let mut trial = Trial { rate, t, h, y, work: trial };
+        trial.stage(0.5, [0.5], [k1], k2)?;
+        trial.stage(0.5, [0.5], [k2], k3)?;
+        trial.stage(1.0, [1.0], [k3], k4)?;
+        combine(y, h, B, [k1, k2, k3, k4], y_new);
+        if all_finite(y_new.as_flattened()) {
             Ok(())
         } else {
             Err(Trouble::NotFinite(t + h))
         }
-    }
-}
-
-/// out = y + h k.
-fn along(y: &[f64], h: f64, k: &[f64], out: &mut [f64]) {
-    for ((out, y), k) in out.iter_mut().zip(y).zip(k) {
-        *out = y + h * k;
     }
 }
 
@@ -110,12 +102,13 @@ fn go<Y: FirstOrder, O: Observer>(
     if grid.count == 0 {
         return Ok(Ended::Reached);
     }
-    let mut work = Work::new(y.len());
-    rate.at(t0, y, &mut work.dense[..y.len()]).map_err(cause)?;
+    let mut work = Work::new(y);
+    let width = work.y.len();
+    rate.at(t0, &work.y, row_mut(&mut work.k, width, 0)).map_err(cause)?;
     for k in 1..=grid.count {
         let t = statistics.t;
         let t_new = grid.end(k, t)?;
-        work.advance(rate, t, t_new - t, y).map_err(cause)?;
+        work.advance(rate, t, t_new - t).map_err(cause)?;
         let flow = finish(&mut work, rate, (t, t_new), y, observer)?;
         statistics.steps += 1;
         statistics.t = t_new;
@@ -135,26 +128,30 @@ fn finish<Y: FirstOrder, O: Observer>(
     observer: &mut O,
 ) -> Result<Flow, Cause<Y::Stop>> {
     let n = y.len();
-    let Work { dense, y_new, .. } = work;
-    if rate.system.accepted(t_new, y_new).map_err(Cause::Equations)? && !all_finite(y_new) {
+    let Work { k, y: y_old, y_new, .. } = work;
+    let width = y_old.len();
+    let accepted = rate.system.accepted(t_new, &mut y_new.as_flattened_mut()[..n]);
+    if accepted.map_err(Cause::Equations)? && !all_finite(y_new.as_flattened()) {
         return Err(Cause::NotFinite { t: t_new });
     }
     // the next step begins with this derivative, so the Hermite polynomial costs nothing
-    rate.at(t_new, y_new, &mut dense[n..2 * n]).map_err(cause)?;
-    for ((chord, new), old) in dense[2 * n..].iter_mut().zip(y_new.iter()).zip(y.iter()) {
-        *chord = (new - old) / (t_new - t);
-    }
+    rate.at(t_new, y_new, row_mut(k, width, 1)).map_err(cause)?;
+    chord(y_old, y_new, t_new - t, row_mut(k, width, 2));
+    let [of_old, of_new] = [0, 1].map(|s| &row(k, width, s).as_flattened()[..n]);
+    let end = &y_new.as_flattened()[..n];
+    let dense = k[..3 * width].as_flattened();
     let flow = observer.step(&Step {
         t_old: t,
         t: t_new,
         y_old: y,
-        y: y_new,
-        dy_old: &dense[..n],
-        dy: &dense[n..2 * n],
-        dense: Dense::new(dense, n, &HERMITE, 4),
+        y: end,
+        dy_old: of_old,
+        dy: of_new,
+        dense: Dense::new(dense, Lanes::WIDTH * width, &HERMITE, 4),
     });
-    y.copy_from_slice(y_new);
-    dense.copy_within(n..2 * n, 0);
+    y.copy_from_slice(end);
+    std::mem::swap(y_old, y_new);
+    k.copy_within(width..2 * width, 0);
     Ok(flow)
 }
 

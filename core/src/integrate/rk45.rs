@@ -11,8 +11,10 @@ use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
-use super::stages::{combine, larger, rows, sum_of_squares};
+use super::stages::{combine, rows, rows_mut, sum_at, Block, Trial};
 use super::step_size::Control;
+use super::tolerances::Tolerances;
+use crate::math::{Lanes, Real};
 
 /// Dormand–Prince 5(4) with its options.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,52 +126,33 @@ impl EmbeddedPair for DormandPrince {
     fn advance<Y: FirstOrder>(
         rate: &mut Rate<'_, Y>,
         (t, t_new): (f64, f64),
-        y: &[f64],
-        k: &mut [f64],
-        work: &mut [f64],
-        y_new: &mut [f64],
+        y: &[Block],
+        k: &mut [Block],
+        work: &mut [Block],
+        y_new: &mut [Block],
     ) -> Result<(), Trouble<Y::Stop>> {
-        let (n, h) = (y.len(), t_new - t);
-        for stage in 1..6 {
-            let [k1, k2, k3, k4, k5] = rows(k, n);
-            match stage {
-                1 => combine(y, h, A2, [k1], work),
-                2 => combine(y, h, A3, [k1, k2], work),
-                3 => combine(y, h, A4, [k1, k2, k3], work),
-                4 => combine(y, h, A5, [k1, k2, k3, k4], work),
-                _ => combine(y, h, A6, [k1, k2, k3, k4, k5], work),
-            }
-            rate.at(t + C[stage - 1] * h, work, &mut k[stage * n..(stage + 1) * n])?;
-        }
-        let [k1, _, k3, k4, k5, k6] = rows(k, n);
+        let h = t_new - t;
+        let [k1, k2, k3, k4, k5, k6, k7] = rows_mut(k, y.len());
+        let mut trial = Trial { rate, t, h, y, work };
+        trial.stage(C[0], A2, [k1], k2)?;
+        trial.stage(C[1], A3, [k1, k2], k3)?;
+        trial.stage(C[2], A4, [k1, k2, k3], k4)?;
+        trial.stage(C[3], A5, [k1, k2, k3, k4], k5)?;
+        trial.stage(C[4], A6, [k1, k2, k3, k4, k5], k6)?;
         combine(y, h, B, [k1, k3, k4, k5, k6], y_new);
-        rate.at(t_new, y_new, &mut k[6 * n..7 * n])
+        rate.at(t_new, y_new, k7)
     }
 
     fn error_norm(
         h: f64,
-        k: &[f64],
-        (y, y_new): (&[f64], &[f64]),
-        (rtol, atol): (f64, &[f64]),
-        work: &mut [f64],
+        k: &[Block],
+        states: (&[Block], &[Block]),
+        tolerances: &Tolerances,
     ) -> f64 {
-        let controlled = atol.len();
-        if controlled == 0 {
-            return 0.0;
-        }
-        let [k1, _, k3, k4, k5, k6, k7] = rows(k, y.len()).map(|k| &k[..controlled]);
-        let (y, y_new) = (&y[..controlled], &y_new[..controlled]);
-        let scaled = &mut work[..controlled];
-        // stored first: a sum would have to be taken one after the other
-        for i in 0..controlled {
-            let slope = E[0] * k1[i]
-                + E[1] * k3[i]
-                + E[2] * k4[i]
-                + E[3] * k5[i]
-                + E[4] * k6[i]
-                + E[5] * k7[i];
-            scaled[i] = h * slope / (atol[i] + rtol * larger(y[i].abs(), y_new[i].abs()));
-        }
-        (sum_of_squares(scaled) / controlled as f64).sqrt()
+        let [k1, _, k3, k4, k5, k6, k7] = rows(k, states.0.len());
+        let weights = E.map(|e| Lanes::constant(h * e));
+        let [sum] = tolerances
+            .squares(states, |i| [sum_at(i, weights, [k1, k3, k4, k5, k6, k7])]);
+        tolerances.mean(sum).sqrt()
     }
 }

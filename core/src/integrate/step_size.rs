@@ -108,17 +108,6 @@ pub(super) fn initial_step(h0: f64, d1: f64, d2: f64, error_order: i32) -> f64 {
     (100.0 * h0).min(h1)
 }
 
-/// √(Σ (xᵢ / scaleᵢ)² / n); 0 without components.
-pub(super) fn scaled_norm(x: impl ExactSizeIterator<Item = (f64, f64)>) -> f64 {
-    let n = x.len();
-    let sum: f64 = x.map(|(x, scale)| (x / scale) * (x / scale)).sum();
-    if n == 0 {
-        0.0
-    } else {
-        (sum / n as f64).sqrt()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

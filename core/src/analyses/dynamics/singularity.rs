@@ -63,21 +63,23 @@ impl Passage {
         }
     }
 
-    /// Looks at the accelerations that were just computed.
-    ///
-    /// # Errors
-    /// The motion does not decide how it goes on, and is not to go on all the same.
-    pub fn watch(
-        &mut self,
-        model: &Model,
-        work: &Workspace,
-        t: f64,
-        v: &[f64],
-    ) -> Result<(), Fault> {
-        let ridged = work.matrix.ridged();
-        if !(ridged || self.approach.in_reach()) {
-            return Ok(());
+    /// Looks at the accelerations that were just computed; whether the motion decides how it goes on, or is to
+    /// go on all the same. If not, that is [`undecided`](Self::undecided): the state may be but a trial, and
+    /// counts where no shorter step avoids it.
+    #[inline(always)]
+    pub fn watch(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
+        if !(work.matrix.ridged() || self.approach.in_reach()) {
+            return true;
         }
+        let looked = self.look(model, work, t, v);
+        self.undecided = looked.err().map(|fault| (t, fault)).or(self.undecided);
+        looked.is_ok()
+    }
+
+    /// The same beside a singular position.
+    #[cold]
+    fn look(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> Result<(), Fault> {
+        let ridged = work.matrix.ridged();
         self.near = true;
         let Some((row, kept)) = work.matrix.cancellation() else { return Ok(()) };
         self.approach.pass((t, kept));

@@ -5,7 +5,7 @@ use super::singularity::Passage;
 use crate::analyses::mobility;
 use crate::equations::augmented::Dependent;
 use crate::equations::{Gains, Singular, Workspace};
-use crate::integrate::FirstOrder;
+use crate::integrate::{all_finite, FirstOrder};
 use crate::model::Model;
 use crate::stabilize::{Fault, Held, Projector};
 
@@ -81,6 +81,16 @@ impl<'a> Equations<'a> {
     }
 }
 
+/// Stops where no unique accelerations are; a trial state that is not finite is off itself, and a shorter step
+/// may do.
+#[cold]
+fn stop_if_finite(singular: Singular, t: f64, y: &[f64]) -> Result<(), (f64, Fault)> {
+    match all_finite(y) {
+        true => Err((t, Fault::Singular(singular))),
+        false => Ok(()),
+    }
+}
+
 impl FirstOrder for Equations<'_> {
     type Stop = (f64, Fault);
 
@@ -100,25 +110,18 @@ impl FirstOrder for Equations<'_> {
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
         let n = self.model.layout.n_q;
         let (q, v) = (&y[..n], &y[n..2 * n]);
-        let outcome = self.workspace.accelerate(self.model, t, q, v, self.gains);
-        if let Err(singular) = outcome {
-            if y.iter().all(|y| y.is_finite()) {
-                return Err((t, Fault::Singular(singular)));
-            }
-            dy.fill(f64::NAN); // the trial state is off, not the mechanism: a shorter step may do
-            return Ok(());
-        }
-        if let Err(fault) = self.passage.watch(self.model, &self.workspace, t, v) {
-            // a trial state may be off: it counts where no shorter step avoids it
-            self.passage.undecided = Some((t, fault));
+        if let Err(singular) = self.workspace.accelerate(self.model, t, q, v, self.gains) {
             dy.fill(f64::NAN);
+            return stop_if_finite(singular, t, y);
+        }
+        if !self.passage.watch(self.model, &self.workspace, t, v) {
+            dy.fill(f64::NAN); // a shorter step may avoid it
             return Ok(());
         }
         let (dq, dv, works) = parts(dy, n);
         // in one loop: two calls to copy would take longer than a few bodies do
-        for ((dq, v), (dv, a)) in dq.iter_mut().zip(v).zip(dv.iter_mut().zip(self.workspace.a())) {
-            (*dq, *dv) = (*v, *a);
-        }
+        dq.copy_from_slice(v);
+        dv.copy_from_slice(self.workspace.a());
         let powers = self.workspace.powers(self.model, v);
         works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
         Ok(())

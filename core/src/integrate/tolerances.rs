@@ -1,0 +1,64 @@
+//! What errors of a step are measured by: atolᵢ + rtol max(|yᵢ|, |y_newᵢ|).
+
+use super::adaptive_options::Atol;
+use super::stages::{room, Block};
+use crate::math::{Lanes, Real};
+
+/// Tolerances of every component.
+pub(super) struct Tolerances {
+    rtol: f64,
+    /// Infinite where no error counts, and behind the last component.
+    atol: Vec<Block>,
+    /// How many components count.
+    pub controlled: usize,
+}
+
+impl Tolerances {
+    /// For `n` components, of which the first `controlled` count.
+    pub fn new(rtol: f64, atol: &Atol, n: usize, controlled: usize) -> Self {
+        let mut blocks = room(1, n);
+        let numbers = blocks.as_flattened_mut();
+        numbers.fill(f64::INFINITY);
+        match atol {
+            Atol::Scalar(atol) => numbers[..controlled].fill(*atol),
+            Atol::Each(atol) => numbers[..controlled].copy_from_slice(atol),
+        }
+        Self { rtol, atol: blocks, controlled }
+    }
+
+    /// Σ (xᵢ / scaleᵢ)², of blocks xᵢ of several quantities; one pass over the components.
+    #[inline(always)]
+    pub fn squares<const Q: usize>(
+        &self,
+        (y, y_new): (&[Block], &[Block]),
+        x: impl Fn(usize) -> [Lanes; Q],
+    ) -> [f64; Q] {
+        let n = self.atol.len();
+        let (y, y_new) = (&y[..n], &y_new[..n]);
+        let rtol = Lanes::constant(self.rtol);
+        let mut sums = [Lanes::zero(); Q];
+        for i in 0..n {
+            let [y, y_new] = [y[i], y_new[i]].map(|y| Lanes::new(y).abs());
+            let scale = Lanes::new(self.atol[i]).plus_product(rtol, y.max(y_new));
+            for (sum, x) in sums.iter_mut().zip(x(i)) {
+                let scaled = x / scale;
+                *sum = sum.plus_product(scaled, scaled);
+            }
+        }
+        sums.map(|sum| {
+            let [a, b, c, d] = sum.to_array();
+            (a + b) + (c + d)
+        })
+    }
+
+    /// √(Σ (xᵢ / scaleᵢ)² / n) at one state; 0 without components that count.
+    pub fn norm(&self, y: &[Block], x: impl Fn(usize) -> Lanes) -> f64 {
+        let [sum] = self.squares((y, y), |i| [x(i)]);
+        self.mean(sum).sqrt()
+    }
+
+    /// The mean over the components that count, from the sum; 0 without them.
+    pub fn mean(&self, sum: f64) -> f64 {
+        sum / self.controlled.max(1) as f64
+    }
+}
