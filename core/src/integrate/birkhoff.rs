@@ -106,10 +106,14 @@ impl Birkhoff {
         for (gain, (y, y_old)) in self.gain.iter_mut().zip(y[..p].iter().zip(y_old)) {
             *gain = y - y_old;
         }
-        for i in 2 * p..n {
-            let rows = k.as_flattened()[i..].iter().step_by(Lanes::WIDTH * stages::width(n));
-            let sum: f64 = mean.iter().zip(rows).map(|(w, k)| w * k).sum();
-            self.gain[i - p] = h * (y_old[i] + h * sum);
+        let (each, rows) = (Lanes::constant(h), k.chunks_exact(stages::width(n)));
+        for first in (2 * p..n).step_by(Lanes::WIDTH) {
+            let terms = mean.iter().zip(rows.clone().map(<[stages::Block]>::as_flattened));
+            let sum = terms.fold(Lanes::zero(), |sum, (weight, k)| {
+                sum.plus_product(Lanes::constant(*weight), lanes(&k[first..]))
+            });
+            let gain = each * lanes(&y_old[first..]).plus_product(each, sum);
+            self.gain[first - p..].iter_mut().zip(gain.to_array()).for_each(|(to, x)| *to = x);
         }
     }
 

@@ -26,15 +26,21 @@ pub(super) fn combine<const S: usize>(
     y: &[Block],
     h: f64,
     a: [f64; S],
-    k: [&[Block]; S],
+    mut k: [&[Block]; S],
     out: &mut [Block],
 ) {
     let n = out.len();
     let y = &y[..n];
-    let k = k.map(|k| &k[..n]); // equal lengths: no bounds checks below
-    let a = a.map(|a| Lanes::constant(h * a));
+    // equal lengths: no bounds checks below; as a loop, since map() of an array is a call
+    for k in &mut k {
+        *k = &k[..n];
+    }
+    let mut weights = [Lanes::zero(); S];
+    for (weight, a) in weights.iter_mut().zip(a) {
+        *weight = Lanes::constant(h * a);
+    }
     for i in 0..n {
-        out[i] = (Lanes::new(y[i]) + sum_at(i, a, k)).to_array();
+        out[i] = (Lanes::new(y[i]) + sum_at(i, weights, k)).to_array();
     }
 }
 
