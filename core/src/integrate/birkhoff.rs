@@ -38,7 +38,12 @@ pub(super) struct Ends<'a> {
 
 impl<'a> Ends<'a> {
     /// Of `n` components, from states and derivatives at the beginning and at the end.
-    pub fn new(h: f64, y: [&'a [stages::Block]; 2], dy: [&'a [stages::Block]; 2], n: usize) -> Self {
+    pub fn new(
+        h: f64,
+        y: [&'a [stages::Block]; 2],
+        dy: [&'a [stages::Block]; 2],
+        n: usize,
+    ) -> Self {
         let [y_old, y] = y.map(|y| &y.as_flattened()[..n]);
         let [dy_old, dy] = dy.map(|dy| &dy.as_flattened()[..n]);
         Self { h, y_old, y, dy_old, dy }

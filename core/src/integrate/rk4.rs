@@ -29,7 +29,8 @@ impl Rk4 {
     }
 }
 
-const B: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
+/// Weights of the stages, in sixths.
+const B: [f64; 4] = [1.0, 2.0, 2.0, 1.0];
 
 /// Memory of a run.
 struct Work {
@@ -62,7 +63,7 @@ impl Work {
         trial.stage(0.5, [0.5], [k1], k2)?;
         trial.stage(0.5, [0.5], [k2], k3)?;
         trial.stage(1.0, [1.0], [k3], k4)?;
-        combine(y, h, B, [k1, k2, k3, k4], y_new);
+        combine(y, h / 6.0, B, [k1, k2, k3, k4], y_new);
         if all_finite(y_new.as_flattened()) {
             Ok(())
         } else {

@@ -35,21 +35,18 @@ pub(super) fn combine<const S: usize>(
     for k in &mut k {
         *k = &k[..n];
     }
-    let mut weights = [Lanes::zero(); S];
-    for (weight, a) in weights.iter_mut().zip(a) {
-        *weight = Lanes::constant(h * a);
-    }
+    let h = Lanes::constant(h);
     for i in 0..n {
-        out[i] = (Lanes::new(y[i]) + sum_at(i, weights, k)).to_array();
+        out[i] = (Lanes::new(y[i]) + h * sum_at(i, a, k)).to_array();
     }
 }
 
-/// Σₛ aₛ kₛ of a block.
+/// Σₛ aₛ kₛ of a block; not fused, which would gain nothing.
 #[inline(always)]
-pub(super) fn sum_at<const S: usize>(i: usize, a: [Lanes; S], k: [&[Block]; S]) -> Lanes {
-    let mut sum = a[0] * Lanes::new(k[0][i]);
+pub(super) fn sum_at<const S: usize>(i: usize, a: [f64; S], k: [&[Block]; S]) -> Lanes {
+    let mut sum = Lanes::constant(a[0]) * Lanes::new(k[0][i]);
     for s in 1..S {
-        sum = sum.plus_product(a[s], Lanes::new(k[s][i]));
+        sum += Lanes::constant(a[s]) * Lanes::new(k[s][i]);
     }
     sum
 }
