@@ -33,7 +33,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         }
         if projected || !P::LAST_IN_ERROR {
             let row = last_row::<P>(projected);
-            match self.rate.at(t_new, y_new, row_mut(k, *width, row)) {
+            match self.rate.at_accepted(projected, t_new, y_new, row_mut(k, *width, row)) {
                 Ok(()) => {}
                 Err(Trouble::NotFinite(t)) => return Ok(Err(Cause::NotFinite { t })),
                 Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
