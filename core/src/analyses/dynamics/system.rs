@@ -126,7 +126,6 @@ impl FirstOrder for Equations<'_> {
             return Ok(());
         }
         let (dq, dv, works) = parts(dy, n);
-        // in one loop: two calls to copy would take longer than a few bodies do
         dq.copy_from_slice(v);
         dv.copy_from_slice(self.workspace.a());
         let powers = self.workspace.powers(self.model, v);
