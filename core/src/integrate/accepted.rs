@@ -33,7 +33,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         }
         if projected || !P::LAST_IN_ERROR {
             let row = last_row::<P>(projected);
-            match self.rate.at(t_new, y_new, row_mut(k, *width, row)) {
+            match self.rate.at_accepted(projected, t_new, y_new, row_mut(k, *width, row)) {
                 Ok(()) => {}
                 Err(Trouble::NotFinite(t)) => return Ok(Err(Cause::NotFinite { t })),
                 Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
@@ -61,7 +61,8 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
                 Dense::new(stages.as_flattened(), Lanes::WIDTH * *width, table, P::DEGREE)
             }
         };
-        let ends = Ends::new(t_new - self.t, [y, y_new], [0, last].map(|s| row(k, *width, s)), self.n);
+        let ends =
+            Ends::new(t_new - self.t, [y, y_new], [0, last].map(|s| row(k, *width, s)), self.n);
         let Ends { y_old, y: y_end, dy_old, dy, .. } = ends;
         let step = Step { t_old: self.t, t: t_new, y_old, y: y_end, dy_old, dy, dense };
         let flow = observer.step(&step);

@@ -189,10 +189,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     }
 
     /// Tries steps until error and system accept one. Its time, and whether the system changed it.
-    fn accepted_step(
-        &mut self,
-        size: &mut StepSize,
-    ) -> Result<(f64, bool), Cause<Y::Stop>> {
+    fn accepted_step(&mut self, size: &mut StepSize) -> Result<(f64, bool), Cause<Y::Stop>> {
         let t = self.t;
         let least = least_step(t, self.direction);
         size.begin(least, self.options.max_step);

@@ -38,7 +38,12 @@ pub(super) struct Ends<'a> {
 
 impl<'a> Ends<'a> {
     /// Of `n` components, from states and derivatives at the beginning and at the end.
-    pub fn new(h: f64, y: [&'a [stages::Block]; 2], dy: [&'a [stages::Block]; 2], n: usize) -> Self {
+    pub fn new(
+        h: f64,
+        y: [&'a [stages::Block]; 2],
+        dy: [&'a [stages::Block]; 2],
+        n: usize,
+    ) -> Self {
         let [y_old, y] = y.map(|y| &y.as_flattened()[..n]);
         let [dy_old, dy] = dy.map(|dy| &dy.as_flattened()[..n]);
         Self { h, y_old, y, dy_old, dy }
@@ -115,10 +120,14 @@ impl Birkhoff {
         for (gain, (y, y_old)) in self.gain.iter_mut().zip(y[..p].iter().zip(y_old)) {
             *gain = y - y_old;
         }
-        for i in 2 * p..n {
-            let rows = k.as_flattened()[i..].iter().step_by(Lanes::WIDTH * stages::width(n));
-            let sum: f64 = mean.iter().zip(rows).map(|(w, k)| w * k).sum();
-            self.gain[i - p] = h * (y_old[i] + h * sum);
+        let (each, rows) = (Lanes::constant(h), k.chunks_exact(stages::width(n)));
+        for first in (2 * p..n).step_by(Lanes::WIDTH) {
+            let terms = mean.iter().zip(rows.clone().map(<[stages::Block]>::as_flattened));
+            let sum = terms.fold(Lanes::zero(), |sum, (weight, k)| {
+                sum.plus_product(Lanes::constant(*weight), lanes(&k[first..]))
+            });
+            let gain = each * lanes(&y_old[first..]).plus_product(each, sum);
+            self.gain[first - p..].iter_mut().zip(gain.to_array()).for_each(|(to, x)| *to = x);
         }
     }
 

@@ -56,6 +56,15 @@ pub trait FirstOrder {
         Ok(false)
     }
 
+    /// The same as [`rate`](Self::rate) right after [`accepted`](Self::accepted) has changed y: what the system
+    /// then knows of y it need not find again.
+    ///
+    /// # Errors
+    /// As there.
+    fn rate_accepted(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
+        self.rate(t, y, dy)
+    }
+
     /// Called by methods with step control where a step stands, before the observer sees it; f was
     /// evaluated last in its end.
     fn stands(&mut self, t: f64) {

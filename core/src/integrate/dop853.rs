@@ -23,7 +23,6 @@ use super::rate::{Rate, Trouble};
 use super::stages::{combine, rows, rows_mut, sum_at, Block, Trial};
 use super::step_size::Control;
 use super::tolerances::Tolerances;
-use crate::math::{Lanes, Real};
 
 /// DOP853 with its options.
 #[derive(Clone, Debug, PartialEq)]
@@ -207,12 +206,8 @@ impl EmbeddedPair for Pair {
         tolerances: &Tolerances,
     ) -> f64 {
         let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] = rows(k, states.0.len());
-        let of_fifth = E5.map(Lanes::constant);
-        let of_third = E3.map(Lanes::constant);
-        let [fifth, third] = tolerances.squares(states, |i| {
-            let k = [k1, k6, k7, k8, k9, k10, k11, k12];
-            [sum_at(i, of_fifth, k), sum_at(i, of_third, k)]
-        });
+        let k = [k1, k6, k7, k8, k9, k10, k11, k12];
+        let [fifth, third] = tolerances.squares(states, |i| [sum_at(i, E5, k), sum_at(i, E3, k)]);
         if fifth == 0.0 && third == 0.0 {
             return 0.0;
         }

@@ -22,10 +22,38 @@ impl<Y: FirstOrder> Rate<'_, Y> {
     /// dy = f(t, y), both in blocks.
     #[inline]
     pub fn at(&mut self, t: f64, y: &[Block], dy: &mut [Block]) -> Result<(), Trouble<Y::Stop>> {
-        self.evaluations += 1;
         let n = self.system.len();
         let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
-        self.system.rate(t, y, rates).map_err(Trouble::Stop)?;
+        let evaluated = self.system.rate(t, y, rates);
+        self.checked(t, evaluated, dy)
+    }
+
+    /// The same after the system has accepted y; whether it `changed` it.
+    pub fn at_accepted(
+        &mut self,
+        changed: bool,
+        t: f64,
+        y: &[Block],
+        dy: &mut [Block],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        let n = self.system.len();
+        let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
+        let evaluated = match changed {
+            true => self.system.rate_accepted(t, y, rates),
+            false => self.system.rate(t, y, rates),
+        };
+        self.checked(t, evaluated, dy)
+    }
+
+    #[inline(always)]
+    fn checked(
+        &mut self,
+        t: f64,
+        evaluated: Result<(), Y::Stop>,
+        dy: &[Block],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        self.evaluations += 1;
+        evaluated.map_err(Trouble::Stop)?;
         if all_finite(dy.as_flattened()) {
             Ok(())
         } else {

@@ -29,7 +29,8 @@ impl Rk4 {
     }
 }
 
-const B: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
+/// Weights of the stages, in sixths.
+const B: [f64; 4] = [1.0, 2.0, 2.0, 1.0];
 
 /// Memory of a run.
 struct Work {
@@ -62,7 +63,7 @@ impl Work {
         trial.stage(0.5, [0.5], [k1], k2)?;
         trial.stage(0.5, [0.5], [k2], k3)?;
         trial.stage(1.0, [1.0], [k3], k4)?;
-        combine(y, h, B, [k1, k2, k3, k4], y_new);
+        combine(y, h / 6.0, B, [k1, k2, k3, k4], y_new);
         if all_finite(y_new.as_flattened()) {
             Ok(())
         } else {
@@ -130,12 +131,13 @@ fn finish<Y: FirstOrder, O: Observer>(
     let n = y.len();
     let Work { k, y: y_old, y_new, .. } = work;
     let width = y_old.len();
-    let accepted = rate.system.accepted(t_new, &mut y_new.as_flattened_mut()[..n]);
-    if accepted.map_err(Cause::Equations)? && !all_finite(y_new.as_flattened()) {
+    let y_settled = &mut y_new.as_flattened_mut()[..n];
+    let changed = rate.system.accepted(t_new, y_settled).map_err(Cause::Equations)?;
+    if changed && !all_finite(y_settled) {
         return Err(Cause::NotFinite { t: t_new });
     }
     // the next step begins with this derivative, so the Hermite polynomial costs nothing
-    rate.at(t_new, y_new, row_mut(k, width, 1)).map_err(cause)?;
+    rate.at_accepted(changed, t_new, y_new, row_mut(k, width, 1)).map_err(cause)?;
     chord(y_old, y_new, t_new - t, row_mut(k, width, 2));
     let [of_old, of_new] = [0, 1].map(|s| &row(k, width, s).as_flattened()[..n]);
     let end = &y_new.as_flattened()[..n];

@@ -14,7 +14,6 @@ use super::rate::{Rate, Trouble};
 use super::stages::{combine, rows, rows_mut, sum_at, Block, Trial};
 use super::step_size::Control;
 use super::tolerances::Tolerances;
-use crate::math::{Lanes, Real};
 
 /// Dormand–Prince 5(4) with its options.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,9 +149,8 @@ impl EmbeddedPair for DormandPrince {
         tolerances: &Tolerances,
     ) -> f64 {
         let [k1, _, k3, k4, k5, k6, k7] = rows(k, states.0.len());
-        let weights = E.map(|e| Lanes::constant(h * e));
-        let [sum] = tolerances
-            .squares(states, |i| [sum_at(i, weights, [k1, k3, k4, k5, k6, k7])]);
-        tolerances.mean(sum).sqrt()
+        let k = [k1, k3, k4, k5, k6, k7];
+        let [sum] = tolerances.squares(states, |i| [sum_at(i, E, k)]);
+        h.abs() * tolerances.mean(sum).sqrt()
     }
 }

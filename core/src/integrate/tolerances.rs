@@ -19,9 +19,10 @@ impl Tolerances {
         let mut blocks = room(1, n);
         let numbers = blocks.as_flattened_mut();
         numbers.fill(f64::INFINITY);
+        let counting = numbers.iter_mut().take(controlled);
         match atol {
-            Atol::Scalar(atol) => numbers[..controlled].fill(*atol),
-            Atol::Each(atol) => numbers[..controlled].copy_from_slice(atol),
+            Atol::Scalar(atol) => counting.for_each(|to| *to = *atol),
+            Atol::Each(atol) => counting.zip(atol).for_each(|(to, atol)| *to = *atol),
         }
         Self { rtol, atol: blocks, controlled }
     }

@@ -14,7 +14,7 @@
 //! mechanism's size that is corrected. It is factorised anew only where that is too slow.
 
 use crate::equations::{constraints, kinematics, Singular, Workspace};
-use crate::math::{Largest, Real};
+use crate::math::{Largest, Motion, Real};
 use crate::model::{row_scales, size, Model};
 
 /// Most iterations for positions, and for velocities.
@@ -76,8 +76,8 @@ pub struct Projector<'a, S = f64> {
     per_scale: Vec<f64>,
     /// Φ, Φ̇ and γ.
     terms: [Vec<S>; 3],
-    /// Whether they are those of the state at hand.
-    current: bool,
+    /// What of the workspace's motions and of the terms is that of the state at hand.
+    known: Known,
     /// By how much the last step with the factor at hand lowered the residual.
     lowering: f64,
     /// Part of the tolerance that may stay.
@@ -88,6 +88,16 @@ pub struct Projector<'a, S = f64> {
     correction: Vec<S>,
     /// Factorisations that chord iterations did not spare.
     pub factorisations: usize,
+}
+
+/// What is known of a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Known {
+    Nothing,
+    /// The positions of its motions.
+    Positions,
+    /// Motions and terms.
+    All,
 }
 
 /// What is to be met, by its place in the terms.
@@ -107,7 +117,7 @@ impl<'a, S: Real> Projector<'a, S> {
             per_size: 1.0 / size(model),
             per_scale: row_scales(model).into_iter().map(|scale| 1.0 / scale).collect(),
             terms: std::array::from_fn(|_| vec![S::zero(); model.layout.n_rows]),
-            current: false,
+            known: Known::Nothing,
             lowering: 1.0,
             part: 1.0,
             fastest: None,
@@ -134,7 +144,7 @@ impl<'a, S: Real> Projector<'a, S> {
     }
 
     /// Projects (q, v) in place; whether they changed. The motions of the workspace are then those of the
-    /// new state, but for rates. With `factored`, the matrix of the workspace
+    /// new state. With `factored`, the matrix of the workspace
     /// holds the factor of a state nearby.
     ///
     /// # Errors
@@ -147,10 +157,11 @@ impl<'a, S: Real> Projector<'a, S> {
         mut factored: bool,
     ) -> Result<bool, Fault> {
         let mut changed = false;
-        (self.current, self.lowering) = (false, 1.0);
+        (self.known, self.lowering) = (Known::Nothing, 1.0);
         for level in [Level::Position, Level::Velocity] {
             changed |= self.meet(level, workspace, t, (&mut *q, &mut *v), &mut factored)?;
         }
+        self.move_bodies(&mut workspace.motions, (q, v));
         Ok(changed)
     }
 
@@ -250,18 +261,28 @@ impl<'a, S: Real> Projector<'a, S> {
         t: S,
         (q, v): (&[S], &[S]),
     ) -> f64 {
-        if !self.current {
-            let motions = &mut workspace.motions;
+        let motions = &mut workspace.motions;
+        if self.move_bodies(motions, (q, v)) {
             let [residual, rate, gamma] = &mut self.terms;
-            kinematics::motions(q, v, motions);
             constraints::velocity_terms(self.model, motions, t, residual, rate, gamma);
-            self.current = true;
+            self.known = Known::All;
         }
         let mut gap = Largest::new();
         for (r, per_scale) in self.terms[level as usize].iter().zip(&self.per_scale) {
             gap.add(*r * S::constant(*per_scale));
         }
         gap.get()
+    }
+
+    /// Brings the motions to the state at hand; whether they were not there.
+    #[inline]
+    fn move_bodies(&self, motions: &mut Vec<Motion<S>>, (q, v): (&[S], &[S])) -> bool {
+        match self.known {
+            Known::Nothing => kinematics::motions(q, v, motions),
+            Known::Positions => kinematics::set_rates(v, motions),
+            Known::All => return false,
+        }
+        true
     }
 
     /// Factorises at the state that `gap` saw last.
@@ -281,7 +302,10 @@ impl<'a, S: Real> Projector<'a, S> {
         lower.iter_mut().zip(open).for_each(|(right, r)| *right = -*r);
         workspace.matrix.solve(&mut self.correction);
         x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += *dx);
-        self.current = false;
+        self.known = match level {
+            Level::Position => Known::Nothing,
+            Level::Velocity => Known::Positions,
+        };
     }
 
     /// Leaves of a displacement what the constraints admit, by the factor at hand.

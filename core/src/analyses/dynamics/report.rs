@@ -79,7 +79,6 @@ impl<'a, S: Real> Solver<'a, S> {
         let (q, v, _) = parts(y, self.model.layout.n_q);
         let place = (&mut *q, &mut *v);
         projector.project(&mut self.workspace, t, place, false).map_err(Halt::Fault)?;
-        kinematics::set_rates(v, &mut self.workspace.motions);
         self.respond(t)
     }
 

@@ -4,7 +4,7 @@ use super::options::{Options, Stabilization};
 use super::singularity::Passage;
 use crate::analyses::mobility;
 use crate::equations::augmented::Dependent;
-use crate::equations::{Gains, Singular, Workspace};
+use crate::equations::{kinematics, Gains, Singular, Workspace};
 use crate::integrate::{all_finite, FirstOrder};
 use crate::model::Model;
 use crate::stabilize::{Fault, Held, Projector};
@@ -109,8 +109,15 @@ impl FirstOrder for Equations<'_> {
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
         let n = self.model.layout.n_q;
-        let (q, v) = (&y[..n], &y[n..2 * n]);
-        if let Err(singular) = self.workspace.accelerate(self.model, t, q, v, self.gains) {
+        kinematics::motions(&y[..n], &y[n..2 * n], &mut self.workspace.motions);
+        self.rate_accepted(t, y, dy)
+    }
+
+    /// Projection leaves the bodies where y says.
+    fn rate_accepted(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
+        let n = self.model.layout.n_q;
+        let v = &y[n..2 * n];
+        if let Err(singular) = self.workspace.respond(self.model, t, self.gains) {
             dy.fill(f64::NAN);
             return stop_if_finite(singular, t, y);
         }
@@ -119,7 +126,6 @@ impl FirstOrder for Equations<'_> {
             return Ok(());
         }
         let (dq, dv, works) = parts(dy, n);
-        // in one loop: two calls to copy would take longer than a few bodies do
         dq.copy_from_slice(v);
         dv.copy_from_slice(self.workspace.a());
         let powers = self.workspace.powers(self.model, v);
