@@ -139,7 +139,8 @@ impl Birkhoff {
                 of(&dy[p..]) - a,
             ];
             let before = [
-                (nodes.r * steep.plus_product(behind, a)).minus_product(of(&self.gained), per_square),
+                (nodes.r * steep.plus_product(behind, a))
+                    .minus_product(of(&self.gained), per_square),
                 (nodes.r * a).plus_product(of(&self.rates) - v, per_h),
                 of(&self.slopes) - a,
             ];
