@@ -14,6 +14,7 @@ from benchmarks.validation.comparison import (
     compared,
     reference,
 )
+from examples import n_four_bar
 
 #: Vertical force of the pins on the cranks at the start, N: on ground, then those above.
 REACTIONS = {1: ([13.715, 13.715], 4.405), 2: ([13.715, 18.12, 13.715], 4.405)}
@@ -22,28 +23,6 @@ T_END = 20.0
 HALF = 10.0
 #: Enough for 20 s; at a singular position that it cannot pass the step only collapses.
 STEPS = 10_000
-
-
-def windows(n: int) -> kp.Model:
-    """N + 1 cranks and N couplers, uniform rods of 1 m and 1 kg."""
-    m = kp.Model(f"{n} windows", gravity=(0, -9.81))
-    m.ground.points(**{f"P{k}": (k, 0) for k in range(n + 1)})
-    for k in range(n + 1):
-        m.bar(f"crank{k}", mass=1, length=1, ends=("A", "B"))
-    for k in range(n):
-        m.bar(f"coupler{k}", mass=1, length=1, ends=("B", "C"))
-    for k in range(n + 1):
-        m.revolute(f"A{k}", f"ground.P{k}", f"crank{k}.A")
-    for k in range(n):
-        m.revolute(f"B{k}", f"crank{k}.B", f"coupler{k}.B")
-        m.revolute(f"C{k}", f"coupler{k}.C", f"crank{k + 1}.B")
-    return m
-
-
-def assembled(model: kp.Model, n: int) -> kp.State:
-    """Cranks upright, turning at -1 rad/s."""
-    guess: dict[str, float | str] = {f"coupler{k}.angle": 0.0 for k in range(n)}
-    return kp.assemble(model, set={"crank0.angle": "90*deg", "crank0.omega": -1}, guess=guess)
 
 
 def solved(model: kp.Model, start: kp.State) -> tuple[kp.Solution, str | None]:
@@ -122,8 +101,8 @@ def benchmark() -> Benchmark:
     missing: list[Missing] = []
     for name, truth in data["N"].items():
         n = int(name)
-        model = windows(n)
-        start = assembled(model, n)
+        model = n_four_bar.windows(n)
+        start = n_four_bar.upright(model, n)
         sol, stopped = solved(model, start)
         found += at_start(n, start, truth)
         motion, later = in_motion(n, sol, truth["B0"])

@@ -11,6 +11,7 @@ use kempe::model::Model;
 use kempe::stabilize::{Fault, Projection, Projector};
 use mechanisms::{
     every, four_bar, largest, model, rate, residual, run, start, tolerances, worst, Random,
+    SLIDER_CRANK,
 };
 
 fn projected(options: Options) -> Options {
@@ -204,42 +205,6 @@ fn redundant_joints_stay_closed() {
     let (phi, dphi) = open(&m, &state, &options);
     assert!(phi < 1e-11 && dphi < 1e-10, "{phi:.2e} {dphi:.2e}");
 }
-
-const SLIDER_CRANK: &str = r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = { O = [0, 0], S = [0, 0] }
-[bodies.crank]
-type = "bar"
-mass = 1
-length = 0.1
-ends = ["O", "A"]
-[bodies.rod]
-type = "bar"
-mass = 0.5
-length = 0.3
-ends = ["A", "B"]
-[bodies.piston]
-mass = 0.4
-inertia = 1e-4
-points = { B = [0, 0] }
-[joints.O]
-type = "revolute"
-i = "ground.O"
-j = "crank.O"
-[joints.A]
-type = "revolute"
-i = "crank.A"
-j = "rod.A"
-[joints.B]
-type = "revolute"
-i = "rod.B"
-j = "piston.B"
-[joints.S]
-type = "translational"
-i = "ground.S"
-j = "piston.B"
-"#;
 
 #[test]
 fn a_slide_stays_straight() {

@@ -6,7 +6,7 @@ use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme, Stabiliz
 use kempe::analyses::State;
 use kempe::integrate::{Flow, Rk4};
 use kempe::model::Model;
-use mechanisms::{four_bar, model, start};
+use mechanisms::{four_bar, model, start, SLIDER_CRANK};
 
 fn run(m: &Model, s: &State, options: &Options, h: f64) -> Run {
     let options = Options { output: Output::Every(h), ..options.clone() };
@@ -48,41 +48,8 @@ fn agree(m: &Model, s: &State, options: &Options) {
     assert!(worst < 1e-9, "{worst:.1e}");
 }
 
-/// With a slide, a driven angle, a damper that depends on time, and a frame off its mass centre.
-const DRIVEN: &str = r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = { O = [0, 0], S = [0, 0] }
-[bodies.crank]
-mass = 1
-inertia = 1e-3
-center = [0.03, 0.01]
-points = { O = [0, 0], A = [0.1, 0] }
-[bodies.rod]
-type = "bar"
-mass = 0.5
-length = 0.3
-ends = ["A", "B"]
-[bodies.piston]
-mass = 0.4
-inertia = 1e-4
-points = { B = [0, 0] }
-[joints.O]
-type = "revolute"
-i = "ground.O"
-j = "crank.O"
-[joints.A]
-type = "revolute"
-i = "crank.A"
-j = "rod.A"
-[joints.B]
-type = "revolute"
-i = "rod.B"
-j = "piston.B"
-[joints.S]
-type = "translational"
-i = "ground.S"
-j = "piston.B"
+/// A driven angle and a damper that depends on time; the frame of the crank is put off its mass centre.
+const FORCES: &str = r#"
 [drivers.motor]
 type = "coordinate_driver"
 coordinate = "crank.angle"
@@ -137,7 +104,10 @@ B2 = { type = "revolute", i = "coupler2.B", j = "crank2.B" }
 "#;
 
 fn driven() -> (Model, State) {
-    let m = model(DRIVEN);
+    let bar = "type = \"bar\"\nmass = 1\nlength = 0.1\nends = [\"O\", \"A\"]";
+    let plate =
+        "mass = 1\ninertia = 1e-3\ncenter = [0.03, 0.01]\npoints = { O = [0, 0], A = [0.1, 0] }";
+    let m = model(&format!("{}{FORCES}", SLIDER_CRANK.replace(bar, plate)));
     let guess = [("crank.angle", "0.3"), ("rod.angle", "-0.1"), ("piston.x", "0.4")];
     let (state, _) = start(&m, &[], &guess);
     (m, state)

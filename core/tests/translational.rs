@@ -1,13 +1,12 @@
 //! The translational joint: derivatives against those derived from Φ, assembly of slider-cranks, and
 //! its reaction.
 
-use kempe::analyses::assemble::{assemble, wishes, Request};
-use kempe::analyses::State;
-use kempe::case::{self, Format};
+mod mechanisms;
+
 use kempe::elements::joints::Translational;
 use kempe::elements::{derived_jacobian, derived_velocity_terms, BodyId, Joint, PointOn};
 use kempe::math::{Local, Motion, Pose, Twist, Vec2};
-use kempe::model::{self, Model, Value};
+use mechanisms::{model, start, SLIDER_CRANK};
 
 fn motions() -> [Motion; 2] {
     let motion = |x, y, angle, vx, vy, omega| Motion {
@@ -54,64 +53,12 @@ fn the_residual_is_the_distance_from_the_line_and_the_angle() {
     assert!((phi[0] - 0.25).abs() < 1e-14 && (phi[1] - 0.1).abs() < 1e-14, "{phi:?}");
 }
 
-const SLIDER_CRANK: &str = r#"
-kempe = 1
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.crank]
-type = "bar"
-mass = 1
-length = 0.1
-ends = ["O", "A"]
-[bodies.rod]
-type = "bar"
-mass = 1
-length = 0.3
-ends = ["A", "B"]
-[bodies.slider]
-mass = 1
-inertia = 1
-points = { B = [0, 0] }
-[joints.O]
-type = "revolute"
-i = "ground.O"
-j = "crank.O"
-[joints.A]
-type = "revolute"
-i = "crank.A"
-j = "rod.A"
-[joints.B]
-type = "revolute"
-i = "rod.B"
-j = "slider.B"
-[joints.guide]
-type = "translational"
-i = "ground.O"
-j = "slider.B"
-"#;
-
-fn built(text: &str) -> Model {
-    let (case, _) = case::read(text, Format::Toml).expect("a case");
-    model::build(&case.definition, &[]).expect("a model")
-}
-
-fn assembled(model: &Model, set: &[(&str, &str)], guess: &[(&str, &str)]) -> State {
-    let read = |section, all: &[(&str, &str)]| {
-        let all: Vec<(String, Value)> =
-            all.iter().map(|(k, v)| (k.to_string(), Value::Text(v.to_string()))).collect();
-        wishes(model, section, &all).expect("wishes")
-    };
-    let request =
-        Request { set: read("set", set), guess: read("guess", guess), ..Request::default() };
-    assemble(model, &request).expect("it closes").0
-}
-
 #[test]
 fn a_slider_crank_goes_together_without_a_guess() {
-    let model = built(SLIDER_CRANK);
+    let m = model(SLIDER_CRANK);
     for degrees in [0, 30, 60, 90, 135, 180, 200, 270, 330] {
         let angle = f64::from(degrees).to_radians();
-        let state = assembled(&model, &[("crank.angle", &format!("{degrees}*deg"))], &[]);
+        let (state, _) = start(&m, &[("crank.angle", &format!("{degrees}*deg"))], &[]);
         let expected = 0.1 * angle.cos() + (0.09 - (0.1 * angle.sin()).powi(2)).sqrt();
         assert!((state.q[6] - expected).abs() < 1e-12, "{degrees}°: {} {expected}", state.q[6]);
         assert!(state.q[7].abs() < 1e-12 && state.q[8].abs() < 1e-12);
@@ -120,17 +67,17 @@ fn a_slider_crank_goes_together_without_a_guess() {
 
 #[test]
 fn the_guess_of_the_slider_decides_on_which_side_it_is() {
-    let model = built(SLIDER_CRANK);
+    let m = model(SLIDER_CRANK);
     for (guess, sign) in [("0.3", 1.0), ("-0.3", -1.0)] {
-        let state = assembled(&model, &[("crank.angle", "90*deg")], &[("slider.x", guess)]);
+        let (state, _) = start(&m, &[("crank.angle", "90*deg")], &[("piston.x", guess)]);
         assert!((state.q[6] - sign * 0.08_f64.sqrt()).abs() < 1e-12, "{guess}: {}", state.q[6]);
     }
 }
 
 #[test]
 fn the_slider_may_be_set_instead_of_the_crank() {
-    let model = built(SLIDER_CRANK);
-    let state = assembled(&model, &[("slider.x", "0.35")], &[]);
+    let m = model(SLIDER_CRANK);
+    let (state, _) = start(&m, &[("piston.x", "0.35")], &[]);
     assert!((state.q[6] - 0.35).abs() < 1e-12);
     let crank = (0.1_f64.powi(2) + 0.35_f64.powi(2) - 0.3_f64.powi(2)) / (2.0 * 0.1 * 0.35);
     assert!((state.q[2].cos() - crank).abs() < 1e-12);
@@ -139,11 +86,11 @@ fn the_slider_may_be_set_instead_of_the_crank() {
 #[test]
 fn a_guide_that_is_turned_and_written_the_other_way_round_goes_together() {
     let turned = SLIDER_CRANK.replace(
-        "i = \"ground.O\"\nj = \"slider.B\"",
-        "i = \"slider.B\"\nj = \"ground.O\"\naxes = [\"30*deg\", \"75*deg\"]",
+        "i = \"ground.S\"\nj = \"piston.B\"",
+        "i = \"piston.B\"\nj = \"ground.S\"\naxes = [\"30*deg\", \"75*deg\"]",
     );
-    let model = built(&turned);
-    let state = assembled(&model, &[("crank.angle", "75*deg")], &[]);
+    let m = model(&turned);
+    let (state, _) = start(&m, &[("crank.angle", "75*deg")], &[]);
     // the slide points along 75° in ground, along 30° in the slider
     let along = state.q[6] * 75_f64.to_radians().cos() + state.q[7] * 75_f64.to_radians().sin();
     assert!((along.abs() - 0.4).abs() < 1e-9 || (along.abs() - 0.2).abs() < 1e-9, "{along}");
@@ -154,14 +101,14 @@ fn a_guide_that_is_turned_and_written_the_other_way_round_goes_together() {
 fn an_oscillating_guide_goes_together_without_a_guess() {
     // the guide is pinned to ground, the block to the crank: no line is known beforehand
     let text = SLIDER_CRANK
-        .replace("points = { O = [0, 0] }", "points = { O = [0, 0], C = [0.25, 0.02] }")
-        .replace("i = \"rod.B\"\nj = \"slider.B\"", "i = \"ground.C\"\nj = \"slider.B\"")
+        .replace("points = { O = [0, 0], S = [0, 0] }", "points = { O = [0, 0], C = [0.25, 0.02] }")
+        .replace("i = \"rod.B\"\nj = \"piston.B\"", "i = \"ground.C\"\nj = \"piston.B\"")
         .replace(
-            "type = \"translational\"\ni = \"ground.O\"\nj = \"slider.B\"",
-            "type = \"translational\"\ni = \"rod.A\"\nj = \"slider.B\"",
+            "type = \"translational\"\ni = \"ground.S\"\nj = \"piston.B\"",
+            "type = \"translational\"\ni = \"rod.A\"\nj = \"piston.B\"",
         );
-    let model = built(&text);
-    let state = assembled(&model, &[("crank.angle", "60*deg")], &[]);
+    let m = model(&text);
+    let (state, _) = start(&m, &[("crank.angle", "60*deg")], &[]);
     let (a, c) = ((0.05, 0.1 * 60_f64.to_radians().sin()), (0.25_f64, 0.02_f64));
     let line = (c.1 - a.1).atan2(c.0 - a.0);
     assert!((state.q[5] - line).sin().abs() < 1e-9, "{} {line}", state.q[5]);

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from house.places import ROOT
 
+from examples import n_four_bar
+
 EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
 
 
@@ -32,3 +34,13 @@ def test_the_six_bar_is_where_it_was_after_a_turn() -> None:
     # one radian per radian of the crank; the other bodies come back
     np.testing.assert_allclose(turns(1.0).q[3:], turns.q[0, 3:], atol=1e-7)
     assert turns.q[-1, 2] - turns.q[0, 2] == pytest.approx(4 * np.pi, abs=1e-7)
+
+
+def test_windows_turn_as_their_energy_says(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("sys.argv", ["n_four_bar.py", "2"])
+    n_four_bar.main()
+    told = capsys.readouterr().out
+    assert "2 windows, 15 coordinates" in told
+    assert float(told.split("by ")[1].split()[0]) < 1e-6

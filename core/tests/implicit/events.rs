@@ -1,7 +1,7 @@
 //! Events within the steps of every method on mechanisms: their times are as good as the continuous
 //! extension.
 
-use crate::mechanisms::{column, four_bar, model, start, worst};
+use crate::mechanisms::{column, four_bar, model, start, worst, PENDULUM};
 use kempe::analyses::dynamics::{dynamics_by_steps, Options, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::integrate::{
@@ -9,21 +9,6 @@ use kempe::integrate::{
 };
 use kempe::model::Model;
 use kempe::stabilize::Projection;
-
-const ROD: &str = r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.rod]
-type = "bar"
-mass = 2.5
-length = 1
-ends = ["O", "P"]
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "rod.O"
-"#;
 
 fn options(t_end: f64, scheme: Scheme) -> Options {
     let stabilization = Stabilization::Projection(Projection::default());
@@ -86,7 +71,7 @@ fn rk45(h: f64) -> Scheme {
 
 /// A rod that swings, with the components of y that are its angle and its rate.
 fn pendulum() -> ((Model, State), [usize; 2]) {
-    let m = model(ROD);
+    let m = model(PENDULUM);
     let (state, _) = start(&m, &[("rod.angle", "0.2"), ("rod.omega", "1")], &[]);
     ((m, state), [2, 5])
 }

@@ -1,6 +1,6 @@
 //! Observed orders at index 3 and 2 on smooth problems.
 
-use crate::mechanisms::{every, four_bar, model, run, start, worst};
+use crate::mechanisms::{every, four_bar, model, run, start, worst, PENDULUM};
 use kempe::analyses::dynamics::{Options, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::integrate::{AlphaParameters, Dop853, GeneralizedAlpha, Radau};
@@ -48,21 +48,6 @@ fn near(slopes: &[[f64; 3]], expected: [f64; 3]) {
     assert!(slopes.len() >= 3 && slopes.iter().all(good), "{slopes:.3?}");
 }
 
-const ROD: &str = r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.rod]
-type = "bar"
-mass = 2.5
-length = 1
-ends = ["O", "P"]
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "rod.O"
-"#;
-
 fn alpha(parameters: AlphaParameters) -> impl Fn(f64) -> Scheme {
     move |h| Scheme::GeneralizedAlpha(GeneralizedAlpha::constant(parameters, h, 1e-10, 1e-12))
 }
@@ -73,7 +58,7 @@ fn halvings(first: f64) -> impl Iterator<Item = f64> {
 
 #[test]
 fn generalized_alpha_is_of_order_two_on_a_pendulum() {
-    let m = model(ROD);
+    let m = model(PENDULUM);
     let (state, _) = start(&m, &[("rod.angle", "0.2"), ("rod.omega", "1")], &[]);
     for rho in [0.0, 0.5, 0.8] {
         let scheme = alpha(AlphaParameters::chung_hulbert(rho));
@@ -96,7 +81,7 @@ fn radau(h: f64) -> Scheme {
 
 #[test]
 fn radau_is_of_order_five_on_a_pendulum() {
-    let m = model(ROD);
+    let m = model(PENDULUM);
     let (state, _) = start(&m, &[("rod.angle", "0.2"), ("rod.omega", "1")], &[]);
     near(&slopes((&m, &state), (1.0, 0.25), halvings(1.0 / 16.0), radau), [5.0; 3]);
 }

@@ -2,7 +2,7 @@
 //! of time, errors that help.
 
 use crate::mechanisms::{
-    close, every, four_bar, largest, model, rate, residual, run, start, worst,
+    close, every, four_bar, largest, model, rate, residual, run, start, worst, DOUBLE_PENDULUM,
 };
 use kempe::analyses::dynamics::{dynamics, Auto, Options, Reason, Run, Scheme, Stabilization};
 use kempe::analyses::State;
@@ -53,32 +53,8 @@ fn agree(m: &Model, state: &State, t_end: f64, bounds: [f64; 2]) {
     }
 }
 
-const DRIVEN: &str = r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.upper]
-type = "bar"
-mass = 1
-length = 1
-ends = ["A", "B"]
-[bodies.lower]
-mass = 2
-inertia = 0.3
-center = [0.2, 0.1]
-points = { B = [-0.4, 0.05] }
-[joints.A]
-type = "revolute"
-i = "ground.O"
-j = "upper.A"
-[joints.B]
-type = "revolute"
-i = "upper.B"
-j = "lower.B"
-[drivers.motor]
-type = "coordinate_driver"
-coordinate = "upper.angle"
-value = "0.3*sin(5*t) - pi/2"
+/// What acts on the driven double pendulum: friction, and a torque of time.
+const FORCES: &str = r#"
 [forces.friction]
 type = "torsion_spring"
 i = "upper"
@@ -92,7 +68,7 @@ torque = "0.5*cos(2*t)"
 
 #[test]
 fn drivers_and_laws_of_time_and_state() {
-    let m = model(DRIVEN);
+    let m = model(&format!("{DOUBLE_PENDULUM}{FORCES}"));
     let (state, _) = start(&m, &[("lower.angle", "-1")], &[]);
     agree(&m, &state, 1.0, [3e-4, 1e-8]);
 }
@@ -100,7 +76,7 @@ fn drivers_and_laws_of_time_and_state() {
 /// Works are quadratures: the balance closes to the error of the method.
 #[test]
 fn the_energy_balance_closes() {
-    let m = model(DRIVEN);
+    let m = model(&format!("{DOUBLE_PENDULUM}{FORCES}"));
     let (state, _) = start(&m, &[("lower.angle", "-1")], &[]);
     for (scheme, bound) in [(alpha(1e-6), 1e-3), (radau(1e-9), 1e-7)] {
         let found = run(&m, &state, &options(1.0, scheme));
@@ -204,7 +180,7 @@ fn without_projection() {
 
 #[test]
 fn dense_output_is_that_of_the_steps() {
-    let m = model(DRIVEN);
+    let m = model(&format!("{DOUBLE_PENDULUM}{FORCES}"));
     let (state, _) = start(&m, &[("lower.angle", "-1")], &[]);
     let exact = exact(&m, &state, 1.0);
     for (scheme, off) in [(alpha(1e-5), 1e-3), (radau(1e-7), 1e-5)] {

@@ -11,6 +11,88 @@ use kempe::model::{build, Model, Value};
 /// The flagship, as users get it.
 pub const FOUR_BAR: &str = include_str!("../../../examples/four_bar.toml");
 
+/// A bar of 1 m that swings about its end.
+pub const PENDULUM: &str = r#"
+gravity = [0, -9.81]
+[bodies.ground]
+points = { O = [0, 0] }
+[bodies.rod]
+type = "bar"
+mass = 1
+length = 1
+ends = ["O", "P"]
+[joints.pin]
+type = "revolute"
+i = "ground.O"
+j = "rod.O"
+"#;
+
+/// Two bars, the upper driven along a law of time, the lower off its mass centre.
+pub const DOUBLE_PENDULUM: &str = r#"
+gravity = [0, -9.81]
+[bodies.ground]
+points = { O = [0, 0] }
+[bodies.upper]
+type = "bar"
+mass = 1
+length = 1
+ends = ["A", "B"]
+[bodies.lower]
+mass = 2
+inertia = 0.3
+center = [0.2, 0.1]
+points = { B = [-0.4, 0.05] }
+[joints.A]
+type = "revolute"
+i = "ground.O"
+j = "upper.A"
+[joints.B]
+type = "revolute"
+i = "upper.B"
+j = "lower.B"
+[drivers.motor]
+type = "coordinate_driver"
+coordinate = "upper.angle"
+value = "0.3*sin(5*t) - pi/2"
+"#;
+
+/// A crank of 0.1 m, a rod of 0.3 m, and a piston on a line through the pivot of the crank.
+pub const SLIDER_CRANK: &str = r#"
+gravity = [0, -9.81]
+[bodies.ground]
+points = { O = [0, 0], S = [0, 0] }
+[bodies.crank]
+type = "bar"
+mass = 1
+length = 0.1
+ends = ["O", "A"]
+[bodies.rod]
+type = "bar"
+mass = 0.5
+length = 0.3
+ends = ["A", "B"]
+[bodies.piston]
+mass = 0.4
+inertia = 1e-4
+points = { B = [0, 0] }
+[joints.O]
+type = "revolute"
+i = "ground.O"
+j = "crank.O"
+[joints.A]
+type = "revolute"
+i = "crank.A"
+j = "rod.A"
+[joints.B]
+type = "revolute"
+i = "rod.B"
+j = "piston.B"
+[joints.S]
+type = "translational"
+i = "ground.S"
+j = "piston.B"
+"#;
+
 /// Everything that is wrong with a case, one fault a line; empty if it builds.
 pub fn faults(text: &str) -> String {
     let lines: Vec<String> = match read(&format!("kempe = 1\n{text}"), Format::Toml) {

@@ -1,26 +1,11 @@
 //! Forward dynamics at its edges.
 
-use crate::mechanisms::{close, every, four_bar, model, run, start, tolerances, worst};
+use crate::mechanisms::{close, every, four_bar, model, run, start, tolerances, worst, PENDULUM};
 use kempe::analyses::dynamics::{dynamics, Failure, Options, Output, Reason, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::Gains;
 use kempe::integrate::Flow;
 use kempe::model::Model;
-
-const PENDULUM: &str = r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.rod]
-type = "bar"
-mass = 1
-length = 1
-ends = ["O", "P"]
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "rod.O"
-"#;
 
 fn pendulum(force: &str) -> (Model, State) {
     let m = model(&format!("{PENDULUM}{force}"));

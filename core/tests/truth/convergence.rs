@@ -1,6 +1,6 @@
 //! Observed order of the methods on mechanisms, as slopes.
 
-use crate::mechanisms::{four_bar, model, run, start, tolerances, worst};
+use crate::mechanisms::{four_bar, model, run, start, tolerances, worst, DOUBLE_PENDULUM};
 use kempe::analyses::dynamics::{Options, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::integrate::Rk4;
@@ -42,35 +42,7 @@ fn rk4_is_of_order_four_on_the_released_four_bar() {
 
 #[test]
 fn rk4_is_of_order_four_on_a_driven_double_pendulum() {
-    let m = model(
-        r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.upper]
-type = "bar"
-mass = 1
-length = 1
-ends = ["A", "B"]
-[bodies.lower]
-mass = 2
-inertia = 0.3
-center = [0.2, 0.1]
-points = { B = [-0.4, 0.05] }
-[joints.A]
-type = "revolute"
-i = "ground.O"
-j = "upper.A"
-[joints.B]
-type = "revolute"
-i = "upper.B"
-j = "lower.B"
-[drivers.motor]
-type = "coordinate_driver"
-coordinate = "upper.angle"
-value = "0.3*sin(5*t) - pi/2"
-"#,
-    );
+    let m = model(DOUBLE_PENDULUM);
     let (state, _) = start(&m, &[("lower.angle", "-1")], &[]);
     let slopes = slopes(&m, &state, 1.0, 1.0 / 32.0);
     assert!(slopes[1..].iter().all(|s| (3.8..4.3).contains(s)), "{slopes:?}");
