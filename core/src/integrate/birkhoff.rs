@@ -139,39 +139,42 @@ impl Birkhoff {
         std::mem::swap(&mut self.gained, &mut self.gain);
     }
 
-    /// The state at [`INSIDE`] by the polynomial of degree 8, w left out.
+    /// The state at [`INSIDE`] by the polynomial of degree 8; of w nothing is said.
     pub fn predict(&mut self, ends: Ends<'_>, out: &mut [f64]) {
         let Ends { h, y_old, y, dy_old, dy } = ends;
         let (p, r) = (self.positions, self.h_before / h);
-        let each = |x: f64| Lanes::constant(x);
-        let (per_h, per_square) = (each(1.0 / h), each(1.0 / (h * h)));
-        out.copy_from_slice(y_old);
-        for (b, block) in self.blocks.iter_mut().enumerate() {
+        let nodes = Nodes::new(r);
+        let [half, behind, per_h, per_square] =
+            [0.5, -0.5 * r, 1.0 / h, 1.0 / (h * h)].map(Lanes::constant);
+        let [ahead, bend, all, square] =
+            [INSIDE * h, 0.5 * INSIDE * h, h, h * h].map(Lanes::constant);
+        for (b, block) in self.blocks.iter_mut().enumerate().rev() {
             let of = |x: &[f64]| lanes(&x[b * Lanes::WIDTH..]);
             let (v, a) = (of(&y_old[p..]), of(&dy_old[p..]));
+            let steep = v * per_h;
             // the ends less the terms of the beginning, over h²
             let end = [
-                of(&self.gain) * per_square - v * per_h - each(0.5) * a,
+                (of(&self.gain) * per_square - steep).minus_product(half, a),
                 (of(&y[p..]) - v) * per_h - a,
                 of(&dy[p..]) - a,
             ];
             let before = [
-                each(r) * (v * per_h - each(0.5 * r) * a) - of(&self.gained) * per_square,
-                (of(&self.rates) - v) * per_h + each(r) * a,
+                (nodes.r * steep.plus_product(behind, a))
+                    .minus_product(of(&self.gained), per_square),
+                (nodes.r * a).plus_product(of(&self.rates) - v, per_h),
                 of(&self.slopes) - a,
             ];
-            let c = through(end, before, r);
+            let c = nodes.through(end, before);
             let [position, rate, slope] = at_inside(&c);
             block.begin = [v, a];
             block.c[..6].copy_from_slice(&c);
             block.inside = a + slope;
-            let (theta, square) = (each(INSIDE * h), each(h * h));
-            let q = theta * (v + each(0.5 * INSIDE * h) * a) + square * position;
-            let v = v + theta * a + each(h) * rate;
-            let (q, v) = (q.to_array(), v.to_array());
-            for (lane, i) in (b * Lanes::WIDTH..p).take(Lanes::WIDTH).enumerate() {
-                out[i] += q[lane];
-                out[p + i] = v[lane];
+            // the last four of q run into the rates, which are stored later
+            if b * Lanes::WIDTH < p {
+                let q = of(y_old).plus_product(ahead, v.plus_product(bend, a));
+                store(q.plus_product(square, position), &mut out[b * Lanes::WIDTH..]);
+                let v = v.plus_product(ahead, a).plus_product(all, rate);
+                store(v, &mut out[p + b * Lanes::WIDTH..]);
             }
         }
     }
@@ -222,12 +225,18 @@ impl Polynomials<'_> {
     /// The state at θ, by a time of `ahead` = h θ after the beginning.
     pub fn evaluate(&self, ahead: f64, theta: f64, out: &mut [f64]) {
         let (ahead, theta) = (Lanes::constant(ahead), Lanes::constant(theta));
+        let at = |[begin, c @ .., last]: &Four| {
+            let sum = c.iter().rev().fold(*last, |sum, c| c.plus_product(sum, theta));
+            begin.plus_product(ahead, sum)
+        };
         // the last four of q run into the rates, which follow
         for (first, all) in [(0, self.q), (self.positions, self.rates)] {
-            for (four, out) in all.iter().zip(out[first..].chunks_mut(Lanes::WIDTH)) {
-                let [begin, c @ .., last] = four;
-                let sum = c.iter().rev().fold(*last, |sum, c| c.plus_product(sum, theta));
-                store(begin.plus_product(ahead, sum), out);
+            let (mut blocks, mut all) = (out[first..].chunks_exact_mut(Lanes::WIDTH), all.iter());
+            for (out, four) in (&mut blocks).zip(&mut all) {
+                out.copy_from_slice(&at(four).to_array());
+            }
+            if let Some(four) = all.next() {
+                store(at(four), blocks.into_remainder());
             }
         }
     }
@@ -261,40 +270,80 @@ fn lanes(x: &[f64]) -> Lanes {
 fn store(x: Lanes, out: &mut [f64]) {
     match out.first_chunk_mut() {
         Some(four) => *four = x.to_array(),
-        None => out.iter_mut().zip(x.to_array()).for_each(|(out, x)| *out = x),
+        None => store_part(x, out),
     }
 }
 
-/// Value, first and second derivative over the cube of the argument, at `x`.
-#[inline(always)]
-fn over_cube([f, df, ddf]: [Lanes; 3], x: f64) -> [Lanes; 3] {
-    let each = |x: f64| Lanes::constant(x);
-    let cube = each(1.0 / (x * x * x));
-    let (three, six, twelve) = (each(3.0 / x), each(6.0 / x), each(12.0 / (x * x)));
-    [f * cube, (df - three * f) * cube, (ddf - six * df + twelve * f) * cube]
+#[inline(never)]
+fn store_part(x: Lanes, out: &mut [f64]) {
+    out.iter_mut().zip(x.to_array()).for_each(|(out, x)| *out = x);
 }
 
-/// Coefficients of θ³ … θ⁸ of the polynomial that has these values and derivatives at 1 and at -r.
-#[inline(always)]
-fn through(end: [Lanes; 3], before: [Lanes; 3], r: f64) -> [Lanes; 6] {
-    let each = |x: f64| Lanes::constant(x);
-    let [s0, s1, twice] = over_cube(end, 1.0);
-    let [f, df, ddf] = over_cube(before, -r);
-    let x = -r - 1.0;
-    let left =
-        [f - s0 - each(x) * (s1 + each(0.5 * x) * twice), df - s1 - each(x) * twice, ddf - twice];
-    let [u0, u1, u2] = over_cube(left, x);
-    let mut c = [Lanes::zero(); 6];
-    c[0] = each(0.5) * u2;
-    // times θ - node, plus the next number of Newton's form
-    let next = [(-r, u1), (-r, u0), (1.0, each(0.5) * twice), (1.0, s1), (1.0, s0)];
-    for (degree, (node, number)) in (1..).zip(next) {
-        for k in (1..=degree).rev() {
-            c[k] = c[k - 1] - each(node) * c[k];
+/// 1 / x³, 3 / x, 6 / x and 12 / x².
+#[derive(Clone, Copy)]
+struct Cube([Lanes; 4]);
+
+impl Cube {
+    #[inline(always)]
+    fn new(x: f64) -> Self {
+        let over = 1.0 / x;
+        let square = over * over;
+        Self([square * over, 3.0 * over, 6.0 * over, 12.0 * square].map(Lanes::constant))
+    }
+
+    /// Value, first and second derivative over the cube of the argument.
+    #[inline(always)]
+    fn under(&self, [f, df, ddf]: [Lanes; 3]) -> [Lanes; 3] {
+        let [cube, three, six, twelve] = self.0;
+        let second = ddf.minus_product(six, df).plus_product(twelve, f);
+        [f * cube, df.minus_product(three, f) * cube, second * cube]
+    }
+}
+
+/// Where a polynomial is known: at 1 and at -r.
+#[derive(Clone, Copy)]
+struct Nodes {
+    end: Cube,
+    before: Cube,
+    /// From the one to the other.
+    between: Cube,
+    x: Lanes,
+    r: Lanes,
+}
+
+impl Nodes {
+    #[inline(always)]
+    fn new(r: f64) -> Self {
+        let [end, before, between] = [1.0, -r, -r - 1.0].map(Cube::new);
+        Self { end, before, between, x: Lanes::constant(-r - 1.0), r: Lanes::constant(r) }
+    }
+
+    /// Coefficients of θ³ … θ⁸ of the polynomial that has these values and derivatives there.
+    #[inline(always)]
+    fn through(&self, end: [Lanes; 3], before: [Lanes; 3]) -> [Lanes; 6] {
+        let half = Lanes::constant(0.5);
+        let [s0, s1, twice] = self.end.under(end);
+        let [f, df, ddf] = self.before.under(before);
+        let s2 = half * twice;
+        let left = [
+            (f - s0).minus_product(self.x, s1.plus_product(self.x, s2)),
+            (df - s1).minus_product(self.x, twice),
+            ddf - twice,
+        ];
+        let [u0, u1, u2] = self.between.under(left);
+        let mut c = [Lanes::zero(); 6];
+        c[0] = half * u2;
+        // times θ - node, plus the next number of Newton's form
+        let (r, one) = (-self.r, Lanes::one());
+        let next = [(r, u1), (r, u0), (one, s2), (one, s1), (one, s0)];
+        for (degree, (node, number)) in (1..).zip(next) {
+            for k in (1..=degree).rev() {
+                c[k] = c[k - 1].minus_product(node, c[k]);
+            }
+            c[0] = number.minus_product(node, c[0]);
         }
-        c[0] = number - each(node) * c[0];
+        c
     }
-    c
 }
 
 /// Coefficients of θ³ … θ⁹ of θ³ (θ - 1)³ (θ + r)³.
@@ -322,7 +371,7 @@ fn at_inside<R: Real>(c: &[R]) -> [R; 3] {
         // power is θ^(k - 3)
         let weights = [theta * theta * theta, k * theta * theta, k * (k - 1.0) * theta];
         for (sum, weight) in sums.iter_mut().zip(weights) {
-            *sum += R::constant(weight * power) * *c;
+            *sum = sum.plus_product(R::constant(weight * power), *c);
         }
         power *= theta;
     }

@@ -27,11 +27,6 @@ impl Lanes {
     pub fn to_array(self) -> [f64; Self::WIDTH] {
         self.0.to_array()
     }
-    /// The numbers, to be changed.
-    #[inline(always)]
-    pub fn as_array_mut(&mut self) -> &mut [f64; Self::WIDTH] {
-        self.0.as_array_mut()
-    }
     /// Several quantities as rows, one for each lane: `out` has [`WIDTH`](Self::WIDTH) rows as long as `x`.
     ///
     /// # Panics

@@ -96,6 +96,8 @@ pub(super) struct Recorder<'a> {
     output: Output,
     t0: f64,
     t_end: f64,
+    /// 1 forward, -1 backward.
+    direction: f64,
     next: usize,
     /// The last time that was asked for.
     latest: f64,
@@ -125,6 +127,7 @@ impl<'a> Recorder<'a> {
             output: options.output,
             t0,
             t_end: options.t_end,
+            direction: (options.t_end - t0).signum(),
             next: 1,
             latest: t0,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
@@ -257,7 +260,7 @@ impl<'a> Recorder<'a> {
 
     /// The next time of the grid if it has been reached: t₀ + k h by multiplication, without drift.
     fn due(&self, h: f64, reached: f64) -> Option<f64> {
-        let direction = (self.t_end - self.t0).signum();
+        let direction = self.direction;
         let mut t = self.t0 + direction * self.next as f64 * h;
         // a grid point that misses t_end by rounding only is t_end
         if (t - self.t_end).abs() <= 1e-9 * h {

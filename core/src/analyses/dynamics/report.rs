@@ -30,6 +30,8 @@ pub(super) struct Solver<'a, S = f64> {
     workspace: Workspace<S>,
     projector: Option<Projector<'a, S>>,
     guard: Option<Guard<S>>,
+    /// Whether projection changed the last state.
+    changed: bool,
     /// Kinetic and potential energy, J.
     energies: [S; 2],
     /// States whose projection went through.
@@ -45,7 +47,8 @@ impl<'a, S: Real> Solver<'a, S> {
         };
         let projector = projector.map(Projector::for_reports);
         let guard = Guard::new(model, options);
-        Self { model, workspace, projector, guard, energies: [S::zero(); 2], solved: 0 }
+        let energies = [S::zero(); 2];
+        Self { model, workspace, projector, guard, changed: false, energies, solved: 0 }
     }
 
     /// Solves at y = (q, v, works) as it is.
@@ -78,14 +81,15 @@ impl<'a, S: Real> Solver<'a, S> {
         let Some(projector) = &mut self.projector else { return self.solve(t, y) };
         let (q, v, _) = parts(y, self.model.layout.n_q);
         let place = (&mut *q, &mut *v);
-        projector.project(&mut self.workspace, t, place, false).map_err(Halt::Fault)?;
+        let changed = projector.project(&mut self.workspace, t, place, false);
+        self.changed = changed.map_err(Halt::Fault)?;
         self.respond(t)
     }
 
     /// By what part of the fastest rate projection has changed the rates that were `given`.
     pub fn turn(&self, given: &[S], v: &[S]) -> f64 {
-        let by = |projector| around::turn(projector, given, v);
-        self.projector.as_ref().map_or(0.0, by)
+        let projector = self.projector.as_ref().filter(|_| self.changed);
+        projector.map_or(0.0, |projector| around::turn(projector, given, v))
     }
 
     /// Accelerations and multipliers at the motions of the workspace: by γ, never γ̂.
