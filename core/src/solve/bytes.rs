@@ -61,8 +61,8 @@ impl Steps {
         Bytes::aside(&self.starts)
             + Bytes::aside(&self.touches)
             + Bytes { held: 0, touched: of_mixed }
-            + Bytes::touched(&self.columns)
-            + Bytes::touched(&self.earlier)
+            + Bytes::touched(&self.rows)
+            + Bytes::touched(&self.left)
             + Bytes::touched(&self.below)
             + Bytes::touched(&self.pairs)
             + Bytes::touched(&self.updates)

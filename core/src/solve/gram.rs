@@ -5,11 +5,10 @@
 //! the course of what makes these; the others are read from the entries.
 
 use super::arm::Arm;
-use super::block::{add, part, part_mut, store_begun, subtract_transposed, Twin};
+use super::block::{add, part, part_mut, subtract_transposed, Open, Twin};
 use super::pattern::Pattern;
-use super::places::Armed;
 use super::saddle::Saddle;
-use super::steps::{last, next, Start, Touch};
+use super::steps::{last, next, Row, Start, Touch};
 use super::weight::Weight;
 use crate::math::Real;
 
@@ -23,6 +22,12 @@ pub struct Begun<S> {
     pub right: [S; 2],
 }
 
+/// What knows the rows of [`Pattern::armed`].
+pub trait Begin<S> {
+    /// Begins the next of them; `x` is Dw⁻¹ Lw⁻¹ f.
+    fn begin(&mut self, saddle: &mut Saddle<S>, x: &[S]) -> Begun<S>;
+}
+
 impl<S: Real> Begun<S> {
     /// -g; groups are to be added.
     #[inline(always)]
@@ -30,36 +35,43 @@ impl<S: Real> Begun<S> {
         Self { s: [[S::zero(); 2]; 2], held: S::zero(), right: g.map(|g| -g) }
     }
 
-    /// Adds a group where the rows are [±I b], with its weight and its part of Dw⁻¹ Lw⁻¹ f; returns b′, to be
+    /// Adds a group where the rows are ±[I b], with its weight and its part of Dw⁻¹ Lw⁻¹ f; returns ±b′, to be
     /// stored in [`Saddle::arms`].
     #[inline(always)]
     pub fn add(&mut self, sign: f64, b: [S; 2], weight: &Weight<S>, x: &[S; 3]) -> [S; 2] {
-        let b = bent(b, sign, weight);
+        // the sign last: both numbers by one instruction, so that they are written as a pair
+        let b = [0, 1].map(|k| S::constant(sign) * (b[k] - weight.shift[k]));
         let arm = Arm::new(&b, &weight.inverse);
         arm.add_square(&mut self.s);
         self.held += weight.held;
         arm.add_times(sign, x, &mut self.right);
         b
     }
+
+    #[inline(always)]
+    pub(super) fn open(&self) -> Open<S, 2> {
+        Open { s: self.s, magnitude: [self.s[0][0] + self.held, self.s[1][1] + self.held] }
+    }
 }
 
 impl<S: Real> Saddle<S> {
-    /// Stores the diagonal block of a row block of [`Pattern::armed`], whose first row is `row`.
+    /// Stores a row block that was begun, its right side in g.
     #[inline(always)]
-    pub fn begin(&mut self, armed: &Armed, row: u32, begun: &Begun<S>) {
-        self.put(row, armed.diagonal, &begun.s, [begun.held; 2]);
+    pub(super) fn put_begun(&mut self, row: &Row, begun: &Begun<S>, g: &mut [S]) {
+        begun.open().store(&mut self.factors, row.diagonal);
+        *part_mut(g, row.row) = begun.right;
     }
 
     #[inline(always)]
-    fn put<const N: usize>(&mut self, row: u32, diagonal: u32, s: &[[S; N]; N], held: [S; N]) {
-        let magnitude = std::array::from_fn(|i| s[i][i] + held[i]);
-        store_begun(&mut self.factors, diagonal, s, &magnitude);
+    fn put<const N: usize>(&mut self, row: u32, diagonal: u32, s: [[S; N]; N], held: [S; N]) {
+        let mut open = Open { magnitude: std::array::from_fn(|i| s[i][i] + held[i]), s };
         if let Some(damping) = self.damping.get(row as usize..row as usize + N) {
-            for first in [diagonal, diagonal + N as u32] {
-                let s = part_mut::<S, N>(&mut self.factors, first);
-                s.iter_mut().zip(damping).for_each(|(s, mu)| *s += *mu);
+            for (i, mu) in damping.iter().enumerate() {
+                open.s[i][i] += *mu;
+                open.magnitude[i] += *mu;
             }
         }
+        open.store(&mut self.factors, diagonal);
     }
 
     /// b′ of all arms and the rows of U from the entries; with `ALL` of those too that are begun otherwise.
@@ -134,7 +146,7 @@ impl<S: Real> Saddle<S> {
                 }
             }
         }
-        self.put(start.row, start.diagonal, &s, held);
+        self.put(start.row, start.diagonal, s, held);
     }
 
     /// The right sides y of row blocks, into g.

@@ -13,11 +13,12 @@
 
 use super::anchor::Anchor;
 use super::block::{
-    add, begun, columns, factorise, part, part_mut, scaled, store, subtract, subtract_times,
-    Diagonal, Twin,
+    add, columns, factorise, forward, part, part_mut, scaled, store, subtract, subtract_times,
+    Diagonal, Open, Twin,
 };
+use super::gram::Begin;
 use super::pattern::Pattern;
-use super::steps::{next, Ahead, Below, Column, Earlier, Products, Start, Update};
+use super::steps::{next, Ahead, Left, Row, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -48,7 +49,7 @@ pub struct Saddle<S> {
     pub(super) ridge: f64,
     /// Rows of U.
     pub(super) u: Vec<Twin<S>>,
-    /// For each column of blocks what its diagonal block came to, then L D of the blocks below.
+    /// For each row of blocks L D of those left of the diagonal, then what its diagonal block came to.
     pub(super) factors: Vec<S>,
 }
 
@@ -87,7 +88,8 @@ impl<S: Real> Saddle<S> {
         check(&self.weights, &pattern.loose)?;
         self.transform::<true>(pattern);
         self.begin_all(pattern, &pattern.steps.starts);
-        self.eliminate::<false>(pattern, &mut [])
+        let mut ahead = pattern.steps.ahead();
+        pattern.steps.rows.iter().try_for_each(|row| self.any_row::<false>(row, &mut ahead, &mut []))
     }
 
     /// Factorises as [`factor`](Self::factor) and solves as [`solve`](Self::solve). The right side is
@@ -101,198 +103,204 @@ impl<S: Real> Saddle<S> {
     pub fn factor_and_solve(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
         self.transform::<true>(pattern);
         self.weigh(pattern, x);
-        self.finish(pattern, &pattern.steps.starts, x)?;
+        let (f, g) = x.split_at_mut(pattern.n_unknowns());
+        let starts = &pattern.steps.starts;
+        self.begin_all(pattern, starts);
+        self.right_sides(pattern, starts, f, g);
+        let mut ahead = pattern.steps.ahead();
+        for row in &pattern.steps.rows {
+            self.any_row::<true>(row, &mut ahead, g).or_else(|row| self.blame(pattern, row))?;
+        }
+        self.substitute_back(pattern, g);
+        self.spread_all(pattern, starts, f, g);
         self.unbend(pattern, x);
         Ok(())
     }
 
-    /// The same once all row blocks of [`Pattern::armed`] are begun: their entries are not read, `x` was
-    /// weighed, their right sides stand in it, and it lacks -Dw⁻¹ Uᵀ λ of these rows in the end.
+    /// The same where the row blocks of [`Pattern::armed`] are begun by `begin`, each when its turn comes, with f;
+    /// their entries are not read, `x` was weighed, and it lacks -Dw⁻¹ Uᵀ λ of these rows in the end.
     ///
     /// # Errors
     /// As [`factor`](Self::factor); `x` is then lost.
     ///
     /// # Panics
-    /// As [`factor`](Self::factor) and [`solve`](Self::solve).
+    /// As [`factor`](Self::factor) and [`solve`](Self::solve), and if rows are damped.
     #[inline(always)] // once in an evaluation
-    pub fn finish_begun(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
-        self.transform::<false>(pattern);
-        self.finish(pattern, &pattern.steps.starts[..pattern.steps.n_mixed], x)
-    }
-
-    /// From x = Dw⁻¹ Lw⁻¹ f to Lwᵀ x, with the row blocks of `starts` still to be begun.
-    #[inline(always)]
-    fn finish(
+    pub fn finish_begun(
         &mut self,
         pattern: &Pattern,
-        starts: &[Start],
         x: &mut [S],
+        begin: impl Begin<S>,
     ) -> Result<(), Dependent> {
-        self.begin_all(pattern, starts);
+        assert!(self.damping.is_empty(), "rows that are begun are not damped");
+        self.transform::<false>(pattern);
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
+        let starts = &pattern.steps.starts[..pattern.steps.n_mixed];
+        self.begin_all(pattern, starts);
         self.right_sides(pattern, starts, f, g);
-        // a useless weight spoils a pivot, or else the unknowns of its group
-        self.eliminate::<true>(pattern, g)
-            .or_else(|row| check(&self.weights, &pattern.loose).and(Err(row)))?;
+        self.begun_rows(pattern, (f, g), begin).or_else(|row| self.blame(pattern, row))?;
         self.substitute_back(pattern, g);
         self.spread_all(pattern, starts, f, g);
         Ok(())
     }
 
-    /// The row whose pivot was cancelled most, and its ratio d / S_kk: 1 means nothing was lost, 1e-10
-    /// that ten digits were. `None` without rows.
-    pub fn cancellation(&self, pattern: &Pattern) -> Option<(usize, f64)> {
-        let of = |column: &Column| {
-            let (row, size) = (column.row as usize, usize::from(column.size));
-            let (inverse, rest) = self.factors[column.diagonal as usize..].split_at(size);
-            let ratios = inverse.iter().zip(rest).map(|(i, m)| S::one() / (*i * *m));
-            ratios.map(S::least_magnitude).enumerate().map(move |(k, ratio)| (row + k, ratio))
-        };
-        let all = pattern.steps.columns.iter().flat_map(of);
-        all.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
-    }
-
-    /// Column by column; with `RHS` the right side as well.
-    #[inline(always)]
-    fn eliminate<const RHS: bool>(
+    /// Row by row.
+    #[inline(never)] // few pointers stay in registers
+    fn begun_rows(
         &mut self,
         pattern: &Pattern,
-        g: &mut [S],
+        (f, g): (&[S], &mut [S]),
+        mut begin: impl Begin<S>,
     ) -> Result<(), Dependent> {
         let mut ahead = pattern.steps.ahead();
-        for column in &pattern.steps.columns {
-            if column.pins {
-                self.column::<2, RHS, true>(column, &mut ahead, g)?;
+        for row in &pattern.steps.rows {
+            if !row.armed {
+                self.any_row::<true>(row, &mut ahead, g)?;
+                continue;
+            }
+            let begun = begin.begin(self, f);
+            if row.pins {
+                self.row::<2, true, true>(row, (begun.open(), begun.right), &mut ahead, g)?;
             } else {
-                self.mixed_column::<RHS>(column, &mut ahead, g)?;
+                self.put_begun(row, &begun, g);
+                self.any_row::<true>(row, &mut ahead, g)?;
             }
         }
         Ok(())
     }
 
-    /// A column of any kind, apart from those of pins alone: the loop over these stays in registers.
-    #[inline(never)]
-    fn mixed_column<const RHS: bool>(
+    /// A useless weight spoils a pivot, or else the unknowns of its group.
+    #[cold]
+    fn blame(&self, pattern: &Pattern, row: Dependent) -> Result<(), Dependent> {
+        check(&self.weights, &pattern.loose).and(Err(row))
+    }
+
+    /// The row whose pivot was cancelled most, and its ratio d / S_kk: 1 means nothing was lost, 1e-10
+    /// that ten digits were. `None` without rows.
+    pub fn cancellation(&self, pattern: &Pattern) -> Option<(usize, f64)> {
+        let of = |row: &Row| {
+            let (first, size) = (row.row as usize, usize::from(row.size));
+            let (inverse, rest) = self.factors[row.diagonal as usize..].split_at(size);
+            let ratios = inverse.iter().zip(rest).map(|(i, m)| S::one() / (*i * *m));
+            ratios.map(S::least_magnitude).enumerate().map(move |(k, ratio)| (first + k, ratio))
+        };
+        let all = pattern.steps.rows.iter().flat_map(of);
+        all.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
+    }
+
+    /// A row of any kind, which was begun; with `RHS` its right side as well.
+    #[inline(never)] // the loop over rows of pins alone stays in registers
+    fn any_row<const RHS: bool>(
         &mut self,
-        column: &Column,
+        row: &Row,
         ahead: &mut Ahead<'_>,
         g: &mut [S],
     ) -> Result<(), Dependent> {
-        match column.size {
-            1 => self.column::<1, RHS, false>(column, ahead, g),
-            2 => self.column::<2, RHS, false>(column, ahead, g),
-            _ => self.column::<3, RHS, false>(column, ahead, g),
+        match row.size {
+            1 => self.begun_row::<1, RHS>(row, ahead, g),
+            2 => self.begun_row::<2, RHS>(row, ahead, g),
+            _ => self.begun_row::<3, RHS>(row, ahead, g),
         }
     }
 
-    /// One column of L, of N rows and columns on the diagonal; with `PINS` one of pins alone.
     #[inline(always)]
-    fn column<const N: usize, const RHS: bool, const PINS: bool>(
+    fn begun_row<const N: usize, const RHS: bool>(
         &mut self,
-        column: &Column,
+        row: &Row,
         ahead: &mut Ahead<'_>,
         g: &mut [S],
     ) -> Result<(), Dependent> {
-        let (magnitude, mut s) = begun(&self.factors, column.diagonal);
+        let right = if RHS { *part(g, row.row) } else { [S::zero(); N] };
+        let open = Open::read(&self.factors, row.diagonal);
+        self.row::<N, RHS, false>(row, (open, right), ahead, g)
+    }
+
+    /// One row of L, of N rows; with `PINS` one of pins alone.
+    #[inline(always)]
+    fn row<const N: usize, const RHS: bool, const PINS: bool>(
+        &mut self,
+        row: &Row,
+        (Open { mut s, magnitude }, mut y): (Open<S, N>, [S; N]),
+        ahead: &mut Ahead<'_>,
+        g: &mut [S],
+    ) -> Result<(), Dependent> {
         for (i, magnitude) in magnitude.iter().enumerate() {
             s[i][i] += *magnitude * S::constant(self.ridge);
         }
-        let mut y = if RHS { *part(g, column.row) } else { [S::zero(); N] };
-        for block in next(&mut ahead.earlier, column.earlier) {
-            match block.size {
-                _ if PINS => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
-                1 => self.subtract_earlier::<N, 1, RHS>(block, g, &mut s, &mut y),
-                2 => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
-                _ => self.subtract_earlier::<N, 3, RHS>(block, g, &mut s, &mut y),
+        for left in next(&mut ahead.left, row.left) {
+            let own = (&mut s, &mut y);
+            match left.size {
+                _ if PINS => self.left::<N, 2, RHS, true>(left, ahead, g, own),
+                1 => self.left::<N, 1, RHS, false>(left, ahead, g, own),
+                2 => self.left::<N, 2, RHS, false>(left, ahead, g, own),
+                _ => self.left::<N, 3, RHS, false>(left, ahead, g, own),
             }
         }
         let diagonal = factorise(s);
         if RHS {
-            let mut y = y.map(|y| [y]);
             diagonal.forward(&mut y);
-            let mut y = y.map(|[y]| y);
-            if column.below == 0 {
+            if row.below == 0 {
                 diagonal.back(&mut y); // λ: nothing else is waited for
             }
-            *part_mut(g, column.row) = y;
+            *part_mut(g, row.row) = y;
         }
-        self.keep(column, &diagonal, magnitude)?;
-        let Ahead { below, products, .. } = ahead;
-        for block in next(below, column.below) {
-            match block.size {
-                _ if PINS => self.below::<2, N, true>(block, products, &diagonal),
-                1 => self.below::<1, N, false>(block, products, &diagonal),
-                2 => self.below::<2, N, false>(block, products, &diagonal),
-                _ => self.below::<3, N, false>(block, products, &diagonal),
-            }
-        }
-        Ok(())
-    }
-
-    /// s -= (L D) Lᵀ with a block left of the diagonal, of K columns; with `RHS` y -= L y′ as well.
-    #[inline(always)]
-    fn subtract_earlier<const N: usize, const K: usize, const RHS: bool>(
-        &self,
-        &Earlier { block, diagonal, row, .. }: &Earlier,
-        g: &[S],
-        s: &mut [[S; N]; N],
-        y: &mut [S; N],
-    ) {
-        let plain = columns::<S, N, K>(&self.factors, block);
-        let scaled = scaled(&plain, part(&self.factors, diagonal));
-        subtract(s, &plain, &scaled);
-        if RHS {
-            subtract_times(y, &scaled, part::<S, K>(g, row));
-        }
+        self.keep(row, &diagonal, &magnitude)
     }
 
     /// Judges and stores a diagonal block.
     #[inline(always)]
     fn keep<const N: usize>(
         &mut self,
-        column: &Column,
+        row: &Row,
         diagonal: &Diagonal<S, N>,
-        magnitude: [S; N],
+        magnitude: &[S; N],
     ) -> Result<(), Dependent> {
         for (i, magnitude) in magnitude.iter().enumerate() {
             let least = *magnitude * S::constant(self.least) + S::constant(LEAST_PIVOT);
             if !above_zero(diagonal.pivot[i] - least) {
-                return Err(Dependent::Row(column.row as usize + i));
+                return Err(Dependent::Row(row.row as usize + i));
             }
         }
-        diagonal.store(&mut self.factors, column.diagonal);
+        diagonal.store(&mut self.factors, row.diagonal, magnitude);
         Ok(())
     }
 
-    /// One block below the diagonal: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ.
+    /// One block left of the diagonal, of K columns: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ. What follows
+    /// from it for the diagonal block: s -= (L D) Lᵀ, with `RHS` y -= L y′ as well.
     #[inline(always)]
-    fn below<const M: usize, const N: usize, const PINS: bool>(
+    fn left<const N: usize, const K: usize, const RHS: bool, const PINS: bool>(
         &mut self,
-        block: &Below,
-        products: &mut Products<'_>,
-        diagonal: &Diagonal<S, N>,
+        left: &Left,
+        ahead: &mut Ahead<'_>,
+        g: &[S],
+        (s, y): (&mut [[S; N]; N], &mut [S; N]),
     ) {
         // transposed, as it is stored
-        let mut s = [[S::zero(); M]; N];
-        for pair in next(&mut products.pairs, block.pairs) {
+        let mut block = [[S::zero(); N]; K];
+        for pair in next(&mut ahead.pairs, left.pairs) {
             let [own, other] = pair.first;
-            if PINS || N == 2 && M == 2 && pair.sign != 0.0 {
+            if PINS || N == 2 && K == 2 && pair.sign != 0.0 {
                 let own = &self.arms[own as usize];
-                self.arm(other, pair.group).add_product(own, pair.sign.into(), &mut s);
+                self.arm(other, pair.group).add_product(own, pair.sign.into(), &mut block);
             } else {
-                add::<S, N, M, 3>(&mut s, part(&self.u, other), part(&self.u, own));
+                add::<S, K, N, 3>(&mut block, part(&self.u, other), part(&self.u, own));
             }
         }
-        for update in next(&mut products.updates, block.updates) {
+        for update in next(&mut ahead.updates, left.updates) {
             match update.size {
-                _ if PINS => self.subtract_product::<M, N, 2>(update, &mut s),
-                1 => self.subtract_product::<M, N, 1>(update, &mut s),
-                2 => self.subtract_product::<M, N, 2>(update, &mut s),
-                _ => self.subtract_product::<M, N, 3>(update, &mut s),
+                _ if PINS => self.subtract_product::<N, K, 2>(update, &mut block),
+                1 => self.subtract_product::<N, K, 1>(update, &mut block),
+                2 => self.subtract_product::<N, K, 2>(update, &mut block),
+                _ => self.subtract_product::<N, K, 3>(update, &mut block),
             }
         }
-        diagonal.forward(&mut s);
-        store(&mut self.factors, block.block, &s);
+        forward(&self.factors, left.diagonal, &mut block);
+        store(&mut self.factors, left.block, &block);
+        let scaled = scaled(&block, part(&self.factors, left.diagonal));
+        subtract(s, &block, &scaled);
+        if RHS {
+            subtract_times(y, &scaled, part::<S, K>(g, left.row));
+        }
     }
 
     /// s -= ((L D) Lᵀ)ᵀ with two blocks of one earlier column, of K columns.
