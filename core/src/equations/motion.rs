@@ -134,7 +134,7 @@ impl<S: Real> Workspace<S> {
         self.factor_and_refine(model).map_err(Singular)
     }
 
-    /// q̈ and λ with pins by their arms: one pass over them with elimination, and one after.
+    /// q̈ and λ with pins by their arms: one pass over them before elimination, and one after.
     #[inline(always)]
     fn solve_armed(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
         let Self { motions, matrix, solution, powers, held, n_q, .. } = self;
@@ -152,8 +152,10 @@ impl<S: Real> Workspace<S> {
         constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
         right.iter_mut().zip(&*held).for_each(|(right, held)| *right -= *held);
         saddle.weigh(pattern, solution);
-        let rows = pins::Rows { pins: &model.pins, armed: armed.iter(), motions, stabilized, held };
-        saddle.finish_begun(pattern, solution, rows)?;
+        let (x, right) = solution.split_at_mut(n);
+        pins::begin(&model.pins, armed, motions, stabilized, saddle, (x, right));
+        pins::hold(&model.pins, armed, held, right);
+        saddle.finish_begun(pattern, solution)?;
         let (x, lam) = solution.split_at_mut(n);
         pins::spread(&model.pins, armed, saddle, (x, lam));
         saddle.unbend(pattern, solution);

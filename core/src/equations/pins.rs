@@ -7,8 +7,7 @@ use crate::elements::joints::Revolute;
 use crate::elements::Joint;
 use crate::math::{Motion, Real};
 use crate::model::Pin;
-use crate::solve::{Begin, Begun, Saddle};
-use std::slice::Iter;
+use crate::solve::{Begun, Saddle};
 
 /// The three unknowns of a group.
 #[inline(always)]
@@ -16,47 +15,55 @@ fn of_group<S>(group: usize, x: &[S]) -> &[S; 3] {
     x[3 * group..3 * group + 3].first_chunk().expect("as long as the range")
 }
 
-/// The rows of pins, one after the other.
-pub(super) struct Rows<'a, S> {
-    pub pins: &'a [Pin<S>],
-    /// Those still to be begun.
-    pub armed: Iter<'a, ArmedPin>,
-    /// Motion of every body, ground first.
-    pub motions: &'a [Motion<S>],
-    pub stabilized: Stabilized<S>,
-    /// What γ̂ is lessened by, shape (n_rows), or empty.
-    pub held: &'a [S],
-}
-
-impl<S: Real> Begin<S> for Rows<'_, S> {
-    #[inline(always)] // once in an evaluation: a call saves and restores more than it shares
-    fn begin(&mut self, saddle: &mut Saddle<S>, x: &[S]) -> Begun<S> {
-        let armed = self.armed.next().expect("a pin for each armed row block");
-        let pin = &self.pins[armed.pin as usize];
-        let [i, j] = pin.bodies.map(|body| &self.motions[body as usize]);
+/// Begins the rows of the `armed` pins: `x` is Dw⁻¹ Lw⁻¹ Q, `right` becomes their right side.
+#[inline(never)] // with few pointers, most of them stay in registers
+pub(super) fn begin<S: Real>(
+    pins: &[Pin<S>],
+    armed: &[ArmedPin],
+    motions: &[Motion<S>],
+    stabilized: Stabilized<S>,
+    saddle: &mut Saddle<S>,
+    (x, right): (&[S], &mut [S]),
+) {
+    for ArmedPin { pin, rows: armed } in armed {
+        let pin = &pins[*pin as usize];
+        let [i, j] = pin.bodies.map(|body| &motions[body as usize]);
         let (terms, rows) = <Revolute as Joint<2>>::linearize(&pin.joint(), i, j, S::zero());
         let mut gamma = [S::zero(); 2];
-        self.stabilized.put(&terms, &mut gamma);
+        stabilized.put(&terms, &mut gamma);
         let mut begun = Begun::new(gamma);
-        let mut arm = armed.rows.arm as usize;
-        for (end, sign) in [(0, -1.0), (1, 1.0)] {
-            let group = (pin.bodies[end] as usize).wrapping_sub(1);
-            // none for ground
-            let Some(weight) = saddle.weights.get(group) else { continue };
-            let b = [0, 1].map(|row| S::constant(sign) * rows[row][3 * end + 2]);
-            saddle.arms[arm] = begun.add(sign, b, weight, of_group(group, x));
+        let mut arm = armed.arm as usize;
+        let [i, j] = pin.bodies.map(|body| (body as usize).checked_sub(1));
+        if let Some(i) = i {
+            let b = [rows[0][2], rows[1][2]];
+            saddle.arms[arm] = begun.add(-1.0, b, &saddle.weights[i], of_group(i, x));
             arm += 1;
         }
-        if let Some(held) = self.held.get(pin.row as usize..pin.row as usize + 2) {
-            // begun, the right side has the opposite sign
-            begun.right.iter_mut().zip(held).for_each(|(right, held)| *right += *held);
+        if let Some(j) = j {
+            let b = [rows[0][5], rows[1][5]];
+            saddle.arms[arm] = begun.add(1.0, b, &saddle.weights[j], of_group(j, x));
         }
-        begun
+        right[pin.row as usize..][..2].copy_from_slice(&begun.right);
+        saddle.begin(armed, pin.row, &begun);
+    }
+}
+
+/// Lessens γ̂ of the `armed` pins, which were begun, by `held`, shape (n_rows) or empty.
+pub(super) fn hold<S: Real>(pins: &[Pin<S>], armed: &[ArmedPin], held: &[S], right: &mut [S]) {
+    if held.is_empty() {
+        return;
+    }
+    for ArmedPin { pin, .. } in armed {
+        let row = pins[*pin as usize].row as usize;
+        // begun, the right side has the opposite sign
+        for (right, held) in right[row..row + 2].iter_mut().zip(&held[row..row + 2]) {
+            *right += *held;
+        }
     }
 }
 
 /// x -= Dw⁻¹ Uᵀ λ over the rows of the `armed` pins.
-#[inline(always)] // as above
+#[inline(never)] // as above
 pub(super) fn spread<S: Real>(
     pins: &[Pin<S>],
     armed: &[ArmedPin],

@@ -7,8 +7,9 @@
 use super::arm::Arm;
 use super::block::{add, part, part_mut, subtract_transposed, Open, Twin};
 use super::pattern::Pattern;
+use super::places::Armed;
 use super::saddle::Saddle;
-use super::steps::{last, next, Row, Start, Touch};
+use super::steps::{last, next, Start, Touch};
 use super::weight::Weight;
 use crate::math::Real;
 
@@ -22,12 +23,6 @@ pub struct Begun<S> {
     pub right: [S; 2],
 }
 
-/// What knows the rows of [`Pattern::armed`].
-pub trait Begin<S> {
-    /// Begins the next of them; `x` is Dw⁻¹ Lw⁻¹ f.
-    fn begin(&mut self, saddle: &mut Saddle<S>, x: &[S]) -> Begun<S>;
-}
-
 impl<S: Real> Begun<S> {
     /// -g; groups are to be added.
     #[inline(always)]
@@ -35,31 +30,24 @@ impl<S: Real> Begun<S> {
         Self { s: [[S::zero(); 2]; 2], held: S::zero(), right: g.map(|g| -g) }
     }
 
-    /// Adds a group where the rows are ±[I b], with its weight and its part of Dw⁻¹ Lw⁻¹ f; returns ±b′, to be
+    /// Adds a group where the rows are [±I b], with its weight and its part of Dw⁻¹ Lw⁻¹ f; returns b′, to be
     /// stored in [`Saddle::arms`].
     #[inline(always)]
     pub fn add(&mut self, sign: f64, b: [S; 2], weight: &Weight<S>, x: &[S; 3]) -> [S; 2] {
-        // the sign last: both numbers by one instruction, so that they are written as a pair
-        let b = [0, 1].map(|k| S::constant(sign) * (b[k] - weight.shift[k]));
+        let b = bent(b, sign, weight);
         let arm = Arm::new(&b, &weight.inverse);
         arm.add_square(&mut self.s);
         self.held += weight.held;
         arm.add_times(sign, x, &mut self.right);
         b
     }
-
-    #[inline(always)]
-    pub(super) fn open(&self) -> Open<S, 2> {
-        Open { s: self.s, magnitude: [self.s[0][0] + self.held, self.s[1][1] + self.held] }
-    }
 }
 
 impl<S: Real> Saddle<S> {
-    /// Stores a row block that was begun, its right side in g.
+    /// Stores the diagonal block of a row block of [`Pattern::armed`], whose first row is `row`.
     #[inline(always)]
-    pub(super) fn put_begun(&mut self, row: &Row, begun: &Begun<S>, g: &mut [S]) {
-        begun.open().store(&mut self.factors, row.diagonal);
-        *part_mut(g, row.row) = begun.right;
+    pub fn begin(&mut self, armed: &Armed, row: u32, begun: &Begun<S>) {
+        self.put(row, armed.diagonal, begun.s, [begun.held; 2]);
     }
 
     #[inline(always)]

@@ -43,7 +43,7 @@ mod weight;
 pub use anchor::{Anchor, Anchored};
 pub use block_lu::{BlockLu, LOST};
 pub use bytes::Bytes;
-pub use gram::{Begin, Begun};
+pub use gram::Begun;
 pub use lu_plan::LuPlan;
 pub use newton::Newton;
 pub use order::{groups_first, touched_first};

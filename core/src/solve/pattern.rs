@@ -4,7 +4,7 @@
 //! three that touch the same groups. What is factorised is S = A W⁻¹ Aᵀ + μ I, one block for each two
 //! row blocks that share a group, and fill (Davis, *Direct Methods for Sparse Linear Systems*, 2006,
 //! ch. 4). The plan is up-looking, row by row: for every block of L it names the products that make it, so that
-//! a block is computed in registers and written once, and so that a row is begun when its turn comes.
+//! a block is computed in registers and written once.
 
 use super::anchor::{anchors, Anchored, Load};
 use super::places::{self, Armed, Owner, Places};
@@ -71,8 +71,8 @@ impl Pattern {
         let (mut places, touches) = Places::new(&bent, &free.blocks, &order);
         let (steps, n_factors) =
             plan::steps(&free.blocks, &free.rows, &order, &rows_below, &touches);
-        for armed in &mut places.armed {
-            armed.block = free.numbers[armed.block as usize];
+        for (armed, start) in places.armed.iter_mut().zip(&steps.starts[steps.n_mixed..]) {
+            (armed.diagonal, armed.block) = (start.diagonal, free.numbers[armed.block as usize]);
         }
         let mut loose = vec![true; groups];
         anchors.iter().for_each(|anchor| loose[anchor.group as usize] = false);
@@ -103,8 +103,8 @@ impl Pattern {
         general.chain(of_arms).map(|(row, group)| (row as usize, group as usize))
     }
 
-    /// The row blocks that [`Saddle::finish_begun`](super::Saddle::finish_begun) has begun for it, in the order in
-    /// which they are eliminated.
+    /// The row blocks that [`Saddle::begin`](super::Saddle::begin) takes, in the order in which they are
+    /// eliminated.
     pub fn armed(&self) -> &[Armed] {
         &self.places.armed
     }

@@ -26,6 +26,8 @@ pub struct Armed {
     pub block: u32,
     /// The arm at the first group that it touches; those at the others follow.
     pub arm: u32,
+    /// Where its diagonal block stands.
+    pub diagonal: u32,
 }
 
 /// Whether a row block that touches something has nothing but arms.
@@ -60,7 +62,7 @@ impl Places {
             let arms = touches[k].iter().filter(|touch| touch.sign != 0.0).map(|touch| touch.first);
             if is_armed(&touches[k]) {
                 let arm = touches[k][0].first;
-                places.armed.push(Armed { block: index(k), arm });
+                places.armed.push(Armed { block: index(k), arm, diagonal: 0 });
             } else {
                 places.mixed.extend(arms);
             }

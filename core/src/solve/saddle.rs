@@ -16,9 +16,8 @@ use super::block::{
     add, columns, factorise, forward, part, part_mut, scaled, store, subtract, subtract_times,
     Diagonal, Open, Twin,
 };
-use super::gram::Begin;
 use super::pattern::Pattern;
-use super::steps::{next, Ahead, Left, Row, Update};
+use super::steps::{next, Ahead, Left, Row, Start, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -88,8 +87,7 @@ impl<S: Real> Saddle<S> {
         check(&self.weights, &pattern.loose)?;
         self.transform::<true>(pattern);
         self.begin_all(pattern, &pattern.steps.starts);
-        let mut ahead = pattern.steps.ahead();
-        pattern.steps.rows.iter().try_for_each(|row| self.any_row::<false>(row, &mut ahead, &mut []))
+        self.eliminate::<false>(pattern, &mut [])
     }
 
     /// Factorises as [`factor`](Self::factor) and solves as [`solve`](Self::solve). The right side is
@@ -103,76 +101,42 @@ impl<S: Real> Saddle<S> {
     pub fn factor_and_solve(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
         self.transform::<true>(pattern);
         self.weigh(pattern, x);
-        let (f, g) = x.split_at_mut(pattern.n_unknowns());
-        let starts = &pattern.steps.starts;
-        self.begin_all(pattern, starts);
-        self.right_sides(pattern, starts, f, g);
-        let mut ahead = pattern.steps.ahead();
-        for row in &pattern.steps.rows {
-            self.any_row::<true>(row, &mut ahead, g).or_else(|row| self.blame(pattern, row))?;
-        }
-        self.substitute_back(pattern, g);
-        self.spread_all(pattern, starts, f, g);
+        self.finish(pattern, &pattern.steps.starts, x)?;
         self.unbend(pattern, x);
         Ok(())
     }
 
-    /// The same where the row blocks of [`Pattern::armed`] are begun by `begin`, each when its turn comes, with f;
-    /// their entries are not read, `x` was weighed, and it lacks -Dw⁻¹ Uᵀ λ of these rows in the end.
+    /// The same once all row blocks of [`Pattern::armed`] are begun: their entries are not read, `x` was
+    /// weighed, their right sides stand in it, and it lacks -Dw⁻¹ Uᵀ λ of these rows in the end.
     ///
     /// # Errors
     /// As [`factor`](Self::factor); `x` is then lost.
     ///
     /// # Panics
-    /// As [`factor`](Self::factor) and [`solve`](Self::solve), and if rows are damped.
+    /// As [`factor`](Self::factor) and [`solve`](Self::solve).
     #[inline(always)] // once in an evaluation
-    pub fn finish_begun(
+    pub fn finish_begun(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
+        self.transform::<false>(pattern);
+        self.finish(pattern, &pattern.steps.starts[..pattern.steps.n_mixed], x)
+    }
+
+    /// From x = Dw⁻¹ Lw⁻¹ f to Lwᵀ x, with the row blocks of `starts` still to be begun.
+    #[inline(always)]
+    fn finish(
         &mut self,
         pattern: &Pattern,
+        starts: &[Start],
         x: &mut [S],
-        begin: impl Begin<S>,
     ) -> Result<(), Dependent> {
-        assert!(self.damping.is_empty(), "rows that are begun are not damped");
-        self.transform::<false>(pattern);
-        let (f, g) = x.split_at_mut(pattern.n_unknowns());
-        let starts = &pattern.steps.starts[..pattern.steps.n_mixed];
         self.begin_all(pattern, starts);
+        let (f, g) = x.split_at_mut(pattern.n_unknowns());
         self.right_sides(pattern, starts, f, g);
-        self.begun_rows(pattern, (f, g), begin).or_else(|row| self.blame(pattern, row))?;
+        // a useless weight spoils a pivot, or else the unknowns of its group
+        self.eliminate::<true>(pattern, g)
+            .or_else(|row| check(&self.weights, &pattern.loose).and(Err(row)))?;
         self.substitute_back(pattern, g);
         self.spread_all(pattern, starts, f, g);
         Ok(())
-    }
-
-    /// Row by row.
-    #[inline(never)] // few pointers stay in registers
-    fn begun_rows(
-        &mut self,
-        pattern: &Pattern,
-        (f, g): (&[S], &mut [S]),
-        mut begin: impl Begin<S>,
-    ) -> Result<(), Dependent> {
-        let mut ahead = pattern.steps.ahead();
-        for row in &pattern.steps.rows {
-            if !row.armed {
-                self.any_row::<true>(row, &mut ahead, g)?;
-                continue;
-            }
-            let begun = begin.begin(self, f);
-            if row.pins {
-                self.row::<2, true, true>(row, (begun.open(), begun.right), &mut ahead, g)?;
-            } else {
-                self.put_begun(row, &begun, g);
-                self.any_row::<true>(row, &mut ahead, g)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// A useless weight spoils a pivot, or else the unknowns of its group.
-    #[cold]
-    fn blame(&self, pattern: &Pattern, row: Dependent) -> Result<(), Dependent> {
-        check(&self.weights, &pattern.loose).and(Err(row))
     }
 
     /// The row whose pivot was cancelled most, and its ratio d / S_kk: 1 means nothing was lost, 1e-10
@@ -188,31 +152,37 @@ impl<S: Real> Saddle<S> {
         all.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
     }
 
-    /// A row of any kind, which was begun; with `RHS` its right side as well.
-    #[inline(never)] // the loop over rows of pins alone stays in registers
-    fn any_row<const RHS: bool>(
+    /// Row by row; with `RHS` the right side as well.
+    #[inline(never)] // with few pointers, most of them stay in registers
+    fn eliminate<const RHS: bool>(
+        &mut self,
+        pattern: &Pattern,
+        g: &mut [S],
+    ) -> Result<(), Dependent> {
+        let mut ahead = pattern.steps.ahead();
+        for row in &pattern.steps.rows {
+            if row.pins {
+                self.row::<2, RHS, true>(row, &mut ahead, g)?;
+            } else {
+                self.mixed_row::<RHS>(row, &mut ahead, g)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A row of any kind, apart from those of pins alone.
+    #[inline(never)] // as above
+    fn mixed_row<const RHS: bool>(
         &mut self,
         row: &Row,
         ahead: &mut Ahead<'_>,
         g: &mut [S],
     ) -> Result<(), Dependent> {
         match row.size {
-            1 => self.begun_row::<1, RHS>(row, ahead, g),
-            2 => self.begun_row::<2, RHS>(row, ahead, g),
-            _ => self.begun_row::<3, RHS>(row, ahead, g),
+            1 => self.row::<1, RHS, false>(row, ahead, g),
+            2 => self.row::<2, RHS, false>(row, ahead, g),
+            _ => self.row::<3, RHS, false>(row, ahead, g),
         }
-    }
-
-    #[inline(always)]
-    fn begun_row<const N: usize, const RHS: bool>(
-        &mut self,
-        row: &Row,
-        ahead: &mut Ahead<'_>,
-        g: &mut [S],
-    ) -> Result<(), Dependent> {
-        let right = if RHS { *part(g, row.row) } else { [S::zero(); N] };
-        let open = Open::read(&self.factors, row.diagonal);
-        self.row::<N, RHS, false>(row, (open, right), ahead, g)
     }
 
     /// One row of L, of N rows; with `PINS` one of pins alone.
@@ -220,10 +190,11 @@ impl<S: Real> Saddle<S> {
     fn row<const N: usize, const RHS: bool, const PINS: bool>(
         &mut self,
         row: &Row,
-        (Open { mut s, magnitude }, mut y): (Open<S, N>, [S; N]),
         ahead: &mut Ahead<'_>,
         g: &mut [S],
     ) -> Result<(), Dependent> {
+        let Open { mut s, magnitude } = Open::read(&self.factors, row.diagonal);
+        let mut y = if RHS { *part(g, row.row) } else { [S::zero(); N] };
         for (i, magnitude) in magnitude.iter().enumerate() {
             s[i][i] += *magnitude * S::constant(self.ridge);
         }
