@@ -96,8 +96,8 @@ impl Places {
 pub(super) fn pairs<'a>(one: &'a [Touch], other: &'a [Touch]) -> impl Iterator<Item = Pair> + 'a {
     one.iter().filter_map(|own| {
         let partner = other.iter().find(|t| t.group == own.group)?;
-        let (first, sign) = ([own.first, partner.first], own.sign * partner.sign);
-        Some(Pair { first, group: own.group, sign })
+        let sign = f64::from(own.sign) * f64::from(partner.sign);
+        Some(Pair { first: [own.first, partner.first], sign })
     })
 }
 

@@ -12,6 +12,7 @@
 //! a mechanism near a singular position a small one, which [`Saddle::cancellation`] shows.
 
 use super::anchor::Anchor;
+use super::arm::Arm;
 use super::block::{
     add, columns, factorise, forward, part, part_mut, scaled, store, subtract, subtract_times,
     Diagonal, Open, Twin,
@@ -38,8 +39,8 @@ pub struct Saddle<S> {
     pub anchors: Vec<Anchor<S>>,
     /// Entries of A in rows of three, as the pattern places them.
     pub entries: Vec<[S; 3]>,
-    /// b′ of the pairs of rows [±I b], as the pattern places them.
-    pub arms: Vec<[S; 2]>,
+    /// The pairs of rows [±I b], as the pattern places them.
+    pub arms: Vec<Arm<S>>,
     /// μ, one for each row; empty for none.
     pub damping: Vec<S>,
     /// Smallest ratio of a pivot to S_kk that is accepted; [`PIVOT_TOLERANCE`] at first.
@@ -66,7 +67,7 @@ impl<S: Real> Saddle<S> {
             weights: vec![weight; pattern.n_groups],
             anchors: vec![Anchor::unit(); pattern.anchors.len()],
             entries,
-            arms: vec![[zero; 2]; pattern.places.arms.len()],
+            arms: vec![Arm::zero(); pattern.places.arms.len()],
             damping: Vec::new(),
             least: PIVOT_TOLERANCE,
             ridge: 0.0,
@@ -195,8 +196,9 @@ impl<S: Real> Saddle<S> {
     ) -> Result<(), Dependent> {
         let Open { mut s, magnitude } = Open::read(&self.factors, row.diagonal);
         let mut y = if RHS { *part(g, row.row) } else { [S::zero(); N] };
-        for (i, magnitude) in magnitude.iter().enumerate() {
-            s[i][i] += *magnitude * S::constant(self.ridge);
+        if !RHS {
+            // near singular positions are factorised first
+            (0..N).for_each(|i| s[i][i] += magnitude[i] * S::constant(self.ridge));
         }
         for left in next(&mut ahead.left, row.left) {
             let own = (&mut s, &mut y);
@@ -251,8 +253,8 @@ impl<S: Real> Saddle<S> {
         for pair in next(&mut ahead.pairs, left.pairs) {
             let [own, other] = pair.first;
             if PINS || N == 2 && K == 2 && pair.sign != 0.0 {
-                let own = &self.arms[own as usize];
-                self.arm(other, pair.group).add_product(own, pair.sign.into(), &mut block);
+                let [own, other] = [own, other].map(|arm| &self.arms[arm as usize]);
+                other.add_product(&own.plain, pair.sign, &mut block);
             } else {
                 add::<S, K, N, 3>(&mut block, part(&self.u, other), part(&self.u, own));
             }

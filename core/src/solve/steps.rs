@@ -93,9 +93,8 @@ pub(super) struct Below {
 pub(super) struct Pair {
     /// First rows of U, or arms: of the row's row block, of the column's.
     pub first: [u32; 2],
-    pub group: u32,
     /// Product of the signs of two arms; 0 for rows of U.
-    pub sign: f32,
+    pub sign: f64,
 }
 
 /// Two blocks of an earlier column whose product is subtracted.
