@@ -63,7 +63,7 @@ pub(super) fn hold<S: Real>(pins: &[Pin<S>], armed: &[ArmedPin], held: &[S], rig
 }
 
 /// x -= Dw⁻¹ Uᵀ λ over the rows of the `armed` pins.
-#[inline(never)] // as above
+#[inline(always)] // as above
 pub(super) fn spread<S: Real>(
     pins: &[Pin<S>],
     armed: &[ArmedPin],

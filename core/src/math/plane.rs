@@ -112,6 +112,21 @@ impl<S: Real> Mul<Local<S>> for Rotation<S> {
     }
 }
 
+/// A body-fixed vector s′, ready for B s′: as pairs of numbers that rotate with the same steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Lever<S = f64> {
+    /// (-y′, -y′).
+    across: [S; 2],
+    /// (-x′, x′).
+    along: [S; 2],
+}
+
+impl<S: Real> From<Local<S>> for Lever<S> {
+    fn from(s: Local<S>) -> Self {
+        Self { across: [-s.y, -s.y], along: [-s.x, s.x] }
+    }
+}
+
 /// Where a body frame stands: its origin r, its angle φ, and A(φ).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<S = f64> {
@@ -139,6 +154,15 @@ impl<S: Real> Pose<S> {
     /// A s′: a body-fixed vector in the global frame.
     pub fn global(&self, s: Local<S>) -> Vec2<S> {
         self.rotation * s
+    }
+    /// B s′ = (A s′)⊥: how a body-fixed vector changes with the angle (Haug 2.6.4).
+    #[inline(always)]
+    pub fn turning(&self, s: &Lever<S>) -> Vec2<S> {
+        let Rotation { cos, sin } = self.rotation;
+        Vec2 {
+            x: (sin * s.along[0]).plus_product(cos, s.across[0]),
+            y: (cos * s.along[1]).plus_product(sin, s.across[1]),
+        }
     }
     /// r + A s′: a point of the body in the global frame (Haug 2.4.8).
     pub fn point(&self, s: Local<S>) -> Vec2<S> {

@@ -6,7 +6,7 @@
 //! ch. 4). The plan is up-looking, row by row: for every block of L it names the products that make it, so that
 //! a block is computed in registers and written once.
 
-use super::anchor::{anchors, Anchored, Load};
+use super::anchor::{anchors, Anchored, Loads};
 use super::places::{self, Armed, Owner, Places};
 use super::plan;
 use super::steps::Steps;
@@ -38,7 +38,7 @@ pub struct Pattern {
     /// Row blocks that are eliminated with two unknowns of a group.
     pub(super) anchors: Vec<Anchored>,
     /// The other row blocks at their groups.
-    pub(super) loads: Vec<Load>,
+    pub(super) loads: Loads,
     pub(super) n_rows: usize,
     pub(super) n_entries: usize,
     /// Where the transformed rows stand.
