@@ -241,6 +241,14 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
     /// y ← L⁻ᵀ D⁻¹ y.
     #[inline(always)]
     pub fn back(&self, y: &mut [S; N]) {
+        if N == 2 {
+            // as `backward` does
+            let last = y[1] * self.inverse[1];
+            (y[0], y[1]) = (y[0] * self.inverse[0], last);
+            let l = [self.lower[1][0], S::zero()];
+            (0..N).for_each(|i| y[i] = y[i].minus_product(l[i], last));
+            return;
+        }
         for j in (0..N).rev() {
             y[j] = y[j] * self.inverse[j];
             for i in j + 1..N {
@@ -284,6 +292,12 @@ pub(super) fn forward<S: Real, const M: usize, const N: usize>(
 #[inline(always)]
 pub(super) fn backward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; N]) {
     let l = &x[first as usize..first as usize + numbers(N)][2 * N..];
+    if N == 2 {
+        // both numbers by the same steps, so that they are written as a pair: they are read as one
+        let (l, last) = ([l[0], S::zero()], y[1]);
+        (0..N).for_each(|i| y[i] -= l[i] * last);
+        return;
+    }
     for j in (0..N).rev() {
         for i in j + 1..N {
             y[j] -= l[i * (i - 1) / 2 + j] * y[i];
