@@ -16,7 +16,7 @@ fn of_group<S>(group: usize, x: &[S]) -> &[S; 3] {
 }
 
 /// Begins the rows of the `armed` pins: `x` is Dw⁻¹ Lw⁻¹ Q, `right` becomes their right side.
-#[inline(never)] // with few pointers, most of them stay in registers
+#[inline(always)] // once in an evaluation: a call saves and restores more than it shares
 pub(super) fn begin<S: Real>(
     pins: &[Pin<S>],
     armed: &[ArmedPin],
