@@ -27,11 +27,7 @@ pub(super) fn begin<S: Real>(
 
 /// Φ, Φ̇ and γ of the pin: those of a revolute joint (Haug 3.3.10) with one body that never moves.
 #[inline(always)]
-fn terms<S: Real>(
-    anchor: &Anchor<S>,
-    motion: &Motion<S>,
-    shift: Vec2<S>,
-) -> VelocityTerms<S, 2> {
+fn terms<S: Real>(anchor: &Anchor<S>, motion: &Motion<S>, shift: Vec2<S>) -> VelocityTerms<S, 2> {
     let across = shift.scale(anchor.sign);
     let (arm, omega) = (-across.perp(), motion.twist.omega);
     let gap = (motion.pose.r - anchor.ground).scale(anchor.sign) + arm;

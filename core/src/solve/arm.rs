@@ -70,7 +70,12 @@ impl<S: Real> Arm<S> {
 
     /// x -= Dw⁻¹ Uᵀ λ.
     #[inline(always)]
-    pub(super) fn subtract_transposed<const N: usize>(&self, sign: f64, lambda: &[S; N], x: &mut [S; 3]) {
+    pub(super) fn subtract_transposed<const N: usize>(
+        &self,
+        sign: f64,
+        lambda: &[S; N],
+        x: &mut [S; 3],
+    ) {
         let mut found = *x;
         for (i, lambda) in lambda.iter().enumerate() {
             found[i] = found[i].minus_product(S::constant(sign) * self.inverse[i], *lambda);
