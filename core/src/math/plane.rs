@@ -242,3 +242,18 @@ impl<S: Real> Add for Wrench<S> {
         Self { force: self.force + o.force, torque: self.torque + o.torque }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Lever, Local, Pose};
+
+    /// To the last bit, but for the sign of zero.
+    #[test]
+    fn a_lever_gives_the_turned_vector() {
+        for k in 0..100 {
+            let pose = Pose::new(1.0, 2.0, 0.37 * f64::from(k) - 11.0);
+            let s = Local::new(0.1 * f64::from(k) - 3.0, 1.7 - 0.3 * f64::from(k));
+            assert_eq!(pose.turning(&Lever::from(s)), pose.global(s).perp(), "{s:?}");
+        }
+    }
+}

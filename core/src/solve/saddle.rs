@@ -197,7 +197,7 @@ impl<S: Real> Saddle<S> {
         let Open { mut s, magnitude } = Open::read(&self.factors, row.diagonal);
         let mut y = if RHS { *part(g, row.row) } else { [S::zero(); N] };
         if !RHS {
-            // near singular positions are factorised first
+            // near singular positions, where it is not 0, are never factorised and solved at once
             (0..N).for_each(|i| s[i][i] += magnitude[i] * S::constant(self.ridge));
         }
         for left in next(&mut ahead.left, row.left) {
