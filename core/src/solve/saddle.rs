@@ -165,25 +165,27 @@ impl<S: Real> Saddle<S> {
             if row.pins {
                 self.row::<2, RHS, true>(row, &mut ahead, g)?;
             } else {
-                self.mixed_row::<RHS>(row, &mut ahead, g)?;
+                ahead = self.mixed_row::<RHS>(row, ahead, g)?;
             }
         }
         Ok(())
     }
 
-    /// A row of any kind, apart from those of pins alone.
+    /// A row of any kind, apart from those of pins alone; gives what is then ahead, so that the loop over these
+    /// need not leave that in memory.
     #[inline(never)] // as above
-    fn mixed_row<const RHS: bool>(
+    fn mixed_row<'a, const RHS: bool>(
         &mut self,
         row: &Row,
-        ahead: &mut Ahead<'_>,
+        mut ahead: Ahead<'a>,
         g: &mut [S],
-    ) -> Result<(), Dependent> {
+    ) -> Result<Ahead<'a>, Dependent> {
         match row.size {
-            1 => self.row::<1, RHS, false>(row, ahead, g),
-            2 => self.row::<2, RHS, false>(row, ahead, g),
-            _ => self.row::<3, RHS, false>(row, ahead, g),
+            1 => self.row::<1, RHS, false>(row, &mut ahead, g),
+            2 => self.row::<2, RHS, false>(row, &mut ahead, g),
+            _ => self.row::<3, RHS, false>(row, &mut ahead, g),
         }
+        .map(|()| ahead)
     }
 
     /// One row of L, of N rows; with `PINS` one of pins alone.
