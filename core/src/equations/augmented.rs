@@ -116,7 +116,7 @@ impl<S: Real> Augmented<S> {
             let weight = &mut self.saddle.weights[anchor.body as usize];
             weight.inverse = [S::zero(), S::zero(), anchor.inverse];
             weight.held = S::one() / anchor.mass;
-            held.mass = anchor.mass;
+            (held.mass, held.inverse) = (anchor.mass, anchor.inverse);
         }
     }
 

@@ -16,8 +16,13 @@ pub fn generalized<S: Real>(
 ) -> Powers<S> {
     let moving = model.inertias.iter().zip(&motions[1..]);
     for ((inertia, motion), out) in moving.zip(out.chunks_exact_mut(3)) {
-        let w = gravity_and_inertia(inertia, motion, model.gravity);
-        out.copy_from_slice(&[w.force.x, w.force.y, w.torque]);
+        let weight = model.gravity.scale(inertia.mass);
+        // before the branch, so that the two are written as a pair: they are read as one
+        (out[0], out[1], out[2]) = (weight.x, weight.y, S::zero());
+        if inertia.coupled {
+            let w = off_center(inertia, motion, weight);
+            out.copy_from_slice(&[w.force.x, w.force.y, w.torque]);
+        }
     }
     let mut powers = Powers::zero();
     for item in &model.forces {
@@ -57,17 +62,9 @@ impl<S: Real> Acting<S> for Sum<'_, S> {
     }
 }
 
-/// Weight, and the centrifugal force m A c′ φ̇² of a mass centre off the frame's origin.
+/// Weight, and the centrifugal force m A c′ φ̇², of a mass centre off the frame's origin.
 #[inline(always)]
-fn gravity_and_inertia<S: Real>(
-    inertia: &Inertia<S>,
-    motion: &Motion<S>,
-    gravity: Vec2<S>,
-) -> Wrench<S> {
-    let weight = gravity.scale(inertia.mass);
-    if !inertia.coupled {
-        return Wrench { force: weight, torque: S::zero() };
-    }
+fn off_center<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, weight: Vec2<S>) -> Wrench<S> {
     let arm = motion.pose.global(inertia.center);
     let omega = motion.twist.omega;
     let centrifugal = arm.scale(inertia.mass * omega * omega);

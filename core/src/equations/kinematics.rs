@@ -4,6 +4,7 @@ use crate::math::{Motion, Pose, Real, Twist, Vec2};
 
 /// Motion of every body, ground first, from q (3 n_b) and v (3 n_b). What `out` holds must come from here or
 /// be empty: ground is not written again. No allocation if it has held as many bodies before.
+#[inline(always)] // once in an evaluation: a call saves and restores more than it shares
 pub fn motions<S: Real>(q: &[S], v: &[S], out: &mut Vec<Motion<S>>) {
     out.resize(q.len() / 3 + 1, Motion { pose: Pose::identity(), twist: Twist::zero() });
     let moving = out[1..].iter_mut().zip(q.chunks_exact(3).zip(v.chunks_exact(3)));

@@ -19,5 +19,5 @@ pub use dual::Dual;
 pub use field::Field;
 pub use jet::Jet;
 pub use lanes::Lanes;
-pub use plane::{Local, Motion, Pose, Rotation, Twist, Vec2, Wrench};
+pub use plane::{Lever, Local, Motion, Pose, Rotation, Twist, Vec2, Wrench};
 pub use real::{Largest, Lift, Real};

@@ -112,6 +112,21 @@ impl<S: Real> Mul<Local<S>> for Rotation<S> {
     }
 }
 
+/// A body-fixed vector s′, ready for B s′: as pairs of numbers that rotate with the same steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Lever<S = f64> {
+    /// (-y′, -y′).
+    across: [S; 2],
+    /// (-x′, x′).
+    along: [S; 2],
+}
+
+impl<S: Real> From<Local<S>> for Lever<S> {
+    fn from(s: Local<S>) -> Self {
+        Self { across: [-s.y, -s.y], along: [-s.x, s.x] }
+    }
+}
+
 /// Where a body frame stands: its origin r, its angle φ, and A(φ).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<S = f64> {
@@ -139,6 +154,15 @@ impl<S: Real> Pose<S> {
     /// A s′: a body-fixed vector in the global frame.
     pub fn global(&self, s: Local<S>) -> Vec2<S> {
         self.rotation * s
+    }
+    /// B s′ = (A s′)⊥: how a body-fixed vector changes with the angle (Haug 2.6.4).
+    #[inline(always)]
+    pub fn turning(&self, s: &Lever<S>) -> Vec2<S> {
+        let Rotation { cos, sin } = self.rotation;
+        Vec2 {
+            x: (sin * s.along[0]).plus_product(cos, s.across[0]),
+            y: (cos * s.along[1]).plus_product(sin, s.across[1]),
+        }
     }
     /// r + A s′: a point of the body in the global frame (Haug 2.4.8).
     pub fn point(&self, s: Local<S>) -> Vec2<S> {
@@ -216,5 +240,20 @@ impl<S: Real> Add for Wrench<S> {
     type Output = Self;
     fn add(self, o: Self) -> Self {
         Self { force: self.force + o.force, torque: self.torque + o.torque }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Lever, Local, Pose};
+
+    /// To the last bit, but for the sign of zero.
+    #[test]
+    fn a_lever_gives_the_turned_vector() {
+        for k in 0..100 {
+            let pose = Pose::new(1.0, 2.0, 0.37 * f64::from(k) - 11.0);
+            let s = Local::new(0.1 * f64::from(k) - 3.0, 1.7 - 0.3 * f64::from(k));
+            assert_eq!(pose.turning(&Lever::from(s)), pose.global(s).perp(), "{s:?}");
+        }
     }
 }

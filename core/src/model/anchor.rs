@@ -5,7 +5,7 @@
 
 use super::model::Body;
 use super::pin::Pin;
-use crate::math::{Local, Real, Vec2};
+use crate::math::{Lever, Real, Vec2};
 
 /// A body with the pin that holds it.
 #[derive(Clone, Copy, Debug)]
@@ -23,9 +23,9 @@ pub struct Anchor<S = f64> {
     /// The pin on ground, m.
     pub ground: Vec2<S>,
     /// The pin in the body frame, m.
-    pub point: Local<S>,
+    pub point: Lever<S>,
     /// m (c - s), s the pin and c the mass centre: kg·m.
-    pub moment: Local<S>,
+    pub moment: Lever<S>,
     /// 1/(J + m |c - s|²), 1/(kg·m²).
     pub inverse: S,
 }
@@ -54,8 +54,8 @@ pub(super) fn anchors<S: Real>(pins: &[Pin<S>], bodies: &[Body<S>], added: &[S])
             row: pin.row,
             sign: S::constant(if end == 1 { 1.0 } else { -1.0 }),
             ground: Vec2::new(pin.points[1 - end].x, pin.points[1 - end].y),
-            point,
-            moment: off.scale(body.mass),
+            point: point.into(),
+            moment: off.scale(body.mass).into(),
             inverse: S::one() / about,
         })
     };

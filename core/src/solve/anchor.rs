@@ -19,19 +19,24 @@ use super::saddle::Saddle;
 use super::steps::next;
 use crate::math::Real;
 
-/// What λ of an anchor asks of W beside the weight of its group.
+/// An anchored group in W.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anchor<S = f64> {
     /// d.
     pub mass: S,
+    /// 1/(d₂ - 2 sᵀ b₀₁ + d sᵀ s).
+    pub inverse: S,
     /// b₀₁ - d s.
     pub moment: [S; 2],
+    /// s.
+    pub shift: [S; 2],
 }
 
 impl<S: Real> Anchor<S> {
-    /// With d = 1, b₀₁ = 0 and s = 0.
+    /// With d = d₂ = 1, b₀₁ = 0 and s = 0.
     pub(super) fn unit() -> Self {
-        Self { mass: S::one(), moment: [S::zero(); 2] }
+        let none = [S::zero(); 2];
+        Self { mass: S::one(), inverse: S::one(), moment: none, shift: none }
     }
 }
 
@@ -46,22 +51,37 @@ pub struct Anchored {
     pub row: u32,
     /// Its first row of three entries.
     pub(super) entry: u32,
-    /// Number of other row blocks that touch the group.
-    pub(super) loads: u32,
+    /// Numbers of other row blocks that touch the group: with a unit block there, and without.
+    pub(super) units: u32,
+    pub(super) dense: u32,
     /// Of the unit block.
-    pub sign: f32,
+    pub sign: f64,
+}
+
+/// What other row blocks put on the groups of anchors, anchor by anchor.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Loads {
+    pub units: Vec<Unit>,
+    pub dense: Vec<Dense>,
+}
+
+/// A pair of rows with a unit block at the group of an anchor.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unit {
+    /// Of the unit block.
+    sign: f64,
+    /// The first of the rows.
+    row: u32,
 }
 
 /// Another row block at the group of an anchor.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Load {
+pub(super) struct Dense {
     /// The first of its rows.
     row: u32,
     /// Its first row of three entries in this group.
     entry: u32,
     size: u32,
-    /// Of its unit block; 0 where it has none.
-    sign: f32,
 }
 
 /// The anchors among `blocks`, of which `rows` are the first rows, and what loads each of them.
@@ -73,34 +93,40 @@ pub(super) fn anchors(
     blocks: &[RowBlock],
     rows: &[usize],
     anchored: &[usize],
-) -> (Vec<Anchored>, Vec<Load>) {
+) -> (Vec<Anchored>, Loads) {
     let mut at: Vec<Option<usize>> = vec![None; groups];
     for (k, &block) in anchored.iter().enumerate() {
         let RowBlock { size, touches, signs } = &blocks[block];
         assert!(*size == 2 && touches.len() == 1 && signs.len() == 1, "one pair of rows [±I b]");
         assert!(at[touches[0].0].replace(k).is_none(), "one anchor for a group");
     }
-    let mut loads = vec![Vec::new(); anchored.len()];
+    let mut loads = vec![Loads::default(); anchored.len()];
     for (k, block) in blocks.iter().enumerate() {
         for (i, &(group, first)) in block.touches.iter().enumerate() {
             let Some(anchor) = at[group].filter(|anchor| anchored[*anchor] != k) else { continue };
-            loads[anchor].push(Load {
-                row: index(rows[k]),
-                entry: index(first / 3),
-                size: index(block.size),
-                sign: block.signs.get(i).map_or(0.0, |sign| *sign as f32),
-            });
+            let (row, Loads { units, dense }) = (index(rows[k]), &mut loads[anchor]);
+            match block.signs.get(i) {
+                Some(&sign) => units.push(Unit { sign, row }),
+                None => {
+                    dense.push(Dense { row, entry: index(first / 3), size: index(block.size) });
+                }
+            }
         }
     }
-    let anchor = |(loads, &block): (&Vec<Load>, &usize)| Anchored {
+    let anchor = |(loads, &block): (&Loads, &usize)| Anchored {
         block: index(block),
         group: index(blocks[block].touches[0].0),
         row: index(rows[block]),
         entry: index(blocks[block].touches[0].1 / 3),
-        loads: index(loads.len()),
-        sign: blocks[block].signs[0] as f32,
+        units: index(loads.units.len()),
+        dense: index(loads.dense.len()),
+        sign: blocks[block].signs[0],
     };
-    (loads.iter().zip(anchored).map(anchor).collect(), loads.concat())
+    let all = Loads {
+        units: loads.iter().flat_map(|loads| &loads.units).copied().collect(),
+        dense: loads.iter().flat_map(|loads| &loads.dense).copied().collect(),
+    };
+    (loads.iter().zip(anchored).map(anchor).collect(), all)
 }
 
 impl<S: Real> Saddle<S> {
@@ -111,16 +137,14 @@ impl<S: Real> Saddle<S> {
         for (place, anchor) in pattern.anchors.iter().zip(&self.anchors) {
             let f = part_mut::<S, 3>(f, 3 * place.group);
             let g = part_mut::<S, 2>(g, place.row);
-            let weight = &self.weights[place.group as usize];
-            let sign = S::constant(place.sign.into());
-            let p = [sign * g[0], sign * g[1]];
+            let p = g.map(|g| S::constant(place.sign) * g);
             let mut turning = f[2];
             for i in 0..2 {
-                turning = turning.minus_product(weight.shift[i], f[i]);
+                turning = turning.minus_product(anchor.shift[i], f[i]);
                 turning = turning.minus_product(anchor.moment[i], p[i]);
             }
             *g = [f[0], f[1]];
-            *f = [p[0], p[1], turning * weight.inverse[2]];
+            *f = [p[0], p[1], turning * anchor.inverse];
         }
     }
 
@@ -128,7 +152,7 @@ impl<S: Real> Saddle<S> {
     #[inline(always)]
     pub(super) fn release(&self, pattern: &Pattern, x: &mut [S]) {
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
-        let mut loads = &pattern.loads[..];
+        let (mut units, mut dense) = (&pattern.loads.units[..], &pattern.loads.dense[..]);
         for (place, anchor) in pattern.anchors.iter().zip(&self.anchors) {
             let own = part_mut::<S, 3>(f, 3 * place.group);
             let mut left = *part::<S, 2>(g, place.row);
@@ -136,26 +160,17 @@ impl<S: Real> Saddle<S> {
                 let without = left[i].minus_product(anchor.mass, own[i]);
                 left[i] = without.minus_product(anchor.moment[i], own[2]);
             }
-            for load in next(&mut loads, place.loads) {
-                self.subtract_load(load, g, &mut left);
+            for unit in next(&mut units, place.units) {
+                let (sign, lambda) = (S::constant(unit.sign), part::<S, 2>(g, unit.row));
+                (0..2).for_each(|i| left[i] = left[i].minus_product(sign, lambda[i]));
             }
-            let sign = S::constant(place.sign.into());
-            *part_mut(g, place.row) = left.map(|left| sign * left);
-            let shift = &self.weights[place.group as usize].shift;
-            own[0] = own[0].minus_product(shift[0], own[2]);
-            own[1] = own[1].minus_product(shift[1], own[2]);
+            next(&mut dense, place.dense).iter().for_each(|load| self.subtract(load, g, &mut left));
+            *part_mut(g, place.row) = left.map(|left| S::constant(place.sign) * left);
+            (0..2).for_each(|i| own[i] = own[i].minus_product(anchor.shift[i], own[2]));
         }
     }
 
-    #[inline(always)]
-    fn subtract_load(&self, load: &Load, g: &[S], left: &mut [S; 2]) {
-        if load.sign != 0.0 {
-            let (sign, lambda) = (S::constant(load.sign.into()), part::<S, 2>(g, load.row));
-            left.iter_mut()
-                .zip(lambda)
-                .for_each(|(left, lambda)| *left = left.minus_product(sign, *lambda));
-            return;
-        }
+    fn subtract(&self, load: &Dense, g: &[S], left: &mut [S; 2]) {
         let lambda = &g[load.row as usize..][..load.size as usize];
         for (entries, lambda) in self.entries[load.entry as usize..].iter().zip(lambda) {
             left.iter_mut()
@@ -166,12 +181,10 @@ impl<S: Real> Saddle<S> {
 
     /// The entries of anchors, from the shifts of their groups.
     pub(super) fn restore_anchors(&mut self, pattern: &Pattern) {
-        for place in &pattern.anchors {
-            let sign = S::constant(place.sign.into());
-            let shift = self.weights[place.group as usize].shift;
+        for (place, anchor) in pattern.anchors.iter().zip(&self.anchors) {
             let entry = place.entry as usize;
-            for (row, shift) in self.entries[entry..entry + 2].iter_mut().zip(shift) {
-                row[2] = sign * shift;
+            for (row, shift) in self.entries[entry..entry + 2].iter_mut().zip(anchor.shift) {
+                row[2] = S::constant(place.sign) * shift;
             }
         }
     }

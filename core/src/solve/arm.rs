@@ -7,9 +7,9 @@ use crate::math::Real;
 
 /// Such a pair in one group, with the weight of the group.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Arm<S> {
+pub struct Arm<S> {
     /// b′.
-    plain: [S; 2],
+    pub(super) plain: [S; 2],
     /// b′/d₂.
     scaled: [S; 2],
     /// 1/d₀ and 1/d₁.
@@ -17,15 +17,21 @@ pub(super) struct Arm<S> {
 }
 
 impl<S: Real> Arm<S> {
+    /// With b′ = 0 and no weight.
+    pub(super) fn zero() -> Self {
+        let zero = [S::zero(); 2];
+        Self { plain: zero, scaled: zero, inverse: zero }
+    }
+
     /// From b′ and the inverse of Dw.
     #[inline(always)]
-    pub fn new(plain: &[S; 2], [d0, d1, d2]: &[S; 3]) -> Self {
+    pub(super) fn new(plain: &[S; 2], [d0, d1, d2]: &[S; 3]) -> Self {
         Self { plain: *plain, scaled: plain.map(|b| b * *d2), inverse: [*d0, *d1] }
     }
 
     /// target += U Dw⁻¹ Uᵀ, the lower triangle.
     #[inline(always)]
-    pub fn add_square<const N: usize>(&self, target: &mut [[S; N]; N]) {
+    pub(super) fn add_square<const N: usize>(&self, target: &mut [[S; N]; N]) {
         for (i, target) in target.iter_mut().enumerate() {
             for (j, target) in target.iter_mut().enumerate().take(i + 1) {
                 *target = target.plus_product(self.plain[i], self.scaled[j]);
@@ -36,7 +42,7 @@ impl<S: Real> Arm<S> {
 
     /// target += U Dw⁻¹ U′ᵀ with b′ of another pair; `sign` is the product of both signs.
     #[inline(always)]
-    pub fn add_product<const M: usize, const N: usize>(
+    pub(super) fn add_product<const M: usize, const N: usize>(
         &self,
         other: &[S; 2],
         sign: f64,
@@ -53,7 +59,7 @@ impl<S: Real> Arm<S> {
 
     /// y += U x.
     #[inline(always)]
-    pub fn add_times<const N: usize>(&self, sign: f64, x: &[S; 3], y: &mut [S; N]) {
+    pub(super) fn add_times<const N: usize>(&self, sign: f64, x: &[S; 3], y: &mut [S; N]) {
         for (y, b) in y.iter_mut().zip(&self.plain) {
             *y = y.plus_product(*b, x[2]);
         }
@@ -64,7 +70,12 @@ impl<S: Real> Arm<S> {
 
     /// x -= Dw⁻¹ Uᵀ λ.
     #[inline(always)]
-    pub fn subtract_transposed<const N: usize>(&self, sign: f64, lambda: &[S; N], x: &mut [S; 3]) {
+    pub(super) fn subtract_transposed<const N: usize>(
+        &self,
+        sign: f64,
+        lambda: &[S; N],
+        x: &mut [S; 3],
+    ) {
         let mut found = *x;
         for (i, lambda) in lambda.iter().enumerate() {
             found[i] = found[i].minus_product(S::constant(sign) * self.inverse[i], *lambda);

@@ -148,6 +148,49 @@ pub(super) fn subtract_transposed<S: Real, const N: usize>(
     }
 }
 
+/// A diagonal block of S before elimination, of which the lower triangle is summed up.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Open<S, const N: usize> {
+    pub s: [[S; N]; N],
+    /// What its pivots are judged by.
+    pub magnitude: [S; N],
+}
+
+impl<S: Real, const N: usize> Open<S, N> {
+    #[inline(always)]
+    pub fn read(x: &[S], first: u32) -> Self {
+        let x = &x[first as usize..first as usize + numbers(N)];
+        let mut s = [[S::zero(); N]; N];
+        for i in 1..N {
+            s[i][..i].copy_from_slice(&x[2 * N + i * (i - 1) / 2..][..i]);
+        }
+        (0..N).for_each(|i| s[i][i] = x[i]);
+        Self { s, magnitude: std::array::from_fn(|i| x[N + i]) }
+    }
+
+    #[inline(always)]
+    pub fn store(&self, x: &mut [S], first: u32) {
+        let diagonal = std::array::from_fn(|i| self.s[i][i]);
+        store_triangle(x, first, [&diagonal, &self.magnitude], &self.s);
+    }
+}
+
+/// Stores what stands for a diagonal block, as [`numbers`] says.
+#[inline(always)]
+fn store_triangle<S: Real, const N: usize>(
+    x: &mut [S],
+    first: u32,
+    [diagonal, magnitude]: [&[S; N]; 2],
+    lower: &[[S; N]; N],
+) {
+    let x = &mut x[first as usize..first as usize + numbers(N)];
+    x[..N].copy_from_slice(diagonal);
+    x[N..2 * N].copy_from_slice(magnitude);
+    for i in 1..N {
+        x[2 * N + i * (i - 1) / 2..][..i].copy_from_slice(&lower[i][..i]);
+    }
+}
+
 /// L and 1 / D of a diagonal block: unit lower triangle without its diagonal, and the pivots.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Diagonal<S, const N: usize> {
@@ -185,15 +228,12 @@ pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> Diagonal
 }
 
 impl<S: Real, const N: usize> Diagonal<S, N> {
-    /// x ← L⁻¹ x, for one or more right sides.
+    /// x ← L⁻¹ x.
     #[inline(always)]
-    pub fn forward<const M: usize>(&self, x: &mut [[S; M]; N]) {
+    pub fn forward(&self, x: &mut [S; N]) {
         for i in 1..N {
             for j in 0..i {
-                let known = x[j];
-                for (x, known) in x[i].iter_mut().zip(known) {
-                    *x = x.minus_product(self.lower[i][j], known);
-                }
+                x[i] = x[i].minus_product(self.lower[i][j], x[j]);
             }
         }
     }
@@ -201,6 +241,14 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
     /// y ← L⁻ᵀ D⁻¹ y.
     #[inline(always)]
     pub fn back(&self, y: &mut [S; N]) {
+        if N == 2 {
+            // as `backward` does
+            let last = y[1] * self.inverse[1];
+            (y[0], y[1]) = (y[0] * self.inverse[0], last);
+            let l = [self.lower[1][0], S::zero()];
+            (0..N).for_each(|i| y[i] = y[i].minus_product(l[i], last));
+            return;
+        }
         for j in (0..N).rev() {
             y[j] = y[j] * self.inverse[j];
             for i in j + 1..N {
@@ -209,14 +257,10 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
         }
     }
 
-    /// Stores 1 / D and L.
+    /// Stores 1 / D and L, with what its pivots were judged by.
     #[inline(always)]
-    pub fn store(&self, x: &mut [S], first: u32) {
-        let x = &mut x[first as usize..first as usize + numbers(N)];
-        x[..N].copy_from_slice(&self.inverse);
-        for i in 1..N {
-            x[2 * N + i * (i - 1) / 2..][..i].copy_from_slice(&self.lower[i][..i]);
-        }
+    pub fn store(&self, x: &mut [S], first: u32, magnitude: &[S; N]) {
+        store_triangle(x, first, [&self.inverse, magnitude], &self.lower);
     }
 }
 
@@ -226,40 +270,20 @@ pub(super) fn numbers(n: usize) -> usize {
     2 * n + n * (n - 1) / 2
 }
 
-/// Stores a diagonal block before elimination, with what its pivots are judged by.
+/// x ← L⁻¹ x, for one or more right sides.
 #[inline(always)]
-pub(super) fn store_begun<S: Real, const N: usize>(
-    x: &mut [S],
+pub(super) fn forward<S: Real, const M: usize, const N: usize>(
+    x: &[S],
     first: u32,
-    s: &[[S; N]; N],
-    magnitude: &[S; N],
+    y: &mut [[S; M]; N],
 ) {
-    let x = &mut x[first as usize..first as usize + numbers(N)];
-    for i in 0..N {
-        (x[i], x[N + i]) = (s[i][i], magnitude[i]);
-        x[2 * N + i * i.saturating_sub(1) / 2..][..i].copy_from_slice(&s[i][..i]);
-    }
-}
-
-/// What its pivots are judged by, and its lower triangle.
-#[inline(always)]
-pub(super) fn begun<S: Real, const N: usize>(x: &[S], first: u32) -> ([S; N], [[S; N]; N]) {
-    let x = &x[first as usize..first as usize + numbers(N)];
-    let mut s = [[S::zero(); N]; N];
-    for i in 1..N {
-        s[i][..i].copy_from_slice(&x[2 * N + i * (i - 1) / 2..][..i]);
-    }
-    (0..N).for_each(|i| s[i][i] = x[i]);
-    (std::array::from_fn(|i| x[N + i]), s)
-}
-
-/// x ← L⁻¹ x.
-#[inline(always)]
-pub(super) fn forward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; N]) {
     let l = &x[first as usize..first as usize + numbers(N)][2 * N..];
     for i in 1..N {
         for j in 0..i {
-            y[i] = y[i].minus_product(l[i * (i - 1) / 2 + j], y[j]);
+            let known = y[j];
+            for (y, known) in y[i].iter_mut().zip(known) {
+                *y = y.minus_product(l[i * (i - 1) / 2 + j], known);
+            }
         }
     }
 }
@@ -268,6 +292,12 @@ pub(super) fn forward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; 
 #[inline(always)]
 pub(super) fn backward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; N]) {
     let l = &x[first as usize..first as usize + numbers(N)][2 * N..];
+    if N == 2 {
+        // both numbers by the same steps, so that they are written as a pair: they are read as one
+        let (l, last) = ([l[0], S::zero()], y[1]);
+        (0..N).for_each(|i| y[i] -= l[i] * last);
+        return;
+    }
     for j in (0..N).rev() {
         for i in j + 1..N {
             y[j] -= l[i * (i - 1) / 2 + j] * y[i];

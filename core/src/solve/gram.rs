@@ -5,7 +5,7 @@
 //! the course of what makes these; the others are read from the entries.
 
 use super::arm::Arm;
-use super::block::{add, part, part_mut, store_begun, subtract_transposed, Twin};
+use super::block::{add, part, part_mut, subtract_transposed, Open, Twin};
 use super::pattern::Pattern;
 use super::places::Armed;
 use super::saddle::Saddle;
@@ -30,16 +30,15 @@ impl<S: Real> Begun<S> {
         Self { s: [[S::zero(); 2]; 2], held: S::zero(), right: g.map(|g| -g) }
     }
 
-    /// Adds a group where the rows are [±I b], with its weight and its part of Dw⁻¹ Lw⁻¹ f; returns b′, to be
+    /// Adds a group where the rows are [±I b], with its weight and its part of Dw⁻¹ Lw⁻¹ f; returns what is to be
     /// stored in [`Saddle::arms`].
     #[inline(always)]
-    pub fn add(&mut self, sign: f64, b: [S; 2], weight: &Weight<S>, x: &[S; 3]) -> [S; 2] {
-        let b = bent(b, sign, weight);
-        let arm = Arm::new(&b, &weight.inverse);
+    pub fn add(&mut self, sign: f64, b: [S; 2], weight: &Weight<S>, x: &[S; 3]) -> Arm<S> {
+        let arm = Arm::new(&bent(b, sign, weight), &weight.inverse);
         arm.add_square(&mut self.s);
         self.held += weight.held;
         arm.add_times(sign, x, &mut self.right);
-        b
+        arm
     }
 }
 
@@ -47,19 +46,19 @@ impl<S: Real> Saddle<S> {
     /// Stores the diagonal block of a row block of [`Pattern::armed`], whose first row is `row`.
     #[inline(always)]
     pub fn begin(&mut self, armed: &Armed, row: u32, begun: &Begun<S>) {
-        self.put(row, armed.diagonal, &begun.s, [begun.held; 2]);
+        self.put(row, armed.diagonal, begun.s, [begun.held; 2]);
     }
 
     #[inline(always)]
-    fn put<const N: usize>(&mut self, row: u32, diagonal: u32, s: &[[S; N]; N], held: [S; N]) {
-        let magnitude = std::array::from_fn(|i| s[i][i] + held[i]);
-        store_begun(&mut self.factors, diagonal, s, &magnitude);
+    fn put<const N: usize>(&mut self, row: u32, diagonal: u32, s: [[S; N]; N], held: [S; N]) {
+        let mut open = Open { magnitude: std::array::from_fn(|i| s[i][i] + held[i]), s };
         if let Some(damping) = self.damping.get(row as usize..row as usize + N) {
-            for first in [diagonal, diagonal + N as u32] {
-                let s = part_mut::<S, N>(&mut self.factors, first);
-                s.iter_mut().zip(damping).for_each(|(s, mu)| *s += *mu);
+            for (i, mu) in damping.iter().enumerate() {
+                open.s[i][i] += *mu;
+                open.magnitude[i] += *mu;
             }
         }
+        open.store(&mut self.factors, diagonal);
     }
 
     /// b′ of all arms and the rows of U from the entries; with `ALL` of those too that are begun otherwise.
@@ -87,14 +86,15 @@ impl<S: Real> Saddle<S> {
         let owner = &pattern.places.arms[k];
         let rows: &[[S; 3]; 2] = part(&self.entries, owner.row);
         let weight = &self.weights[owner.group as usize];
-        self.arms[k] = bent(rows.map(|row| row[2]), owner.sign.into(), weight);
+        let b = bent(rows.map(|row| row[2]), owner.sign.into(), weight);
+        self.arms[k] = Arm::new(&b, &weight.inverse);
     }
 
     /// The entries of the row blocks that were begun with their arms, from these.
     pub fn restore_entries(&mut self, pattern: &Pattern) {
         for (owner, arm) in pattern.places.arms.iter().zip(&self.arms) {
             let sign = -f64::from(owner.sign);
-            let b = bent(*arm, sign, &self.weights[owner.group as usize]);
+            let b = bent(arm.plain, sign, &self.weights[owner.group as usize]);
             let row = owner.row as usize;
             (self.entries[row][2], self.entries[row + 1][2]) = (b[0], b[1]);
         }
@@ -124,7 +124,7 @@ impl<S: Real> Saddle<S> {
         for Touch { first, group, sign } in touches {
             let of_group = self.weights[*group as usize].held;
             if N == 2 && *sign != 0.0 {
-                self.arm(*first, *group).add_square(&mut s);
+                self.arms[*first as usize].add_square(&mut s);
                 held.iter_mut().for_each(|held| *held += of_group);
             } else {
                 let u = part::<_, N>(&self.u, *first);
@@ -134,7 +134,7 @@ impl<S: Real> Saddle<S> {
                 }
             }
         }
-        self.put(start.row, start.diagonal, &s, held);
+        self.put(start.row, start.diagonal, s, held);
     }
 
     /// The right sides y of row blocks, into g.
@@ -163,7 +163,7 @@ impl<S: Real> Saddle<S> {
         for Touch { first, group, sign } in touches {
             let x = part(x, 3 * *group);
             if N == 2 && *sign != 0.0 {
-                self.arm(*first, *group).add_times((*sign).into(), x, &mut y);
+                self.arms[*first as usize].add_times((*sign).into(), x, &mut y);
             } else {
                 Twin::add_times(part(&self.u, *first), x, &mut y);
             }
@@ -197,7 +197,7 @@ impl<S: Real> Saddle<S> {
         for Touch { first, group, sign } in touches {
             let x = part_mut::<S, 3>(x, 3 * *group);
             if N == 2 && *sign != 0.0 {
-                self.arm(*first, *group).subtract_transposed((*sign).into(), lambda, x);
+                self.arms[*first as usize].subtract_transposed((*sign).into(), lambda, x);
             } else {
                 let u = part::<Twin<S>, N>(&self.u, *first).iter().map(|u| u.scaled);
                 subtract_transposed(x, u, lambda);
@@ -208,13 +208,7 @@ impl<S: Real> Saddle<S> {
     /// The same with the arm of one group of a row block begun with its arms.
     #[inline(always)]
     pub fn spread(&self, arm: u32, group: u32, sign: f64, lambda: &[S; 2], x: &mut [S]) {
-        self.arm(arm, group).subtract_transposed(sign, lambda, part_mut(x, 3 * group));
-    }
-
-    /// An arm with the weight of its group.
-    #[inline(always)]
-    pub(super) fn arm(&self, arm: u32, group: u32) -> Arm<S> {
-        Arm::new(&self.arms[arm as usize], &self.weights[group as usize].inverse)
+        self.arms[arm as usize].subtract_transposed(sign, lambda, part_mut(x, 3 * group));
     }
 }
 

@@ -41,6 +41,7 @@ mod substitute;
 mod weight;
 
 pub use anchor::{Anchor, Anchored};
+pub use arm::Arm;
 pub use block_lu::{BlockLu, LOST};
 pub use bytes::Bytes;
 pub use gram::Begun;

@@ -3,10 +3,10 @@
 //! W is block diagonal, 3 × 3 for each group of three unknowns; the rows of A come in blocks of one to
 //! three that touch the same groups. What is factorised is S = A W⁻¹ Aᵀ + μ I, one block for each two
 //! row blocks that share a group, and fill (Davis, *Direct Methods for Sparse Linear Systems*, 2006,
-//! ch. 4). The plan is left-looking: for every block of L it names the products that make it, so that a
-//! block is computed in registers and written once.
+//! ch. 4). The plan is up-looking, row by row: for every block of L it names the products that make it, so that
+//! a block is computed in registers and written once.
 
-use super::anchor::{anchors, Anchored, Load};
+use super::anchor::{anchors, Anchored, Loads};
 use super::places::{self, Armed, Owner, Places};
 use super::plan;
 use super::steps::Steps;
@@ -38,7 +38,7 @@ pub struct Pattern {
     /// Row blocks that are eliminated with two unknowns of a group.
     pub(super) anchors: Vec<Anchored>,
     /// The other row blocks at their groups.
-    pub(super) loads: Vec<Load>,
+    pub(super) loads: Loads,
     pub(super) n_rows: usize,
     pub(super) n_entries: usize,
     /// Where the transformed rows stand.
@@ -132,8 +132,8 @@ impl Pattern {
     /// The work of finding order and plan, which does not depend on the machine: neighbours looked at, and
     /// products listed.
     pub fn effort(&self) -> usize {
-        let Steps { touches, earlier, below, pairs, updates, .. } = &self.steps;
-        let products = earlier.len() + below.len() + pairs.len() + updates.len();
+        let Steps { touches, left, below, pairs, updates, .. } = &self.steps;
+        let products = left.len() + below.len() + pairs.len() + updates.len();
         self.visits + touches.len() + products
     }
 

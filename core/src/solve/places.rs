@@ -26,7 +26,7 @@ pub struct Armed {
     pub block: u32,
     /// The arm at the first group that it touches; those at the others follow.
     pub arm: u32,
-    /// Where its diagonal block begins.
+    /// Where its diagonal block stands.
     pub diagonal: u32,
 }
 
@@ -96,8 +96,8 @@ impl Places {
 pub(super) fn pairs<'a>(one: &'a [Touch], other: &'a [Touch]) -> impl Iterator<Item = Pair> + 'a {
     one.iter().filter_map(|own| {
         let partner = other.iter().find(|t| t.group == own.group)?;
-        let (first, sign) = ([own.first, partner.first], own.sign * partner.sign);
-        Some(Pair { first, group: own.group, sign })
+        let sign = f64::from(own.sign) * f64::from(partner.sign);
+        Some(Pair { first: [own.first, partner.first], sign })
     })
 }
 

@@ -4,9 +4,9 @@ use super::block::numbers;
 use super::order::counted;
 use super::pattern::{RowBlock, MOST};
 use super::places::{is_armed, pairs};
-use super::steps::{Below, Column, Earlier, Start, Steps, Touch, Update};
+use super::steps::{Below, Left, Row, Start, Steps, Touch, Update};
 
-/// Lists every product, column by column; with the numbers that the blocks of L take.
+/// Lists every product, row by row; with the numbers that the blocks of L take.
 pub(super) fn steps(
     blocks: &[RowBlock],
     first_rows: &[usize],
@@ -14,43 +14,40 @@ pub(super) fn steps(
     rows_below: &[Vec<usize>],
     touches: &[Vec<Touch>],
 ) -> (Steps, usize) {
-    let mut lists = Lists::new(rows_below);
-    let (mut steps, mut n_factors) = (Steps::default(), 0);
-    for (place, rows) in rows_below.iter().enumerate() {
-        let own = order[place];
-        let size = blocks[own].size;
-        let diagonal = index(n_factors);
-        n_factors += numbers(size);
-        let first = steps.below.len();
-        for (&r, updates) in rows.iter().zip(&std::mem::take(&mut lists.updates[place])) {
-            let other = order[r];
-            let before = steps.pairs.len();
-            steps.pairs.extend(pairs(&touches[other], &touches[own]));
+    let (of_rows, n_factors) = Factors::new(blocks, order, rows_below);
+    let updates = of_rows.updates(blocks, order, rows_below);
+    let (row, size) = (|own: usize| index(first_rows[own]), |own: usize| index(blocks[own].size));
+    let mut steps = Steps::default();
+    for (place, &own) in order.iter().enumerate() {
+        let first = (steps.left.len(), steps.below.len());
+        for &Place { column, at, block } in &of_rows.left[place] {
+            let (other, before) = (order[column], steps.pairs.len());
+            steps.pairs.extend(pairs(&touches[own], &touches[other]));
+            let updates = &updates[column][at];
             steps.updates.extend(updates);
-            steps.below.push(Below {
-                block: index(n_factors),
-                size: index(blocks[other].size),
-                row: index(first_rows[other]),
+            steps.left.push(Left {
+                block,
+                diagonal: of_rows.diagonals[column],
+                row: row(other),
+                size: size(other),
                 pairs: index(steps.pairs.len() - before),
                 updates: index(updates.len()),
             });
-            n_factors += size * blocks[other].size;
         }
-        let (row, size_there) = (index(first_rows[own]), index(size));
-        let own_block = Earlier { block: 0, diagonal, row, size: size_there };
-        lists.eliminate(rows_below, place, &steps.below[first..], own_block);
-        let earlier = std::mem::take(&mut lists.earlier[place]);
-        steps.earlier.extend(&earlier);
-        steps.columns.push(Column {
-            row,
-            diagonal,
-            earlier: index(earlier.len()),
-            below: index(rows.len()),
-            size: size as u8,
-            pins: size == 2
-                && touches[own].iter().all(|touch| touch.sign != 0.0)
-                && earlier.iter().all(|earlier| earlier.size == 2)
-                && steps.below[first..].iter().all(|below| below.size == 2),
+        for (&r, &block) in rows_below[place].iter().zip(&of_rows.below[place]) {
+            steps.below.push(Below { block, row: row(order[r]), size: size(order[r]) });
+        }
+        let (left, below) = (&steps.left[first.0..], &steps.below[first.1..]);
+        let armed = is_armed(&touches[own]);
+        let pairs = left.iter().map(|left| left.size).chain(below.iter().map(|below| below.size));
+        steps.rows.push(Row {
+            row: row(own),
+            diagonal: of_rows.diagonals[place],
+            left: index(left.len()),
+            below: index(below.len()),
+            size: blocks[own].size as u8,
+            armed,
+            pins: armed && pairs.into_iter().all(|size| size == 2),
         });
     }
     steps.starts(order, touches);
@@ -58,62 +55,83 @@ pub(super) fn steps(
 }
 
 impl Steps {
-    /// The row blocks, once their columns are there: those with arms alone last.
+    /// The row blocks, once the rows of L are there: those with arms alone last.
     fn starts(&mut self, order: &[usize], touches: &[Vec<Touch>]) {
-        let armed = |own: usize| is_armed(&touches[own]);
-        let columns = || order.iter().zip(&self.columns);
-        let mixed = columns().filter(|(own, _)| !armed(**own));
-        let all: Vec<_> = mixed.chain(columns().filter(|(own, _)| armed(**own))).collect();
-        self.n_mixed = all.iter().filter(|(own, _)| !armed(**own)).count();
-        let start = |(own, column): &(&usize, &Column)| Start {
-            row: column.row,
-            diagonal: column.diagonal,
+        let rows = || order.iter().zip(&self.rows);
+        let mixed = rows().filter(|(_, row)| !row.armed);
+        let all: Vec<_> = mixed.chain(rows().filter(|(_, row)| row.armed)).collect();
+        self.n_mixed = all.iter().filter(|(_, row)| !row.armed).count();
+        let start = |(own, row): &(&usize, &Row)| Start {
+            row: row.row,
+            diagonal: row.diagonal,
             touches: index(touches[**own].len()),
-            size: column.size.into(),
+            size: row.size.into(),
         };
         self.starts = all.iter().map(start).collect();
         self.touches = all.iter().flat_map(|(own, _)| &touches[**own]).copied().collect();
     }
 }
 
-/// What elimination subtracts, collected while columns are eliminated one after the other.
-struct Lists {
-    /// From each diagonal block.
-    earlier: Vec<Vec<Earlier>>,
-    /// From each block below the diagonal, by column and position in it.
-    updates: Vec<Vec<Vec<Update>>>,
+/// A block of L left of the diagonal: its column, its place below the diagonal there, and where it begins.
+struct Place {
+    column: usize,
+    at: usize,
+    block: u32,
 }
 
-impl Lists {
-    fn new(rows_below: &[Vec<usize>]) -> Self {
-        let earlier = vec![Vec::new(); rows_below.len()];
-        let updates = rows_below.iter().map(|rows| vec![Vec::new(); rows.len()]).collect();
-        Self { earlier, updates }
-    }
+/// Where the blocks of L stand, row by row.
+struct Factors {
+    diagonals: Vec<u32>,
+    /// Of each row.
+    left: Vec<Vec<Place>>,
+    /// The same blocks by column and place in it.
+    below: Vec<Vec<u32>>,
+}
 
-    /// The products of the blocks of one column.
-    fn eliminate(
-        &mut self,
-        rows_below: &[Vec<usize>],
-        place: usize,
-        below: &[Below],
-        earlier: Earlier,
-    ) {
-        let rows = &rows_below[place];
-        for (a, &r) in rows.iter().enumerate() {
-            let block = below[a].block;
-            self.earlier[r].push(Earlier { block, ..earlier });
-            let mut at = 0;
-            for (b, &s) in rows.iter().enumerate().skip(a + 1) {
-                at += rows_below[r][at..].partition_point(|&row| row < s);
-                let blocks = [below[b].block, block];
-                self.updates[r][at].push(Update {
-                    blocks,
-                    diagonal: earlier.diagonal,
-                    size: earlier.size,
-                });
+impl Factors {
+    fn new(blocks: &[RowBlock], order: &[usize], rows_below: &[Vec<usize>]) -> (Self, usize) {
+        let mut left: Vec<Vec<Place>> = order.iter().map(|_| Vec::new()).collect();
+        for (column, rows) in rows_below.iter().enumerate() {
+            for (at, &r) in rows.iter().enumerate() {
+                left[r].push(Place { column, at, block: 0 });
             }
         }
+        let mut below: Vec<Vec<u32>> = rows_below.iter().map(|rows| vec![0; rows.len()]).collect();
+        let (mut diagonals, mut n) = (Vec::with_capacity(order.len()), 0);
+        for (left, &own) in left.iter_mut().zip(order) {
+            let size = blocks[own].size;
+            for place in left {
+                place.block = index(n);
+                below[place.column][place.at] = place.block;
+                n += size * blocks[order[place.column]].size;
+            }
+            diagonals.push(index(n));
+            n += numbers(size);
+        }
+        (Self { diagonals, left, below }, n)
+    }
+
+    /// What is subtracted from each block below the diagonal, by column and place in it: products of two blocks
+    /// of an earlier column, one column after the other.
+    fn updates(
+        &self,
+        blocks: &[RowBlock],
+        order: &[usize],
+        rows_below: &[Vec<usize>],
+    ) -> Vec<Vec<Vec<Update>>> {
+        let none = |rows: &Vec<usize>| vec![Vec::new(); rows.len()];
+        let mut updates: Vec<Vec<Vec<Update>>> = rows_below.iter().map(none).collect();
+        for (place, (rows, below)) in rows_below.iter().zip(&self.below).enumerate() {
+            let (diagonal, size) = (self.diagonals[place], index(blocks[order[place]].size));
+            for (a, &r) in rows.iter().enumerate() {
+                let mut at = 0;
+                for (b, &s) in rows.iter().enumerate().skip(a + 1) {
+                    at += rows_below[r][at..].partition_point(|&row| row < s);
+                    updates[r][at].push(Update { blocks: [below[b], below[a]], diagonal, size });
+                }
+            }
+        }
+        updates
     }
 }
 

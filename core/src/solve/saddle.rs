@@ -12,12 +12,13 @@
 //! a mechanism near a singular position a small one, which [`Saddle::cancellation`] shows.
 
 use super::anchor::Anchor;
+use super::arm::Arm;
 use super::block::{
-    add, begun, columns, factorise, part, part_mut, scaled, store, subtract, subtract_times,
-    Diagonal, Twin,
+    add, columns, factorise, forward, part, part_mut, scaled, store, subtract, subtract_times,
+    Diagonal, Open, Twin,
 };
 use super::pattern::Pattern;
-use super::steps::{next, Ahead, Below, Column, Earlier, Products, Start, Update};
+use super::steps::{next, Ahead, Left, Row, Start, Update};
 use super::weight::{above_zero, check, Dependent, Weight};
 use crate::math::Real;
 
@@ -38,8 +39,8 @@ pub struct Saddle<S> {
     pub anchors: Vec<Anchor<S>>,
     /// Entries of A in rows of three, as the pattern places them.
     pub entries: Vec<[S; 3]>,
-    /// b′ of the pairs of rows [±I b], as the pattern places them.
-    pub arms: Vec<[S; 2]>,
+    /// The pairs of rows [±I b], as the pattern places them.
+    pub arms: Vec<Arm<S>>,
     /// μ, one for each row; empty for none.
     pub damping: Vec<S>,
     /// Smallest ratio of a pivot to S_kk that is accepted; [`PIVOT_TOLERANCE`] at first.
@@ -48,7 +49,7 @@ pub struct Saddle<S> {
     pub(super) ridge: f64,
     /// Rows of U.
     pub(super) u: Vec<Twin<S>>,
-    /// For each column of blocks what its diagonal block came to, then L D of the blocks below.
+    /// For each row of blocks L D of those left of the diagonal, then what its diagonal block came to.
     pub(super) factors: Vec<S>,
 }
 
@@ -66,7 +67,7 @@ impl<S: Real> Saddle<S> {
             weights: vec![weight; pattern.n_groups],
             anchors: vec![Anchor::unit(); pattern.anchors.len()],
             entries,
-            arms: vec![[zero; 2]; pattern.places.arms.len()],
+            arms: vec![Arm::zero(); pattern.places.arms.len()],
             damping: Vec::new(),
             least: PIVOT_TOLERANCE,
             ridge: 0.0,
@@ -142,157 +143,139 @@ impl<S: Real> Saddle<S> {
     /// The row whose pivot was cancelled most, and its ratio d / S_kk: 1 means nothing was lost, 1e-10
     /// that ten digits were. `None` without rows.
     pub fn cancellation(&self, pattern: &Pattern) -> Option<(usize, f64)> {
-        let of = |column: &Column| {
-            let (row, size) = (column.row as usize, usize::from(column.size));
-            let (inverse, rest) = self.factors[column.diagonal as usize..].split_at(size);
+        let of = |row: &Row| {
+            let (first, size) = (row.row as usize, usize::from(row.size));
+            let (inverse, rest) = self.factors[row.diagonal as usize..].split_at(size);
             let ratios = inverse.iter().zip(rest).map(|(i, m)| S::one() / (*i * *m));
-            ratios.map(S::least_magnitude).enumerate().map(move |(k, ratio)| (row + k, ratio))
+            ratios.map(S::least_magnitude).enumerate().map(move |(k, ratio)| (first + k, ratio))
         };
-        let all = pattern.steps.columns.iter().flat_map(of);
+        let all = pattern.steps.rows.iter().flat_map(of);
         all.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
     }
 
-    /// Column by column; with `RHS` the right side as well.
-    #[inline(always)]
+    /// Row by row; with `RHS` the right side as well.
+    #[inline(never)] // with few pointers, most of them stay in registers
     fn eliminate<const RHS: bool>(
         &mut self,
         pattern: &Pattern,
         g: &mut [S],
     ) -> Result<(), Dependent> {
         let mut ahead = pattern.steps.ahead();
-        for column in &pattern.steps.columns {
-            if column.pins {
-                self.column::<2, RHS, true>(column, &mut ahead, g)?;
+        for row in &pattern.steps.rows {
+            if row.pins {
+                self.row::<2, RHS, true>(row, &mut ahead, g)?;
             } else {
-                self.mixed_column::<RHS>(column, &mut ahead, g)?;
+                ahead = self.mixed_row::<RHS>(row, ahead, g)?;
             }
         }
         Ok(())
     }
 
-    /// A column of any kind, apart from those of pins alone: the loop over these stays in registers.
-    #[inline(never)]
-    fn mixed_column<const RHS: bool>(
+    /// A row of any kind, apart from those of pins alone; gives what is then ahead, so that the loop over these
+    /// need not leave that in memory.
+    #[inline(never)] // as above
+    fn mixed_row<'a, const RHS: bool>(
         &mut self,
-        column: &Column,
-        ahead: &mut Ahead<'_>,
+        row: &Row,
+        mut ahead: Ahead<'a>,
         g: &mut [S],
-    ) -> Result<(), Dependent> {
-        match column.size {
-            1 => self.column::<1, RHS, false>(column, ahead, g),
-            2 => self.column::<2, RHS, false>(column, ahead, g),
-            _ => self.column::<3, RHS, false>(column, ahead, g),
+    ) -> Result<Ahead<'a>, Dependent> {
+        match row.size {
+            1 => self.row::<1, RHS, false>(row, &mut ahead, g),
+            2 => self.row::<2, RHS, false>(row, &mut ahead, g),
+            _ => self.row::<3, RHS, false>(row, &mut ahead, g),
         }
+        .map(|()| ahead)
     }
 
-    /// One column of L, of N rows and columns on the diagonal; with `PINS` one of pins alone.
+    /// One row of L, of N rows; with `PINS` one of pins alone.
     #[inline(always)]
-    fn column<const N: usize, const RHS: bool, const PINS: bool>(
+    fn row<const N: usize, const RHS: bool, const PINS: bool>(
         &mut self,
-        column: &Column,
+        row: &Row,
         ahead: &mut Ahead<'_>,
         g: &mut [S],
     ) -> Result<(), Dependent> {
-        let (magnitude, mut s) = begun(&self.factors, column.diagonal);
-        for (i, magnitude) in magnitude.iter().enumerate() {
-            s[i][i] += *magnitude * S::constant(self.ridge);
+        let Open { mut s, magnitude } = Open::read(&self.factors, row.diagonal);
+        let mut y = if RHS { *part(g, row.row) } else { [S::zero(); N] };
+        if !RHS {
+            // near singular positions, where it is not 0, are never factorised and solved at once
+            (0..N).for_each(|i| s[i][i] += magnitude[i] * S::constant(self.ridge));
         }
-        let mut y = if RHS { *part(g, column.row) } else { [S::zero(); N] };
-        for block in next(&mut ahead.earlier, column.earlier) {
-            match block.size {
-                _ if PINS => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
-                1 => self.subtract_earlier::<N, 1, RHS>(block, g, &mut s, &mut y),
-                2 => self.subtract_earlier::<N, 2, RHS>(block, g, &mut s, &mut y),
-                _ => self.subtract_earlier::<N, 3, RHS>(block, g, &mut s, &mut y),
+        for left in next(&mut ahead.left, row.left) {
+            let own = (&mut s, &mut y);
+            match left.size {
+                _ if PINS => self.left::<N, 2, RHS, true>(left, ahead, g, own),
+                1 => self.left::<N, 1, RHS, false>(left, ahead, g, own),
+                2 => self.left::<N, 2, RHS, false>(left, ahead, g, own),
+                _ => self.left::<N, 3, RHS, false>(left, ahead, g, own),
             }
         }
         let diagonal = factorise(s);
         if RHS {
-            let mut y = y.map(|y| [y]);
             diagonal.forward(&mut y);
-            let mut y = y.map(|[y]| y);
-            if column.below == 0 {
+            if row.below == 0 {
                 diagonal.back(&mut y); // λ: nothing else is waited for
             }
-            *part_mut(g, column.row) = y;
+            *part_mut(g, row.row) = y;
         }
-        self.keep(column, &diagonal, magnitude)?;
-        let Ahead { below, products, .. } = ahead;
-        for block in next(below, column.below) {
-            match block.size {
-                _ if PINS => self.below::<2, N, true>(block, products, &diagonal),
-                1 => self.below::<1, N, false>(block, products, &diagonal),
-                2 => self.below::<2, N, false>(block, products, &diagonal),
-                _ => self.below::<3, N, false>(block, products, &diagonal),
-            }
-        }
-        Ok(())
-    }
-
-    /// s -= (L D) Lᵀ with a block left of the diagonal, of K columns; with `RHS` y -= L y′ as well.
-    #[inline(always)]
-    fn subtract_earlier<const N: usize, const K: usize, const RHS: bool>(
-        &self,
-        &Earlier { block, diagonal, row, .. }: &Earlier,
-        g: &[S],
-        s: &mut [[S; N]; N],
-        y: &mut [S; N],
-    ) {
-        let plain = columns::<S, N, K>(&self.factors, block);
-        let scaled = scaled(&plain, part(&self.factors, diagonal));
-        subtract(s, &plain, &scaled);
-        if RHS {
-            subtract_times(y, &scaled, part::<S, K>(g, row));
-        }
+        self.keep(row, &diagonal, &magnitude)
     }
 
     /// Judges and stores a diagonal block.
     #[inline(always)]
     fn keep<const N: usize>(
         &mut self,
-        column: &Column,
+        row: &Row,
         diagonal: &Diagonal<S, N>,
-        magnitude: [S; N],
+        magnitude: &[S; N],
     ) -> Result<(), Dependent> {
         for (i, magnitude) in magnitude.iter().enumerate() {
             let least = *magnitude * S::constant(self.least) + S::constant(LEAST_PIVOT);
             if !above_zero(diagonal.pivot[i] - least) {
-                return Err(Dependent::Row(column.row as usize + i));
+                return Err(Dependent::Row(row.row as usize + i));
             }
         }
-        diagonal.store(&mut self.factors, column.diagonal);
+        diagonal.store(&mut self.factors, row.diagonal, magnitude);
         Ok(())
     }
 
-    /// One block below the diagonal: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ.
+    /// One block left of the diagonal, of K columns: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ. What follows
+    /// from it for the diagonal block: s -= (L D) Lᵀ, with `RHS` y -= L y′ as well.
     #[inline(always)]
-    fn below<const M: usize, const N: usize, const PINS: bool>(
+    fn left<const N: usize, const K: usize, const RHS: bool, const PINS: bool>(
         &mut self,
-        block: &Below,
-        products: &mut Products<'_>,
-        diagonal: &Diagonal<S, N>,
+        left: &Left,
+        ahead: &mut Ahead<'_>,
+        g: &[S],
+        (s, y): (&mut [[S; N]; N], &mut [S; N]),
     ) {
         // transposed, as it is stored
-        let mut s = [[S::zero(); M]; N];
-        for pair in next(&mut products.pairs, block.pairs) {
+        let mut block = [[S::zero(); N]; K];
+        for pair in next(&mut ahead.pairs, left.pairs) {
             let [own, other] = pair.first;
-            if PINS || N == 2 && M == 2 && pair.sign != 0.0 {
-                let own = &self.arms[own as usize];
-                self.arm(other, pair.group).add_product(own, pair.sign.into(), &mut s);
+            if PINS || N == 2 && K == 2 && pair.sign != 0.0 {
+                let [own, other] = [own, other].map(|arm| &self.arms[arm as usize]);
+                other.add_product(&own.plain, pair.sign, &mut block);
             } else {
-                add::<S, N, M, 3>(&mut s, part(&self.u, other), part(&self.u, own));
+                add::<S, K, N, 3>(&mut block, part(&self.u, other), part(&self.u, own));
             }
         }
-        for update in next(&mut products.updates, block.updates) {
+        for update in next(&mut ahead.updates, left.updates) {
             match update.size {
-                _ if PINS => self.subtract_product::<M, N, 2>(update, &mut s),
-                1 => self.subtract_product::<M, N, 1>(update, &mut s),
-                2 => self.subtract_product::<M, N, 2>(update, &mut s),
-                _ => self.subtract_product::<M, N, 3>(update, &mut s),
+                _ if PINS => self.subtract_product::<N, K, 2>(update, &mut block),
+                1 => self.subtract_product::<N, K, 1>(update, &mut block),
+                2 => self.subtract_product::<N, K, 2>(update, &mut block),
+                _ => self.subtract_product::<N, K, 3>(update, &mut block),
             }
         }
-        diagonal.forward(&mut s);
-        store(&mut self.factors, block.block, &s);
+        forward(&self.factors, left.diagonal, &mut block);
+        store(&mut self.factors, left.block, &block);
+        let scaled = scaled(&block, part(&self.factors, left.diagonal));
+        subtract(s, &block, &scaled);
+        if RHS {
+            subtract_times(y, &scaled, part::<S, K>(g, left.row));
+        }
     }
 
     /// s -= ((L D) Lᵀ)ᵀ with two blocks of one earlier column, of K columns.

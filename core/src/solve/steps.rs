@@ -13,12 +13,13 @@ pub(super) struct Steps {
     pub touches: Vec<Touch>,
     /// How many of the row blocks are not of these.
     pub n_mixed: usize,
-    /// Columns of L, in elimination order.
-    pub columns: Vec<Column>,
-    pub earlier: Vec<Earlier>,
-    pub below: Vec<Below>,
+    /// Rows of blocks of L, in elimination order.
+    pub rows: Vec<Row>,
+    pub left: Vec<Left>,
     pub pairs: Vec<Pair>,
     pub updates: Vec<Update>,
+    /// The blocks of `left` once more, column by column.
+    pub below: Vec<Below>,
 }
 
 /// A row block, and its diagonal block of S.
@@ -33,20 +34,22 @@ pub(super) struct Start {
     pub size: u32,
 }
 
-/// One column of blocks of L.
+/// One row of blocks of L, and the column that begins with its diagonal block.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Column {
+pub(super) struct Row {
     /// First of the rows of its row block.
     pub row: u32,
     /// Where the diagonal block stands among the factors.
     pub diagonal: u32,
     /// Number of blocks left of its diagonal block.
-    pub earlier: u32,
+    pub left: u32,
     /// Number of blocks below it.
     pub below: u32,
     /// Rows of its row block.
     pub size: u8,
-    /// Whether nothing but pairs of rows with arms takes part in it, as at pin joints among themselves.
+    /// Whether it has nothing but arms.
+    pub armed: bool,
+    /// Whether the same is true of all that stand left of it or below, as at pin joints among themselves.
     pub pins: bool,
 }
 
@@ -62,13 +65,17 @@ pub(super) struct Touch {
 
 /// A block of L left of a diagonal block.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Earlier {
+pub(super) struct Left {
     /// Where it begins among the factors, and the diagonal block of its column.
     pub block: u32,
     pub diagonal: u32,
     /// First row, and size, of the row block eliminated there.
     pub row: u32,
     pub size: u32,
+    /// Number of groups shared with it.
+    pub pairs: u32,
+    /// Number of products subtracted from the block.
+    pub updates: u32,
 }
 
 /// A block of L below the diagonal.
@@ -76,46 +83,34 @@ pub(super) struct Earlier {
 pub(super) struct Below {
     /// Where it begins among the factors.
     pub block: u32,
-    /// Size and first row of its row block.
-    pub size: u32,
+    /// First row and size of its row block.
     pub row: u32,
-    /// Number of groups shared with it.
-    pub pairs: u32,
-    /// Number of products subtracted from it.
-    pub updates: u32,
+    pub size: u32,
 }
 
 /// Two row blocks in a group that they share.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
-    /// First rows of U, or arms: of the block's own row block, of the column's.
+    /// First rows of U, or arms: of the row's row block, of the column's.
     pub first: [u32; 2],
-    pub group: u32,
     /// Product of the signs of two arms; 0 for rows of U.
-    pub sign: f32,
+    pub sign: f64,
 }
 
 /// Two blocks of an earlier column whose product is subtracted.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Update {
-    /// In the rows of the block that is made, and in those of the column it stands in.
+    /// In the row of the block that is made, and in that of the row block whose column it stands in.
     pub blocks: [u32; 2],
     /// The diagonal block of the earlier column, and its size.
     pub diagonal: u32,
     pub size: u32,
 }
 
-/// The records not yet read.
+/// The records of blocks left of the diagonal that are not yet read.
 #[derive(Clone, Debug)]
 pub(super) struct Ahead<'a> {
-    pub earlier: &'a [Earlier],
-    pub below: &'a [Below],
-    pub products: Products<'a>,
-}
-
-/// The same of what blocks below the diagonal are made of.
-#[derive(Clone, Debug)]
-pub(super) struct Products<'a> {
+    pub left: &'a [Left],
     pub pairs: &'a [Pair],
     pub updates: &'a [Update],
 }
@@ -123,11 +118,7 @@ pub(super) struct Products<'a> {
 impl Steps {
     /// All of them.
     pub fn ahead(&self) -> Ahead<'_> {
-        Ahead {
-            earlier: &self.earlier,
-            below: &self.below,
-            products: Products { pairs: &self.pairs, updates: &self.updates },
-        }
+        Ahead { left: &self.left, pairs: &self.pairs, updates: &self.updates }
     }
 }
 

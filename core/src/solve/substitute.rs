@@ -5,7 +5,7 @@ use super::block::{
 };
 use super::pattern::Pattern;
 use super::saddle::Saddle;
-use super::steps::{last, next, Ahead, Below, Column, Earlier};
+use super::steps::{last, next, Ahead, Below, Left, Row};
 use super::weight::Weight;
 use crate::math::Real;
 
@@ -20,11 +20,11 @@ impl<S: Real> Saddle<S> {
         let starts = &pattern.steps.starts;
         self.right_sides(pattern, starts, f, g);
         let mut ahead = pattern.steps.ahead();
-        for column in &pattern.steps.columns {
-            match column.size {
-                1 => self.forward::<1>(column, &mut ahead, g),
-                2 => self.forward::<2>(column, &mut ahead, g),
-                _ => self.forward::<3>(column, &mut ahead, g),
+        for row in &pattern.steps.rows {
+            match row.size {
+                1 => self.forward::<1>(row, &mut ahead, g),
+                2 => self.forward::<2>(row, &mut ahead, g),
+                _ => self.forward::<3>(row, &mut ahead, g),
             }
         }
         self.substitute_back(pattern, g);
@@ -65,30 +65,32 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// y ← L⁻¹ y of one column, or λ where nothing is below.
-    fn forward<const N: usize>(&self, column: &Column, ahead: &mut Ahead<'_>, g: &mut [S]) {
-        let mut y = *part::<S, N>(g, column.row);
-        for earlier in next(&mut ahead.earlier, column.earlier) {
-            match earlier.size {
-                1 => self.subtract_known::<N, 1>(earlier, g, &mut y),
-                2 => self.subtract_known::<N, 2>(earlier, g, &mut y),
-                _ => self.subtract_known::<N, 3>(earlier, g, &mut y),
+    /// y ← L⁻¹ y of one row block, or λ where nothing is below.
+    fn forward<const N: usize>(&self, row: &Row, ahead: &mut Ahead<'_>, g: &mut [S]) {
+        let mut y = *part::<S, N>(g, row.row);
+        for left in next(&mut ahead.left, row.left) {
+            match left.size {
+                1 => self.subtract_known::<N, 1>(left, g, &mut y),
+                2 => self.subtract_known::<N, 2>(left, g, &mut y),
+                _ => self.subtract_known::<N, 3>(left, g, &mut y),
             }
         }
-        forward(&self.factors, column.diagonal, &mut y);
-        if column.below == 0 {
-            let inverse = part::<S, N>(&self.factors, column.diagonal);
+        let mut y = y.map(|y| [y]);
+        forward(&self.factors, row.diagonal, &mut y);
+        let mut y = y.map(|[y]| y);
+        if row.below == 0 {
+            let inverse = part::<S, N>(&self.factors, row.diagonal);
             y = std::array::from_fn(|i| y[i] * inverse[i]);
-            backward(&self.factors, column.diagonal, &mut y);
+            backward(&self.factors, row.diagonal, &mut y);
         }
-        *part_mut(g, column.row) = y;
+        *part_mut(g, row.row) = y;
     }
 
     /// y -= L y′ with the y′ of the column where the block stands.
     #[inline(always)]
     fn subtract_known<const N: usize, const K: usize>(
         &self,
-        &Earlier { block, diagonal, row, .. }: &Earlier,
+        &Left { block, diagonal, row, .. }: &Left,
         g: &[S],
         y: &mut [S; N],
     ) {
@@ -99,41 +101,37 @@ impl<S: Real> Saddle<S> {
     /// λ = L⁻ᵀ D⁻¹ y; columns with nothing below have it already.
     #[inline(always)]
     pub(super) fn substitute_back(&self, pattern: &Pattern, g: &mut [S]) {
-        let mut ahead = pattern.steps.ahead();
-        for column in pattern.steps.columns.iter().rev() {
-            if column.below == 0 {
+        let mut below = &pattern.steps.below[..];
+        for row in pattern.steps.rows.iter().rev() {
+            if row.below == 0 {
                 continue;
             }
-            if column.pins {
-                self.back::<2, true>(column, &mut ahead, g);
+            let below = last(&mut below, row.below);
+            if row.pins {
+                self.back::<2, true>(row, below, g);
             } else {
-                self.mixed_back(column, &mut ahead, g);
+                self.mixed_back(row, below, g);
             }
         }
     }
 
     #[inline(never)]
-    fn mixed_back(&self, column: &Column, ahead: &mut Ahead<'_>, g: &mut [S]) {
-        match column.size {
-            1 => self.back::<1, false>(column, ahead, g),
-            2 => self.back::<2, false>(column, ahead, g),
-            _ => self.back::<3, false>(column, ahead, g),
+    fn mixed_back(&self, row: &Row, below: &[Below], g: &mut [S]) {
+        match row.size {
+            1 => self.back::<1, false>(row, below, g),
+            2 => self.back::<2, false>(row, below, g),
+            _ => self.back::<3, false>(row, below, g),
         }
     }
 
-    /// λ of one column, into g; with `PINS` one of pins alone.
+    /// λ of one row block, into g; with `PINS` one of pins alone.
     #[inline(always)]
-    fn back<const N: usize, const PINS: bool>(
-        &self,
-        column: &Column,
-        ahead: &mut Ahead<'_>,
-        g: &mut [S],
-    ) {
-        let inverse = part::<S, N>(&self.factors, column.diagonal);
-        let y = part::<S, N>(g, column.row);
+    fn back<const N: usize, const PINS: bool>(&self, row: &Row, below: &[Below], g: &mut [S]) {
+        let inverse = part::<S, N>(&self.factors, row.diagonal);
+        let y = part::<S, N>(g, row.row);
         let mut lambda: [S; N] = std::array::from_fn(|i| y[i] * inverse[i]);
         // the newest unknown is waited for last
-        for block in last(&mut ahead.below, column.below).iter().rev() {
+        for block in below.iter().rev() {
             match block.size {
                 _ if PINS => self.pull::<2, N>(block, inverse, g, &mut lambda),
                 1 => self.pull::<1, N>(block, inverse, g, &mut lambda),
@@ -141,8 +139,8 @@ impl<S: Real> Saddle<S> {
                 _ => self.pull::<3, N>(block, inverse, g, &mut lambda),
             }
         }
-        backward(&self.factors, column.diagonal, &mut lambda);
-        *part_mut(g, column.row) = lambda;
+        backward(&self.factors, row.diagonal, &mut lambda);
+        *part_mut(g, row.row) = lambda;
     }
 
     /// λ -= Lᵀ λ′ of a block whose rows are solved for in g.

@@ -101,7 +101,7 @@ impl Matrix {
             let shift = [0, 1].map(|i| block.signs[0] * self.entries[entry + i][2]);
             let moment = [b0 - d * shift[0], b1 - d * shift[1]];
             let about = d2 - shift[0] * (b0 + moment[0]) - shift[1] * (b1 + moment[1]);
-            saddle.anchors[k] = Anchor { mass: d, moment };
+            saddle.anchors[k] = Anchor { mass: d, inverse: 1.0 / about, moment, shift };
             let inverse = [0.0, 0.0, 1.0 / about];
             saddle.weights[group] = Weight { inverse, shift, held: 1.0 / d };
         }
