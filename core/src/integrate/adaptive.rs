@@ -206,11 +206,13 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             }
             let h = t_new - t;
             let trial = self.attempt(t_new).map(|norm| self.judged(norm, h));
-            let placed = self.placed(t_new);
+            let norm = trial.as_ref().map_or(f64::NAN, |norm| *norm);
+            let at_best = self.clearance.at_best(norm, self.options.rtol);
+            let placed = self.placed(t_new).filter(|_| !at_best);
             match trial {
                 Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
                 _ if placed.is_some() => size.size = placed.unwrap_or(size.size),
-                Ok(norm) if norm < 1.0 => match self.settle(t_new)? {
+                Ok(norm) if norm < 1.0 || at_best => match self.settle(t_new)? {
                     Ok(projected) => {
                         size.accept(h.abs(), norm);
                         size.size = self.clearance.resume(size.size);

@@ -3,6 +3,10 @@
 //! Such an obstacle is passed by a step that has it in the middle of its widest part without a stage.
 //! Where it lies too far ahead for that, a shorter step comes first: it ends where the one that passes
 //! has to begin.
+//!
+//! The nearer the stages of a step that passes are to the obstacle, the more noise there is in them; the further, the
+//! more a deviation from the constraints counts. So there is a length at which such a step is best, and where its
+//! error is still too large, shorter ones only creep into the noise: then it is taken as it is.
 
 use super::step_size::Control;
 
@@ -22,6 +26,11 @@ const MOST: usize = 3;
 /// take away, and that is told by one state for all stages.
 const STRICT: f64 = 2.5;
 
+/// A step that passes has to be better than the one before it by this factor, to try for a shorter one.
+const BETTER: f64 = 4.0;
+/// Most error, relative, of a step that is taken because no shorter one is better.
+const AT_BEST: f64 = 1e-6;
+
 /// The widest part of a step without a stage of scheme or extension; in parts of the step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
@@ -36,12 +45,28 @@ pub(super) struct Clearance {
     tried: usize,
     /// The step to go on with; 0 if the step was not placed.
     wanted: f64,
+    /// Whether the try under way was placed so as to pass.
+    passing: bool,
+    /// Least error norm of the tries to pass that were rejected; none where no step was placed.
+    least: Option<f64>,
 }
 
 impl Clearance {
     /// Before the first trial of a step.
     pub fn begin(&mut self) {
-        *self = Self { met: self.met, ..Self::default() };
+        let least = self.least.filter(|_| self.tried > 0);
+        *self = Self { met: self.met, least, ..Self::default() };
+    }
+
+    /// Whether the try under way, with this error norm at a relative tolerance, is to be taken though it is too
+    /// large: it passes, and its like did not get better.
+    pub fn at_best(&mut self, norm: f64, rtol: f64) -> bool {
+        if !std::mem::take(&mut self.passing) || !norm.is_finite() {
+            return false;
+        }
+        let best = self.least.is_some_and(|least| BETTER * norm > least);
+        self.least = Some(self.least.map_or(norm, |least| least.min(norm)));
+        best && norm * rtol < AT_BEST
     }
 
     /// The step to try instead of one of magnitude `h` with an obstacle `ahead` of its start (negative if
@@ -56,7 +81,8 @@ impl Clearance {
             return None;
         }
         let passing = h.min((left - ahead) / (1.0 - middle));
-        let placed = match ahead < LONGER * middle * h {
+        let passes = ahead < LONGER * middle * h;
+        let placed = match passes {
             true => (ahead / middle).min(left),
             false => ahead - middle * passing,
         };
@@ -64,6 +90,7 @@ impl Clearance {
             return None;
         }
         self.tried += 1;
+        self.passing = passes;
         self.wanted = self.wanted.max(passing);
         Some(placed)
     }
@@ -127,6 +154,34 @@ mod tests {
         let placed = clearance.instead(GAP, 1.0, 0.8, 1.0).expect("placed");
         assert!((placed + clearance.resume(0.0) - 1.0).abs() < 1e-15);
         assert_eq!(Clearance::default().instead(GAP, 1.0, 1.0, 1.0), None);
+    }
+
+    #[test]
+    fn a_step_that_passes_is_taken_once_its_like_does_not_get_better() {
+        let mut clearance = Clearance::default();
+        let mut at_best = |norm: f64| {
+            clearance.begin();
+            clearance.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
+            clearance.at_best(norm, 1e-10)
+        };
+        assert!(!at_best(900.0)); // the first
+        assert!(!at_best(90.0)); // better by ten
+        assert!(!at_best(f64::NAN));
+        assert!(at_best(30.0));
+        assert!(!at_best(1e5)); // no better, but too bad
+    }
+
+    #[test]
+    fn of_other_steps_none_is_taken_with_too_large_an_error() {
+        let mut clearance = Clearance::default();
+        clearance.instead(GAP, 1.0, 1.0, 10.0).expect("a step before");
+        assert!(!clearance.at_best(9.0, 1e-10) && !clearance.at_best(9.0, 1e-10));
+        // nor where what was tried before was of another obstacle
+        clearance.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
+        assert!(!clearance.at_best(9.0, 1e-10));
+        (clearance.begin(), clearance.begin());
+        clearance.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
+        assert!(!clearance.at_best(9.0, 1e-10));
     }
 
     #[test]
