@@ -1,4 +1,4 @@
-//! Bodies that a pin holds to ground: γ̂ of their pins, and how they weigh.
+//! Bodies that a pin holds to ground: γ̂ of their pins, how they weigh, and how their solution begins.
 
 use super::constraints::Stabilized;
 use crate::elements::VelocityTerms;
@@ -6,22 +6,32 @@ use crate::math::{Motion, Real, Vec2};
 use crate::model::Anchor;
 use crate::solve::{Anchor as Held, Saddle, Weight};
 
-/// γ̂ of the pins that are anchors into `right`, shape (n_rows); the weights of their bodies, turned.
+/// Turns the weights of anchored bodies, and begins their part of the solution: `forces` and `right`, shapes (n_q)
+/// and (n_rows), become what [`Held::hold`] leaves there. γ̂ is lessened by `held`, shape (n_rows) or empty.
 #[inline(always)] // once in an evaluation: a call saves and restores more than it shares
 pub(super) fn begin<S: Real>(
     anchors: &[Anchor<S>],
     motions: &[Motion<S>],
     stabilized: Stabilized<S>,
+    lessened: &[S],
     saddle: &mut Saddle<S>,
-    right: &mut [S],
+    (forces, right): (&mut [S], &mut [S]),
 ) {
-    let (weights, motions) = (&mut saddle.weights[..], &motions[1..]);
+    let motions = &motions[1..];
+    let weights = &mut saddle.weights[..motions.len()];
     for (anchor, held) in anchors.iter().zip(&mut saddle.anchors) {
-        let motion = &motions[anchor.body as usize];
-        let shift = turn(anchor, motion, &mut weights[anchor.body as usize], held);
-        let gamma: &mut [S; 2] =
-            right[anchor.row as usize..].first_chunk_mut().expect("two rows of its own");
-        stabilized.put(&terms(anchor, motion, shift), gamma);
+        let (body, row) = (anchor.body as usize, anchor.row as usize);
+        let motion = &motions[body];
+        let shift = turn(anchor, motion, &mut weights[body], held);
+        let mut gamma = [S::zero(); 2];
+        stabilized.put(&terms(anchor, motion, shift), &mut gamma);
+        if !lessened.is_empty() {
+            gamma.iter_mut().zip(&lessened[row..row + 2]).for_each(|(gamma, held)| *gamma -= *held);
+        }
+        let of_body =
+            forces[3 * body..3 * body + 3].first_chunk_mut().expect("as long as the range");
+        held.hold(anchor.sign, of_body, &mut gamma);
+        right[row..row + 2].copy_from_slice(&gamma);
     }
 }
 

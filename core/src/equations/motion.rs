@@ -146,12 +146,12 @@ impl<S: Real> Workspace<S> {
         }
         let (forces, right) = solution.split_at_mut(n);
         *powers = forces::generalized(model, motions, t, forces);
-        anchors::begin(&model.anchors, motions, stabilized, saddle, right);
         let (others, entries) =
             (others.iter().map(|k| *k as usize), saddle.entries.as_flattened_mut());
         constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
         right.iter_mut().zip(&*held).for_each(|(right, held)| *right -= *held);
-        saddle.weigh(pattern, solution);
+        anchors::begin(&model.anchors, motions, stabilized, held, saddle, (forces, right));
+        saddle.weigh_others(pattern, solution);
         let (x, right) = solution.split_at_mut(n);
         pins::begin(&model.pins, armed, motions, stabilized, saddle, (x, right));
         pins::hold(&model.pins, armed, held, right);

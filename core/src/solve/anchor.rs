@@ -38,6 +38,19 @@ impl<S: Real> Anchor<S> {
         let none = [S::zero(); 2];
         Self { mass: S::one(), inverse: S::one(), moment: none, shift: none }
     }
+
+    /// From f of its group and g of its rows to p = ±g and φ for λ = 0; f of the first two rows goes where g was.
+    #[inline(always)]
+    pub fn hold(&self, sign: S, f: &mut [S; 3], g: &mut [S; 2]) {
+        let p = g.map(|g| sign * g);
+        let mut turning = f[2];
+        for i in 0..2 {
+            turning = turning.minus_product(self.shift[i], f[i]);
+            turning = turning.minus_product(self.moment[i], p[i]);
+        }
+        *g = [f[0], f[1]];
+        *f = [p[0], p[1], turning * self.inverse];
+    }
 }
 
 /// Where an anchor stands.
@@ -130,27 +143,28 @@ pub(super) fn anchors(
 }
 
 impl<S: Real> Saddle<S> {
-    /// From f and g of anchored groups to p = ±g and φ for λ = 0; f of their first two rows goes where g was.
+    /// [`Anchor::hold`] of all.
     #[inline(always)]
     pub(super) fn anchor(&self, pattern: &Pattern, x: &mut [S]) {
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
         for (place, anchor) in pattern.anchors.iter().zip(&self.anchors) {
-            let f = part_mut::<S, 3>(f, 3 * place.group);
-            let g = part_mut::<S, 2>(g, place.row);
-            let p = g.map(|g| S::constant(place.sign) * g);
-            let mut turning = f[2];
-            for i in 0..2 {
-                turning = turning.minus_product(anchor.shift[i], f[i]);
-                turning = turning.minus_product(anchor.moment[i], p[i]);
-            }
-            *g = [f[0], f[1]];
-            *f = [p[0], p[1], turning * anchor.inverse];
+            let sign = S::constant(place.sign);
+            anchor.hold(sign, part_mut(f, 3 * place.group), part_mut(g, place.row));
         }
     }
 
     /// λ of anchors, once all others and φ are known; then p of the origin.
     #[inline(always)]
     pub(super) fn release(&self, pattern: &Pattern, x: &mut [S]) {
+        // most mechanisms have no rows but pins at their anchors, and then nothing need be known of others
+        match pattern.loads.dense.is_empty() {
+            true => self.release_from::<false>(pattern, x),
+            false => self.release_from::<true>(pattern, x),
+        }
+    }
+
+    #[inline(always)]
+    fn release_from<const DENSE: bool>(&self, pattern: &Pattern, x: &mut [S]) {
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
         let (mut units, mut dense) = (&pattern.loads.units[..], &pattern.loads.dense[..]);
         for (place, anchor) in pattern.anchors.iter().zip(&self.anchors) {
@@ -164,7 +178,10 @@ impl<S: Real> Saddle<S> {
                 let (sign, lambda) = (S::constant(unit.sign), part::<S, 2>(g, unit.row));
                 (0..2).for_each(|i| left[i] = left[i].minus_product(sign, lambda[i]));
             }
-            next(&mut dense, place.dense).iter().for_each(|load| self.subtract(load, g, &mut left));
+            if DENSE {
+                let dense = next(&mut dense, place.dense);
+                dense.iter().for_each(|load| self.subtract(load, g, &mut left));
+            }
             *part_mut(g, place.row) = left.map(|left| S::constant(place.sign) * left);
             (0..2).for_each(|i| own[i] = own[i].minus_product(anchor.shift[i], own[2]));
         }

@@ -40,6 +40,12 @@ impl<S: Real> Saddle<S> {
     pub fn weigh(&self, pattern: &Pattern, x: &mut [S]) {
         assert_eq!(x.len(), pattern.n_unknowns() + pattern.n_rows(), "one right side for each row");
         self.anchor(pattern, x);
+        self.weigh_others(pattern, x);
+    }
+
+    /// [`weigh`](Self::weigh) once all anchors [hold](super::Anchor::hold) their groups.
+    #[inline(always)]
+    pub fn weigh_others(&self, pattern: &Pattern, x: &mut [S]) {
         for &group in &pattern.coupled {
             let [x, y, angle] = part_mut(x, 3 * group);
             let Weight { shift, .. } = &self.weights[group as usize];
