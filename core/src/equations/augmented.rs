@@ -71,6 +71,16 @@ impl<S: Real> Augmented<S> {
         let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
         let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout), anchors);
         let (armed, others) = split(model, &pattern);
+        Self::on(pattern, armed, others, false)
+    }
+
+    /// On the pattern of the same model over other numbers, which is not sought again.
+    pub fn like<P>(other: &Augmented<P>) -> Self {
+        let Augmented { pattern, armed, others, anchored, .. } = other;
+        Self::on(pattern.clone(), armed.clone(), others.clone(), *anchored)
+    }
+
+    fn on(pattern: Pattern, armed: Vec<ArmedPin>, others: Vec<u32>, anchored: bool) -> Self {
         Self {
             saddle: Saddle::new(&pattern),
             pattern,
@@ -79,7 +89,7 @@ impl<S: Real> Augmented<S> {
             ridged: false,
             armed,
             others,
-            anchored: false,
+            anchored,
             whole: true,
         }
     }

@@ -31,18 +31,27 @@ pub fn residual<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, out: &mu
 
 /// Stored entries of Φ_q, in the order of the layout.
 pub fn jacobian<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, entries: &mut [S]) {
-    for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
-        if item.law.is_some() {
-            law_blocks(model, item, slots, motions, t, entries);
-            continue;
-        }
-        let ends = item.element.ends();
-        let [i, j] = ends.map(|b| &motions[b.0].pose);
-        let mut rows = [[S::zero(); 6]; MOST_EQUATIONS];
-        let rows = &mut rows[..slots.rows.len()];
-        item.element.jacobian(i, j, t, rows);
-        store(ends, rows, slots, entries);
+    (0..model.constraints.len()).for_each(|k| jacobian_of(model, k, motions, t, entries));
+}
+
+/// The same of constraint `k` alone.
+pub(super) fn jacobian_of<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &[Motion<S>],
+    t: S,
+    entries: &mut [S],
+) {
+    let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
+    if item.law.is_some() {
+        return law_blocks(model, item, slots, motions, t, entries);
     }
+    let ends = item.element.ends();
+    let [i, j] = ends.map(|b| &motions[b.0].pose);
+    let mut rows = [[S::zero(); 6]; MOST_EQUATIONS];
+    let rows = &mut rows[..slots.rows.len()];
+    item.element.jacobian(i, j, t, rows);
+    store(ends, rows, slots, entries);
 }
 
 /// Puts the rows of a constraint into its blocks.
@@ -63,7 +72,7 @@ fn store<S: Real>(ends: [BodyId; 2], rows: &[[S; 6]], slots: &Slots, entries: &m
 
 /// The same, but for the columns ±I of joints that pin, which never change: they stand there already.
 #[inline(always)]
-fn update<S: Real, const M: usize>(
+pub(super) fn update<S: Real, const M: usize>(
     ends: [BodyId; 2],
     rows: &[[S; 6]; M],
     slots: &Slots,
@@ -193,23 +202,8 @@ pub(super) fn linearize_one<S: Real>(
     [residual, rate, gamma]: [&mut [S]; 3],
     entries: &mut [S],
 ) {
-    let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
-    let out = Rows { residual, rate, gamma };
-    match &item.law {
-        Some(law) => {
-            law_velocity_terms(model, law, item.element.ends(), motions, t, out);
-            law_blocks(model, item, slots, motions, t, entries);
-        }
-        None => {
-            let ends = item.element.ends();
-            let [i, j] = ends.map(|b| &motions[b.0]);
-            item.element.velocity_terms(i, j, t, out);
-            let mut rows = [[S::zero(); 6]; MOST_EQUATIONS];
-            let rows = &mut rows[..slots.rows.len()];
-            item.element.jacobian(&i.pose, &j.pose, t, rows);
-            store(ends, rows, slots, entries);
-        }
-    }
+    velocity_terms_of(model, k, motions, t, Rows { residual, rate, gamma });
+    jacobian_of(model, k, motions, t, entries);
 }
 
 /// Blocks of a constraint with a law.
@@ -280,18 +274,30 @@ pub fn velocity_terms<S: Real>(
     rate: &mut [S],
     gamma: &mut [S],
 ) {
-    for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
+    for (k, slots) in model.layout.constraints.iter().enumerate() {
         let rows = slots.rows.clone();
         let out = Rows {
             residual: &mut residual[rows.clone()],
             rate: &mut rate[rows.clone()],
             gamma: &mut gamma[rows],
         };
-        let ends = item.element.ends();
-        match &item.law {
-            None => item.element.velocity_terms(&motions[ends[0].0], &motions[ends[1].0], t, out),
-            Some(law) => law_velocity_terms(model, law, ends, motions, t, out),
-        }
+        velocity_terms_of(model, k, motions, t, out);
+    }
+}
+
+/// The same of constraint `k` alone.
+pub(super) fn velocity_terms_of<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &[Motion<S>],
+    t: S,
+    out: Rows<'_, S>,
+) {
+    let item = &model.constraints[k];
+    let ends = item.element.ends();
+    match &item.law {
+        None => item.element.velocity_terms(&motions[ends[0].0], &motions[ends[1].0], t, out),
+        Some(law) => law_velocity_terms(model, law, ends, motions, t, out),
     }
 }
 

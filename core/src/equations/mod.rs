@@ -17,7 +17,9 @@ pub mod motion;
 mod pins;
 pub mod reactions;
 mod refine;
+mod residuals;
 pub mod tangent;
 
 pub use laws::{at, Laws};
 pub use motion::{Gains, Singular, Workspace};
+pub use residuals::Residuals;

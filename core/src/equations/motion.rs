@@ -54,13 +54,23 @@ const REDUNDANT: f64 = 1e-10;
 impl<S: Real> Workspace<S> {
     /// All memory that evaluations of this model need.
     pub fn new(model: &Model<S>) -> Self {
+        let matrix = match model.allow_redundancy {
+            true => Augmented::new(model),
+            false => Augmented::anchored(model),
+        };
+        Self::on(model, matrix)
+    }
+
+    /// The same for a model whose plan of elimination `other` has, of the same model over other numbers.
+    pub fn like<P: Real>(model: &Model<S>, other: &Workspace<P>) -> Self {
+        Self::on(model, Augmented::like(&other.matrix))
+    }
+
+    fn on(model: &Model<S>, matrix: Augmented<S>) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let mut workspace = Self {
             motions: Vec::with_capacity(model.bodies.len()),
-            matrix: match model.allow_redundancy {
-                true => Augmented::new(model),
-                false => Augmented::anchored(model),
-            },
+            matrix,
             solution: vec![S::zero(); n + m],
             powers: Powers::zero(),
             held: Vec::new(),

@@ -11,7 +11,7 @@ use wide::f64x4;
 /// `f64` would give.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
-pub struct Lanes(f64x4);
+pub struct Lanes(pub(super) f64x4);
 
 impl Lanes {
     /// Number of lanes.
@@ -87,22 +87,21 @@ impl Lanes {
     /// [`nothing`](Self::nothing) that they know of.
     #[inline(always)]
     fn transposed(rows: [Self; Self::WIDTH], nothing: Self) -> [Self; Self::WIDTH] {
-        let together = |x: Self| (x + nothing).to_array();
-        let [p, q, r, s] = rows.map(together);
+        let [p, q, r, s] = rows.map(Self::to_array);
         let halves = [
             [p[0], p[1], r[0], r[1]],
             [q[0], q[1], s[0], s[1]],
             [p[2], p[3], r[2], r[3]],
             [q[2], q[3], s[2], s[3]],
         ];
-        let [a, b, c, d] = halves.map(|half| together(Self::new(half)));
+        let [a, b, c, d] = halves.map(|half| (Self::new(half) + nothing).to_array());
         let columns = [
             [a[0], b[0], a[2], b[2]],
             [a[1], b[1], a[3], b[3]],
             [c[0], d[0], c[2], d[2]],
             [c[1], d[1], c[3], d[3]],
         ];
-        columns.map(|column| Self::new(column) + nothing)
+        columns.map(Self::new)
     }
     /// -0, which changes no number, not even -0; compilers do not see that it is.
     #[inline(always)]
@@ -113,6 +112,11 @@ impl Lanes {
     #[inline(always)]
     pub(super) fn each(self, f: impl Fn(f64) -> f64) -> Self {
         Self::new(self.to_array().map(f))
+    }
+    /// Whether no lane is beyond ±`most`, or NaN.
+    #[inline(always)]
+    pub(super) fn are_within(self, most: f64) -> bool {
+        wide::CmpLe::cmp_le(self.0.abs(), f64x4::splat(most)).all()
     }
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let (a, b) = (self.to_array(), other.to_array());
@@ -236,7 +240,10 @@ impl Real for Lanes {
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        Self(wide::CmpGt::cmp_gt(self.0, other.0).blend(self.0, other.0))
+        match cfg!(target_feature = "sse2") {
+            true => Self(self.0.fast_max(other.0)), // there NaN is not greater either
+            false => Self(wide::CmpGt::cmp_gt(self.0, other.0).blend(self.0, other.0)),
+        }
     }
     #[inline(always)]
     fn least_magnitude(self) -> f64 {

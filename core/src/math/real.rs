@@ -233,14 +233,24 @@ impl<S: Real> Largest<S> {
         self.sum += x;
     }
 
+    /// Those that another has seen.
+    #[inline(always)]
+    pub fn join(&mut self, other: Self) {
+        self.most = self.most.max(other.most);
+        self.sum += other.sum;
+    }
+
+    /// The same of c times the numbers so far, c > 0.
+    #[inline(always)]
+    pub fn scaled(self, c: S) -> Self {
+        Self { most: c * self.most, sum: c * self.sum }
+    }
+
     /// The largest magnitude so far.
     #[inline(always)]
     pub fn get(&self) -> f64 {
-        let sum = self.sum.largest_magnitude();
-        if sum.is_nan() {
-            return sum;
-        }
-        self.most.largest_magnitude()
+        // where the sum is NaN, it is taken; where it is zero, both are
+        S::select(self.sum, self.most, self.sum).largest_magnitude()
     }
 }
 

@@ -8,6 +8,7 @@
 use super::lanes::Lanes;
 use super::real::Real;
 use std::f64::consts::FRAC_2_PI;
+use wide::{f64x4, CmpGt};
 
 /// Largest angle reduced here: k has at most 17 bits, so that its products with the first two parts are exact.
 const LARGEST: f64 = 1e5;
@@ -41,14 +42,10 @@ pub(super) fn sin_cos(x: f64) -> (f64, f64) {
 /// The same, lane by lane.
 #[inline(always)]
 pub(super) fn sin_cos_of_lanes(x: Lanes) -> (Lanes, Lanes) {
-    if x.largest_magnitude() <= LARGEST {
+    if x.are_within(LARGEST) {
         let (r, shifted) = reduce(x);
         let (s, c) = kernel(r);
-        let (mut s, mut c, shifted) = (s.to_array(), c.to_array(), shifted.to_array());
-        for ((s, c), shifted) in s.iter_mut().zip(&mut c).zip(shifted) {
-            (*s, *c) = turn(*s, *c, shifted.to_bits());
-        }
-        (Lanes::new(s), Lanes::new(c))
+        turn_lanes(s.0, c.0, shifted.0)
     } else {
         (x.each(|x| sin_cos(x).0), x.each(|x| sin_cos(x).1))
     }
@@ -81,6 +78,19 @@ fn turn(s: f64, c: f64, quadrant: u64) -> (f64, f64) {
     (f64::from_bits(s.to_bits() ^ swap ^ turned), f64::from_bits(c.to_bits() ^ swap ^ leading))
 }
 
+/// The same in registers: what is `shifted` has the quadrant in its last bits.
+#[inline(always)]
+fn turn_lanes(s: f64x4, c: f64x4, shifted: f64x4) -> (Lanes, Lanes) {
+    // a bit beside those of 1 makes it more
+    let has = |bit: u64| {
+        let alone = shifted & f64x4::splat(f64::from_bits(bit));
+        (alone | f64x4::ONE).cmp_gt(f64x4::ONE)
+    };
+    let (odd, turned) = (has(1), has(2));
+    let sign = |changed: f64x4| changed & f64x4::splat(-0.0);
+    (Lanes(odd.blend(c, s) ^ sign(turned)), Lanes(odd.blend(s, c) ^ sign(odd ^ turned)))
+}
+
 /// Sine and cosine of |r| ≤ π/4.
 #[inline(always)]
 fn kernel<S: Real>(r: S) -> (S, S) {
@@ -98,7 +108,8 @@ fn kernel<S: Real>(r: S) -> (S, S) {
 
 #[cfg(test)]
 mod tests {
-    use super::{sin_cos, LARGEST};
+    use super::{sin_cos, sin_cos_of_lanes, LARGEST};
+    use crate::math::Lanes;
     use std::f64::consts::FRAC_PI_2;
 
     /// Spacing of numbers at x.
@@ -127,6 +138,25 @@ mod tests {
             let x = f64::from(k) * FRAC_PI_2;
             [x, x + ulp(x), x - ulp(x), x * (1.0 + 1e-9)].into_iter().for_each(check);
         }
+    }
+
+    #[test]
+    fn lanes_have_the_bits_of_one_angle() {
+        let same = |angles: [f64; 4]| {
+            let (s, c) = sin_cos_of_lanes(Lanes::new(angles));
+            let found = s.to_array().into_iter().zip(c.to_array());
+            for (x, (s, c)) in angles.into_iter().zip(found) {
+                let bits = |(s, c): (f64, f64)| [s.to_bits(), c.to_bits()];
+                assert!(bits((s, c)) == bits(sin_cos(x)) || x.is_nan() && s.is_nan(), "{x}");
+            }
+        };
+        for k in -20_000..20_000 {
+            let x = 0.0037 * f64::from(k);
+            same([x, x + FRAC_PI_2, x - 17.0 * FRAC_PI_2, 1000.0 * x]);
+            same([x, f64::from(k) * FRAC_PI_2, -0.0, 0.0]);
+        }
+        same([0.3, LARGEST, -2.0 * LARGEST, 1e22]);
+        same([0.3, f64::NAN, 2.0, -1e-300]);
     }
 
     #[test]

@@ -13,9 +13,9 @@
 //! motion, so its last factor serves: chord iterations, whose error falls by about the share of the
 //! mechanism's size that is corrected. It is factorised anew only where that is too slow.
 
-use crate::equations::{constraints, kinematics, Singular, Workspace};
+use crate::equations::{constraints, kinematics, Residuals, Singular, Workspace};
 use crate::math::{Largest, Motion, Real};
-use crate::model::{row_scales, size, Model};
+use crate::model::{size, Model};
 
 /// Most iterations for positions, and for velocities.
 const MOST: usize = 12;
@@ -72,11 +72,11 @@ pub struct Projector<'a, S = f64> {
     tolerance: f64,
     /// 1 / size of the mechanism.
     per_size: f64,
-    /// 1 / scale of each row.
-    per_scale: Vec<f64>,
-    /// Φ, Φ̇ and γ.
-    terms: [Vec<S>; 3],
-    /// What of the workspace's motions and of the terms is that of the state at hand.
+    /// Φ and Φ̇.
+    residuals: Residuals<S>,
+    /// The largest of each, scaled.
+    gaps: [f64; 2],
+    /// What of the workspace's motions and of the residuals is that of the state at hand.
     known: Known,
     /// By how much the last step with the factor at hand lowered the residual.
     lowering: f64,
@@ -96,11 +96,11 @@ enum Known {
     Nothing,
     /// The positions of its motions.
     Positions,
-    /// Motions and terms.
+    /// Motions and residuals.
     All,
 }
 
-/// What is to be met, by its place in the terms.
+/// What is to be met, by its place among the residuals.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Level {
     Position = 0,
@@ -115,8 +115,8 @@ impl<'a, S: Real> Projector<'a, S> {
             model,
             tolerance: options.tolerance,
             per_size: 1.0 / size(model),
-            per_scale: row_scales(model).into_iter().map(|scale| 1.0 / scale).collect(),
-            terms: std::array::from_fn(|_| vec![S::zero(); model.layout.n_rows]),
+            residuals: Residuals::new(model),
+            gaps: [f64::NAN; 2],
             known: Known::Nothing,
             lowering: 1.0,
             part: 1.0,
@@ -154,10 +154,34 @@ impl<'a, S: Real> Projector<'a, S> {
         workspace: &mut Workspace<S>,
         t: S,
         (q, v): (&mut [S], &mut [S]),
+        factored: bool,
+    ) -> Result<bool, Fault> {
+        (self.known, self.lowering) = (Known::Nothing, 1.0);
+        match self.is_good(workspace, t, (&*q, &*v)) {
+            true => Ok(false),
+            false => self.bring(workspace, t, (q, v), factored),
+        }
+    }
+
+    /// Whether the state is as it should be: most of those that are reported are.
+    #[inline(always)]
+    fn is_good(&mut self, workspace: &mut Workspace<S>, t: S, (q, v): (&[S], &[S])) -> bool {
+        self.look(workspace, t, (q, v));
+        let [position, velocity] = self.gaps;
+        position <= self.targets(Level::Position, q, v, position).0
+            && velocity <= self.targets(Level::Velocity, q, v, velocity).0
+    }
+
+    /// Projects a state that was looked at.
+    #[inline(never)]
+    fn bring(
+        &mut self,
+        workspace: &mut Workspace<S>,
+        t: S,
+        (q, v): (&mut [S], &mut [S]),
         mut factored: bool,
     ) -> Result<bool, Fault> {
         let mut changed = false;
-        (self.known, self.lowering) = (Known::Nothing, 1.0);
         for level in [Level::Position, Level::Velocity] {
             changed |= self.meet(level, workspace, t, (&mut *q, &mut *v), &mut factored)?;
         }
@@ -176,7 +200,8 @@ impl<'a, S: Real> Projector<'a, S> {
         let (mut last, mut newton) = (f64::INFINITY, false);
         let (mut target, mut rounding) = (0.0, 0.0);
         for iteration in 0..MOST {
-            let gap = self.gap(level, workspace, t, (&*q, &*v));
+            self.look(workspace, t, (&*q, &*v));
+            let gap = self.gaps[level as usize];
             if iteration == 0 {
                 (target, rounding) = self.targets(level, q, v, gap);
             }
@@ -218,7 +243,7 @@ impl<'a, S: Real> Projector<'a, S> {
     /// The row that was open most when last looked at.
     fn open(&self, level: Level) -> Fault {
         let mut worst = (0, 0.0, 0.0);
-        let rows = self.terms[level as usize].iter().zip(&self.per_scale);
+        let rows = self.residuals.rows[level as usize].iter().zip(&self.residuals.per_scale);
         for (row, (r, per_scale)) in rows.enumerate() {
             let gap = r.largest_magnitude();
             let scaled = gap * per_scale;
@@ -231,6 +256,7 @@ impl<'a, S: Real> Projector<'a, S> {
     }
 
     /// The residual to be met, and that which is accepted where rounding keeps it from being met.
+    #[inline(always)] // what is known of the level is not asked for
     fn targets(&mut self, level: Level, q: &[S], v: &[S], gap: f64) -> (f64, f64) {
         let (target, most) = match level {
             Level::Position => {
@@ -253,42 +279,31 @@ impl<'a, S: Real> Projector<'a, S> {
         (target.min(most), (ROUNDING * target).min(most))
     }
 
-    /// The largest scaled residual.
-    fn gap(
-        &mut self,
-        level: Level,
-        workspace: &mut Workspace<S>,
-        t: S,
-        (q, v): (&[S], &[S]),
-    ) -> f64 {
-        let motions = &mut workspace.motions;
-        if self.move_bodies(motions, (q, v)) {
-            let [residual, rate, gamma] = &mut self.terms;
-            constraints::velocity_terms(self.model, motions, t, residual, rate, gamma);
-            self.known = Known::All;
+    /// Brings motions, residuals and gaps to the state at hand.
+    #[inline(never)] // from several places
+    fn look(&mut self, workspace: &mut Workspace<S>, t: S, place: (&[S], &[S])) {
+        if self.known == Known::All {
+            return;
         }
-        let mut gap = Largest::new();
-        for (r, per_scale) in self.terms[level as usize].iter().zip(&self.per_scale) {
-            gap.add(*r * S::constant(*per_scale));
-        }
-        gap.get()
+        self.move_bodies(&mut workspace.motions, place);
+        self.gaps = self.residuals.look(self.model, &workspace.motions, t);
+        self.known = Known::All;
     }
 
-    /// Brings the motions to the state at hand; whether they were not there.
+    /// Brings the motions to the state at hand.
     #[inline]
-    fn move_bodies(&self, motions: &mut Vec<Motion<S>>, (q, v): (&[S], &[S])) -> bool {
+    fn move_bodies(&self, motions: &mut Vec<Motion<S>>, (q, v): (&[S], &[S])) {
         match self.known {
             Known::Nothing => kinematics::motions(q, v, motions),
             Known::Positions => kinematics::set_rates(v, motions),
-            Known::All => return false,
+            Known::All => {}
         }
-        true
     }
 
-    /// Factorises at the state that `gap` saw last.
+    /// Factorises at the state that `look` saw last.
     fn factor(&mut self, workspace: &mut Workspace<S>, t: S) -> Result<(), Fault> {
         let Workspace { motions, matrix, .. } = workspace;
-        constraints::jacobian(self.model, motions, t, matrix.jacobian_mut());
+        self.residuals.jacobian(self.model, motions, t, matrix.jacobian_mut());
         matrix.set_mass(self.model, motions);
         self.factorisations += 1;
         matrix.factor().map_err(|dependent| Fault::Singular(Singular(dependent)))
@@ -298,7 +313,7 @@ impl<'a, S: Real> Projector<'a, S> {
     fn correct(&mut self, level: Level, workspace: &Workspace<S>, x: &mut [S]) {
         let (upper, lower) = self.correction.split_at_mut(x.len());
         upper.fill(S::zero());
-        let open = &self.terms[level as usize];
+        let open = &self.residuals.rows[level as usize];
         lower.iter_mut().zip(open).for_each(|(right, r)| *right = -*r);
         workspace.matrix.solve(&mut self.correction);
         x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += *dx);
@@ -333,10 +348,12 @@ impl<'a, S: Real> Projector<'a, S> {
     }
 
     fn largest_of(&self, bodies: impl Iterator<Item = [S; 3]>) -> f64 {
-        let (mut largest, per_size) = (Largest::new(), S::constant(self.per_size));
+        let (mut lengths, mut largest) = (Largest::new(), Largest::new());
         for [x, y, angle] in bodies {
-            [x * per_size, y * per_size, angle].into_iter().for_each(|x| largest.add(x));
+            [x, y].into_iter().for_each(|x| lengths.add(x));
+            largest.add(angle);
         }
+        largest.join(lengths.scaled(S::constant(self.per_size)));
         largest.get()
     }
 }

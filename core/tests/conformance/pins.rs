@@ -2,8 +2,8 @@
 
 use crate::mechanisms::{model, Random, FOUR_BAR};
 use kempe::equations::augmented::Augmented;
-use kempe::equations::{constraints, dense, kinematics, Gains, Workspace};
-use kempe::model::Model;
+use kempe::equations::{constraints, dense, kinematics, Gains, Residuals, Workspace};
+use kempe::model::{row_scales, Model};
 
 /// Pins among frames on and off the mass centre, on ground from both sides, beside a slide, and a driven body.
 const MIXED: &str = r#"
@@ -114,6 +114,32 @@ fn entries_are_restored() {
         workspace.matrix.restore_jacobian();
         let mut entries = vec![0.0; model.layout.n_entries];
         constraints::jacobian(&model, &workspace.motions, 0.0, &mut entries);
+        close(workspace.matrix.jacobian(), &entries, "Φ_q");
+    }
+}
+
+/// What projection looks at, in one pass, is what constraints say one by one; so are its entries, after an evaluation.
+#[test]
+fn residuals_are_those_of_the_constraints() {
+    for model in mechanisms() {
+        let (n, m) = (model.layout.n_q, model.layout.n_rows);
+        let mut numbers = Random::new(15);
+        let (q, v) = (numbers.many(n), numbers.many(n));
+        let mut workspace = Workspace::new(&model);
+        workspace.accelerate(&model, 0.2, &q, &v, Gains::default()).expect("a regular state");
+        let motions = &workspace.motions;
+        let mut residuals = Residuals::new(&model);
+        let gaps = residuals.look(&model, motions, 0.2);
+        let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+        constraints::velocity_terms(&model, motions, 0.2, &mut phi, &mut rate, &mut gamma);
+        for ((rows, expected), gap) in residuals.rows.iter().zip([&phi, &rate]).zip(gaps) {
+            close(rows, expected, "Φ or Φ̇");
+            let scaled = expected.iter().zip(row_scales(&model)).map(|(x, scale)| x.abs() / scale);
+            close(&[gap], &[scaled.fold(0.0, f64::max)], "the largest");
+        }
+        let mut entries = vec![0.0; model.layout.n_entries];
+        constraints::jacobian(&model, motions, 0.2, &mut entries);
+        residuals.jacobian(&model, motions, 0.2, workspace.matrix.jacobian_mut());
         close(workspace.matrix.jacobian(), &entries, "Φ_q");
     }
 }

@@ -24,9 +24,10 @@ pub(super) struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    pub fn new(model: &'a Model<Lanes>, options: &Options) -> Self {
+    /// With the workspace of the equations of motion of this run for its plan of elimination.
+    pub fn new(model: &'a Model<Lanes>, options: &Options, one: &Workspace) -> Self {
         let (n, len) = (model.layout.n_q, 2 * model.layout.n_q + WORKS);
-        let mut workspace = Workspace::new(model);
+        let mut workspace = Workspace::like(model, one);
         workspace.refuse_singular();
         Self {
             solver: Solver::new(model, options, workspace),

@@ -136,7 +136,7 @@ impl<'a> Recorder<'a> {
             coefficients: Vec::new(),
             // a copy of the plan of elimination is had in a tenth of the time of a plan
             one: Solver::new(model, options, system.workspace.clone()),
-            many: wide.map(|wide| Batch::new(wide, options)),
+            many: wide.map(|wide| Batch::new(wide, options, &system.workspace)),
             halt: None,
         }
     }
