@@ -41,6 +41,10 @@ const MOST_ROOM: usize = 1 << 20;
 /// Reported states in a step, for room: what takes shorter steps grows.
 const IN_A_STEP: usize = 4;
 
+/// Steps without a reported state after which the joints are looked at. What opens them does so over many steps, and
+/// each look costs as much as a third of an evaluation.
+const UNSEEN: usize = 4;
+
 /// How many states a grid asks for; none if the steps are to be reported.
 fn asked(output: Output, span: f64) -> usize {
     match output {
@@ -99,6 +103,8 @@ pub(super) struct Recorder<'a> {
     /// 1 forward, -1 backward.
     direction: f64,
     next: usize,
+    /// Steps since the last look for joints apart.
+    unseen: usize,
     /// The last time that was asked for.
     latest: f64,
     y: Vec<f64>,
@@ -129,6 +135,7 @@ impl<'a> Recorder<'a> {
             t_end: options.t_end,
             direction: (options.t_end - t0).signum(),
             next: 1,
+            unseen: 0,
             latest: t0,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
             trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
@@ -239,11 +246,13 @@ impl<'a> Recorder<'a> {
         flow
     }
 
-    /// Looks for joints apart at the end of a step without reported states.
+    /// Looks for joints apart at the end of a step, if it is the last of [`UNSEEN`] without reported states.
     fn look_apart(&mut self, h: f64, step: &Step<'_>) -> Flow {
-        if self.due(h, step.t).is_some() {
+        self.unseen = if self.due(h, step.t).is_some() { 0 } else { self.unseen + 1 };
+        if self.unseen < UNSEEN {
             return Flow::Continue;
         }
+        self.unseen = 0;
         match self.one.apart(step.t, step.y) {
             Some(apart) => self.stop(step.t, Halt::Apart(apart)),
             None => Flow::Continue,
