@@ -59,28 +59,17 @@ pub(super) fn chord(from: &[Block], to: &[Block], h: f64, out: &mut [Block]) {
     }
 }
 
-/// out += Σₛ aₛ kₛ, one pass over the components.
+/// out += Σₛ aₛ kₛ, one pass over the components; in each lane with weights of its own.
 #[inline(always)]
-pub(super) fn accumulate<const S: usize>(a: [f64; S], k: [&[f64]; S], out: &mut [f64]) {
+pub(super) fn accumulate<R: Real, const S: usize>(a: [R; S], k: [&[f64]; S], out: &mut [R]) {
     let n = out.len();
     let k = k.map(|k| &k[..n]); // equal lengths: no bounds checks below
-    let mut blocks = out.chunks_exact_mut(Lanes::WIDTH);
-    let mut first = 0;
-    for out in &mut blocks {
-        let at = |x: &[f64]| Lanes::new(*x.first_chunk().expect("a block"));
-        let mut sum = Lanes::constant(a[0]) * at(&k[0][first..]);
+    for i in 0..n {
+        let mut sum = a[0] * R::constant(k[0][i]);
         for s in 1..S {
-            sum += Lanes::constant(a[s]) * at(&k[s][first..]);
+            sum += a[s] * R::constant(k[s][i]);
         }
-        out.copy_from_slice(&(at(out) + sum).to_array());
-        first += Lanes::WIDTH;
-    }
-    for (i, out) in (first..).zip(blocks.into_remainder()) {
-        let mut sum = a[0] * k[0][i];
-        for s in 1..S {
-            sum += a[s] * k[s][i];
-        }
-        *out += sum;
+        out[i] += sum;
     }
 }
 
