@@ -10,6 +10,7 @@ use super::failure::Cause;
 use super::rate::{all_finite, Trouble};
 use super::stages::{chord, row, row_mut};
 use crate::math::Lanes;
+use std::mem::swap;
 
 /// Whether the system changed the state; inside, why a shorter step is to be tried.
 type Settled<E> = Result<Result<bool, Cause<E>>, Cause<E>>;
@@ -69,8 +70,10 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         if let Some(birkhoff) = birkhoff {
             birkhoff.remember(ends);
         }
-        std::mem::swap(y, y_new);
-        k.copy_within(last * *width..(last + 1) * *width, 0);
+        swap(y, y_new);
+        // block by block: what a copy of all loads at once waits for blocks that were stored just now
+        let (begin, others) = k.split_at_mut(*width);
+        begin.iter_mut().zip(row_mut(others, *width, last - 1)).for_each(|(a, b)| swap(a, b));
         self.t = t_new;
         self.steps += 1;
         Ok(flow)

@@ -49,7 +49,7 @@ impl Work {
             y_new: room(1, n),
             trial: room(1, n),
             remaining: Vec::new(),
-            tolerances: Tolerances::new(options.rtol, options.atol, n, controlled),
+            tolerances: Tolerances::new(options.rtol, options.atol, controlled),
             birkhoff: second_order.then(|| Birkhoff::new(n, positions)),
         }
     }

@@ -7,16 +7,16 @@ use crate::math::{Lanes, Real};
 /// Tolerances of every component.
 pub(super) struct Tolerances {
     rtol: f64,
-    /// Infinite where no error counts, and behind the last component.
+    /// Of the components that count; infinite behind the last.
     atol: Vec<Block>,
     /// How many components count.
     pub controlled: usize,
 }
 
 impl Tolerances {
-    /// For `n` components, of which the first `controlled` count.
-    pub fn new(rtol: f64, atol: &Atol, n: usize, controlled: usize) -> Self {
-        let mut blocks = room(1, n);
+    /// For components of which the first `controlled` count.
+    pub fn new(rtol: f64, atol: &Atol, controlled: usize) -> Self {
+        let mut blocks = room(1, controlled);
         let numbers = blocks.as_flattened_mut();
         numbers.fill(f64::INFINITY);
         let counting = numbers.iter_mut().take(controlled);

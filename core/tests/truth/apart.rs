@@ -42,11 +42,15 @@ fn failed(options: &Options) -> (Failure, f64) {
 fn gains_too_small_for_the_tolerance() {
     let loose = tolerances(15.0, 1e-3, 1e-6);
     let (failure, at) = failed(&with(loose.clone(), 0.01, 0.01));
-    let t = &failure.run.trajectory.t;
+    let (t, steps) = (&failure.run.trajectory.t, failure.run.statistics.steps);
     assert!(t.len() > 10 && t[t.len() - 1] < at && at < 15.0, "{at}");
-    let (failure, at) = failed(&every(0.01, with(loose, 0.01, 0.01)));
+    let (failure, within) = failed(&every(0.01, with(loose.clone(), 0.01, 0.01)));
     let last = *failure.run.trajectory.t.last().expect("states before");
-    assert!(last < at && at - last < 0.2, "{last} {at}");
+    assert!(last < within && within - last < 0.2, "{last} {within}");
+    // with hardly a report, within the next four steps
+    let (rarely, later) = failed(&every(14.0, with(loose, 0.01, 0.01)));
+    let more = rarely.run.statistics.steps - steps;
+    assert!(later >= at && more < 4, "{at} {later}: {more} steps");
 }
 
 /// β h = 5 is beyond the stability of RK4: seen at the end of a step, long before the first report.

@@ -41,6 +41,21 @@ const MOST_ROOM: usize = 1 << 20;
 /// Reported states in a step, for room: what takes shorter steps grows.
 const IN_A_STEP: usize = 4;
 
+/// Steps without a reported state after which joints are looked at, where errors choose the steps: what opens joints
+/// then takes many steps, and each look two fifths of the instructions of an evaluation.
+const UNSEEN: usize = 4;
+
+/// The same for a scheme: a constant step beyond its stability opens joints within a few.
+fn unseen(scheme: &Scheme) -> usize {
+    let step = match scheme {
+        Scheme::Rk4(_) => return 1,
+        Scheme::Rk45(method) => method.step,
+        Scheme::Dop853(method) => method.step,
+        _ => None,
+    };
+    step.map_or(UNSEEN, |_| 1)
+}
+
 /// How many states a grid asks for; none if the steps are to be reported.
 fn asked(output: Output, span: f64) -> usize {
     match output {
@@ -99,6 +114,10 @@ pub(super) struct Recorder<'a> {
     /// 1 forward, -1 backward.
     direction: f64,
     next: usize,
+    /// The next time of the grid, beyond t_end once it has been reached.
+    upcoming: f64,
+    /// Steps since the last look for joints apart, and after how many there is one.
+    unseen: [usize; 2],
     /// The last time that was asked for.
     latest: f64,
     y: Vec<f64>,
@@ -123,12 +142,14 @@ impl<'a> Recorder<'a> {
         t0: f64,
     ) -> Self {
         let model = system.model;
-        Self {
+        let mut recorder = Self {
             output: options.output,
             t0,
             t_end: options.t_end,
             direction: (options.t_end - t0).signum(),
-            next: 1,
+            next: 0,
+            upcoming: t0,
+            unseen: [0, unseen(&options.scheme)],
             latest: t0,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
             trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
@@ -138,7 +159,9 @@ impl<'a> Recorder<'a> {
             one: Solver::new(model, options, system.workspace.clone()),
             many: wide.map(|wide| Batch::new(wide, options, &system.workspace)),
             halt: None,
-        }
+        };
+        recorder.go_on();
+        recorder
     }
 
     /// Factorisations, those of lanes one by one.
@@ -225,11 +248,13 @@ impl<'a> Recorder<'a> {
                 return self.stop(step.t, Halt::NotFinite);
             }
         }
-        let Output::Every(h) = self.output else { return self.report(step.t, step.y) };
-        let mut flow = self.look_apart(h, step);
-        while let (Flow::Continue, Some(t)) = (flow, self.due(h, step.t)) {
+        if self.output == Output::Steps {
+            return self.report(step.t, step.y);
+        }
+        let mut flow = self.look_apart(step);
+        while let (Flow::Continue, Some(t)) = (flow, self.due(step.t)) {
             self.latest = t;
-            self.next += 1;
+            self.go_on();
             flow = self.report_between(step, t);
             flow = if flow == Flow::Continue { watch(t) } else { flow };
         }
@@ -239,11 +264,15 @@ impl<'a> Recorder<'a> {
         flow
     }
 
-    /// Looks for joints apart at the end of a step without reported states.
-    fn look_apart(&mut self, h: f64, step: &Step<'_>) -> Flow {
-        if self.due(h, step.t).is_some() {
+    /// Looks for joints apart at the end of a step, where it is the last of so many without reported states.
+    fn look_apart(&mut self, step: &Step<'_>) -> Flow {
+        let due = self.due(step.t).is_some();
+        let [since, most] = &mut self.unseen;
+        *since = if due { 0 } else { *since + 1 };
+        if *since < *most {
             return Flow::Continue;
         }
+        *since = 0;
         match self.one.apart(step.t, step.y) {
             Some(apart) => self.stop(step.t, Halt::Apart(apart)),
             None => Flow::Continue,
@@ -253,24 +282,27 @@ impl<'a> Recorder<'a> {
     /// Whether a step that ends at `t` is needed between its ends.
     pub fn looks_inside(&self, t: f64) -> bool {
         match self.output {
-            Output::Every(h) => self.dense.is_some() || self.due(h, t).is_some(),
+            Output::Every(_) => self.dense.is_some() || self.due(t).is_some(),
             Output::Steps => self.dense.is_some(),
         }
     }
 
-    /// The next time of the grid if it has been reached: t₀ + k h by multiplication, without drift.
-    fn due(&self, h: f64, reached: f64) -> Option<f64> {
-        let direction = self.direction;
-        let mut t = self.t0 + direction * self.next as f64 * h;
+    /// The next time of the grid if it has been reached.
+    fn due(&self, reached: f64) -> Option<f64> {
+        let past = |a: f64, b: f64| self.direction * (a - b) > 0.0;
+        let t = self.upcoming;
+        (!past(t, reached) && !past(t, self.t_end)).then_some(t)
+    }
+
+    /// From one time of the grid to the next: t₀ + k h by multiplication, without drift.
+    fn go_on(&mut self) {
+        let Output::Every(h) = self.output else { return };
+        self.next += 1;
+        self.upcoming = self.t0 + self.direction * self.next as f64 * h;
         // a grid point that misses t_end by rounding only is t_end
-        if (t - self.t_end).abs() <= 1e-9 * h {
-            t = self.t_end;
+        if (self.upcoming - self.t_end).abs() <= 1e-9 * h {
+            self.upcoming = self.t_end;
         }
-        let past = |a: f64, b: f64| direction * (a - b) > 0.0;
-        if past(t, reached) || past(t, self.t_end) {
-            return None;
-        }
-        Some(t)
     }
 }
 

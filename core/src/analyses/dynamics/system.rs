@@ -6,6 +6,7 @@ use crate::analyses::mobility;
 use crate::equations::augmented::Dependent;
 use crate::equations::{kinematics, Gains, Singular, Workspace};
 use crate::integrate::{all_finite, FirstOrder};
+use crate::math::{Lanes, Real};
 use crate::model::Model;
 use crate::stabilize::{Fault, Held, Projector};
 
@@ -28,6 +29,47 @@ pub(super) fn parts<S>(y: &mut [S], n_q: usize) -> (&mut [S], &mut [S], &mut [S]
     let (q, rest) = y.split_at_mut(n_q);
     let (v, works) = rest.split_at_mut(n_q);
     (q, v, works)
+}
+
+/// dy = (v, a, powers), stored in the blocks that the next stage loads: of what was stored in parts just now no
+/// vector can be loaded soon.
+#[inline(always)]
+fn join(v: &[f64], mut a: &[f64], powers: [f64; WORKS], dy: &mut [f64]) {
+    // -0 changes no number, and 1 no index; compilers that knew them would load vectors of a, which was stored in
+    // parts just now, and store blocks in parts
+    let (nothing, one) = std::hint::black_box((-0.0, 1));
+    let whole = |four| (Lanes::new(four) + Lanes::constant(nothing)).to_array();
+    let mut blocks = dy.chunks_exact_mut(Lanes::WIDTH);
+    let mut of_v = v.chunks_exact(Lanes::WIDTH);
+    for (v, block) in (&mut of_v).zip(&mut blocks) {
+        block.copy_from_slice(v);
+    }
+    // where v ends a begins
+    let border = a.first_chunk::<3>().and_then(|a| match *of_v.remainder() {
+        [x] => Some([x, a[0], a[one], a[2 * one]]),
+        [x, y] => Some([x, y, a[0], a[one]]),
+        [x, y, z] => Some([x, y, z, a[0]]),
+        _ => None,
+    });
+    if let Some(border) = border {
+        if let Some(block) = blocks.next() {
+            block.copy_from_slice(&whole(border));
+        }
+        a = &a[Lanes::WIDTH - of_v.remainder().len()..];
+    }
+    let mut of_a = a.chunks_exact(Lanes::WIDTH);
+    for (a, block) in (&mut of_a).zip(&mut blocks) {
+        block.copy_from_slice(&whole([a[0], a[one], a[2 * one], a[3 * one]]));
+    }
+    let [dissipated, drivers, applied] = powers;
+    match (of_a.remainder(), blocks.next()) {
+        // n is a multiple of 3, so that of 2 n numbers none or two are left
+        (a @ [_, _], Some(block)) => {
+            block.copy_from_slice(&whole([a[0], a[one], dissipated, drivers]));
+            blocks.into_remainder().copy_from_slice(&[applied]);
+        }
+        _ => blocks.into_remainder().copy_from_slice(&powers),
+    }
 }
 
 impl<'a> Equations<'a> {
@@ -125,11 +167,9 @@ impl FirstOrder for Equations<'_> {
             dy.fill(f64::NAN); // a shorter step may avoid it
             return Ok(());
         }
-        let (dq, dv, works) = parts(dy, n);
-        dq.copy_from_slice(v);
-        dv.copy_from_slice(self.workspace.a());
         let powers = self.workspace.powers(self.model, v);
-        works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
+        let works = [powers.dissipated, powers.drivers, powers.applied];
+        join(v, self.workspace.a(), works, dy);
         Ok(())
     }
 
