@@ -179,7 +179,8 @@ mod tests {
         // nor where what was tried before was of another obstacle
         clearance.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
         assert!(!clearance.at_best(9.0, 1e-10));
-        (clearance.begin(), clearance.begin());
+        clearance.begin();
+        clearance.begin();
         clearance.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
         assert!(!clearance.at_best(9.0, 1e-10));
     }
