@@ -59,15 +59,15 @@ pub(super) fn chord(from: &[Block], to: &[Block], h: f64, out: &mut [Block]) {
     }
 }
 
-/// out += Σₛ aₛ kₛ, one pass over the components; in each lane with weights of its own.
+/// out += Σₛ aₛ kₛ, one pass over the components.
 #[inline(always)]
-pub(super) fn accumulate<R: Real, const S: usize>(a: [R; S], k: [&[f64]; S], out: &mut [R]) {
+pub(super) fn accumulate<const S: usize>(a: [f64; S], k: [&[f64]; S], out: &mut [f64]) {
     let n = out.len();
     let k = k.map(|k| &k[..n]); // equal lengths: no bounds checks below
     for i in 0..n {
-        let mut sum = a[0] * R::constant(k[0][i]);
+        let mut sum = a[0] * k[0][i];
         for s in 1..S {
-            sum += a[s] * R::constant(k[s][i]);
+            sum += a[s] * k[s][i];
         }
         out[i] += sum;
     }
