@@ -98,12 +98,6 @@ class Run:
     """(n_t, n_q)."""
     v: _F
     """(n_t, n_q)."""
-    a: _F
-    """(n_t, n_q)."""
-    lam: _F
-    """(n_t, n_rows)."""
-    energy: _F
-    """(n_t, 5), J: kinetic, potential, dissipated, work of drivers, work of applied forces."""
     dense_t: _F | None
     """(k + 1,), s: the boundaries of the steps."""
     dense_y: _F | None
@@ -116,6 +110,12 @@ class Run:
     statistics: str
     """JSON: ``{"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations",
     "seconds"}``, with ``"method"`` and ``"why"`` where the method was chosen."""
+
+    def responses(self) -> tuple[_F, _F]:
+        """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at the reported states."""
+
+    def energies(self) -> _F:
+        """(n_t, 5), J: kinetic, potential, dissipated, work of drivers, work of applied forces."""
 
 def assemble(
     model: Model,

@@ -51,6 +51,12 @@ class _Stored:
     message: str
     statistics: str
 
+    def responses(self) -> tuple[Floats, Floats]:
+        return self.a, self.lam
+
+    def energies(self) -> Floats:
+        return self.energy
+
 
 def save(solution: Solution, path: Path | str) -> None:
     """Write a solution, whole or not at all; see ``Solution.save``."""

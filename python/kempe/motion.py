@@ -35,12 +35,22 @@ class Motion:
 
     @property
     def a(self) -> Floats:
-        """Accelerations, shaped as ``q``, m/s² and rad/s²."""
+        """Accelerations, shaped as ``q``, m/s² and rad/s²: with γ, free of stabilization.
+
+        Raises:
+            SingularityError: they are not unique at one of the instants.
+            IntegrationError: one of them is not finite.
+        """
         return self._dynamics[0]
 
     @property
     def lam(self) -> Floats:
-        """Multipliers λ, (n_t, n_rows) or (n_rows,): M a + Φ_qᵀ λ = Q (Haug 6.3.18)."""
+        """Multipliers λ, (n_t, n_rows) or (n_rows,): M a + Φ_qᵀ λ = Q (Haug 6.3.18).
+
+        Raises:
+            SingularityError: they are not unique at one of the instants.
+            IntegrationError: one of them is not finite.
+        """
         return self._dynamics[1]
 
     @cached_property

@@ -65,8 +65,12 @@ class Solution(Motion):
 
     @cached_property
     def energy(self) -> Energy:
-        """Where the energy went."""
-        return Energy(self._run.energy)
+        """Where the energy went.
+
+        Raises:
+            IntegrationError: an energy is not finite.
+        """
+        return Energy(self._run.energies())
 
     @cached_property
     def statistics(self) -> Mapping[str, Any]:
@@ -90,14 +94,9 @@ class Solution(Motion):
         return DenseOutput(fixed(run.dense_t), fixed(run.dense_y), fixed(run.dense_c))
 
     @cached_property
-    def a(self) -> Floats:
-        """Accelerations, (n_t, n_q), m/s² and rad/s²: with γ, free of stabilization."""
-        return fixed(self._run.a)
-
-    @cached_property
-    def lam(self) -> Floats:
-        """Multipliers λ, (n_t, n_rows): M a + Φ_qᵀ λ = Q (Haug 6.3.18)."""
-        return fixed(self._run.lam)
+    def _dynamics(self) -> tuple[Floats, Floats]:
+        a, lam = self._run.responses()
+        return fixed(a), fixed(lam)
 
     @property
     def success(self) -> bool:

@@ -28,6 +28,7 @@ MODEL = CASE.model("{}")
 T, Q, V, _ = _core.assemble(MODEL, '{"crank.angle": "70*deg"}', "{}", 0.0, None, None)
 TIMES, ROW, LAM = np.array([T]), Q[None, :], np.zeros((1, 8))
 OPTIONS = '{"type": "dynamics", "t_end": 0.01}'
+RUN = _core.dynamics(MODEL, T, Q, V, OPTIONS, None)
 
 CALLS: dict[str, Callable[[], object]] = {
     "version": _core.version,
@@ -44,6 +45,8 @@ CALLS: dict[str, Callable[[], object]] = {
     "Model.allowing_redundancy": MODEL.allowing_redundancy,
     "assemble": lambda: _core.assemble(MODEL, "{}", "{}", 0.0, Q, V),
     "dynamics": lambda: _core.dynamics(MODEL, T, Q, V, OPTIONS, None),
+    "Run.responses": RUN.responses,
+    "Run.energies": RUN.energies,
     "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW),
     "residual": lambda: _core.residual(MODEL, TIMES, ROW, ROW),
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),

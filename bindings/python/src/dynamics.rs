@@ -5,20 +5,16 @@ use crate::convert::{frozen, state, table, Row};
 use crate::errors::{Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
+use crate::respond::{because, energies, responses, Table};
+use crate::watch::Watch;
 use kempe::analyses::dynamics as core;
 use kempe::case::{self, Format};
-use kempe::integrate::Flow;
-use numpy::ndarray::Array3;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
+use kempe::model::Model;
+use numpy::ndarray::{Array3, Dimension};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray};
 use pyo3::prelude::*;
 use serde_json::json;
-use std::time::{Duration, Instant};
-
-/// Time between looks at signals and calls of `progress`.
-const GLANCE: Duration = Duration::from_millis(40);
-/// Time between looks at the clock: so short that a step which takes hundreds of times as long as the states
-/// reported before it is not late.
-const PACE: Duration = Duration::from_micros(250);
+use std::sync::Arc;
 
 /// What an integration gave.
 #[pyclass(name = "Run", module = "kempe._core", frozen)]
@@ -29,12 +25,10 @@ pub struct PyRun {
     q: Py<PyArray2<f64>>,
     #[pyo3(get)]
     v: Py<PyArray2<f64>>,
-    #[pyo3(get)]
-    a: Py<PyArray2<f64>>,
-    #[pyo3(get)]
-    lam: Py<PyArray2<f64>>,
-    #[pyo3(get)]
-    energy: Py<PyArray2<f64>>,
+    /// Dissipated energy and works, rows of three.
+    works: Vec<f64>,
+    model: Arc<Model>,
+    passing: bool,
     #[pyo3(get)]
     dense_t: Option<Py<PyArray1<f64>>>,
     #[pyo3(get)]
@@ -51,6 +45,20 @@ pub struct PyRun {
 
 #[pymethods]
 impl PyRun {
+    /// Accelerations and multipliers at the reported states.
+    fn responses<'py>(&self, py: Python<'py>) -> PyResult<(Table<'py>, Table<'py>)> {
+        guard("Run.responses", || {
+            self.with_states(py, |states| responses(py, &self.model, states, self.passing))
+        })
+    }
+
+    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces.
+    fn energies<'py>(&self, py: Python<'py>) -> PyResult<Table<'py>> {
+        guard("Run.energies", || {
+            self.with_states(py, |states| energies(py, &self.model, states, &self.works))
+        })
+    }
+
     /// What it took, as JSON.
     #[getter]
     fn statistics(&self) -> String {
@@ -73,9 +81,23 @@ impl PyRun {
 }
 
 impl PyRun {
+    /// What the reported states give.
+    fn with_states<T>(
+        &self,
+        py: Python<'_>,
+        give: impl FnOnce(core::States<'_>) -> PyResult<T>,
+    ) -> PyResult<T> {
+        fn numbers<'a, D: Dimension>(rows: &'a PyReadonlyArray<'_, f64, D>) -> PyResult<&'a [f64]> {
+            Ok(rows.as_slice()?)
+        }
+        let (t, q, v) = (self.t.bind(py), self.q.bind(py), self.v.bind(py));
+        let (t, q, v) = (t.try_readonly()?, q.try_readonly()?, v.try_readonly()?);
+        give(core::States { t: numbers(&t)?, q: numbers(&q)?, v: numbers(&v)? })
+    }
+
     fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {
-        let (n, m) = (model.model.layout.n_q, model.model.layout.n_rows);
-        let core::Trajectory { t, q, v, a, lam, energy } = run.trajectory;
+        let n = model.model.layout.n_q;
+        let core::Trajectory { t, q, v, works } = run.trajectory;
         let count = t.len();
         let rows = |values, width| table(py, values, (count, width)).map(|t| frozen(t).unbind());
         let (dense_t, dense_y, dense_c) = match run.dense {
@@ -86,9 +108,9 @@ impl PyRun {
             t: frozen(t.into_pyarray(py)).unbind(),
             q: rows(q, n)?,
             v: rows(v, n)?,
-            a: rows(a, n)?,
-            lam: rows(lam, m)?,
-            energy: rows(energy, core::ENERGIES)?,
+            works,
+            model: Arc::clone(&model.model),
+            passing: run.passing,
             dense_t,
             dense_y,
             dense_c,
@@ -114,59 +136,6 @@ fn dense_arrays(py: Python<'_>, dense: core::Dense, n_y: usize) -> PyResult<Dens
         Some(frozen(table(py, dense.y, (steps, n_y))?).unbind()),
         Some(frozen(c.into_pyarray(py)).unbind()),
     ))
-}
-
-/// Looks at signals and reports progress, rarely enough to cost nothing.
-struct Watch<'a> {
-    progress: Option<&'a Py<PyAny>>,
-    /// The last look at signals.
-    told: Instant,
-    /// The last look at the clock.
-    looked: Instant,
-    /// Steps and reported states from one look at the clock to the next.
-    every: u32,
-    /// And still to come.
-    left: u32,
-    raised: Option<PyErr>,
-}
-
-impl<'a> Watch<'a> {
-    fn new(progress: Option<&'a Py<PyAny>>) -> Self {
-        let now = Instant::now();
-        Self { progress, told: now, looked: now, every: 1, left: 1, raised: None }
-    }
-
-    fn look(&mut self, t: f64) -> Flow {
-        self.left -= 1;
-        if self.left > 0 {
-            return Flow::Continue;
-        }
-        self.look_at_clock(t)
-    }
-
-    #[cold]
-    fn look_at_clock(&mut self, t: f64) -> Flow {
-        let now = Instant::now();
-        // too early: twice as many until the next; too late: so many fewer
-        let late = (now - self.looked).as_secs_f64() / PACE.as_secs_f64();
-        self.every = (f64::from(self.every) / late.max(0.5)).max(1.0) as u32;
-        (self.left, self.looked) = (self.every, now);
-        if now - self.told < GLANCE {
-            return Flow::Continue;
-        }
-        self.told = now;
-        let outcome = Python::attach(|py| {
-            py.check_signals()?;
-            self.progress.map_or(Ok(()), |call| call.call1(py, (t,)).map(|_| ()))
-        });
-        match outcome {
-            Ok(()) => Flow::Continue,
-            Err(error) => {
-                self.raised = Some(error);
-                Flow::Stop
-            }
-        }
-    }
 }
 
 /// Simulates the motion from a state.
@@ -214,18 +183,7 @@ fn read_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<core::O
 fn raise(py: Python<'_>, model: &PyModel, failure: core::Failure) -> PyResult<PyErr> {
     let message = failure.reason.to_string();
     let run = Py::new(py, PyRun::new(py, model, failure.run, &message)?)?;
-    let error = match failure.reason {
-        core::Reason::Option { .. } => Failure::new(Kind::Model, message),
-        core::Reason::Singular { t, name, .. } => {
-            Failure::new(Kind::Singularity, message).name(name).at(t).hint(
-                "look at the solution so far; change the start, or add what decides the motion here",
-            )
-        }
-        core::Reason::Integration { t, hint, .. } => {
-            Failure::new(Kind::Integration, message).at(t).hint(hint)
-        }
-    };
-    let error = error.raise(py);
+    let error = because(py, failure.reason);
     error.value(py).setattr("run", run)?;
     Ok(error)
 }

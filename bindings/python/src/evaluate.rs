@@ -2,20 +2,19 @@
 
 use crate::assemble::wishes;
 use crate::convert::{refuse, rows, state, table, Row, Rows};
-use crate::errors::{Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
+use crate::respond::{responses, Table};
 use kempe::analyses::assemble::{holding, Request};
+use kempe::analyses::dynamics as core;
 use kempe::elements::{BodyId, Side};
 use kempe::equations::reactions::{self, Frame};
-use kempe::equations::{constraints, forces, kinematics, Gains, Workspace};
+use kempe::equations::{constraints, forces, kinematics};
 use kempe::math::{Motion, Wrench};
 use kempe::model::Model;
-use numpy::{PyArray2, PyArrayMethods};
+use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-
-type Table<'py> = Bound<'py, PyArray2<f64>>;
 
 /// States as rows.
 struct States {
@@ -62,20 +61,8 @@ pub fn evaluate<'py>(
     guard("evaluate", || {
         let model = &*model.model;
         let states = States::read(py, model, &t, &q, &v)?;
-        let (n, m, count) = (model.layout.n_q, model.layout.n_rows, states.t.len());
-        let (mut a, mut lam) = (Vec::new(), Vec::new());
-        let mut workspace = Workspace::new(model);
-        for (k, &t) in states.t.iter().enumerate() {
-            let row = k * n..(k + 1) * n;
-            let (q, v) = (&states.q[row.clone()], &states.v[row]);
-            workspace.accelerate(model, t, q, v, Gains::default()).map_err(|_| {
-                let message = format!("singular position at t = {t:.6} s");
-                Failure::new(Kind::Singularity, message).at(t).raise(py)
-            })?;
-            a.extend_from_slice(workspace.a());
-            lam.extend_from_slice(workspace.lam());
-        }
-        Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?))
+        let States { t, q, v } = &states;
+        responses(py, model, core::States { t, q, v }, false)
     })
 }
 

@@ -37,6 +37,8 @@ pub const ENTRIES: &[&str] = &[
     "Model.allowing_redundancy",
     "assemble",
     "dynamics",
+    "Run.responses",
+    "Run.energies",
     "evaluate",
     "residual",
     "reaction",

@@ -13,7 +13,9 @@ mod errors;
 mod evaluate;
 mod guard;
 mod model;
+mod respond;
 mod tables;
+mod watch;
 
 use guard::guard;
 use mimalloc::MiMalloc;

@@ -63,9 +63,10 @@ stiffness = 8
     );
     let (state, _) = start(&m, &[("mass.x", "0.5"), ("mass.y", "0")], &[("mass.vx", "0")]);
     let run = run(&m, &state, &every(0.1, tolerances(3.0, 1e-11, 1e-13)));
+    let energies = run.energies(&m).unwrap();
     for (k, t) in run.trajectory.t.iter().enumerate() {
         close("x", run.trajectory.q[3 * k], 0.5 * (2.0 * t).cos(), 1e-9);
-        let energy = &run.trajectory.energy[5 * k..][..2];
+        let energy = &energies[5 * k..][..2];
         close("T + V", energy[0] + energy[1], 1.0, 1e-9);
     }
 }

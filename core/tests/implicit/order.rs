@@ -21,8 +21,9 @@ fn found(m: &Model, state: &State, t_end: f64, grid: f64, scheme: Scheme) -> Fou
         dense_output: false,
         ..Options::classical(t_end)
     };
-    let trajectory = run(m, state, &every(grid, options)).trajectory;
-    Found { q: trajectory.q, v: trajectory.v, lam: trajectory.lam }
+    let run = run(m, state, &every(grid, options));
+    let lam = run.responses(m).unwrap().lam;
+    Found { q: run.trajectory.q, v: run.trajectory.v, lam }
 }
 
 /// Slopes of log error of q, v and λ between halvings of the step.

@@ -47,7 +47,7 @@ fn no_time_at_all_reports_the_start() {
         assert!(run.reached && run.statistics.steps == 0);
         assert_eq!(run.trajectory.t, [0.0]);
         assert_eq!(run.trajectory.q, state.q);
-        assert_eq!(run.trajectory.a.len(), 3);
+        assert_eq!(run.responses(&m).unwrap().a.len(), 3);
     }
 }
 
@@ -110,7 +110,7 @@ fn a_force_that_ceases_to_exist_names_the_time() {
     assert!(message.contains("infinite or undefined at t = 0.5"), "{message}");
     assert!(failure.run.trajectory.t.len() > 3, "what came before is kept");
     let last = *failure.run.trajectory.t.last().unwrap();
-    assert!(last > 0.4 && failure.run.trajectory.lam.iter().all(|x| x.is_finite()));
+    assert!(last > 0.4 && failure.run.responses(&m).unwrap().lam.iter().all(|x| x.is_finite()));
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn huge_stiffness_is_followed_not_blown_up() {
         "[forces.s]\ntype = \"torsion_spring\"\ni = \"ground\"\nj = \"rod\"\nstiffness = 1e9\n",
     );
     let run = run(&m, &state, &tolerances(0.01, 1e-8, 1e-10));
-    let kinetic: Vec<f64> = run.trajectory.energy.chunks(5).map(|e| e[0] + e[1]).collect();
+    let kinetic: Vec<f64> = run.energies(&m).unwrap().chunks(5).map(|e| e[0] + e[1]).collect();
     let off = kinetic.iter().map(|e| (e - kinetic[0]).abs()).fold(0.0, f64::max);
     assert!(off < 1e-5 * kinetic[0], "{off} of {}", kinetic[0]);
 }
@@ -160,10 +160,11 @@ fn a_singular_start_is_named() {
     };
     let (a, b) = (end(&double, 3, &double.trajectory.q), end(&single, 3, &single.trajectory.q));
     assert!(worst(&a, &b) < 1e-7, "{a:?} {b:?}");
-    let (two, one) =
-        (end(&double, 4, &double.trajectory.lam), end(&single, 2, &single.trajectory.lam));
+    let both = double.responses(&allowed).unwrap().lam;
+    let alone = single.responses(&model(PENDULUM)).unwrap().lam;
+    let (two, one) = (end(&double, 4, &both), end(&single, 2, &alone));
     // how twins share is rounding (1e-16) over damping (1e-10); what they carry together is not
-    let (first, only) = (&double.trajectory.lam[..4], &single.trajectory.lam[..2]);
+    let (first, only) = (&both[..4], &alone[..2]);
     for k in 0..2 {
         close("load at the start", first[k] + first[k + 2], only[k], 1e-9);
         close("load at the end", two[k] + two[k + 2], one[k], 1e-9);

@@ -1,9 +1,9 @@
-//! Reported states of a grid side by side: solved and kept four at once.
+//! Reported states of a grid side by side: placed and kept four at once.
 
 use super::around;
 use super::options::Options;
 use super::output::Trajectory;
-use super::report::Solver;
+use super::report::Placer;
 use super::system::WORKS;
 use crate::equations::Workspace;
 use crate::integrate::Step;
@@ -12,7 +12,7 @@ use crate::model::Model;
 
 /// States of a grid that wait until there is one for each lane.
 pub(super) struct Batch<'a> {
-    pub solver: Solver<'a, Lanes>,
+    pub placer: Placer<'a, Lanes>,
     t: [f64; Lanes::WIDTH],
     waiting: usize,
     /// As they were put in, a row for each lane.
@@ -30,7 +30,7 @@ impl<'a> Batch<'a> {
         let mut workspace = Workspace::like(model, one);
         workspace.refuse_singular();
         Self {
-            solver: Solver::new(model, options, workspace),
+            placer: Placer::new(model, options, workspace),
             t: [0.0; Lanes::WIDTH],
             waiting: 0,
             given: vec![0.0; Lanes::WIDTH * len],
@@ -62,17 +62,15 @@ impl<'a> Batch<'a> {
         self.t.into_iter().enumerate().take(std::mem::take(&mut self.waiting))
     }
 
-    /// Solves all; whether every one is regular. Else the lanes are of no use.
-    pub fn solve(&mut self) -> bool {
+    /// Places all; whether every one is regular. Else the lanes are of no use.
+    pub fn place(&mut self) -> bool {
         self.fill_up();
         Lanes::from_rows(&self.given, &mut self.y);
         let n = self.rates.len();
         self.rates.copy_from_slice(&self.y[n..2 * n]);
-        let solved = self.solver.place_and_solve(Lanes::new(self.t), &mut self.y);
-        let (a, lam, energies) = self.solver.found();
-        solved.is_ok()
-            && are_finite([&self.y, a, lam, energies])
-            && self.solver.turn(&self.rates, &self.y[n..2 * n]) <= around::TURNED
+        self.placer.place(Lanes::new(self.t), &mut self.y).is_ok()
+            && are_finite([&self.y])
+            && self.placer.turn(&self.rates, &self.y[n..2 * n]) <= around::TURNED
     }
 
     /// Lanes without a state of their own repeat the last.
@@ -84,17 +82,14 @@ impl<'a> Batch<'a> {
         }
     }
 
-    /// Keeps the states that wait, as they were solved; then nothing waits.
+    /// Keeps the states that wait, as they were placed; then nothing waits.
     pub fn keep(&mut self, trajectory: &mut Trajectory) {
         let count = std::mem::take(&mut self.waiting);
-        let (a, lam, energies) = self.solver.found();
-        let (q, rest) = self.y.split_at(a.len());
-        let (v, works) = rest.split_at(a.len());
-        let [kinetic, potential] = *energies;
-        let Trajectory { t, q: to_q, v: to_v, a: to_a, lam: to_lam, energy } = trajectory;
+        let (q, rest) = self.y.split_at(self.rates.len());
+        let (v, w) = rest.split_at(self.rates.len());
+        let Trajectory { t, q: to_q, v: to_v, works } = trajectory;
         t.extend_from_slice(&self.t[..count]);
-        let energies = [kinetic, potential, works[0], works[1], works[2]];
-        for (to, lanes) in [(to_q, q), (to_v, v), (to_a, a), (to_lam, lam), (energy, &energies)] {
+        for (to, lanes) in [(to_q, q), (to_v, v), (works, w)] {
             let (start, width) = (to.len(), lanes.len());
             to.resize(start + Lanes::WIDTH * width, 0.0);
             Lanes::rows(lanes, &mut to[start..]);
@@ -109,9 +104,10 @@ impl<'a> Batch<'a> {
 }
 
 /// Whether every number is finite, in every lane.
-fn are_finite(parts: [&[Lanes]; 4]) -> bool {
+#[inline]
+pub(super) fn are_finite<const N: usize>(parts: [&[Lanes]; N]) -> bool {
     // 0 x is zero for finite x and NaN otherwise; sums of which none waits for another
     let nothing = |sum: Lanes, x: &Lanes| sum.plus_product(Lanes::zero(), *x);
-    let [a, b, c, d] = parts.map(|part| part.iter().fold(Lanes::zero(), nothing));
-    (a + b + c + d).is_finite()
+    let sums = parts.map(|part| part.iter().fold(Lanes::zero(), nothing));
+    sums.into_iter().fold(Lanes::zero(), |all, sum| all + sum).is_finite()
 }

@@ -13,14 +13,16 @@ mod options;
 mod output;
 mod read;
 mod report;
+mod respond;
 mod singularity;
 mod system;
 
 pub use choice::Choice;
 pub use failure::{Failure, Reason};
 pub use options::{most_steps, Auto, Options, Output, Scheme, Stabilization};
-pub use output::{Dense, Trajectory, ENERGIES};
+pub use output::{Dense, Trajectory};
 pub use read::read;
+pub use respond::{energies, responses, Responses, States, ENERGIES};
 pub use singularity::Singularity;
 
 use super::State;
@@ -67,6 +69,8 @@ pub struct Run {
     pub choice: Option<Choice>,
     /// Whether t_end was reached; otherwise the observer stopped it.
     pub reached: bool,
+    /// Whether it passes singular positions, as runs with projection do.
+    pub passing: bool,
 }
 
 /// Integrates the equations of motion from `start` to `options.t_end`.
@@ -237,7 +241,8 @@ fn finish(
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached);
     let last = trajectory.q.rchunks(n.max(1)).next().unwrap_or(&start.q).to_vec();
-    let run = Run { trajectory, dense, statistics, choice, reached };
+    let passing = system.passing;
+    let run = Run { trajectory, dense, statistics, choice, reached, passing };
     let reason = match (outcome, halt) {
         (Ok(_), None) => return Ok(run),
         (Err(failure), _) => match (&failure.cause, system.passage.undecided) {

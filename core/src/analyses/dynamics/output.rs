@@ -1,15 +1,13 @@
-//! What forward dynamics reports: states at chosen times, with accelerations, multipliers, energies.
+//! What forward dynamics reports: states at chosen times.
 
 use super::batch::Batch;
 use super::options::{Options, Output, Scheme};
-use super::report::{Halt, Solver};
+use super::report::{Halt, Placer};
+use super::respond::{States, MANY};
 use super::system::{Equations, WORKS};
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
 use crate::model::Model;
-
-/// Number of columns of [`Trajectory::energy`].
-pub const ENERGIES: usize = 5;
 
 /// Reported states, time first; row k of each table belongs to `t[k]`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,18 +18,14 @@ pub struct Trajectory {
     pub q: Vec<f64>,
     /// Velocities, rows of n_q.
     pub v: Vec<f64>,
-    /// Accelerations at the reported state, without stabilization, rows of n_q.
-    pub a: Vec<f64>,
-    /// Multipliers at the reported state, without stabilization, rows of n_rows.
-    pub lam: Vec<f64>,
-    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces, J.
-    pub energy: Vec<f64>,
+    /// Dissipated energy, work of drivers, work of applied forces, from the start, J: rows of three.
+    pub works: Vec<f64>,
 }
 
 /// Whether a grid has so many states that solving several at once is worth a model over lanes.
 pub(super) fn many(output: Output, span: f64) -> bool {
     match output {
-        Output::Every(h) => (span / h).abs() >= 4.0 * Lanes::WIDTH as f64,
+        Output::Every(h) => (span / h).abs() >= MANY as f64,
         Output::Steps => false,
     }
 }
@@ -67,29 +61,24 @@ fn asked(output: Output, span: f64) -> usize {
 impl Trajectory {
     /// Empty, with room for the states that a grid asks for: growing would copy them again and again.
     fn with_room(model: &Model, output: Output, span: f64) -> Self {
-        let (n, m) = (model.layout.n_q, model.layout.n_rows);
-        let rows = asked(output, span).min(MOST_ROOM / (3 * n + m + 6));
+        let n = model.layout.n_q;
+        let rows = asked(output, span).min(MOST_ROOM / (2 * n + 1 + WORKS));
         let room = |width: usize| Vec::with_capacity(rows * width);
-        Self {
-            t: room(1),
-            q: room(n),
-            v: room(n),
-            a: room(n),
-            lam: room(m),
-            energy: room(ENERGIES),
-        }
+        Self { t: room(1), q: room(n), v: room(n), works: room(WORKS) }
     }
 
-    /// Adds what was solved at y = (q, v, works).
-    fn add(&mut self, t: f64, y: &[f64], (a, lam, energies): (&[f64], &[f64], &[f64; 2])) {
-        let n = a.len();
+    /// The reported states.
+    pub fn states(&self) -> States<'_> {
+        States { t: &self.t, q: &self.q, v: &self.v }
+    }
+
+    /// Adds y = (q, v, works).
+    fn add(&mut self, t: f64, y: &[f64]) {
+        let n = (y.len() - WORKS) / 2;
         self.t.push(t);
         self.q.extend_from_slice(&y[..n]);
         self.v.extend_from_slice(&y[n..2 * n]);
-        self.a.extend_from_slice(a);
-        self.lam.extend_from_slice(lam);
-        self.energy.extend_from_slice(energies);
-        self.energy.extend_from_slice(&y[2 * n..]);
+        self.works.extend_from_slice(&y[2 * n..]);
     }
 }
 
@@ -125,8 +114,8 @@ pub(super) struct Recorder<'a> {
     pub dense: Option<Dense>,
     /// Of the continuous extension of the last step.
     coefficients: Vec<f64>,
-    /// Solves the equations of motion at reported states.
-    one: Solver<'a>,
+    /// Brings reported states onto the constraints.
+    one: Placer<'a>,
     /// The same for those of a grid, if they are many.
     many: Option<Batch<'a>>,
     /// Why it cannot go on, and when.
@@ -156,7 +145,7 @@ impl<'a> Recorder<'a> {
             dense: options.dense_output.then(|| Dense::with_room(model, options, t0)),
             coefficients: Vec::new(),
             // a copy of the plan of elimination is had in a tenth of the time of a plan
-            one: Solver::new(model, options, system.workspace.clone()),
+            one: Placer::new(model, options, system.workspace.clone()),
             many: wide.map(|wide| Batch::new(wide, options, &system.workspace)),
             halt: None,
         };
@@ -166,7 +155,7 @@ impl<'a> Recorder<'a> {
 
     /// Factorisations, those of lanes one by one.
     pub fn factorisations(&self) -> usize {
-        let many = self.many.as_ref().map_or(0, |batch| batch.solver.factorisations());
+        let many = self.many.as_ref().map_or(0, |batch| batch.placer.factorisations());
         self.one.factorisations() + Lanes::WIDTH * many
     }
 
@@ -175,11 +164,11 @@ impl<'a> Recorder<'a> {
         if self.flush() == Flow::Stop {
             return Flow::Stop;
         }
-        let solved = self.one.solve(t, y);
-        self.keep(t, y, solved)
+        let apart = self.one.apart(t, y);
+        self.keep(t, y, apart.map_or(Ok(()), |apart| Err(Halt::Apart(apart))))
     }
 
-    /// Reports the state of a step at a time between its ends; whether it can is known once it is solved.
+    /// Reports the state of a step at a time between its ends; whether it can is known once it is placed.
     fn report_between(&mut self, step: &Step<'_>, t: f64) -> Flow {
         let Some(batch) = &mut self.many else {
             step.interpolate(t, &mut self.y);
@@ -195,8 +184,8 @@ impl<'a> Recorder<'a> {
     /// Projects and reports the state in the scratch.
     fn report_alone(&mut self, t: f64) -> Flow {
         let mut y = std::mem::take(&mut self.y);
-        let solved = self.one.place_on_branch_and_solve(t, &mut y);
-        let flow = self.keep(t, &y, solved);
+        let placed = self.one.place_on_branch(t, &mut y);
+        let flow = self.keep(t, &y, placed);
         self.y = y;
         flow
     }
@@ -206,7 +195,7 @@ impl<'a> Recorder<'a> {
         let Some(batch) = self.many.as_mut().filter(|batch| !batch.is_empty()) else {
             return Flow::Continue;
         };
-        if batch.solve() {
+        if batch.place() {
             batch.keep(&mut self.trajectory);
             return Flow::Continue;
         }
@@ -222,16 +211,15 @@ impl<'a> Recorder<'a> {
         flow
     }
 
-    /// Keeps a state that was solved.
-    fn keep(&mut self, t: f64, y: &[f64], solved: Result<(), Halt>) -> Flow {
-        if let Err(halt) = solved {
+    /// Keeps a state that was placed.
+    fn keep(&mut self, t: f64, y: &[f64], placed: Result<(), Halt>) -> Flow {
+        if let Err(halt) = placed {
             return self.stop(t, halt);
         }
-        let (a, lam, energies) = self.one.found();
-        if ![y, a, lam, energies].into_iter().all(all_finite) {
+        if !all_finite(y) {
             return self.stop(t, Halt::NotFinite);
         }
-        self.trajectory.add(t, y, (a, lam, energies));
+        self.trajectory.add(t, y);
         Flow::Continue
     }
 
@@ -241,7 +229,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Reports whatever falls into a step; stops where `watch` says so, and where a state cannot be
-    /// projected or its equations of motion cannot be solved.
+    /// projected.
     pub fn step(&mut self, step: &Step<'_>, watch: &mut impl FnMut(f64) -> Flow) -> Flow {
         if let Some(dense) = &mut self.dense {
             if !dense.add(step, &mut self.coefficients) {

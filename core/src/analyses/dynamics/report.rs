@@ -1,14 +1,14 @@
-//! Reported states: brought onto the constraints, and the equations of motion solved there.
+//! Reported states: brought onto the constraints, or looked at whether they meet them.
 //!
-//! States of a grid lie between the ends of steps and do not wait for each other, so several are solved
-//! at once (`batch`): the same formulas over lanes. Where one of them is not regular (a position near a singular
+//! States of a grid lie between the ends of steps and do not wait for each other, so several are
+//! placed at once (`batch`): the same formulas over lanes. Where one of them is not regular (a position near a singular
 //! one, a gap that does not close, a number that is not finite), each is solved by itself.
 
 use super::apart::{Apart, Guard};
 use super::around;
 use super::options::{Options, Stabilization};
 use super::system::parts;
-use crate::equations::{energy, kinematics, Gains, Workspace};
+use crate::equations::{kinematics, Workspace};
 use crate::math::Real;
 use crate::model::Model;
 use crate::stabilize::{Fault, Projector};
@@ -24,21 +24,17 @@ pub(super) enum Halt {
     NotFinite,
 }
 
-/// Solves reported states, one at a time or one in each lane.
-pub(super) struct Solver<'a, S = f64> {
+/// Places reported states, one at a time or one in each lane.
+pub(super) struct Placer<'a, S = f64> {
     pub model: &'a Model<S>,
     workspace: Workspace<S>,
     projector: Option<Projector<'a, S>>,
     guard: Option<Guard<S>>,
     /// Whether projection changed the last state.
     changed: bool,
-    /// Kinetic and potential energy, J.
-    energies: [S; 2],
-    /// States whose projection went through.
-    solved: usize,
 }
 
-impl<'a, S: Real> Solver<'a, S> {
+impl<'a, S: Real> Placer<'a, S> {
     /// With the workspace of the equations of motion of this run, or a copy of it.
     pub fn new(model: &'a Model<S>, options: &Options, workspace: Workspace<S>) -> Self {
         let projector = match options.stabilization {
@@ -47,17 +43,7 @@ impl<'a, S: Real> Solver<'a, S> {
         };
         let projector = projector.map(Projector::for_reports);
         let guard = Guard::new(model, options);
-        let energies = [S::zero(); 2];
-        Self { model, workspace, projector, guard, changed: false, energies, solved: 0 }
-    }
-
-    /// Solves at y = (q, v, works) as it is.
-    ///
-    /// # Errors
-    /// [`Halt`] where the equations of motion have no unique solution, or joints are apart.
-    pub fn solve(&mut self, t: S, y: &[S]) -> Result<(), Halt> {
-        self.set_motions(y);
-        self.respond(t)
+        Self { model, workspace, projector, guard, changed: false }
     }
 
     /// The joint that is apart at y, if one is.
@@ -72,18 +58,19 @@ impl<'a, S: Real> Solver<'a, S> {
         kinematics::motions(&y[..n], &y[n..2 * n], &mut self.workspace.motions);
     }
 
-    /// Solves at y, which is projected first if that was asked for. The works stay: what projection does
-    /// to the energy shows in the balance.
+    /// Projects y = (q, v, works) if that was asked for; else sees whether joints are apart. The works stay: what
+    /// projection does to the energy shows in the balance.
     ///
     /// # Errors
     /// [`Halt`]; of lanes, that of one of them.
-    pub fn place_and_solve(&mut self, t: S, y: &mut [S]) -> Result<(), Halt> {
-        let Some(projector) = &mut self.projector else { return self.solve(t, y) };
+    pub fn place(&mut self, t: S, y: &mut [S]) -> Result<(), Halt> {
+        let Some(projector) = &mut self.projector else {
+            return self.apart(t, y).map_or(Ok(()), |apart| Err(Halt::Apart(apart)));
+        };
         let (q, v, _) = parts(y, self.model.layout.n_q);
-        let place = (&mut *q, &mut *v);
-        let changed = projector.project(&mut self.workspace, t, place, false);
+        let changed = projector.project(&mut self.workspace, t, (q, v), false);
         self.changed = changed.map_err(Halt::Fault)?;
-        self.respond(t)
+        Ok(())
     }
 
     /// By what part of the fastest rate projection has changed the rates that were `given`.
@@ -92,42 +79,22 @@ impl<'a, S: Real> Solver<'a, S> {
         projector.map_or(0.0, |projector| around::turn(projector, given, v))
     }
 
-    /// Accelerations and multipliers at the motions of the workspace: by γ, never γ̂.
-    fn respond(&mut self, t: S) -> Result<(), Halt> {
-        let Self { model, workspace, guard, .. } = self;
-        let motions = &workspace.motions;
-        if let Some(apart) = guard.as_mut().and_then(|guard| guard.look(model, t, motions)) {
-            return Err(Halt::Apart(apart));
-        }
-        let solved = workspace.respond(model, t, Gains::default());
-        solved.map_err(|singular| Halt::Fault(Fault::Singular(singular)))?;
-        let kinetic = energy::kinetic(model, &workspace.motions);
-        self.energies = [kinetic, energy::potential(model, &workspace.motions, t)];
-        self.solved += 1;
-        Ok(())
-    }
-
-    /// q̈, λ and the energies.
-    pub fn found(&self) -> (&[S], &[S], &[S; 2]) {
-        (self.workspace.a(), self.workspace.lam(), &self.energies)
-    }
-
     /// Factorisations, of all lanes one.
     pub fn factorisations(&self) -> usize {
-        self.solved + self.projector.as_ref().map_or(0, |projector| projector.factorisations)
+        self.projector.as_ref().map_or(0, |projector| projector.factorisations)
     }
 }
 
-impl Solver<'_> {
+impl Placer<'_> {
     /// The same; where that ends on another branch, from states around if that changes rates less.
     ///
     /// # Errors
     /// [`Halt`].
-    pub fn place_on_branch_and_solve(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
+    pub fn place_on_branch(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
         let given = y.to_vec();
         let n = self.model.layout.n_q;
         let turned = |solver: &Self, y: &[f64]| solver.turn(&given[n..2 * n], &y[n..2 * n]);
-        self.place_and_solve(t, y)?;
+        self.place(t, y)?;
         let turn = turned(self, y);
         let Some(projector) = self.projector.as_mut().filter(|_| turn > around::TURNED) else {
             return Ok(());
@@ -135,11 +102,11 @@ impl Solver<'_> {
         let mut other = given.clone();
         let (q, v, _) = parts(&mut other, n);
         let taken = around::take(projector, &mut self.workspace, t, (q, v));
-        let placed = taken.is_ok() && self.place_and_solve(t, &mut other).is_ok();
+        let placed = taken.is_ok() && self.place(t, &mut other).is_ok();
         if placed && turned(self, &other) < turn {
             y.copy_from_slice(&other);
             return Ok(());
         }
-        self.place_and_solve(t, y)
+        self.place(t, y)
     }
 }

@@ -21,6 +21,8 @@ pub(super) struct Equations<'a> {
     /// Baumgarte's term, if its gains come from the step.
     held: Option<Held>,
     pub projector: Option<Projector<'a>>,
+    /// Whether singular positions are passed.
+    pub passing: bool,
     pub passage: Passage,
 }
 
@@ -89,7 +91,7 @@ impl<'a> Equations<'a> {
             Stabilization::BaumgarteFromStep => Some(Held::new(model)),
             _ => None,
         };
-        Self { model, workspace, gains: options.gains(), held, projector, passage }
+        Self { model, workspace, gains: options.gains(), held, projector, passing, passage }
     }
 
     /// Factorisations beside those of evaluations.

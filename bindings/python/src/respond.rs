@@ -1,0 +1,58 @@
+//! What states answer to forces, as Python sees it: without the interpreter's lock, interruptible.
+
+use crate::convert::table;
+use crate::errors::{Failure, Kind};
+use crate::watch::Watch;
+use kempe::analyses::dynamics as core;
+use kempe::model::Model;
+use numpy::PyArray2;
+use pyo3::prelude::*;
+
+/// Rows of numbers, time first.
+pub type Table<'py> = Bound<'py, PyArray2<f64>>;
+
+/// Accelerations and multipliers at states, with γ, not γ̂; near singular positions as well if they are passed.
+pub fn responses<'py>(
+    py: Python<'py>,
+    model: &Model,
+    states: core::States<'_>,
+    passing: bool,
+) -> PyResult<(Table<'py>, Table<'py>)> {
+    let mut watch = Watch::new(None);
+    let found = py.detach(|| core::responses(model, states, passing, |t| watch.look(t)));
+    if let Some(error) = watch.raised {
+        return Err(error);
+    }
+    let core::Responses { a, lam } = found.map_err(|reason| because(py, reason))?;
+    let (n, m, count) = (model.layout.n_q, model.layout.n_rows, states.t.len());
+    Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?))
+}
+
+/// Energies at states, with the works up to them.
+pub fn energies<'py>(
+    py: Python<'py>,
+    model: &Model,
+    states: core::States<'_>,
+    works: &[f64],
+) -> PyResult<Table<'py>> {
+    let found = py.detach(|| core::energies(model, states, works));
+    let found = found.map_err(|reason| because(py, reason))?;
+    table(py, found, (states.t.len(), core::ENERGIES))
+}
+
+/// The error of a reason.
+pub fn because(py: Python<'_>, reason: core::Reason) -> PyErr {
+    let message = reason.to_string();
+    let error = match reason {
+        core::Reason::Option { .. } => Failure::new(Kind::Model, message),
+        core::Reason::Singular { t, name, .. } => {
+            Failure::new(Kind::Singularity, message).name(name).at(t).hint(
+                "look at the solution so far; change the start, or add what decides the motion here",
+            )
+        }
+        core::Reason::Integration { t, hint, .. } => {
+            Failure::new(Kind::Integration, message).at(t).hint(hint)
+        }
+    };
+    error.raise(py)
+}

@@ -1,0 +1,201 @@
+//! What follows from the states of a run: accelerations and multipliers, by γ and never γ̂, and energies.
+//!
+//! A run keeps states alone; what follows from them is worked out when it is asked for. States do not wait for each
+//! other, so several are solved at once: the same formulas over lanes. Where one of them is not regular (a position
+//! near a singular one, a number that is not finite), each is solved by itself.
+
+use super::batch::are_finite;
+use super::failure::Reason;
+use super::report::Halt;
+use super::system::WORKS;
+use super::Run;
+use crate::equations::{energy, kinematics, Gains, Singular, Workspace};
+use crate::integrate::{all_finite, Flow};
+use crate::math::{Lanes, Real};
+use crate::model::Model;
+use crate::stabilize::Fault;
+
+/// Number of columns of [`Run::energies`].
+pub const ENERGIES: usize = 2 + WORKS;
+
+/// States in rows, time first.
+#[derive(Clone, Copy, Debug)]
+pub struct States<'a> {
+    /// Times, s.
+    pub t: &'a [f64],
+    /// Coordinates, rows of n_q.
+    pub q: &'a [f64],
+    /// Velocities, rows of n_q.
+    pub v: &'a [f64],
+}
+
+/// What states answer to forces, a row for each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Responses {
+    /// Accelerations, rows of n_q.
+    pub a: Vec<f64>,
+    /// Multipliers, rows of n_rows.
+    pub lam: Vec<f64>,
+}
+
+/// So many states that solving several at once is worth a model over lanes.
+pub(super) const MANY: usize = 4 * Lanes::WIDTH;
+
+/// Solves the equations of motion at states. With `passing` also near singular positions, as runs with projection
+/// pass them. `watch` sees the times, and may stop: then the rows so far are given.
+///
+/// # Errors
+/// [`Reason`] of the first state where accelerations and multipliers are not unique, or not finite.
+///
+/// # Panics
+/// If the rows do not fit the model or each other.
+pub fn responses(
+    model: &Model,
+    states: States<'_>,
+    passing: bool,
+    mut watch: impl FnMut(f64) -> Flow,
+) -> Result<Responses, Reason> {
+    let States { t, q, v } = states;
+    let (n, count) = (model.layout.n_q, t.len());
+    assert_eq!([q.len(), v.len()], [n * count; 2], "a row for each time");
+    let mut one = Workspace::new(model);
+    if passing {
+        one.pass_singular();
+    }
+    let wide = (count >= MANY).then(|| model.lift::<Lanes>());
+    let mut many = wide.as_ref().map(|wide| Many::new(wide, &one));
+    let mut found = Responses::with_room(model, count);
+    for first in (0..count).step_by(Lanes::WIDTH) {
+        let end = (first + Lanes::WIDTH).min(count);
+        if watch(t[first]) == Flow::Stop {
+            break;
+        }
+        let rows = first * n..end * n;
+        let four = (&t[first..end], &q[rows.clone()], &v[rows]);
+        if !many.as_mut().is_some_and(|many| many.solve(four, &mut found)) {
+            one_by_one(model, &mut one, four, &mut found)?;
+        }
+    }
+    Ok(found)
+}
+
+impl Responses {
+    fn with_room(model: &Model, count: usize) -> Self {
+        let room = |width: usize| Vec::with_capacity(count * width);
+        Self { a: room(model.layout.n_q), lam: room(model.layout.n_rows) }
+    }
+}
+
+/// Times and rows of some states.
+type Rows<'a> = (&'a [f64], &'a [f64], &'a [f64]);
+
+fn one_by_one(
+    model: &Model,
+    workspace: &mut Workspace,
+    (t, q, v): Rows<'_>,
+    found: &mut Responses,
+) -> Result<(), Reason> {
+    let n = model.layout.n_q;
+    for (k, &t) in t.iter().enumerate() {
+        let row = k * n..(k + 1) * n;
+        let (q, v) = (&q[row.clone()], &v[row]);
+        workspace
+            .accelerate(model, t, q, v, Gains::default())
+            .map_err(|Singular(row)| Halt::Fault(Fault::Singular(Singular(row))))
+            .and_then(|()| match [workspace.a(), workspace.lam()].into_iter().all(all_finite) {
+                true => Ok(()),
+                false => Err(Halt::NotFinite),
+            })
+            .map_err(|halt| Reason::halt(model, t, q, halt))?;
+        found.a.extend_from_slice(workspace.a());
+        found.lam.extend_from_slice(workspace.lam());
+    }
+    Ok(())
+}
+
+/// Four states at once.
+struct Many<'a> {
+    model: &'a Model<Lanes>,
+    workspace: Workspace<Lanes>,
+    q: Vec<Lanes>,
+    v: Vec<Lanes>,
+}
+
+impl<'a> Many<'a> {
+    /// With the plan of elimination of `one`.
+    fn new(model: &'a Model<Lanes>, one: &Workspace) -> Self {
+        let mut workspace = Workspace::like(model, one);
+        workspace.refuse_singular();
+        let none = vec![Lanes::zero(); model.layout.n_q];
+        Self { model, workspace, q: none.clone(), v: none }
+    }
+
+    /// Solves four states, if there are four and every one is regular.
+    fn solve(&mut self, (t, q, v): Rows<'_>, found: &mut Responses) -> bool {
+        let Ok(t) = t.try_into() else { return false };
+        Lanes::from_rows(q, &mut self.q);
+        Lanes::from_rows(v, &mut self.v);
+        let Self { model, workspace, q, v } = self;
+        let solved = workspace.accelerate(model, Lanes::new(t), q, v, Gains::default());
+        let (a, lam) = (workspace.a(), workspace.lam());
+        if solved.is_err() || !are_finite([a, lam]) {
+            return false;
+        }
+        for (to, lanes) in [(&mut found.a, a), (&mut found.lam, lam)] {
+            let start = to.len();
+            to.resize(start + Lanes::WIDTH * lanes.len(), 0.0);
+            Lanes::rows(lanes, &mut to[start..]);
+        }
+        true
+    }
+}
+
+/// Kinetic and potential energy at states, J, before what was dissipated and done up to them: `works`, rows of three,
+/// become rows of [`ENERGIES`].
+///
+/// # Errors
+/// [`Reason`] of the first state where one of them is not finite.
+///
+/// # Panics
+/// If the rows do not fit the model or each other.
+pub fn energies(
+    model: &Model,
+    States { t, q, v }: States<'_>,
+    works: &[f64],
+) -> Result<Vec<f64>, Reason> {
+    let n = model.layout.n_q;
+    let lengths = [n, n, WORKS].map(|width| width * t.len());
+    assert_eq!([q.len(), v.len(), works.len()], lengths, "a row for each time");
+    let (mut motions, mut found) = (Vec::new(), Vec::with_capacity(ENERGIES * t.len()));
+    for (k, (&t, works)) in t.iter().zip(works.chunks_exact(WORKS)).enumerate() {
+        let row = k * n..(k + 1) * n;
+        let (q, v) = (&q[row.clone()], &v[row]);
+        kinematics::motions(q, v, &mut motions);
+        let mechanical = [energy::kinetic(model, &motions), energy::potential(model, &motions, t)];
+        if !all_finite(&mechanical) {
+            return Err(Reason::halt(model, t, q, Halt::NotFinite));
+        }
+        found.extend(mechanical);
+        found.extend_from_slice(works);
+    }
+    Ok(found)
+}
+
+impl Run {
+    /// Accelerations and multipliers at the reported states, without stabilization.
+    ///
+    /// # Errors
+    /// As [`responses`].
+    pub fn responses(&self, model: &Model) -> Result<Responses, Reason> {
+        responses(model, self.trajectory.states(), self.passing, |_| Flow::Continue)
+    }
+
+    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces at the reported states, J:
+    /// rows of [`ENERGIES`].
+    ///
+    /// # Errors
+    /// As [`energies`].
+    pub fn energies(&self, model: &Model) -> Result<Vec<f64>, Reason> {
+        energies(model, self.trajectory.states(), &self.trajectory.works)
+    }
+}
