@@ -6,6 +6,7 @@ mod around;
 mod automatic;
 mod batch;
 mod choice;
+mod energies;
 mod failure;
 mod forecast;
 mod implicit;
@@ -18,11 +19,12 @@ mod singularity;
 mod system;
 
 pub use choice::Choice;
+pub use energies::{energies, ENERGIES};
 pub use failure::{Failure, Reason};
 pub use options::{most_steps, Auto, Options, Output, Scheme, Stabilization};
 pub use output::{Dense, Trajectory};
 pub use read::read;
-pub use respond::{energies, responses, Responses, States, ENERGIES};
+pub use respond::{responses, Responses, States};
 pub use singularity::Singularity;
 
 use super::State;

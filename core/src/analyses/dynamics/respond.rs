@@ -1,4 +1,4 @@
-//! What follows from the states of a run: accelerations and multipliers, by γ and never γ̂, and energies.
+//! What follows from the states of a run: accelerations and multipliers, by γ and never γ̂.
 //!
 //! A run keeps states alone; what follows from them is worked out when it is asked for. States do not wait for each
 //! other, so several are solved at once: the same formulas over lanes. Where one of them is not regular (a position
@@ -7,16 +7,12 @@
 use super::batch::are_finite;
 use super::failure::Reason;
 use super::report::Halt;
-use super::system::WORKS;
 use super::Run;
-use crate::equations::{energy, kinematics, Gains, Singular, Workspace};
+use crate::equations::{Gains, Singular, Workspace};
 use crate::integrate::{all_finite, Flow};
 use crate::math::{Lanes, Real};
 use crate::model::Model;
 use crate::stabilize::Fault;
-
-/// Number of columns of [`Run::energies`].
-pub const ENERGIES: usize = 2 + WORKS;
 
 /// States in rows, time first.
 #[derive(Clone, Copy, Debug)]
@@ -150,37 +146,6 @@ impl<'a> Many<'a> {
     }
 }
 
-/// Kinetic and potential energy at states, J, before what was dissipated and done up to them: `works`, rows of three,
-/// become rows of [`ENERGIES`].
-///
-/// # Errors
-/// [`Reason`] of the first state where one of them is not finite.
-///
-/// # Panics
-/// If the rows do not fit the model or each other.
-pub fn energies(
-    model: &Model,
-    States { t, q, v }: States<'_>,
-    works: &[f64],
-) -> Result<Vec<f64>, Reason> {
-    let n = model.layout.n_q;
-    let lengths = [n, n, WORKS].map(|width| width * t.len());
-    assert_eq!([q.len(), v.len(), works.len()], lengths, "a row for each time");
-    let (mut motions, mut found) = (Vec::new(), Vec::with_capacity(ENERGIES * t.len()));
-    for (k, (&t, works)) in t.iter().zip(works.chunks_exact(WORKS)).enumerate() {
-        let row = k * n..(k + 1) * n;
-        let (q, v) = (&q[row.clone()], &v[row]);
-        kinematics::motions(q, v, &mut motions);
-        let mechanical = [energy::kinetic(model, &motions), energy::potential(model, &motions, t)];
-        if !all_finite(&mechanical) {
-            return Err(Reason::halt(model, t, q, Halt::NotFinite));
-        }
-        found.extend(mechanical);
-        found.extend_from_slice(works);
-    }
-    Ok(found)
-}
-
 impl Run {
     /// Accelerations and multipliers at the reported states, without stabilization.
     ///
@@ -188,14 +153,5 @@ impl Run {
     /// As [`responses`].
     pub fn responses(&self, model: &Model) -> Result<Responses, Reason> {
         responses(model, self.trajectory.states(), self.passing, |_| Flow::Continue)
-    }
-
-    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces at the reported states, J:
-    /// rows of [`ENERGIES`].
-    ///
-    /// # Errors
-    /// As [`energies`].
-    pub fn energies(&self, model: &Model) -> Result<Vec<f64>, Reason> {
-        energies(model, self.trajectory.states(), &self.trajectory.works)
     }
 }
