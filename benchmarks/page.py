@@ -19,7 +19,9 @@ turn. Times are medians of CPU time of one thread, without building the model an
 compilation, runs of less than 50 ms right after one that is not timed; ratios within one run are
 what counts. What the error is stands with each problem;
 "gap" is the largest distance that any joint opened, at any output. "rtol or step" is the one or the
-other, as the tool wants it; atol is a thousandth of rtol.
+other, as the tool wants it; atol is a thousandth of rtol. kempe, the floor and the plain SciPy
+program give positions, velocities, accelerations and multipliers at all reported times, the other
+tools positions and velocities alone; so does kempe where it says "states".
 
 ```sh
 pip install 'kempe[bench]'

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from peers import kempe_itself
@@ -11,6 +11,8 @@ from record import Record
 
 #: Curves of kempe that count for its default method: what a user gets, with its tolerance varied.
 DEFAULT = (kempe_itself.DEFAULT, kempe_itself.DEFAULT_METHOD)
+#: Tools that give positions and velocities alone.
+STATES_ALONE = ("mujoco", "exudyn", "casadi")
 #: Asked for by nobody, and told beside what is.
 INFORMATION = "for information"
 
@@ -152,9 +154,24 @@ def exact_run(
     what = "the same over the floor without its closed forms"
     found.append(Target(what, INFORMATION, f"{share:.2f}", share <= 0.5))
     for tool, asked in (("scipy", 2500), ("mujoco", 100), ("exudyn", 100), ("casadi", 40)):
-        peers = of(records, "flagship", tool)
-        found.append(against(chosen, peers, asked, f"that run ({name}) against {tool}"))
+        peers, what = of(records, "flagship", tool), f"that run ({name}) against {tool}"
+        if tool not in STATES_ALONE:
+            found.append(against(chosen, peers, asked, what))
+            continue
+        alike = states_alone(records, chosen)
+        found.append(against(alike, peers, asked, f"{what}, states alone"))
+        if tool == "casadi":
+            more = against(chosen, peers, asked, "the same with accelerations and multipliers")
+            found.append(replace(more, asked=INFORMATION))
     return found
+
+
+def states_alone(records: list[Record], chosen: Record) -> Record | None:
+    """The same run of kempe without accelerations and multipliers; none if it was not measured."""
+    curve = kempe_itself.STATES.get(chosen.curve)
+    mine = of(records, chosen.problem, chosen.tool)
+    alike = (r for r in mine if r.curve == curve and r.tolerance == chosen.tolerance)
+    return next(alike, None)
 
 
 def n_four_bar(records: list[Record], floor: dict[str, Any]) -> list[Target]:
