@@ -161,7 +161,7 @@ def exact_run(
         alike = states_alone(records, chosen)
         found.append(against(alike, peers, asked, f"{what}, states alone"))
         if tool == "casadi":
-            more = against(chosen, peers, asked, "the same with accelerations and multipliers")
+            more = against(chosen, peers, asked, f"{what}, accelerations and multipliers as well")
             found.append(replace(more, asked=INFORMATION))
     return found
 
