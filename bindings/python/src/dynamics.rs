@@ -1,12 +1,11 @@
 //! Forward dynamics as Python sees it: without the interpreter's lock, interruptible, with progress.
 
-use crate::case::raise_plain;
 use crate::convert::{frozen, state, table, Row};
 use crate::errors::{Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
+use crate::options;
 use kempe::analyses::dynamics as core;
-use kempe::case::{self, Format};
 use kempe::integrate::Flow;
 use numpy::ndarray::Array3;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
@@ -171,7 +170,8 @@ impl<'a> Watch<'a> {
 
 /// Simulates the motion from a state.
 #[pyfunction]
-#[pyo3(signature = (model, t, q, v, options, progress))]
+#[pyo3(signature = (model, t, q, v, options, progress, t_end=None))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn dynamics(
     py: Python<'_>,
     model: &PyModel,
@@ -180,10 +180,11 @@ pub fn dynamics(
     v: Row<'_>,
     options: &str,
     progress: Option<Py<PyAny>>,
+    t_end: Option<f64>,
 ) -> PyResult<PyRun> {
     guard("dynamics", || {
         let start = state(py, &model.model, t, &q, &v)?;
-        let options = read_options(py, model, options)?;
+        let options = options::read(py, model, options, t_end)?;
         let core_model = std::sync::Arc::clone(&model.model);
         let mut watch = Watch::new(progress.as_ref());
         let outcome =
@@ -198,17 +199,6 @@ pub fn dynamics(
             (Err(failure), _) => Err(raise(py, model, *failure)?),
         }
     })
-}
-
-/// Options in the form of a file: `{"type": "dynamics", "t_end": 15, "method": {"type": "rk45", …}, …}`.
-fn read_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<core::Options> {
-    let written = format!("{{\"kempe\": 1, \"analyses\": {{\"dynamics\": {text}}}}}");
-    let (case, _) = case::read(&written, Format::Json).map_err(|mut found| {
-        found.iter_mut().for_each(|d| drop(d.path.drain(..d.path.len().min(2))));
-        crate::case::raise(py, Kind::Model, &found, None)
-    })?;
-    let fields = case.analyses.first().map_or(&[][..], |entry| &entry.fields);
-    core::read(&model.model, fields, &[]).map_err(|found| raise_plain(py, Kind::Model, &found))
 }
 
 fn raise(py: Python<'_>, model: &PyModel, failure: core::Failure) -> PyResult<PyErr> {

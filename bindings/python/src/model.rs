@@ -1,6 +1,7 @@
 //! A compiled model, and what it holds as JSON.
 
 use crate::guard::guard;
+use crate::options::Last;
 use kempe::elements::Side;
 use kempe::math::Local;
 use kempe::model::{Body, ConstraintItem, ForceItem, Model};
@@ -13,12 +14,14 @@ use std::sync::Arc;
 pub struct PyModel {
     /// The model.
     pub model: Arc<Model>,
+    /// The options that were read for it last.
+    pub options: Last,
 }
 
 impl PyModel {
     /// Of a model of the core.
     pub fn new(model: Model) -> Self {
-        Self { model: Arc::new(model) }
+        Self { model: Arc::new(model), options: Last::default() }
     }
 }
 
