@@ -185,10 +185,8 @@ pub fn dynamics(
     guard("dynamics", || {
         let start = state(py, &model.model, t, &q, &v)?;
         let options = options::read(py, model, options, t_end)?;
-        let core_model = std::sync::Arc::clone(&model.model);
         let mut watch = Watch::new(progress.as_ref());
-        let outcome =
-            py.detach(|| core::dynamics(&core_model, &start, &options, |t| watch.look(t)));
+        let outcome = py.detach(|| model.prepared.dynamics(&start, &options, |t| watch.look(t)));
         match (outcome, watch.raised) {
             (Ok(run), None) => PyRun::new(py, model, run, "t_end was reached"),
             (Ok(run), Some(error)) => {
