@@ -154,6 +154,7 @@ def dynamics(
     v: _F,
     options: str,
     progress: Callable[[float], None] | None,
+    t_end: float | None = None,
 ) -> Run:
     """Simulate the motion from a state.
 
@@ -164,6 +165,8 @@ def dynamics(
         v: (n_q,).
         options: JSON, an entry of ``analyses`` as in a file.
         progress: called now and then with the time reached, s.
+        t_end: time at which it ends, s, instead of that in the options, so that the same text
+            serves for others; it is read once for each model.
 
     Raises:
         IntegrationError: with ``run``, what was computed before. ``KeyboardInterrupt`` has it too.

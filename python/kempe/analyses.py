@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import warnings
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
@@ -11,6 +10,7 @@ import numpy as np
 
 from kempe import _core
 from kempe.compiled import CompiledModel
+from kempe.entries import Request, encode, request
 from kempe.errors import ModelError
 from kempe.model import Model
 from kempe.names import one_of
@@ -21,9 +21,6 @@ from kempe.values import Number, number, numbers
 
 Progress: TypeAlias = "Callable[[float], None]"
 Coordinates: TypeAlias = "Mapping[str, float | str]"
-
-#: ``json.dumps`` makes such an encoder for each text.
-_json = json.JSONEncoder(allow_nan=False).encode
 
 
 class AssemblyWarning(UserWarning):
@@ -61,13 +58,13 @@ def assemble(
         ModelError: the model is wrong, or ``set`` or ``guess`` names what it does not have.
     """
     compiled = _allowing(compiled_model(model), redundancy)
-    held = _json(numbers(set or {}, "set"))
+    held = encode(numbers(set or {}, "set"))
     q = v = None
     if isinstance(guess, State):
         _refuse_foreign(compiled, guess)
         q, v, hint = np.array(guess.q), np.array(guess.v), "{}"
     else:
-        hint = _json(numbers(guess or {}, "guess"))
+        hint = encode(numbers(guess or {}, "guess"))
     t_found, q_found, v_found, told = _core.assemble(
         compiled.core, held, hint, _time(t), q, v, from_guess
     )
@@ -117,29 +114,28 @@ def dynamics(
     """
     inherited = start.model.redundancy if isinstance(start, State) else None
     compiled = _allowing(compiled_model(model), redundancy or inherited)
-    asked = Dynamics(
-        t_end,
-        output_step,
-        method,
-        stabilization,
-        max_steps,
-        dense_output,
-        singularity=singularity,
-    )
-    entry = asked.tree()
-    return simulate(compiled.with_analyses({asked.name: entry}), start, entry, progress)
+    asked = (t_end, output_step, method, stabilization, max_steps)
+    wanted = request(asked, dense_output, singularity)
+    return _simulate(compiled.with_analyses({Dynamics.name: wanted.entry}), start, wanted, progress)
 
 
 def simulate(
     model: CompiledModel, start: State, entry: Mapping[str, Any], progress: Progress | None
 ) -> Solution:
     """Simulate by an entry of a case, as ``dynamics`` does by arguments."""
+    wanted = Request(entry, encode(core_options(entry)))
+    return _simulate(model, start, wanted, progress)
+
+
+def _simulate(
+    model: CompiledModel, start: State, wanted: Request, progress: Progress | None
+) -> Solution:
     if not isinstance(start, State):
         raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) gives one")
     _refuse_foreign(model, start)
-    options = _json(core_options(entry))
+    t, text = float(start.t), wanted.text
     try:
-        run = _core.dynamics(model.core, float(start.t), start.q, start.v, options, progress)
+        run = _core.dynamics(model.core, t, start.q, start.v, text, progress, wanted.t_end)
     except BaseException as error:  # an interruption, and what progress raises, keep it too
         partial = getattr(error, "run", None)
         if partial is not None and len(partial.t):

@@ -1,14 +1,14 @@
 //! Forward dynamics as Python sees it: without the interpreter's lock, interruptible, with progress.
 
-use crate::case::raise_plain;
 use crate::convert::{frozen, state, table, Row};
 use crate::errors::{Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
+use crate::options;
 use crate::respond::{because, energies, responses, Table};
 use crate::watch::Watch;
 use kempe::analyses::dynamics as core;
-use kempe::case::{self, Format};
+use kempe::analyses::dynamics::Prepared;
 use kempe::model::Model;
 use numpy::ndarray::{Array3, Dimension};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray};
@@ -27,7 +27,7 @@ pub struct PyRun {
     v: Py<PyArray2<f64>>,
     /// Dissipated energy and works, rows of three.
     works: Vec<f64>,
-    model: Arc<Model>,
+    model: Arc<Prepared<Arc<Model>>>,
     passing: bool,
     #[pyo3(get)]
     dense_t: Option<Py<PyArray1<f64>>>,
@@ -109,7 +109,7 @@ impl PyRun {
             q: rows(q, n)?,
             v: rows(v, n)?,
             works,
-            model: Arc::clone(&model.model),
+            model: Arc::clone(&model.prepared),
             passing: run.passing,
             dense_t,
             dense_y,
@@ -140,7 +140,8 @@ fn dense_arrays(py: Python<'_>, dense: core::Dense, n_y: usize) -> PyResult<Dens
 
 /// Simulates the motion from a state.
 #[pyfunction]
-#[pyo3(signature = (model, t, q, v, options, progress))]
+#[pyo3(signature = (model, t, q, v, options, progress, t_end=None))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn dynamics(
     py: Python<'_>,
     model: &PyModel,
@@ -149,14 +150,13 @@ pub fn dynamics(
     v: Row<'_>,
     options: &str,
     progress: Option<Py<PyAny>>,
+    t_end: Option<f64>,
 ) -> PyResult<PyRun> {
     guard("dynamics", || {
         let start = state(py, &model.model, t, &q, &v)?;
-        let options = read_options(py, model, options)?;
-        let core_model = std::sync::Arc::clone(&model.model);
+        let options = options::read(py, model, options, t_end)?;
         let mut watch = Watch::new(progress.as_ref());
-        let outcome =
-            py.detach(|| core::dynamics(&core_model, &start, &options, |t| watch.look(t)));
+        let outcome = py.detach(|| model.prepared.dynamics(&start, &options, |t| watch.look(t)));
         match (outcome, watch.raised) {
             (Ok(run), None) => PyRun::new(py, model, run, "t_end was reached"),
             (Ok(run), Some(error)) => {
@@ -167,17 +167,6 @@ pub fn dynamics(
             (Err(failure), _) => Err(raise(py, model, *failure)?),
         }
     })
-}
-
-/// Options in the form of a file: `{"type": "dynamics", "t_end": 15, "method": {"type": "rk45", …}, …}`.
-fn read_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<core::Options> {
-    let written = format!("{{\"kempe\": 1, \"analyses\": {{\"dynamics\": {text}}}}}");
-    let (case, _) = case::read(&written, Format::Json).map_err(|mut found| {
-        found.iter_mut().for_each(|d| drop(d.path.drain(..d.path.len().min(2))));
-        crate::case::raise(py, Kind::Model, &found, None)
-    })?;
-    let fields = case.analyses.first().map_or(&[][..], |entry| &entry.fields);
-    core::read(&model.model, fields, &[]).map_err(|found| raise_plain(py, Kind::Model, &found))
 }
 
 fn raise(py: Python<'_>, model: &PyModel, failure: core::Failure) -> PyResult<PyErr> {

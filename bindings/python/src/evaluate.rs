@@ -59,10 +59,9 @@ pub fn evaluate<'py>(
     v: Rows<'py>,
 ) -> PyResult<(Table<'py>, Table<'py>)> {
     guard("evaluate", || {
-        let model = &*model.model;
-        let states = States::read(py, model, &t, &q, &v)?;
+        let states = States::read(py, &model.model, &t, &q, &v)?;
         let States { t, q, v } = &states;
-        responses(py, model, core::States { t, q, v }, false)
+        responses(py, &model.prepared, core::States { t, q, v }, false)
     })
 }
 

@@ -13,6 +13,7 @@ mod errors;
 mod evaluate;
 mod guard;
 mod model;
+mod options;
 mod respond;
 mod tables;
 mod watch;

@@ -1,6 +1,8 @@
 //! A compiled model, and what it holds as JSON.
 
 use crate::guard::guard;
+use crate::options::Last;
+use kempe::analyses::dynamics::Prepared;
 use kempe::elements::Side;
 use kempe::math::Local;
 use kempe::model::{Body, ConstraintItem, ForceItem, Model};
@@ -13,12 +15,21 @@ use std::sync::Arc;
 pub struct PyModel {
     /// The model.
     pub model: Arc<Model>,
+    /// What its simulations have in common.
+    pub prepared: Arc<Prepared<Arc<Model>>>,
+    /// The options that were read for it last.
+    pub options: Last,
 }
+
+/// Python's allocator aligns objects to 16 bytes and asks for nothing more.
+const _: () = assert!(align_of::<PyModel>() <= 16);
 
 impl PyModel {
     /// Of a model of the core.
     pub fn new(model: Model) -> Self {
-        Self { model: Arc::new(model) }
+        let model = Arc::new(model);
+        let prepared = Arc::new(Prepared::new(Arc::clone(&model)));
+        Self { model, prepared, options: Last::default() }
     }
 }
 

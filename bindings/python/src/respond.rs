@@ -7,6 +7,7 @@ use kempe::analyses::dynamics as core;
 use kempe::model::Model;
 use numpy::PyArray2;
 use pyo3::prelude::*;
+use std::sync::Arc;
 
 /// Rows of numbers, time first.
 pub type Table<'py> = Bound<'py, PyArray2<f64>>;
@@ -14,16 +15,17 @@ pub type Table<'py> = Bound<'py, PyArray2<f64>>;
 /// Accelerations and multipliers at states, with γ, not γ̂; near singular positions as well if they are passed.
 pub fn responses<'py>(
     py: Python<'py>,
-    model: &Model,
+    model: &core::Prepared<Arc<Model>>,
     states: core::States<'_>,
     passing: bool,
 ) -> PyResult<(Table<'py>, Table<'py>)> {
     let mut watch = Watch::new(None);
-    let found = py.detach(|| core::responses(model, states, passing, |t| watch.look(t)));
+    let found = py.detach(|| model.responses(states, passing, |t| watch.look(t)));
     if let Some(error) = watch.raised {
         return Err(error);
     }
     let core::Responses { a, lam } = found.map_err(|reason| because(py, reason))?;
+    let model = model.model();
     let (n, m, count) = (model.layout.n_q, model.layout.n_rows, states.t.len());
     Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?))
 }
@@ -31,11 +33,11 @@ pub fn responses<'py>(
 /// Energies at states, with the works up to them.
 pub fn energies<'py>(
     py: Python<'py>,
-    model: &Model,
+    model: &core::Prepared<Arc<Model>>,
     states: core::States<'_>,
     works: &[f64],
 ) -> PyResult<Table<'py>> {
-    let found = py.detach(|| core::energies(model, states, works));
+    let found = py.detach(|| model.energies(states, works));
     let found = found.map_err(|reason| because(py, reason))?;
     table(py, found, (states.t.len(), core::ENERGIES))
 }

@@ -3,20 +3,22 @@
 //! With W = M and μ = 0 it is the matrix of the equations of motion (Haug 6.3.18); with W = I it
 //! gives the smallest step of Newton's method, with μ > 0 a damped one.
 
+use super::plan::{ArmedPin, Plan};
 use super::{anchors, mass};
 use crate::math::{Motion, Real};
-use crate::model::{Anchor, Block, Layout, Model, Slots};
+use crate::model::Model;
 pub use crate::solve::Dependent;
-use crate::solve::{Armed, Bytes, Pattern, RowBlock, Saddle, Weight};
+use crate::solve::{Bytes, Pattern, Saddle, Weight};
+use std::sync::Arc;
 
 /// ε² of near singular positions: between the noise of positions over ε and the load over a time in
 /// proportion to ε; `docs/performance.md` has the errors for others.
 pub const RIDGE: f64 = 1e-10;
 
-/// Matrix, factors and pattern.
+/// Matrix and factors, on a shared plan.
 #[derive(Clone, Debug)]
 pub struct Augmented<S = f64> {
-    pattern: Pattern,
+    plan: Arc<Plan>,
     saddle: Saddle<S>,
     /// Whether near singular positions are to be passed.
     passing: bool,
@@ -24,23 +26,8 @@ pub struct Augmented<S = f64> {
     refusing: bool,
     /// Whether the factor at hand has it.
     ridged: bool,
-    /// The pins whose rows of Φ_q [`armed`](Self::armed) gives by their arms.
-    armed: Vec<ArmedPin>,
-    /// The other constraints, but for anchors.
-    others: Vec<u32>,
-    /// Whether bodies that are pinned to ground are anchored there.
-    anchored: bool,
     /// Whether the entries of Φ_q are those of all constraints.
     whole: bool,
-}
-
-/// A pin all of whose rows have arms.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ArmedPin {
-    /// Its place among the pins.
-    pub pin: u32,
-    /// Its place in the matrix.
-    pub rows: Armed,
 }
 
 /// What an evaluation puts into the matrix piece by piece.
@@ -54,53 +41,35 @@ pub(super) struct Parts<'a, S> {
 }
 
 impl<S: Real> Augmented<S> {
-    /// Memory and elimination order for a model: bodies first, then the constraints by minimum
-    /// degree, so that every pivot is safe while Φ_q has full rank.
+    /// Memory and elimination order for a model, see [`Plan::free`].
     pub fn new<P>(model: &Model<P>) -> Self {
-        Self::with(model, &[])
+        Self::on(Arc::new(Plan::free(model)))
     }
 
-    /// The same for W = M without damping: pins to ground are eliminated with the bodies that they hold.
-    pub fn anchored<P>(model: &Model<P>) -> Self {
-        let constraint = |anchor: &Anchor<P>| model.pins[anchor.pin as usize].constraint as usize;
-        let anchors: Vec<usize> = model.anchors.iter().map(constraint).collect();
-        Self { anchored: true, ..Self::with(model, &anchors) }
-    }
-
-    fn with<P>(model: &Model<P>, anchors: &[usize]) -> Self {
-        let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
-        let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout), anchors);
-        let (armed, others) = split(model, &pattern);
-        Self::on(pattern, armed, others, false)
-    }
-
-    /// On the pattern of the same model over other numbers, which is not sought again.
-    pub fn like<P>(other: &Augmented<P>) -> Self {
-        let Augmented { pattern, armed, others, anchored, .. } = other;
-        Self::on(pattern.clone(), armed.clone(), others.clone(), *anchored)
-    }
-
-    fn on(pattern: Pattern, armed: Vec<ArmedPin>, others: Vec<u32>, anchored: bool) -> Self {
+    /// Memory for a plan that was made for the model.
+    pub fn on(plan: Arc<Plan>) -> Self {
         Self {
-            saddle: Saddle::new(&pattern),
-            pattern,
+            saddle: Saddle::new(&plan.pattern),
+            plan,
             passing: false,
             refusing: false,
             ridged: false,
-            armed,
-            others,
-            anchored,
             whole: true,
         }
+    }
+
+    /// The plan, for others of the same model.
+    pub fn plan(&self) -> &Arc<Plan> {
+        &self.plan
     }
 
     /// The pieces; inertia, which no state changes, must stand there already. The factor is then without ridge.
     #[inline(always)]
     pub(super) fn parts_mut(&mut self) -> Parts<'_, S> {
-        self.whole = self.armed.is_empty() && self.pattern.anchors().is_empty();
         self.ridged = false;
-        let Self { pattern, saddle, armed, others, .. } = self;
-        Parts { pattern, saddle, armed, others }
+        let Plan { pattern, armed, others, .. } = &*self.plan;
+        self.whole = armed.is_empty() && pattern.anchors().is_empty();
+        Parts { pattern, saddle: &mut self.saddle, armed, others }
     }
 
     /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
@@ -135,7 +104,7 @@ impl<S: Real> Augmented<S> {
     /// # Panics
     /// If bodies are anchored.
     pub fn set_weights(&mut self, weights: &[S]) {
-        assert!(!self.anchored, "anchored bodies weigh what they do");
+        assert!(!self.plan.anchored, "anchored bodies weigh what they do");
         for (weight, d) in self.saddle.weights.iter_mut().zip(weights.chunks_exact(3)) {
             let inverse = [d[0], d[1], d[2]].map(|d| S::one() / d);
             *weight = Weight { inverse, shift: [S::zero(); 2], held: S::zero() };
@@ -165,7 +134,7 @@ impl<S: Real> Augmented<S> {
     /// Fills in the entries of Φ_q that the last evaluation left out.
     pub fn restore_jacobian(&mut self) {
         if !self.whole {
-            self.saddle.restore_entries(&self.pattern);
+            self.saddle.restore_entries(&self.plan.pattern);
             self.whole = true;
         }
     }
@@ -175,7 +144,7 @@ impl<S: Real> Augmented<S> {
     /// # Panics
     /// If bodies are anchored.
     pub fn set_damping(&mut self, mu: impl IntoIterator<Item = S>) {
-        assert!(!self.anchored, "anchors are not damped");
+        assert!(!self.plan.anchored, "anchors are not damped");
         self.saddle.damping.clear();
         self.saddle.damping.extend(mu);
     }
@@ -203,9 +172,9 @@ impl<S: Real> Augmented<S> {
     /// The row of Φ_q that depends on the others, or a coordinate without mass.
     pub fn factor(&mut self) -> Result<(), Dependent> {
         self.ridged = false;
-        match self.saddle.factor(&self.pattern) {
+        match self.saddle.factor(&self.plan.pattern) {
             Err(Dependent::Row(row)) if self.passing => {
-                self.ridged = self.saddle.factor_near(&self.pattern, RIDGE)?;
+                self.ridged = self.saddle.factor_near(&self.plan.pattern, RIDGE)?;
                 match self.ridged && self.refusing {
                     true => Err(Dependent::Row(row)),
                     false => Ok(()),
@@ -217,52 +186,22 @@ impl<S: Real> Augmented<S> {
 
     /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [S]) {
-        self.saddle.solve(&self.pattern, x);
+        self.saddle.solve(&self.plan.pattern, x);
     }
 
     /// Bytes of the plan and of the numbers.
     pub fn bytes(&self) -> Bytes {
-        self.pattern.bytes()
-            + self.saddle.bytes(&self.pattern)
-            + Bytes::touched(&self.armed)
-            + Bytes::touched(&self.others)
+        self.plan.bytes() + self.saddle.bytes(&self.plan.pattern)
     }
 
     /// The work of finding the elimination order and the plan, see [`Pattern::effort`].
     pub fn effort(&self) -> usize {
-        self.pattern.effort()
+        self.plan.pattern.effort()
     }
 
     /// How many digits the worst pivot lost: the constraint row and the pivot over what it was
     /// cancelled from.
     pub fn cancellation(&self) -> Option<(usize, f64)> {
-        self.saddle.cancellation(&self.pattern)
+        self.saddle.cancellation(&self.plan.pattern)
     }
-}
-
-/// The pins that arms can give, and the other constraints.
-fn split<P>(model: &Model<P>, pattern: &Pattern) -> (Vec<ArmedPin>, Vec<u32>) {
-    let mut pin: Vec<Option<u32>> = vec![None; model.constraints.len()];
-    (0..).zip(&model.pins).for_each(|(k, p)| pin[p.constraint as usize] = Some(k));
-    let mut others = vec![true; model.constraints.len()];
-    pattern.anchors().iter().for_each(|anchor| others[anchor.block as usize] = false);
-    let mut armed = Vec::with_capacity(pattern.armed().len());
-    for &rows in pattern.armed() {
-        let block = rows.block as usize;
-        armed.push(ArmedPin { pin: pin[block].expect("unit blocks are those of pins"), rows });
-        others[block] = false;
-    }
-    (armed, (0..).zip(others).filter(|(_, other)| *other).map(|(k, _)| k).collect())
-}
-
-/// The constraints as blocks of rows.
-fn row_blocks(layout: &Layout) -> Vec<RowBlock> {
-    let touches =
-        |blocks: &[Block]| blocks.iter().map(|block| (block.body.0 - 1, block.first)).collect();
-    let block = |slots: &Slots| RowBlock {
-        size: slots.rows.len(),
-        touches: touches(&slots.blocks),
-        signs: slots.blocks.iter().map(|block| block.sign).filter(|sign| *sign != 0.0).collect(),
-    };
-    layout.constraints.iter().map(block).collect()
 }

@@ -15,6 +15,7 @@ mod laws;
 pub mod mass;
 pub mod motion;
 mod pins;
+mod plan;
 pub mod reactions;
 mod refine;
 mod residuals;
@@ -22,4 +23,5 @@ pub mod tangent;
 
 pub use laws::{at, Laws};
 pub use motion::{Gains, Singular, Workspace};
+pub use plan::Plan;
 pub use residuals::Residuals;

@@ -10,10 +10,12 @@
 use super::augmented::{Augmented, Dependent, Parts};
 use super::constraints::{self, Stabilized};
 use super::energy::Powers;
+use super::plan::Plan;
 use super::{anchors, forces, kinematics, mass, pins, refine};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 use crate::solve::Bytes;
+use std::sync::Arc;
 
 /// Baumgarte's gains; zeros leave γ as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,23 +56,20 @@ const REDUNDANT: f64 = 1e-10;
 impl<S: Real> Workspace<S> {
     /// All memory that evaluations of this model need.
     pub fn new(model: &Model<S>) -> Self {
-        let matrix = match model.allow_redundancy {
-            true => Augmented::new(model),
-            false => Augmented::anchored(model),
-        };
-        Self::on(model, matrix)
+        Self::on(model, Arc::new(Plan::of_motion(model)))
     }
 
     /// The same for a model whose plan of elimination `other` has, of the same model over other numbers.
     pub fn like<P: Real>(model: &Model<S>, other: &Workspace<P>) -> Self {
-        Self::on(model, Augmented::like(&other.matrix))
+        Self::on(model, Arc::clone(other.matrix.plan()))
     }
 
-    fn on(model: &Model<S>, matrix: Augmented<S>) -> Self {
+    /// The same on the plan of the model's [equations of motion](Plan::of_motion).
+    pub fn on(model: &Model<S>, plan: Arc<Plan>) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let mut workspace = Self {
             motions: Vec::with_capacity(model.bodies.len()),
-            matrix,
+            matrix: Augmented::on(plan),
             solution: vec![S::zero(); n + m],
             powers: Powers::zero(),
             held: Vec::new(),

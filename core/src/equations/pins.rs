@@ -1,8 +1,8 @@
 //! γ̂ and Φ_q of pins, the constraints that mechanisms have most of: of [±I b] (Haug 3.3.12) b alone, and what
 //! follows from it for the pin by itself while its numbers are at hand.
 
-use super::augmented::ArmedPin;
 use super::constraints::Stabilized;
+use super::plan::ArmedPin;
 use crate::elements::joints::Revolute;
 use crate::elements::Joint;
 use crate::math::{Motion, Real};

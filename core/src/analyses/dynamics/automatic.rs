@@ -57,13 +57,15 @@ impl<O: Observer, F: FnMut(&Step<'_>) -> bool> Observer for Judged<'_, O, F> {
 }
 
 impl<'a, 'o> Automatic<'a, 'o> {
-    pub fn new(model: &'a Model, options: &'o Options, auto: &'o Auto, t0: f64) -> Self {
+    /// Where the equations of motion are `system` to explicit methods.
+    pub fn new(system: &Equations<'a>, options: &'o Options, auto: &'o Auto, t0: f64) -> Self {
+        let model = system.model;
         let choice = Choice { method: "dop853", why: String::new() };
         Self {
             model,
             options,
             auto,
-            detector: Detector::new(model, t0),
+            detector: Detector::new(model, &system.workspace, t0),
             implicit: None,
             step: auto.first_step,
             total: None,

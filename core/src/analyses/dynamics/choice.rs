@@ -74,13 +74,14 @@ pub(super) struct Detector<'a> {
 }
 
 impl<'a> Detector<'a> {
-    pub fn new(model: &'a Model, t0: f64) -> Self {
+    /// With the workspace of the equations of motion of this run for its plan of elimination.
+    pub fn new(model: &'a Model, one: &Workspace, t0: f64) -> Self {
         let n = 2 * model.layout.n_q;
         // a vector without pattern has a share of every motion
         let start = (0..n).map(|k| (1.0 + 0.7 * k as f64).sin()).collect();
         Self {
             model,
-            workspace: Workspace::new(model),
+            workspace: Workspace::like(model, one),
             x: [start, vec![0.0; n], vec![0.0; n]],
             steps: 0,
             next: FIRST_LOOK,

@@ -1,6 +1,7 @@
 //! Energies at the states of a run, worked out when they are asked for; several at once over lanes.
 
 use super::failure::Reason;
+use super::prepared::Common;
 use super::report::Halt;
 use super::respond::{States, MANY};
 use super::system::WORKS;
@@ -13,21 +14,18 @@ use crate::model::Model;
 /// Number of columns of [`Run::energies`].
 pub const ENERGIES: usize = 2 + WORKS;
 
-/// Kinetic and potential energy at states, J, before what was dissipated and done up to them: `works`, rows of three,
-/// become rows of [`ENERGIES`].
-///
-/// # Errors
-/// [`Reason`] of the first state where one of them is not finite.
-///
-/// # Panics
-/// If the rows do not fit the model or each other.
-pub fn energies(model: &Model, states: States<'_>, works: &[f64]) -> Result<Vec<f64>, Reason> {
+/// See [`Prepared::energies`](super::Prepared::energies).
+pub(super) fn energies(
+    (model, common): (&Model, &Common),
+    states: States<'_>,
+    works: &[f64],
+) -> Result<Vec<f64>, Reason> {
     let States { t, q, v } = states;
     let n = model.layout.n_q;
     let lengths = [n, n, WORKS].map(|width| width * t.len());
     assert_eq!([q.len(), v.len(), works.len()], lengths, "a row for each time");
     let mut found = Vec::with_capacity(ENERGIES * t.len());
-    let rows = mechanical(model, states).into_iter().zip(works.chunks_exact(WORKS));
+    let rows = mechanical((model, common), states).into_iter().zip(works.chunks_exact(WORKS));
     for (k, (energies, works)) in rows.enumerate() {
         if !all_finite(&energies) {
             return Err(Reason::halt(model, t[k], &q[k * n..(k + 1) * n], Halt::NotFinite));
@@ -39,11 +37,10 @@ pub fn energies(model: &Model, states: States<'_>, works: &[f64]) -> Result<Vec<
 }
 
 /// Kinetic and potential energy at each state.
-fn mechanical(model: &Model, States { t, q, v }: States<'_>) -> Vec<[f64; 2]> {
+fn mechanical((model, common): (&Model, &Common), States { t, q, v }: States<'_>) -> Vec<[f64; 2]> {
     let (n, mut found) = (model.layout.n_q, Vec::with_capacity(t.len()));
     let mut done = 0;
     if t.len() >= MANY {
-        let wide = model.lift::<Lanes>();
         let (mut motions, none) = (Vec::new(), vec![Lanes::zero(); n]);
         let (mut places, mut rates) = (none.clone(), none);
         for t in t.chunks_exact(Lanes::WIDTH) {
@@ -51,7 +48,7 @@ fn mechanical(model: &Model, States { t, q, v }: States<'_>) -> Vec<[f64; 2]> {
             Lanes::from_rows(&q[rows.clone()], &mut places);
             Lanes::from_rows(&v[rows], &mut rates);
             let t = Lanes::new([t[0], t[1], t[2], t[3]]);
-            let [kinetic, potential] = at(&wide, t, (&places, &rates), &mut motions);
+            let [kinetic, potential] = at(common.wide(model), t, (&places, &rates), &mut motions);
             let both = kinetic.to_array().into_iter().zip(potential.to_array());
             found.extend(both.map(|(kinetic, potential)| [kinetic, potential]));
             done += Lanes::WIDTH;
@@ -80,8 +77,8 @@ impl Run {
     /// rows of [`ENERGIES`].
     ///
     /// # Errors
-    /// As [`energies`].
+    /// As [`Prepared::energies`](super::Prepared::energies).
     pub fn energies(&self, model: &Model) -> Result<Vec<f64>, Reason> {
-        energies(model, self.trajectory.states(), &self.trajectory.works)
+        energies((model, &Common::default()), self.trajectory.states(), &self.trajectory.works)
     }
 }

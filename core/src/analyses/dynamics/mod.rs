@@ -12,6 +12,7 @@ mod forecast;
 mod implicit;
 mod options;
 mod output;
+mod prepared;
 mod read;
 mod report;
 mod respond;
@@ -19,22 +20,23 @@ mod singularity;
 mod system;
 
 pub use choice::Choice;
-pub use energies::{energies, ENERGIES};
+pub use energies::ENERGIES;
 pub use failure::{Failure, Reason};
 pub use options::{most_steps, Auto, Options, Output, Scheme, Stabilization};
 pub use output::{Dense, Trajectory};
+pub use prepared::Prepared;
 pub use read::read;
-pub use respond::{responses, Responses, States};
+pub use respond::{Responses, States};
 pub use singularity::Singularity;
 
 use super::State;
 use crate::integrate::{self, Cause, Ended, Flow, ImplicitMethod, Method, Observer, Step};
-use crate::math::Lanes;
 use crate::model::Model;
 use crate::stabilize::Fault;
 use automatic::Automatic;
 use implicit::Implicit;
 use output::Recorder;
+use prepared::Common;
 use std::time::Instant;
 use system::{Equations, WORKS};
 
@@ -87,7 +89,7 @@ pub fn dynamics(
     options: &Options,
     watch: impl FnMut(f64) -> Flow,
 ) -> Result<Run, Box<Failure>> {
-    simulate(model, start, options, Eyes { watch, look: None })
+    Prepared::new(model).dynamics(start, options, watch)
 }
 
 /// The same, but `look` sees every accepted step with its continuous extension, after what is reported of
@@ -103,7 +105,8 @@ pub fn dynamics_by_steps(
     mut look: impl FnMut(&Step<'_>) -> Flow,
 ) -> Result<Run, Box<Failure>> {
     let watch = |_| Flow::Continue;
-    simulate(model, start, options, Eyes { watch, look: Some(&mut look) })
+    let eyes = Eyes { watch, look: Some(&mut look) };
+    simulate((model, &Common::default()), start, options, eyes)
 }
 
 /// What the caller sees of a run.
@@ -115,17 +118,17 @@ struct Eyes<'l, W> {
 }
 
 fn simulate<W: FnMut(f64) -> Flow>(
-    model: &Model,
+    (model, common): (&Model, &Common),
     start: &State,
     options: &Options,
     eyes: Eyes<'_, W>,
 ) -> Result<Run, Box<Failure>> {
     let clock = Instant::now();
     options.check(model, start).map_err(|reason| Failure { reason, run: Run::default() })?;
-    let mut system = Equations::new(model, options);
+    let mut system = Equations::new(model, options, common.plan(model));
     let t0 = options.t_start.unwrap_or(start.t);
-    let wide = output::many(options.output, options.t_end - t0).then(|| model.lift::<Lanes>());
-    let mut recorder = Recorder::new(&system, wide.as_ref(), options, t0);
+    let wide = output::many(options.output, options.t_end - t0).then(|| common.wide(model));
+    let mut recorder = Recorder::new(&system, wide, options, t0);
     let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();
     y.resize(y.len() + WORKS, 0.0);
     system.project(t0, &mut y, false).map_err(|(t, fault)| Failure {
@@ -177,7 +180,7 @@ fn integrate_by<'a, O: Observer>(
             (outcome.map_err(Box::new), implicit.factorisations(), None)
         }
         Scheme::Auto(auto) => {
-            let mut automatic = Automatic::new(model, options, auto, t0);
+            let mut automatic = Automatic::new(system, options, auto, t0);
             let outcome = automatic.run(system, t0, y, observer);
             (outcome, automatic.factorisations(), Some(automatic.choice))
         }

@@ -144,7 +144,6 @@ impl<'a> Recorder<'a> {
             trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
             dense: options.dense_output.then(|| Dense::with_room(model, options, t0)),
             coefficients: Vec::new(),
-            // a copy of the plan of elimination is had in a tenth of the time of a plan
             one: Placer::new(model, options, system.workspace.clone()),
             many: wide.map(|wide| Batch::new(wide, options, &system.workspace)),
             halt: None,

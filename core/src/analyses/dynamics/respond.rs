@@ -6,6 +6,7 @@
 
 use super::batch::are_finite;
 use super::failure::Reason;
+use super::prepared::Common;
 use super::report::Halt;
 use super::Run;
 use crate::equations::{Gains, Singular, Workspace};
@@ -37,16 +38,9 @@ pub struct Responses {
 /// So many states that solving several at once is worth a model over lanes.
 pub(super) const MANY: usize = 4 * Lanes::WIDTH;
 
-/// Solves the equations of motion at states. With `passing` also near singular positions, as runs with projection
-/// pass them. `watch` sees the times, and may stop: then the rows so far are given.
-///
-/// # Errors
-/// [`Reason`] of the first state where accelerations and multipliers are not unique, or not finite.
-///
-/// # Panics
-/// If the rows do not fit the model or each other.
-pub fn responses(
-    model: &Model,
+/// See [`Prepared::responses`](super::Prepared::responses).
+pub(super) fn respond(
+    (model, common): (&Model, &Common),
     states: States<'_>,
     passing: bool,
     mut watch: impl FnMut(f64) -> Flow,
@@ -54,12 +48,11 @@ pub fn responses(
     let States { t, q, v } = states;
     let (n, count) = (model.layout.n_q, t.len());
     assert_eq!([q.len(), v.len()], [n * count; 2], "a row for each time");
-    let mut one = Workspace::new(model);
+    let mut one = Workspace::on(model, common.plan(model));
     if passing {
         one.pass_singular();
     }
-    let wide = (count >= MANY).then(|| model.lift::<Lanes>());
-    let mut many = wide.as_ref().map(|wide| Many::new(wide, &one));
+    let mut many = (count >= MANY).then(|| Many::new(common.wide(model), &one));
     let mut found = Responses::with_room(model, count);
     for first in (0..count).step_by(Lanes::WIDTH) {
         let end = (first + Lanes::WIDTH).min(count);
@@ -150,8 +143,9 @@ impl Run {
     /// Accelerations and multipliers at the reported states, without stabilization.
     ///
     /// # Errors
-    /// As [`responses`].
+    /// As [`Prepared::responses`](super::Prepared::responses).
     pub fn responses(&self, model: &Model) -> Result<Responses, Reason> {
-        responses(model, self.trajectory.states(), self.passing, |_| Flow::Continue)
+        let watch = |_| Flow::Continue;
+        respond((model, &Common::default()), self.trajectory.states(), self.passing, watch)
     }
 }

@@ -4,11 +4,12 @@ use super::options::{Options, Stabilization};
 use super::singularity::Passage;
 use crate::analyses::mobility;
 use crate::equations::augmented::Dependent;
-use crate::equations::{kinematics, Gains, Singular, Workspace};
+use crate::equations::{kinematics, Gains, Plan, Singular, Workspace};
 use crate::integrate::{all_finite, FirstOrder};
 use crate::math::{Lanes, Real};
 use crate::model::Model;
 use crate::stabilize::{Fault, Held, Projector};
+use std::sync::Arc;
 
 /// Works that are integrated beside the motion: dissipated, of drivers, of applied forces.
 pub(super) const WORKS: usize = 3;
@@ -75,12 +76,13 @@ fn join(v: &[f64], mut a: &[f64], powers: [f64; WORKS], dy: &mut [f64]) {
 }
 
 impl<'a> Equations<'a> {
-    pub fn new(model: &'a Model, options: &Options) -> Self {
+    /// With the plan of elimination of the model.
+    pub fn new(model: &'a Model, options: &Options, plan: Arc<Plan>) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
-        let mut workspace = Workspace::new(model);
+        let mut workspace = Workspace::on(model, plan);
         // without projection nothing brings a state back to its branch
         let passing = projector.is_some() && !model.allow_redundancy;
         if passing {

@@ -1,0 +1,50 @@
+//! Options of forward dynamics from Python, as text in the form of a file.
+
+use crate::case::{raise, raise_plain};
+use crate::convert::number;
+use crate::errors::Kind;
+use crate::model::PyModel;
+use kempe::analyses::dynamics::{self, Options};
+use kempe::case::{self, Format};
+use pyo3::prelude::*;
+use std::sync::{Mutex, PoisonError};
+
+/// The last options that were read for a model: loops over starts ask for the same again and again.
+#[derive(Default)]
+pub struct Last(Mutex<Option<(String, Options)>>);
+
+impl Last {
+    fn of(&self, text: &str) -> Option<Options> {
+        let last = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        last.as_ref().filter(|(known, _)| known == text).map(|(_, options)| options.clone())
+    }
+
+    fn keep(&self, text: &str, options: &Options) {
+        let mut last = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        *last = Some((text.to_string(), options.clone()));
+    }
+}
+
+/// Options from `{"type": "dynamics", "t_end": 15, "method": {"type": "rk45", …}, …}`; with `t_end`
+/// instead of what the text says, if given.
+pub fn read(py: Python<'_>, model: &PyModel, text: &str, t_end: Option<f64>) -> PyResult<Options> {
+    let known = model.options.of(text);
+    let mut options = known.map_or_else(|| read_anew(py, model, text), Ok)?;
+    if let Some(t_end) = t_end {
+        options.t_end = number(py, "t_end", t_end)?;
+    }
+    Ok(options)
+}
+
+fn read_anew(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<Options> {
+    let written = format!("{{\"kempe\": 1, \"analyses\": {{\"dynamics\": {text}}}}}");
+    let (case, _) = case::read(&written, Format::Json).map_err(|mut found| {
+        found.iter_mut().for_each(|d| drop(d.path.drain(..d.path.len().min(2))));
+        raise(py, Kind::Model, &found, None)
+    })?;
+    let fields = case.analyses.first().map_or(&[][..], |entry| &entry.fields);
+    let options = dynamics::read(&model.model, fields, &[])
+        .map_err(|found| raise_plain(py, Kind::Model, &found))?;
+    model.options.keep(text, &options);
+    Ok(options)
+}

@@ -1,0 +1,108 @@
+//! A model made ready for many runs: what each would work out anew is worked out by the first.
+
+use super::energies::energies;
+use super::respond::respond;
+use super::{simulate, Eyes, Failure, Options, Reason, Responses, Run, States};
+use crate::analyses::State;
+use crate::equations::Plan;
+use crate::integrate::Flow;
+use crate::math::Lanes;
+use crate::model::Model;
+use std::ops::Deref;
+use std::sync::{Arc, OnceLock};
+
+/// A model and what its runs have in common: the plan of elimination, and the model over lanes once a run wants it.
+///
+/// Of a borrowed model or, as `Prepared<Arc<Model>>`, with the model in it. Threads may share it; the results of a
+/// run do not depend on those before it.
+///
+/// ```no_run
+/// # use kempe::{analyses::{dynamics, State}, integrate::Flow, model::Model};
+/// # fn main() -> Result<(), Box<dynamics::Failure>> {
+/// # let (model, starts): (Model, Vec<State>) = unimplemented!();
+/// let prepared = dynamics::Prepared::new(&model);
+/// for start in &starts {
+///     let run = prepared.dynamics(start, &dynamics::Options::new(0.1), |_| Flow::Continue)?;
+/// }
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Prepared<M> {
+    model: M,
+    common: Common,
+}
+
+/// What is worked out at first use.
+#[derive(Debug, Default)]
+pub(super) struct Common {
+    plan: OnceLock<Arc<Plan>>,
+    /// In a box: it is aligned as vector registers are, to more than allocators of other languages give.
+    wide: OnceLock<Box<Model<Lanes>>>,
+}
+
+impl Common {
+    /// The plan of elimination of the equations of motion.
+    pub fn plan(&self, model: &Model) -> Arc<Plan> {
+        Arc::clone(self.plan.get_or_init(|| Arc::new(Plan::of_motion(model))))
+    }
+
+    /// The model over lanes.
+    pub fn wide(&self, model: &Model) -> &Model<Lanes> {
+        self.wide.get_or_init(|| Box::new(model.lift()))
+    }
+}
+
+impl<M: Deref<Target = Model>> Prepared<M> {
+    /// Works out nothing yet.
+    pub fn new(model: M) -> Self {
+        Self { model, common: Common::default() }
+    }
+
+    /// The model.
+    pub fn model(&self) -> &M {
+        &self.model
+    }
+
+    /// Integrates the equations of motion from `start` to `options.t_end`, as [`dynamics`](super::dynamics) does.
+    ///
+    /// # Errors
+    /// [`Failure`], with everything computed so far.
+    pub fn dynamics(
+        &self,
+        start: &State,
+        options: &Options,
+        watch: impl FnMut(f64) -> Flow,
+    ) -> Result<Run, Box<Failure>> {
+        simulate((&self.model, &self.common), start, options, Eyes { watch, look: None })
+    }
+
+    /// Solves the equations of motion at states. With `passing` also near singular positions, as runs with projection
+    /// pass them. `watch` sees the times, and may stop: then the rows so far are given.
+    ///
+    /// # Errors
+    /// [`Reason`] of the first state where accelerations and multipliers are not unique, or not finite.
+    ///
+    /// # Panics
+    /// If the rows do not fit the model or each other.
+    pub fn responses(
+        &self,
+        states: States<'_>,
+        passing: bool,
+        watch: impl FnMut(f64) -> Flow,
+    ) -> Result<Responses, Reason> {
+        respond((&self.model, &self.common), states, passing, watch)
+    }
+
+    /// Kinetic and potential energy at states, J, before what was dissipated and done up to them: `works`, rows of
+    /// three, become rows of [`ENERGIES`](super::ENERGIES).
+    ///
+    /// # Errors
+    /// [`Reason`] of the first state where one of them is not finite.
+    ///
+    /// # Panics
+    /// If the rows do not fit the model or each other.
+    pub fn energies(&self, states: States<'_>, works: &[f64]) -> Result<Vec<f64>, Reason> {
+        energies((&self.model, &self.common), states, works)
+    }
+}
