@@ -19,13 +19,25 @@ pub(super) struct Rate<'a, Y> {
 }
 
 impl<Y: FirstOrder> Rate<'_, Y> {
+    /// dy = f(t, y), both in blocks; not asked whether that is finite.
+    #[inline(always)]
+    pub fn unasked(
+        &mut self,
+        t: f64,
+        y: &[Block],
+        dy: &mut [Block],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        let n = self.system.len();
+        self.evaluations += 1;
+        let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
+        self.system.rate(t, y, rates).map_err(Trouble::Stop)
+    }
+
     /// dy = f(t, y), both in blocks.
     #[inline]
     pub fn at(&mut self, t: f64, y: &[Block], dy: &mut [Block]) -> Result<(), Trouble<Y::Stop>> {
-        let n = self.system.len();
-        let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
-        let evaluated = self.system.rate(t, y, rates);
-        self.checked(t, evaluated, dy)
+        self.unasked(t, y, dy)?;
+        self.finite(t, dy)
     }
 
     /// The same after the system has accepted y; whether it `changed` it.
@@ -36,24 +48,19 @@ impl<Y: FirstOrder> Rate<'_, Y> {
         y: &[Block],
         dy: &mut [Block],
     ) -> Result<(), Trouble<Y::Stop>> {
+        if !changed {
+            return self.at(t, y, dy);
+        }
         let n = self.system.len();
+        self.evaluations += 1;
         let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
-        let evaluated = match changed {
-            true => self.system.rate_accepted(t, y, rates),
-            false => self.system.rate(t, y, rates),
-        };
-        self.checked(t, evaluated, dy)
+        self.system.rate_accepted(t, y, rates).map_err(Trouble::Stop)?;
+        self.finite(t, dy)
     }
 
+    /// Whether a derivative at t is finite.
     #[inline(always)]
-    fn checked(
-        &mut self,
-        t: f64,
-        evaluated: Result<(), Y::Stop>,
-        dy: &[Block],
-    ) -> Result<(), Trouble<Y::Stop>> {
-        self.evaluations += 1;
-        evaluated.map_err(Trouble::Stop)?;
+    pub fn finite(&self, t: f64, dy: &[Block]) -> Result<(), Trouble<Y::Stop>> {
         // without what fills the last block: of what was stored in parts just now no vector can be loaded soon
         if all_finite(&dy.as_flattened()[..self.system.len()]) {
             Ok(())

@@ -20,7 +20,7 @@ pub(super) fn width(n: usize) -> usize {
     n.div_ceil(Lanes::WIDTH).max(1)
 }
 
-/// out = y + h Σₛ aₛ kₛ.
+/// out = y + h Σₛ aₛ kₛ; whether that is finite, which is known here without loading it again.
 #[inline(always)]
 pub(super) fn combine<const S: usize>(
     y: &[Block],
@@ -28,17 +28,22 @@ pub(super) fn combine<const S: usize>(
     a: [f64; S],
     mut k: [&[Block]; S],
     out: &mut [Block],
-) {
+) -> bool {
     let n = out.len();
     let y = &y[..n];
     // equal lengths: no bounds checks below; as a loop, since map() of an array is a call
     for k in &mut k {
         *k = &k[..n];
     }
-    let h = Lanes::constant(h);
+    let (h, zero) = (Lanes::constant(h), Lanes::zero());
+    // 0 x is zero for finite x and NaN otherwise
+    let mut none = zero;
     for i in 0..n {
-        out[i] = (Lanes::new(y[i]) + h * sum_at(i, a, k)).to_array();
+        let x = Lanes::new(y[i]) + h * sum_at(i, a, k);
+        none = none.plus_product(zero, x);
+        out[i] = x.to_array();
     }
+    none.are_within(0.0)
 }
 
 /// Σₛ aₛ kₛ of a block; not fused, which gains little and moves steps next to the limit of their error.
@@ -82,8 +87,13 @@ pub(super) fn rows<const S: usize>(k: &[Block], width: usize) -> [&[Block]; S] {
 /// The same, to be written.
 #[inline(always)]
 pub(super) fn rows_mut<const S: usize>(k: &mut [Block], width: usize) -> [&mut [Block]; S] {
-    let mut rows = k.chunks_exact_mut(width);
-    std::array::from_fn(|_| rows.next().expect("so many rows"))
+    // not in chunks, which begin with a division
+    let mut rest = k;
+    std::array::from_fn(|_| {
+        let (row, others) = std::mem::take(&mut rest).split_at_mut(width);
+        rest = others;
+        row
+    })
 }
 
 /// Row `s` of `k`.
@@ -100,16 +110,30 @@ pub(super) fn row_mut(k: &mut [Block], width: usize, s: usize) -> &mut [Block] {
 
 /// A step that is tried.
 pub(super) struct Trial<'r, 's, Y> {
-    pub rate: &'r mut Rate<'s, Y>,
-    pub t: f64,
-    pub h: f64,
-    pub y: &'r [Block],
+    rate: &'r mut Rate<'s, Y>,
+    t: f64,
+    h: f64,
+    y: &'r [Block],
     /// The argument of the stage under way.
-    pub work: &'r mut [Block],
+    work: &'r mut [Block],
+    /// When the last stage was evaluated.
+    last: f64,
 }
 
-impl<Y: FirstOrder> Trial<'_, '_, Y> {
-    /// out = f(t + c h, y + h Σₛ aₛ kₛ).
+impl<'r, 's, Y: FirstOrder> Trial<'r, 's, Y> {
+    /// Of length h from y at t; `work` is scratch.
+    #[inline(always)]
+    pub fn new(
+        rate: &'r mut Rate<'s, Y>,
+        (t, h): (f64, f64),
+        y: &'r [Block],
+        work: &'r mut [Block],
+    ) -> Self {
+        Self { rate, t, h, y, work, last: t }
+    }
+
+    /// out = f(t + c h, y + h Σₛ aₛ kₛ). Whether that is finite is asked of what is made of it: the last of
+    /// the stages k must be the one before, with a weight that is not zero.
     #[inline(always)]
     pub fn stage<const S: usize>(
         &mut self,
@@ -118,7 +142,25 @@ impl<Y: FirstOrder> Trial<'_, '_, Y> {
         k: [&[Block]; S],
         out: &mut [Block],
     ) -> Result<(), Trouble<Y::Stop>> {
-        combine(self.y, self.h, a, k, self.work);
-        self.rate.at(self.t + c * self.h, self.work, out)
+        debug_assert!(a[S - 1] != 0.0, "what the stage before is like shows here alone");
+        if !combine(self.y, self.h, a, k, self.work) {
+            return Err(Trouble::NotFinite(self.last));
+        }
+        self.last = self.t + c * self.h;
+        self.rate.unasked(self.last, self.work, out)
+    }
+
+    /// out = y + h Σₛ aₛ kₛ, all finite; with k as there.
+    #[inline(always)]
+    pub fn end<const S: usize>(
+        &mut self,
+        a: [f64; S],
+        k: [&[Block]; S],
+        out: &mut [Block],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        match combine(self.y, self.h, a, k, out) {
+            true => Ok(()),
+            false => Err(Trouble::NotFinite(self.last)),
+        }
     }
 }

@@ -115,7 +115,7 @@ impl Lanes {
     }
     /// Whether no lane is beyond ±`most`, or NaN.
     #[inline(always)]
-    pub(super) fn are_within(self, most: f64) -> bool {
+    pub(crate) fn are_within(self, most: f64) -> bool {
         wide::CmpLe::cmp_le(self.0.abs(), f64x4::splat(most)).all()
     }
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
