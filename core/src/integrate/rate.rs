@@ -90,20 +90,11 @@ impl<Y: FirstOrder> Rate<'_, Y> {
 /// Whether every number is finite.
 #[inline(always)]
 pub(crate) fn all_finite(x: &[f64]) -> bool {
-    // 0 x is zero for finite x and NaN otherwise; four at once, in two sums of which neither waits for the other
-    let zero = Lanes::zero();
-    let block = |x: &[f64]| Lanes::new([x[0], x[1], x[2], x[3]]);
-    let pairs = x.chunks_exact(2 * Lanes::WIDTH);
-    let left = pairs.remainder().chunks_exact(Lanes::WIDTH);
-    let rest: f64 = left.remainder().iter().map(|x| 0.0 * x).sum();
-    let mut sums = [Lanes::constant(rest), zero];
-    for pair in pairs {
-        sums[0] = sums[0].plus_product(zero, block(pair));
-        sums[1] = sums[1].plus_product(zero, block(&pair[Lanes::WIDTH..]));
-    }
-    for x in left {
-        sums[0] = sums[0].plus_product(zero, block(x));
-    }
-    let [a, b, c, d] = (sums[0] + sums[1]).to_array();
-    (a + b) + (c + d) == 0.0
+    // 0 x is zero for finite x and NaN otherwise
+    let (zero, blocks) = (Lanes::zero(), x.chunks_exact(Lanes::WIDTH));
+    let rest: f64 = blocks.remainder().iter().map(|x| 0.0 * x).sum();
+    let none = blocks.fold(Lanes::constant(rest), |none, x| {
+        none.plus_product(zero, Lanes::new([x[0], x[1], x[2], x[3]]))
+    });
+    none.are_zero()
 }

@@ -43,7 +43,7 @@ pub(super) fn combine<const S: usize>(
         none = none.plus_product(zero, x);
         out[i] = x.to_array();
     }
-    none.are_within(0.0)
+    none.are_zero()
 }
 
 /// Σₛ aₛ kₛ of a block; not fused, which gains little and moves steps next to the limit of their error.
@@ -61,20 +61,6 @@ pub(super) fn chord(from: &[Block], to: &[Block], h: f64, out: &mut [Block]) {
     let h = Lanes::constant(h);
     for ((out, from), to) in out.iter_mut().zip(from).zip(to) {
         *out = ((Lanes::new(*to) - Lanes::new(*from)) / h).to_array();
-    }
-}
-
-/// out += Σₛ aₛ kₛ, one pass over the components.
-#[inline(always)]
-pub(super) fn accumulate<const S: usize>(a: [f64; S], k: [&[f64]; S], out: &mut [f64]) {
-    let n = out.len();
-    let k = k.map(|k| &k[..n]); // equal lengths: no bounds checks below
-    for i in 0..n {
-        let mut sum = a[0] * k[0][i];
-        for s in 1..S {
-            sum += a[s] * k[s][i];
-        }
-        out[i] += sum;
     }
 }
 
