@@ -129,35 +129,6 @@ impl<'a> Equations<'a> {
         }
     }
 
-    /// dy, of bodies that stand where y says or are to be `placed` there first: one function, since one that calls
-    /// another saves and restores twice.
-    #[inline(never)]
-    fn answer(
-        &mut self,
-        placed: bool,
-        t: f64,
-        y: &[f64],
-        dy: &mut [f64],
-    ) -> Result<(), (f64, Fault)> {
-        let n = self.model.layout.n_q;
-        let v = &y[n..2 * n];
-        if placed {
-            kinematics::motions(&y[..n], v, &mut self.workspace.motions);
-        }
-        if let Err(singular) = self.workspace.respond(self.model, t, self.gains) {
-            dy.fill(f64::NAN);
-            return stop_if_finite(singular, t, y);
-        }
-        if !self.passage.watch(self.model, &self.workspace, t, v) {
-            dy.fill(f64::NAN); // a shorter step may avoid it
-            return Ok(());
-        }
-        let powers = self.workspace.powers(self.model, v);
-        let works = [powers.dissipated, powers.drivers, powers.applied];
-        join(v, self.workspace.a(), works, dy);
-        Ok(())
-    }
-
     /// Projects y if that was asked for; whether it changed. The works stay: what projection does to
     /// the energy shows in the balance.
     pub fn project(&mut self, t: f64, y: &mut [f64], factored: bool) -> Result<bool, (f64, Fault)> {
@@ -193,15 +164,28 @@ impl FirstOrder for Equations<'_> {
         2 * self.model.layout.n_q
     }
 
-    #[inline(always)]
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
-        self.answer(true, t, y, dy)
+        let n = self.model.layout.n_q;
+        kinematics::motions(&y[..n], &y[n..2 * n], &mut self.workspace.motions);
+        self.rate_accepted(t, y, dy)
     }
 
     /// Projection leaves the bodies where y says.
-    #[inline(always)]
     fn rate_accepted(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
-        self.answer(false, t, y, dy)
+        let n = self.model.layout.n_q;
+        let v = &y[n..2 * n];
+        if let Err(singular) = self.workspace.respond(self.model, t, self.gains) {
+            dy.fill(f64::NAN);
+            return stop_if_finite(singular, t, y);
+        }
+        if !self.passage.watch(self.model, &self.workspace, t, v) {
+            dy.fill(f64::NAN); // a shorter step may avoid it
+            return Ok(());
+        }
+        let powers = self.workspace.powers(self.model, v);
+        let works = [powers.dissipated, powers.drivers, powers.applied];
+        join(v, self.workspace.a(), works, dy);
+        Ok(())
     }
 
     /// Gains may come from the step.
