@@ -199,3 +199,32 @@ fn lanes<const BLOCKS: usize>(x: &[f64]) -> [Lanes; BLOCKS] {
         Lanes::new([block[0], block[1], block[2], block[3]])
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows as long as the state and longer, in as many components as blocks, passes and what they leave behind take.
+    #[test]
+    fn states_are_the_sums_that_the_table_says() {
+        let (ahead, theta) = (0.2, 0.4);
+        let weights = HERMITE
+            .chunks_exact(4)
+            .map(|b| ahead * (b[0] + theta * (b[1] + theta * (b[2] + theta * b[3]))));
+        let weights: Vec<f64> = weights.collect();
+        for n in [0, 1, 3, 4, 5, 8, 11, 12, 13, 21, 24, 33] {
+            for len in [n, n + 3] {
+                let stages: Vec<f64> = (0..3 * len).map(|k| (k as f64).sin()).collect();
+                let y_old: Vec<f64> = (0..n).map(|k| (k as f64).cos()).collect();
+                let mut out = vec![f64::NAN; n];
+                let dense = Dense::new(&stages, len, &HERMITE, 4);
+                dense.evaluate(&y_old, ahead, theta, &mut out);
+                for (i, (out, y)) in out.iter().zip(&y_old).enumerate() {
+                    let sum: f64 =
+                        weights.iter().zip(0..).map(|(w, s)| w * stages[s * len + i]).sum();
+                    assert!((out - (y + sum)).abs() < 1e-15, "{i} of {n} in rows of {len}");
+                }
+            }
+        }
+    }
+}

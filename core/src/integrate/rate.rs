@@ -98,3 +98,23 @@ pub(crate) fn all_finite(x: &[f64]) -> bool {
     });
     none.are_zero()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_number_that_is_not_finite_is_found_wherever_it_is() {
+        for n in 0..20 {
+            let x: Vec<f64> = (0..n).map(|k| 1e300 * f64::from(k - 7)).collect();
+            assert!(all_finite(&x), "{n}");
+            for at in 0..x.len() {
+                for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                    let mut x = x.clone();
+                    x[at] = bad;
+                    assert!(!all_finite(&x), "{bad} at {at} of {n}");
+                }
+            }
+        }
+    }
+}

@@ -150,3 +150,47 @@ impl<'r, 's, Y: FirstOrder> Trial<'r, 's, Y> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_tell_whether_they_are_finite() {
+        for n in [1, 4, 9, 21] {
+            let rows = |x: f64| {
+                let mut row = room(1, n);
+                row.as_flattened_mut()[..n].fill(x);
+                row
+            };
+            let (y, k, mut out) = (rows(1.0), [rows(2.0), rows(-3.0)], room(1, n));
+            let sum = |y: &[Block], k: &[Vec<Block>; 2], out: &mut [Block]| {
+                combine(y, 0.5, [4.0, 1.0], [&k[0], &k[1]], out)
+            };
+            assert!(sum(&y, &k, &mut out));
+            assert_eq!(out.as_flattened()[..n], vec![3.5; n]);
+            for at in 0..n {
+                for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                    let mut k = k.clone();
+                    k[1].as_flattened_mut()[at] = bad;
+                    assert!(!sum(&y, &k, &mut out), "{bad} at {at} of {n}");
+                }
+                // finite stages may lead past the largest number
+                let mut k = k.clone();
+                k[0].as_flattened_mut()[at] = f64::MAX;
+                assert!(!sum(&y, &k, &mut out), "{at} of {n}");
+            }
+        }
+    }
+
+    #[test]
+    fn rows_lie_one_after_the_other() {
+        let (mut k, width) = (room(3, 5), width(5));
+        for (s, row) in rows_mut::<3>(&mut k, width).into_iter().enumerate() {
+            row.as_flattened_mut().fill(s as f64);
+        }
+        for s in 0..3 {
+            assert!(row(&k, width, s).as_flattened().iter().all(|x| *x == s as f64));
+        }
+    }
+}

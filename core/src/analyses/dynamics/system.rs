@@ -230,3 +230,21 @@ impl FirstOrder for Equations<'_> {
         self.passage.accept(t, &self.workspace);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_accelerations_and_powers_follow_each_other() {
+        for bodies in 0..12 {
+            let n = 3 * bodies;
+            let all: Vec<f64> = (0..2 * n + WORKS).map(|k| k as f64 - 0.5).collect();
+            let (v, rest) = all.split_at(n);
+            let (a, powers) = rest.split_at(n);
+            let mut dy = vec![f64::NAN; all.len()];
+            join(v, a, [powers[0], powers[1], powers[2]], &mut dy);
+            assert_eq!(dy, all);
+        }
+    }
+}
