@@ -10,7 +10,7 @@ use super::contract::{Ended, FirstOrder, Flow, Observer, Statistics};
 use super::embedded_pair::EmbeddedPair;
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
-use super::rate::{all_finite, Rate, Trouble};
+use super::rate::{Rate, Trouble};
 use super::stages::{combine, room, row_mut, rows_mut, width, Block};
 use super::step_size::{initial_step, least_step, probing_step, StepSize};
 use super::tolerances::Tolerances;
@@ -262,9 +262,6 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             birkhoff.iter_mut().for_each(Birkhoff::forget);
         }
         P::advance(&mut self.rate, (self.t, t_new), y, k, trial, y_new)?;
-        if !all_finite(y_new.as_flattened()) {
-            return Err(Trouble::NotFinite(t_new));
-        }
         if !P::LAST_IN_ERROR && self.rate.system.near_obstacle() {
             self.rate.at(t_new, y_new, row_mut(k, *width, P::STAGES - 1))?;
         }

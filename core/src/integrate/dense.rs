@@ -6,11 +6,13 @@
 //! Equations I*, II.6.
 
 use super::birkhoff::Polynomials;
-use super::stages::accumulate;
 use crate::math::{Lanes, Real};
 
-/// Stages that are added in one pass.
-const TOGETHER: usize = 4;
+/// Most stages of a method, with those of its extension and the jump of a projection.
+const MOST: usize = 17;
+
+/// Blocks of components that are summed side by side.
+const TOGETHER: usize = 3;
 
 /// Highest degree that a method has.
 pub(crate) const HIGHEST: usize = 9;
@@ -53,6 +55,7 @@ impl<'a> Dense<'a> {
     /// `stages` in rows of `len`, of which the components are the first, as many as the caller wants of those in `table`.
     pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
         assert!(degree <= HIGHEST, "a method of a higher degree");
+        assert!(table.len() <= MOST * degree, "a method of more stages");
         Self { form: Form::Stages(Stages { stages, table, len }), degree }
     }
 
@@ -71,10 +74,7 @@ impl<'a> Dense<'a> {
         assert_eq!(out.len(), y_old.len(), "a state");
         match self.form {
             Form::Polynomials(polynomials) => polynomials.evaluate(ahead, theta, out),
-            Form::Stages(stages) => {
-                out.copy_from_slice(y_old);
-                stages.add_at_degree(self.degree, ahead, theta, out);
-            }
+            Form::Stages(stages) => stages.evaluate(self.degree, y_old, (ahead, theta), out),
         }
     }
 
@@ -96,28 +96,33 @@ impl<'a> Stages<'a> {
         self.stages.chunks_exact(self.len.max(1)).zip(rows)
     }
 
-    /// Not inlined, since polynomials of components need none of its registers.
+    /// out = y_old + ahead Σₛ wₛ(θ) / θ kₛ. Not inlined, since polynomials of components need none of its registers.
     #[inline(never)]
-    fn add_at_degree(&self, degree: usize, ahead: f64, theta: f64, out: &mut [f64]) {
+    fn evaluate(&self, degree: usize, y_old: &[f64], at: (f64, f64), out: &mut [f64]) {
         // with a degree that the compiler knows, inner loops unroll: here and for the coefficients
+        let mut weights = [0.0; MOST];
         match degree {
-            4 => self.add_at(4, ahead, theta, out),
-            7 => self.add_at(7, ahead, theta, out),
-            degree => self.add_at(degree, ahead, theta, out),
+            4 => self.weigh(4, at, &mut weights),
+            7 => self.weigh(7, at, &mut weights),
+            degree => self.weigh(degree, at, &mut weights),
+        }
+        let terms = || self.stages.chunks_exact(self.len.max(1)).zip(&weights);
+        match out.len() {
+            0..Lanes::WIDTH => {
+                for (i, (out, y)) in out.iter_mut().zip(y_old).enumerate() {
+                    *out = terms().fold(*y, |sum, (k, weight)| sum.plus_product(*weight, k[i]));
+                }
+            }
+            n if n < TOGETHER * Lanes::WIDTH => blocks_of_sums::<1, _>(y_old, terms, out),
+            _ => blocks_of_sums::<TOGETHER, _>(y_old, terms, out),
         }
     }
 
+    /// ahead wₛ(θ) / θ of each stage.
     #[inline(always)]
-    fn add_at(&self, degree: usize, ahead: f64, theta: f64, out: &mut [f64]) {
-        let mut terms = self.terms(degree);
-        // a term that is not there repeats the first, by weight zero
-        while let Some((first, row)) = terms.next() {
-            let (mut weights, mut stages) = ([0.0; TOGETHER], [first; TOGETHER]);
-            weights[0] = ahead * polynomial(row, theta);
-            for (s, (stage, row)) in (1..TOGETHER).zip(&mut terms) {
-                (weights[s], stages[s]) = (ahead * polynomial(row, theta), stage);
-            }
-            accumulate(weights, stages, out);
+    fn weigh(&self, degree: usize, (ahead, theta): (f64, f64), weights: &mut [f64; MOST]) {
+        for (weight, (_, row)) in weights.iter_mut().zip(self.terms(degree)) {
+            *weight = ahead * polynomial(row, theta);
         }
     }
 
@@ -154,5 +159,72 @@ impl<'a> Stages<'a> {
             }
         }
         sums
+    }
+}
+
+/// out = y + Σ weight stage, in passes over so many blocks of components, of which the last pass may run over the
+/// one before. There must be enough components for one.
+#[inline(always)]
+fn blocks_of_sums<'a, const BLOCKS: usize, T>(y: &[f64], terms: impl Fn() -> T, out: &mut [f64])
+where
+    T: Iterator<Item = (&'a [f64], &'a f64)>,
+{
+    let pass = BLOCKS * Lanes::WIDTH;
+    let last = out.len() - pass;
+    let mut first = 0;
+    loop {
+        let mut sums: [Lanes; BLOCKS] = lanes(&y[first..]);
+        for (stage, weight) in terms() {
+            let weight = Lanes::constant(*weight);
+            for (sum, k) in sums.iter_mut().zip(lanes::<BLOCKS>(&stage[first..])) {
+                *sum = sum.plus_product(weight, k);
+            }
+        }
+        for (out, sum) in out[first..].chunks_exact_mut(Lanes::WIDTH).zip(sums) {
+            out.copy_from_slice(&sum.to_array());
+        }
+        if first == last {
+            return;
+        }
+        first = (first + pass).min(last);
+    }
+}
+
+/// The first blocks of x.
+#[inline(always)]
+fn lanes<const BLOCKS: usize>(x: &[f64]) -> [Lanes; BLOCKS] {
+    let x = &x[..BLOCKS * Lanes::WIDTH];
+    std::array::from_fn(|b| {
+        let block = &x[b * Lanes::WIDTH..];
+        Lanes::new([block[0], block[1], block[2], block[3]])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows as long as the state and longer, in as many components as blocks, passes and what they leave behind take.
+    #[test]
+    fn states_are_the_sums_that_the_table_says() {
+        let (ahead, theta) = (0.2, 0.4);
+        let weights = HERMITE
+            .chunks_exact(4)
+            .map(|b| ahead * (b[0] + theta * (b[1] + theta * (b[2] + theta * b[3]))));
+        let weights: Vec<f64> = weights.collect();
+        for n in [0, 1, 3, 4, 5, 8, 11, 12, 13, 21, 24, 33] {
+            for len in [n, n + 3] {
+                let stages: Vec<f64> = (0..3 * len).map(|k| (k as f64).sin()).collect();
+                let y_old: Vec<f64> = (0..n).map(|k| (k as f64).cos()).collect();
+                let mut out = vec![f64::NAN; n];
+                let dense = Dense::new(&stages, len, &HERMITE, 4);
+                dense.evaluate(&y_old, ahead, theta, &mut out);
+                for (i, (out, y)) in out.iter().zip(&y_old).enumerate() {
+                    let sum: f64 =
+                        weights.iter().zip(0..).map(|(w, s)| w * stages[s * len + i]).sum();
+                    assert!((out - (y + sum)).abs() < 1e-15, "{i} of {n} in rows of {len}");
+                }
+            }
+        }
     }
 }

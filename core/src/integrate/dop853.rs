@@ -20,7 +20,7 @@ use super::dop853_coefficients::*;
 use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
-use super::stages::{combine, rows, rows_mut, sum_at, Block, Trial};
+use super::stages::{rows, rows_mut, sum_at, Block, Trial};
 use super::step_size::Control;
 use super::tolerances::Tolerances;
 
@@ -168,7 +168,7 @@ impl EmbeddedPair for Pair {
     ) -> Result<(), Trouble<Y::Stop>> {
         let h = t_new - t;
         let [k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12] = rows_mut(k, y.len());
-        let mut trial = Trial { rate, t, h, y, work };
+        let mut trial = Trial::new(rate, (t, h), y, work);
         trial.stage(C[0], A2, [k1], k2)?;
         trial.stage(C[1], A3, [k1, k2], k3)?;
         trial.stage(C[2], A4, [k1, k3], k4)?;
@@ -180,8 +180,7 @@ impl EmbeddedPair for Pair {
         trial.stage(C[8], A10, [k1, k4, k5, k6, k7, k8, k9], k10)?;
         trial.stage(C[9], A11, [k1, k4, k5, k6, k7, k8, k9, k10], k11)?;
         trial.stage(C[10], A12, [k1, k4, k5, k6, k7, k8, k9, k10, k11], k12)?;
-        combine(y, h, B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new);
-        Ok(())
+        trial.end(B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new)
     }
 
     fn extend<Y: FirstOrder>(
@@ -193,10 +192,12 @@ impl EmbeddedPair for Pair {
     ) -> Result<(), Trouble<Y::Stop>> {
         let rows = rows_mut(k, y.len());
         let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16] = rows;
-        let mut trial = Trial { rate, t, h: t_new - t, y, work };
+        let h = t_new - t;
+        let mut trial = Trial::new(rate, (t, h), y, work);
         trial.stage(C_EXTRA[0], A14, [k1, k7, k8, k9, k10, k11, k12, k13], k14)?;
         trial.stage(C_EXTRA[1], A15, [k1, k6, k7, k8, k11, k12, k13, k14], k15)?;
-        trial.stage(C_EXTRA[2], A16, [k1, k6, k7, k8, k9, k13, k14, k15], k16)
+        trial.stage(C_EXTRA[2], A16, [k1, k6, k7, k8, k9, k13, k14, k15], k16)?;
+        rate.finite(t + C_EXTRA[2] * h, k16)
     }
 
     fn error_norm(

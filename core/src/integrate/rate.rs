@@ -19,13 +19,25 @@ pub(super) struct Rate<'a, Y> {
 }
 
 impl<Y: FirstOrder> Rate<'_, Y> {
+    /// dy = f(t, y), both in blocks; not asked whether that is finite.
+    #[inline(always)]
+    pub fn unasked(
+        &mut self,
+        t: f64,
+        y: &[Block],
+        dy: &mut [Block],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        let n = self.system.len();
+        self.evaluations += 1;
+        let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
+        self.system.rate(t, y, rates).map_err(Trouble::Stop)
+    }
+
     /// dy = f(t, y), both in blocks.
     #[inline]
     pub fn at(&mut self, t: f64, y: &[Block], dy: &mut [Block]) -> Result<(), Trouble<Y::Stop>> {
-        let n = self.system.len();
-        let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
-        let evaluated = self.system.rate(t, y, rates);
-        self.checked(t, evaluated, dy)
+        self.unasked(t, y, dy)?;
+        self.finite(t, dy)
     }
 
     /// The same after the system has accepted y; whether it `changed` it.
@@ -36,24 +48,19 @@ impl<Y: FirstOrder> Rate<'_, Y> {
         y: &[Block],
         dy: &mut [Block],
     ) -> Result<(), Trouble<Y::Stop>> {
+        if !changed {
+            return self.at(t, y, dy);
+        }
         let n = self.system.len();
+        self.evaluations += 1;
         let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
-        let evaluated = match changed {
-            true => self.system.rate_accepted(t, y, rates),
-            false => self.system.rate(t, y, rates),
-        };
-        self.checked(t, evaluated, dy)
+        self.system.rate_accepted(t, y, rates).map_err(Trouble::Stop)?;
+        self.finite(t, dy)
     }
 
+    /// Whether a derivative at t is finite.
     #[inline(always)]
-    fn checked(
-        &mut self,
-        t: f64,
-        evaluated: Result<(), Y::Stop>,
-        dy: &[Block],
-    ) -> Result<(), Trouble<Y::Stop>> {
-        self.evaluations += 1;
-        evaluated.map_err(Trouble::Stop)?;
+    pub fn finite(&self, t: f64, dy: &[Block]) -> Result<(), Trouble<Y::Stop>> {
         // without what fills the last block: of what was stored in parts just now no vector can be loaded soon
         if all_finite(&dy.as_flattened()[..self.system.len()]) {
             Ok(())
@@ -83,20 +90,31 @@ impl<Y: FirstOrder> Rate<'_, Y> {
 /// Whether every number is finite.
 #[inline(always)]
 pub(crate) fn all_finite(x: &[f64]) -> bool {
-    // 0 x is zero for finite x and NaN otherwise; four at once, in two sums of which neither waits for the other
-    let zero = Lanes::zero();
-    let block = |x: &[f64]| Lanes::new([x[0], x[1], x[2], x[3]]);
-    let pairs = x.chunks_exact(2 * Lanes::WIDTH);
-    let left = pairs.remainder().chunks_exact(Lanes::WIDTH);
-    let rest: f64 = left.remainder().iter().map(|x| 0.0 * x).sum();
-    let mut sums = [Lanes::constant(rest), zero];
-    for pair in pairs {
-        sums[0] = sums[0].plus_product(zero, block(pair));
-        sums[1] = sums[1].plus_product(zero, block(&pair[Lanes::WIDTH..]));
+    // 0 x is zero for finite x and NaN otherwise
+    let (zero, blocks) = (Lanes::zero(), x.chunks_exact(Lanes::WIDTH));
+    let rest: f64 = blocks.remainder().iter().map(|x| 0.0 * x).sum();
+    let none = blocks.fold(Lanes::constant(rest), |none, x| {
+        none.plus_product(zero, Lanes::new([x[0], x[1], x[2], x[3]]))
+    });
+    none.are_zero()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_number_that_is_not_finite_is_found_wherever_it_is() {
+        for n in 0..20 {
+            let x: Vec<f64> = (0..n).map(|k| 1e300 * f64::from(k - 7)).collect();
+            assert!(all_finite(&x), "{n}");
+            for at in 0..x.len() {
+                for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                    let mut x = x.clone();
+                    x[at] = bad;
+                    assert!(!all_finite(&x), "{bad} at {at} of {n}");
+                }
+            }
+        }
     }
-    for x in left {
-        sums[0] = sums[0].plus_product(zero, block(x));
-    }
-    let [a, b, c, d] = (sums[0] + sums[1]).to_array();
-    (a + b) + (c + d) == 0.0
 }

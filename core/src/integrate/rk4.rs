@@ -59,15 +59,13 @@ impl Work {
         let Self { k, y, trial, y_new } = self;
         let [k1, _, _, k2, k3, k4] = rows_mut(k, y.len());
         rate.begin(t, h, y, k1)?;
-        let mut trial = Trial { rate, t, h, y, work: trial };
+        let mut trial = Trial::new(rate, (t, h), y, trial);
         trial.stage(0.5, [0.5], [k1], k2)?;
         trial.stage(0.5, [0.5], [k2], k3)?;
         trial.stage(1.0, [1.0], [k3], k4)?;
-        combine(y, h / 6.0, B, [k1, k2, k3, k4], y_new);
-        if all_finite(y_new.as_flattened()) {
-            Ok(())
-        } else {
-            Err(Trouble::NotFinite(t + h))
+        match combine(y, h / 6.0, B, [k1, k2, k3, k4], y_new) {
+            true => Ok(()),
+            false => Err(Trouble::NotFinite(t + h)),
         }
     }
 }

@@ -11,7 +11,7 @@ use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
 use super::rate::{Rate, Trouble};
-use super::stages::{combine, rows, rows_mut, sum_at, Block, Trial};
+use super::stages::{rows, rows_mut, sum_at, Block, Trial};
 use super::step_size::Control;
 use super::tolerances::Tolerances;
 
@@ -132,13 +132,13 @@ impl EmbeddedPair for DormandPrince {
     ) -> Result<(), Trouble<Y::Stop>> {
         let h = t_new - t;
         let [k1, k2, k3, k4, k5, k6, k7] = rows_mut(k, y.len());
-        let mut trial = Trial { rate, t, h, y, work };
+        let mut trial = Trial::new(rate, (t, h), y, work);
         trial.stage(C[0], A2, [k1], k2)?;
         trial.stage(C[1], A3, [k1, k2], k3)?;
         trial.stage(C[2], A4, [k1, k2, k3], k4)?;
         trial.stage(C[3], A5, [k1, k2, k3, k4], k5)?;
         trial.stage(C[4], A6, [k1, k2, k3, k4, k5], k6)?;
-        combine(y, h, B, [k1, k3, k4, k5, k6], y_new);
+        trial.end(B, [k1, k3, k4, k5, k6], y_new)?;
         rate.at(t_new, y_new, k7)
     }
 

@@ -20,7 +20,7 @@ pub(super) fn width(n: usize) -> usize {
     n.div_ceil(Lanes::WIDTH).max(1)
 }
 
-/// out = y + h Σₛ aₛ kₛ.
+/// out = y + h Σₛ aₛ kₛ; whether that is finite, which is known here without loading it again.
 #[inline(always)]
 pub(super) fn combine<const S: usize>(
     y: &[Block],
@@ -28,17 +28,22 @@ pub(super) fn combine<const S: usize>(
     a: [f64; S],
     mut k: [&[Block]; S],
     out: &mut [Block],
-) {
+) -> bool {
     let n = out.len();
     let y = &y[..n];
     // equal lengths: no bounds checks below; as a loop, since map() of an array is a call
     for k in &mut k {
         *k = &k[..n];
     }
-    let h = Lanes::constant(h);
+    let (h, zero) = (Lanes::constant(h), Lanes::zero());
+    // 0 x is zero for finite x and NaN otherwise
+    let mut none = zero;
     for i in 0..n {
-        out[i] = (Lanes::new(y[i]) + h * sum_at(i, a, k)).to_array();
+        let x = Lanes::new(y[i]) + h * sum_at(i, a, k);
+        none = none.plus_product(zero, x);
+        out[i] = x.to_array();
     }
+    none.are_zero()
 }
 
 /// Σₛ aₛ kₛ of a block; not fused, which gains little and moves steps next to the limit of their error.
@@ -59,20 +64,6 @@ pub(super) fn chord(from: &[Block], to: &[Block], h: f64, out: &mut [Block]) {
     }
 }
 
-/// out += Σₛ aₛ kₛ, one pass over the components.
-#[inline(always)]
-pub(super) fn accumulate<const S: usize>(a: [f64; S], k: [&[f64]; S], out: &mut [f64]) {
-    let n = out.len();
-    let k = k.map(|k| &k[..n]); // equal lengths: no bounds checks below
-    for i in 0..n {
-        let mut sum = a[0] * k[0][i];
-        for s in 1..S {
-            sum += a[s] * k[s][i];
-        }
-        out[i] += sum;
-    }
-}
-
 /// The first S rows of `k`, `width` blocks long.
 #[inline(always)]
 pub(super) fn rows<const S: usize>(k: &[Block], width: usize) -> [&[Block]; S] {
@@ -82,8 +73,13 @@ pub(super) fn rows<const S: usize>(k: &[Block], width: usize) -> [&[Block]; S] {
 /// The same, to be written.
 #[inline(always)]
 pub(super) fn rows_mut<const S: usize>(k: &mut [Block], width: usize) -> [&mut [Block]; S] {
-    let mut rows = k.chunks_exact_mut(width);
-    std::array::from_fn(|_| rows.next().expect("so many rows"))
+    // not in chunks, which begin with a division
+    let mut rest = k;
+    std::array::from_fn(|_| {
+        let (row, others) = std::mem::take(&mut rest).split_at_mut(width);
+        rest = others;
+        row
+    })
 }
 
 /// Row `s` of `k`.
@@ -100,16 +96,30 @@ pub(super) fn row_mut(k: &mut [Block], width: usize, s: usize) -> &mut [Block] {
 
 /// A step that is tried.
 pub(super) struct Trial<'r, 's, Y> {
-    pub rate: &'r mut Rate<'s, Y>,
-    pub t: f64,
-    pub h: f64,
-    pub y: &'r [Block],
+    rate: &'r mut Rate<'s, Y>,
+    t: f64,
+    h: f64,
+    y: &'r [Block],
     /// The argument of the stage under way.
-    pub work: &'r mut [Block],
+    work: &'r mut [Block],
+    /// When the last stage was evaluated.
+    last: f64,
 }
 
-impl<Y: FirstOrder> Trial<'_, '_, Y> {
-    /// out = f(t + c h, y + h Σₛ aₛ kₛ).
+impl<'r, 's, Y: FirstOrder> Trial<'r, 's, Y> {
+    /// Of length h from y at t; `work` is scratch.
+    #[inline(always)]
+    pub fn new(
+        rate: &'r mut Rate<'s, Y>,
+        (t, h): (f64, f64),
+        y: &'r [Block],
+        work: &'r mut [Block],
+    ) -> Self {
+        Self { rate, t, h, y, work, last: t }
+    }
+
+    /// out = f(t + c h, y + h Σₛ aₛ kₛ). Whether that is finite is asked of what is made of it: the last of
+    /// the stages k must be the one before, with a weight that is not zero.
     #[inline(always)]
     pub fn stage<const S: usize>(
         &mut self,
@@ -118,7 +128,69 @@ impl<Y: FirstOrder> Trial<'_, '_, Y> {
         k: [&[Block]; S],
         out: &mut [Block],
     ) -> Result<(), Trouble<Y::Stop>> {
-        combine(self.y, self.h, a, k, self.work);
-        self.rate.at(self.t + c * self.h, self.work, out)
+        debug_assert!(a[S - 1] != 0.0, "what the stage before is like shows here alone");
+        if !combine(self.y, self.h, a, k, self.work) {
+            return Err(Trouble::NotFinite(self.last));
+        }
+        self.last = self.t + c * self.h;
+        self.rate.unasked(self.last, self.work, out)
+    }
+
+    /// out = y + h Σₛ aₛ kₛ, all finite; with k as there.
+    #[inline(always)]
+    pub fn end<const S: usize>(
+        &mut self,
+        a: [f64; S],
+        k: [&[Block]; S],
+        out: &mut [Block],
+    ) -> Result<(), Trouble<Y::Stop>> {
+        match combine(self.y, self.h, a, k, out) {
+            true => Ok(()),
+            false => Err(Trouble::NotFinite(self.last)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_tell_whether_they_are_finite() {
+        for n in [1, 4, 9, 21] {
+            let rows = |x: f64| {
+                let mut row = room(1, n);
+                row.as_flattened_mut()[..n].fill(x);
+                row
+            };
+            let (y, k, mut out) = (rows(1.0), [rows(2.0), rows(-3.0)], room(1, n));
+            let sum = |y: &[Block], k: &[Vec<Block>; 2], out: &mut [Block]| {
+                combine(y, 0.5, [4.0, 1.0], [&k[0], &k[1]], out)
+            };
+            assert!(sum(&y, &k, &mut out));
+            assert_eq!(out.as_flattened()[..n], vec![3.5; n]);
+            for at in 0..n {
+                for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                    let mut k = k.clone();
+                    k[1].as_flattened_mut()[at] = bad;
+                    assert!(!sum(&y, &k, &mut out), "{bad} at {at} of {n}");
+                }
+                // finite stages may lead past the largest number
+                let mut k = k.clone();
+                k[0].as_flattened_mut()[at] = f64::MAX;
+                assert!(!sum(&y, &k, &mut out), "{at} of {n}");
+            }
+        }
+    }
+
+    #[test]
+    fn rows_lie_one_after_the_other() {
+        let (mut k, width) = (room(3, 5), width(5));
+        for (s, row) in rows_mut::<3>(&mut k, width).into_iter().enumerate() {
+            row.as_flattened_mut().fill(s as f64);
+        }
+        for s in 0..3 {
+            assert!(row(&k, width, s).as_flattened().iter().all(|x| *x == s as f64));
+        }
     }
 }

@@ -118,6 +118,11 @@ impl Lanes {
     pub(super) fn are_within(self, most: f64) -> bool {
         wide::CmpLe::cmp_le(self.0.abs(), f64x4::splat(most)).all()
     }
+    /// Whether each lane is 0 or -0.
+    #[inline(always)]
+    pub(crate) fn are_zero(self) -> bool {
+        wide::CmpEq::cmp_eq(self.0, f64x4::ZERO).all()
+    }
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let (a, b) = (self.to_array(), other.to_array());
         Self::new(std::array::from_fn(|k| f(a[k], b[k])))

@@ -110,6 +110,69 @@ fn a_trial_outside_the_domain_only_shortens_the_step() {
     assert!((y[0] - 0.05_f64.powi(2)).abs() < 1e-3, "{}", y[0]);
 }
 
+/// An oscillator with a quadrature that neither the motion nor its error knows of, which is `flaw` at one evaluation.
+struct Flawed {
+    flaw: f64,
+    at: usize,
+    evaluations: usize,
+}
+
+impl FirstOrder for Flawed {
+    type Stop = String;
+
+    fn len(&self) -> usize {
+        3
+    }
+
+    fn controlled(&self) -> usize {
+        2
+    }
+
+    fn rate(&mut self, _: f64, y: &[f64], dy: &mut [f64]) -> Result<(), String> {
+        assert!(y.iter().all(|y| y.is_finite()), "asked where nothing is: {y:?}");
+        self.evaluations += 1;
+        let work = if self.evaluations == self.at { self.flaw } else { y[1] };
+        dy.copy_from_slice(&[y[1], -y[0], work]);
+        Ok(())
+    }
+}
+
+fn flawed(method: &impl Method, flaw: f64, at: usize) -> Outcome {
+    let mut system = Flawed { flaw, at, evaluations: 0 };
+    let mut inside = [0.0; 3];
+    let mut seen = |step: &Step<'_>| {
+        step.interpolate(step.t_old + 0.3 * (step.t - step.t_old), &mut inside);
+        let all = [step.y_old, step.y, step.dy_old, step.dy, &inside];
+        assert!(all.iter().all(|x| x.iter().all(|x| x.is_finite())), "{step:?}");
+        Flow::Continue
+    };
+    method.integrate(&mut system, 0.0, 1.0, &mut [1.0, 0.0, 0.0], &mut seen)
+}
+
+#[test]
+fn one_stage_that_is_not_finite_refuses_its_step_whatever_comes_of_it() {
+    let (pair, eighth, fixed) =
+        (Rk45::new(1e-4, 1e-6), Dop853::new(1e-6, 1e-8), Rk4 { step: 0.2, max_steps: None });
+    let [five, eight] =
+        [flawed(&pair, 0.0, 0), flawed(&eighth, 0.0, 0)].map(|outcome| outcome.unwrap());
+    for flaw in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for at in 2..=five.evaluations {
+            let found = flawed(&pair, flaw, at).unwrap();
+            // the probe before the first step is none of its stages
+            assert_eq!(found.rejected > five.rejected, at > 2, "{at}: {found:?}");
+        }
+        for at in 2..=eight.evaluations {
+            flawed(&eighth, flaw, at).unwrap();
+        }
+        for at in 1..=20 {
+            let Cause::NotFinite { t } = cause(flawed(&fixed, flaw, at)) else { panic!("{at}") };
+            let stage = [0.0, 0.5, 0.5, 1.0][(at + 3) % 4];
+            let begin = 0.2 * ((at - 1) / 4) as f64;
+            assert!((t - begin - 0.2 * stage).abs() < 1e-12, "{at}: {t}");
+        }
+    }
+}
+
 #[test]
 fn the_number_of_steps_can_be_bounded() {
     let most = Rk45 { max_steps: Some(5), ..Rk45::new(1e-6, 1e-9) };

@@ -37,10 +37,27 @@ pub(super) fn parts<S>(y: &mut [S], n_q: usize) -> (&mut [S], &mut [S], &mut [S]
 /// dy = (v, a, powers), stored in the blocks that the next stage loads: of what was stored in parts just now no
 /// vector can be loaded soon.
 #[inline(always)]
-fn join(v: &[f64], mut a: &[f64], powers: [f64; WORKS], dy: &mut [f64]) {
-    // -0 changes no number, and 1 no index; compilers that knew them would load vectors of a, which was stored in
-    // parts just now, and store blocks in parts
+fn join(v: &[f64], a: &[f64], powers: [f64; WORKS], dy: &mut [f64]) {
+    // each knows how many of v are left behind its last block, and with that what is left of all
+    match v.len() % Lanes::WIDTH {
+        0 => join_behind::<0>(v, a, powers, dy),
+        1 => join_behind::<1>(v, a, powers, dy),
+        2 => join_behind::<2>(v, a, powers, dy),
+        _ => join_behind::<3>(v, a, powers, dy),
+    }
+}
+
+#[inline(always)]
+fn join_behind<const LEFT: usize>(
+    v: &[f64],
+    mut a: &[f64],
+    [dissipated, drivers, applied]: [f64; WORKS],
+    dy: &mut [f64],
+) {
+    // -0 changes no number, and i, j, k are 1, 2, 3; compilers that knew them would load vectors of a, which was
+    // stored in parts just now, and store blocks in parts
     let (nothing, one) = std::hint::black_box((-0.0, 1));
+    let (i, j, k) = (one & 1, (2 * one) & 2, (one & 1) | ((2 * one) & 2));
     let whole = |four| (Lanes::new(four) + Lanes::constant(nothing)).to_array();
     let mut blocks = dy.chunks_exact_mut(Lanes::WIDTH);
     let mut of_v = v.chunks_exact(Lanes::WIDTH);
@@ -48,30 +65,28 @@ fn join(v: &[f64], mut a: &[f64], powers: [f64; WORKS], dy: &mut [f64]) {
         block.copy_from_slice(v);
     }
     // where v ends a begins
-    let border = a.first_chunk::<3>().and_then(|a| match *of_v.remainder() {
-        [x] => Some([x, a[0], a[one], a[2 * one]]),
-        [x, y] => Some([x, y, a[0], a[one]]),
-        [x, y, z] => Some([x, y, z, a[0]]),
-        _ => None,
-    });
-    if let Some(border) = border {
-        if let Some(block) = blocks.next() {
-            block.copy_from_slice(&whole(border));
-        }
-        a = &a[Lanes::WIDTH - of_v.remainder().len()..];
+    if let (1.., Some(first)) = (LEFT, a.first_chunk::<3>()) {
+        let left = of_v.remainder();
+        let border = match LEFT {
+            1 => [left[0], first[0], first[i], first[j]],
+            2 => [left[0], left[1], first[0], first[i]],
+            _ => [left[0], left[1], left[2], first[0]],
+        };
+        blocks.next().expect("a block").copy_from_slice(&whole(border));
+        a = &a[Lanes::WIDTH - LEFT..];
     }
     let mut of_a = a.chunks_exact(Lanes::WIDTH);
     for (a, block) in (&mut of_a).zip(&mut blocks) {
-        block.copy_from_slice(&whole([a[0], a[one], a[2 * one], a[3 * one]]));
+        block.copy_from_slice(&whole([a[0], a[i], a[j], a[k]]));
     }
-    let [dissipated, drivers, applied] = powers;
-    match (of_a.remainder(), blocks.next()) {
-        // n is a multiple of 3, so that of 2 n numbers none or two are left
-        (a @ [_, _], Some(block)) => {
-            block.copy_from_slice(&whole([a[0], a[one], dissipated, drivers]));
+    // n is a multiple of 3, so that of 2 n numbers none or two are left
+    match (of_a.remainder(), LEFT % 2) {
+        (a @ [_, _], 1) => {
+            let block = blocks.next().expect("a block");
+            block.copy_from_slice(&whole([a[0], a[i], dissipated, drivers]));
             blocks.into_remainder().copy_from_slice(&[applied]);
         }
-        _ => blocks.into_remainder().copy_from_slice(&powers),
+        _ => blocks.into_remainder().copy_from_slice(&[dissipated, drivers, applied]),
     }
 }
 
@@ -217,5 +232,23 @@ impl FirstOrder for Equations<'_> {
     /// From here the way to a singular position is seen on.
     fn stands(&mut self, t: f64) {
         self.passage.accept(t, &self.workspace);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_accelerations_and_powers_follow_each_other() {
+        for bodies in 0..12 {
+            let n = 3 * bodies;
+            let all: Vec<f64> = (0..2 * n + WORKS).map(|k| k as f64 - 0.5).collect();
+            let (v, rest) = all.split_at(n);
+            let (a, powers) = rest.split_at(n);
+            let mut dy = vec![f64::NAN; all.len()];
+            join(v, a, [powers[0], powers[1], powers[2]], &mut dy);
+            assert_eq!(dy, all);
+        }
     }
 }
