@@ -124,8 +124,16 @@ def gap(sol: kp.Solution) -> float:
     return float((np.abs(sol.residuals[0]) / scale).max(initial=0.0))
 
 
+def following(sol: kp.Solution) -> tuple[np.ndarray, ...]:
+    """What follows from the states; nothing where an error tells of a state that has none of it."""
+    try:
+        return sol.a, sol.lam, sol.energy.balance
+    except (kp.IntegrationError, kp.SingularityError):
+        return ()
+
+
 def finite(sol: kp.Solution) -> bool:
-    tables = (sol.t, sol.q, sol.v, sol.a, sol.lam, sol.energy.balance)
+    tables = (sol.t, sol.q, sol.v, *following(sol))
     if sol.dense is not None:
         tables += (sol.dense.c,)
     return all(bool(np.isfinite(table).all()) for table in tables)

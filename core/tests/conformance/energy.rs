@@ -39,7 +39,7 @@ fn balances(m: &Model) -> Vec<f64> {
         start(m, &[], &[("crank.angle", "0.2"), ("arm.angle", "-0.5"), ("arm.omega", "1")]);
     let run = run(m, &state, &every(0.05, tolerances(2.0, 1e-10, 1e-12)));
     let energy: Vec<[f64; 5]> =
-        run.energies(&m).unwrap().chunks(5).map(|e| e.try_into().unwrap()).collect();
+        run.energies(m).unwrap().chunks(5).map(|e| e.try_into().unwrap()).collect();
     let kinetic = energy.iter().map(|e| e[0]).fold(0.0, f64::max);
     let balance = |e: &[f64; 5]| e[0] + e[1] + e[2] - e[3] - e[4];
     for e in &energy {

@@ -139,7 +139,7 @@ fn simulate<W: FnMut(f64) -> Flow>(
         reason: Reason::singular(model, t0, &start.q, singular),
         run: Run::default(),
     })?;
-    let first = recorder.report(t0, &y);
+    let first = recorder.begin(t0, &y);
     if first == Flow::Stop {
         let nothing = (Ok(integrate::Statistics::none(t0)), 0, None);
         return finish(system, recorder, nothing, (clock, start));

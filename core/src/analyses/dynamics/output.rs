@@ -158,6 +158,12 @@ impl<'a> Recorder<'a> {
         self.one.factorisations() + Lanes::WIDTH * many
     }
 
+    /// Reports the start, from which there must be a way on: else the run stops before it begins.
+    pub fn begin(&mut self, t: f64, y: &[f64]) -> Flow {
+        let begun = self.one.begin(t, y);
+        self.keep(t, y, begun)
+    }
+
     /// Reports a state given as (q, v, works), as it is.
     pub fn report(&mut self, t: f64, y: &[f64]) -> Flow {
         if self.flush() == Flow::Stop {

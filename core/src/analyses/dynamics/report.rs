@@ -8,7 +8,8 @@ use super::apart::{Apart, Guard};
 use super::around;
 use super::options::{Options, Stabilization};
 use super::system::parts;
-use crate::equations::{kinematics, Workspace};
+use crate::equations::{kinematics, Gains, Workspace};
+use crate::integrate::all_finite;
 use crate::math::Real;
 use crate::model::Model;
 use crate::stabilize::{Fault, Projector};
@@ -86,6 +87,23 @@ impl<'a, S: Real> Placer<'a, S> {
 }
 
 impl Placer<'_> {
+    /// Whether joints are together at y, and the equations of motion have a solution there.
+    ///
+    /// # Errors
+    /// [`Halt`].
+    pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Halt> {
+        if let Some(apart) = self.apart(t, y) {
+            return Err(Halt::Apart(apart));
+        }
+        self.set_motions(y);
+        let solved = self.workspace.respond(self.model, t, Gains::default());
+        solved.map_err(|singular| Halt::Fault(Fault::Singular(singular)))?;
+        match [self.workspace.a(), self.workspace.lam()].into_iter().all(all_finite) {
+            true => Ok(()),
+            false => Err(Halt::NotFinite),
+        }
+    }
+
     /// The same; where that ends on another branch, from states around if that changes rates less.
     ///
     /// # Errors
