@@ -64,7 +64,11 @@ impl StepSize {
     pub fn accept(&mut self, h: f64, norm: f64) {
         let Control { safety, hold } = self.control;
         let wanted = safety * norm.powf(self.exponent); // ∞ without an error
-        let held = if wanted > 1.0 { (wanted / hold).max(1.0) } else { wanted };
+                                                        // a division that changes nothing would be waited for
+        let held = match wanted > 1.0 && hold != 1.0 {
+            true => (wanted / hold).max(1.0),
+            false => wanted,
+        };
         let most = if self.rejected { 1.0 } else { MAX_FACTOR };
         self.size = h * held.min(most);
     }

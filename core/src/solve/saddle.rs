@@ -143,14 +143,19 @@ impl<S: Real> Saddle<S> {
     /// The row whose pivot was cancelled most, and its ratio d / S_kk: 1 means nothing was lost, 1e-10
     /// that ten digits were. `None` without rows.
     pub fn cancellation(&self, pattern: &Pattern) -> Option<(usize, f64)> {
-        let of = |row: &Row| {
+        // S_kk / d, of which the largest is sought: one division
+        let mut worst = None;
+        for row in &pattern.steps.rows {
             let (first, size) = (row.row as usize, usize::from(row.size));
             let (inverse, rest) = self.factors[row.diagonal as usize..].split_at(size);
-            let ratios = inverse.iter().zip(rest).map(|(i, m)| S::one() / (*i * *m));
-            ratios.map(S::least_magnitude).enumerate().map(move |(k, ratio)| (first + k, ratio))
-        };
-        let all = pattern.steps.rows.iter().flat_map(of);
-        all.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
+            for (k, (inverse, magnitude)) in inverse.iter().zip(rest).enumerate() {
+                let lost = (*inverse * *magnitude).largest_magnitude();
+                if worst.is_none_or(|(at, most)| lost > most || lost == most && first + k < at) {
+                    worst = Some((first + k, lost));
+                }
+            }
+        }
+        worst.map(|(row, lost)| (row, 1.0 / lost))
     }
 
     /// Row by row; with `RHS` the right side as well.

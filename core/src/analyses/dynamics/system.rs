@@ -133,6 +133,35 @@ impl<'a> Equations<'a> {
         }
     }
 
+    /// dy at y, where the bodies may be `placed` already: one function, since two copies of it are more than the
+    /// nearest cache holds.
+    #[inline(never)]
+    fn evaluate(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        dy: &mut [f64],
+        placed: bool,
+    ) -> Result<(), (f64, Fault)> {
+        let n = self.model.layout.n_q;
+        let (q, v) = (&y[..n], &y[n..2 * n]);
+        if !placed {
+            kinematics::motions(q, v, &mut self.workspace.motions);
+        }
+        if let Err(singular) = self.workspace.respond(self.model, t, self.gains) {
+            dy.fill(f64::NAN);
+            return stop_if_finite(singular, t, y);
+        }
+        if !self.passage.watch(self.model, &self.workspace, t, v) {
+            dy.fill(f64::NAN); // a shorter step may avoid it
+            return Ok(());
+        }
+        let powers = self.workspace.powers(self.model, v);
+        let works = [powers.dissipated, powers.drivers, powers.applied];
+        join(v, self.workspace.a(), works, dy);
+        Ok(())
+    }
+
     /// Projects y if that was asked for; whether it changed. The works stay: what projection does to
     /// the energy shows in the balance.
     pub fn project(&mut self, t: f64, y: &mut [f64], factored: bool) -> Result<bool, (f64, Fault)> {
@@ -169,27 +198,12 @@ impl FirstOrder for Equations<'_> {
     }
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
-        let n = self.model.layout.n_q;
-        kinematics::motions(&y[..n], &y[n..2 * n], &mut self.workspace.motions);
-        self.rate_accepted(t, y, dy)
+        self.evaluate(t, y, dy, false)
     }
 
     /// Projection leaves the bodies where y says.
     fn rate_accepted(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
-        let n = self.model.layout.n_q;
-        let v = &y[n..2 * n];
-        if let Err(singular) = self.workspace.respond(self.model, t, self.gains) {
-            dy.fill(f64::NAN);
-            return stop_if_finite(singular, t, y);
-        }
-        if !self.passage.watch(self.model, &self.workspace, t, v) {
-            dy.fill(f64::NAN); // a shorter step may avoid it
-            return Ok(());
-        }
-        let powers = self.workspace.powers(self.model, v);
-        let works = [powers.dissipated, powers.drivers, powers.applied];
-        join(v, self.workspace.a(), works, dy);
-        Ok(())
+        self.evaluate(t, y, dy, true)
     }
 
     /// Gains may come from the step.
