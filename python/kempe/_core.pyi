@@ -111,10 +111,10 @@ class Run:
     """JSON: ``{"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations",
     "seconds"}``, with ``"method"`` and ``"why"`` where the method was chosen."""
 
-    def responses(self) -> tuple[_F, _F]:
-        """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at the reported states."""
+    def responses(self, rows: int | None = None) -> tuple[_F, _F]:
+        """Accelerations (n_t, n_q) and multipliers (n_t, n_rows), at all or the first rows."""
 
-    def energies(self) -> _F:
+    def energies(self, rows: int | None = None) -> _F:
         """(n_t, 5), J: kinetic, potential, dissipated, work of drivers, work of applied forces."""
 
 def assemble(

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,10 +14,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe.arrays import Floats, fixed
+from kempe.beginning import Beginning
 from kempe.compiled import CompiledModel
 from kempe.dense import DenseOutput
 from kempe.energy import Energy
-from kempe.errors import ModelError
+from kempe.errors import IntegrationError, ModelError, SingularityError
 from kempe.motion import Motion
 from kempe.state import State
 
@@ -70,7 +72,8 @@ class Solution(Motion):
         Raises:
             IntegrationError: an energy is not finite.
         """
-        return Energy(self._run.energies())
+        with self._keeping_what_is_before():
+            return Energy(self._run.energies())
 
     @cached_property
     def statistics(self) -> Mapping[str, Any]:
@@ -95,8 +98,21 @@ class Solution(Motion):
 
     @cached_property
     def _dynamics(self) -> tuple[Floats, Floats]:
-        a, lam = self._run.responses()
+        with self._keeping_what_is_before():
+            a, lam = self._run.responses()
         return fixed(a), fixed(lam)
+
+    @contextmanager
+    def _keeping_what_is_before(self) -> Iterator[None]:
+        """An error of one of the states keeps the solution before it, as an error of a run does."""
+        try:
+            yield
+        except (IntegrationError, SingularityError) as error:
+            rows = int(np.count_nonzero(np.cumsum(self.t == error.t) == 0))
+            if rows:
+                kept = Beginning(self._run, rows, str(error))
+                error.solution = Solution(self.model, kept)  # type: ignore[arg-type,union-attr]
+            raise
 
     @property
     def success(self) -> bool:

@@ -51,6 +51,12 @@ def test_what_is_not_there_is_told_when_it_is_asked_for() -> None:
         with pytest.raises(kp.IntegrationError, match=r"undefined at t = 0\.25") as caught:
             getattr(undefined, ask)
         assert caught.value.t == pytest.approx(0.25)
+        assert caught.value.hint == "check forces and laws at this state"
+        before = caught.value.solution
+        assert not before.success
+        np.testing.assert_array_equal(before.t, undefined.t[:5])
+        assert np.isfinite(before.a).all()
+        np.testing.assert_array_equal(before.energy.total, undefined.energy.total[:5])
     assert np.isfinite(defined.a).all()
     assert np.isfinite(undefined.energy.total).all()
 

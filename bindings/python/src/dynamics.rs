@@ -16,6 +16,9 @@ use pyo3::prelude::*;
 use serde_json::json;
 use std::sync::Arc;
 
+/// Columns of what was dissipated and done.
+const WORKS: usize = core::ENERGIES - 2;
+
 /// What an integration gave.
 #[pyclass(name = "Run", module = "kempe._core", frozen)]
 pub struct PyRun {
@@ -45,17 +48,26 @@ pub struct PyRun {
 
 #[pymethods]
 impl PyRun {
-    /// Accelerations and multipliers at the reported states.
-    fn responses<'py>(&self, py: Python<'py>) -> PyResult<(Table<'py>, Table<'py>)> {
+    /// Accelerations and multipliers at the reported states, or at the first of them.
+    #[pyo3(signature = (rows=None))]
+    fn responses<'py>(
+        &self,
+        py: Python<'py>,
+        rows: Option<usize>,
+    ) -> PyResult<(Table<'py>, Table<'py>)> {
         guard("Run.responses", || {
-            self.with_states(py, |states| responses(py, &self.model, states, self.passing))
+            self.with_states(py, rows, |states| responses(py, &self.model, states, self.passing))
         })
     }
 
-    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces.
-    fn energies<'py>(&self, py: Python<'py>) -> PyResult<Table<'py>> {
+    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces, there.
+    #[pyo3(signature = (rows=None))]
+    fn energies<'py>(&self, py: Python<'py>, rows: Option<usize>) -> PyResult<Table<'py>> {
         guard("Run.energies", || {
-            self.with_states(py, |states| energies(py, &self.model, states, &self.works))
+            self.with_states(py, rows, |states| {
+                let works = &self.works[..self.works.len().min(WORKS * states.t.len())];
+                energies(py, &self.model, states, works)
+            })
         })
     }
 
@@ -81,10 +93,11 @@ impl PyRun {
 }
 
 impl PyRun {
-    /// What the reported states give.
+    /// What the reported states give, or the first of them.
     fn with_states<T>(
         &self,
         py: Python<'_>,
+        rows: Option<usize>,
         give: impl FnOnce(core::States<'_>) -> PyResult<T>,
     ) -> PyResult<T> {
         fn numbers<'a, D: Dimension>(rows: &'a PyReadonlyArray<'_, f64, D>) -> PyResult<&'a [f64]> {
@@ -92,7 +105,10 @@ impl PyRun {
         }
         let (t, q, v) = (self.t.bind(py), self.q.bind(py), self.v.bind(py));
         let (t, q, v) = (t.try_readonly()?, q.try_readonly()?, v.try_readonly()?);
-        give(core::States { t: numbers(&t)?, q: numbers(&q)?, v: numbers(&v)? })
+        let (t, n) = (numbers(&t)?, self.model.model().layout.n_q);
+        let count = rows.map_or(t.len(), |rows| rows.min(t.len()));
+        let (q, v) = (&numbers(&q)?[..n * count], &numbers(&v)?[..n * count]);
+        give(core::States { t: &t[..count], q, v })
     }
 
     fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {

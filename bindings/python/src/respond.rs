@@ -24,7 +24,7 @@ pub fn responses<'py>(
     if let Some(error) = watch.raised {
         return Err(error);
     }
-    let core::Responses { a, lam } = found.map_err(|reason| because(py, reason))?;
+    let core::Responses { a, lam } = found.map_err(|reason| missing(py, reason))?;
     let model = model.model();
     let (n, m, count) = (model.layout.n_q, model.layout.n_rows, states.t.len());
     Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?))
@@ -38,23 +38,37 @@ pub fn energies<'py>(
     works: &[f64],
 ) -> PyResult<Table<'py>> {
     let found = py.detach(|| model.energies(states, works));
-    let found = found.map_err(|reason| because(py, reason))?;
+    let found = found.map_err(|reason| missing(py, reason))?;
     table(py, found, (states.t.len(), core::ENERGIES))
 }
 
-/// The error of a reason.
+/// The error of a run that stopped.
 pub fn because(py: Python<'_>, reason: core::Reason) -> PyErr {
+    let hint = match reason {
+        core::Reason::Integration { hint, .. } => hint,
+        _ => "look at the solution so far; change the start, or add what decides the motion here",
+    };
+    failure(reason, hint).raise(py)
+}
+
+/// The error of a state that is there, of which something does not follow.
+fn missing(py: Python<'_>, reason: core::Reason) -> PyErr {
+    let hint = match reason {
+        core::Reason::Integration { .. } => "check forces and laws at this state",
+        _ => "positions and velocities are there; look at times beside it, or change the mechanism",
+    };
+    failure(reason, hint).raise(py)
+}
+
+fn failure(reason: core::Reason, hint: &'static str) -> Failure {
     let message = reason.to_string();
-    let error = match reason {
+    match reason {
         core::Reason::Option { .. } => Failure::new(Kind::Model, message),
         core::Reason::Singular { t, name, .. } => {
-            Failure::new(Kind::Singularity, message).name(name).at(t).hint(
-                "look at the solution so far; change the start, or add what decides the motion here",
-            )
+            Failure::new(Kind::Singularity, message).name(name).at(t).hint(hint)
         }
-        core::Reason::Integration { t, hint, .. } => {
+        core::Reason::Integration { t, .. } => {
             Failure::new(Kind::Integration, message).at(t).hint(hint)
         }
-    };
-    error.raise(py)
+    }
 }

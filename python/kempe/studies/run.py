@@ -181,11 +181,11 @@ def _computed(
 ) -> Outcome:
     try:
         solution = simulate(case.model.compile(), begin, entry, None)
+        return _measured(way, solution, reference or solution)
     except (IntegrationError, SingularityError) as error:
         partial: Solution | None = getattr(error, "solution", None)
         reason = str(error.args[0]).partition(" at t = ")[0]  # the time is told apart
         return _diverged(way, partial, error.t, reason)
-    return _measured(way, solution, reference or solution)
 
 
 def _measured(way: Variant, solution: Solution, reference: Solution) -> Outcome:

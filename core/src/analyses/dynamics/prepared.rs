@@ -16,12 +16,11 @@ use std::sync::{Arc, OnceLock};
 /// Of a borrowed model or, as `Prepared<Arc<Model>>`, with the model in it. Threads may share it; the results of a
 /// run do not depend on those before it.
 ///
-/// ```no_run
+/// ```
 /// # use kempe::{analyses::{dynamics, State}, integrate::Flow, model::Model};
-/// # fn main() -> Result<(), Box<dynamics::Failure>> {
-/// # let (model, starts): (Model, Vec<State>) = unimplemented!();
-/// let prepared = dynamics::Prepared::new(&model);
-/// for start in &starts {
+/// # fn all(model: &Model, starts: &[State]) -> Result<(), Box<dynamics::Failure>> {
+/// let prepared = dynamics::Prepared::new(model);
+/// for start in starts {
 ///     let run = prepared.dynamics(start, &dynamics::Options::new(0.1), |_| Flow::Continue)?;
 /// }
 /// # Ok(())
