@@ -34,6 +34,7 @@ pub const ENTRIES: &[&str] = &[
     "Case.check",
     "Case.analyses",
     "Model.describe",
+    "Model.symbols",
     "Model.allowing_redundancy",
     "assemble",
     "dynamics",

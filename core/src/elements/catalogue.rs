@@ -7,6 +7,7 @@ use super::forces::{SpringDamper, Torque, TorsionSpring};
 use super::formula::Formula;
 use super::joints::{Distance, Revolute, Translational};
 use super::kinds::{BodyId, Source};
+use super::symbols::SceneSymbol;
 use super::traits::{Action, Attachment, Equation, Force, Joint, Part, Side, Situation};
 use crate::expression::Tape;
 use crate::math::{Jet, Lift, Local, Motion, Pose, Real};
@@ -118,6 +119,10 @@ macro_rules! constraints {
             pub fn fault(&self) -> Option<(&'static str, String)> {
                 match self { $($(Self::$Name(e) => <$Name>::fault(e),)+)+ }
             }
+            /// The symbols that a drawing shows for it.
+            pub fn symbols(&self) -> Vec<SceneSymbol> {
+                match self { $($(Self::$Name(e) => <$Name>::symbols(e),)+)+ }
+            }
         }
 
         impl<S: Real> Constraint<S> {
@@ -205,6 +210,13 @@ macro_rules! forces {
                     return Some(<$Name>::read(source).map(Self::$Name));
                 })+
                 None
+            }
+        }
+
+        impl ForceElement {
+            /// The symbols that a drawing shows for it.
+            pub fn symbols(&self) -> Vec<SceneSymbol> {
+                match self { $(Self::$Name(e) => <$Name>::symbols(e),)+ }
             }
         }
 

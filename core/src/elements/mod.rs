@@ -9,6 +9,7 @@ mod declare;
 mod derive;
 mod formula;
 mod kinds;
+mod symbols;
 mod traits;
 
 pub mod drivers;
@@ -30,4 +31,5 @@ pub use kinds::{
     body, coordinate, law, number, pair, point, BodyId, Coordinate, CoordinateOf, Kind, PointOn,
     Shape, Source,
 };
+pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 pub use traits::{Action, Attachment, Equation, Force, Joint, Nature, Part, Side, Situation};

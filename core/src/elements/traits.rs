@@ -4,6 +4,7 @@ use super::declare::Element;
 use super::derive;
 use super::formula::Formula;
 use super::kinds::BodyId;
+use super::symbols::SceneSymbol;
 use crate::math::{Local, Motion, Pose, Real, Wrench};
 
 /// One of the two bodies of an element.
@@ -59,6 +60,12 @@ pub trait Joint<const M: usize>: Element {
     fn fault(e: &Self::Over<f64>) -> Option<(&'static str, String)> {
         let _ = e;
         None
+    }
+
+    /// The symbols that a drawing shows for the element; a law that varies is NaN here.
+    fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {
+        let _ = e;
+        Vec::new()
     }
 
     /// The joint frame on a body.
@@ -140,6 +147,12 @@ pub trait Force<const P: usize>: Element {
 
     /// Bodies i and j; ground where a body is missing.
     fn ends<S>(e: &Self::Over<S>) -> [BodyId; 2];
+
+    /// The symbols that a drawing shows for the element; a law that varies is NaN here.
+    fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {
+        let _ = e;
+        Vec::new()
+    }
 
     /// The wrench of each part on both bodies.
     fn action<S: Real>(e: &Self::Over<S>, at: &Situation<S>) -> [Action<S>; P];

@@ -16,6 +16,7 @@ mod parameters;
 mod pin;
 mod problem;
 mod size;
+mod symbols;
 
 pub use anchor::Anchor;
 pub use blueprint::{build, Blueprint};

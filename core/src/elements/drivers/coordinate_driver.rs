@@ -4,7 +4,8 @@
 //! stands on ground and presses against it. The law may use t and the positions of other bodies.
 
 use crate::elements::{
-    element, Attachment, BodyId, Coordinate, CoordinateOf, Equation, Formula, Joint, Side,
+    element, Attachment, BodyId, Coordinate, CoordinateOf, Equation, Formula, Joint, SceneSymbol,
+    Side,
 };
 use crate::math::{Local, Pose, Real};
 
@@ -50,6 +51,10 @@ impl Joint<1> for CoordinateDriver {
             Coordinate::Angle | Coordinate::Omega => j.angle - i.angle,
         };
         [measured - e.value]
+    }
+
+    fn symbols(e: &CoordinateDriver) -> Vec<SceneSymbol> {
+        vec![SceneSymbol::drive(e.coordinate)]
     }
 
     fn attachment<S: Real>(_: &CoordinateDriver<S>, _: Side) -> Attachment<S> {

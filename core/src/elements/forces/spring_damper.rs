@@ -8,7 +8,9 @@
 //! taken as zero, the mean of its directions; the damping is -c ḋ, its limit on both sides of a
 //! passage. All states are thus allowed, and the force is finite in all of them.
 
-use crate::elements::{element, Action, BodyId, Force, Nature, Part, PointOn, Situation};
+use crate::elements::{
+    element, Action, BodyId, Force, Mark, Nature, Part, PointOn, SceneSymbol, Situation,
+};
 use crate::math::{Local, Motion, Real, Vec2, Wrench};
 
 element! {
@@ -45,6 +47,14 @@ impl Force<2> for SpringDamper {
 
     fn ends<S>(e: &SpringDamper<S>) -> [BodyId; 2] {
         [e.i.body, e.j.body]
+    }
+
+    fn symbols(e: &SpringDamper) -> Vec<SceneSymbol> {
+        [(e.stiffness, Mark::Spring), (e.damping, Mark::Dashpot)]
+            .into_iter()
+            .filter(|(coefficient, _)| *coefficient != 0.0)
+            .map(|(_, mark)| SceneSymbol::between_points(mark, &e.i, &e.j))
+            .collect()
     }
 
     fn action<S: Real>(e: &SpringDamper<S>, at: &Situation<S>) -> [Action<S>; 2] {

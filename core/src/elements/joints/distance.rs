@@ -6,7 +6,9 @@
 //! length 1. No square root, so that Φ and its derivatives are finite for all d; where the points meet
 //! Φ_q is zero. l > 0.
 
-use crate::elements::{element, Attachment, BodyId, Equation, Formula, Joint, Side, VelocityTerms};
+use crate::elements::{
+    element, Attachment, BodyId, Equation, Formula, Joint, Mark, SceneSymbol, Side, VelocityTerms,
+};
 use crate::math::{Motion, Pose, Real, Vec2};
 
 element! {
@@ -71,6 +73,10 @@ impl Joint<1> for Distance {
 
     fn residual<S: Real>(e: &Distance<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [S; 1] {
         [excess(e, j.point(e.j.s) - i.point(e.i.s))]
+    }
+
+    fn symbols(e: &Distance) -> Vec<SceneSymbol> {
+        vec![SceneSymbol::between_points(Mark::Rod, &e.i, &e.j)]
     }
 
     fn attachment<S: Real>(e: &Distance<S>, side: Side) -> Attachment<S> {

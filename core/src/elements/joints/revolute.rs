@@ -2,7 +2,9 @@
 //!
 //! Φ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ = 0. Two equations, no restriction of the domain.
 
-use crate::elements::{element, Attachment, BodyId, Equation, Formula, Joint, Side, VelocityTerms};
+use crate::elements::{
+    element, Attachment, BodyId, Equation, Formula, Joint, Mark, SceneSymbol, Side, VelocityTerms,
+};
 use crate::math::{Motion, Pose, Real, Vec2};
 
 element! {
@@ -63,6 +65,10 @@ impl Joint<2> for Revolute {
     fn residual<S: Real>(e: &Revolute<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [S; 2] {
         let gap = j.point(e.j.s) - i.point(e.i.s);
         [gap.x, gap.y]
+    }
+
+    fn symbols(e: &Revolute) -> Vec<SceneSymbol> {
+        vec![SceneSymbol::between_points(Mark::Pin, &e.i, &e.j)]
     }
 
     fn attachment<S: Real>(e: &Revolute<S>, side: Side) -> Attachment<S> {

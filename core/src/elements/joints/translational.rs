@@ -7,7 +7,10 @@
 //! (3.3.14); the angle itself admits no slide that is turned by 180°. All positions but whole turns
 //! of φⱼ - φᵢ, which differ.
 
-use crate::elements::{element, Attachment, BodyId, Equation, Formula, Joint, Side, VelocityTerms};
+use crate::elements::{
+    element, Attachment, BodyId, Equation, Formula, Joint, Mark, SceneSymbol, Side, SymbolEnd,
+    VelocityTerms,
+};
 use crate::math::{Local, Motion, Pose, Real, Rotation, Vec2};
 
 element! {
@@ -79,6 +82,11 @@ impl Joint<2> for Translational {
         let (_, n) = directions(e, i);
         let apart = j.point(e.j.s) - i.point(e.i.s);
         [n.dot(apart), (j.angle + e.axes[1]) - (i.angle + e.axes[0])]
+    }
+
+    fn symbols(e: &Translational) -> Vec<SceneSymbol> {
+        let [i, j] = [(&e.i, 0), (&e.j, 1)].map(|(on, k)| SymbolEnd::point(on).along(e.axes[k]));
+        vec![SceneSymbol { mark: Mark::Slide, i, j }]
     }
 
     fn attachment<S: Real>(e: &Translational<S>, side: Side) -> Attachment<S> {
