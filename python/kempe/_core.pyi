@@ -89,7 +89,7 @@ class Model:
     def symbols(self) -> str:
         """The symbols that a drawing shows for the elements, in the order of the model, as JSON.
 
-        ``[{"element": name, "mark": "pin", "i": end, "j": end, "radius": null | m}]``, where an end
+        ``[{"element": name, "mark": word, "i": end, "j": end, "radius": null | m}]``, where an end
         is ``{"body": number, "point": null | [x, y], "axis": angle}``.
         """
 

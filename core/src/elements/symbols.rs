@@ -13,7 +13,7 @@ pub enum Mark {
     /// A pin that joins the points of i and j.
     Pin,
     /// A rigid connection of the points of i and j.
-    Weld,
+    Clamp,
     /// A block on j at its point, between rails on i along the axis of i.
     Slide,
     /// A massless rod with a pin at each point.
@@ -27,9 +27,9 @@ pub enum Mark {
     /// A rotary dashpot between the bodies, around the joint that they share.
     RotaryDashpot,
     /// A curved arrow: a torque on j.
-    Torque,
+    TorqueArrow,
     /// A straight arrow: a force on j at its point, along the axis of i.
-    Force,
+    ForceArrow,
     /// A curved arrow: a prescribed angle of j.
     DriveTurn,
     /// A straight arrow: a prescribed position of the point of j along the axis of i.
@@ -43,15 +43,15 @@ impl Mark {
     pub fn name(self) -> &'static str {
         match self {
             Self::Pin => "pin",
-            Self::Weld => "weld",
+            Self::Clamp => "clamp",
             Self::Slide => "slide",
             Self::Rod => "rod",
             Self::Spring => "spring",
             Self::Dashpot => "dashpot",
             Self::SpiralSpring => "spiral_spring",
             Self::RotaryDashpot => "rotary_dashpot",
-            Self::Torque => "torque",
-            Self::Force => "force",
+            Self::TorqueArrow => "torque_arrow",
+            Self::ForceArrow => "force_arrow",
             Self::DriveTurn => "drive_turn",
             Self::DriveShift => "drive_shift",
             Self::Circle(_) => "circle",

@@ -82,7 +82,7 @@ fn every_element_has_the_symbol_of_its_physics() {
     assert_eq!(marks(&m, "line"), [Mark::Spring, Mark::Dashpot]);
     assert_eq!(marks(&m, "spiral"), [Mark::SpiralSpring, Mark::RotaryDashpot]);
     assert_eq!(marks(&m, "still"), []);
-    assert_eq!(marks(&m, "varying"), [Mark::Torque]);
+    assert_eq!(marks(&m, "varying"), [Mark::TorqueArrow]);
 }
 
 #[test]

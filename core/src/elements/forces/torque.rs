@@ -27,7 +27,7 @@ impl Force<1> for Torque {
 
     fn symbols(e: &Torque) -> Vec<SceneSymbol> {
         let acts = e.torque != 0.0;
-        acts.then(|| SceneSymbol::between_bodies(Mark::Torque, e.i, e.j)).into_iter().collect()
+        acts.then(|| SceneSymbol::between_bodies(Mark::TorqueArrow, e.i, e.j)).into_iter().collect()
     }
 
     fn action<S: Real>(e: &Torque<S>, _: &Situation<S>) -> [Action<S>; 1] {
