@@ -7,7 +7,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import plot
-from kempe.plot.labels import clipped_lengths
+from kempe.draw.labels import clipped_lengths
 from kempe.plot.page import file_names
 from matplotlib.text import Text
 from plot.conftest import NAMES, chain, driven, pendulum

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from kempe.plot.labels import clipped_lengths, place_labels
-from kempe.plot.units import scale
+from kempe.draw.labels import clipped_lengths, place_labels
+from kempe.draw.units import scale
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,15 @@ def _plain(value: Any) -> Any:
     return rounded(value)
 
 
+def rounded_all(data: Any) -> Any:
+    """The same data with every fraction to nine significant digits."""
+    if isinstance(data, dict):
+        return {key: rounded_all(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [rounded_all(value) for value in data]
+    return rounded(data) if isinstance(data, float) else data
+
+
 def rounded(value: float) -> float | None:
     """Nine significant digits, no negative zero; None for what is not finite."""
     return float(f"{value:.9g}") + 0.0 if math.isfinite(value) else None

@@ -11,7 +11,7 @@ import numpy as np
 from kempe.arrays import Floats
 from kempe.plot import style
 from kempe.plot.time_axis import show_time
-from kempe.plot.units import NOISE, Scale, scale
+from kempe.draw.units import NOISE, Scale, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
