@@ -215,7 +215,7 @@ class Display:
         corners = np.array(body["outline"])
         shares = [0.5, 0.35, 0.65, 0.25, 0.75]
         along = [corners[0] + share * (corners[len(corners) // 2] - corners[0]) for share in shares]
-        for at in (np.array(body["center"]), corners.mean(axis=0), *along):
+        for at in (corners.mean(axis=0), np.array(body["center"]), *along):
             path = self.view.points(self._path(body["number"], at))
             gaps = [float(np.hypot(*(path - pin).T).min()) for pin in pins]
             if min(gaps, default=np.inf) > 2.0 * _NUMBER:

@@ -12,10 +12,12 @@ from kempe.arrays import Floats
 _ANGLES = np.deg2rad(np.arange(16) * 22.5 + 22.5)
 _UNITS = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)])
 _GAPS = (3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0)
+#: As many of them while the anchors move: a name that is far away belongs to nothing.
+_GAPS_IN_MOTION = 4
 #: Room to keep between a name and everything else.
 CLEARANCE = 2.0
-#: To touch something costs this much more than to be farther away by the same length.
-_TOUCH = 10.0
+#: To touch a line costs this much more than to be farther away by the same length; a text still more.
+_TOUCH, _COVER = 10.0, 60.0
 
 
 @lru_cache(maxsize=1024)
@@ -48,8 +50,8 @@ def place_labels(
 ) -> Floats:
     """Offsets from moving anchors to the centres of their names, clear of lines and of each other.
 
-    All lengths in points of print, at some instants of a motion. Greedy: the names are placed in
-    order, each at the candidate that touches least on average and is nearest.
+    All lengths in points of print, at some instants of a motion. Greedy: the names are placed one
+    by one, the longest first, each at the candidate that touches least on average and is nearest.
 
     Args:
         anchors: (n_t, n, 2).
@@ -63,27 +65,28 @@ def place_labels(
         The offsets, (n, 2).
     """
     taken = list(boxes)
-    chosen = []
-    for k, size in enumerate(sizes):
-        offsets = _candidates(size)
+    chosen = np.zeros((len(sizes), 2))
+    for k in np.argsort(-sizes[:, 0], kind="stable"):
+        size = sizes[k]
+        offsets = _candidates(size, _GAPS if len(anchors) == 1 else _GAPS[:_GAPS_IN_MOTION])
         costs = np.hypot(*offsets.T)
         for t, anchor in enumerate(anchors[:, k]):
             here = np.array([box[t] for box in taken]).reshape(-1, 4)
             touched = _cost(anchor + offsets, size, segments[t], reach, here, inside)
             costs = costs + touched / len(anchors)
         best = offsets[int(np.argmin(costs))]
-        chosen.append(best)
+        chosen[k] = best
         low = anchors[:, k] + best - size / 2.0
         taken.append(np.column_stack([low, low + size]))
-    return np.array(chosen).reshape(-1, 2)
+    return chosen
 
 
-def _candidates(size: Floats) -> Floats:
+def _candidates(size: Floats, gaps: Sequence[float]) -> Floats:
     """Offsets such that the box of a name is one of the gaps away from its anchor."""
     with np.errstate(divide="ignore"):
         edge = np.min(np.abs(size / 2.0 / _UNITS), axis=1)  # from the centre to the edge of the box
     edge = np.minimum(edge, float(np.hypot(*size)) / 2.0)
-    found: Floats = np.concatenate([(edge + gap)[:, None] * _UNITS for gap in _GAPS])
+    found: Floats = np.concatenate([(edge + gap)[:, None] * _UNITS for gap in gaps])
     return found
 
 
@@ -101,7 +104,7 @@ def _cost(
     touched = clipped_lengths(low[:, None] - grown, high[:, None] + grown, segments[near])
     cost = _TOUCH * np.sum(touched + 2.0 * (touched > 0.0), axis=1)
     sides = np.minimum(high[:, None], taken[:, 2:]) - np.maximum(low[:, None], taken[:, :2])
-    cost = cost + _TOUCH * np.sum(sides.sum(axis=2) * (sides > 0.0).all(axis=2), axis=1)
+    cost = cost + _COVER * np.sum(sides.sum(axis=2) * (sides > 0.0).all(axis=2), axis=1)
     outside = np.maximum(inside[0] - low, 0.0) + np.maximum(high - inside[1], 0.0)
     found: Floats = cost + _TOUCH * outside.sum(axis=1)
     return found

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.artist import Artist, allow_rasterization
 from matplotlib.axes import Axes
 from matplotlib.path import Path
+from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 from matplotlib.transforms import IdentityTransform
 
@@ -37,7 +38,8 @@ class Painting(Artist):
     ) -> None:
         super().__init__()
         self.set_figure(axes.figure)  # type: ignore[arg-type]
-        self.poses, self._on, self._metres = poses, axes, metres
+        self.items, self.poses = list(found), poses
+        self._on, self._metres = axes, metres
         self._shapes = [_ready(item) for item in found if item["kind"] != "text"]
         self.texts = [(_ready(item), _text(item)) for item in found if item["kind"] == "text"]
         self.set_zorder(3.0)
@@ -94,6 +96,8 @@ def _text(item: Item) -> Text:
         zorder=4.0,
     )
     artist.set_transform(IdentityTransform())
+    if item["role"] != "number":
+        artist.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
     artist.set_in_layout(False)
     if item["turned"]:
         artist.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 1.0})

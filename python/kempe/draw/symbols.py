@@ -147,10 +147,12 @@ def _rod(symbol: Symbol, _: float) -> Iterator[Item]:
 
 
 def _spring(symbol: Symbol, aside: float) -> Iterator[Item]:
+    first, last, count = 0.22, 0.78, 18
     teeth = [
-        [0.22 + 0.04 * (k + 0.5), 0.0, 0.0, aside + (5.0 if k % 2 else -5.0)] for k in range(14)
+        [x, 0.0, 0.0, aside + (-5.5, 5.5)[k % 2]]
+        for k, x in enumerate(np.linspace(first, last, 2 * count + 1)[1::2])
     ]
-    coil = [[0.22, 0.0, 0.0, aside], *teeth, [0.78, 0.0, 0.0, aside]]
+    coil = [[first, 0.0, 0.0, aside], *teeth, [last, 0.0, 0.0, aside]]
     yield from _along(symbol, aside, [_led(coil, aside)])
 
 

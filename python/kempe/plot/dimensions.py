@@ -53,14 +53,18 @@ def _add(made: Display, span: _Span) -> None:
     half = np.abs(along) * (width / 2.0 + 2.0) + np.abs(along[::-1]) * (height / 2.0)
     aside = _best_distance(made, dots, along, half)
     frame, of = between(bodies, ends), f"length {words}"
-    for x in (0.0, 1.0):
+    # Between points that are too near for it the text is beside them, the arrows point inwards.
+    near = float(np.hypot(*(dots[1] - dots[0]))) < width + 2.0 * _HEAD
+    out = 1.8 * _HEAD if near else 0.0
+    for x, away in ((0.0, np.pi), (1.0, 0.0)):
         extension = [[x, 0.0, 0.0, 0.0], [x, 0.0, 0.0, 1.15 * aside]]
         made.add([line(of, frame, extension, "quiet", 0.6, layer=GROUND)])
-        tip = arrow_head((0.0, aside), np.pi * (1.0 - x), _HEAD)
+        tip = arrow_head((0.0, aside), away + (np.pi if near else 0.0), _HEAD)
         made.add([fill(of, frame, [[x, 0.0, *at] for at in tip], "quiet", layer=GROUND)])
-    measure = [[0.0, 0.0, 0.0, aside], [1.0, 0.0, 0.0, aside]]
+    measure = [[0.0, 0.0, -out, aside], [1.0, 0.0, out, aside]]
     made.add([line(of, frame, measure, "quiet", 0.6, layer=GROUND)])
-    made.add([text(of, frame, [0.5, 0.0, 0.0, aside], words, "measure", turned=True)])
+    row = [1.0, 0.0, out + width / 2.0 + 2.0, aside] if near else [0.5, 0.0, 0.0, aside]
+    made.add([text(of, frame, row, words, "measure", turned=True)])
 
 
 def _best_distance(made: Display, dots: Floats, along: Floats, half: Floats) -> float:

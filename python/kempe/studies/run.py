@@ -102,7 +102,7 @@ class Study:
         return markdown(self)
 
     def save(self, folder: Path | str) -> list[Path]:
-        """Write table (CSV, JSON, Markdown) and figures into a folder; returns the files.
+        """Write the table (CSV, JSON, Markdown) into a folder; returns the files.
 
         Raises:
             FileError: a file cannot be written.

@@ -124,13 +124,11 @@ def json_text(study: Study) -> str:
 
 
 def write(study: Study, folder: Path) -> list[Path]:
-    """Write the tables and the figures; returns the files.
+    """Write the tables; returns the files.
 
     Raises:
         FileError: a file cannot be written.
     """
-    from kempe.plot import study_figures
-
     texts = {
         "study.md": "\n".join(
             [
@@ -147,4 +145,4 @@ def write(study: Study, folder: Path) -> list[Path]:
     }
     for name, text in texts.items():
         files.write_text(folder / name, text)
-    return [*(folder / name for name in texts), *study_figures.write(study, folder / "figures")]
+    return [folder / name for name in texts]
