@@ -200,8 +200,9 @@ class CompiledModel:
     def symbols(self) -> tuple[dict[str, Any], ...]:
         """What a drawing shows for joints, drivers and forces, in their order.
 
-        Each has ``element`` (its name), ``mark`` (a word of the scene's vocabulary), ``i`` and ``j``
-        (``body``: number, ``point``: place in its frame or None, ``axis``: angle) and ``radius``.
+        Each has ``element`` (its name), ``mark`` (a word of the scene's vocabulary), ``i`` and
+        ``j`` (``body``: number, ``point``: place in its frame or None, ``axis``: angle) and
+        ``radius``.
         """
         return tuple(json.loads(self.core.symbols()))
 

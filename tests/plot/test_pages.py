@@ -11,8 +11,8 @@ from kempe.draw.labels import clipped_lengths
 from kempe.plot.page import file_names
 from matplotlib.text import Text
 from plot.conftest import NAMES, chain, driven, pendulum
-from plot.paintings import links
 from plot.overlaps import boxes, cut_off, overlaps
+from plot.paintings import links
 
 FLAGSHIP = [
     "01_mechanism",

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from kempe.draw.labels import clipped_lengths, place_labels
+from kempe.draw.labels import Taken, clipped_lengths, place_labels
 from kempe.draw.units import scale
 
 
@@ -34,8 +34,8 @@ def test_a_name_lies_on_no_line_and_no_other_name() -> None:
     segments = np.array([anchors[:2], anchors[1:3]])
     sizes = np.tile([20.0, 8.0], (4, 1))
     inside = np.array([[-100.0, -100.0], [100.0, 100.0]])
-    lines, reach = np.tile(segments, (1, 1, 1, 1)), np.zeros(2)
-    centres = anchors + place_labels(anchors[None], sizes, lines, reach, [], inside)
+    taken = Taken(segments[None], np.zeros(2), np.empty((1, 0, 4)), inside)
+    centres = anchors + place_labels(anchors[None], sizes, taken)
     for centre, size in zip(centres, sizes, strict=True):
         assert clipped_lengths(centre - size / 2, centre + size / 2, segments).sum() == 0.0
     for k, one in enumerate(centres):

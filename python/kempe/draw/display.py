@@ -16,7 +16,7 @@ from kempe.arrays import Floats
 from kempe.draw import items, symbols
 from kempe.draw.geometry import placed
 from kempe.draw.items import Frame, Item, fill, line, metres, on_body, print_points, text, upright
-from kempe.draw.labels import measured, place_labels
+from kempe.draw.labels import Taken, measured, place_labels
 from kempe.draw.palette import one_line
 from kempe.draw.placing import View, place
 from kempe.draw.scene import Scene
@@ -211,7 +211,7 @@ class Display:
                 self.name("body", body["name"], upright(body["number"], at))
 
     def _free_place(self, body: dict[str, Any], pins: list[Floats]) -> items.At | None:
-        """Where the number of a body covers no pin and no other number; None if there is no room."""
+        """Where a number covers no pin and no other number; None if there is no room."""
         corners = np.array(body["outline"])
         shares = [0.5, 0.35, 0.65, 0.25, 0.75]
         along = [corners[0] + share * (corners[len(corners) // 2] - corners[0]) for share in shares]
@@ -237,41 +237,34 @@ class Display:
             [[place(one, poses, self.view)[0] for one in found] for poses in self.poses]
         )
         sizes = np.array([size_of(one) for one in found])
-        segments, reach = self.obstacles()
-        inside = np.array([[0.0, 0.0], self.view.size])
-        boxes = self.boxes()
-        offsets = place_labels(anchors, sizes, segments, reach, boxes, inside)
+        offsets = place_labels(anchors, sizes, self.taken())
         for one, offset in zip(found, offsets, strict=True):
             one["offset"] = [float(x) for x in offset]
             if one["role"] == "number":
                 self.add(_circled(one["of"], one["frame"], one["offset"]))
             yield one
 
-    def obstacles(self) -> tuple[Floats, Floats]:
-        """All lines at the instants, (n_t, m, 2, 2), and their half widths, (m,), points."""
-        segments: list[Floats] = []
-        reach: list[float] = []
-        for item in self._items:
-            if item["kind"] != "text" and item["layer"] < items.NUMBER:
-                some = {**item, "points": _thinned(item)}
-                placed_at = np.array([place(some, poses, self.view) for poses in self.poses])
-                own = np.stack([placed_at[:, :-1], placed_at[:, 1:]], axis=2)
-                segments.append(own)
-                half = item.get("width", 0.0) / 2.0 + (4.0 if item.get("hatch") else 0.0)
-                reach += [half] * own.shape[1]
-        if not segments:
-            return np.empty((len(self.poses), 0, 2, 2)), np.empty(0)
-        return np.concatenate(segments, axis=1), np.array(reach)
-
-    def boxes(self) -> list[Floats]:
-        """Where there are texts, each (n_t, 4), points."""
-        found = []
+    def taken(self) -> Taken:
+        """What names must not lie on: lines, texts and what is outside of the view."""
+        count = len(self.poses)
+        segments, reach, boxes = [np.empty((count, 0, 2, 2))], [], [np.empty((count, 0, 4))]
         for item in self._items:
             if item["kind"] == "text":
                 half = np.array(size_of(item)) / 2.0
-                centre = np.array([place(item, poses, self.view)[0] for poses in self.poses])
-                found.append(np.column_stack([centre - half, centre + half]))
-        return found
+                centre = self._placed(item)
+                boxes.append(np.concatenate([centre - half, centre + half], axis=2))
+            elif item["layer"] < items.NUMBER:
+                points = self._placed({**item, "points": _thinned(item)})
+                segments.append(np.stack([points[:, :-1], points[:, 1:]], axis=2))
+                half_width = item.get("width", 0.0) / 2.0 + (4.0 if item.get("hatch") else 0.0)
+                reach += [half_width] * (points.shape[1] - 1)
+        edges = np.array([[0.0, 0.0], self.view.size])
+        lines = np.concatenate(segments, axis=1)
+        return Taken(lines, np.array(reach), np.concatenate(boxes, axis=1), edges)
+
+    def _placed(self, item: Item) -> Floats:
+        """The points of an item at the instants, (n_t, n, 2), points of print."""
+        return np.array([place(item, poses, self.view) for poses in self.poses])
 
 
 def display(scene: Scene, view: View) -> list[Item]:

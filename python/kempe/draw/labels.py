@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -16,7 +17,8 @@ _GAPS = (3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0)
 _GAPS_IN_MOTION = 4
 #: Room to keep between a name and everything else.
 CLEARANCE = 2.0
-#: To touch a line costs this much more than to be farther away by the same length; a text still more.
+#: To touch a line costs this much more than to be farther away by the same length; to touch a text
+#: still more.
 _TOUCH, _COVER = 10.0, 60.0
 
 
@@ -40,44 +42,48 @@ def measured(words: str, size: float, bold: bool, slanted: bool) -> tuple[float,
     return float(width), 1.25 * size
 
 
-def place_labels(
-    anchors: Floats,
-    sizes: Floats,
-    segments: Floats,
-    reach: Floats,
-    boxes: Sequence[Floats],
-    inside: Floats,
-) -> Floats:
+@dataclass(frozen=True)
+class Taken:
+    """What names must not lie on, at some instants of a motion; points of print.
+
+    Attributes:
+        segments: lines, (n_t, m, 2, 2).
+        reach: their half widths, (m,).
+        boxes: other texts, (n_t, k, 4): least x and y, largest x and y.
+        inside: [[least x, least y], [largest x, largest y]] that names had better not leave.
+    """
+
+    segments: Floats
+    reach: Floats
+    boxes: Floats
+    inside: Floats
+
+
+def place_labels(anchors: Floats, sizes: Floats, taken: Taken) -> Floats:
     """Offsets from moving anchors to the centres of their names, clear of lines and of each other.
 
-    All lengths in points of print, at some instants of a motion. Greedy: the names are placed one
-    by one, the longest first, each at the candidate that touches least on average and is nearest.
+    Greedy: the names are placed one by one, the longest first, each at the candidate that touches
+    least on average and is nearest.
 
     Args:
-        anchors: (n_t, n, 2).
+        anchors: (n_t, n, 2), points of print.
         sizes: widths and heights, (n, 2).
-        segments: lines of the drawing, (n_t, m, 2, 2).
-        reach: half widths of the lines, (m,).
-        boxes: more places that are taken, each (n_t, 4): least x and y, largest x and y.
-        inside: [[least x, least y], [largest x, largest y]] that names had better not leave.
+        taken: what else there is.
 
     Returns:
         The offsets, (n, 2).
     """
-    taken = list(boxes)
     chosen = np.zeros((len(sizes), 2))
     for k in np.argsort(-sizes[:, 0], kind="stable"):
         size = sizes[k]
         offsets = _candidates(size, _GAPS if len(anchors) == 1 else _GAPS[:_GAPS_IN_MOTION])
         costs = np.hypot(*offsets.T)
         for t, anchor in enumerate(anchors[:, k]):
-            here = np.array([box[t] for box in taken]).reshape(-1, 4)
-            touched = _cost(anchor + offsets, size, segments[t], reach, here, inside)
-            costs = costs + touched / len(anchors)
-        best = offsets[int(np.argmin(costs))]
-        chosen[k] = best
-        low = anchors[:, k] + best - size / 2.0
-        taken.append(np.column_stack([low, low + size]))
+            costs = costs + _cost(anchor + offsets, size, taken, t) / len(anchors)
+        chosen[k] = offsets[int(np.argmin(costs))]
+        low = anchors[:, k] + chosen[k] - size / 2.0
+        box = np.column_stack([low, low + size])
+        taken = replace(taken, boxes=np.concatenate([taken.boxes, box[:, None]], axis=1))
     return chosen
 
 
@@ -90,22 +96,21 @@ def _candidates(size: Floats, gaps: Sequence[float]) -> Floats:
     return found
 
 
-def _cost(
-    centres: Floats, size: Floats, segments: Floats, reach: Floats, taken: Floats, inside: Floats
-) -> Floats:
-    """What the box of a name touches at each of its candidates, points."""
+def _cost(centres: Floats, size: Floats, taken: Taken, t: int) -> Floats:
+    """What the box of a name touches at each of its candidates at the t-th instant, points."""
+    segments, boxes = taken.segments[t], taken.boxes[t]
     half = size / 2.0 + CLEARANCE
     low, high = centres - half, centres + half
     first, last = low.min(axis=0), high.max(axis=0)
-    wide = reach[:, None]
+    wide = taken.reach[:, None]
     near = np.all(segments.min(axis=1) - wide < last, axis=1)
     near &= np.all(segments.max(axis=1) + wide > first, axis=1)
-    grown = reach[near][:, None]
+    grown = taken.reach[near][:, None]
     touched = clipped_lengths(low[:, None] - grown, high[:, None] + grown, segments[near])
     cost = _TOUCH * np.sum(touched + 2.0 * (touched > 0.0), axis=1)
-    sides = np.minimum(high[:, None], taken[:, 2:]) - np.maximum(low[:, None], taken[:, :2])
+    sides = np.minimum(high[:, None], boxes[:, 2:]) - np.maximum(low[:, None], boxes[:, :2])
     cost = cost + _COVER * np.sum(sides.sum(axis=2) * (sides > 0.0).all(axis=2), axis=1)
-    outside = np.maximum(inside[0] - low, 0.0) + np.maximum(high - inside[1], 0.0)
+    outside = np.maximum(taken.inside[0] - low, 0.0) + np.maximum(high - taken.inside[1], 0.0)
     found: Floats = cost + _TOUCH * outside.sum(axis=1)
     return found
 

@@ -37,7 +37,7 @@ class Painting(Artist):
         self, axes: Axes, found: Sequence[Item], poses: Floats, metres: float = 1.0
     ) -> None:
         super().__init__()
-        self.set_figure(axes.figure)  # type: ignore[arg-type]
+        self.set_figure(axes.figure)
         self.items, self.poses = list(found), poses
         self._on, self._metres = axes, metres
         self._shapes = [_ready(item) for item in found if item["kind"] != "text"]
@@ -52,7 +52,7 @@ class Painting(Artist):
         """What is seen, in points of print from the lower left corner of the figure."""
         return view_on(self._on, self._metres)
 
-    @allow_rasterization
+    @allow_rasterization  # type: ignore[untyped-decorator]
     def draw(self, renderer: Any) -> None:
         """Paint lines and fills, and put the texts in their places; these are painted next."""
         if not self.get_visible():
@@ -64,8 +64,7 @@ class Painting(Artist):
             centre = place(item, self.poses, view)[0] + item["offset"]
             artist.set_position(tuple(centre * dots))
             if item["turned"]:
-                angle = np.degrees(direction(item, self.poses, view))
-                artist.set_rotation((angle + 90.0) % 180.0 - 90.0)
+                artist.set_rotation(_readable(np.degrees(direction(item, self.poses, view))))
         self.stale = False
 
 
@@ -102,6 +101,11 @@ def _text(item: Item) -> Text:
     if item["turned"]:
         artist.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 1.0})
     return artist
+
+
+def _readable(angle: float) -> float:
+    """The same direction of a line of text, from the left or from below, degrees."""
+    return 90.0 - (90.0 - angle + 1e-6) % 180.0
 
 
 def _paint(renderer: Any, item: Item, points: Floats, dots: float) -> None:

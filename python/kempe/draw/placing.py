@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -99,7 +100,7 @@ def _ends(frame: Frame) -> Sequence[tuple[int, Sequence[float]]]:
 def hatching(points: Floats, side: int) -> Floats:
     """Short strokes on one side of a line, (k, 2, 2), points."""
     found = []
-    for begin, end in zip(points[:-1], points[1:], strict=True):
+    for begin, end in pairwise(points):
         length = float(np.hypot(*(end - begin)))
         if length == 0.0:
             continue

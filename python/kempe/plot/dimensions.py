@@ -10,7 +10,7 @@ from kempe.arrays import Floats
 from kempe.draw.display import Display
 from kempe.draw.geometry import placed
 from kempe.draw.items import GROUND, arrow_head, between, fill, line, print_points, text, upright
-from kempe.draw.labels import clipped_lengths, measured
+from kempe.draw.labels import Taken, clipped_lengths, measured
 
 #: Distance of a dimension line from what it measures, tried in turn, points.
 _DISTANCES = (20.0, 32.0, 44.0)
@@ -32,7 +32,9 @@ def add_dimensions(made: Display) -> None:
         if body["number"] and len(body["outline"]) == 2
     ]
     grounded = [
-        joint["points"][joint["bodies"].index(0)] for joint in scene["joints"] if 0 in joint["bodies"]
+        joint["points"][joint["bodies"].index(0)]
+        for joint in scene["joints"]
+        if 0 in joint["bodies"]
     ]
     if len(grounded) == 2 and grounded[0] != grounded[1]:
         spans.append(((0, 0), grounded))
@@ -73,20 +75,22 @@ def _best_distance(made: Display, dots: Floats, along: Floats, half: Floats) -> 
     outside = np.dot(normal, dots.mean(axis=0) - made.view.size / 2.0) >= 0.0
     sides = (1.0, -1.0) if outside else (-1.0, 1.0)
     aways = [side * away for away in _DISTANCES for side in sides]
-    costs = [_touched(made, dots + away * normal, half) for away in aways]
+    taken = made.taken()
+    costs = [_touched(taken, dots + away * normal, half) for away in aways]
     return aways[int(np.argmin(costs))]
 
 
-def _touched(made: Display, dots: Floats, half: Floats) -> float:
+def _touched(taken: Taken, dots: Floats, half: Floats) -> float:
     """What lies on a dimension line: lines and boxes of texts, at places along it."""
-    segments, reach = made.obstacles()
-    boxes = np.array([box[0] for box in made.boxes()]).reshape(-1, 4)
+    boxes, reach = taken.boxes[0], taken.reach
     cost = 0.0
     for share in np.linspace(0.05, 0.95, 13):
         centre = dots[0] + share * (dots[1] - dots[0])
         room = half if 0.35 < share < 0.65 else np.full(2, 3.0)
         grown = room + reach[:, None]
-        cost += float(clipped_lengths(centre - grown, centre + grown, segments[0]).sum() > 0.0)
+        cost += float(
+            clipped_lengths(centre - grown, centre + grown, taken.segments[0]).sum() > 0.0
+        )
         apart = (boxes[:, 2:] <= centre - room) | (boxes[:, :2] >= centre + room)
         cost += float(np.sum(~apart.any(axis=1)))
     return cost
@@ -100,24 +104,24 @@ def add_gravity(made: Display) -> None:
         return
     along = gravity / size * _GRAVITY / 2.0
     frame = upright(0, [float(x) for x in made.view.plane(_free_corner(made))])
-    shaft = print_points([-along, along * 0.7])
+    shaft = print_points(np.array([-along, 0.7 * along]))
     made.add([line("gravity", frame, shaft, "ink", 1.0)])
-    head = arrow_head(along, float(np.arctan2(along[1], along[0])))
+    head = arrow_head(along.tolist(), float(np.arctan2(along[1], along[0])))
     made.add([fill("gravity", frame, print_points(head), "ink")])
     made.name("body", f"g = {size:.4g} m/s²", frame)
 
 
 def _free_corner(made: Display) -> Floats:
     room = np.array([1.6 * _GRAVITY, 1.05 * _GRAVITY])
-    segments, _ = made.obstacles()
-    boxes = made.boxes()
+    taken = made.taken()
     best: Floats = made.view.size - room
     least = np.inf
     for share in ((1, 1), (0, 1), (1, 0), (0, 0)):
         centre = np.where(share, made.view.size - room, room)
         low, high = centre - room, centre + room
-        touched = float(clipped_lengths(low, high, segments[0]).sum())
-        touched += sum(bool(np.all((box[0, 2:] > low) & (box[0, :2] < high))) for box in boxes)
+        touched = float(clipped_lengths(low, high, taken.segments[0]).sum())
+        over = (taken.boxes[0, :, 2:] > low) & (taken.boxes[0, :, :2] < high)
+        touched += float(np.sum(over.all(axis=1)))
         if touched < least:
             best, least = centre, touched
     return best

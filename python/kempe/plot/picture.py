@@ -32,9 +32,9 @@ def frame(scene: Scene) -> tuple[Floats, Floats]:
 
 
 def drawn(axes: Axes, scene: Scene, title: str) -> Display:
-    """The mechanism as a display list for axes, which get their frame; names are left to the caller.
+    """The mechanism without names, as a display list for axes.
 
-    The axes are laid out, so that lengths of print are known.
+    The axes get their limits and are laid out, so that lengths of print are known.
     """
     low, high = frame(scene)
     unit = Scale(scene["length"]["metres"], scene["length"]["unit"])

@@ -78,14 +78,14 @@ function paintText(context, view, item, [x, y], angle, colours) {
   const text = shortened(item.text);
   const place = [x + item.offset[0] * UNIT, y - item.offset[1] * UNIT];
   context.translate(...(item.turned ? place : inside(context, text, place, view)));
-  if (item.turned) context.rotate(-upright(angle));
+  if (item.turned) context.rotate(-readable(angle));
   rimmed(context, text, [0, 0], tinted(colours, item), colours.panel);
   context.restore();
 }
 
-/** The same direction of a line of text, so that it is not upside down. */
-function upright(angle) {
-  return angle - Math.PI * Math.round(angle / Math.PI);
+/** The same direction of a line of text, read from the left or from below. */
+function readable(angle) {
+  return angle - Math.PI * Math.ceil(angle / Math.PI - 0.5 - 1e-8);
 }
 
 /** A place for a text, moved sideways so that all of it is seen if its anchor is. */
