@@ -33,8 +33,39 @@ _LINK, _EDGE, _TINT = 8.0, 1.0, 0.72
 _NUMBER = 7.0  # radius of the circle around a number
 _MOST_OBSTACLES = 60  # corners of one item
 
+#: Role, names and frame of what has one place.
+_Named = tuple[str, list[str], Frame]
 #: A name that waits for its place: of what, words, role, and the frame of its anchor.
 _Name = tuple[str, str, str, Frame]
+
+
+class Places:
+    """Paths of points, those of one place once.
+
+    Args:
+        near: paths that are always so near are one place, m.
+    """
+
+    def __init__(self, near: float) -> None:
+        self._near = near
+        self._paths: Floats | None = None
+
+    def index(self, path: Floats) -> int:
+        """The number of the place of a path, (n_t, 2); a new one if there is none yet."""
+        if self._paths is None:
+            self._paths = path[None]
+            return 0
+        apart = np.abs(self._paths - path).max(axis=(1, 2))
+        k = int(np.argmin(apart))
+        if apart[k] < self._near:
+            return k
+        self._paths = np.concatenate([self._paths, path[None]])
+        return len(self._paths) - 1
+
+    def is_new(self, path: Floats) -> bool:
+        """Whether a path has a place of its own, which it takes."""
+        before = 0 if self._paths is None else len(self._paths)
+        return self.index(path) == before
 
 
 class Display:
@@ -56,7 +87,6 @@ class Display:
         self._near = _SAME * (float((high - low).max()) or 1.0)
         self._items: list[Item] = []
         self._names: list[_Name] = []
-        self._named: list[Floats] = []
 
     def add(self, found: Iterator[Item] | list[Item]) -> None:
         """Add items."""
@@ -74,55 +104,44 @@ class Display:
         """Bodies, the symbols of all elements, supports, and points without a symbol."""
         for body in self.scene["bodies"][1:]:
             self.add(_link(body))
-        rings = symbols.Rings()
-        pinned: list[Floats] = []
+        rings, pinned = symbols.Rings(), Places(self._near)
         for _, group in groupby(self.scene["symbols"], key=lambda symbol: symbol["element"]):
             own = list(group)
             aside = symbols.parallel(own)
             for symbol in own:
-                if symbol["mark"] == "pin" and self._is_new(pinned, symbol, 1) is False:
-                    continue
-                self.add(symbols.draw(symbol, rings, aside.get(symbol["mark"], 0.0)))
+                if symbol["mark"] != "pin" or pinned.is_new(self._ends(symbol)[-1]):
+                    self.add(symbols.draw(symbol, rings, aside.get(symbol["mark"], 0.0)))
         self._draw_supports()
         self._draw_points()
 
     def _draw_supports(self) -> None:
         """One support for each place on ground on which something turns."""
-        supported: list[Floats] = []
+        supported = Places(self._near)
         for symbol in self.scene["symbols"]:
             if symbol["mark"] in symbols.PINNED:
-                for k, body in enumerate(symbol["bodies"]):
-                    if body == 0 and self._is_new(supported, symbol, k):
-                        self.add(symbols.support(symbol["element"], symbol["points"][k]))
+                for body, at in zip(symbol["bodies"], symbol["points"], strict=True):
+                    if body == 0 and supported.is_new(self._path(body, at)):
+                        self.add(symbols.support(symbol["element"], at))
 
     def _draw_points(self) -> None:
         """A cross or a dot at each named point that no symbol has."""
-        marked = [
-            self._path(body, at)
-            for symbol in self.scene["symbols"]
-            for body, at in zip(symbol["bodies"], symbol["points"], strict=True)
-            if at is not None
-        ]
+        marked = Places(self._near)
+        for symbol in self.scene["symbols"]:
+            for path in self._ends(symbol):
+                marked.is_new(path)
         for body in self.scene["bodies"]:
             for point in body["points"]:
-                path = self._path(body["number"], point["at"])
-                if not self._coincides(path, marked):
-                    marked.append(path)
+                if marked.is_new(self._path(body["number"], point["at"])):
                     self.add(symbols.cross(body["name"], body["number"], point["at"]))
 
     def _path(self, body: int, at: items.At) -> Floats:
         """Where a point of a body is at the instants, (n_t, 2), m."""
         return placed(self.poses[:, body], at)
 
-    def _coincides(self, path: Floats, others: list[Floats]) -> bool:
-        return any(float(np.abs(path - other).max()) < self._near for other in others)
-
-    def _is_new(self, taken: list[Floats], symbol: dict[str, Any], k: int) -> bool:
-        """Whether nothing is at the point of a symbol; it is taken from now on."""
-        path = self._path(symbol["bodies"][k], symbol["points"][k])
-        new = not self._coincides(path, taken)
-        taken.append(path)
-        return new
+    def _ends(self, symbol: symbols.Symbol) -> list[Floats]:
+        """Where the points of a symbol are at the instants."""
+        ends = zip(symbol["bodies"], symbol["points"], strict=True)
+        return [self._path(body, at) for body, at in ends if at is not None]
 
     # --- names ------------------------------------------------------------------------------------
 
@@ -132,42 +151,31 @@ class Display:
         if len(joints) > MOST_NAMES:
             return
         rods = {s["element"]: s for s in self.scene["symbols"] if s["mark"] == "rod"}
-        places: list[tuple[Floats, list[str], Frame, str]] = []
+        places, found = Places(self._near), list[_Named]()
         for joint in joints:
             rod = rods.get(joint["name"])
             if rod is not None:
-                frame = items.between(rod["bodies"], rod["points"])
-                self.name("joint", joint["name"], frame)
+                self.name("joint", joint["name"], items.between(rod["bodies"], rod["points"]))
                 continue
-            self._gather(places, joint["bodies"][1], joint["points"][1], joint["name"], "joint")
+            number, at = joint["bodies"][1], joint["points"][1]
+            k = places.index(self._path(number, at))
+            if k == len(found):
+                found.append(("joint", [], upright(number, at)))
+            found[k][1].append(one_line(joint["name"]))
         count = sum(len(body["points"]) for body in self.scene["bodies"])
         for body in self.scene["bodies"] if count <= MOST_NAMES else []:
             for point in body["points"]:
-                self._gather(places, body["number"], point["at"], point["name"], "point")
-        for _, names, frame, role in places:
+                k = places.index(self._path(body["number"], point["at"]))
+                if k == len(found):
+                    found.append(("point", [], upright(body["number"], point["at"])))
+                if found[k][0] == "point":  # where there is a joint its points go unnamed
+                    found[k][1].append(one_line(point["name"]))
+        for role, names, frame in found:
             self.name(role, ", ".join(dict.fromkeys(names)), frame)
-
-    def _gather(
-        self,
-        places: list[tuple[Floats, list[str], Frame, str]],
-        body: int,
-        at: items.At,
-        name: str,
-        role: str,
-    ) -> None:
-        """Add a name to those of its place; where there is a joint its points go unnamed."""
-        path = self._path(body, at)
-        for other, names, _, taken in places:
-            if float(np.abs(path - other).max()) < self._near:
-                if taken == role:
-                    names.append(one_line(name))
-                return
-        places.append((path, [one_line(name)], upright(body, at), role))
 
     def name_elements(self) -> None:
         """Write the names of forces and drivers beside their symbols."""
-        joints = {joint["name"] for joint in self.scene["joints"]}
-        seen = set(joints)
+        seen = {joint["name"] for joint in self.scene["joints"]}
         for symbol in self.scene["symbols"]:
             if symbol["element"] in seen or len(seen) > MOST_NAMES:
                 continue
@@ -190,12 +198,8 @@ class Display:
         bodies = self.scene["bodies"][1:]
         if len(bodies) > MOST_NUMBERS:
             return
-        pins = [
-            self.view.points(self._path(body, at))
-            for symbol in self.scene["symbols"]
-            for body, at in zip(symbol["bodies"], symbol["points"], strict=True)
-            if at is not None
-        ]
+        ends = [path for symbol in self.scene["symbols"] for path in self._ends(symbol)]
+        pins = [self.view.points(path) for path in ends]
         for body in bodies:
             number = str(body["number"] - 1 + index_base)
             at = self._free_place(body, pins)

@@ -10,20 +10,14 @@ from kempe.arrays import Floats
 
 def plain(values: Floats) -> Any:
     """Nested lists of the values to nine significant digits; None for what is not finite."""
-    return _plain(values.tolist())
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, list):
-        return [_plain(entry) for entry in value]
-    return rounded(value)
+    return rounded_all(values.tolist())
 
 
 def rounded_all(data: Any) -> Any:
     """The same data with every fraction to nine significant digits."""
     if isinstance(data, dict):
         return {key: rounded_all(value) for key, value in data.items()}
-    if isinstance(data, list | tuple):
+    if isinstance(data, list):
         return [rounded_all(value) for value in data]
     return rounded(data) if isinstance(data, float) else data
 
