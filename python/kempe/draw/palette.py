@@ -14,7 +14,8 @@ _ROLES = {
     "ink": "#000000",
     "ground": GROUND,
     "force": "#7A3DB8",
-    "drive": "#B00040",
+    "drive": "#1F2A44",
+    "reaction": "#C2184B",
     "quiet": "#555555",
 }
 

@@ -56,8 +56,8 @@ def gaps(study: Study, ax: Axes) -> None:
         frame = on_body(0, [float(x) for x in point], turn=angle)
         shaft = [[0.0, 0.0, 0.0, 0.0], [factor * length, 0.0, -4.0, 0.0]]
         head = [[factor * length, 0.0, *at] for at in arrow_head((0.0, 0.0), 0.0)]
-        made.add([line(name, frame, shaft, "drive", 1.5, layer=NUMBER)])
-        made.add([fill(name, frame, head, "drive", layer=NUMBER)])
+        made.add([line(name, frame, shaft, "reaction", 1.5, layer=NUMBER)])
+        made.add([fill(name, frame, head, "reaction", layer=NUMBER)])
         made.name("joint", f"{name}: {1e3 * length:.3g} mm", frame)
     paint(ax, made)
 

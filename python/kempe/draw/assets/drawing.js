@@ -5,6 +5,9 @@ import { paintItems, paintPaths } from "./paint.js";
 import { cleared, sharpen } from "./surface.js";
 import { extent, View } from "./view.js";
 
+/** From this layer on items are painted over the arrows of reactions. */
+const PIN = 3;
+
 /** Draws the scene on a canvas. */
 export class Drawing {
   constructor(canvas, scene, motion) {
@@ -14,6 +17,8 @@ export class Drawing {
     this.view = new View(scene.bounds);
     this.shown = { names: true, numbers: true, paths: true, reactions: false };
     this.magnification = 1;
+    this.below = scene.display.filter(({ layer }) => layer < PIN);
+    this.above = scene.display.filter(({ layer }) => layer >= PIN);
     const piece = extent(scene.bounds) / 200;
     this.traces = scene.traces.map(({ body, point }) => ({ body, path: line(motion.path(body, point, piece)) }));
     this.resize();
@@ -40,8 +45,10 @@ export class Drawing {
     const now = this.motion.at(t);
     const step = paintGrid(context, view, colours);
     if (shown.paths) paintPaths(context, view, this.traces, colours);
-    paintItems(context, view, scene.display, now.poses, shown, colours);
+    const paint = (items) => paintItems(context, view, items, now.poses, shown, colours);
+    paint(this.below);
     if (shown.reactions) paintReactions(context, view, this.pins(now), now.forces, this.pixelsPerNewton(), colours);
+    paint(this.above);
     paintLengthScale(context, view, step, scene.length, colours);
     paintGravity(context, view, scene.gravity, colours);
   }
