@@ -2,32 +2,32 @@
 //!
 //! An element declares its fields once ([`element!`]) and states its physics once ([`Joint`] or
 //! [`Force`]), generic in the scalar. From that follow the reader of the file, the JSON schema, the
-//! Python class, the reference page, and all derivatives. To add one: write its file, name it in the
-//! list below, and give it a test and a page.
+//! Python class, the reference page, and all derivatives. To add one: write its file, name it in
+//! `list.rs`, and give it a test sample and a page. No other file names it.
 
 mod declare;
-mod derive;
+pub(crate) mod derive;
+mod dispatch;
+mod force_trait;
 mod formula;
+mod joint_trait;
 mod kinds;
-mod traits;
+mod list;
 
 pub mod drivers;
 pub mod forces;
 pub mod joints;
 
-mod catalogue;
-
-pub(crate) use catalogue::jets;
-pub use catalogue::{
-    catalogue, formulas, Acting, Constraint, ForceElement, Group, Linear, Rows, MOST_EQUATIONS,
-};
 use declare::join;
 pub use declare::{element, Default, Element, Field, Table};
-pub use derive::{derived_jacobian, derived_velocity_terms, VelocityTerms};
-pub(crate) use derive::{moving, seeded};
+pub use dispatch::{Group, Pooled, VisitForces, VisitJoints};
+pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation};
 pub use formula::Formula;
+pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
 pub use kinds::{
-    body, coordinate, law, number, pair, point, BodyId, Coordinate, CoordinateOf, Kind, PointOn,
-    Shape, Source,
+    body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, JointId,
+    Kind, PointOn, Shape, Source,
 };
-pub use traits::{Action, Attachment, Equation, Force, Joint, Nature, Part, Side, Situation};
+pub use list::{
+    catalogue, formulas, holding, states_of, Constraint, ForceElement, ForcePools, JointPools,
+};

@@ -6,8 +6,10 @@
 //! length 1. No square root, so that Φ and its derivatives are finite for all d; where the points meet
 //! Φ_q is zero. l > 0.
 
-use crate::elements::{element, Attachment, BodyId, Equation, Formula, Joint, Side, VelocityTerms};
-use crate::math::{Motion, Pose, Real, Vec2};
+use crate::elements::{
+    element, At, Attachment, BodyId, Equation, Fixes, Formula, Joint, Linearized, Moving,
+};
+use crate::math::{Real, Vec2};
 
 element! {
     /// Distance: a massless rod between two points, Φ = (d² - length²) / (2 length) with d the
@@ -23,8 +25,8 @@ element! {
     }
 }
 
-impl Joint<1> for Distance {
-    const FORMULAS: [Formula; 1] = [Formula {
+impl Joint for Distance {
+    const FORMULAS: &'static [Formula] = &[Formula {
         residual: "((j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
                    - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))^2 \
                    + (j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
@@ -61,54 +63,46 @@ impl Joint<1> for Distance {
                 - i.omega^2*(i.s.x*sin(i.angle) + i.s.y*cos(i.angle))))/length",
     }];
 
-    fn ends<S>(e: &Distance<S>) -> [BodyId; 2] {
-        [e.i.body, e.j.body]
+    fn bodies<S>(e: &Distance<S>) -> Vec<BodyId> {
+        vec![e.i.body, e.j.body]
     }
 
-    fn equations<S>(_: &Distance<S>) -> [Equation; 1] {
-        [Equation { name: "length", unit: "m" }]
+    fn equations<S>(_: &Distance<S>) -> Vec<Equation> {
+        vec![Equation { name: "length", unit: "m" }]
     }
 
-    fn residual<S: Real>(e: &Distance<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [S; 1] {
-        [excess(e, j.point(e.j.s) - i.point(e.i.s))]
+    fn residual<S: Real>(e: &Distance<S>, at: &At<'_, S>, phi: &mut [S]) {
+        phi[0] = excess(e, at.j().point(e.j.s) - at.i().point(e.i.s));
     }
 
-    fn attachment<S: Real>(e: &Distance<S>, side: Side) -> Attachment<S> {
-        let s = match side {
-            Side::I => e.i.s,
-            Side::J => e.j.s,
-        };
+    fn attachment<S: Real>(e: &Distance<S>, body: usize) -> Attachment<S> {
+        let s = [e.i.s, e.j.s][body];
         Attachment { s, axis: S::zero() }
+    }
+
+    fn fixes<S: Clone>(e: &Distance<S>) -> Vec<Fixes<S>> {
+        vec![Fixes::Distance(e.length.clone())]
     }
 
     fn fault(e: &Distance) -> Option<(&'static str, String)> {
         (e.length <= 0.0).then(|| ("length", format!("{} m; must be > 0", e.length)))
     }
 
-    /// Closed form: [-uᵀ, -uᵀ Bᵢ s′ᵢ, uᵀ, uᵀ Bⱼ s′ⱼ] with u = d/l (Haug 3.3.9, divided by 2 l).
-    fn jacobian<S: Real>(e: &Distance<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [[S; 6]; 1] {
-        let (a_i, a_j) = (i.global(e.i.s), j.global(e.j.s));
-        let u = (j.r + a_j - (i.r + a_i)).scale(S::one() / e.length);
-        [[-u.x, -u.y, -u.dot(a_i.perp()), u.x, u.y, u.dot(a_j.perp())]]
-    }
-
-    /// Closed form: γ = (dᵀ (Aⱼ s′ⱼ φ̇ⱼ² - Aᵢ s′ᵢ φ̇ᵢ²) - ḋᵀ ḋ) / l.
-    fn velocity_terms<S: Real>(
-        e: &Distance<S>,
-        i: &Motion<S>,
-        j: &Motion<S>,
-        _: S,
-    ) -> VelocityTerms<S, 1> {
+    /// Closed form, with u = d/l: Φ_q = [-uᵀ, -uᵀ Bᵢ s′ᵢ, uᵀ, uᵀ Bⱼ s′ⱼ] (Haug 3.3.9, divided by 2 l),
+    /// γ = (dᵀ (Aⱼ s′ⱼ φ̇ⱼ² - Aᵢ s′ᵢ φ̇ᵢ²) - ḋᵀ ḋ) / l.
+    fn linearize<S: Real>(e: &Distance<S>, at: &Moving<'_, S>, out: Linearized<'_, S>) {
+        let [i, j] = [&at.bodies[0], &at.bodies[1]];
         let (a_i, a_j) = (i.pose.global(e.i.s), j.pose.global(e.j.s));
         let (w_i, w_j) = (i.twist.omega, j.twist.omega);
         let d = j.pose.r + a_j - (i.pose.r + a_i);
+        let u = d.scale(S::one() / e.length);
         let apart = j.point_velocity(e.j.s) - i.point_velocity(e.i.s);
         let inward = a_j.scale(w_j * w_j) - a_i.scale(w_i * w_i);
-        VelocityTerms {
-            residual: [excess(e, d)],
-            rate: [d.dot(apart) / e.length],
-            gamma: [(d.dot(inward) - apart.dot(apart)) / e.length],
-        }
+        out.residual[0] = excess(e, d);
+        out.rate[0] = d.dot(apart) / e.length;
+        out.gamma[0] = (d.dot(inward) - apart.dot(apart)) / e.length;
+        out.columns[0] = [-u.x, -u.y, -u.dot(a_i.perp())];
+        out.columns[1] = [u.x, u.y, u.dot(a_j.perp())];
     }
 }
 
