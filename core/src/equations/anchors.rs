@@ -1,9 +1,9 @@
 //! Bodies that a pin holds to ground: γ̂ of their pins, how they weigh, and how their solution begins.
 
+use super::anchor::Anchor;
 use super::constraints::Stabilized;
 use crate::elements::VelocityTerms;
 use crate::math::{Motion, Real, Vec2};
-use crate::model::Anchor;
 use crate::solve::{Anchor as Held, Saddle, Weight};
 
 /// Turns the weights of anchored bodies, and begins their part of the solution: `forces` and `right`, shapes (n_q)

@@ -4,7 +4,7 @@
 //! gives the smallest step of Newton's method, with μ > 0 a damped one.
 
 use super::plan::{ArmedPin, Plan};
-use super::{anchors, mass};
+use super::{anchors, mass, Compiled};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 pub use crate::solve::Dependent;
@@ -42,7 +42,7 @@ pub(super) struct Parts<'a, S> {
 
 impl<S: Real> Augmented<S> {
     /// Memory and elimination order for a model, see [`Plan::free`].
-    pub fn new<P>(model: &Model<P>) -> Self {
+    pub fn new<P: Real>(model: &Model<P>) -> Self {
         Self::on(Arc::new(Plan::free(model)))
     }
 
@@ -72,26 +72,26 @@ impl<S: Real> Augmented<S> {
         Parts { pattern, saddle: &mut self.saddle, armed, others }
     }
 
-    /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
-    pub fn set_mass(&mut self, model: &Model<S>, motions: &[Motion<S>]) {
-        self.set_inertia(model);
-        let bodies = model.inertias.iter().zip(&motions[1..]);
+    /// W = M at the given motions, with the inertia that is added to bodies without their own.
+    pub fn set_mass(&mut self, compiled: &Compiled<S>, motions: &[Motion<S>]) {
+        self.set_inertia(compiled);
+        let bodies = compiled.inertias.iter().zip(&motions[1..]);
         for (weight, (inertia, motion)) in self.saddle.weights.iter_mut().zip(bodies) {
             mass::turn(inertia, motion, weight);
         }
-        for (anchor, held) in model.anchors.iter().zip(&mut self.saddle.anchors) {
+        for (anchor, held) in compiled.anchors.iter().zip(&mut self.saddle.anchors) {
             let body = anchor.body as usize;
             anchors::turn(anchor, &motions[body + 1], &mut self.saddle.weights[body], held);
         }
     }
 
     /// What no state changes of W = M.
-    pub(super) fn set_inertia(&mut self, model: &Model<S>) {
-        for (weight, inertia) in self.saddle.weights.iter_mut().zip(&model.inertias) {
+    pub(super) fn set_inertia(&mut self, compiled: &Compiled<S>) {
+        for (weight, inertia) in self.saddle.weights.iter_mut().zip(&compiled.inertias) {
             let [m, j] = inertia.inverse;
             weight.inverse = [m, m, j];
         }
-        for (anchor, held) in model.anchors.iter().zip(&mut self.saddle.anchors) {
+        for (anchor, held) in compiled.anchors.iter().zip(&mut self.saddle.anchors) {
             let weight = &mut self.saddle.weights[anchor.body as usize];
             weight.inverse = [S::zero(), S::zero(), anchor.inverse];
             weight.held = S::one() / anchor.mass;

@@ -2,7 +2,7 @@
 //! (q, v, a, λ), without solving for anything.
 
 use super::energy::Powers;
-use super::{constraints, forces, kinematics, mass};
+use super::{constraints, forces, kinematics, mass, Compiled};
 use crate::math::Motion;
 use crate::model::Model;
 
@@ -19,6 +19,7 @@ pub struct Balance {
     pub rate: Vec<f64>,
     /// Powers of forces and drivers.
     pub powers: Powers,
+    compiled: Compiled,
     gamma: Vec<f64>,
     jacobian: Vec<f64>,
     applied: Vec<f64>,
@@ -34,6 +35,7 @@ impl Balance {
             position: vec![0.0; m],
             rate: vec![0.0; m],
             powers: Powers::zero(),
+            compiled: Compiled::new(model),
             gamma: vec![0.0; m],
             jacobian: vec![0.0; model.layout.n_entries],
             applied: vec![0.0; n],
@@ -46,7 +48,7 @@ impl Balance {
         kinematics::motions(q, v, motions);
         constraints::velocity_terms(model, motions, t, position, rate, gamma);
         constraints::jacobian(model, motions, t, jacobian);
-        self.powers = forces::generalized(model, motions, t, applied);
+        self.powers = forces::generalized(model, &self.compiled, motions, t, applied);
         let bodies = model.bodies.iter().zip(motions.iter()).skip(1);
         let columns = out.chunks_exact_mut(3).zip(a.chunks_exact(3)).zip(applied.chunks_exact(3));
         for (((out, a), applied), (body, motion)) in columns.zip(bodies) {

@@ -1,6 +1,6 @@
 //! The matrices of the equations in full, for people to look at.
 
-use super::{constraints, forces, kinematics, mass};
+use super::{constraints, forces, kinematics, mass, Compiled};
 use crate::math::Motion;
 use crate::model::{columns, Model};
 
@@ -31,7 +31,7 @@ pub fn matrices(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Matrices {
     let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
     constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
     let mut q_forces = vec![0.0; n];
-    forces::generalized(model, &motions, t, &mut q_forces);
+    forces::generalized(model, &Compiled::new(model), &motions, t, &mut q_forces);
     let mass = mass_matrix(model, &motions);
     let jacobian = jacobian(model, &motions, t);
     let kkt = augmented(&mass, &jacobian, n, m);

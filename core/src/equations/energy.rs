@@ -5,16 +5,14 @@
 use super::forces;
 use crate::elements::Nature;
 use crate::math::{Motion, Real, Twist};
-use crate::model::{Body, Inertia, Model};
+use crate::model::{Body, Model};
 
 /// Kinetic energy ½ q̇ᵀ M q̇, J: by the velocity of the mass centre and the inertia about it.
 pub fn kinetic<S: Real>(model: &Model<S>, motions: &[Motion<S>]) -> S {
     let mut twice = S::zero();
-    for (body, inertia, motion) in moving(model, motions) {
-        let Twist { mut velocity, omega } = motion.twist;
-        if inertia.coupled {
-            velocity = velocity + motion.pose.global(body.center).perp().scale(omega);
-        }
+    for (body, motion) in moving(model, motions) {
+        let Twist { velocity, omega } = motion.twist;
+        let velocity = velocity + motion.pose.global(body.center).perp().scale(omega);
         twice = twice.plus_product(body.mass, velocity.dot(velocity));
         twice = twice.plus_product(body.inertia, omega * omega);
     }
@@ -24,12 +22,8 @@ pub fn kinetic<S: Real>(model: &Model<S>, motions: &[Motion<S>]) -> S {
 /// Potential energy of gravity (zero at the global origin) and of the forces, J.
 pub fn potential<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S) -> S {
     let mut sum = S::zero();
-    for (body, inertia, motion) in moving(model, motions) {
-        let center = match inertia.coupled {
-            true => motion.pose.point(body.center),
-            false => motion.pose.r,
-        };
-        sum = sum.minus_product(body.mass, model.gravity.dot(center));
+    for (body, motion) in moving(model, motions) {
+        sum = sum.minus_product(body.mass, model.gravity.dot(motion.pose.point(body.center)));
     }
     for item in &model.forces {
         sum += forces::potential(item, motions, t);
@@ -41,9 +35,8 @@ pub fn potential<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S) -> S {
 fn moving<'a, S>(
     model: &'a Model<S>,
     motions: &'a [Motion<S>],
-) -> impl Iterator<Item = (&'a Body<S>, &'a Inertia<S>, &'a Motion<S>)> {
-    let bodies = model.bodies[1..].iter().zip(&model.inertias).zip(&motions[1..]);
-    bodies.map(|((body, inertia), motion)| (body, inertia, motion))
+) -> impl Iterator<Item = (&'a Body<S>, &'a Motion<S>)> {
+    model.bodies.iter().zip(motions).skip(1)
 }
 
 /// Powers that the energy balance integrates, W.

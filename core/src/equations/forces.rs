@@ -1,20 +1,21 @@
 //! Generalized forces Q: gravity, force elements, and the φ̇² term of frames off the mass centre.
 
 use super::energy::Powers;
-use super::laws;
+use super::{laws, Compiled, Inertia};
 use crate::elements::{Acting, Action, BodyId, Part, Situation};
 use crate::math::{Motion, Real, Vec2, Wrench};
-use crate::model::{columns, ForceItem, Inertia, Model};
+use crate::model::{columns, ForceItem, Model};
 
 /// Q into `out`, shape (n_q); the powers of the force elements come with it.
 #[inline(always)] // as constraints::linearize
 pub fn generalized<S: Real>(
     model: &Model<S>,
+    compiled: &Compiled<S>,
     motions: &[Motion<S>],
     t: S,
     out: &mut [S],
 ) -> Powers<S> {
-    let moving = model.inertias.iter().zip(&motions[1..]);
+    let moving = compiled.inertias.iter().zip(&motions[1..]);
     for ((inertia, motion), out) in moving.zip(out.chunks_exact_mut(3)) {
         let weight = model.gravity.scale(inertia.mass);
         // before the branch, so that the two are written as a pair: they are read as one

@@ -10,6 +10,7 @@
 //! their solution. Redundant rows are damped with μ, for the same reason without harm.
 
 use super::tangent::Tangent;
+use super::Compiled;
 use crate::math::Field;
 use crate::model::{Layout, Model};
 use crate::solve::{BlockLu, LuPlan};
@@ -28,6 +29,8 @@ pub struct Places {
     /// Slot of the diagonal block of each constraint, and its rows.
     diagonal: Vec<(usize, usize)>,
     damping: f64,
+    /// Inertia added to the bodies, kg·m².
+    added_inertia: Vec<f64>,
 }
 
 impl Places {
@@ -55,7 +58,8 @@ impl Places {
             .collect();
         let compliance = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
         let damping = if model.allow_redundancy { REDUNDANT * compliance } else { 0.0 };
-        Self { plan, pairs, jacobian, diagonal, damping }
+        let added_inertia = Compiled::new(model).added_inertia;
+        Self { plan, pairs, jacobian, diagonal, damping, added_inertia }
     }
 }
 
@@ -68,7 +72,6 @@ fn blocks(layout: &Layout) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
 
 /// Puts the matrix together, with the factors [c_a, c_v, c_q, c_b] of M, D, K and B.
 pub fn assemble<F: Field>(
-    model: &Model,
     places: &Places,
     tangent: &Tangent,
     [c_a, c_v, c_q, c_b]: [F; 4],
@@ -85,9 +88,9 @@ pub fn assemble<F: Field>(
             }
         }
     }
-    let added = &model.added_inertia[1..];
     // the diagonal blocks are the first pairs
-    for ((mass, added), &slot) in tangent.mass.iter().zip(added).zip(&places.pairs) {
+    for ((mass, added), &slot) in tangent.mass.iter().zip(&places.added_inertia).zip(&places.pairs)
+    {
         let block = lu.block_mut(slot);
         let (m, b) = (mass.mass, mass.coupling);
         let full = [[m, 0.0, b.x], [0.0, m, b.y], [b.x, b.y, mass.inertia + added]];

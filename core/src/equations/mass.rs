@@ -3,8 +3,9 @@
 //!
 //! With c the mass centre and b = B c′ = (A c′)⊥:  M = [m I, m b; m bᵀ, J + m |c′|²].
 
+use super::Inertia;
 use crate::math::{Motion, Real, Vec2};
-use crate::model::{Body, Inertia};
+use crate::model::Body;
 use crate::solve::Weight;
 
 /// The four numbers that a block holds.

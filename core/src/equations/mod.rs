@@ -2,18 +2,23 @@
 //!
 //! Functions of a [`Model`](crate::model::Model) and plain slices; scratch is a [`Workspace`].
 
+mod added_inertia;
+mod anchor;
 mod anchors;
 pub mod augmented;
 pub mod balance;
+mod compiled;
 pub mod constraints;
 pub mod dense;
 pub mod energy;
 pub mod forces;
+mod inertia;
 pub mod iteration;
 pub mod kinematics;
 mod laws;
 pub mod mass;
 pub mod motion;
+mod pin;
 mod pins;
 mod plan;
 pub mod reactions;
@@ -21,6 +26,8 @@ mod refine;
 mod residuals;
 pub mod tangent;
 
+pub use compiled::Compiled;
+pub use inertia::Inertia;
 pub use laws::{at, Laws};
 pub use motion::{Gains, Singular, Workspace};
 pub use plan::Plan;

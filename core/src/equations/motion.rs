@@ -11,7 +11,7 @@ use super::augmented::{Augmented, Dependent, Parts};
 use super::constraints::{self, Stabilized};
 use super::energy::Powers;
 use super::plan::Plan;
-use super::{anchors, forces, kinematics, mass, pins, refine};
+use super::{anchors, forces, kinematics, mass, pins, refine, Compiled};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 use crate::solve::Bytes;
@@ -35,6 +35,8 @@ pub struct Singular(pub Dependent);
 pub struct Workspace<S = f64> {
     /// Motion of every body, ground first.
     pub motions: Vec<Motion<S>>,
+    /// Data derived from the model.
+    pub compiled: Arc<Compiled<S>>,
     /// The augmented matrix.
     pub matrix: Augmented<S>,
     /// Right side, then solution (q̈, λ).
@@ -67,17 +69,19 @@ impl<S: Real> Workspace<S> {
     /// The same on the plan of the model's [equations of motion](Plan::of_motion).
     pub fn on(model: &Model<S>, plan: Arc<Plan>) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
+        let compiled = Arc::new(Compiled::new(model));
         let mut workspace = Self {
             motions: Vec::with_capacity(model.bodies.len()),
             matrix: Augmented::on(plan),
+            correction: compiled.has_added_inertia().then(|| vec![S::zero(); n + m]),
             solution: vec![S::zero(); n + m],
             powers: Powers::zero(),
             held: Vec::new(),
-            correction: model.has_added_inertia().then(|| vec![S::zero(); n + m]),
             passing: false,
             n_q: n,
+            compiled,
         };
-        workspace.matrix.set_inertia(model);
+        workspace.matrix.set_inertia(&workspace.compiled);
         if model.allow_redundancy {
             workspace.allow_redundancy(model);
         }
@@ -146,27 +150,27 @@ impl<S: Real> Workspace<S> {
     /// q̈ and λ with pins by their arms: one pass over them before elimination, and one after.
     #[inline(always)]
     fn solve_armed(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
-        let Self { motions, matrix, solution, powers, held, n_q, .. } = self;
+        let Self { motions, compiled, matrix, solution, powers, held, n_q, .. } = self;
         let (stabilized, n) = (Stabilized::new(gains), *n_q);
         let Parts { pattern, saddle, armed, others } = matrix.parts_mut();
         for &k in pattern.coupled() {
             let k = k as usize;
-            mass::turn(&model.inertias[k], &motions[k + 1], &mut saddle.weights[k]);
+            mass::turn(&compiled.inertias[k], &motions[k + 1], &mut saddle.weights[k]);
         }
         let (forces, right) = solution.split_at_mut(n);
-        *powers = forces::generalized(model, motions, t, forces);
+        *powers = forces::generalized(model, compiled, motions, t, forces);
         let (others, entries) =
             (others.iter().map(|k| *k as usize), saddle.entries.as_flattened_mut());
         constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
         right.iter_mut().zip(&*held).for_each(|(right, held)| *right -= *held);
-        anchors::begin(&model.anchors, motions, stabilized, held, saddle, (forces, right));
+        anchors::begin(&compiled.anchors, motions, stabilized, held, saddle, (forces, right));
         saddle.weigh_others(pattern, solution);
         let (x, right) = solution.split_at_mut(n);
-        pins::begin(&model.pins, armed, motions, stabilized, saddle, (x, right));
-        pins::hold(&model.pins, armed, held, right);
+        pins::begin(&compiled.pins, armed, motions, stabilized, saddle, (x, right));
+        pins::hold(&compiled.pins, armed, held, right);
         saddle.finish_begun(pattern, solution)?;
         let (x, lam) = solution.split_at_mut(n);
-        pins::spread(&model.pins, armed, saddle, (x, lam));
+        pins::spread(&compiled.pins, armed, saddle, (x, lam));
         saddle.unbend(pattern, solution);
         Ok(())
     }
@@ -178,8 +182,8 @@ impl<S: Real> Workspace<S> {
         constraints::linearize(model, &self.motions, t, gains, right, entries);
         // none but where a stabilization holds its term over a step
         right.iter_mut().zip(&self.held).for_each(|(right, held)| *right -= *held);
-        self.matrix.set_mass(model, &self.motions);
-        self.powers = forces::generalized(model, &self.motions, t, forces);
+        self.matrix.set_mass(&self.compiled, &self.motions);
+        self.powers = forces::generalized(model, &self.compiled, &self.motions, t, forces);
     }
 
     /// Where the factor is not that of the equations.
@@ -190,8 +194,9 @@ impl<S: Real> Workspace<S> {
             None => vec![S::zero(); self.solution.len()],
         };
         let x = &mut self.solution;
-        let solved = refine::solve(model, &self.motions, &self.matrix, x, &mut correction);
-        if model.has_added_inertia() || model.allow_redundancy {
+        let solved =
+            refine::solve((model, &self.compiled), &self.motions, &self.matrix, x, &mut correction);
+        if self.compiled.has_added_inertia() || model.allow_redundancy {
             self.correction = Some(correction);
         }
         solved
@@ -200,13 +205,14 @@ impl<S: Real> Workspace<S> {
     /// Bytes that evaluations hold and touch: of this, and of the model what they read of bodies and pins;
     /// other constraints and forces are not counted.
     pub fn bytes(&self, model: &Model<S>) -> Bytes {
+        let compiled = &*self.compiled;
         // no motion is there before the first evaluation
         let motions = std::mem::size_of::<Motion<S>>() * model.bodies.len();
         let own = Bytes { held: motions, touched: motions } + Bytes::touched(&self.solution);
         let aside = self.correction.as_deref().map_or(Bytes::default(), Bytes::aside);
-        let of_model = Bytes::touched(&model.pins)
-            + Bytes::touched(&model.inertias)
-            + Bytes::touched(&model.anchors);
+        let of_model = Bytes::touched(&compiled.pins)
+            + Bytes::touched(&compiled.inertias)
+            + Bytes::touched(&compiled.anchors);
         self.matrix.bytes() + own + aside + of_model
     }
 

@@ -2,11 +2,11 @@
 //! follows from it for the pin by itself while its numbers are at hand.
 
 use super::constraints::Stabilized;
+use super::pin::Pin;
 use super::plan::ArmedPin;
 use crate::elements::joints::Revolute;
 use crate::elements::Joint;
 use crate::math::{Motion, Real};
-use crate::model::Pin;
 use crate::solve::{Begun, Saddle};
 
 /// The three unknowns of a group.

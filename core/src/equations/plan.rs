@@ -1,6 +1,9 @@
 //! What matrices of a model have in common, whatever their numbers: pattern, order and plan of elimination.
 
-use crate::model::{Anchor, Block, Layout, Model, Slots};
+use super::anchor::Anchor;
+use super::Compiled;
+use crate::math::Real;
+use crate::model::{Block, Layout, Model, Slots};
 use crate::solve::{Armed, Bytes, Pattern, RowBlock};
 
 /// A plan of elimination for one model over any scalar; found once, shared by any number of matrices.
@@ -26,7 +29,7 @@ pub(super) struct ArmedPin {
 
 impl Plan {
     /// Of the equations of motion of a model: anchored, unless redundant constraints are accepted.
-    pub fn of_motion<P>(model: &Model<P>) -> Self {
+    pub fn of_motion<P: Real>(model: &Model<P>) -> Self {
         match model.allow_redundancy {
             true => Self::free(model),
             false => Self::anchored(model),
@@ -34,21 +37,28 @@ impl Plan {
     }
 
     /// Bodies first, then the constraints by minimum degree, so that every pivot is safe while Φ_q has full rank.
-    pub fn free<P>(model: &Model<P>) -> Self {
-        Self::with(model, &[], false)
+    pub fn free<P: Real>(model: &Model<P>) -> Self {
+        Self::with(model, &Compiled::new(model), &[], false)
     }
 
     /// The same for W = M without damping: pins to ground are eliminated with the bodies that they hold.
-    pub fn anchored<P>(model: &Model<P>) -> Self {
-        let constraint = |anchor: &Anchor<P>| model.pins[anchor.pin as usize].constraint as usize;
-        let anchors: Vec<usize> = model.anchors.iter().map(constraint).collect();
-        Self::with(model, &anchors, true)
+    pub fn anchored<P: Real>(model: &Model<P>) -> Self {
+        let compiled = Compiled::new(model);
+        let constraint =
+            |anchor: &Anchor<P>| compiled.pins[anchor.pin as usize].constraint as usize;
+        let anchors: Vec<usize> = compiled.anchors.iter().map(constraint).collect();
+        Self::with(model, &compiled, &anchors, true)
     }
 
-    fn with<P>(model: &Model<P>, anchors: &[usize], anchored: bool) -> Self {
-        let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
+    fn with<P>(
+        model: &Model<P>,
+        compiled: &Compiled<P>,
+        anchors: &[usize],
+        anchored: bool,
+    ) -> Self {
+        let coupled = compiled.inertias.iter().map(|inertia| inertia.coupled);
         let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout), anchors);
-        let (armed, others) = split(model, &pattern);
+        let (armed, others) = split(model, compiled, &pattern);
         Self { pattern, armed, others, anchored }
     }
 
@@ -59,9 +69,13 @@ impl Plan {
 }
 
 /// The pins that arms can give, and the other constraints.
-fn split<P>(model: &Model<P>, pattern: &Pattern) -> (Vec<ArmedPin>, Vec<u32>) {
+fn split<P>(
+    model: &Model<P>,
+    compiled: &Compiled<P>,
+    pattern: &Pattern,
+) -> (Vec<ArmedPin>, Vec<u32>) {
     let mut pin: Vec<Option<u32>> = vec![None; model.constraints.len()];
-    (0..).zip(&model.pins).for_each(|(k, p)| pin[p.constraint as usize] = Some(k));
+    (0..).zip(&compiled.pins).for_each(|(k, p)| pin[p.constraint as usize] = Some(k));
     let mut others = vec![true; model.constraints.len()];
     pattern.anchors().iter().for_each(|anchor| others[anchor.block as usize] = false);
     let mut armed = Vec::with_capacity(pattern.armed().len());

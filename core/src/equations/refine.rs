@@ -7,7 +7,7 @@
 //! its joints; that of redundant rows by their damping (the method of multipliers).
 
 use super::augmented::{Augmented, Dependent};
-use super::{constraints, mass};
+use super::{constraints, mass, Compiled};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 
@@ -26,7 +26,7 @@ const ACCEPTED: f64 = 1e-9;
 /// # Errors
 /// The angle of a body without inertia that a torque turns while nothing resists.
 pub(super) fn solve<S: Real>(
-    model: &Model<S>,
+    (model, compiled): (&Model<S>, &Compiled<S>),
     motions: &[Motion<S>],
     matrix: &Augmented<S>,
     x: &mut [S],
@@ -35,7 +35,7 @@ pub(super) fn solve<S: Real>(
     let b = x.to_vec();
     let n = model.layout.n_q;
     matrix.solve(x);
-    if matrix.ridged() || !model.has_added_inertia() {
+    if matrix.ridged() || !compiled.has_added_inertia() {
         for _ in 0..FOR_REDUNDANCY {
             step(model, motions, matrix, &b, x, correction);
         }
@@ -50,7 +50,7 @@ pub(super) fn solve<S: Real>(
         }
         last = relative;
     }
-    Err(Dependent::Column(unresisted(model, correction)))
+    Err(Dependent::Column(unresisted(&compiled.added_inertia, correction)))
 }
 
 fn step<S: Real>(
@@ -98,10 +98,9 @@ fn largest<S: Real>(x: &[S]) -> f64 {
 }
 
 /// The angle with added inertia that was corrected most.
-fn unresisted<S: Real>(model: &Model<S>, correction: &[S]) -> usize {
-    let angles =
-        (1..model.bodies.len()).filter(|b| model.added_inertia[*b].least_magnitude() > 0.0);
+fn unresisted<S: Real>(added: &[S], correction: &[S]) -> usize {
+    let angles = (0..added.len()).filter(|b| added[*b].least_magnitude() > 0.0);
     let size = |column: &usize| largest(&correction[*column..=*column]);
-    let most = angles.map(|b| 3 * b - 1).max_by(|a, b| size(a).total_cmp(&size(b)));
+    let most = angles.map(|b| 3 * b + 2).max_by(|a, b| size(a).total_cmp(&size(b)));
     most.unwrap_or(0)
 }

@@ -1,6 +1,6 @@
 //! How far a state is from its constraints: Φ and Φ̇ of all of them and the largest of each, in one pass.
 
-use super::constraints;
+use super::{constraints, Compiled};
 use crate::elements::joints::Revolute;
 use crate::elements::{BodyId, Joint, Rows, MOST_EQUATIONS};
 use crate::math::{Largest, Motion, Real};
@@ -15,6 +15,7 @@ pub struct Residuals<S = f64> {
     pub per_scale: Vec<f64>,
     /// The same of pins.
     per_size: f64,
+    compiled: Compiled<S>,
     /// The constraints that are no pins.
     others: Vec<usize>,
 }
@@ -22,12 +23,14 @@ pub struct Residuals<S = f64> {
 impl<S: Real> Residuals<S> {
     /// Memory for a model.
     pub fn new(model: &Model<S>) -> Self {
+        let compiled = Compiled::new(model);
         let mut other = vec![true; model.constraints.len()];
-        model.pins.iter().for_each(|pin| other[pin.constraint as usize] = false);
+        compiled.pins.iter().for_each(|pin| other[pin.constraint as usize] = false);
         Self {
             rows: std::array::from_fn(|_| vec![S::zero(); model.layout.n_rows]),
             per_scale: row_scales(model).into_iter().map(|scale| 1.0 / scale).collect(),
             per_size: 1.0 / size(model),
+            compiled,
             others: (0..other.len()).filter(|k| other[*k]).collect(),
         }
     }
@@ -35,7 +38,7 @@ impl<S: Real> Residuals<S> {
     /// Fills the [`rows`](Self::rows) at a state; the largest of Φ and of Φ̇, scaled, in any lane, NaN if one is that.
     #[inline(always)] // once in a look: a call saves and restores more than it shares
     pub fn look(&mut self, model: &Model<S>, motions: &[Motion<S>], t: S) -> [f64; 2] {
-        let mut largest = self.look_at_pins(model, motions);
+        let mut largest = self.look_at_pins(motions);
         for k in 0..self.others.len() {
             self.look_at_other(model, self.others[k], motions, t, &mut largest);
         }
@@ -44,9 +47,9 @@ impl<S: Real> Residuals<S> {
 
     /// Pins by their records. What is lengths alone is scaled once.
     #[inline(always)]
-    fn look_at_pins(&mut self, model: &Model<S>, motions: &[Motion<S>]) -> [Largest<S>; 2] {
+    fn look_at_pins(&mut self, motions: &[Motion<S>]) -> [Largest<S>; 2] {
         let mut largest = [Largest::new(), Largest::new()];
-        for pin in &model.pins {
+        for pin in &self.compiled.pins {
             let [i, j] = pin.bodies.map(|body| &motions[body as usize]);
             let terms = <Revolute as Joint<2>>::velocity_terms(&pin.joint(), i, j, S::zero());
             let both = self.rows.iter_mut().zip([terms.residual, terms.rate]);
@@ -60,7 +63,7 @@ impl<S: Real> Residuals<S> {
 
     /// Stored entries of Φ_q, where the columns ±I of pins stand already.
     pub fn jacobian(&self, model: &Model<S>, motions: &[Motion<S>], t: S, entries: &mut [S]) {
-        for pin in &model.pins {
+        for pin in &self.compiled.pins {
             let [i, j] = pin.bodies.map(|body| &motions[body as usize].pose);
             let rows = <Revolute as Joint<2>>::jacobian(&pin.joint(), i, j, S::zero());
             let slots = &model.layout.constraints[pin.constraint as usize];

@@ -1,11 +1,7 @@
 //! A model as numbers: immutable, over any scalar.
 
-use super::added_inertia;
-use super::anchor::{anchors, Anchor};
 use super::blueprint::Blueprint;
-use super::inertia::{inertias, Inertia};
 use super::layout::{StateLayout, Touched};
-use super::pin::{pins, Pin};
 use super::variable::Dependence;
 use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, OwnState};
 use crate::expression::{Tape, Values};
@@ -104,17 +100,8 @@ pub struct Model<S = f64> {
     pub bodies: Vec<Body<S>>,
     /// Joints and drivers, in the order of their rows.
     pub constraints: Vec<ConstraintItem<S>>,
-    /// Those of them that only pin two points, as numbers.
-    pub pins: Vec<Pin<S>>,
-    /// Moving bodies that one of them holds to ground.
-    pub anchors: Vec<Anchor<S>>,
     /// Forces.
     pub forces: Vec<ForceItem<S>>,
-    /// Moments of inertia that are added to bodies without their own while the equations are solved,
-    /// and taken back then, kg·m²; zero for others and for ground.
-    pub added_inertia: Vec<S>,
-    /// Of the moving bodies: without ground.
-    pub inertias: Vec<Inertia<S>>,
     /// Index ranges.
     pub layout: StateLayout,
     /// Whether a joint or driver is driven.
@@ -180,31 +167,20 @@ impl<S: Real> Model<S> {
         let forces: Vec<ForceItem<S>> = forces.collect();
         let bodies: Vec<Body<S>> = blueprint.bodies.iter().map(|body| body.map(value)).collect();
         let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
-        let added_inertia = added_inertia::added(&bodies, &constraints);
         let unknowns = bodies[1..].iter().map(|body| if body.turns { 3 } else { 2 });
         let states = forces.iter().map(|item| item.states.len());
         let layout = StateLayout::new(unknowns, &touched, states);
-        let pins = pins(&constraints, &layout);
         Self {
             blueprint: Arc::clone(blueprint),
             parameters: parameters.to_vec(),
             gravity,
-            inertias: inertias(&blueprint.bodies, &bodies, &added_inertia),
-            anchors: anchors(&pins, &bodies, &added_inertia),
-            added_inertia,
             driven: constraints.iter().any(|item| item.driven),
             bodies,
-            pins,
             layout,
             constraints,
             forces,
             allow_redundancy: blueprint.allow_redundancy,
         }
-    }
-
-    /// Whether a body has an inertia that is not its own.
-    pub fn has_added_inertia(&self) -> bool {
-        self.added_inertia.iter().any(|added| added.least_magnitude() > 0.0)
     }
 
     /// The same model with redundant constraints accepted.

@@ -302,9 +302,9 @@ impl<'a, S: Real> Projector<'a, S> {
 
     /// Factorises at the state that `look` saw last.
     fn factor(&mut self, workspace: &mut Workspace<S>, t: S) -> Result<(), Fault> {
-        let Workspace { motions, matrix, .. } = workspace;
+        let Workspace { motions, matrix, compiled, .. } = workspace;
         self.residuals.jacobian(self.model, motions, t, matrix.jacobian_mut());
-        matrix.set_mass(self.model, motions);
+        matrix.set_mass(compiled, motions);
         self.factorisations += 1;
         matrix.factor().map_err(|dependent| Fault::Singular(Singular(dependent)))
     }

@@ -3,7 +3,7 @@
 
 use crate::mechanisms::{close, model, run, start, tolerances, worst, Random};
 use kempe::elements::BodyId;
-use kempe::equations::{energy, kinematics, mass};
+use kempe::equations::{energy, kinematics, mass, Compiled};
 use kempe::math::{Dual, Lift};
 use kempe::model::Model;
 
@@ -143,7 +143,7 @@ fn the_quadratic_term_is_that_of_lagrange() {
     let moved = |h: f64| q.iter().zip(&v).map(|(q, v)| q + h * v).collect::<Vec<_>>();
     let (after, before) = (momentum(&moved(h)), momentum(&moved(-h)));
     let mut force = vec![0.0; 6];
-    kempe::equations::forces::generalized(&m, &at(&q), 0.0, &mut force);
+    kempe::equations::forces::generalized(&m, &Compiled::new(&m), &at(&q), 0.0, &mut force);
     for k in 0..6 {
         let shifted = |h: f64| {
             let mut q = q.clone();

@@ -167,7 +167,7 @@ fn the_factor_of_an_evaluation_serves_other_right_sides() {
         kinematics::motions(&q, &v, &mut motions);
         let mut matrix = Augmented::new(&model);
         constraints::jacobian(&model, &motions, 0.0, matrix.jacobian_mut());
-        matrix.set_mass(&model, &motions);
+        matrix.set_mass(&workspace.compiled, &motions);
         matrix.factor().expect("a regular state");
         let (mut found, mut wanted) = (b.clone(), b);
         workspace.matrix.solve(&mut found);

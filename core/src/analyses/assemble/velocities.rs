@@ -2,7 +2,7 @@
 //! energy of the difference.
 
 use crate::equations::augmented::Augmented;
-use crate::equations::{constraints, kinematics};
+use crate::equations::{constraints, kinematics, Compiled};
 use crate::math::Motion;
 use crate::model::{size, Model};
 
@@ -28,7 +28,7 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
         return 0.0;
     }
     let mut matrix = Augmented::new(model);
-    matrix.set_mass(model, &motions);
+    matrix.set_mass(&Compiled::new(model), &motions);
     constraints::jacobian(model, &motions, t, matrix.jacobian_mut());
     let lightest = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
     let left = correct(model, t, q, v, (&mut matrix, lightest, scale));

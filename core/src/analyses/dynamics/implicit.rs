@@ -119,14 +119,14 @@ impl Constrained for Implicit<'_> {
     }
 
     fn factor(&mut self, shares: Shares) -> Result<(), SingularMatrix> {
-        assemble(self.model, &self.places, &self.tangent, Self::shares(shares), &mut self.real);
+        assemble(&self.places, &self.tangent, Self::shares(shares), &mut self.real);
         self.real.factor(&self.places.plan).map_err(|_| SingularMatrix)
     }
 
     fn factor_complex(&mut self, shares: Shares<Complex>) -> Result<(), SingularMatrix> {
         let plan = &self.places.plan;
         let lu = self.complex.get_or_insert_with(|| BlockLu::new(plan));
-        assemble(self.model, &self.places, &self.tangent, Self::shares(shares), lu);
+        assemble(&self.places, &self.tangent, Self::shares(shares), lu);
         lu.factor(plan).map_err(|_| SingularMatrix)
     }
 

@@ -127,7 +127,7 @@ impl Passage {
     /// noisy here, so loads are what rest is measured by, and accelerations tell balance only.
     fn rests(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
         self.loads.resize(v.len(), 0.0);
-        forces::generalized(model, &work.motions, t, &mut self.loads);
+        forces::generalized(model, &work.compiled, &work.motions, t, &mut self.loads);
         let (mut twice, mut pull, mut applied, mut mass_all) = (0.0, 0.0, 0.0, 0.0);
         let bodies = model.bodies.iter().zip(&work.motions).skip(1);
         let rates = v.chunks_exact(3).zip(work.a().chunks_exact(3));

@@ -3,9 +3,9 @@
 //! Such a body has one degree of freedom, whatever else is joined to it. The rows of its pin are eliminated
 //! together with its translation (`solve/anchor.rs`).
 
-use super::model::Body;
 use super::pin::Pin;
 use crate::math::{Lever, Real, Vec2};
+use crate::model::Body;
 
 /// A body with the pin that holds it.
 #[derive(Clone, Copy, Debug)]

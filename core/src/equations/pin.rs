@@ -3,11 +3,10 @@
 //! Names, equations and formulas of a constraint take a thousand bytes; the equations of motion ask for 48 of
 //! them, and for the same ones whatever the element.
 
-use super::layout::Layout;
-use super::model::ConstraintItem;
 use crate::elements::joints::Revolute;
 use crate::elements::{BodyId, PointOn, Side};
 use crate::math::{Local, Real};
+use crate::model::{ConstraintItem, Layout, Slots};
 
 /// A constraint of two equations Φ = point_j - point_i without laws (Haug 3.3.10).
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +36,7 @@ pub(super) fn pins<S: Real>(constraints: &[ConstraintItem<S>], layout: &Layout) 
     let index = |i: usize| u32::try_from(i).expect("fewer than 2^32 rows");
     let items = constraints.iter().zip(&layout.constraints).enumerate();
     let pins = items.filter(|(_, (_, slots))| slots.blocks.iter().any(|block| block.sign != 0.0));
-    let pin = |(k, (item, slots)): (usize, (&ConstraintItem<S>, &super::layout::Slots))| Pin {
+    let pin = |(k, (item, slots)): (usize, (&ConstraintItem<S>, &Slots))| Pin {
         points: [Side::I, Side::J].map(|side| item.element.attachment(side).s),
         bodies: item.element.ends().map(|body| index(body.0)),
         row: index(slots.rows.start),

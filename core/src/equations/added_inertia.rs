@@ -4,9 +4,9 @@
 //! they are solved (`equations/refine.rs`). Like DESIGN's M + ρ Φ_qᵀ Φ_q this is exact, but it leaves
 //! M block-diagonal.
 
-use super::model::{Body, ConstraintItem};
 use crate::elements::Side;
 use crate::math::Real;
+use crate::model::{Body, ConstraintItem};
 
 /// What is added, relative to m l², with l the farthest joint point from the mass centre: so much
 /// that the elimination loses few digits, so little that taking it back needs few steps.

@@ -1,8 +1,8 @@
-//! What the equations of motion ask of a body over and over, worked out once.
+//! Masses and moments of inertia of the moving bodies, inverted once.
 
-use super::model::Body;
 use crate::expression::Tape;
 use crate::math::{Local, Real};
+use crate::model::Body;
 
 /// Inertia of a moving body.
 #[derive(Clone, Copy, Debug)]

@@ -1,0 +1,44 @@
+//! Data derived from a model: all that evaluations need and no state changes.
+//!
+//! A [`Model`] holds no caches. [`Compiled`] is built from it once, and shared by everything that evaluates the same
+//! model over the same scalar.
+
+use super::added_inertia;
+use super::anchor::{anchors, Anchor};
+use super::inertia::{inertias, Inertia};
+use super::pin::{pins, Pin};
+use crate::math::Real;
+use crate::model::Model;
+
+/// Data derived from a [`Model`]; immutable.
+#[derive(Clone, Debug)]
+pub struct Compiled<S = f64> {
+    /// Inertia of the moving bodies, without ground.
+    pub inertias: Vec<Inertia<S>>,
+    /// Moments of inertia that are added to bodies without their own while the equations are solved, and are taken
+    /// back by `refine`, kg·m²; one for each moving body, zero for most.
+    pub added_inertia: Vec<S>,
+    /// The joints that only pin two points.
+    pub pins: Vec<Pin<S>>,
+    /// Moving bodies that one of them holds to ground.
+    pub anchors: Vec<Anchor<S>>,
+}
+
+impl<S: Real> Compiled<S> {
+    /// Of a model.
+    pub fn new(model: &Model<S>) -> Self {
+        let added_inertia = added_inertia::added(&model.bodies, &model.constraints);
+        let pins = pins(&model.constraints, &model.layout);
+        Self {
+            inertias: inertias(&model.blueprint.bodies, &model.bodies, &added_inertia),
+            anchors: anchors(&pins, &model.bodies, &added_inertia),
+            added_inertia: added_inertia[1..].to_vec(),
+            pins,
+        }
+    }
+
+    /// Whether a body has an inertia that is not its own.
+    pub fn has_added_inertia(&self) -> bool {
+        self.added_inertia.iter().any(|added| added.least_magnitude() > 0.0)
+    }
+}
