@@ -33,10 +33,7 @@ pub(crate) fn moving<S: Real>(m: &Motion<S>) -> Pose<Jet<S>> {
     }
 }
 
-/// Most values that are kept on the stack.
-const FEW: usize = 8;
-
-/// Calls `f` with `n` values, on the stack where they are few.
+/// Calls `f` with n values, on the stack where they are few.
 #[inline(always)]
 pub(crate) fn with_values<T: Copy, R>(
     n: usize,
@@ -45,14 +42,12 @@ pub(crate) fn with_values<T: Copy, R>(
 ) -> R {
     match n {
         0 => f(&mut []),
-        1 => f(&mut [value(0)]),
-        2 => f(&mut [value(0), value(1)]),
-        3 => f(&mut [value(0), value(1), value(2)]),
-        _ if n <= FEW => {
-            let mut few = [value(0); FEW];
-            (1..n).for_each(|k| few[k] = value(k));
-            f(&mut few[..n])
-        }
+        1 => f(&mut std::array::from_fn::<T, 1, _>(&value)),
+        2 => f(&mut std::array::from_fn::<T, 2, _>(&value)),
+        3 => f(&mut std::array::from_fn::<T, 3, _>(&value)),
+        4 => f(&mut std::array::from_fn::<T, 4, _>(&value)),
+        6 => f(&mut std::array::from_fn::<T, 6, _>(&value)),
+        9 => f(&mut std::array::from_fn::<T, 9, _>(&value)),
         _ => f(&mut (0..n).map(value).collect::<Vec<T>>()),
     }
 }
@@ -69,21 +64,24 @@ pub fn linearize<E: Joint + ?Sized, S: Real>(
     let columns = |at: &At<'_, ByThree<S>>, phi: &mut [ByThree<S>]| {
         E::residual(&E::map(e, &mut |s: &S| Dual::lift(*s)), at, phi);
     };
-    terms(at, residual, out.residual, out.rate, out.gamma);
-    for participant in 0..at.bodies.len() + usize::from(!at.own.is_empty()) {
-        let m = out.residual.len();
-        let rows = &mut out.columns[participant * m..][..m];
-        columns_of(participant, at, columns, rows);
+    terms(at, residual, [out.residual, out.rate, out.gamma]);
+    let m = out.columns.len() / participants(at.bodies.len(), at.own.len());
+    for (participant, rows) in out.columns.chunks_exact_mut(m).enumerate() {
+        let own = participant == at.bodies.len();
+        columns_of(at, |body| body == participant, own, columns, rows);
     }
+}
+
+/// Number of participants of a joint: its bodies, and one for its internal coordinates.
+pub(crate) fn participants(bodies: usize, own: usize) -> usize {
+    bodies + usize::from(own > 0)
 }
 
 /// Φ, Φ̇ and γ from the jet of `residual` in time.
 pub(crate) fn terms<S: Real>(
     at: &Moving<'_, S>,
     residual: impl FnOnce(&At<'_, Jet<S>>, &mut [Jet<S>]),
-    phi: &mut [S],
-    rate: &mut [S],
-    gamma: &mut [S],
+    [phi, rate, gamma]: [&mut [S]; 3],
 ) {
     let t = Jet::new(at.t, S::one(), S::zero());
     let own = |k: usize| Jet::new(at.own[k], at.own_rates[k], S::zero());
@@ -99,18 +97,20 @@ pub(crate) fn terms<S: Real>(
     });
 }
 
-/// The rows of Φ_q in the columns of one participant: a body, or the internal coordinates as the last.
+/// The rows of Φ_q in the columns of the bodies that `varies` selects by their places, or of the
+/// internal coordinates.
 pub(crate) fn columns_of<S: Real>(
-    participant: usize,
     at: &Moving<'_, S>,
+    varies: impl Fn(usize) -> bool,
+    own_varies: bool,
     residual: impl FnOnce(&At<'_, ByThree<S>>, &mut [ByThree<S>]),
     rows: &mut [[S; 3]],
 ) {
-    let body = |b: usize| match b == participant {
+    let body = |b: usize| match varies(b) {
         true => seeded(&at.bodies[b].pose),
         false => at.bodies[b].pose.lift(),
     };
-    let own = |k: usize| match participant == at.bodies.len() {
+    let own = |k: usize| match own_varies {
         true => Dual::variable(at.own[k], k),
         false => Dual::lift(at.own[k]),
     };

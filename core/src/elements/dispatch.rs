@@ -27,13 +27,36 @@ impl Group {
     }
 }
 
-/// An element of a pool, with its place among the constraints or forces of the model.
+/// An element of a pool, with all that its loop reads.
 #[derive(Clone, Debug)]
 pub struct Pooled<E> {
     /// The element.
     pub element: E,
-    /// Its place in the model.
-    pub item: usize,
+    /// Where it belongs in the model.
+    pub place: Place,
+}
+
+/// Where an element of a pool belongs.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Its place among the constraints or forces.
+    pub item: u32,
+    /// Bodies i and j; ground where there are fewer.
+    pub bodies: [u32; 2],
+    /// The first of its rows of Φ; 0 for a force.
+    pub row: u32,
+}
+
+impl Place {
+    /// From the place among the constraints or forces, the bodies, and the first row.
+    ///
+    /// # Panics
+    /// If a number exceeds 32 bits.
+    pub fn new(item: usize, bodies: &[super::kinds::BodyId], row: usize) -> Self {
+        let index = |i: usize| u32::try_from(i).expect("fewer than 2^32 items");
+        let body = |k: usize| bodies.get(k).map_or(0, |body| index(body.0));
+        Self { item: index(item), bodies: [body(0), body(1)], row: index(row) }
+    }
 }
 
 /// Visits the joints and drivers of a model, type by type.
@@ -143,12 +166,12 @@ macro_rules! constraints {
         }
 
         impl<S: Real> JointPools<S> {
-            /// Adds the constraint with the place `item` in the model.
+            /// Adds a constraint.
             #[allow(non_snake_case)] // one variable for each type
-            pub fn push(&mut self, constraint: &Constraint<S>, item: usize) {
+            pub fn push(&mut self, constraint: &Constraint<S>, place: Place) {
                 let Self($($($Name,)+)+) = self;
                 match constraint { $($(Constraint::$Name(e) => {
-                    $Name.push(Pooled { element: e.clone(), item });
+                    $Name.push(Pooled { element: e.clone(), place });
                 })+)+ }
             }
             /// Shows every type that occurs to the visitor.
@@ -254,7 +277,11 @@ macro_rules! forces {
             pub fn points(&self) -> Option<[Local<S>; 2]> {
                 match self { $(Self::$Name(e) => <$Name>::points(e),)+ }
             }
-            /// Potential energy of the conservative parts and of the states, J.
+            /// Energy stored in the states, J.
+            pub fn own_energy(&self, at: &Situation<'_, S>) -> S {
+                match self { $(Self::$Name(e) => <$Name>::own_energy(e, at),)+ }
+            }
+            /// Potential energy of the conservative parts, J.
             pub fn potential(&self, at: &Situation<'_, S>) -> S {
                 match self { $(Self::$Name(e) => <$Name>::potential(e, at),)+ }
             }
@@ -271,12 +298,12 @@ macro_rules! forces {
         }
 
         impl<S: Real> ForcePools<S> {
-            /// Adds the force with the place `item` in the model.
+            /// Adds a force.
             #[allow(non_snake_case)] // one variable for each type
-            pub fn push(&mut self, force: &ForceElement<S>, item: usize) {
+            pub fn push(&mut self, force: &ForceElement<S>, place: Place) {
                 let Self($($Name,)+) = self;
                 match force { $(ForceElement::$Name(e) => {
-                    $Name.push(Pooled { element: e.clone(), item });
+                    $Name.push(Pooled { element: e.clone(), place });
                 })+ }
             }
             /// Shows every type that occurs to the visitor.

@@ -119,7 +119,13 @@ pub trait Force: Element {
         None
     }
 
-    /// Potential energy of the conservative parts and of the states, J.
+    /// Energy stored in the states, J.
+    fn own_energy<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
+        let _ = (e, at);
+        S::zero()
+    }
+
+    /// Potential energy of the conservative parts, J.
     fn potential<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
         let _ = (e, at);
         S::zero()

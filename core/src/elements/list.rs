@@ -1,7 +1,7 @@
 //! The one list of elements.
 
 use super::declare::{Element, Table};
-use super::dispatch::{constraints, declared, forces, Group, Pooled, VisitForces, VisitJoints};
+use super::dispatch::{constraints, declared, forces, Group, Place, Pooled, VisitForces, VisitJoints};
 use super::drivers::CoordinateDriver;
 use super::force_trait::{Force, OwnPowers, OwnState, Part, Situation};
 use super::forces::{SpringDamper, Torque, TorsionSpring};

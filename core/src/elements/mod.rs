@@ -20,7 +20,7 @@ pub mod joints;
 
 use declare::join;
 pub use declare::{element, Default, Element, Field, Table};
-pub use dispatch::{Group, Pooled, VisitForces, VisitJoints};
+pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation};
 pub use formula::Formula;
 pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};

@@ -4,7 +4,6 @@
 //! they are solved (`equations/refine.rs`). Like DESIGN's M + ρ Φ_qᵀ Φ_q this is exact, but it leaves
 //! M block-diagonal.
 
-use crate::elements::Side;
 use crate::math::Real;
 use crate::model::{Body, ConstraintItem};
 
@@ -19,8 +18,8 @@ const ADDED: f64 = 1e-7;
 pub(super) fn added<S: Real>(bodies: &[Body<S>], constraints: &[ConstraintItem<S>]) -> Vec<S> {
     let mut reach = vec![S::zero(); bodies.len()];
     for item in constraints {
-        for (side, end) in [Side::I, Side::J].into_iter().zip(item.element.ends()) {
-            let arm = item.element.attachment(side).s - bodies[end.0].center;
+        for (place, end) in item.bodies.iter().enumerate() {
+            let arm = item.element.attachment(place).s - bodies[end.0].center;
             reach[end.0] = reach[end.0].max(arm.dot(arm));
         }
     }

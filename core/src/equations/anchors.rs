@@ -1,8 +1,7 @@
 //! Bodies that a pin holds to ground: γ̂ of their pins, how they weigh, and how their solution begins.
 
 use super::anchor::Anchor;
-use super::constraints::Stabilized;
-use crate::elements::VelocityTerms;
+use super::constraints::{Stabilized, Terms};
 use crate::math::{Motion, Real, Vec2};
 use crate::solve::{Anchor as Held, Saddle, Weight};
 
@@ -24,7 +23,9 @@ pub(super) fn begin<S: Real>(
         let motion = &motions[body];
         let shift = turn(anchor, motion, &mut weights[body], held);
         let mut gamma = [S::zero(); 2];
-        stabilized.put(&terms(anchor, motion, shift), &mut gamma);
+        let [residual, rate, plain] = terms(anchor, motion, shift);
+        let terms = Terms { residual: &residual, rate: &rate, gamma: &plain };
+        stabilized.put(&terms, &mut gamma);
         if !lessened.is_empty() {
             gamma.iter_mut().zip(&lessened[row..row + 2]).for_each(|(gamma, held)| *gamma -= *held);
         }
@@ -37,13 +38,13 @@ pub(super) fn begin<S: Real>(
 
 /// Φ, Φ̇ and γ of the pin: those of a revolute joint (Haug 3.3.10) with one body that never moves.
 #[inline(always)]
-fn terms<S: Real>(anchor: &Anchor<S>, motion: &Motion<S>, shift: Vec2<S>) -> VelocityTerms<S, 2> {
+fn terms<S: Real>(anchor: &Anchor<S>, motion: &Motion<S>, shift: Vec2<S>) -> [[S; 2]; 3] {
     let across = shift.scale(anchor.sign);
     let (arm, omega) = (-across.perp(), motion.twist.omega);
     let gap = (motion.pose.r - anchor.ground).scale(anchor.sign) + arm;
     let rate = motion.twist.velocity.scale(anchor.sign) + across.scale(omega);
     let gamma = arm.scale(omega * omega);
-    VelocityTerms { residual: [gap.x, gap.y], rate: [rate.x, rate.y], gamma: [gamma.x, gamma.y] }
+    [[gap.x, gap.y], [rate.x, rate.y], [gamma.x, gamma.y]]
 }
 
 /// The shift from the origin to the pin, and the moment of the mass about the pin, at a pose; gives the shift.

@@ -2,7 +2,8 @@
 //!
 //! Balance: T + V + dissipated - work of drivers - work of applied forces is constant.
 
-use super::forces;
+use super::forces::{self, Acting};
+use super::kinematics::Motions;
 use crate::elements::Nature;
 use crate::math::{Motion, Real, Twist};
 use crate::model::{Body, Model};
@@ -20,13 +21,13 @@ pub fn kinetic<S: Real>(model: &Model<S>, motions: &[Motion<S>]) -> S {
 }
 
 /// Potential energy of gravity (zero at the global origin) and of the forces, J.
-pub fn potential<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S) -> S {
+pub fn potential<S: Real>(model: &Model<S>, motions: &Motions<S>, z: &[S], t: S) -> S {
     let mut sum = S::zero();
     for (body, motion) in moving(model, motions) {
         sum = sum.minus_product(body.mass, model.gravity.dot(motion.pose.point(body.center)));
     }
-    for item in &model.forces {
-        sum += forces::potential(item, motions, t);
+    for k in 0..model.forces.len() {
+        sum += forces::potential(model, k, motions, Acting { z, lam: None, t });
     }
     sum
 }
@@ -60,7 +61,7 @@ impl<S: Real> Powers<S> {
     #[inline(always)]
     pub(super) fn add(&mut self, nature: Nature, law: bool, power: impl Fn() -> S) {
         match (law, nature) {
-            (false, Nature::Conservative) => {}
+            (false, Nature::Conservative) | (_, Nature::Exchanged) => {}
             (_, Nature::Dissipative) => self.dissipated -= power(),
             _ => self.applied += power(), // a law of time or state: no potential keeps its work
         }

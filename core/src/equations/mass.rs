@@ -5,7 +5,7 @@
 
 use super::Inertia;
 use crate::math::{Motion, Real, Vec2};
-use crate::model::Body;
+use crate::model::{Body, Model};
 use crate::solve::Weight;
 
 /// The four numbers that a block holds.
@@ -48,5 +48,13 @@ impl<S: Real> MassBlock<S> {
             self.mass * x[1] + b.y * x[2],
             b.x * x[0] + b.y * x[1] + self.inertia * x[2],
         ]
+    }
+}
+
+/// y += M x, shape (n_q); internal coordinates have no mass.
+pub fn add_times<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S], y: &mut [S]) {
+    let bodies = model.bodies.iter().zip(motions).zip(&model.layout.bodies).skip(1);
+    for ((body, motion), columns) in bodies {
+        columns.add(block(body, motion).times(columns.of(x)), y);
     }
 }

@@ -10,8 +10,10 @@
 use super::augmented::{Augmented, Dependent, Parts};
 use super::constraints::{self, Stabilized};
 use super::energy::Powers;
+use super::forces::Acting;
+use super::kinematics::Motions;
 use super::plan::Plan;
-use super::{anchors, forces, kinematics, mass, pins, refine, Compiled};
+use super::{anchors, forces, mass, pins, refine, Compiled};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 use crate::solve::Bytes;
@@ -34,7 +36,9 @@ pub struct Singular(pub Dependent);
 #[derive(Clone, Debug)]
 pub struct Workspace<S = f64> {
     /// Motion of every body, ground first.
-    pub motions: Vec<Motion<S>>,
+    pub motions: Motions<S>,
+    /// First-order states of elements.
+    pub z: Vec<S>,
     /// Data derived from the model.
     pub compiled: Arc<Compiled<S>>,
     /// The augmented matrix.
@@ -71,7 +75,8 @@ impl<S: Real> Workspace<S> {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let compiled = Arc::new(Compiled::new(model));
         let mut workspace = Self {
-            motions: Vec::with_capacity(model.bodies.len()),
+            motions: Motions::new(&model.layout),
+            z: vec![S::zero(); model.layout.n_z],
             matrix: Augmented::on(plan),
             correction: compiled.has_added_inertia().then(|| vec![S::zero(); n + m]),
             solution: vec![S::zero(); n + m],
@@ -123,15 +128,21 @@ impl<S: Real> Workspace<S> {
         &mut self,
         model: &Model<S>,
         t: S,
-        q: &[S],
-        v: &[S],
+        [q, v, z]: [&[S]; 3],
         gains: Gains,
     ) -> Result<(), Singular> {
-        kinematics::motions(q, v, &mut self.motions);
+        self.place(model, [q, v, z]);
         self.respond(model, t, gains)
     }
 
-    /// The same at the state that the [`motions`](Self::motions) describe.
+    /// Sets coordinates, rates and first-order states, shapes (n_q), (n_q) and (n_z).
+    #[inline(always)]
+    pub fn place(&mut self, model: &Model<S>, [q, v, z]: [&[S]; 3]) {
+        self.motions.place(&model.layout, q, v);
+        self.z.copy_from_slice(z);
+    }
+
+    /// The same at the state that was [placed](Self::place).
     ///
     /// # Errors
     /// As [`accelerate`](Self::accelerate).
@@ -150,7 +161,7 @@ impl<S: Real> Workspace<S> {
     /// q̈ and λ with pins by their arms: one pass over them before elimination, and one after.
     #[inline(always)]
     fn solve_armed(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
-        let Self { motions, compiled, matrix, solution, powers, held, n_q, .. } = self;
+        let Self { motions, z, compiled, matrix, solution, powers, held, n_q, .. } = self;
         let (stabilized, n) = (Stabilized::new(gains), *n_q);
         let Parts { pattern, saddle, armed, others } = matrix.parts_mut();
         for &k in pattern.coupled() {
@@ -158,7 +169,7 @@ impl<S: Real> Workspace<S> {
             mass::turn(&compiled.inertias[k], &motions[k + 1], &mut saddle.weights[k]);
         }
         let (forces, right) = solution.split_at_mut(n);
-        *powers = forces::generalized(model, compiled, motions, t, forces);
+        *powers = forces::generalized(model, compiled, motions, Acting { z, lam: None, t }, forces);
         let (others, entries) =
             (others.iter().map(|k| *k as usize), saddle.entries.as_flattened_mut());
         constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
@@ -183,7 +194,8 @@ impl<S: Real> Workspace<S> {
         // none but where a stabilization holds its term over a step
         right.iter_mut().zip(&self.held).for_each(|(right, held)| *right -= *held);
         self.matrix.set_mass(&self.compiled, &self.motions);
-        self.powers = forces::generalized(model, &self.compiled, &self.motions, t, forces);
+        let acting = Acting { z: &self.z, lam: None, t };
+        self.powers = forces::generalized(model, &self.compiled, &self.motions, acting, forces);
     }
 
     /// Where the factor is not that of the equations.
@@ -238,11 +250,10 @@ impl<S: Real> Workspace<S> {
     #[inline(never)]
     fn powers_driven(&self, model: &Model<S>, v: &[S]) -> Powers<S> {
         let mut powers = self.powers;
-        let mut rows = [S::zero(); crate::elements::MOST_EQUATIONS];
         for (k, item) in model.constraints.iter().enumerate().filter(|(_, c)| c.driven) {
             let range = model.layout.constraints[k].rows.clone();
-            let rows = &mut rows[..item.equations.len()];
-            constraints::times(model, k, self.matrix.jacobian_of_others(), v, rows);
+            let mut rows = vec![S::zero(); item.equations.len()];
+            constraints::times(model, k, self.matrix.jacobian_of_others(), v, &mut rows);
             for (rate, lam) in rows.iter().zip(&self.lam()[range]) {
                 powers.drivers -= *rate * *lam;
             }

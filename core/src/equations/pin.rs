@@ -4,9 +4,9 @@
 //! them, and for the same ones whatever the element.
 
 use crate::elements::joints::Revolute;
-use crate::elements::{BodyId, PointOn, Side};
-use crate::math::{Local, Real};
-use crate::model::{ConstraintItem, Layout, Slots};
+use crate::elements::{BodyId, Joint, Linearized, Moving, PointOn};
+use crate::math::{Local, Motion, Real};
+use crate::model::{ConstraintItem, Slots, StateLayout};
 
 /// A constraint of two equations Φ = point_j - point_i without laws (Haug 3.3.10).
 #[derive(Clone, Copy, Debug)]
@@ -29,16 +29,34 @@ impl<S: Real> Pin<S> {
             .map(|end| PointOn { body: BodyId(self.bodies[end] as usize), s: self.points[end] });
         Revolute { i, j, axes: [S::zero(); 2] }
     }
+
+    /// Φ, Φ̇, γ, and b of both bodies.
+    #[inline(always)]
+    pub fn linearize(&self, motions: &[Motion<S>]) -> ([[S; 2]; 3], [[S; 2]; 2]) {
+        let bodies = self.bodies.map(|body| motions[body as usize]);
+        let [mut residual, mut rate, mut gamma] = [[S::zero(); 2]; 3];
+        let mut columns = [[S::zero(); 3]; 4];
+        let at = Moving { bodies: &bodies, own: &[], own_rates: &[], t: S::zero() };
+        let out = Linearized {
+            residual: &mut residual,
+            rate: &mut rate,
+            gamma: &mut gamma,
+            columns: &mut columns,
+        };
+        Revolute::linearize(&self.joint(), &at, out);
+        let b = [[columns[0][2], columns[1][2]], [columns[2][2], columns[3][2]]];
+        ([residual, rate, gamma], b)
+    }
 }
 
 /// All pins of a model that touch a moving body, in the order of the constraints.
-pub(super) fn pins<S: Real>(constraints: &[ConstraintItem<S>], layout: &Layout) -> Vec<Pin<S>> {
+pub(super) fn pins<S: Real>(constraints: &[ConstraintItem<S>], layout: &StateLayout) -> Vec<Pin<S>> {
     let index = |i: usize| u32::try_from(i).expect("fewer than 2^32 rows");
     let items = constraints.iter().zip(&layout.constraints).enumerate();
     let pins = items.filter(|(_, (_, slots))| slots.blocks.iter().any(|block| block.sign != 0.0));
     let pin = |(k, (item, slots)): (usize, (&ConstraintItem<S>, &Slots))| Pin {
-        points: [Side::I, Side::J].map(|side| item.element.attachment(side).s),
-        bodies: item.element.ends().map(|body| index(body.0)),
+        points: [0, 1].map(|body| item.element.attachment(body).s),
+        bodies: [0, 1].map(|k| index(item.bodies[k].0)),
         row: index(slots.rows.start),
         constraint: index(k),
     };

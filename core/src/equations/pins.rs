@@ -1,11 +1,9 @@
 //! γ̂ and Φ_q of pins, the constraints that mechanisms have most of: of [±I b] (Haug 3.3.12) b alone, and what
 //! follows from it for the pin by itself while its numbers are at hand.
 
-use super::constraints::Stabilized;
+use super::constraints::{Stabilized, Terms};
 use super::pin::Pin;
 use super::plan::ArmedPin;
-use crate::elements::joints::Revolute;
-use crate::elements::Joint;
 use crate::math::{Motion, Real};
 use crate::solve::{Begun, Saddle};
 
@@ -27,21 +25,19 @@ pub(super) fn begin<S: Real>(
 ) {
     for ArmedPin { pin, rows: armed } in armed {
         let pin = &pins[*pin as usize];
-        let [i, j] = pin.bodies.map(|body| &motions[body as usize]);
-        let (terms, rows) = <Revolute as Joint<2>>::linearize(&pin.joint(), i, j, S::zero());
+        let ([residual, rate, gamma], [b_i, b_j]) = pin.linearize(motions);
+        let terms = Terms { residual: &residual, rate: &rate, gamma: &gamma };
         let mut gamma = [S::zero(); 2];
         stabilized.put(&terms, &mut gamma);
         let mut begun = Begun::new(gamma);
         let mut arm = armed.arm as usize;
         let [i, j] = pin.bodies.map(|body| (body as usize).checked_sub(1));
         if let Some(i) = i {
-            let b = [rows[0][2], rows[1][2]];
-            saddle.arms[arm] = begun.add(-1.0, b, &saddle.weights[i], of_group(i, x));
+            saddle.arms[arm] = begun.add(-1.0, b_i, &saddle.weights[i], of_group(i, x));
             arm += 1;
         }
         if let Some(j) = j {
-            let b = [rows[0][5], rows[1][5]];
-            saddle.arms[arm] = begun.add(1.0, b, &saddle.weights[j], of_group(j, x));
+            saddle.arms[arm] = begun.add(1.0, b_j, &saddle.weights[j], of_group(j, x));
         }
         right[pin.row as usize..][..2].copy_from_slice(&begun.right);
         saddle.begin(armed, pin.row, &begun);

@@ -3,7 +3,7 @@
 use super::blueprint::Blueprint;
 use super::layout::{StateLayout, Touched};
 use super::variable::Dependence;
-use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, OwnState};
+use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, JointId, OwnState};
 use crate::expression::{Tape, Values};
 use crate::math::{Lift, Local, Real, Vec2};
 use std::sync::Arc;
@@ -81,6 +81,8 @@ pub struct ForceItem<S = f64> {
     pub bodies: Vec<BodyId>,
     /// Its first-order states.
     pub states: &'static [OwnState],
+    /// The joint whose reaction enters it.
+    pub reaction: Option<JointId>,
     /// The element; if there is a `law`, with its formulas at t = 0.
     pub element: ForceElement<S>,
     /// The element over formulas, if one of them depends on time or state.
@@ -159,6 +161,7 @@ impl<S: Real> Model<S> {
             ForceItem {
                 name: name.clone(),
                 bodies: formula.bodies(),
+                reaction: formula.reaction(),
                 states,
                 element: formula.map(value),
                 law: depends.any().then(|| Box::new(formula.clone())),
