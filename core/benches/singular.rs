@@ -15,7 +15,7 @@ mod mechanisms;
 use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::{constraints, kinematics};
-use kempe::integrate::{Atol, Dop853, FirstOrder, Flow, Method, Rk45, Step};
+use kempe::integrate::{Atol, Dop853, Flow, Method, Ode, Rk45, Step};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 use mechanisms::chain;
@@ -42,7 +42,7 @@ fn upright(windows: usize) -> (Model, State) {
 /// ψ″ = ω² sin ψ.
 struct Pendulum(f64);
 
-impl FirstOrder for Pendulum {
+impl Ode for Pendulum {
     type Stop = ();
     fn len(&self) -> usize {
         2

@@ -56,7 +56,8 @@ fn a_partial_solution_is_finite() {
     assert!(matches!(failure.reason, Reason::Integration { .. }), "{:?}", failure.reason);
     let run = &failure.run;
     assert!(run.trajectory.t.len() > 3);
-    for table in [&run.trajectory.q, &run.responses(&m).unwrap().a, &run.energies(&m).unwrap()] {
+    for table in [&run.trajectory.q, &run.accelerations(&m).unwrap().a, &run.energies(&m).unwrap()]
+    {
         assert!(table.iter().all(|x| x.is_finite()), "{table:?}");
     }
     assert!(run.dense.as_ref().unwrap().c.iter().all(|x| x.is_finite()));

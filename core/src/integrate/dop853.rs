@@ -8,19 +8,19 @@
 //! 46 mechanisms 4 % fewer evaluations for the same error (`docs/performance.md`).
 //!
 //! The extension needs three stages more than the step, or for a system of second order one evaluation
-//! (`birkhoff`). They are evaluated only for observers that look between the ends; for others it is the cubic
+//! (`hermite_birkhoff`). They are evaluated only for observers that look between the ends; for others it is the cubic
 //! Hermite polynomial. The derivative at the end is evaluated where the step stands, since the estimate does
 //! without: one evaluation less than scipy's for every step that is rejected.
 
 use super::adaptive::integrate;
 use super::adaptive_options::{usable_rtol, Atol, Options};
-use super::clearance::Gap;
-use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::dop853_coefficients::*;
 use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
-use super::rate::{Rate, Trouble};
+use super::ode::{Method, Observer, Ode, Statistics};
+use super::right_hand_side::{RightHandSide, Trouble};
 use super::stages::{rows, rows_mut, sum_at, Block, Trial};
+use super::step_placement::Gap;
 use super::step_size::Control;
 use super::tolerances::Tolerances;
 
@@ -63,7 +63,7 @@ impl Dop853 {
 }
 
 impl Method for Dop853 {
-    fn integrate<Y: FirstOrder, O: Observer>(
+    fn integrate<Y: Ode, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,
@@ -155,11 +155,11 @@ impl EmbeddedPair for Pair {
     // between the stages at 1/3 and 3/5
     const GAP: Gap = Gap { middle: 7.0 / 15.0, half: 2.0 / 15.0 };
     const TABLE: &'static [f64] = &TABLE;
-    const MEAN: &'static [f64] = &MEAN;
+    const DOUBLE_QUADRATURE: &'static [f64] = &DOUBLE_QUADRATURE;
     const WITHOUT_EXTRA: &'static [f64] = &HERMITE;
 
-    fn advance<Y: FirstOrder>(
-        rate: &mut Rate<'_, Y>,
+    fn advance<Y: Ode>(
+        rate: &mut RightHandSide<'_, Y>,
         (t, t_new): (f64, f64),
         y: &[Block],
         k: &mut [Block],
@@ -183,8 +183,8 @@ impl EmbeddedPair for Pair {
         trial.end(B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new)
     }
 
-    fn extend<Y: FirstOrder>(
-        rate: &mut Rate<'_, Y>,
+    fn extend<Y: Ode>(
+        rate: &mut RightHandSide<'_, Y>,
         (t, t_new): (f64, f64),
         y: &[Block],
         k: &mut [Block],

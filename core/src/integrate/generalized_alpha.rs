@@ -7,12 +7,13 @@ use super::adaptive_options::{Atol, Options};
 use super::alpha_parameters::AlphaParameters;
 use super::alpha_step::AlphaStep;
 use super::arguments::{refusal, Refused};
-use super::constrained::{Constrained, ImplicitMethod};
-use super::contract::{Ended, Flow, Observer, Statistics, Step};
-use super::dense::{Dense, HERMITE};
+use super::dae::{Dae, ImplicitMethod};
+use super::error_weights::ErrorWeights;
+use super::evaluation_counter::CountedDae;
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
-use super::knot::{Counted, Scale};
+use super::interpolant::{Interpolant, HERMITE};
+use super::ode::{Ended, Flow, Observer, Statistics, Step};
 use super::step_size::{least_step, Control, StepSize};
 
 /// Order of the error estimate.
@@ -87,11 +88,11 @@ impl GeneralizedAlpha {
 }
 
 /// An integration under way.
-struct Run<'a, 'b, Y: Constrained> {
-    system: Counted<'a, Y>,
+struct Run<'a, 'b, Y: Dae> {
+    system: CountedDae<'a, Y>,
     options: &'b GeneralizedAlpha,
     step: AlphaStep,
-    scale: Scale,
+    scale: ErrorWeights,
     t: f64,
     t_end: f64,
     /// y at the end of a step; the rows of its continuous extension.
@@ -101,7 +102,7 @@ struct Run<'a, 'b, Y: Constrained> {
 }
 
 impl ImplicitMethod for GeneralizedAlpha {
-    fn integrate<Y: Constrained, O: Observer>(
+    fn integrate<Y: Dae, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,
@@ -116,10 +117,10 @@ impl ImplicitMethod for GeneralizedAlpha {
             .map_err(refusal)
             .and_then(|()| self.options().begin((t0, t_end), (y, len), 2 * n));
         let mut run = Run {
-            system: Counted::new(system, t0),
+            system: CountedDae::new(system, t0),
             options: self,
             step: AlphaStep::new(self.parameters, n, m, works),
-            scale: Scale::new(&self.options(), n),
+            scale: ErrorWeights::new(&self.options(), n),
             t: t0,
             t_end,
             y_new: vec![0.0; len],
@@ -131,7 +132,7 @@ impl ImplicitMethod for GeneralizedAlpha {
     }
 }
 
-impl<Y: Constrained> Run<'_, '_, Y> {
+impl<Y: Dae> Run<'_, '_, Y> {
     fn go<O: Observer>(
         &mut self,
         grid: Option<Grid>,
@@ -149,8 +150,8 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             (Some(h), _) | (None, Some(h)) => h,
             (None, None) => {
                 let Self { system, step, scale, .. } = self;
-                let knots = (&step.start, &mut step.end);
-                let first = system.first_step((self.t, self.t_end), knots, scale, ERROR_ORDER);
+                let state = (&step.start, &mut step.end);
+                let first = system.first_step((self.t, self.t_end), state, scale, ERROR_ORDER);
                 first.map_err(Cause::Equations)?.min(self.options.max_step)
             }
         };
@@ -309,7 +310,7 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             y: y_new,
             dy_old: &rows[..len],
             dy: &rows[len..2 * len],
-            dense: Dense::new(rows, len, &HERMITE, 4),
+            interpolant: Interpolant::new(rows, len, &HERMITE, 4),
         });
         y.copy_from_slice(y_new);
         step.move_on(h);

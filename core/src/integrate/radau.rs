@@ -6,15 +6,16 @@
 //! *Solving Ordinary Differential Equations II*, IV.8). Between steps the polynomials of collocation.
 
 use super::adaptive_options::{usable_rtol, Atol, Options};
-use super::constrained::{Constrained, ImplicitMethod};
-use super::contract::{Ended, Flow, Observer, Statistics, Step};
-use super::dense::Dense;
+use super::dae::{Dae, ImplicitMethod};
+use super::error_weights::ErrorWeights;
+use super::evaluation_counter::CountedDae;
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
-use super::knot::{Counted, Scale};
+use super::interpolant::Interpolant;
+use super::ode::{Ended, Flow, Observer, Statistics, Step};
 use super::radau_coefficients::{DEGREE, EXTENSION};
-use super::radau_step::{Enough, RadauStep, Solved, ROWS};
-use super::rate::all_finite;
+use super::radau_step::{NewtonLimits, NewtonOutcome, RadauStep, ROWS};
+use super::right_hand_side::all_finite;
 use super::step_size::least_step;
 
 /// Order of the error estimate.
@@ -33,7 +34,7 @@ const SHORTEN: f64 = 0.5;
 /// Most iterations for a step of controlled length.
 const MOST: usize = 7;
 /// What is asked of Newton's iteration with a constant step.
-const CONSTANT: Enough = Enough { tolerance: 1e-2, most: 25 };
+const CONSTANT: NewtonLimits = NewtonLimits { tolerance: 1e-2, most: 25 };
 /// An error below counts as this in the prediction from it.
 const LEAST_NORM: f64 = 1e-2;
 
@@ -92,11 +93,11 @@ impl Radau {
 }
 
 /// An integration under way.
-struct Run<'a, 'b, Y: Constrained> {
-    system: Counted<'a, Y>,
+struct Run<'a, 'b, Y: Dae> {
+    system: CountedDae<'a, Y>,
     options: Options<'b>,
     step: RadauStep,
-    scale: Scale,
+    scale: ErrorWeights,
     t: f64,
     t_end: f64,
     direction: f64,
@@ -113,7 +114,7 @@ struct Run<'a, 'b, Y: Constrained> {
 }
 
 impl ImplicitMethod for Radau {
-    fn integrate<Y: Constrained, O: Observer>(
+    fn integrate<Y: Dae, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,
@@ -126,9 +127,9 @@ impl ImplicitMethod for Radau {
         let options = self.options();
         let checked = options.begin((t0, t_end), (y, len), 2 * n);
         let mut run = Run {
-            system: Counted::new(system, t0),
+            system: CountedDae::new(system, t0),
             step: RadauStep::new(n, m, works),
-            scale: Scale::new(&options, n),
+            scale: ErrorWeights::new(&options, n),
             options,
             t: t0,
             t_end,
@@ -145,7 +146,7 @@ impl ImplicitMethod for Radau {
     }
 }
 
-impl<Y: Constrained> Run<'_, '_, Y> {
+impl<Y: Dae> Run<'_, '_, Y> {
     fn go<O: Observer>(
         &mut self,
         grid: Option<Grid>,
@@ -163,8 +164,8 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             (Some(h), _) | (None, Some(h)) => h,
             (None, None) => {
                 let Self { system, step, scale, .. } = self;
-                let knots = (&step.start, &mut step.stages[0]);
-                let first = system.first_step((self.t, self.t_end), knots, scale, ERROR_ORDER);
+                let state = (&step.start, &mut step.stages[0]);
+                let first = system.first_step((self.t, self.t_end), state, scale, ERROR_ORDER);
                 first.map_err(Cause::Equations)?
             }
         };
@@ -194,11 +195,11 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             }
             let span = (t, t_new - t);
             let solved = self.step.advance(&mut self.system, span, &mut self.scale, CONSTANT);
-            if let Solved::Converged(_, rate) = solved {
+            if let NewtonOutcome::Converged(_, rate) = solved {
                 self.keep_tangent = rate <= FAST;
                 return Ok(t_new);
             }
-            singular = matches!(solved, Solved::Singular);
+            singular = matches!(solved, NewtonOutcome::Singular);
         }
         Err(self.gave_up(true, singular))
     }
@@ -222,10 +223,11 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             if !self.step.fresh && !self.keep_tangent {
                 self.step.linearize(&mut self.system, t, h);
             }
-            let enough = Enough { tolerance: newton_tolerance(self.options.rtol), most: MOST };
+            let enough =
+                NewtonLimits { tolerance: newton_tolerance(self.options.rtol), most: MOST };
             let solved = self.step.advance(&mut self.system, (t, h), &mut self.scale, enough);
-            let Solved::Converged(iterations, rate) = solved else {
-                singular = matches!(solved, Solved::Singular);
+            let NewtonOutcome::Converged(iterations, rate) = solved else {
+                singular = matches!(solved, NewtonOutcome::Singular);
                 unsolved = true;
                 // an old tangent gets another chance before the step is blamed
                 if self.step.fresh {
@@ -341,7 +343,7 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             y: y_new,
             dy_old,
             dy: dy_new,
-            dense: Dense::new(rows, len, &*EXTENSION, DEGREE),
+            interpolant: Interpolant::new(rows, len, &*EXTENSION, DEGREE),
         });
         y.copy_from_slice(y_new);
         step.move_on(h);

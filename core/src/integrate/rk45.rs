@@ -6,12 +6,12 @@
 
 use super::adaptive::integrate;
 use super::adaptive_options::{usable_rtol, Atol, Options};
-use super::clearance::Gap;
-use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
-use super::rate::{Rate, Trouble};
+use super::ode::{Method, Observer, Ode, Statistics};
+use super::right_hand_side::{RightHandSide, Trouble};
 use super::stages::{rows, rows_mut, sum_at, Block, Trial};
+use super::step_placement::Gap;
 use super::step_size::Control;
 use super::tolerances::Tolerances;
 
@@ -59,7 +59,7 @@ impl Rk45 {
 }
 
 impl Method for Rk45 {
-    fn integrate<Y: FirstOrder, O: Observer>(
+    fn integrate<Y: Ode, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,
@@ -122,8 +122,8 @@ impl EmbeddedPair for DormandPrince {
     const GAP: Gap = Gap { middle: 0.55, half: 0.25 };
     const TABLE: &'static [f64] = &P;
 
-    fn advance<Y: FirstOrder>(
-        rate: &mut Rate<'_, Y>,
+    fn advance<Y: Ode>(
+        rate: &mut RightHandSide<'_, Y>,
         (t, t_new): (f64, f64),
         y: &[Block],
         k: &mut [Block],

@@ -38,7 +38,7 @@ fn agree(m: &Model, state: &State, t_end: f64, bounds: [f64; 2]) {
         let (q, v) = (&found.trajectory.q, &found.trajectory.v);
         let off = worst(q, &exact.trajectory.q);
         assert!(off < bound, "q off by {off:.1e}, allowed {bound:.1e}");
-        let [lam, truth] = [&found, &exact].map(|run| run.responses(m).unwrap().lam);
+        let [lam, truth] = [&found, &exact].map(|run| run.accelerations(m).unwrap().lam);
         let off = worst(&lam, &truth) / largest(&truth).max(1.0);
         assert!(off < 100.0 * bound, "lambda off by {off:.1e}");
         let scale = largest(v).max(1.0);

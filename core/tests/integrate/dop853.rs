@@ -15,7 +15,7 @@ impl Observer for Ends {
     }
 }
 
-fn ends<Y: FirstOrder<Stop = String>>(
+fn ends<Y: Ode<Stop = String>>(
     method: &Dop853,
     mut system: Y,
     (t0, t_end): (f64, f64),
@@ -150,7 +150,7 @@ fn the_extension_is_that_of_scipy() {
             let (mut z, mut c) = ([0.0; 2], [0.0; 14]);
             step.interpolate(*t, &mut z);
             assert!((z[0] - truth[0]).abs() < 1e-14 && (z[1] - truth[1]).abs() < 1e-14, "{z:?}");
-            assert_eq!(step.dense.degree(), 7);
+            assert_eq!(step.interpolant.degree(), 7);
             step.coefficients(&mut c);
             let (h, theta) = (step.t - step.t_old, (t - step.t_old) / (step.t - step.t_old));
             let sum = c[..7].iter().rev().fold(0.0, |sum, c| (sum + c) * theta);
@@ -207,7 +207,7 @@ fn observed_orders() {
 /// Motion on the unit circle, put back onto it after every step.
 struct OnCircle;
 
-impl FirstOrder for OnCircle {
+impl Ode for OnCircle {
     type Stop = String;
     fn len(&self) -> usize {
         2
@@ -216,7 +216,7 @@ impl FirstOrder for OnCircle {
         oscillator(t, y, dy);
         Ok(())
     }
-    fn accepted(&mut self, _: f64, y: &mut [f64]) -> Result<bool, String> {
+    fn project_accepted(&mut self, _: f64, y: &mut [f64]) -> Result<bool, String> {
         let r = y[0].hypot(y[1]);
         y.iter_mut().for_each(|y| *y /= r);
         Ok(true)

@@ -117,7 +117,7 @@ struct Flawed {
     evaluations: usize,
 }
 
-impl FirstOrder for Flawed {
+impl Ode for Flawed {
     type Stop = String;
 
     fn len(&self) -> usize {
@@ -185,7 +185,7 @@ fn the_number_of_steps_can_be_bounded() {
 /// At rest, and refused six times for each state that is accepted.
 struct Reluctant(usize);
 
-impl FirstOrder for Reluctant {
+impl Ode for Reluctant {
     type Stop = String;
 
     fn len(&self) -> usize {
@@ -197,7 +197,7 @@ impl FirstOrder for Reluctant {
         Ok(())
     }
 
-    fn accepted(&mut self, _: f64, _: &mut [f64]) -> Result<bool, String> {
+    fn project_accepted(&mut self, _: f64, _: &mut [f64]) -> Result<bool, String> {
         self.0 += 1;
         match self.0 % 7 {
             0 => Ok(false),
@@ -240,7 +240,7 @@ struct Stops {
     in_rate: bool,
 }
 
-impl FirstOrder for Stops {
+impl Ode for Stops {
     type Stop = String;
     fn len(&self) -> usize {
         1
@@ -253,7 +253,7 @@ impl FirstOrder for Stops {
             Ok(())
         }
     }
-    fn accepted(&mut self, t: f64, _: &mut [f64]) -> Result<bool, String> {
+    fn project_accepted(&mut self, t: f64, _: &mut [f64]) -> Result<bool, String> {
         if !self.in_rate && t > 1.0 {
             Err("the crank locks".into())
         } else {

@@ -12,7 +12,7 @@ struct Mass<F> {
     changes: bool,
 }
 
-impl<F: Fn(f64, f64) -> f64> FirstOrder for Mass<F> {
+impl<F: Fn(f64, f64) -> f64> Ode for Mass<F> {
     type Stop = String;
     fn len(&self) -> usize {
         3
@@ -27,7 +27,7 @@ impl<F: Fn(f64, f64) -> f64> FirstOrder for Mass<F> {
         dy.copy_from_slice(&[y[1], (self.a)(t, y[0]), y[1] * y[1]]);
         Ok(())
     }
-    fn trying(&mut self, _: f64, _: &[f64], _: f64) -> bool {
+    fn before_trial(&mut self, _: f64, _: &[f64], _: f64) -> bool {
         self.changes
     }
 }
@@ -127,7 +127,7 @@ fn it_is_exact_to_the_ninth_degree_over_unequal_steps() {
 #[test]
 fn rates_are_the_derivative_of_positions_and_both_meet_the_ends() {
     let mut observer = |step: &Step<'_>| {
-        let (h, d) = (step.t - step.t_old, step.dense.degree());
+        let (h, d) = (step.t - step.t_old, step.interpolant.degree());
         let (mut c, mut z) = (vec![0.0; 3 * d], [0.0; 3]);
         step.coefficients(&mut c);
         step.interpolate(step.t, &mut z);

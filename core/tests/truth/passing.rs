@@ -5,7 +5,7 @@ use crate::mechanisms::{close, run};
 use crate::n_four_bar::{upright, windows};
 use kempe::analyses::dynamics::{dynamics, Auto, Options, Output, Reason, Scheme, Stabilization};
 use kempe::analyses::State;
-use kempe::integrate::{Atol, Dop853, FirstOrder, Flow, Method, Step};
+use kempe::integrate::{Atol, Dop853, Flow, Method, Ode, Step};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 
@@ -33,7 +33,7 @@ impl Pendulum {
     }
 }
 
-impl FirstOrder for Pendulum {
+impl Ode for Pendulum {
     type Stop = ();
     fn len(&self) -> usize {
         2

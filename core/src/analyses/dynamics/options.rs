@@ -84,7 +84,7 @@ pub enum Stabilization {
     None,
     /// Baumgarte's, with gains α and β.
     Baumgarte(Gains),
-    /// Baumgarte's, with gains from the step, and the term held over it ([`Held`](crate::stabilize::Held)).
+    /// Baumgarte's, with gains from the step, and the term held over it ([`StepwiseBaumgarte`](crate::stabilize::StepwiseBaumgarte)).
     BaumgarteFromStep,
     /// Projection of the start, of every accepted and of every reported state.
     Projection(Projection),

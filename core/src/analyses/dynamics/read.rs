@@ -2,7 +2,7 @@
 //! the tables of options; here values are put in.
 
 use super::options::{Auto, Options, Output, Scheme, Stabilization};
-use super::singularity::Singularity;
+use super::singularity_passage::Singularity;
 use crate::equations::{at, Gains};
 use crate::integrate::{AlphaParameters, Atol, Dop853, GeneralizedAlpha, Radau, Rk4, Rk45};
 use crate::model::{Model, Problem, Reach, Scope, Value};

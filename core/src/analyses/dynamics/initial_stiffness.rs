@@ -12,8 +12,8 @@
 //! its steps; or it has died out before the start, and Radau begins. It is under way where its part in the
 //! velocities, |v⃛| / |λ|² after the third derivative of q along the motion, is above the tolerance.
 
-use super::choice::{Detector, Fastest, LIMIT, TO_GO};
 use super::options::Auto;
+use super::stiffness_detection::{Fastest, StiffnessDetector, LIMIT, TO_GO};
 use crate::integrate::Atol;
 use crate::model::{size, Model};
 
@@ -25,7 +25,7 @@ const PROBE: f64 = 1e-3;
 
 /// The judgement at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Forecast {
+pub(super) struct InitialStiffness {
     /// None where the equations are singular.
     fastest: Option<Fastest>,
     /// w, 1/s.
@@ -37,10 +37,10 @@ pub(super) struct Forecast {
     under_way: bool,
 }
 
-impl Forecast {
+impl InitialStiffness {
     pub fn new(
         model: &Model,
-        detector: &mut Detector<'_>,
+        detector: &mut StiffnessDetector<'_>,
         auto: &Auto,
         (t, t_end): (f64, f64),
         y: &[f64],
