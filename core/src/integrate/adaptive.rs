@@ -3,7 +3,6 @@
 //! With the elementary control step for step what `scipy.integrate.solve_ivp` does, so that counts of steps
 //! can be compared.
 
-use super::adaptive_options::Options;
 use super::embedded_pair::EmbeddedPair;
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
@@ -11,6 +10,7 @@ use super::hermite_birkhoff::HermiteBirkhoff;
 use super::ode::{Ended, Flow, Observer, Ode, Statistics};
 use super::right_hand_side::{RightHandSide, Trouble};
 use super::stages::{combine, room, row_mut, rows_mut, width, Block};
+use super::step_control::StepControl;
 use super::step_placement::StepPlacement;
 use super::step_size::{initial_step, least_step, probing_step, StepSize};
 use super::tolerances::Tolerances;
@@ -39,7 +39,7 @@ pub(super) struct Work {
 }
 
 impl Work {
-    fn new<P: EmbeddedPair>(system: &impl Ode, options: &Options<'_>) -> Self {
+    fn new<P: EmbeddedPair>(system: &impl Ode, options: &StepControl) -> Self {
         let (n, controlled, positions) = (system.len(), system.controlled(), system.positions());
         let second_order = positions > 0 && !P::DOUBLE_QUADRATURE.is_empty();
         Self {
@@ -49,7 +49,7 @@ impl Work {
             y_new: room(1, n),
             trial: room(1, n),
             remaining: Vec::new(),
-            tolerances: Tolerances::new(options.rtol, options.atol, controlled),
+            tolerances: Tolerances::new(options.rtol, &options.atol, controlled),
             hermite_birkhoff: second_order.then(|| HermiteBirkhoff::new(n, positions)),
         }
     }
@@ -58,7 +58,7 @@ impl Work {
 /// An integration under way.
 pub(super) struct Run<'a, Y, P> {
     pub rate: RightHandSide<'a, Y>,
-    options: &'a Options<'a>,
+    options: &'a StepControl,
     pub n: usize,
     pub t: f64,
     t_end: f64,
@@ -72,7 +72,7 @@ pub(super) struct Run<'a, Y, P> {
 
 /// Integrates with the pair `P`; the body of [`Method::integrate`](super::Method::integrate).
 pub(super) fn integrate<P: EmbeddedPair, Y: Ode, O: Observer>(
-    options: &Options<'_>,
+    options: &StepControl,
     system: &mut Y,
     (t0, t_end): (f64, f64),
     y: &mut [f64],

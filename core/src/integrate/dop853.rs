@@ -13,52 +13,28 @@
 //! without: one evaluation less than scipy's for every step that is rejected.
 
 use super::adaptive::integrate;
-use super::adaptive_options::{usable_rtol, Atol, Options};
 use super::dop853_coefficients::*;
 use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
 use super::ode::{Method, Observer, Ode, Statistics};
 use super::right_hand_side::{RightHandSide, Trouble};
 use super::stages::{rows, rows_mut, sum_at, Block, Trial};
+use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
 use super::tolerances::Tolerances;
 
 /// DOP853 with its options.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Dop853 {
-    /// Relative tolerance; raised to 100 ε ≈ 2.2e-14 if it is smaller.
-    pub rtol: f64,
-    /// Absolute tolerance, in the units of y; a component that stays zero needs one above 0.
-    pub atol: Atol,
-    /// Constant step, whatever its error; then there is neither a first nor a largest one.
-    pub step: Option<f64>,
-    /// Largest step.
-    pub max_step: f64,
-    /// First step; chosen if `None`.
-    pub first_step: Option<f64>,
-    /// Largest number of accepted steps.
-    pub max_steps: Option<usize>,
-}
-
-impl Default for Dop853 {
-    /// rtol 1e-3, atol 1e-6, no bounds.
-    fn default() -> Self {
-        Self {
-            rtol: 1e-3,
-            atol: Atol::Scalar(1e-6),
-            step: None,
-            max_step: f64::INFINITY,
-            first_step: None,
-            max_steps: None,
-        }
-    }
+    /// Tolerances and steps.
+    pub control: StepControl,
 }
 
 impl Dop853 {
     /// With the given tolerances and no bounds.
     pub fn new(rtol: f64, atol: f64) -> Self {
-        Self { rtol, atol: Atol::Scalar(atol), ..Self::default() }
+        Self { control: StepControl::new(rtol, atol) }
     }
 }
 
@@ -71,15 +47,7 @@ impl Method for Dop853 {
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Statistics, Failure<Y::Stop>> {
-        let options = Options {
-            rtol: usable_rtol(self.rtol),
-            atol: &self.atol,
-            step: self.step,
-            max_step: self.max_step,
-            first_step: self.first_step,
-            max_steps: self.max_steps,
-        };
-        integrate::<Pair, Y, O>(&options, system, (t0, t_end), y, observer)
+        integrate::<Pair, Y, O>(&self.control.usable(), system, (t0, t_end), y, observer)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The weights by which implicit methods measure errors: atol + rtol |y|.
 
-use super::adaptive_options::{Atol, Options};
 use super::implicit_state::ImplicitState;
+use super::step_control::{Atol, StepControl};
 
 /// Error weights atol + rtol |y| of q, then of v.
 #[derive(Clone, Debug)]
@@ -12,8 +12,8 @@ pub(super) struct ErrorWeights {
 }
 
 impl ErrorWeights {
-    pub fn new(options: &Options<'_>, n: usize) -> Self {
-        let atol = match options.atol {
+    pub fn new(options: &StepControl, n: usize) -> Self {
+        let atol = match &options.atol {
             Atol::Scalar(atol) => vec![*atol; 2 * n],
             Atol::Each(atol) => atol.clone(),
         };

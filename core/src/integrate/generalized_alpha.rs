@@ -3,7 +3,6 @@
 //! Order 2 for q, v and λ. Between steps the cubic Hermite polynomial of q and v. For stiff forces and
 //! for tolerances of about 1e-2 to 1e-4; see `alpha_step` for the method itself.
 
-use super::adaptive_options::{Atol, Options};
 use super::alpha_parameters::AlphaParameters;
 use super::alpha_step::AlphaStep;
 use super::arguments::{refusal, Refused};
@@ -14,6 +13,7 @@ use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
 use super::interpolant::{Interpolant, HERMITE};
 use super::ode::{Ended, Flow, Observer, Statistics, Step};
+use super::step_control::StepControl;
 use super::step_size::{least_step, Control, StepSize};
 
 /// Order of the error estimate.
@@ -33,37 +33,20 @@ const KEEP: f64 = 1.2;
 pub struct GeneralizedAlpha {
     /// Which member of the family.
     pub parameters: AlphaParameters,
-    /// Relative tolerance of a step; with a constant step, of Newton's iteration alone.
-    pub rtol: f64,
-    /// Absolute tolerance of a step; with a constant step, of Newton's iteration alone.
-    pub atol: Atol,
-    /// A constant step; none for step control.
-    pub step: Option<f64>,
-    /// Longest step.
-    pub max_step: f64,
-    /// First step; chosen if none.
-    pub first_step: Option<f64>,
-    /// Largest number of steps.
-    pub max_steps: Option<usize>,
+    /// Tolerances and steps.
+    pub control: StepControl,
 }
 
 impl GeneralizedAlpha {
     /// With step control and no bounds on steps.
     pub fn new(parameters: AlphaParameters, rtol: f64, atol: f64) -> Self {
-        Self {
-            parameters,
-            rtol,
-            atol: Atol::Scalar(atol),
-            step: None,
-            max_step: f64::INFINITY,
-            first_step: None,
-            max_steps: None,
-        }
+        Self { parameters, control: StepControl::new(rtol, atol) }
     }
 
     /// With a constant step, and Newton's iteration to `rtol` and `atol`.
     pub fn constant(parameters: AlphaParameters, step: f64, rtol: f64, atol: f64) -> Self {
-        Self { step: Some(step), ..Self::new(parameters, rtol, atol) }
+        let control = StepControl { step: Some(step), ..StepControl::new(rtol, atol) };
+        Self { parameters, control }
     }
 
     fn check(&self) -> Result<(), Refused> {
@@ -74,23 +57,12 @@ impl GeneralizedAlpha {
         }
         Ok(())
     }
-
-    fn options(&self) -> Options<'_> {
-        Options {
-            rtol: self.rtol,
-            atol: &self.atol,
-            step: self.step,
-            max_step: self.max_step,
-            first_step: self.first_step,
-            max_steps: self.max_steps,
-        }
-    }
 }
 
 /// An integration under way.
 struct Run<'a, 'b, Y: Dae> {
     system: CountedDae<'a, Y>,
-    options: &'b GeneralizedAlpha,
+    options: &'b StepControl,
     step: AlphaStep,
     scale: ErrorWeights,
     t: f64,
@@ -115,12 +87,12 @@ impl ImplicitMethod for GeneralizedAlpha {
         let checked = self
             .check()
             .map_err(refusal)
-            .and_then(|()| self.options().begin((t0, t_end), (y, len), 2 * n));
+            .and_then(|()| self.control.begin((t0, t_end), (y, len), 2 * n));
         let mut run = Run {
             system: CountedDae::new(system, t0),
-            options: self,
+            options: &self.control,
             step: AlphaStep::new(self.parameters, n, m, works),
-            scale: ErrorWeights::new(&self.options(), n),
+            scale: ErrorWeights::new(&self.control, n),
             t: t0,
             t_end,
             y_new: vec![0.0; len],

@@ -17,7 +17,8 @@
 //! | `hermite_birkhoff` | that of mechanical systems, from the step before and one evaluation |
 //! | `step_size` | choice of the step from the error estimate |
 //! | `step_placement` | steps that keep clear of a time near which rates are noise |
-//! | `adaptive`, `adaptive_options`, `embedded_pair` | the loop of every embedded pair, its options, what it asks of a pair |
+//! | `step_control` | tolerances and steps, which all methods share, with their defaults |
+//! | `adaptive`, `embedded_pair` | the loop of every embedded pair, and the definition of a pair |
 //! | `step_acceptance` | what becomes of a step whose error is accepted |
 //! | `fixed_step` | where steps of constant length end |
 //! | `stages` | sums over the stages of a step, in blocks of numbers |
@@ -30,7 +31,6 @@
 //! | `events` | where a function of the state changes sign |
 
 mod adaptive;
-mod adaptive_options;
 mod alpha_parameters;
 mod alpha_step;
 mod arguments;
@@ -56,11 +56,11 @@ mod rk4;
 mod rk45;
 mod stages;
 mod step_acceptance;
+mod step_control;
 mod step_placement;
 mod step_size;
 mod tolerances;
 
-pub use adaptive_options::Atol;
 pub use alpha_parameters::AlphaParameters;
 pub use dae::{
     ConstraintLevel, Dae, DaeResidual, ImplicitMethod, Iterate, NewtonCoefficients, SingularMatrix,
@@ -76,3 +76,4 @@ pub use radau::Radau;
 pub(crate) use right_hand_side::all_finite;
 pub use rk4::Rk4;
 pub use rk45::Rk45;
+pub use step_control::{Atol, StepControl};

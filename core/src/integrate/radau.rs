@@ -5,7 +5,6 @@
 //! while Newton's iteration converges fast, the factors while the step stays (Hairer and Wanner,
 //! *Solving Ordinary Differential Equations II*, IV.8). Between steps the polynomials of collocation.
 
-use super::adaptive_options::{usable_rtol, Atol, Options};
 use super::dae::{Dae, ImplicitMethod};
 use super::error_weights::ErrorWeights;
 use super::evaluation_counter::CountedDae;
@@ -16,6 +15,7 @@ use super::ode::{Ended, Flow, Observer, Statistics, Step};
 use super::radau_coefficients::{DEGREE, EXTENSION};
 use super::radau_step::{NewtonLimits, NewtonOutcome, RadauStep, ROWS};
 use super::right_hand_side::all_finite;
+use super::step_control::StepControl;
 use super::step_size::least_step;
 
 /// Order of the error estimate.
@@ -39,63 +39,28 @@ const CONSTANT: NewtonLimits = NewtonLimits { tolerance: 1e-2, most: 25 };
 const LEAST_NORM: f64 = 1e-2;
 
 /// Radau IIA of order 5 with its options.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Radau {
-    /// Relative tolerance of a step; with a constant step, of Newton's iteration alone.
-    pub rtol: f64,
-    /// Absolute tolerance of a step; with a constant step, of Newton's iteration alone.
-    pub atol: Atol,
-    /// A constant step; none for step control.
-    pub step: Option<f64>,
-    /// Longest step.
-    pub max_step: f64,
-    /// First step; chosen if none.
-    pub first_step: Option<f64>,
-    /// Largest number of steps.
-    pub max_steps: Option<usize>,
-}
-
-impl Default for Radau {
-    /// rtol 1e-3 and atol 1e-6, as in scipy.
-    fn default() -> Self {
-        Self::new(1e-3, 1e-6)
-    }
+    /// Tolerances and steps.
+    pub control: StepControl,
 }
 
 impl Radau {
     /// With the given tolerances and no bounds on steps.
     pub fn new(rtol: f64, atol: f64) -> Self {
-        Self {
-            rtol,
-            atol: Atol::Scalar(atol),
-            step: None,
-            max_step: f64::INFINITY,
-            first_step: None,
-            max_steps: None,
-        }
+        Self { control: StepControl::new(rtol, atol) }
     }
 
     /// With a constant step, and Newton's iteration to `rtol` and `atol`.
     pub fn constant(step: f64, rtol: f64, atol: f64) -> Self {
-        Self { step: Some(step), ..Self::new(rtol, atol) }
-    }
-
-    fn options(&self) -> Options<'_> {
-        Options {
-            rtol: usable_rtol(self.rtol),
-            atol: &self.atol,
-            step: self.step,
-            max_step: self.max_step,
-            first_step: self.first_step,
-            max_steps: self.max_steps,
-        }
+        Self { control: StepControl { step: Some(step), ..StepControl::new(rtol, atol) } }
     }
 }
 
 /// An integration under way.
-struct Run<'a, 'b, Y: Dae> {
+struct Run<'a, Y: Dae> {
     system: CountedDae<'a, Y>,
-    options: Options<'b>,
+    options: StepControl,
     step: RadauStep,
     scale: ErrorWeights,
     t: f64,
@@ -124,7 +89,7 @@ impl ImplicitMethod for Radau {
     ) -> Result<Statistics, Failure<Y::Stop>> {
         let (n, m, works) = (system.coordinates(), system.multipliers(), system.quadratures());
         let len = 2 * n + works;
-        let options = self.options();
+        let options = self.control.usable();
         let checked = options.begin((t0, t_end), (y, len), 2 * n);
         let mut run = Run {
             system: CountedDae::new(system, t0),
@@ -146,7 +111,7 @@ impl ImplicitMethod for Radau {
     }
 }
 
-impl<Y: Dae> Run<'_, '_, Y> {
+impl<Y: Dae> Run<'_, Y> {
     fn go<O: Observer>(
         &mut self,
         grid: Option<Grid>,

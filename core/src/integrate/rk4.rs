@@ -8,24 +8,22 @@ use super::interpolant::{Interpolant, HERMITE};
 use super::ode::{Ended, Flow, Method, Observer, Ode, Statistics, Step};
 use super::right_hand_side::{all_finite, RightHandSide, Trouble};
 use super::stages::{chord, combine, room, row, row_mut, rows_mut, Block, Trial};
+use super::step_control::StepControl;
 use crate::math::Lanes;
 
 /// Classical Runge–Kutta 4 with its options.
 ///
-/// Steps end at t0 + k `step`, computed by multiplication; the last is shortened to end at t_end.
-/// Errors are not estimated.
+/// It needs a constant step; errors are not estimated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rk4 {
-    /// Step, > 0, also when integrating backward.
-    pub step: f64,
-    /// Largest number of steps; more are refused before the first.
-    pub max_steps: Option<usize>,
+    /// The step, and the largest number of steps.
+    pub control: StepControl,
 }
 
 impl Rk4 {
     /// With the given step and no bound on their number.
     pub fn new(step: f64) -> Self {
-        Self { step, max_steps: None }
+        Self { control: StepControl::constant(step) }
     }
 }
 
@@ -79,9 +77,10 @@ impl Method for Rk4 {
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Statistics, Failure<Y::Stop>> {
-        let grid = check_problem(t0, t_end, y, system.len())
-            .map_err(refusal)
-            .and_then(|()| Grid::new(t0, t_end, self.step, self.max_steps));
+        let grid = check_problem(t0, t_end, y, system.len()).map_err(refusal).and_then(|()| {
+            let StepControl { step, max_steps, .. } = self.control;
+            Grid::new(t0, t_end, step.unwrap_or(f64::NAN), max_steps)
+        });
         let mut statistics = Statistics::none(t0);
         let mut rate = RightHandSide { system, evaluations: 0 };
         let outcome = grid.and_then(|grid| go(&mut rate, t0, &grid, y, observer, &mut statistics));

@@ -4,7 +4,7 @@ use crate::mechanisms::{asked, every, model, run, start, with, worst, FOUR_BAR};
 use kempe::analyses::assemble::{assemble, Request};
 use kempe::analyses::dynamics::{Auto, Options, Scheme, Stabilization};
 use kempe::analyses::State;
-use kempe::integrate::{AlphaParameters, Dop853, GeneralizedAlpha, Radau, Rk45};
+use kempe::integrate::{AlphaParameters, Dop853, GeneralizedAlpha, Radau, Rk45, StepControl};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 
@@ -56,8 +56,12 @@ fn a_stiff_damper_takes_few_steps() {
         assert!(off < error, "{told}: {off:.1e}");
     }
     // what an explicit method would need, from how far a thousand steps take it
-    let explicit =
-        options(15.0, Scheme::Rk45(Rk45 { max_steps: Some(1000), ..Rk45::new(1e-6, 1e-9) }));
+    let explicit = options(
+        15.0,
+        Scheme::Rk45(Rk45 {
+            control: StepControl { max_steps: Some(1000), ..StepControl::new(1e-6, 1e-9) },
+        }),
+    );
     let failure = kempe::analyses::dynamics::dynamics(&m, &state, &explicit, |_| {
         kempe::integrate::Flow::Continue
     });

@@ -111,10 +111,10 @@ fn pace(model: &Model, v: &[f64], a: &[f64]) -> f64 {
 /// Whether a motion of this rate has a part in the velocities that the tolerance sees.
 fn excited(auto: &Auto, jerk: &[f64], v: &[f64], rate: f64) -> bool {
     let n = v.len();
-    let atol = |k: usize| match &auto.atol {
+    let atol = |k: usize| match &auto.control.atol {
         Atol::Scalar(atol) => *atol,
         Atol::Each(each) => each.get(n + k).copied().unwrap_or(0.0),
     };
     let parts = jerk.iter().map(|jerk| jerk.abs() / (rate * rate));
-    parts.zip(v).enumerate().any(|(k, (part, v))| part > atol(k) + auto.rtol * v.abs())
+    parts.zip(v).enumerate().any(|(k, (part, v))| part > atol(k) + auto.control.rtol * v.abs())
 }

@@ -8,7 +8,7 @@ use super::options::{Auto, Options};
 use super::stiffness_detection::{MethodChoice, StiffnessDetector, LIMIT, TRIAL, WORTH};
 use super::Outcome;
 use crate::integrate::{
-    Atol, Dop853, Ended, Flow, ImplicitMethod, Method, Observer, Radau, Statistics, Step,
+    Dop853, Ended, Flow, ImplicitMethod, Method, Observer, Radau, Statistics, Step, StepControl,
 };
 use crate::model::Model;
 
@@ -67,7 +67,7 @@ impl<'a, 'o> MethodSwitching<'a, 'o> {
             auto,
             detector: StiffnessDetector::new(model, &system.workspace, t0),
             implicit: None,
-            step: auto.first_step,
+            step: auto.control.first_step,
             total: None,
             explicitly: 0,
             choice,
@@ -132,14 +132,7 @@ impl<'a, 'o> MethodSwitching<'a, 'o> {
         observer: &mut O,
     ) -> (Outcome, bool) {
         let t_end = self.options.t_end;
-        let method = Dop853 {
-            step: None,
-            rtol: self.auto.rtol,
-            atol: self.auto.atol.clone(),
-            max_step: self.auto.max_step,
-            first_step: self.step.map(|h| h.min((t_end - t).abs())),
-            max_steps: self.steps_left(),
-        };
+        let method = Dop853 { control: self.control(t) };
         let detector = &mut self.detector;
         let foretold = detector.foretold.is_some();
         let judge = |step: &Step<'_>| detector.stiff(step, t_end);
@@ -175,13 +168,7 @@ impl<'a, 'o> MethodSwitching<'a, 'o> {
         observer: &mut O,
     ) -> (Outcome, bool) {
         let t_end = self.options.t_end;
-        let method = Radau {
-            first_step: self.step.map(|h| h.min((t_end - t).abs())),
-            max_step: self.auto.max_step,
-            max_steps: self.steps_left(),
-            atol: self.auto.atol.clone(),
-            ..Radau::new(self.auto.rtol, 0.0)
-        };
+        let method = Radau { control: self.control(t) };
         let explicit_step = self.detector.seen.map_or(0.0, |(_, h)| h);
         let (mut taken, mut since) = (0, t);
         let judge = |step: &Step<'_>| {
@@ -211,9 +198,15 @@ impl<'a, 'o> MethodSwitching<'a, 'o> {
         (outcome, back)
     }
 
-    fn steps_left(&self) -> Option<usize> {
+    /// Tolerances and steps of a piece that begins at `t`.
+    fn control(&self, t: f64) -> StepControl {
         let taken = self.total.map_or(0, |total| total.steps);
-        self.auto.max_steps.map(|most| most - taken.min(most))
+        let StepControl { max_steps, .. } = self.auto.control;
+        StepControl {
+            first_step: self.step.map(|h| h.min((self.options.t_end - t).abs())),
+            max_steps: max_steps.map(|most| most - taken.min(most)),
+            ..self.auto.control.clone()
+        }
     }
 
     /// Counts a piece to those before; the outcome then tells of all.
@@ -260,21 +253,9 @@ impl<'a, 'o> MethodSwitching<'a, 'o> {
     }
 }
 
-impl Auto {
-    /// DOP853 or Radau with rtol 1e-8 and atol 1e-11.
-    pub fn new() -> Self {
-        Self {
-            rtol: 1e-8,
-            atol: Atol::Scalar(1e-11),
-            max_step: f64::INFINITY,
-            first_step: None,
-            max_steps: None,
-        }
-    }
-}
-
 impl Default for Auto {
+    /// DOP853 or Radau with rtol 1e-8 and atol 1e-11.
     fn default() -> Self {
-        Self::new()
+        Self { control: StepControl::with(StepControl::AUTO) }
     }
 }

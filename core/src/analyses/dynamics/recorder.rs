@@ -41,13 +41,11 @@ const UNSEEN: usize = 4;
 
 /// The same for a scheme: a constant step beyond its stability opens joints within a few.
 fn unseen(scheme: &Scheme) -> usize {
-    let step = match scheme {
-        Scheme::Rk4(_) => return 1,
-        Scheme::Rk45(method) => method.step,
-        Scheme::Dop853(method) => method.step,
-        _ => None,
+    let constant = match scheme {
+        Scheme::GeneralizedAlpha(_) | Scheme::Radau(_) | Scheme::Auto(_) => None,
+        explicit => explicit.control().step,
     };
-    step.map_or(UNSEEN, |_| 1)
+    constant.map_or(UNSEEN, |_| 1)
 }
 
 /// How many states a grid asks for; none if the steps are to be reported.
