@@ -122,8 +122,8 @@ impl PyCase {
         guard("Case.check", || {
             let mut found = Vec::new();
             let start = &self.case.start;
-            for (section, wishes) in [("set", &start.set), ("guess", &start.guess)] {
-                let read = kempe::analyses::assemble::wishes(&model.model, section, wishes);
+            for (section, targets) in [("set", &start.set), ("guess", &start.guess)] {
+                let read = kempe::analyses::assemble::targets(&model.model, section, targets);
                 found.extend(read.err().unwrap_or_default());
             }
             for entry in &self.case.analyses {

@@ -130,6 +130,10 @@ macro_rules! constraints {
         }
 
         impl Constraint {
+            /// First values of the internal coordinates for bodies at given poses.
+            pub fn own_start(&self, bodies: &[Pose]) -> Vec<f64> {
+                match self { $($(Self::$Name(e) => <$Name as Joint>::own_start(e, bodies),)+)+ }
+            }
             /// A field with an impossible value, and the reason.
             pub fn fault(&self) -> Option<(&'static str, String)> {
                 match self { $($(Self::$Name(e) => <$Name as Joint>::fault(e),)+)+ }

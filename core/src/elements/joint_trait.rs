@@ -121,6 +121,12 @@ pub trait Joint: Element {
         Vec::new()
     }
 
+    /// First values of the internal coordinates for bodies at given poses.
+    fn own_start(e: &Self::Over<f64>, bodies: &[Pose]) -> Vec<f64> {
+        let _ = (e, bodies);
+        vec![0.0; Self::OWN]
+    }
+
     /// A field with an impossible value, and the reason; values that are not finite are refused anyway.
     fn fault(e: &Self::Over<f64>) -> Option<(&'static str, String)> {
         let _ = e;

@@ -10,7 +10,7 @@ use super::joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Mov
 use super::joints::{Distance, Revolute, Translational};
 use super::kinds::{BodyId, CoordinateOf, JointId, Source};
 use crate::expression::Tape;
-use crate::math::{Lift, Local, Real, Wrench};
+use crate::math::{Lift, Local, Pose, Real, Wrench};
 
 constraints! {
     Joints { Revolute, Translational, Distance }

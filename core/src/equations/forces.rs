@@ -211,11 +211,21 @@ pub fn state_rates<S: Real>(
     acting: Acting<'_, S>,
     out: &mut [S],
 ) {
-    for (k, item) in model.forces.iter().enumerate().filter(|(_, item)| !item.states.is_empty()) {
-        let element = at_state(model, item, motions, acting);
-        let out = &mut out[model.layout.states[k].clone()];
-        situation(model, k, motions, acting, |at| element.state_rates(at, out));
+    for (k, states) in model.layout.states.iter().enumerate().filter(|(_, own)| !own.is_empty()) {
+        state_rates_of(model, k, motions, acting, &mut out[states.clone()]);
     }
+}
+
+/// ż of force `k` alone.
+pub(super) fn state_rates_of<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    out: &mut [S],
+) {
+    let element = at_state(model, &model.forces[k], motions, acting);
+    situation(model, k, motions, acting, |at| element.state_rates(at, out));
 }
 
 /// Potential energy of force `k`, zero where a law makes it non-conservative, and the energy stored in its

@@ -12,7 +12,7 @@
 use super::tangent::Tangent;
 use super::Compiled;
 use crate::math::Field;
-use crate::model::{Layout, Model};
+use crate::model::{Model, StateLayout};
 use crate::solve::{BlockLu, LuPlan};
 
 /// Damping of redundant rows, relative to the compliance of the bodies.
@@ -37,9 +37,9 @@ impl Places {
     /// For a model and the pattern of its tangent.
     pub fn new(model: &Model, tangent: &Tangent) -> Self {
         let layout = &model.layout;
-        let bodies = layout.n_q / 3;
+        let bodies = layout.owners.len();
         let rows = layout.constraints.iter().map(|slots| slots.rows.len());
-        let sizes: Vec<usize> = std::iter::repeat_n(3, bodies).chain(rows).collect();
+        let sizes: Vec<usize> = layout.owners.iter().map(|owner| owner.count).chain(rows).collect();
         let mut entries = tangent.pairs().to_vec();
         entries.extend(blocks(layout).map(|(k, body, _)| (bodies + k, body)));
         let plan = LuPlan::new(sizes, bodies, &entries);
@@ -64,9 +64,9 @@ impl Places {
 }
 
 /// Each block of Φ_q: constraint, body (from 0 without ground), first entry.
-fn blocks(layout: &Layout) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
+fn blocks(layout: &StateLayout) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
     layout.constraints.iter().enumerate().flat_map(|(k, slots)| {
-        slots.blocks.iter().map(move |block| (k, block.body.0 - 1, block.first))
+        slots.blocks.iter().map(move |block| (k, block.owner, block.first))
     })
 }
 

@@ -1,7 +1,7 @@
 //! Poses and twists of all bodies, and internal coordinates of elements, from q and q̇.
 
 use crate::math::{Motion, Pose, Real, Rotation, Twist};
-use crate::model::{Columns, StateLayout};
+use crate::model::{Columns, Model, StateLayout};
 use std::ops::Deref;
 
 /// The motion of every body, ground first, and the internal coordinates of elements.
@@ -109,12 +109,20 @@ fn put_rates<S: Real>(v: &[S], twist: &mut Twist<S>) {
     }
 }
 
-/// The coordinates of poses of all bodies, ground first; internal coordinates are zero.
-pub fn coordinates(layout: &StateLayout, poses: &[Pose]) -> Vec<f64> {
+/// The coordinates of poses of all bodies, ground first, with the internal coordinates that elements
+/// start from there; shape (n_q).
+pub fn coordinates(model: &Model, poses: &[Pose]) -> Vec<f64> {
+    let layout = &model.layout;
     let mut q = vec![0.0; layout.n_q];
     for (pose, columns) in poses.iter().zip(&layout.bodies) {
         let three = [pose.r.x, pose.r.y, pose.angle];
         q[columns.range()].copy_from_slice(&three[..columns.count]);
+    }
+    for (item, slots) in model.constraints.iter().zip(&layout.constraints) {
+        if slots.own.count > 0 {
+            let bodies: Vec<Pose> = item.bodies.iter().map(|body| poses[body.0]).collect();
+            q[slots.own.range()].copy_from_slice(&item.element.own_start(&bodies));
+        }
     }
     q
 }

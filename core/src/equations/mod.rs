@@ -9,6 +9,7 @@ pub mod augmented;
 pub mod balance;
 mod compiled;
 pub mod constraints;
+mod coupling;
 pub mod dense;
 pub mod energy;
 pub mod forces;

@@ -3,7 +3,7 @@
 use super::anchor::Anchor;
 use super::Compiled;
 use crate::math::Real;
-use crate::model::{Block, Layout, Model, Slots};
+use crate::model::{Block, Model, Slots, StateLayout};
 use crate::solve::{Armed, Bytes, Pattern, RowBlock};
 
 /// A plan of elimination for one model over any scalar; found once, shared by any number of matrices.
@@ -88,9 +88,9 @@ fn split<P>(
 }
 
 /// The constraints as blocks of rows.
-fn row_blocks(layout: &Layout) -> Vec<RowBlock> {
+fn row_blocks(layout: &StateLayout) -> Vec<RowBlock> {
     let touches =
-        |blocks: &[Block]| blocks.iter().map(|block| (block.body.0 - 1, block.first)).collect();
+        |blocks: &[Block]| blocks.iter().map(|block| (block.owner, block.first)).collect();
     let block = |slots: &Slots| RowBlock {
         size: slots.rows.len(),
         touches: touches(&slots.blocks),

@@ -8,7 +8,8 @@
 
 use super::augmented::{Augmented, Dependent};
 use super::{constraints, mass, Compiled};
-use crate::math::{Motion, Real};
+use super::kinematics::Motions;
+use crate::math::Real;
 use crate::model::Model;
 
 /// Steps for redundant rows, whose error falls by ten digits in each, and near singular positions,
@@ -27,7 +28,7 @@ const ACCEPTED: f64 = 1e-9;
 /// The angle of a body without inertia that a torque turns while nothing resists.
 pub(super) fn solve<S: Real>(
     (model, compiled): (&Model<S>, &Compiled<S>),
-    motions: &[Motion<S>],
+    motions: &Motions<S>,
     matrix: &Augmented<S>,
     x: &mut [S],
     correction: &mut [S],
@@ -55,7 +56,7 @@ pub(super) fn solve<S: Real>(
 
 fn step<S: Real>(
     model: &Model<S>,
-    motions: &[Motion<S>],
+    motions: &Motions<S>,
     matrix: &Augmented<S>,
     b: &[S],
     x: &mut [S],
@@ -69,7 +70,7 @@ fn step<S: Real>(
 /// b - K x.
 fn remainder<S: Real>(
     model: &Model<S>,
-    motions: &[Motion<S>],
+    motions: &Motions<S>,
     jacobian: &[S],
     b: &[S],
     x: &[S],
@@ -80,14 +81,8 @@ fn remainder<S: Real>(
     let (upper, lower) = out.split_at_mut(n);
     upper.fill(S::zero());
     constraints::add_transposed(model, jacobian, lam, upper);
-    let bodies = model.bodies.iter().zip(motions).skip(1);
-    for ((out, a), (body, motion)) in upper.chunks_exact_mut(3).zip(a.chunks_exact(3)).zip(bodies) {
-        let inertial = mass::block(body, motion).times([a[0], a[1], a[2]]);
-        out.iter_mut().zip(inertial).for_each(|(out, f)| *out += f);
-    }
-    for (k, slots) in model.layout.constraints.iter().enumerate() {
-        constraints::times(model, k, jacobian, a, &mut lower[slots.rows.clone()]);
-    }
+    mass::add_times(model, motions, a, upper);
+    constraints::times_all(model, jacobian, a, lower);
     out.iter_mut().zip(b).for_each(|(out, b)| *out = *b - *out);
 }
 

@@ -1,6 +1,6 @@
 //! How far a state is from its constraints: Φ and Φ̇ of all of them and the largest of each, in one pass.
 
-use super::constraints::{self, store};
+use super::constraints::{self};
 use super::kinematics::Motions;
 use super::Compiled;
 use crate::elements::{Joint, Linearized, Moving, Pooled, VisitJoints};

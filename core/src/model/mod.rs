@@ -21,5 +21,5 @@ pub use layout::{Block, Columns, Slots, StateLayout, WORKS};
 pub use link::{did_you_mean, Reach, Scope};
 pub use model::{Body, ConstraintItem, ForceItem, Model};
 pub use problem::Problem;
-pub use size::{row_scales, size};
+pub use size::{column_scales, row_scales, size};
 pub use variable::{Dependence, Variable};

@@ -20,7 +20,7 @@
 //!
 //! which falls for every h'/h < 4/b - 1. No step control lets a step grow by more than 10.
 
-use crate::equations::{constraints, kinematics, Workspace};
+use crate::equations::{constraints, Workspace};
 use crate::model::Model;
 
 /// b: an error falls by a third in a step, and does not grow while steps grow tenfold.
@@ -50,7 +50,7 @@ impl StepwiseBaumgarte {
         h: f64,
     ) {
         let [term, rate, gamma] = &mut self.terms;
-        kinematics::motions(q, v, &mut workspace.motions);
+        workspace.motions.place(&model.layout, q, v);
         constraints::velocity_terms(model, &workspace.motions, t, term, rate, gamma);
         let (damping, stiffness) = ((1.0 + 0.5 * B) / h, B / (h * h));
         let pairs = term.iter_mut().zip(rate);

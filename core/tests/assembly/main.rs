@@ -9,5 +9,5 @@ mod drivers;
 mod failures;
 mod redundancy;
 mod six_bars;
-mod turns;
+mod angle_winding;
 mod velocities;

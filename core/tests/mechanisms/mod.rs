@@ -1,7 +1,7 @@
 //! Mechanisms from text, for the tests that include this file; not every test uses all of it.
 #![allow(dead_code)]
 
-use kempe::analyses::assemble::{assemble, wishes, Failure, Report, Request, Wish};
+use kempe::analyses::assemble::{assemble, targets, Failure, Report, Request, Target};
 use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme};
 use kempe::analyses::State;
 use kempe::case::{read, Format};
@@ -122,11 +122,11 @@ pub fn with(text: &str, overrides: &[(&str, f64)]) -> Model {
     build(&case.definition, &overrides).unwrap_or_else(|p| panic!("{p:#?}"))
 }
 
-/// Wishes written as in a file, such as ("crank.angle", "70*deg").
-pub fn asked(model: &Model, section: &str, written: &[(&str, &str)]) -> Vec<Wish> {
+/// Targets written as in a file, such as ("crank.angle", "70*deg").
+pub fn asked(model: &Model, section: &str, written: &[(&str, &str)]) -> Vec<Target> {
     let written: Vec<_> =
         written.iter().map(|(key, text)| (key.to_string(), Value::from(*text))).collect();
-    wishes(model, section, &written).unwrap_or_else(|p| panic!("{p:#?}"))
+    targets(model, section, &written).unwrap_or_else(|p| panic!("{p:#?}"))
 }
 
 /// What assembly is asked for.

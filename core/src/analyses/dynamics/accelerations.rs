@@ -89,7 +89,7 @@ fn one_by_one(
         let row = k * n..(k + 1) * n;
         let (q, v) = (&q[row.clone()], &v[row]);
         workspace
-            .accelerate(model, t, q, v, Gains::default())
+            .accelerate(model, t, [q, v, &[]], Gains::default())
             .map_err(|Singular(row)| Halt::Fault(Fault::Singular(Singular(row))))
             .and_then(|()| match [workspace.a(), workspace.lam()].into_iter().all(all_finite) {
                 true => Ok(()),
@@ -125,7 +125,7 @@ impl<'a> Many<'a> {
         Lanes::from_rows(q, &mut self.q);
         Lanes::from_rows(v, &mut self.v);
         let Self { model, workspace, q, v } = self;
-        let solved = workspace.accelerate(model, Lanes::new(t), q, v, Gains::default());
+        let solved = workspace.accelerate(model, Lanes::new(t), [q, v, &[]], Gains::default());
         let (a, lam) = (workspace.a(), workspace.lam());
         if solved.is_err() || !are_finite([a, lam]) {
             return false;

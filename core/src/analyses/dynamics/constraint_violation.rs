@@ -6,7 +6,8 @@
 
 use super::options::{Options, Stabilization};
 use crate::equations::{constraints, Gains};
-use crate::math::{Motion, Real};
+use crate::equations::kinematics::Motions;
+use crate::math::Real;
 use crate::model::{row_scales, Model};
 
 /// Most that a joint may open: lengths relative to the size of the mechanism, angles in rad. The classical
@@ -48,7 +49,7 @@ impl<S: Real> ViolationCheck<S> {
     }
 
     /// The row that is widest open, if it is too wide; over lanes, in any of them.
-    pub fn look(&mut self, model: &Model<S>, t: S, motions: &[Motion<S>]) -> Option<Violation> {
+    pub fn look(&mut self, model: &Model<S>, t: S, motions: &Motions<S>) -> Option<Violation> {
         constraints::residual(model, motions, t, &mut self.residual);
         let gaps = || self.residual.iter().map(|gap| gap.largest_magnitude());
         if gaps().zip(&self.most).all(|(gap, most)| gap <= *most) {

@@ -6,9 +6,10 @@ use super::model_cache::ModelCache;
 use super::motion_ode::WORKS;
 use super::report_projection::Halt;
 use super::Run;
-use crate::equations::{energy, kinematics};
+use crate::equations::energy;
+use crate::equations::kinematics::Motions;
 use crate::integrate::all_finite;
-use crate::math::{Lanes, Motion, Real};
+use crate::math::{Lanes, Real};
 use crate::model::Model;
 
 /// Number of columns of [`Run::energies`].
@@ -44,7 +45,8 @@ fn mechanical(
     let (n, mut found) = (model.layout.n_q, Vec::with_capacity(t.len()));
     let mut done = 0;
     if t.len() >= MANY {
-        let (mut motions, none) = (Vec::new(), vec![Lanes::zero(); n]);
+        let wide = cache.wide(model);
+        let (mut motions, none) = (Motions::new(&wide.layout), vec![Lanes::zero(); n]);
         let (mut places, mut rates) = (none.clone(), none);
         for t in t.chunks_exact(Lanes::WIDTH) {
             let rows = done * n..(done + Lanes::WIDTH) * n;
@@ -57,7 +59,7 @@ fn mechanical(
             done += Lanes::WIDTH;
         }
     }
-    let mut motions = Vec::new();
+    let mut motions = Motions::new(&model.layout);
     for (k, &t) in t.iter().enumerate().skip(done) {
         let row = k * n..(k + 1) * n;
         found.push(at(model, t, (&q[row.clone()], &v[row]), &mut motions));
@@ -69,10 +71,10 @@ fn at<S: Real>(
     model: &Model<S>,
     t: S,
     (q, v): (&[S], &[S]),
-    motions: &mut Vec<Motion<S>>,
+    motions: &mut Motions<S>,
 ) -> [S; 2] {
-    kinematics::motions(q, v, motions);
-    [energy::kinetic(model, motions), energy::potential(model, motions, t)]
+    motions.place(&model.layout, q, v);
+    [energy::kinetic(model, motions), energy::potential(model, motions, &[], t)]
 }
 
 impl Run {

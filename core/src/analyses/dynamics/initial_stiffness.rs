@@ -100,8 +100,8 @@ impl InitialStiffness {
 /// w, 1/s.
 fn pace(model: &Model, v: &[f64], a: &[f64]) -> f64 {
     let size = size(model);
-    let bodies = v.chunks_exact(3).zip(a.chunks_exact(3));
-    bodies.fold(0.0, |most: f64, (v, a)| {
+    let bodies = model.layout.bodies.iter().map(|columns| (columns.of(v), columns.of(a)));
+    bodies.fold(0.0, |most: f64, (v, a): ([f64; 3], [f64; 3])| {
         let rates = [v[2].abs(), v[0].hypot(v[1]) / size];
         let roots = [a[2].abs(), a[0].hypot(a[1]) / size].map(f64::sqrt);
         rates.into_iter().chain(roots).fold(most, f64::max)

@@ -88,7 +88,7 @@ impl Dae for MotionDae<'_> {
         powers: &mut [f64],
     ) -> Result<(), Self::Stop> {
         self.accelerations += 1;
-        let outcome = self.workspace.accelerate(self.model, t, q, v, Gains::default());
+        let outcome = self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default());
         if let Err(singular) = outcome {
             if q.iter().chain(v).all(|x| x.is_finite()) {
                 return Err((t, Fault::Singular(singular)));
@@ -104,7 +104,7 @@ impl Dae for MotionDae<'_> {
     }
 
     fn residual(&mut self, t: f64, at: Iterate<'_>, level: ConstraintLevel, out: DaeResidual<'_>) {
-        self.balance.evaluate(self.model, t, [at.q, at.v, at.a], at.lam);
+        self.balance.evaluate(self.model, t, [at.q, at.v, at.a, &[]], at.lam);
         out.forces.copy_from_slice(&self.balance.forces);
         out.rows.copy_from_slice(match level {
             ConstraintLevel::Position => &self.balance.position,
@@ -116,8 +116,8 @@ impl Dae for MotionDae<'_> {
 
     fn linearize(&mut self, t: f64, at: Iterate<'_>) {
         let motions = &mut self.balance.motions;
-        crate::equations::kinematics::motions(at.q, at.v, motions);
-        self.tangent.linearize(self.model, motions, t, at.a, at.lam);
+        motions.place(&self.model.layout, at.q, at.v);
+        self.tangent.linearize(self.model, motions, t, [at.a, at.lam, &[]]);
     }
 
     fn factor(&mut self, coefficients: NewtonCoefficients) -> Result<(), SingularMatrix> {
@@ -171,14 +171,14 @@ impl Dae for MotionDae<'_> {
         let Some(projector) = &mut self.projector else {
             // `normal` wants the factors of a state nearby, which projection would leave
             self.accelerations += 1;
-            let outcome = self.workspace.accelerate(self.model, t, q, v, Gains::default());
+            let outcome = self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default());
             return outcome.map(|()| false).map_err(|singular| (t, Fault::Singular(singular)));
         };
         projector.project(&mut self.workspace, t, (q, v), false).map_err(|fault| (t, fault))
     }
 
     fn singular(&mut self, t: f64, q: &[f64], v: &[f64]) -> Option<Self::Stop> {
-        let outcome = self.workspace.accelerate(self.model, t, q, v, Gains::default());
+        let outcome = self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default());
         outcome.err().map(|singular| (t, Fault::Singular(singular)))
     }
 }

@@ -4,7 +4,7 @@ use super::options::{Options, Stabilization};
 use super::singularity_passage::SingularityPassage;
 use crate::analyses::mobility;
 use crate::equations::augmented::Dependent;
-use crate::equations::{kinematics, Gains, Plan, Singular, Workspace};
+use crate::equations::{Gains, Plan, Singular, Workspace};
 use crate::integrate::{all_finite, Ode};
 use crate::math::{Lanes, Real};
 use crate::model::Model;
@@ -120,7 +120,7 @@ impl<'a> MotionOde<'a> {
     pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Singular> {
         let n = self.model.layout.n_q;
         let (q, v) = (&y[..n], &y[n..2 * n]);
-        if self.workspace.accelerate(self.model, t, q, v, self.gains).is_err() {
+        if self.workspace.accelerate(self.model, t, [q, v, &[]], self.gains).is_err() {
             return Ok(()); // the first step tells
         }
         self.passage.begin(t, &self.workspace);
@@ -146,7 +146,7 @@ impl<'a> MotionOde<'a> {
         let n = self.model.layout.n_q;
         let (q, v) = (&y[..n], &y[n..2 * n]);
         if !placed {
-            kinematics::motions(q, v, &mut self.workspace.motions);
+            self.workspace.place(self.model, [q, v, &[]]);
         }
         if let Err(singular) = self.workspace.respond(self.model, t, self.gains) {
             dy.fill(f64::NAN);

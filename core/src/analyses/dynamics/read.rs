@@ -17,8 +17,7 @@ pub fn read(
     fields: &[(String, Value)],
     path: &[String],
 ) -> Result<Options, Vec<Problem>> {
-    let bodies = vec!["ground".to_string()];
-    let scope = Scope { parameters: model.blueprint.parameters.clone(), bodies };
+    let scope = Scope::of_parameters(&model.blueprint.parameters);
     let mut problems = Vec::new();
     let mut reader = Reader { model, scope, fields, path: path.to_vec(), problems: &mut problems };
     let options = reader.options();
@@ -180,7 +179,7 @@ impl<'a> Reader<'a> {
         path.push(key.to_string());
         let reach = Reach::Parameters;
         let tape = self.scope.formula(value, &path, unit, reach, self.problems)?;
-        let x = tape.evaluate(&at(&self.model.parameters, &[], 0.0));
+        let x = tape.evaluate(&at(&self.model.parameters, &[], &[], 0.0));
         if !x.is_finite() {
             self.problems.push(Problem::at(&path, format!("becomes {x}; must be finite")));
             return None;

@@ -8,7 +8,7 @@ use super::branch_averaging;
 use super::constraint_violation::{Violation, ViolationCheck};
 use super::motion_ode::parts;
 use super::options::{Options, Stabilization};
-use crate::equations::{kinematics, Gains, Workspace};
+use crate::equations::{Gains, Workspace};
 use crate::integrate::all_finite;
 use crate::math::Real;
 use crate::model::Model;
@@ -56,7 +56,7 @@ impl<'a, S: Real> ReportProjection<'a, S> {
 
     fn set_motions(&mut self, y: &[S]) {
         let n = self.model.layout.n_q;
-        kinematics::motions(&y[..n], &y[n..2 * n], &mut self.workspace.motions);
+        self.workspace.place(self.model, [&y[..n], &y[n..2 * n], &[]]);
     }
 
     /// Projects y = (q, v, works) if that was asked for; else sees whether joints are apart. The works stay: what

@@ -10,6 +10,7 @@
 use super::options::Options;
 use super::singularity_forecast::SingularityForecast;
 use crate::equations::augmented::Dependent;
+use crate::equations::forces::Acting;
 use crate::equations::{constraints, forces, mass, Singular, Workspace};
 use crate::model::{size, Model};
 use crate::stabilize::Fault;
@@ -127,14 +128,15 @@ impl SingularityPassage {
     /// noisy here, so loads are what rest is measured by, and accelerations tell balance only.
     fn rests(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
         self.loads.resize(v.len(), 0.0);
-        forces::generalized(model, &work.compiled, &work.motions, t, &mut self.loads);
+        let acting = Acting { z: &work.z, lam: None, t };
+        forces::generalized(model, &work.compiled, &work.motions, acting, &mut self.loads);
         let (mut twice, mut pull, mut applied, mut mass_all) = (0.0, 0.0, 0.0, 0.0);
-        let bodies = model.bodies.iter().zip(&work.motions).skip(1);
-        let rates = v.chunks_exact(3).zip(work.a().chunks_exact(3));
-        for (((body, motion), (v, a)), load) in bodies.zip(rates).zip(self.loads.chunks_exact(3)) {
+        let bodies = model.bodies.iter().zip(work.motions.iter()).zip(&model.layout.bodies).skip(1);
+        for ((body, motion), columns) in bodies {
+            let [v, a, load] = [v, work.a(), &self.loads].map(|x| columns.of(x));
             let block = mass::block(body, motion);
-            let square = |x: &[f64]| -> f64 {
-                let m = block.times([x[0], x[1], x[2]]);
+            let square = |x: [f64; 3]| -> f64 {
+                let m = block.times(x);
                 x.iter().zip(m).map(|(x, m)| x * m).sum()
             };
             twice += square(v);
@@ -154,12 +156,9 @@ impl SingularityPassage {
         self.residual.resize(model.layout.n_rows, 0.0);
         let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![0.0; model.layout.n_rows]);
         constraints::velocity_terms(model, &work.motions, t, &mut phi, &mut rate, &mut gamma);
-        for (k, slots) in model.layout.constraints.iter().enumerate() {
-            let rows = &mut self.residual[slots.rows.clone()];
-            constraints::times(model, k, work.matrix.jacobian(), work.a(), rows);
-        }
-        let accelerations = work.a().chunks_exact(3);
-        let fastest = accelerations.fold(0.0, |m: f64, a| m.max(a[0].abs().max(a[1].abs())));
+        constraints::times_all(model, work.matrix.jacobian(), work.a(), &mut self.residual);
+        let lengths = work.a().iter().zip(model.layout.lengths()).filter(|(_, length)| *length);
+        let fastest = lengths.fold(0.0, |m: f64, (a, _)| m.max(a.abs()));
         let largest = gamma.iter().fold(ROUNDING * fastest, |m: f64, g| m.max(g.abs()));
         let missed =
             self.residual.iter().zip(&gamma).fold(0.0, |m: f64, (r, g)| m.max((r - g).abs()));

@@ -126,13 +126,13 @@ impl<'a> StiffnessDetector<'a> {
     /// where the equations are singular.
     pub fn rates(&mut self, t: f64, [q, v]: [&[f64]; 2], probe: f64) -> Option<[Vec<f64>; 2]> {
         let gains = Gains::default();
-        self.workspace.accelerate(self.model, t, q, v, gains).ok()?;
+        self.workspace.accelerate(self.model, t, [q, v, &[]], gains).ok()?;
         let a = self.workspace.a().to_vec();
         let moved = |x: &[f64], rate: &[f64]| -> Vec<f64> {
             x.iter().zip(rate).map(|(x, rate)| x + probe * rate).collect()
         };
         let (q, v) = (moved(q, v), moved(v, &a));
-        self.workspace.accelerate(self.model, t + probe, &q, &v, gains).ok()?;
+        self.workspace.accelerate(self.model, t + probe, [&q, &v, &[]], gains).ok()?;
         let jerk = self.workspace.a().iter().zip(&a).map(|(new, a)| (new - a) / probe).collect();
         Some([a, jerk])
     }
@@ -141,7 +141,7 @@ impl<'a> StiffnessDetector<'a> {
     pub fn fastest(&mut self, t: f64, y: &[f64]) -> Option<Fastest> {
         let n = self.model.layout.n_q;
         let (q, v) = (&y[..n], &y[n..2 * n]);
-        self.workspace.accelerate(self.model, t, q, v, Gains::default()).ok()?;
+        self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default()).ok()?;
         let a = self.workspace.a().to_vec();
         let reach = largest(q).max(1e-3);
         for _ in 0..ITERATIONS {
@@ -157,7 +157,7 @@ impl<'a> StiffnessDetector<'a> {
                 };
                 let (near_q, near_v) = (moved(q, &self.x[k][..n]), moved(v, &self.x[k][n..]));
                 let gains = Gains::default();
-                self.workspace.accelerate(self.model, t, &near_q, &near_v, gains).ok()?;
+                self.workspace.accelerate(self.model, t, [&near_q, &near_v, &[]], gains).ok()?;
                 let (from, to) = self.x.split_at_mut(k + 1);
                 to[0][..n].copy_from_slice(&from[k][n..]);
                 let images =

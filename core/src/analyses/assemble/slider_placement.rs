@@ -1,8 +1,8 @@
 //! Placing bodies on slides: the angle is known from the other body, the place along the slide is
 //! not, until a pin, a coordinate or a link that reaches the slide decides it.
 
-use super::wishes::Wishes;
-use crate::elements::Side;
+use super::targets::Targets;
+use crate::elements::Fixes;
 use crate::math::{Local, Pose, Rotation, Vec2};
 use crate::model::Model;
 
@@ -35,11 +35,12 @@ const ACROSS: f64 = 1e-9;
 pub(super) fn slides(model: &Model) -> Vec<Vec<Slide>> {
     let mut slides = vec![Vec::new(); model.bodies.len()];
     for (constraint, item) in model.constraints.iter().enumerate() {
-        let ends = item.element.ends().map(|b| b.0);
-        if !item.element.slides() || ends[0] == ends[1] {
+        let fixes = item.element.fixes();
+        if !(fixes.contains(&Fixes::Line) && fixes.contains(&Fixes::Direction)) {
             continue;
         }
-        let at = [Side::I, Side::J].map(|side| item.element.attachment(side));
+        let ends = [item.bodies[0].0, item.bodies[1].0];
+        let at = [0, 1].map(|body| item.element.attachment(body));
         for (own, other) in [(0, 1), (1, 0)] {
             slides[ends[own]].push(Slide {
                 constraint,
@@ -83,9 +84,9 @@ impl Rail {
     }
 
     /// The pose nearest to what is asked for of the place of body `b`.
-    pub fn towards(&self, b: usize, wishes: &Wishes) -> Pose {
-        let wished = |c: usize, otherwise: f64| wishes.value(b, c).unwrap_or(otherwise);
-        let place = Vec2::new(wished(0, self.pose.r.x), wished(1, self.pose.r.y));
+    pub fn towards(&self, b: usize, targets: &Targets) -> Pose {
+        let targeted = |c: usize, otherwise: f64| targets.value(b, c).unwrap_or(otherwise);
+        let place = Vec2::new(targeted(0, self.pose.r.x), targeted(1, self.pose.r.y));
         self.at((place - self.pose.r).dot(self.direction))
     }
 

@@ -1,44 +1,54 @@
-//! What is asked of the coordinates before assembly: `set` (held exactly) and `guess` (approached).
+//! Targets for coordinates before assembly: `set` (held exactly) and `guess` (approached).
 
-use crate::elements::{BodyId, Constraint, Coordinate};
+use crate::elements::{BodyId, Coordinate, CoordinateOf, Fixes};
 use crate::model::{Dependence, Model};
 
-/// Values asked for, by body (ground first) and coordinate x, y, angle.
+/// Target values, by body (ground first) and coordinate x, y, angle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wishes {
+pub struct Targets {
     /// Held exactly: by `set` or by a driver.
     pub hard: Vec<[Option<f64>; 3]>,
     /// Approached: by `guess`, a given state, or where the body was drawn.
     pub soft: Vec<[Option<f64>; 3]>,
-    /// Whether the soft angle says which whole turn is meant.
+    /// Whether the soft angle decides the whole turn.
     pub turn: Vec<bool>,
 }
 
-impl Wishes {
+impl Targets {
     /// Drivers at time `t` are hard, drawn poses are soft.
     pub fn of(model: &Model, t: f64) -> Self {
         let n = model.bodies.len();
-        let mut wishes =
+        let mut targets =
             Self { hard: vec![[None; 3]; n], soft: vec![[None; 3]; n], turn: vec![false; n] };
         for (k, body) in model.bodies.iter().enumerate() {
             if let Some(drawn) = body.drawn {
-                wishes.soft[k] = drawn.map(Some);
+                targets.soft[k] = drawn.map(Some);
+            }
+            if !body.turns {
+                targets.hard[k][2] = Some(0.0);
             }
         }
         for item in &model.constraints {
             if let Some((body, coordinate, value)) = driven(model, item, t) {
-                wishes.hard[body.0][coordinate.column()] = Some(value);
+                targets.hard[body.0][coordinate.column()] = Some(value);
             }
         }
-        wishes
+        targets
     }
 
-    /// The value asked for a coordinate, hard before soft.
+    /// Makes the positions `q`, shape (n_q), soft.
+    pub fn approach(&mut self, model: &Model, q: &[f64]) {
+        for (soft, columns) in self.soft.iter_mut().zip(&model.layout.bodies).skip(1) {
+            *soft = columns.of(q).map(Some);
+        }
+    }
+
+    /// The target of a coordinate, hard before soft.
     pub fn value(&self, body: usize, column: usize) -> Option<f64> {
         self.hard[body][column].or(self.soft[body][column])
     }
 
-    /// All three values of a body, if all are asked for.
+    /// All three targets of a body, if it has all.
     pub fn pose(&self, body: usize) -> Option<[f64; 3]> {
         Some([self.value(body, 0)?, self.value(body, 1)?, self.value(body, 2)?])
     }
@@ -69,15 +79,14 @@ fn driven(
             if !depends.bodies.is_empty() {
                 return None;
             }
-            let motions = [];
-            let values = crate::equations::at(&model.parameters, &motions, t);
+            let values = crate::equations::at(&model.parameters, &[], &[], t);
             law.map(&mut |tape| tape.evaluate(&values))
         }
     };
-    match element {
-        Constraint::CoordinateDriver(e) if e.value.is_finite() => {
-            Some((e.coordinate.body, e.coordinate.coordinate, e.value))
+    element.fixes().into_iter().find_map(|fixed| match fixed {
+        Fixes::Coordinate(CoordinateOf { body, coordinate }, value) if value.is_finite() => {
+            Some((body, coordinate, value))
         }
         _ => None,
-    }
+    })
 }
