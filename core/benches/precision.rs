@@ -48,7 +48,7 @@ fn residual(model: &Model, run: &Run) -> f64 {
     let mut phi = vec![0.0; model.layout.n_rows];
     let states = run.trajectory.t.iter().zip(run.trajectory.q.chunks_exact(model.layout.n_q));
     states.fold(0.0, |worst, (&t, q)| {
-        constraints::residual(model, &kinematics::at_rest(q), t, &mut phi);
+        constraints::residual(model, &kinematics::Motions::at_rest(&model.layout, q), t, &mut phi);
         phi.iter().fold(worst, |worst, phi| worst.max(phi.abs()))
     })
 }

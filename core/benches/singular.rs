@@ -97,7 +97,7 @@ fn errors(model: &Model, run: &Run, truth: &[[f64; 2]]) -> (f64, f64) {
     let (mut error, mut residual) = (0.0_f64, 0.0_f64);
     for ((q, t), [x, y]) in run.trajectory.q.chunks_exact(n).zip(&run.trajectory.t).zip(truth) {
         error = error.max((2.0 * q[0] - x).hypot(2.0 * q[1] - y));
-        constraints::residual(model, &kinematics::at_rest(q), *t, &mut phi);
+        constraints::residual(model, &kinematics::Motions::at_rest(&model.layout, q), *t, &mut phi);
         residual = phi.iter().fold(residual, |r, phi| r.max(phi.abs()));
     }
     (error, residual)

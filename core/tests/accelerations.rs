@@ -30,7 +30,7 @@ fn four_at_once_are_the_same_as_each_by_itself() {
         let mut workspace = Workspace::new(&m);
         for k in 0..count {
             let (q, v) = (&q[9 * k..][..9], &v[9 * k..][..9]);
-            workspace.accelerate(&m, t[k], q, v, Gains::default()).unwrap();
+            workspace.accelerate(&m, t[k], [q, v, &[]], Gains::default()).unwrap();
             assert!(worst(&found.a[9 * k..][..9], workspace.a()) < 1e-12);
             assert!(worst(&found.lam[8 * k..][..8], workspace.lam()) < 1e-8); // of 1e5 N
         }

@@ -14,7 +14,12 @@ use serde_json::{json, Value};
 type Assembled<'py> = (f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, String);
 
 /// Targets from a JSON text.
-pub fn targets(py: Python<'_>, model: &PyModel, section: &str, text: &str) -> PyResult<Vec<Target>> {
+pub fn targets(
+    py: Python<'_>,
+    model: &PyModel,
+    section: &str,
+    text: &str,
+) -> PyResult<Vec<Target>> {
     core::targets(&model.model, section, &tree(py, text)?).map_err(|mut found| {
         for problem in &mut found {
             problem.path.remove(0); // "start" is a section of files

@@ -85,16 +85,24 @@ pub(crate) fn terms<S: Real>(
 ) {
     let t = Jet::new(at.t, S::one(), S::zero());
     let own = |k: usize| Jet::new(at.own[k], at.own_rates[k], S::zero());
-    with_values(at.bodies.len(), |b| moving(&at.bodies[b]), |bodies| {
-        with_values(at.own.len(), own, |own| {
-            with_values(phi.len(), |_| Jet::zero(), |jets| {
-                residual(&At { bodies, own, t }, jets);
-                for (k, jet) in jets.iter().enumerate() {
-                    (phi[k], rate[k], gamma[k]) = (jet.value, jet.rate, -jet.second);
-                }
+    with_values(
+        at.bodies.len(),
+        |b| moving(&at.bodies[b]),
+        |bodies| {
+            with_values(at.own.len(), own, |own| {
+                with_values(
+                    phi.len(),
+                    |_| Jet::zero(),
+                    |jets| {
+                        residual(&At { bodies, own, t }, jets);
+                        for (k, jet) in jets.iter().enumerate() {
+                            (phi[k], rate[k], gamma[k]) = (jet.value, jet.rate, -jet.second);
+                        }
+                    },
+                );
             });
-        });
-    });
+        },
+    );
 }
 
 /// The rows of Φ_q in the columns of the bodies that `varies` selects by their places, or of the
@@ -116,10 +124,14 @@ pub(crate) fn columns_of<S: Real>(
     };
     with_values(at.bodies.len(), body, |bodies| {
         with_values(at.own.len(), own, |own| {
-            with_values(rows.len(), |_| Dual::zero(), |phi| {
-                residual(&At { bodies, own, t: Dual::lift(at.t) }, phi);
-                rows.iter_mut().zip(phi).for_each(|(row, phi)| *row = phi.slope);
-            });
+            with_values(
+                rows.len(),
+                |_| Dual::zero(),
+                |phi| {
+                    residual(&At { bodies, own, t: Dual::lift(at.t) }, phi);
+                    rows.iter_mut().zip(phi).for_each(|(row, phi)| *row = phi.slope);
+                },
+            );
         });
     });
 }

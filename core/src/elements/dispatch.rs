@@ -2,8 +2,8 @@
 //! elements by type. The macros are called once, in `list.rs`.
 
 use super::declare::Table;
-use super::joint_trait::Joint;
 use super::force_trait::Force;
+use super::joint_trait::Joint;
 
 /// Where an element stands in a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,19 +77,21 @@ pub(super) fn declared<E: super::declare::Element>(group: Group) -> (Group, Tabl
 }
 
 macro_rules! constraints {
-    ($($Group:ident { $($Name:ident),+ $(,)? })+) => {
+    ($($Group:ident { $($(#[$on:meta])* $Name:ident),+ $(,)? })+) => {
         /// A joint or a driver of any type.
         #[derive(Clone, Debug)]
         #[allow(missing_docs)] // each variant is documented at its element
         pub enum Constraint<S = f64> {
-            $($($Name($Name<S>),)+)+
+            $($($(#[$on])* $Name($Name<S>),)+)+
         }
 
         impl Constraint<Tape> {
             /// Reads an element by the name of its type; the outer None if there is no such type.
             pub fn read(group: Group, kind: &str, source: &mut dyn Source) -> Option<Option<Self>> {
-                $($(if group == Group::$Group && kind == <$Name>::NAME {
-                    return Some(<$Name>::read(source).map(Self::$Name));
+                $($($(#[$on])* {
+                    if group == Group::$Group && kind == <$Name>::NAME {
+                        return Some(<$Name>::read(source).map(Self::$Name));
+                    }
                 })+)+
                 None
             }
@@ -98,60 +100,60 @@ macro_rules! constraints {
         impl<S> Constraint<S> {
             /// The same constraint over another scalar.
             pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Constraint<T> {
-                match self { $($(Self::$Name(e) => Constraint::$Name(<$Name>::map(e, f)),)+)+ }
+                match self { $($($(#[$on])* Self::$Name(e) => Constraint::$Name(<$Name>::map(e, f)),)+)+ }
             }
             /// Name of the type.
             pub fn kind(&self) -> &'static str {
-                match self { $($(Self::$Name(_) => <$Name>::NAME,)+)+ }
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name>::NAME,)+)+ }
             }
             /// The bodies whose poses enter Φ: i and j first.
             pub fn bodies(&self) -> Vec<BodyId> {
-                match self { $($(Self::$Name(e) => <$Name>::bodies(e),)+)+ }
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+)+ }
             }
             /// Number of internal coordinates.
             pub fn own(&self) -> usize {
-                match self { $($(Self::$Name(_) => <$Name as Joint>::OWN,)+)+ }
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::OWN,)+)+ }
             }
             /// Whether the columns of translation are -I for body i and +I for body j.
             pub fn constant_columns(&self) -> bool {
-                match self { $($(Self::$Name(_) => <$Name as Joint>::CONSTANT_COLUMNS,)+)+ }
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::CONSTANT_COLUMNS,)+)+ }
             }
             /// Names and units of the equations.
             pub fn equations(&self) -> Vec<Equation> {
-                match self { $($(Self::$Name(e) => <$Name>::equations(e),)+)+ }
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name>::equations(e),)+)+ }
             }
         }
 
         impl<S: Clone> Constraint<S> {
             /// What the constraint fixes, for assembly.
             pub fn fixes(&self) -> Vec<Fixes<S>> {
-                match self { $($(Self::$Name(e) => <$Name as Joint>::fixes(e),)+)+ }
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::fixes(e),)+)+ }
             }
         }
 
         impl Constraint {
             /// First values of the internal coordinates for bodies at given poses.
             pub fn own_start(&self, bodies: &[Pose]) -> Vec<f64> {
-                match self { $($(Self::$Name(e) => <$Name as Joint>::own_start(e, bodies),)+)+ }
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::own_start(e, bodies),)+)+ }
             }
             /// A field with an impossible value, and the reason.
             pub fn fault(&self) -> Option<(&'static str, String)> {
-                match self { $($(Self::$Name(e) => <$Name as Joint>::fault(e),)+)+ }
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::fault(e),)+)+ }
             }
         }
 
         impl<S: Real> Constraint<S> {
             /// Φ, one entry for each equation.
             pub fn residual(&self, at: &At<'_, S>, phi: &mut [S]) {
-                match self { $($(Self::$Name(e) => <$Name as Joint>::residual(e, at, phi),)+)+ }
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::residual(e, at, phi),)+)+ }
             }
             /// Φ, Φ̇, γ and Φ_q for fields that do not vary with time or state.
             pub fn linearize(&self, at: &Moving<'_, S>, out: Linearized<'_, S>) {
-                match self { $($(Self::$Name(e) => <$Name as Joint>::linearize(e, at, out),)+)+ }
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::linearize(e, at, out),)+)+ }
             }
             /// The joint frame on a body, given by its place in [`bodies`](Self::bodies).
             pub fn attachment(&self, body: usize) -> Attachment<S> {
-                match self { $($(Self::$Name(e) => <$Name as Joint>::attachment(e, body),)+)+ }
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::attachment(e, body),)+)+ }
             }
             /// The same constraint over a scalar that contains this one.
             pub fn lift<T: Lift<S>>(&self) -> Constraint<T> {
@@ -161,42 +163,47 @@ macro_rules! constraints {
 
         /// Joints and drivers, stored together by type.
         #[derive(Clone, Debug)]
-        pub struct JointPools<S = f64>($($(Vec<Pooled<$Name<S>>>,)+)+);
+        #[allow(non_snake_case)] // one list for each type
+        pub struct JointPools<S = f64> {
+            $($($(#[$on])* $Name: Vec<Pooled<$Name<S>>>,)+)+
+        }
 
         impl<S> Default for JointPools<S> {
             fn default() -> Self {
-                Self($($(Vec::<Pooled<$Name<S>>>::new(),)+)+)
+                Self { $($($(#[$on])* $Name: Vec::new(),)+)+ }
             }
         }
 
         impl<S: Real> JointPools<S> {
             /// Adds a constraint.
-            #[allow(non_snake_case)] // one variable for each type
             pub fn push(&mut self, constraint: &Constraint<S>, place: Place) {
-                let Self($($($Name,)+)+) = self;
-                match constraint { $($(Constraint::$Name(e) => {
-                    $Name.push(Pooled { element: e.clone(), place });
+                match constraint { $($($(#[$on])* Constraint::$Name(e) => {
+                    self.$Name.push(Pooled { element: e.clone(), place });
                 })+)+ }
             }
             /// Shows every type that occurs to the visitor.
             #[inline(always)]
-            #[allow(non_snake_case)] // one variable for each type
             pub fn visit(&self, visitor: &mut impl VisitJoints<S>) {
-                let Self($($($Name,)+)+) = self;
-                $($(if !$Name.is_empty() {
-                    visitor.visit::<$Name>($Name);
+                $($($(#[$on])* {
+                    if !self.$Name.is_empty() {
+                        visitor.visit::<$Name>(&self.$Name);
+                    }
                 })+)+
             }
         }
 
         fn constraint_tables() -> Vec<(Group, Table)> {
-            vec![$($(declared::<$Name>(Group::$Group),)+)+]
+            let mut all = Vec::new();
+            $($($(#[$on])* all.push(declared::<$Name>(Group::$Group));)+)+
+            all
         }
 
         /// The equations of a type of joint or driver as formulas; None if there is no such type.
         pub fn formulas(group: Group, kind: &str) -> Option<&'static [Formula]> {
-            $($(if group == Group::$Group && kind == <$Name>::NAME {
-                return Some(<$Name as Joint>::FORMULAS);
+            $($($(#[$on])* {
+                if group == Group::$Group && kind == <$Name>::NAME {
+                    return Some(<$Name as Joint>::FORMULAS);
+                }
             })+)+
             None
         }
@@ -204,19 +211,21 @@ macro_rules! constraints {
 }
 
 macro_rules! forces {
-    ($($Name:ident),+ $(,)?) => {
+    ($($(#[$on:meta])* $Name:ident),+ $(,)?) => {
         /// A force of any type.
         #[derive(Clone, Debug)]
         #[allow(missing_docs)] // each variant is documented at its element
         pub enum ForceElement<S = f64> {
-            $($Name($Name<S>),)+
+            $($(#[$on])* $Name($Name<S>),)+
         }
 
         impl ForceElement<Tape> {
             /// Reads an element by the name of its type; the outer None if there is no such type.
             pub fn read(kind: &str, source: &mut dyn Source) -> Option<Option<Self>> {
-                $(if kind == <$Name>::NAME {
-                    return Some(<$Name>::read(source).map(Self::$Name));
+                $($(#[$on])* {
+                    if kind == <$Name>::NAME {
+                        return Some(<$Name>::read(source).map(Self::$Name));
+                    }
                 })+
                 None
             }
@@ -224,8 +233,10 @@ macro_rules! forces {
 
         /// The first-order states of a force of a type for which the named fields are `given`.
         pub fn states_of(kind: &str, given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
-            $(if kind == <$Name>::NAME {
-                return <$Name as Force>::states(given);
+            $($(#[$on])* {
+                if kind == <$Name>::NAME {
+                    return <$Name as Force>::states(given);
+                }
             })+
             &[]
         }
@@ -233,96 +244,99 @@ macro_rules! forces {
         impl<S> ForceElement<S> {
             /// The same force over another scalar.
             pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> ForceElement<T> {
-                match self { $(Self::$Name(e) => ForceElement::$Name(<$Name>::map(e, f)),)+ }
+                match self { $($(#[$on])* Self::$Name(e) => ForceElement::$Name(<$Name>::map(e, f)),)+ }
             }
             /// Name of the type.
             pub fn kind(&self) -> &'static str {
-                match self { $(Self::$Name(_) => <$Name>::NAME,)+ }
+                match self { $($(#[$on])* Self::$Name(_) => <$Name>::NAME,)+ }
             }
             /// The bodies on which the force acts: i and j first.
             pub fn bodies(&self) -> Vec<BodyId> {
-                match self { $(Self::$Name(e) => <$Name>::bodies(e),)+ }
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+ }
             }
             /// The named parts, in the order of [`ForceElement::action`].
             pub fn parts(&self) -> &'static [Part] {
-                match self { $(Self::$Name(_) => <$Name as Force>::PARTS,)+ }
+                match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::PARTS,)+ }
             }
             /// The joint whose reaction enters the force.
             pub fn reaction(&self) -> Option<JointId> {
-                match self { $(Self::$Name(e) => <$Name>::reaction(e),)+ }
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::reaction(e),)+ }
             }
         }
 
         impl ForceElement {
             /// A field with an impossible value, and the reason.
             pub fn fault(&self) -> Option<(&'static str, String)> {
-                match self { $(Self::$Name(e) => <$Name as Force>::fault(e),)+ }
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::fault(e),)+ }
             }
         }
 
         impl<S: Real> ForceElement<S> {
             /// The wrench of each part on each body, see [`Force::action`].
             pub fn action(&self, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {
-                match self { $(Self::$Name(e) => <$Name>::action(e, at, out),)+ }
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::action(e, at, out),)+ }
             }
             /// ż of the element.
             pub fn state_rates(&self, at: &Situation<'_, S>, out: &mut [S]) {
-                match self { $(Self::$Name(e) => <$Name>::state_rates(e, at, out),)+ }
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::state_rates(e, at, out),)+ }
             }
             /// Powers beside those of the wrenches.
             pub fn own_powers(&self, at: &Situation<'_, S>) -> OwnPowers<S> {
-                match self { $(Self::$Name(e) => <$Name>::own_powers(e, at),)+ }
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::own_powers(e, at),)+ }
             }
             /// The relative angle at which a rotational spring is relaxed.
             pub fn free_angle(&self) -> Option<S> {
-                match self { $(Self::$Name(e) => <$Name>::free_angle(e),)+ }
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::free_angle(e),)+ }
             }
             /// The points of body i and body j between which the force acts along their line.
             pub fn points(&self) -> Option<[Local<S>; 2]> {
-                match self { $(Self::$Name(e) => <$Name>::points(e),)+ }
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::points(e),)+ }
             }
             /// Energy stored in the states, J.
             pub fn own_energy(&self, at: &Situation<'_, S>) -> S {
-                match self { $(Self::$Name(e) => <$Name>::own_energy(e, at),)+ }
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::own_energy(e, at),)+ }
             }
             /// Potential energy of the conservative parts, J.
             pub fn potential(&self, at: &Situation<'_, S>) -> S {
-                match self { $(Self::$Name(e) => <$Name>::potential(e, at),)+ }
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::potential(e, at),)+ }
             }
         }
 
         /// Forces, stored together by type.
         #[derive(Clone, Debug)]
-        pub struct ForcePools<S = f64>($(Vec<Pooled<$Name<S>>>,)+);
+        #[allow(non_snake_case)] // one list for each type
+        pub struct ForcePools<S = f64> {
+            $($(#[$on])* $Name: Vec<Pooled<$Name<S>>>,)+
+        }
 
         impl<S> Default for ForcePools<S> {
             fn default() -> Self {
-                Self($(Vec::<Pooled<$Name<S>>>::new(),)+)
+                Self { $($(#[$on])* $Name: Vec::new(),)+ }
             }
         }
 
         impl<S: Real> ForcePools<S> {
             /// Adds a force.
-            #[allow(non_snake_case)] // one variable for each type
             pub fn push(&mut self, force: &ForceElement<S>, place: Place) {
-                let Self($($Name,)+) = self;
-                match force { $(ForceElement::$Name(e) => {
-                    $Name.push(Pooled { element: e.clone(), place });
+                match force { $($(#[$on])* ForceElement::$Name(e) => {
+                    self.$Name.push(Pooled { element: e.clone(), place });
                 })+ }
             }
             /// Shows every type that occurs to the visitor.
             #[inline(always)]
-            #[allow(non_snake_case)] // one variable for each type
             pub fn visit(&self, visitor: &mut impl VisitForces<S>) {
-                let Self($($Name,)+) = self;
-                $(if !$Name.is_empty() {
-                    visitor.visit::<$Name>($Name);
+                $($(#[$on])* {
+                    if !self.$Name.is_empty() {
+                        visitor.visit::<$Name>(&self.$Name);
+                    }
                 })+
             }
         }
 
         fn force_tables() -> Vec<(Group, Table)> {
-            vec![$(declared::<$Name>(Group::Forces),)+]
+            let mut all = Vec::new();
+            $($(#[$on])* all.push(declared::<$Name>(Group::Forces));)+
+            all
         }
     };
 }

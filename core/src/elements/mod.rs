@@ -17,6 +17,9 @@ mod list;
 pub mod drivers;
 pub mod forces;
 pub mod joints;
+#[cfg(feature = "test-elements")]
+#[path = "../../tests/elements/mod.rs"]
+pub mod test_elements;
 
 use declare::join;
 pub use declare::{element, Default, Element, Field, Table};

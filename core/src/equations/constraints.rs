@@ -7,10 +7,12 @@
 use super::kinematics::Motions;
 use super::laws::{self, Laws};
 use super::motion::Gains;
-use crate::elements::derive::{columns_of, moving, participants, seeded, terms, with_values, ByThree};
+use crate::elements::derive::{
+    columns_of, moving, participants, seeded, terms, with_values, ByThree,
+};
 use crate::elements::{At, BodyId, Constraint, Coordinate, Linearized, Moving};
 use crate::expression::Tape;
-use crate::math::{Jet, Lift, Real, Twist};
+use crate::math::{Jet, Real, Twist};
 use crate::model::{Block, ConstraintItem, Model, Slots, StateLayout};
 
 /// Φ(q, t), shape (m).
@@ -18,16 +20,20 @@ pub fn residual<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, out: &mut
     for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
         let phi = &mut out[slots.rows.clone()];
         let (own, _) = motions.own(slots.own);
-        with_values(item.bodies.len(), |b| motions[item.bodies[b].0].pose, |bodies| {
-            let at = At { bodies, own, t };
-            match &item.law {
-                None => item.element.residual(&at, phi),
-                Some(law) => {
-                    let values = laws::at(&model.parameters, motions, &[], t);
-                    law.map(&mut |tape| tape.evaluate(&values)).residual(&at, phi);
+        with_values(
+            item.bodies.len(),
+            |b| motions[item.bodies[b].0].pose,
+            |bodies| {
+                let at = At { bodies, own, t };
+                match &item.law {
+                    None => item.element.residual(&at, phi),
+                    Some(law) => {
+                        let values = laws::at(&model.parameters, motions, &[], t);
+                        law.map(&mut |tape| tape.evaluate(&values)).residual(&at, phi);
+                    }
                 }
-            }
-        });
+            },
+        );
     }
 }
 
@@ -154,30 +160,44 @@ pub(super) fn linearize_one<S: Real, R>(
         None => participants(bodies.len(), own.len()),
         Some(_) => slots.blocks.len(),
     };
-    with_values(bodies.len(), |b| motions[bodies[b].0], |all| {
-        let at = Moving { bodies: all, own, own_rates, t };
-        with_values(3 * m, |_| S::zero(), |terms| {
-            let (residual, rest) = terms.split_at_mut(m);
-            let (rate, gamma) = rest.split_at_mut(m);
-            with_values(count * m, |_| [S::zero(); 3], |columns| {
-                let by_block = match &item.law {
-                    None => {
-                        let out = Linearized { residual, rate, gamma, columns };
-                        item.element.linearize(&at, out);
-                        ByBlock::Participants(bodies, columns)
-                    }
-                    Some(law) => {
-                        law_terms(model, law, motions, &at, [residual, rate, gamma]);
-                        for (block, rows) in slots.blocks.iter().zip(columns.chunks_exact_mut(m)) {
-                            law_columns((model, item, law), motions, &at, block, rows);
-                        }
-                        ByBlock::Blocks(columns)
-                    }
-                };
-                take(&Terms { residual, rate, gamma }, by_block)
-            })
-        })
-    })
+    with_values(
+        bodies.len(),
+        |b| motions[bodies[b].0],
+        |all| {
+            let at = Moving { bodies: all, own, own_rates, t };
+            with_values(
+                3 * m,
+                |_| S::zero(),
+                |terms| {
+                    let (residual, rest) = terms.split_at_mut(m);
+                    let (rate, gamma) = rest.split_at_mut(m);
+                    with_values(
+                        count * m,
+                        |_| [S::zero(); 3],
+                        |columns| {
+                            let by_block = match &item.law {
+                                None => {
+                                    let out = Linearized { residual, rate, gamma, columns };
+                                    item.element.linearize(&at, out);
+                                    ByBlock::Participants(bodies, columns)
+                                }
+                                Some(law) => {
+                                    law_terms(model, law, motions, &at, [residual, rate, gamma]);
+                                    for (block, rows) in
+                                        slots.blocks.iter().zip(columns.chunks_exact_mut(m))
+                                    {
+                                        law_columns((model, item, law), motions, &at, block, rows);
+                                    }
+                                    ByBlock::Blocks(columns)
+                                }
+                            };
+                            take(&Terms { residual, rate, gamma }, by_block)
+                        },
+                    )
+                },
+            )
+        },
+    )
 }
 
 /// Puts the rows of a constraint into its blocks.
@@ -210,9 +230,8 @@ fn law_terms<S: Real>(
     at: &Moving<'_, S>,
     out: [&mut [S]; 3],
 ) {
-    let coordinate = |body: BodyId, c: Coordinate| -> Jet<S> {
-        c.of(&moving(&motions[body.0]), &Twist::zero())
-    };
+    let coordinate =
+        |body: BodyId, c: Coordinate| -> Jet<S> { c.of(&moving(&motions[body.0]), &Twist::zero()) };
     let residual = |at: &At<'_, Jet<S>>, phi: &mut [Jet<S>]| {
         let values = Laws { parameters: &model.parameters, t: at.t, coordinate, z: &[] };
         law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);

@@ -105,9 +105,8 @@ pub(super) fn by_constraint(lifted: &Model<D>, pairs: &mut Pairs) -> Vec<ByConst
             for motions in &trials {
                 changes(lifted, k, seed, motions, &mut columns, &mut coupled);
             }
-            let pair = |(to, coupled): (&Block, bool)| {
-                coupled.then(|| pairs.index(to.owner, seed.owner))
-            };
+            let pair =
+                |(to, coupled): (&Block, bool)| coupled.then(|| pairs.index(to.owner, seed.owner));
             found.push(blocks.iter().zip(coupled).map(pair).collect());
         }
         found

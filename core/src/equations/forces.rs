@@ -87,10 +87,14 @@ impl<S: Real> VisitForces<S> for Sum<'_, S> {
             let bodies = &self.model.forces[item].bodies;
             let (model, motions, acting) = (self.model, self.motions, self.acting);
             situation(model, item, motions, acting, |at| {
-                with_values(E::PARTS.len() * bodies.len(), |_| Wrench::zero(), |wrenches| {
-                    E::action(element, at, wrenches);
-                    self.add(bodies, E::PARTS, false, wrenches);
-                });
+                with_values(
+                    E::PARTS.len() * bodies.len(),
+                    |_| Wrench::zero(),
+                    |wrenches| {
+                        E::action(element, at, wrenches);
+                        self.add(bodies, E::PARTS, false, wrenches);
+                    },
+                );
                 let own = E::own_powers(element, at);
                 self.powers.dissipated += own.dissipated;
                 self.powers.applied += own.applied;
@@ -106,10 +110,14 @@ impl<S: Real> Sum<'_, S> {
         let element = at_state(model, item, motions, acting);
         let parts = element.parts();
         situation(model, k, motions, acting, |at| {
-            with_values(parts.len() * item.bodies.len(), |_| Wrench::zero(), |wrenches| {
-                element.action(at, wrenches);
-                self.add(&item.bodies, parts, true, wrenches);
-            });
+            with_values(
+                parts.len() * item.bodies.len(),
+                |_| Wrench::zero(),
+                |wrenches| {
+                    element.action(at, wrenches);
+                    self.add(&item.bodies, parts, true, wrenches);
+                },
+            );
             let own = element.own_powers(at);
             self.powers.dissipated += own.dissipated;
             self.powers.applied += own.applied;
@@ -164,9 +172,11 @@ fn situation<S: Real, R>(
         (Some(joint), Some(lam)) => seen(model, joint.0, motions, lam, t),
         _ => Wrench::zero(),
     };
-    with_values(item.bodies.len(), |b| motions[item.bodies[b].0], |bodies| {
-        take(&Situation { bodies, z: &z[model.layout.states[k].clone()], reaction, t })
-    })
+    with_values(
+        item.bodies.len(),
+        |b| motions[item.bodies[b].0],
+        |bodies| take(&Situation { bodies, z: &z[model.layout.states[k].clone()], reaction, t }),
+    )
 }
 
 /// The reaction of a joint on its body j at its joint point, in the global frame.
@@ -196,11 +206,15 @@ pub fn each_wrench<S: Real>(
     let element = at_state(model, item, motions, acting);
     situation(model, k, motions, acting, |at| {
         let n = item.bodies.len();
-        with_values(element.parts().len() * n, |_| Wrench::zero(), |wrenches| {
-            element.action(at, wrenches);
-            let all = wrenches.iter().enumerate();
-            all.for_each(|(place, w)| visit(place / n, item.bodies[place % n], *w));
-        });
+        with_values(
+            element.parts().len() * n,
+            |_| Wrench::zero(),
+            |wrenches| {
+                element.action(at, wrenches);
+                let all = wrenches.iter().enumerate();
+                all.for_each(|(place, w)| visit(place / n, item.bodies[place % n], *w));
+            },
+        );
     });
 }
 

@@ -65,9 +65,11 @@ impl Places {
 
 /// Each block of Φ_q: constraint, body (from 0 without ground), first entry.
 fn blocks(layout: &StateLayout) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
-    layout.constraints.iter().enumerate().flat_map(|(k, slots)| {
-        slots.blocks.iter().map(move |block| (k, block.owner, block.first))
-    })
+    layout
+        .constraints
+        .iter()
+        .enumerate()
+        .flat_map(|(k, slots)| slots.blocks.iter().map(move |block| (k, block.owner, block.first)))
 }
 
 /// Puts the matrix together, with the factors [c_a, c_v, c_q, c_b] of M, D, K and B.

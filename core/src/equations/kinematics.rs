@@ -29,7 +29,12 @@ impl<S: Real> Motions<S> {
         let bodies = layout.bodies.len();
         let first_own = layout.bodies.iter().map(|columns| columns.range().end).max().unwrap_or(0);
         let none = vec![S::zero(); layout.n_q - first_own];
-        Self { bodies: vec![Motion::ground(); bodies], first_own, own: none.clone(), own_rates: none }
+        Self {
+            bodies: vec![Motion::ground(); bodies],
+            first_own,
+            own: none.clone(),
+            own_rates: none,
+        }
     }
 
     /// At the coordinates `q` and rates `v`, both of shape (n_q).

@@ -50,7 +50,10 @@ impl<S: Real> Pin<S> {
 }
 
 /// All pins of a model that touch a moving body, in the order of the constraints.
-pub(super) fn pins<S: Real>(constraints: &[ConstraintItem<S>], layout: &StateLayout) -> Vec<Pin<S>> {
+pub(super) fn pins<S: Real>(
+    constraints: &[ConstraintItem<S>],
+    layout: &StateLayout,
+) -> Vec<Pin<S>> {
     let index = |i: usize| u32::try_from(i).expect("fewer than 2^32 rows");
     let items = constraints.iter().zip(&layout.constraints).enumerate();
     let pins = items.filter(|(_, (_, slots))| slots.blocks.iter().any(|block| block.sign != 0.0));

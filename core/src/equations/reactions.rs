@@ -59,15 +59,19 @@ fn against<S: Real>(
     t: S,
     lam: &[S],
 ) -> Wrench<S> {
-    with_values(lam.len(), |_| [S::zero(); 3], |rows| {
-        constraints::columns_by_body(model, k, motions, t, body, rows);
-        let mut w = Wrench::zero();
-        for ([x, y, angle], lam) in rows.iter().zip(lam) {
-            let row = Wrench { force: Vec2::new(*x, *y).scale(*lam), torque: *angle * *lam };
-            w = w + -row;
-        }
-        w
-    })
+    with_values(
+        lam.len(),
+        |_| [S::zero(); 3],
+        |rows| {
+            constraints::columns_by_body(model, k, motions, t, body, rows);
+            let mut w = Wrench::zero();
+            for ([x, y, angle], lam) in rows.iter().zip(lam) {
+                let row = Wrench { force: Vec2::new(*x, *y).scale(*lam), torque: *angle * *lam };
+                w = w + -row;
+            }
+            w
+        },
+    )
 }
 
 /// What a constraint with a law takes from all moving bodies together, about the global origin.

@@ -7,8 +7,8 @@
 //! its joints; that of redundant rows by their damping (the method of multipliers).
 
 use super::augmented::{Augmented, Dependent};
-use super::{constraints, mass, Compiled};
 use super::kinematics::Motions;
+use super::{constraints, mass, Compiled};
 use crate::math::Real;
 use crate::model::Model;
 

@@ -10,11 +10,11 @@
 //! stored as blocks (owner, owner); only the blocks that an element couples exist. Derivatives that few
 //! models have, by states and multipliers, are lists of [`Entry`].
 
+use super::constraints;
 use super::coupling::{self, Pairs, Participants};
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
 use super::mass::{self, MassBlock};
-use super::constraints;
 use crate::elements::derive::{seeded, ByThree};
 use crate::math::{Dual, Lift, Motion, Real, Twist, Vec2};
 use crate::model::{Block, Body, Model, Slots};
@@ -249,10 +249,12 @@ impl Tangent {
                 Entry { owner: body.0 - 1, at, values }
             };
             match by {
-                Variable::Position(b) => own.pair(b, body)
+                Variable::Position(b) => own
+                    .pair(b, body)
                     .into_iter()
                     .for_each(|pair| add(&mut self.stiffness[pair], rows, -1.0)),
-                Variable::Velocity(b) => own.pair(b, body)
+                Variable::Velocity(b) => own
+                    .pair(b, body)
                     .into_iter()
                     .for_each(|pair| add(&mut self.damping[pair], rows, -1.0)),
                 Variable::State(at) => self.states.forces.push(entry(at)),

@@ -5,8 +5,8 @@ use super::definition::{Definition, Entry, Value};
 use super::link::{self, Linker, Scope};
 use super::model::{Body, Model};
 use super::problem::Problem;
-use super::{checks, parameters};
 use super::variable::Variable;
+use super::{checks, parameters};
 use crate::elements::{
     holding, BodyId, Constraint, CoordinateOf, Fixes, ForceElement, Group, OwnState,
 };
@@ -90,8 +90,7 @@ impl Blueprint {
             problems.push(Problem::at(&[group.section(), &entry.name], message));
             return;
         };
-        let joints: Vec<&str> =
-            self.constraints.iter().map(|(name, ..)| name.as_str()).collect();
+        let joints: Vec<&str> = self.constraints.iter().map(|(name, ..)| name.as_str()).collect();
         let mut linker = Linker::new(group, entry, scope, (&self.bodies, &joints), problems);
         let known = if group == Group::Forces {
             ForceElement::read(kind, &mut linker).map(|e| {
@@ -142,7 +141,9 @@ impl Blueprint {
         problems: &mut Vec<Problem>,
     ) -> bool {
         for fixed in constraint.fixes() {
-            let Fixes::Coordinate(CoordinateOf { body, coordinate }, value) = fixed else { continue };
+            let Fixes::Coordinate(CoordinateOf { body, coordinate }, value) = fixed else {
+                continue;
+            };
             let own = Symbol::Variable(Variable::Coordinate(body, coordinate).index());
             if value.symbols().contains(&own) {
                 let name = format!("{}.{}", self.bodies[body.0].name, coordinate.name());

@@ -110,7 +110,8 @@ impl StateLayout {
         constraints: &[Touched],
         states: impl Iterator<Item = usize>,
     ) -> Self {
-        let mut layout = Self { n_works: WORKS, bodies: vec![Columns::default()], ..Self::default() };
+        let mut layout =
+            Self { n_works: WORKS, bodies: vec![Columns::default()], ..Self::default() };
         for count in bodies {
             let columns = layout.own(count);
             layout.bodies.push(columns);

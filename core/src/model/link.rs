@@ -1,7 +1,7 @@
 //! From the text of a field to what it means: names become indices, text becomes formulas.
 
-use super::definition::{Definition, Entry, Value};
 use super::body_fields::POINT_MASS;
+use super::definition::{Definition, Entry, Value};
 use super::model::Body;
 use super::problem::Problem;
 use super::variable::Variable;
@@ -326,7 +326,8 @@ impl Source for Linker<'_> {
         match Coordinate::named(name) {
             _ if body.is_ground() => self.report(field, "ground does not move".to_string(), None),
             Some(Coordinate::Angle) if !self.bodies[body.0].turns => {
-                let message = format!("{} is a point mass and has no angle", self.bodies[body.0].name);
+                let message =
+                    format!("{} is a point mass and has no angle", self.bodies[body.0].name);
                 self.report(field, message, None)
             }
             Some(coordinate) if !coordinate.is_rate() => Some(CoordinateOf { body, coordinate }),

@@ -13,8 +13,8 @@
 //! motion, so its last factor serves: chord iterations, whose error falls by about the share of the
 //! mechanism's size that is corrected. It is factorised anew only where that is too slow.
 
-use crate::equations::{constraints, Residuals, Singular, Workspace};
 use crate::equations::kinematics::Motions;
+use crate::equations::{constraints, Residuals, Singular, Workspace};
 use crate::math::{Largest, Real};
 use crate::model::{column_scales, Model};
 

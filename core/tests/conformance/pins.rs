@@ -87,8 +87,10 @@ fn accelerations_solve_the_equations_in_full() {
         for _ in 0..5 {
             let (q, v) = (numbers.many(n), numbers.many(n));
             let mut workspace = Workspace::new(&model);
-            workspace.accelerate(&model, 0.2, &q, &v, gains).expect("random states are regular");
-            let full = dense::matrices(&model, 0.2, &q, &v);
+            workspace
+                .accelerate(&model, 0.2, [&q, &v, &[]], gains)
+                .expect("random states are regular");
+            let full = dense::matrices(&model, 0.2, [&q, &v, &[]]);
             let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
             let motions = &workspace.motions;
             constraints::velocity_terms(&model, motions, 0.2, &mut phi, &mut rate, &mut gamma);
@@ -110,7 +112,9 @@ fn entries_are_restored() {
         let mut numbers = Random::new(12);
         let (q, v) = (numbers.many(n), numbers.many(n));
         let mut workspace = Workspace::new(&model);
-        workspace.accelerate(&model, 0.0, &q, &v, Gains::default()).expect("a regular state");
+        workspace
+            .accelerate(&model, 0.0, [&q, &v, &[]], Gains::default())
+            .expect("a regular state");
         workspace.matrix.restore_jacobian();
         let mut entries = vec![0.0; model.layout.n_entries];
         constraints::jacobian(&model, &workspace.motions, 0.0, &mut entries);
@@ -126,7 +130,9 @@ fn residuals_are_those_of_the_constraints() {
         let mut numbers = Random::new(15);
         let (q, v) = (numbers.many(n), numbers.many(n));
         let mut workspace = Workspace::new(&model);
-        workspace.accelerate(&model, 0.2, &q, &v, Gains::default()).expect("a regular state");
+        workspace
+            .accelerate(&model, 0.2, [&q, &v, &[]], Gains::default())
+            .expect("a regular state");
         let motions = &workspace.motions;
         let mut residuals = Residuals::new(&model);
         let gaps = residuals.look(&model, motions, 0.2);
@@ -150,7 +156,7 @@ fn stale_entries_are_not_given_out() {
     let model = model(FOUR_BAR);
     let mut workspace = Workspace::new(&model);
     let q = Random::new(13).many(model.layout.n_q);
-    workspace.accelerate(&model, 0.0, &q, &q, Gains::default()).expect("a regular state");
+    workspace.accelerate(&model, 0.0, [&q, &q, &[]], Gains::default()).expect("a regular state");
     workspace.matrix.jacobian();
 }
 
@@ -162,9 +168,10 @@ fn the_factor_of_an_evaluation_serves_other_right_sides() {
         let mut numbers = Random::new(14);
         let (q, v, b) = (numbers.many(n), numbers.many(n), numbers.many(n + m));
         let mut workspace = Workspace::new(&model);
-        workspace.accelerate(&model, 0.0, &q, &v, Gains::default()).expect("a regular state");
-        let mut motions = Vec::new();
-        kinematics::motions(&q, &v, &mut motions);
+        workspace
+            .accelerate(&model, 0.0, [&q, &v, &[]], Gains::default())
+            .expect("a regular state");
+        let motions = kinematics::Motions::at(&model.layout, &q, &v);
         let mut matrix = Augmented::new(&model);
         constraints::jacobian(&model, &motions, 0.0, matrix.jacobian_mut());
         matrix.set_mass(&workspace.compiled, &motions);

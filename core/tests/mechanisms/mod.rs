@@ -5,6 +5,7 @@ use kempe::analyses::assemble::{assemble, targets, Failure, Report, Request, Tar
 use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme};
 use kempe::analyses::State;
 use kempe::case::{read, Format};
+use kempe::equations::kinematics::Motions;
 use kempe::integrate::{Flow, Rk45};
 use kempe::model::{build, Model, Value};
 
@@ -174,13 +175,13 @@ pub fn every(h: f64, options: Options) -> Options {
 
 /// Column of the coordinate `x`, `y` or `angle` of a body in q.
 pub fn column(model: &Model, body: &str, coordinate: usize) -> usize {
-    3 * (model.body(body).expect("a body").0 - 1) + coordinate
+    model.layout.bodies[model.body(body).expect("a body").0].first + coordinate
 }
 
 /// Φ at a state.
 pub fn residual(model: &Model, state: &State) -> Vec<f64> {
     let mut phi = vec![0.0; model.layout.n_rows];
-    let motions = kempe::equations::kinematics::at_rest(&state.q);
+    let motions = Motions::at_rest(&model.layout, &state.q);
     kempe::equations::constraints::residual(model, &motions, state.t, &mut phi);
     phi
 }
@@ -188,8 +189,7 @@ pub fn residual(model: &Model, state: &State) -> Vec<f64> {
 /// Φ_q q̇ + Φ_t at a state.
 pub fn rate(model: &Model, state: &State) -> Vec<f64> {
     let m = model.layout.n_rows;
-    let mut motions = Vec::new();
-    kempe::equations::kinematics::motions(&state.q, &state.v, &mut motions);
+    let motions = Motions::at(&model.layout, &state.q, &state.v);
     let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
     kempe::equations::constraints::velocity_terms(
         model, &motions, state.t, &mut phi, &mut rate, &mut gamma,

@@ -23,7 +23,7 @@ fn the_assembled_start() {
 fn the_jacobian_with_its_signs() {
     let (m, start) = four_bar();
     let table = reference("four_bar")["Phi_q_at_start_rounded"].clone();
-    let dense = dense::jacobian(&m, &kinematics::at_rest(&start.q), 0.0);
+    let dense = dense::jacobian(&m, &kinematics::Motions::at_rest(&m.layout, &start.q), 0.0);
     for (k, truth) in table.as_array().unwrap().iter().enumerate() {
         for (a, b) in row(&dense, 9, k).iter().zip(numbers(truth)) {
             close("Φ_q", *a, b, 0.05 + 1e-9);

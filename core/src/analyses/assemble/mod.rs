@@ -4,6 +4,7 @@
 //! of drivers and of `set` ([`Closing`]), turned by whole turns to relax springs, and given the
 //! consistent velocities nearest to those asked for. What is consistent already is left alone.
 
+mod angle_winding;
 mod closing;
 mod dyad;
 mod failure;
@@ -12,9 +13,8 @@ mod placement;
 mod report;
 mod request;
 mod slider_placement;
-mod angle_winding;
-mod velocities;
 mod targets;
+mod velocities;
 
 pub use closing::Closing;
 pub use failure::{Failure, Fault};
@@ -158,7 +158,8 @@ fn given(model: &Model, asked: &Targets) -> Option<Vec<f64>> {
         (Some(hard), Some(soft)) => (hard - soft).abs() < NEAR,
         _ => true,
     };
-    let pose = |b: usize| asked.pose(b).filter(|_| near(b)).map(|[x, y, angle]| Pose::new(x, y, angle));
+    let pose =
+        |b: usize| asked.pose(b).filter(|_| near(b)).map(|[x, y, angle]| Pose::new(x, y, angle));
     let moving: Option<Vec<Pose>> = (1..asked.soft.len()).map(pose).collect();
     let poses: Vec<Pose> = std::iter::once(Pose::identity()).chain(moving?).collect();
     Some(kinematics::coordinates(model, &poses))

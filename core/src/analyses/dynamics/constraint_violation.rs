@@ -5,8 +5,8 @@
 //! but not for joints that are farther apart than the mechanism is large.
 
 use super::options::{Options, Stabilization};
-use crate::equations::{constraints, Gains};
 use crate::equations::kinematics::Motions;
+use crate::equations::{constraints, Gains};
 use crate::math::Real;
 use crate::model::{row_scales, Model};
 

@@ -67,12 +67,7 @@ fn mechanical(
     found
 }
 
-fn at<S: Real>(
-    model: &Model<S>,
-    t: S,
-    (q, v): (&[S], &[S]),
-    motions: &mut Motions<S>,
-) -> [S; 2] {
+fn at<S: Real>(model: &Model<S>, t: S, (q, v): (&[S], &[S]), motions: &mut Motions<S>) -> [S; 2] {
     motions.place(&model.layout, q, v);
     [energy::kinetic(model, motions), energy::potential(model, motions, &[], t)]
 }

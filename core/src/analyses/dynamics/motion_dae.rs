@@ -121,12 +121,7 @@ impl Dae for MotionDae<'_> {
     }
 
     fn factor(&mut self, coefficients: NewtonCoefficients) -> Result<(), SingularMatrix> {
-        assemble(
-            &self.places,
-            &self.tangent,
-            Self::coefficients(coefficients),
-            &mut self.real,
-        );
+        assemble(&self.places, &self.tangent, Self::coefficients(coefficients), &mut self.real);
         self.real.factor(&self.places.plan).map_err(|_| SingularMatrix)
     }
 
