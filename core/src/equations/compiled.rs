@@ -4,9 +4,8 @@
 //! model over the same scalar.
 
 use super::added_inertia;
-use super::anchor::{anchors, Anchor};
 use super::inertia::{inertias, Inertia};
-use super::pin::{pins, Pin};
+use super::pins::{grounded, pairs, Grounded, Pair};
 use crate::math::Real;
 use crate::model::Model;
 
@@ -18,22 +17,22 @@ pub struct Compiled<S = f64> {
     /// Moments of inertia that are added to bodies without their own while the equations are solved, and are taken
     /// back by `refine`, kg·m²; one for each moving body, zero for most.
     pub added_inertia: Vec<S>,
-    /// The joints that only pin two points.
-    pub pins: Vec<Pin<S>>,
-    /// Moving bodies that one of them holds to ground.
-    pub anchors: Vec<Anchor<S>>,
+    /// The joints of two rows whose fields are constant.
+    pub pairs: Vec<Pair<S>>,
+    /// Moving bodies that one of these joints holds to ground.
+    pub grounded: Vec<Grounded<S>>,
 }
 
 impl<S: Real> Compiled<S> {
     /// Of a model.
     pub fn new(model: &Model<S>) -> Self {
         let added_inertia = added_inertia::added(&model.bodies, &model.constraints);
-        let pins = pins(&model.constraints, &model.layout);
+        let pairs = pairs(model);
         Self {
             inertias: inertias(&model.blueprint.bodies, &model.bodies, &added_inertia),
-            anchors: anchors(&pins, &model.bodies, &added_inertia),
+            grounded: grounded(model, &pairs, &added_inertia),
             added_inertia: added_inertia[1..].to_vec(),
-            pins,
+            pairs,
         }
     }
 

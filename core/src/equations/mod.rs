@@ -3,8 +3,6 @@
 //! Functions of a [`Model`](crate::model::Model) and plain slices; scratch is a [`Workspace`].
 
 mod added_inertia;
-mod anchor;
-mod anchors;
 pub mod augmented;
 pub mod balance;
 mod compiled;
@@ -18,7 +16,6 @@ pub mod kinematics;
 mod laws;
 pub mod mass;
 pub mod motion;
-mod pin;
 mod pins;
 mod plan;
 pub mod reactions;

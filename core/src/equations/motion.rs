@@ -7,14 +7,13 @@
 //!
 //! For the integrator γ may be replaced by Baumgarte's γ̂ = γ - 2α Φ̇ - β² Φ (Haug 7.3.8).
 
-use super::augmented::{Augmented, Dependent, Parts};
+use super::augmented::{Augmented, Dependent, NearSingular};
 use super::constraints::{self, Stabilized};
 use super::energy::Powers;
 use super::plan::Plan;
-use super::{anchors, forces, kinematics, mass, pins, refine, Compiled};
+use super::{forces, kinematics, mass, pins, refine, Compiled};
 use crate::math::{Motion, Real};
 use crate::model::Model;
-use crate::solve::Bytes;
 use std::sync::Arc;
 
 /// Baumgarte's gains; zeros leave γ as it is.
@@ -30,7 +29,11 @@ pub struct Gains {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Singular(pub Dependent);
 
-/// Scratch for one model; carries no truth from one call to the next.
+/// Memory for the equations of motion of one model, and the results of the last evaluation: motions, accelerations,
+/// multipliers, powers, Φ_q and the factors of the matrix.
+///
+/// No evaluation depends on those before it. But projection and implicit methods use the factors, and Φ_q, that the last
+/// one left, on purpose: between an evaluation and such a use no other may come.
 #[derive(Clone, Debug)]
 pub struct Workspace<S = f64> {
     /// Motion of every body, ground first.
@@ -43,17 +46,23 @@ pub struct Workspace<S = f64> {
     solution: Vec<S>,
     /// Powers of the force elements.
     powers: Powers<S>,
-    /// What γ is lessened by, whatever the state; empty if nothing.
-    held: Vec<S>,
-    /// Correction of the solution where the matrix is not that of the equations.
-    correction: Option<Vec<S>>,
-    /// Whether near singular positions are looked at twice.
-    passing: bool,
+    /// Subtracted from γ, whatever the state; empty if nothing.
+    offset: Vec<S>,
+    /// Whether the matrix is never that of the equations: inertia is added, or redundant rows are damped.
+    modified: bool,
     n_q: usize,
 }
 
 /// Damping of redundant rows, relative to the largest compliance 1/m.
 const REDUNDANT: f64 = 1e-10;
+
+/// Damping with which the multipliers of redundant constraints become the smallest that carry the loads.
+fn redundant_rows<S: Real>(model: &Model<S>) -> impl Iterator<Item = S> {
+    let compliance = |b: &crate::model::Body<S>| S::one() / b.mass;
+    let largest = model.bodies[1..].iter().map(compliance).fold(S::zero(), S::max);
+    let mu = largest * S::constant(REDUNDANT);
+    std::iter::repeat_n(mu, model.layout.n_rows)
+}
 
 impl<S: Real> Workspace<S> {
     /// All memory that evaluations of this model need.
@@ -70,49 +79,27 @@ impl<S: Real> Workspace<S> {
     pub fn on(model: &Model<S>, plan: Arc<Plan>) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let compiled = Arc::new(Compiled::new(model));
-        let mut workspace = Self {
+        let mut matrix = Augmented::on(plan);
+        matrix.set_inertia(&compiled);
+        if model.allow_redundancy {
+            matrix.set_damping(redundant_rows(model));
+        }
+        Self {
             motions: Vec::with_capacity(model.bodies.len()),
-            matrix: Augmented::on(plan),
-            correction: compiled.has_added_inertia().then(|| vec![S::zero(); n + m]),
+            matrix,
+            modified: compiled.has_added_inertia() || model.allow_redundancy,
+            compiled,
             solution: vec![S::zero(); n + m],
             powers: Powers::zero(),
-            held: Vec::new(),
-            passing: false,
+            offset: Vec::new(),
             n_q: n,
-            compiled,
-        };
-        workspace.matrix.set_inertia(&workspace.compiled);
-        if model.allow_redundancy {
-            workspace.allow_redundancy(model);
         }
-        workspace
     }
 
-    /// From now on near singular positions are passed, with the ridge of [`Augmented`].
-    pub fn pass_singular(&mut self) {
-        self.passing = true;
-        self.matrix.pass_singular();
-    }
-
-    /// From now on positions near singular ones are refused.
-    pub fn refuse_singular(&mut self) {
-        self.passing = true;
-        self.matrix.refuse_singular();
-    }
-
-    /// From now on γ is lessened by `term`, shape (n_rows), at every state.
-    pub fn hold(&mut self, term: &[S]) {
-        self.held.clear();
-        self.held.extend_from_slice(term);
-    }
-
-    /// Accepts redundant constraints: the multipliers become the smallest that carry the loads.
-    fn allow_redundancy(&mut self, model: &Model<S>) {
-        let compliance = |b: &crate::model::Body<S>| S::one() / b.mass;
-        let largest = model.bodies[1..].iter().map(compliance).fold(S::zero(), S::max);
-        let mu = largest * S::constant(REDUNDANT);
-        self.matrix.set_damping((0..model.layout.n_rows).map(|_| mu));
-        self.correction = Some(vec![S::zero(); self.solution.len()]);
+    /// From now on `term`, shape (n_rows), is subtracted from γ at every state.
+    pub fn set_offset(&mut self, term: &[S]) {
+        self.offset.clear();
+        self.offset.extend_from_slice(term);
     }
 
     /// Solves the equations of motion at a state; then [`a`](Self::a), [`lam`](Self::lam).
@@ -137,83 +124,47 @@ impl<S: Real> Workspace<S> {
     /// As [`accelerate`](Self::accelerate).
     #[inline(always)]
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
-        if self.correction.is_none() {
-            match self.solve_armed(model, t, gains) {
-                Err(Dependent::Row(_)) if self.passing => {}
+        if !self.modified {
+            match self.solve_directly(model, t, gains) {
+                Err(Dependent::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
                 outcome => return outcome.map_err(Singular),
             }
         }
-        self.set_up(model, t, gains);
-        self.factor_and_refine(model).map_err(Singular)
+        self.solve_and_refine(model, t, gains).map_err(Singular)
     }
 
-    /// q̈ and λ with pins by their arms: one pass over them before elimination, and one after.
+    /// q̈ and λ where the matrix is that of the equations: joints of two rows are put into it as they are evaluated.
     #[inline(always)]
-    fn solve_armed(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
-        let Self { motions, compiled, matrix, solution, powers, held, n_q, .. } = self;
-        let (stabilized, n) = (Stabilized::new(gains), *n_q);
-        let Parts { pattern, saddle, armed, others } = matrix.parts_mut();
+    fn solve_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
+        let Self { motions, compiled, matrix, solution, powers, offset, n_q, .. } = self;
+        let (plan, pattern, saddle) = matrix.parts_mut();
+        let at = pins::At { motions, t, stabilized: Stabilized::new(gains), offset };
         for &k in pattern.coupled() {
             let k = k as usize;
-            mass::turn(&compiled.inertias[k], &motions[k + 1], &mut saddle.weights[k]);
+            mass::turn(&compiled.inertias[k], &motions[k + 1], &mut saddle.masses[k]);
         }
-        let (forces, right) = solution.split_at_mut(n);
+        let (x, right) = solution.split_at_mut(*n_q);
+        *powers = forces::generalized(model, compiled, motions, t, x);
+        let others = plan.others.iter().map(|k| *k as usize);
+        let entries = saddle.entries.as_flattened_mut();
+        constraints::linearize_some(model, others, motions, t, at.stabilized, right, entries);
+        right.iter_mut().zip(&*offset).for_each(|(right, offset)| *right -= *offset);
+        pins::condense(compiled, at, (pattern, saddle), (x, right));
+        saddle.divide_by_masses(pattern, x);
+        pins::put(compiled, &plan.pins, at, saddle, (x, right));
+        saddle.finish(pattern, solution)
+    }
+
+    /// The same by the whole matrix, with a factor that may be that of a modified one.
+    fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
+        let Self { motions, compiled, matrix, solution, powers, offset, n_q, .. } = self;
+        let (forces, right) = solution.split_at_mut(*n_q);
+        constraints::linearize(model, motions, t, gains, right, matrix.jacobian_mut());
+        right.iter_mut().zip(offset).for_each(|(right, offset)| *right -= *offset);
+        matrix.set_mass(compiled, motions);
         *powers = forces::generalized(model, compiled, motions, t, forces);
-        let (others, entries) =
-            (others.iter().map(|k| *k as usize), saddle.entries.as_flattened_mut());
-        constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
-        right.iter_mut().zip(&*held).for_each(|(right, held)| *right -= *held);
-        anchors::begin(&compiled.anchors, motions, stabilized, held, saddle, (forces, right));
-        saddle.weigh_others(pattern, solution);
-        let (x, right) = solution.split_at_mut(n);
-        pins::begin(&compiled.pins, armed, motions, stabilized, saddle, (x, right));
-        pins::hold(&compiled.pins, armed, held, right);
-        saddle.finish_begun(pattern, solution)?;
-        let (x, lam) = solution.split_at_mut(n);
-        pins::spread(&compiled.pins, armed, saddle, (x, lam));
-        saddle.unbend(pattern, solution);
-        Ok(())
-    }
-
-    /// The matrix and the right side (Q, γ̂), with all entries.
-    fn set_up(&mut self, model: &Model<S>, t: S, gains: Gains) {
-        let (forces, right) = self.solution.split_at_mut(self.n_q);
-        let entries = self.matrix.jacobian_mut();
-        constraints::linearize(model, &self.motions, t, gains, right, entries);
-        // none but where a stabilization holds its term over a step
-        right.iter_mut().zip(&self.held).for_each(|(right, held)| *right -= *held);
-        self.matrix.set_mass(&self.compiled, &self.motions);
-        self.powers = forces::generalized(model, &self.compiled, &self.motions, t, forces);
-    }
-
-    /// Where the factor is not that of the equations.
-    fn factor_and_refine(&mut self, model: &Model<S>) -> Result<(), Dependent> {
-        self.matrix.factor()?;
-        let mut correction = match self.correction.take() {
-            Some(correction) => correction,
-            None => vec![S::zero(); self.solution.len()],
-        };
-        let x = &mut self.solution;
-        let solved =
-            refine::solve((model, &self.compiled), &self.motions, &self.matrix, x, &mut correction);
-        if self.compiled.has_added_inertia() || model.allow_redundancy {
-            self.correction = Some(correction);
-        }
-        solved
-    }
-
-    /// Bytes that evaluations hold and touch: of this, and of the model what they read of bodies and pins;
-    /// other constraints and forces are not counted.
-    pub fn bytes(&self, model: &Model<S>) -> Bytes {
-        let compiled = &*self.compiled;
-        // no motion is there before the first evaluation
-        let motions = std::mem::size_of::<Motion<S>>() * model.bodies.len();
-        let own = Bytes { held: motions, touched: motions } + Bytes::touched(&self.solution);
-        let aside = self.correction.as_deref().map_or(Bytes::default(), Bytes::aside);
-        let of_model = Bytes::touched(&compiled.pins)
-            + Bytes::touched(&compiled.inertias)
-            + Bytes::touched(&compiled.anchors);
-        self.matrix.bytes() + own + aside + of_model
+        matrix.factor()?;
+        refine::solve((model, compiled), motions, matrix, solution)
     }
 
     /// q̈, shape (n_q).
@@ -242,7 +193,7 @@ impl<S: Real> Workspace<S> {
         for (k, item) in model.constraints.iter().enumerate().filter(|(_, c)| c.driven) {
             let range = model.layout.constraints[k].rows.clone();
             let rows = &mut rows[..item.equations.len()];
-            constraints::times(model, k, self.matrix.jacobian_of_others(), v, rows);
+            constraints::times(model, k, self.matrix.jacobian(), v, rows);
             for (rate, lam) in rows.iter().zip(&self.lam()[range]) {
                 powers.drivers -= *rate * *lam;
             }

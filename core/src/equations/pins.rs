@@ -1,87 +1,238 @@
-//! γ̂ and Φ_q of pins, the constraints that mechanisms have most of: of [±I b] (Haug 3.3.12) b alone, and what
-//! follows from it for the pin by itself while its numbers are at hand.
+//! Joints of two rows that the elimination handles by themselves, whatever their type.
+//!
+//! A joint to ground leaves its body one freedom: the body is condensed to it before everything else
+//! (`solve/condensed.rs`). A pin among bodies has rows [±I b] (Haug 3.3.12): of its columns b alone changes, and its part
+//! of the matrix is computed while its numbers are at hand. All numbers come from the element's own `linearize`;
+//! constant columns ±I are a property that it declares.
 
 use super::constraints::Stabilized;
-use super::pin::Pin;
-use super::plan::ArmedPin;
-use crate::elements::joints::Revolute;
-use crate::elements::Joint;
+use super::inertia::Inertia;
+use super::plan::PinJoint;
+use super::{kinematics, mass, Compiled};
+use crate::elements::{BodyId, Constraint, Linear, VelocityTerms};
 use crate::math::{Motion, Real};
-use crate::solve::{Begun, Saddle};
+use crate::model::Model;
+use crate::solve::{CondensedGroup, Pattern, PinSum, Saddle};
 
-/// The three unknowns of a group.
-#[inline(always)]
-fn of_group<S>(group: usize, x: &[S]) -> &[S; 3] {
-    x[3 * group..3 * group + 3].first_chunk().expect("as long as the range")
+/// A joint of two rows with constant fields.
+#[derive(Clone, Debug)]
+pub struct Pair<S = f64> {
+    /// The element.
+    pub element: Constraint<S>,
+    /// Its place among the constraints.
+    pub constraint: u32,
+    /// The first of its rows.
+    pub row: u32,
 }
 
-/// Begins the rows of the `armed` pins: `x` is Dw⁻¹ Lw⁻¹ Q, `right` becomes their right side.
-#[inline(always)] // once in an evaluation: a call saves and restores more than it shares
-pub(super) fn begin<S: Real>(
-    pins: &[Pin<S>],
-    armed: &[ArmedPin],
-    motions: &[Motion<S>],
-    stabilized: Stabilized<S>,
+/// A moving body that a joint of two rows holds to ground.
+#[derive(Clone, Copy, Debug)]
+pub struct Grounded<S = f64> {
+    /// The joint's place among the [`Pair`]s.
+    pub pair: u32,
+    /// Its place among the constraints.
+    pub constraint: u32,
+    /// The body's place among the moving bodies.
+    pub body: u32,
+    /// Whether the body is body j of the joint.
+    is_j: bool,
+    /// W of the body in its own frame.
+    mass: CondensedGroup<S>,
+    /// For a pin, the inverse of the moment of inertia about it, 1/(kg·m²), whatever the state.
+    about_pin: Option<S>,
+}
+
+/// All joints of two rows with constant fields that touch a moving body, in the order of the constraints.
+pub(super) fn pairs<S: Real>(model: &Model<S>) -> Vec<Pair<S>> {
+    let index = |i: usize| u32::try_from(i).expect("fewer than 2^32 rows");
+    let items = model.constraints.iter().zip(&model.layout.constraints).enumerate();
+    let pairs = items.filter(|(_, (item, slots))| {
+        item.law.is_none() && slots.rows.len() == 2 && !slots.blocks.is_empty()
+    });
+    pairs
+        .map(|(k, (item, slots))| Pair {
+            element: item.element.clone(),
+            constraint: index(k),
+            row: index(slots.rows.start),
+        })
+        .collect()
+}
+
+/// The bodies that joints to ground hold: by the first pin of each, else by the first other joint. Bodies without an
+/// inertia of their own stay free.
+pub(super) fn grounded<S: Real>(
+    model: &Model<S>,
+    pairs: &[Pair<S>],
+    added: &[S],
+) -> Vec<Grounded<S>> {
+    let mut holds: Vec<Option<(u32, bool)>> = vec![None; model.bodies.len()];
+    for (k, pair) in (0..).zip(pairs) {
+        let [i, j] = pair.element.ends();
+        let body = if i.is_ground() { j } else { i };
+        let to_ground = i.is_ground() != j.is_ground();
+        let pin = model.layout.constraints[pair.constraint as usize].blocks[0].sign != 0.0;
+        let better = holds[body.0].is_none_or(|(_, held_by_pin)| pin && !held_by_pin);
+        if to_ground && better && added[body.0].largest_magnitude() == 0.0 {
+            holds[body.0] = Some((k, pin));
+        }
+    }
+    let bodies = holds.into_iter().enumerate();
+    bodies.filter_map(|(body, hold)| Some(Grounded::new(model, pairs, body, hold?))).collect()
+}
+
+impl<S: Real> Grounded<S> {
+    fn new(model: &Model<S>, pairs: &[Pair<S>], body: usize, (k, pin): (u32, bool)) -> Self {
+        let pair = &pairs[k as usize];
+        let is_j = pair.element.ends()[1] == BodyId(body);
+        let motions = kinematics::at_rest(&vec![S::zero(); model.layout.n_q]);
+        let block = mass::block(&model.bodies[body], &motions[body]);
+        let moment = [block.coupling.x, block.coupling.y];
+        let mass = CondensedGroup::new(block.mass, moment, block.inertia);
+        let about_pin = pin.then(|| {
+            let mut rows = [[S::zero(); 6]; 2];
+            let [i, j] = pair.element.ends().map(|b| &motions[b.0].pose);
+            pair.element.jacobian(i, j, S::zero(), &mut rows);
+            let sign = if is_j { 1.0 } else { -1.0 };
+            let b = rows.map(|row| if is_j { row[5] } else { row[2] });
+            S::one() / mass.about_pin(sign, b).1
+        });
+        let (body, constraint) = (body as u32 - 1, pair.constraint);
+        Self { pair: k, constraint, body, is_j, mass, about_pin }
+    }
+
+    /// Puts what no state changes in the matrix.
+    pub(super) fn set(&self, k: usize, saddle: &mut Saddle<S>) {
+        let mass = &mut saddle.masses[self.body as usize];
+        mass.translation = [S::zero(); 2];
+        mass.held = S::one() / self.mass.mass;
+        if let Some(inverse) = self.about_pin {
+            mass.along = inverse;
+        }
+        saddle.condensed[k] = self.mass;
+    }
+
+    /// Turns its W with the body.
+    #[inline(always)]
+    pub(super) fn turn(
+        &self,
+        inertias: &[Inertia<S>],
+        motions: &[Motion<S>],
+        group: &mut CondensedGroup<S>,
+    ) {
+        let inertia = &inertias[self.body as usize];
+        if inertia.coupled {
+            let arm = motions[self.body as usize + 1].pose.global(inertia.center);
+            let b = arm.perp().scale(inertia.mass);
+            group.moment = [b.x, b.y];
+        }
+    }
+}
+
+/// Where an evaluation stands.
+#[derive(Clone, Copy)]
+pub(super) struct At<'a, S> {
+    pub motions: &'a [Motion<S>],
+    pub t: S,
+    pub stabilized: Stabilized<S>,
+    /// Subtracted from γ̂, shape (n_rows), or empty.
+    pub offset: &'a [S],
+}
+
+impl<S: Real> At<'_, S> {
+    /// γ̂ of two rows.
+    #[inline(always)]
+    fn gamma<const M: usize>(&self, terms: &VelocityTerms<S, M>, row: u32) -> [S; 2] {
+        let mut gamma = [S::zero(); 2];
+        self.stabilized.put(terms, &mut gamma);
+        if !self.offset.is_empty() {
+            let offset = &self.offset[row as usize..row as usize + 2];
+            gamma.iter_mut().zip(offset).for_each(|(gamma, offset)| *gamma -= *offset);
+        }
+        gamma
+    }
+}
+
+/// Condenses the grounded bodies. `forces` and `right`, shapes (n_q) and (n_rows), become what
+/// [`Saddle::condense`] leaves there.
+#[inline(always)] // once in an evaluation: a call would spill registers
+pub(super) fn condense<S: Real>(
+    compiled: &Compiled<S>,
+    at: At<'_, S>,
+    (pattern, saddle): (&Pattern, &mut Saddle<S>),
+    (forces, right): (&mut [S], &mut [S]),
+) {
+    for (k, grounded) in compiled.grounded[..pattern.condensed().len()].iter().enumerate() {
+        grounded.turn(&compiled.inertias, at.motions, &mut saddle.condensed[k]);
+        let Pair { element, row, .. } = &compiled.pairs[grounded.pair as usize];
+        let (row, is_j) = (*row, grounded.is_j);
+        let (forces, right) = (&mut *forces, &mut right[row as usize..row as usize + 2]);
+        let target = Condense { at, k, row, is_j, pattern, saddle, forces, right };
+        element.linearize(at.motions, at.t, target);
+    }
+}
+
+/// Where the rows of a joint to ground go.
+struct Condense<'a, S> {
+    at: At<'a, S>,
+    k: usize,
+    row: u32,
+    is_j: bool,
+    pattern: &'a Pattern,
+    saddle: &'a mut Saddle<S>,
+    forces: &'a mut [S],
+    right: &'a mut [S],
+}
+
+impl<S: Real> Linear<S> for Condense<'_, S> {
+    #[inline(always)]
+    fn take<const M: usize>(self, _: [BodyId; 2], terms: &VelocityTerms<S, M>, rows: &[[S; 6]; M]) {
+        let Some([first, second]) = rows.first_chunk() else { return };
+        let own = [first, second].map(|row| match self.is_j {
+            true => [row[3], row[4], row[5]],
+            false => [row[0], row[1], row[2]],
+        });
+        let gamma = self.at.gamma(terms, self.row);
+        let right = self.saddle.condense(self.pattern, self.k, &own, self.forces, gamma);
+        self.right.copy_from_slice(&right);
+    }
+}
+
+/// Puts the rows of `pins` into the matrix, with `x` = W⁻¹ Q; `right` becomes their right side.
+#[inline(always)] // as above
+pub(super) fn put<S: Real>(
+    compiled: &Compiled<S>,
+    pins: &[PinJoint],
+    at: At<'_, S>,
     saddle: &mut Saddle<S>,
     (x, right): (&[S], &mut [S]),
 ) {
-    for ArmedPin { pin, rows: armed } in armed {
-        let pin = &pins[*pin as usize];
-        let [i, j] = pin.bodies.map(|body| &motions[body as usize]);
-        let (terms, rows) = <Revolute as Joint<2>>::linearize(&pin.joint(), i, j, S::zero());
-        let mut gamma = [S::zero(); 2];
-        stabilized.put(&terms, &mut gamma);
-        let mut begun = Begun::new(gamma);
-        let mut arm = armed.arm as usize;
-        let [i, j] = pin.bodies.map(|body| (body as usize).checked_sub(1));
-        if let Some(i) = i {
-            let b = [rows[0][2], rows[1][2]];
-            saddle.arms[arm] = begun.add(-1.0, b, &saddle.weights[i], of_group(i, x));
-            arm += 1;
-        }
-        if let Some(j) = j {
-            let b = [rows[0][5], rows[1][5]];
-            saddle.arms[arm] = begun.add(1.0, b, &saddle.weights[j], of_group(j, x));
-        }
-        right[pin.row as usize..][..2].copy_from_slice(&begun.right);
-        saddle.begin(armed, pin.row, &begun);
+    for pin in pins {
+        let Pair { element, .. } = &compiled.pairs[pin.pair as usize];
+        let right = &mut right[pin.rows.row as usize..][..2];
+        element.linearize(at.motions, at.t, PutPin { at, pin, saddle, x, right });
     }
 }
 
-/// Lessens γ̂ of the `armed` pins, which were begun, by `held`, shape (n_rows) or empty.
-pub(super) fn hold<S: Real>(pins: &[Pin<S>], armed: &[ArmedPin], held: &[S], right: &mut [S]) {
-    if held.is_empty() {
-        return;
-    }
-    for ArmedPin { pin, .. } in armed {
-        let row = pins[*pin as usize].row as usize;
-        // begun, the right side has the opposite sign
-        for (right, held) in right[row..row + 2].iter_mut().zip(&held[row..row + 2]) {
-            *right += *held;
-        }
-    }
+/// Where the rows of a pin among bodies go.
+struct PutPin<'a, S> {
+    at: At<'a, S>,
+    pin: &'a PinJoint,
+    saddle: &'a mut Saddle<S>,
+    x: &'a [S],
+    right: &'a mut [S],
 }
 
-/// x -= Dw⁻¹ Uᵀ λ over the rows of the `armed` pins.
-#[inline(always)] // as above
-pub(super) fn spread<S: Real>(
-    pins: &[Pin<S>],
-    armed: &[ArmedPin],
-    saddle: &Saddle<S>,
-    (x, lam): (&mut [S], &[S]),
-) {
-    for ArmedPin { pin, rows: armed } in armed.iter().rev() {
-        let pin = &pins[*pin as usize];
-        let row = pin.row as usize;
-        let lam = [lam[row], lam[row + 1]];
-        let [i, j] = pin.bodies.map(|body| body.checked_sub(1));
-        let mut arm = armed.arm;
-        if let Some(i) = i {
-            saddle.spread(arm, i, -1.0, &lam, x);
-            arm += 1;
+impl<S: Real> Linear<S> for PutPin<'_, S> {
+    #[inline(always)]
+    fn take<const M: usize>(self, _: [BodyId; 2], terms: &VelocityTerms<S, M>, rows: &[[S; 6]; M]) {
+        let Some([first, second]) = rows.first_chunk() else { return };
+        let Self { at, pin, saddle, x, right } = self;
+        let mut sum = PinSum::new(at.gamma(terms, pin.rows.row));
+        for end in pin.rows.ends() {
+            let column = if end.sign > 0.0 { 5 } else { 2 };
+            saddle.add_pin(end, [first[column], second[column]], x, &mut sum);
         }
-        if let Some(j) = j {
-            saddle.spread(arm, j, 1.0, &lam, x);
-        }
+        right.copy_from_slice(&sum.right);
+        saddle.put_pin_rows(&pin.rows, &sum);
     }
 }

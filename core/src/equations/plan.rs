@@ -1,100 +1,90 @@
-//! What matrices of a model have in common, whatever their numbers: pattern, order and plan of elimination.
+//! The structure of the augmented matrix of a model, whatever its numbers: pattern and program of elimination.
 
-use super::anchor::Anchor;
 use super::Compiled;
 use crate::math::Real;
-use crate::model::{Block, Layout, Model, Slots};
-use crate::solve::{Armed, Bytes, Pattern, RowBlock};
+use crate::model::{Layout, Model, Slots};
+use crate::solve::{Group, Pattern, PinRows, RowBlock};
 
-/// A plan of elimination for one model over any scalar; found once, shared by any number of matrices.
+/// Most rows of a block of the solver: an element of more rows has several blocks.
+const ROWS: usize = 3;
+
+/// Structure and symbolic factorisation for one model over any scalar; found once, shared by any number of matrices.
 #[derive(Debug)]
 pub struct Plan {
     pub(super) pattern: Pattern,
-    /// The pins whose rows of Φ_q matrices give by their arms.
-    pub(super) armed: Vec<ArmedPin>,
-    /// The other constraints, but for anchors.
+    /// The pins whose rows an evaluation puts into the matrix one by one.
+    pub(super) pins: Vec<PinJoint>,
+    /// The constraints that are neither among these nor condensed.
     pub(super) others: Vec<u32>,
-    /// Whether bodies that are pinned to ground are anchored there.
-    pub(super) anchored: bool,
+    /// Whether grounded bodies are condensed.
+    pub(super) condenses: bool,
 }
 
-/// A pin all of whose rows have arms.
+/// A pin among bodies.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ArmedPin {
-    /// Its place among the pins.
-    pub pin: u32,
+pub(super) struct PinJoint {
+    /// Its place among the [`Pair`](super::pins::Pair)s.
+    pub pair: u32,
     /// Its place in the matrix.
-    pub rows: Armed,
+    pub rows: PinRows,
 }
 
 impl Plan {
-    /// Of the equations of motion of a model: anchored, unless redundant constraints are accepted.
-    pub fn of_motion<P: Real>(model: &Model<P>) -> Self {
-        match model.allow_redundancy {
-            true => Self::free(model),
-            false => Self::anchored(model),
-        }
+    /// Of the equations of motion of a model: grounded bodies are condensed, unless redundant constraints are
+    /// accepted.
+    pub fn of_motion<S: Real>(model: &Model<S>) -> Self {
+        Self::with(model, !model.allow_redundancy)
     }
 
     /// Bodies first, then the constraints by minimum degree, so that every pivot is safe while Φ_q has full rank.
-    pub fn free<P: Real>(model: &Model<P>) -> Self {
-        Self::with(model, &Compiled::new(model), &[], false)
+    pub fn free<S: Real>(model: &Model<S>) -> Self {
+        Self::with(model, false)
     }
 
-    /// The same for W = M without damping: pins to ground are eliminated with the bodies that they hold.
-    pub fn anchored<P: Real>(model: &Model<P>) -> Self {
+    fn with<S: Real>(model: &Model<S>, condenses: bool) -> Self {
         let compiled = Compiled::new(model);
-        let constraint =
-            |anchor: &Anchor<P>| compiled.pins[anchor.pin as usize].constraint as usize;
-        let anchors: Vec<usize> = compiled.anchors.iter().map(constraint).collect();
-        Self::with(model, &compiled, &anchors, true)
+        let (blocks, firsts) = row_blocks(&model.layout);
+        let grounded = compiled.grounded.iter().filter(|_| condenses);
+        let condensed: Vec<usize> = grounded.map(|g| firsts[g.constraint as usize]).collect();
+        let groups: Vec<Group> =
+            compiled.inertias.iter().map(|inertia| Group::body(inertia.coupled)).collect();
+        let pattern = Pattern::new(&groups, &blocks, &condensed);
+        let mut pair_of = vec![None; blocks.len()];
+        for (k, pair) in (0..).zip(&compiled.pairs) {
+            pair_of[firsts[pair.constraint as usize]] = Some(k);
+        }
+        let mut others = vec![true; blocks.len()];
+        condensed.iter().for_each(|block| others[*block] = false);
+        let mut pins = Vec::with_capacity(pattern.pin_rows().len());
+        for &rows in pattern.pin_rows() {
+            let block = rows.block as usize;
+            pins.push(PinJoint { pair: pair_of[block].expect("pins are pairs of rows"), rows });
+            others[block] = false;
+        }
+        let others = (0..).zip(&firsts).filter(|(_, block)| others[**block]).map(|(k, _)| k);
+        Self { others: others.collect(), pattern, pins, condenses }
     }
 
-    fn with<P>(
-        model: &Model<P>,
-        compiled: &Compiled<P>,
-        anchors: &[usize],
-        anchored: bool,
-    ) -> Self {
-        let coupled = compiled.inertias.iter().map(|inertia| inertia.coupled);
-        let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout), anchors);
-        let (armed, others) = split(model, compiled, &pattern);
-        Self { pattern, armed, others, anchored }
-    }
-
-    /// Bytes of it.
-    pub fn bytes(&self) -> Bytes {
-        self.pattern.bytes() + Bytes::touched(&self.armed) + Bytes::touched(&self.others)
+    /// Number of products of blocks in one elimination.
+    pub fn n_products(&self) -> usize {
+        self.pattern.n_products()
     }
 }
 
-/// The pins that arms can give, and the other constraints.
-fn split<P>(
-    model: &Model<P>,
-    compiled: &Compiled<P>,
-    pattern: &Pattern,
-) -> (Vec<ArmedPin>, Vec<u32>) {
-    let mut pin: Vec<Option<u32>> = vec![None; model.constraints.len()];
-    (0..).zip(&compiled.pins).for_each(|(k, p)| pin[p.constraint as usize] = Some(k));
-    let mut others = vec![true; model.constraints.len()];
-    pattern.anchors().iter().for_each(|anchor| others[anchor.block as usize] = false);
-    let mut armed = Vec::with_capacity(pattern.armed().len());
-    for &rows in pattern.armed() {
-        let block = rows.block as usize;
-        armed.push(ArmedPin { pin: pin[block].expect("unit blocks are those of pins"), rows });
-        others[block] = false;
+/// The constraints as blocks of at most three rows, and the first block of each.
+fn row_blocks(layout: &Layout) -> (Vec<RowBlock>, Vec<usize>) {
+    let (mut blocks, mut firsts) = (Vec::new(), Vec::new());
+    for Slots { rows, blocks: touched } in &layout.constraints {
+        firsts.push(blocks.len());
+        for skipped in (0..rows.len()).step_by(ROWS) {
+            let touch = |block: &crate::model::Block| (block.body.0 - 1, block.first + 3 * skipped);
+            let signs = touched.iter().map(|block| block.sign).filter(|sign| *sign != 0.0);
+            blocks.push(RowBlock {
+                size: (rows.len() - skipped).min(ROWS),
+                touches: touched.iter().map(touch).collect(),
+                signs: signs.collect(),
+            });
+        }
     }
-    (armed, (0..).zip(others).filter(|(_, other)| *other).map(|(k, _)| k).collect())
-}
-
-/// The constraints as blocks of rows.
-fn row_blocks(layout: &Layout) -> Vec<RowBlock> {
-    let touches =
-        |blocks: &[Block]| blocks.iter().map(|block| (block.body.0 - 1, block.first)).collect();
-    let block = |slots: &Slots| RowBlock {
-        size: slots.rows.len(),
-        touches: touches(&slots.blocks),
-        signs: slots.blocks.iter().map(|block| block.sign).filter(|sign| *sign != 0.0).collect(),
-    };
-    layout.constraints.iter().map(block).collect()
+    (blocks, firsts)
 }

@@ -30,12 +30,11 @@ pub(super) fn solve<S: Real>(
     motions: &[Motion<S>],
     matrix: &Augmented<S>,
     x: &mut [S],
-    correction: &mut [S],
 ) -> Result<(), Dependent> {
-    let b = x.to_vec();
+    let (b, correction) = (x.to_vec(), &mut *vec![S::zero(); x.len()]);
     let n = model.layout.n_q;
     matrix.solve(x);
-    if matrix.ridged() || !compiled.has_added_inertia() {
+    if matrix.regularised() || !compiled.has_added_inertia() {
         for _ in 0..FOR_REDUNDANCY {
             step(model, motions, matrix, &b, x, correction);
         }
