@@ -45,6 +45,8 @@ pub struct Place {
     pub bodies: [u32; 2],
     /// The first of its rows of Φ; 0 for a force.
     pub row: u32,
+    /// Its place in a list of the room that uses the pool.
+    pub slot: u32,
 }
 
 impl Place {
@@ -55,7 +57,12 @@ impl Place {
     pub fn new(item: usize, bodies: &[super::kinds::BodyId], row: usize) -> Self {
         let index = |i: usize| u32::try_from(i).expect("fewer than 2^32 items");
         let body = |k: usize| bodies.get(k).map_or(0, |body| index(body.0));
-        Self { item: index(item), bodies: [body(0), body(1)], row: index(row) }
+        Self { item: index(item), bodies: [body(0), body(1)], row: index(row), slot: 0 }
+    }
+
+    /// The same with a place in a list of the room that uses the pool.
+    pub fn with_slot(self, slot: usize) -> Self {
+        Self { slot: u32::try_from(slot).expect("fewer than 2^32 items"), ..self }
     }
 }
 

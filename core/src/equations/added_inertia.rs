@@ -28,6 +28,10 @@ pub(super) fn added<S: Real>(bodies: &[Body<S>], constraints: &[ConstraintItem<S
     let own = bodies.iter().map(|body| body.inertia);
     let largest = scale.iter().copied().chain(own).fold(S::zero(), S::max);
     for (scale, body) in scale.iter_mut().zip(bodies).skip(1) {
+        if !body.turns {
+            *scale = S::zero();
+            continue;
+        }
         let massless = body.inertia.least_magnitude() == 0.0;
         if massless && scale.least_magnitude() == 0.0 {
             // nothing of its own tells how large it is: as the largest of the model, or 1 m
@@ -38,4 +42,10 @@ pub(super) fn added<S: Real>(bodies: &[Body<S>], constraints: &[ConstraintItem<S
         *scale = if suffices { S::zero() } else { added };
     }
     scale
+}
+
+/// Mass added to the internal coordinates of elements, kg.
+pub(super) fn own_mass<S: Real>(bodies: &[Body<S>]) -> S {
+    let heaviest = bodies.iter().map(|body| body.mass).fold(S::zero(), S::max);
+    S::select(heaviest, heaviest, S::one()) * S::constant(ADDED)
 }

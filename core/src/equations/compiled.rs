@@ -4,9 +4,8 @@
 //! model over the same scalar.
 
 use super::added_inertia;
-use super::anchor::{anchors, Anchor};
+use super::grounded::{grounded, Grounded};
 use super::inertia::{inertias, Inertia};
-use super::pin::{pins, Pin};
 use crate::elements::{ForcePools, JointPools, Place};
 use crate::math::Real;
 use crate::model::Model;
@@ -19,10 +18,12 @@ pub struct Compiled<S = f64> {
     /// Moments of inertia that are added to bodies without their own while the equations are solved, and are taken
     /// back by `refine`, kg·m²; one for each moving body, zero for most.
     pub added_inertia: Vec<S>,
-    /// The joints that only pin two points.
-    pub pins: Vec<Pin<S>>,
-    /// Moving bodies that one of them holds to ground.
-    pub anchors: Vec<Anchor<S>>,
+    /// Mass that is added to the internal coordinates of elements in the same way, kg.
+    pub own_mass: S,
+    /// Whether anything is added.
+    pub adds_mass: bool,
+    /// Moving bodies that a joint of two rows holds to ground.
+    pub grounded: Vec<Grounded<S>>,
     /// Joints and drivers with constant fields, by type.
     pub joints: JointPools<S>,
     /// The places of the joints and drivers with laws of time or state.
@@ -37,7 +38,6 @@ impl<S: Real> Compiled<S> {
     /// Of a model.
     pub fn new(model: &Model<S>) -> Self {
         let added_inertia = added_inertia::added(&model.bodies, &model.constraints);
-        let pins = pins(&model.constraints, &model.layout);
         let (mut joints, mut forces) = (JointPools::default(), ForcePools::default());
         let (mut joints_with_laws, mut forces_with_laws) = (Vec::new(), Vec::new());
         for (k, item) in model.constraints.iter().enumerate() {
@@ -59,14 +59,11 @@ impl<S: Real> Compiled<S> {
             forces,
             forces_with_laws,
             inertias: inertias(&model.blueprint.bodies, &model.bodies, &added_inertia),
-            anchors: anchors(&pins, &model.bodies, &added_inertia),
+            grounded: grounded(model, &added_inertia),
+            own_mass: added_inertia::own_mass(&model.bodies),
+            adds_mass: model.layout.owners.len() >= model.bodies.len()
+                || added_inertia.iter().any(|added| added.least_magnitude() > 0.0),
             added_inertia: added_inertia[1..].to_vec(),
-            pins,
         }
-    }
-
-    /// Whether a body has an inertia that is not its own.
-    pub fn has_added_inertia(&self) -> bool {
-        self.added_inertia.iter().any(|added| added.least_magnitude() > 0.0)
     }
 }

@@ -10,7 +10,7 @@ use super::motion::Gains;
 use crate::elements::derive::{
     columns_of, moving, participants, seeded, terms, with_values, ByThree,
 };
-use crate::elements::{At, BodyId, Constraint, Coordinate, Linearized, Moving};
+use crate::elements::{At, BodyId, Constraint, Coordinate, Joint, Linearized, Moving};
 use crate::expression::Tape;
 use crate::math::{Jet, Real, Twist};
 use crate::model::{Block, ConstraintItem, Model, Slots, StateLayout};
@@ -143,6 +143,44 @@ pub(super) enum ByBlock<'a, S> {
     Participants(&'a [BodyId], &'a [[S; 3]]),
     /// By block: a law may touch more bodies than the element.
     Blocks(&'a [[S; 3]]),
+}
+
+/// Gives Φ, Φ̇, γ and the rows of Φ_q of constraint `k`, an `element` with constant fields, to `take`.
+#[inline(always)]
+pub(super) fn linearize_element<E: Joint, S: Real, R>(
+    model: &Model<S>,
+    k: usize,
+    element: &E::Over<S>,
+    motions: &Motions<S>,
+    t: S,
+    take: impl FnOnce(&Terms<'_, S>, ByBlock<'_, S>) -> R,
+) -> R {
+    let (bodies, slots) = (&model.constraints[k].bodies, &model.layout.constraints[k]);
+    let (own, own_rates) = motions.own(slots.own);
+    let m = slots.rows.len();
+    let count = participants(bodies.len(), own.len());
+    let body = |b: usize| motions[bodies[b].0];
+    with_values(bodies.len(), body, |all| {
+        let at = Moving { bodies: all, own, own_rates, t };
+        with_values(
+            3 * m,
+            |_| S::zero(),
+            |terms| {
+                let (residual, rest) = terms.split_at_mut(m);
+                let (rate, gamma) = rest.split_at_mut(m);
+                with_values(
+                    count * m,
+                    |_| [S::zero(); 3],
+                    |columns| {
+                        let out = Linearized { residual, rate, gamma, columns };
+                        E::linearize(element, &at, out);
+                        let by_block = ByBlock::Participants(bodies, columns);
+                        take(&Terms { residual, rate, gamma }, by_block)
+                    },
+                )
+            },
+        )
+    })
 }
 
 /// Gives Φ, Φ̇, γ and the rows of Φ_q of constraint `k` to `take`.

@@ -27,7 +27,8 @@ pub(super) fn inertias<S: Real>(
     let zero = |tape: &Tape| tape.constant() == Some(0.0);
     let moving = formulas.iter().zip(bodies).zip(added).skip(1);
     let inertia = |((formula, body), added): ((&Body<Tape>, &Body<S>), &S)| {
-        let (m, j) = (S::one() / body.mass, S::one() / (body.inertia + *added));
+        let turning = if body.turns { body.inertia + *added } else { S::one() };
+        let (m, j) = (S::one() / body.mass, S::one() / turning);
         Inertia {
             inverse: [m, j],
             mass: body.mass,

@@ -6,7 +6,7 @@
 use super::Inertia;
 use crate::math::{Motion, Real, Vec2};
 use crate::model::{Body, Model};
-use crate::solve::Weight;
+use crate::solve::InverseMass;
 
 /// The four numbers that a block holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,13 +29,12 @@ pub fn block<S: Real>(body: &Body<S>, motion: &Motion<S>) -> MassBlock<S> {
     }
 }
 
-/// Shifts the inverse of the block to the mass centre by b, where it is diagonal in m and J: these stand in
-/// `weight` already.
+/// Turns the inverse of the block with the body: b of the mass centre is its direction. 1/m and 1/J are set already.
 #[inline(always)]
-pub fn turn<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, weight: &mut Weight<S>) {
+pub fn turn<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, mass: &mut InverseMass<S>) {
     if inertia.coupled {
         let b = motion.pose.global(inertia.center).perp();
-        weight.shift = [b.x, b.y];
+        mass.direction = [-b.x, -b.y, S::one()];
     }
 }
 

@@ -3,8 +3,6 @@
 //! Functions of a [`Model`](crate::model::Model) and plain slices; scratch is a [`Workspace`].
 
 mod added_inertia;
-mod anchor;
-mod anchors;
 pub mod augmented;
 pub mod balance;
 mod compiled;
@@ -13,18 +11,18 @@ mod coupling;
 pub mod dense;
 pub mod energy;
 pub mod forces;
+mod grounded;
 mod inertia;
 pub mod iteration;
 pub mod kinematics;
 mod laws;
 pub mod mass;
 pub mod motion;
-mod pin;
-mod pins;
 mod plan;
 pub mod reactions;
 mod refine;
 mod residuals;
+mod roles;
 pub mod tangent;
 
 pub use compiled::Compiled;

@@ -31,12 +31,11 @@ pub(super) fn solve<S: Real>(
     motions: &Motions<S>,
     matrix: &Augmented<S>,
     x: &mut [S],
-    correction: &mut [S],
 ) -> Result<(), Dependent> {
-    let b = x.to_vec();
+    let (b, correction) = (x.to_vec(), &mut *vec![S::zero(); x.len()]);
     let n = model.layout.n_q;
     matrix.solve(x);
-    if matrix.ridged() || !compiled.has_added_inertia() {
+    if matrix.regularised() || !compiled.adds_mass {
         for _ in 0..FOR_REDUNDANCY {
             step(model, motions, matrix, &b, x, correction);
         }
@@ -51,7 +50,7 @@ pub(super) fn solve<S: Real>(
         }
         last = relative;
     }
-    Err(Dependent::Column(unresisted(&compiled.added_inertia, correction)))
+    Err(Dependent::Column(unresisted(model, &compiled.added_inertia, correction)))
 }
 
 fn step<S: Real>(
@@ -92,10 +91,12 @@ fn largest<S: Real>(x: &[S]) -> f64 {
     x.iter().map(|x| 1.0 / (one / *x).least_magnitude()).fold(0.0, f64::max)
 }
 
-/// The angle with added inertia that was corrected most.
-fn unresisted<S: Real>(added: &[S], correction: &[S]) -> usize {
-    let angles = (0..added.len()).filter(|b| added[*b].least_magnitude() > 0.0);
+/// The coordinate with added inertia that was corrected most.
+fn unresisted<S: Real>(model: &Model<S>, added: &[S], correction: &[S]) -> usize {
+    let bodies = model.layout.bodies[1..].iter().zip(added);
+    let angles = bodies.filter(|(_, added)| added.least_magnitude() > 0.0);
+    let angles = angles.map(|(columns, _)| columns.first + 2);
+    let own = model.layout.owners[added.len()..].iter().flat_map(|columns| columns.range());
     let size = |column: &usize| largest(&correction[*column..=*column]);
-    let most = angles.map(|b| 3 * b + 2).max_by(|a, b| size(a).total_cmp(&size(b)));
-    most.unwrap_or(0)
+    angles.chain(own).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0)
 }

@@ -55,6 +55,6 @@ impl StepwiseBaumgarte {
         let (damping, stiffness) = ((1.0 + 0.5 * B) / h, B / (h * h));
         let pairs = term.iter_mut().zip(rate);
         pairs.for_each(|(phi, rate)| *phi = damping * *rate + stiffness * *phi);
-        workspace.hold(term);
+        workspace.set_offset(term);
     }
 }

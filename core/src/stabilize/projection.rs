@@ -213,7 +213,7 @@ impl<'a, S: Real> Projector<'a, S> {
                 return Ok(iteration > 0);
             }
             let slow = gap > SLOW * last;
-            if newton && workspace.matrix.ridged() && gap > 0.5 * last {
+            if newton && workspace.matrix.regularised() && gap > 0.5 * last {
                 let scale = if level == Level::Velocity { self.largest(v) } else { 1.0 };
                 if gap <= level.near() * scale {
                     return Ok(true);

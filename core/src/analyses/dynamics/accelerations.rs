@@ -9,6 +9,7 @@ use super::lane_batch::are_finite;
 use super::model_cache::ModelCache;
 use super::report_projection::Halt;
 use super::Run;
+use crate::equations::augmented::NearSingular;
 use crate::equations::{Gains, Singular, Workspace};
 use crate::integrate::{all_finite, Flow};
 use crate::math::{Lanes, Real};
@@ -50,7 +51,7 @@ pub(super) fn accelerations(
     assert_eq!([q.len(), v.len()], [n * count; 2], "a row for each time");
     let mut one = Workspace::on(model, cache.plan(model));
     if passing {
-        one.pass_singular();
+        one.matrix.set_near_singular(NearSingular::Regularise);
     }
     let mut many = (count >= MANY).then(|| Many::new(cache.wide(model), &one));
     let mut found = Accelerations::with_room(model, count);
@@ -114,7 +115,7 @@ impl<'a> Many<'a> {
     /// With the plan of elimination of `one`.
     fn new(model: &'a Model<Lanes>, one: &Workspace) -> Self {
         let mut workspace = Workspace::like(model, one);
-        workspace.refuse_singular();
+        workspace.matrix.set_near_singular(NearSingular::Refuse);
         let none = vec![Lanes::zero(); model.layout.n_q];
         Self { model, workspace, q: none.clone(), v: none }
     }

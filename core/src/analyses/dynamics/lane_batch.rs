@@ -5,6 +5,7 @@ use super::motion_ode::WORKS;
 use super::options::Options;
 use super::recorder::Trajectory;
 use super::report_projection::ReportProjection;
+use crate::equations::augmented::NearSingular;
 use crate::equations::Workspace;
 use crate::integrate::Step;
 use crate::math::{Lanes, Real};
@@ -28,7 +29,7 @@ impl<'a> LaneBatch<'a> {
     pub fn new(model: &'a Model<Lanes>, options: &Options, one: &Workspace) -> Self {
         let (n, len) = (model.layout.n_q, 2 * model.layout.n_q + WORKS);
         let mut workspace = Workspace::like(model, one);
-        workspace.refuse_singular();
+        workspace.matrix.set_near_singular(NearSingular::Refuse);
         Self {
             placer: ReportProjection::new(model, options, workspace),
             t: [0.0; Lanes::WIDTH],

@@ -153,7 +153,6 @@ impl Dae for MotionDae<'_> {
         let n = self.model.layout.n_q;
         let Self { solution, workspace, .. } = self;
         solution[..n].fill(0.0);
-        workspace.matrix.restore_jacobian();
         for (k, slots) in self.model.layout.constraints.iter().enumerate() {
             let rows = &mut solution[n..][slots.rows.clone()];
             constraints::times(self.model, k, workspace.matrix.jacobian(), x, rows);

@@ -3,7 +3,7 @@
 use super::options::{Options, Stabilization};
 use super::singularity_passage::SingularityPassage;
 use crate::analyses::mobility;
-use crate::equations::augmented::Dependent;
+use crate::equations::augmented::{Dependent, NearSingular};
 use crate::equations::{Gains, Plan, Singular, Workspace};
 use crate::integrate::{all_finite, Ode};
 use crate::math::{Lanes, Real};
@@ -101,7 +101,7 @@ impl<'a> MotionOde<'a> {
         // without projection nothing brings a state back to its branch
         let passing = projector.is_some() && !model.allow_redundancy;
         if passing {
-            workspace.pass_singular();
+            workspace.matrix.set_near_singular(NearSingular::Regularise);
         }
         let passage = SingularityPassage::new(options, passing);
         let held = match options.stabilization {
@@ -124,7 +124,7 @@ impl<'a> MotionOde<'a> {
             return Ok(()); // the first step tells
         }
         self.passage.begin(t, &self.workspace);
-        let near = self.workspace.matrix.ridged();
+        let near = self.workspace.matrix.regularised();
         match self.workspace.matrix.cancellation().filter(|_| near) {
             Some((row, _)) if !mobility(self.model, t, q).redundant.is_empty() => {
                 Err(Singular(Dependent::Row(row)))
@@ -219,7 +219,6 @@ impl Ode for MotionOde<'_> {
         let (true, Some(projector)) = (self.passage.near, &mut self.projector) else {
             return false;
         };
-        self.workspace.matrix.restore_jacobian();
         let (dq, dv, _) = parts(dy, self.model.layout.n_q);
         projector.tangent(&self.workspace, dq);
         projector.tangent(&self.workspace, dv);

@@ -69,7 +69,7 @@ impl SingularityPassage {
     /// counts where no shorter step avoids it.
     #[inline(always)]
     pub fn watch(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
-        if !(work.matrix.ridged() || self.approach.in_reach()) {
+        if !(work.matrix.regularised() || self.approach.in_reach()) {
             return true;
         }
         let looked = self.look(model, work, t, v);
@@ -80,7 +80,7 @@ impl SingularityPassage {
     /// The same beside a singular position.
     #[cold]
     fn look(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> Result<(), Fault> {
-        let ridged = work.matrix.ridged();
+        let ridged = work.matrix.regularised();
         self.near = true;
         let Some((row, kept)) = work.matrix.cancellation() else { return Ok(()) };
         self.approach.pass((t, kept));

@@ -1,4 +1,4 @@
-//! The plan of an elimination without pivoting between blocks: what is multiplied where, worked out once.
+//! Symbolic LU factorisation without pivoting between blocks: order, fill, and where each product goes, found once.
 //!
 //! For a matrix of blocks of at most 3 × 3 with a symmetric pattern (its numbers need not be): bodies
 //! coupled by forces and constraints. Symbolic factorisation by the elimination tree: the pattern below

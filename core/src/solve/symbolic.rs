@@ -1,75 +1,77 @@
-//! Working out a [`Pattern`](super::Pattern): order, fill, and the list of products.
+//! Symbolic factorisation: elimination order, fill, and the elimination program.
 
 use super::block::numbers;
-use super::order::counted;
-use super::pattern::{RowBlock, MOST};
-use super::places::{is_armed, pairs};
-use super::steps::{Below, Left, Row, Start, Steps, Touch, Update};
+use super::order::groups_first;
+use super::records::{Below, Left, Pair, Program, Row, Start, Touch, Update};
+use super::storage::is_pin_only;
+use super::structure::{index, row_starts, RowBlock};
 
-/// Lists every product, row by row; with the numbers that the blocks of L take.
-pub(super) fn steps(
+/// The program with every product, row by row; and how many numbers the blocks of L take.
+pub(super) fn program(
     blocks: &[RowBlock],
     first_rows: &[usize],
     order: &[usize],
     rows_below: &[Vec<usize>],
     touches: &[Vec<Touch>],
-) -> (Steps, usize) {
+) -> (Program, usize) {
     let (of_rows, n_factors) = Factors::new(blocks, order, rows_below);
     let updates = of_rows.updates(blocks, order, rows_below);
     let (row, size) = (|own: usize| index(first_rows[own]), |own: usize| index(blocks[own].size));
-    let mut steps = Steps::default();
+    let mut program = Program::default();
     for (place, &own) in order.iter().enumerate() {
-        let first = (steps.left.len(), steps.below.len());
+        let first = (program.left.len(), program.below.len());
         for &Place { column, at, block } in &of_rows.left[place] {
-            let (other, before) = (order[column], steps.pairs.len());
-            steps.pairs.extend(pairs(&touches[own], &touches[other]));
+            let (other, before) = (order[column], program.pairs.len());
+            program.pairs.extend(pairs(&touches[own], &touches[other]));
             let updates = &updates[column][at];
-            steps.updates.extend(updates);
-            steps.left.push(Left {
+            program.updates.extend(updates);
+            program.left.push(Left {
                 block,
                 diagonal: of_rows.diagonals[column],
                 row: row(other),
                 size: size(other),
-                pairs: index(steps.pairs.len() - before),
+                pairs: index(program.pairs.len() - before),
                 updates: index(updates.len()),
             });
         }
         for (&r, &block) in rows_below[place].iter().zip(&of_rows.below[place]) {
-            steps.below.push(Below { block, row: row(order[r]), size: size(order[r]) });
+            program.below.push(Below { block, row: row(order[r]), size: size(order[r]) });
         }
-        let (left, below) = (&steps.left[first.0..], &steps.below[first.1..]);
-        let armed = is_armed(&touches[own]);
+        let (left, below) = (&program.left[first.0..], &program.below[first.1..]);
         let pairs = left.iter().map(|left| left.size).chain(below.iter().map(|below| below.size));
-        steps.rows.push(Row {
+        program.rows.push(Row {
             row: row(own),
             diagonal: of_rows.diagonals[place],
             left: index(left.len()),
             below: index(below.len()),
             size: blocks[own].size as u8,
-            armed,
-            pins: armed && pairs.into_iter().all(|size| size == 2),
+            pins: is_pin_only(&touches[own]) && pairs.into_iter().all(|size| size == 2),
         });
     }
-    steps.starts(order, touches);
-    (steps, n_factors)
+    program.starts(order, touches);
+    (program, n_factors)
 }
 
-impl Steps {
-    /// The row blocks, once the rows of L are there: those with arms alone last.
+impl Program {
+    /// The row blocks with their diagonal blocks, but for those with pin blocks alone.
     fn starts(&mut self, order: &[usize], touches: &[Vec<Touch>]) {
-        let rows = || order.iter().zip(&self.rows);
-        let mixed = rows().filter(|(_, row)| !row.armed);
-        let all: Vec<_> = mixed.chain(rows().filter(|(_, row)| row.armed)).collect();
-        self.n_mixed = all.iter().filter(|(_, row)| !row.armed).count();
-        let start = |(own, row): &(&usize, &Row)| Start {
-            row: row.row,
-            diagonal: row.diagonal,
-            touches: index(touches[**own].len()),
-            size: row.size.into(),
-        };
-        self.starts = all.iter().map(start).collect();
-        self.touches = all.iter().flat_map(|(own, _)| &touches[**own]).copied().collect();
+        for (&own, row) in
+            order.iter().zip(&self.rows).filter(|(own, _)| !is_pin_only(&touches[**own]))
+        {
+            let (count, size) = (index(touches[own].len()), row.size.into());
+            self.starts.push(Start { row: row.row, diagonal: row.diagonal, touches: count, size });
+            self.touches.extend(&touches[own]);
+        }
     }
+}
+
+/// Two row blocks in each group that they share.
+fn pairs<'a>(one: &'a [Touch], other: &'a [Touch]) -> impl Iterator<Item = Pair> + 'a {
+    one.iter().filter_map(|own| {
+        let partner = other.iter().find(|t| t.group == own.group)?;
+        let sign = f64::from(own.sign) * f64::from(partner.sign);
+        Some(Pair { first: [own.first, partner.first], sign })
+    })
 }
 
 /// A block of L left of the diagonal: its column, its place below the diagonal there, and where it begins.
@@ -135,23 +137,9 @@ impl Factors {
     }
 }
 
-pub(super) fn index(i: usize) -> u32 {
-    u32::try_from(i).expect("fewer than 2^32 entries")
-}
-
-/// First row of each row block, and the number of rows.
-pub(super) fn starts(blocks: &[RowBlock]) -> Vec<usize> {
-    let mut starts = vec![0];
-    for block in blocks {
-        assert!((1..=MOST).contains(&block.size), "blocks of one to three rows");
-        starts.push(starts[starts.len() - 1] + block.size);
-    }
-    starts
-}
-
-/// The order in which row blocks are eliminated, after all groups; with the work it took.
-pub(super) fn order(groups: usize, blocks: &[RowBlock]) -> (Vec<usize>, usize) {
-    let (n_first, starts) = (3 * groups, starts(blocks));
+/// The order in which row blocks are eliminated, after all groups.
+pub(super) fn order(groups: usize, blocks: &[RowBlock]) -> Vec<usize> {
+    let (n_first, starts) = (3 * groups, row_starts(blocks));
     let first: Vec<usize> = (0..n_first)
         .step_by(3)
         .chain(blocks.iter().zip(&starts).map(|(_, s)| n_first + s))
@@ -162,9 +150,9 @@ pub(super) fn order(groups: usize, blocks: &[RowBlock]) -> (Vec<usize>, usize) {
         .flat_map(|(b, s)| b.touches.iter().map(move |&(group, _)| (n_first + s, 3 * group)))
         .collect();
     let n = n_first + starts[blocks.len()];
-    let (order, work) = counted(n_first, n, &entries, Some(&first));
+    let order = groups_first(n_first, n, &entries, Some(&first));
     let starting = |i: &usize| i.checked_sub(n_first).and_then(|i| starts.binary_search(&i).ok());
-    (order.iter().filter_map(starting).collect(), work)
+    order.iter().filter_map(starting).collect()
 }
 
 /// For each column the rows of blocks below its diagonal, by place, ascending: later row blocks that share a
