@@ -143,4 +143,3 @@ macro_rules! element {
         }
     };
 }
-pub use element;

@@ -1,6 +1,6 @@
 //! Elements: joints, drivers and forces. One file is one element.
 //!
-//! An element declares its fields once ([`element!`]) and states its physics once ([`Joint`] or
+//! An element declares its fields once ([`element!`](crate::element)) and states its physics once ([`Joint`] or
 //! [`Force`]), generic in the scalar. From that follow the reader of the file, the JSON schema, the
 //! Python class, the reference page, and all derivatives. To add one: write its file, name it in the
 //! list below, and give it a test and a page.
@@ -10,6 +10,8 @@ mod derive;
 mod formula;
 mod kinds;
 mod traits;
+mod value;
+mod written;
 
 pub mod drivers;
 pub mod forces;
@@ -22,7 +24,7 @@ pub use catalogue::{
     catalogue, formulas, Acting, Constraint, ForceElement, Group, Linear, Rows, MOST_EQUATIONS,
 };
 use declare::join;
-pub use declare::{element, Default, Element, Field, Table};
+pub use declare::{Default, Element, Field, Table};
 pub use derive::{derived_jacobian, derived_velocity_terms, VelocityTerms};
 pub(crate) use derive::{moving, seeded};
 pub use formula::Formula;
@@ -31,3 +33,6 @@ pub use kinds::{
     Shape, Source,
 };
 pub use traits::{Action, Attachment, Equation, Force, Joint, Nature, Part, Side, Situation};
+pub use value::{Number, Pair, Value};
+pub use written::Written;
+pub(crate) use written::{argument, declare as element};

@@ -15,6 +15,7 @@ mod model;
 mod parameters;
 mod pin;
 mod problem;
+mod problems;
 mod size;
 
 pub use anchor::Anchor;
@@ -27,4 +28,5 @@ pub use link::{did_you_mean, Reach, Scope};
 pub use model::{variable, Body, ConstraintItem, Dependence, ForceItem, Model};
 pub use pin::Pin;
 pub use problem::Problem;
+pub use problems::Problems;
 pub use size::{row_scales, size};
