@@ -2,7 +2,7 @@
 
 use kempe::case::{self, Format};
 use kempe::drivers::CoordinateDriver;
-use kempe::forces::{SpringDamper, TorsionSpring, Torque};
+use kempe::forces::{SpringDamper, Torque, TorsionSpring};
 use kempe::joints::{Distance, Revolute, Translational};
 use kempe::model::body_tables;
 use kempe::{assemble, dynamics, Case, Flow, Frame, ModelBuilder, Options, Output, Start, Value};
@@ -76,7 +76,8 @@ fn unknown_names_of_results() {
         let none = run.coordinate(&model, name).unwrap_err().to_string();
         assert!(none.contains(&format!("'{name}'")), "{none}");
     }
-    for (joint, on, word) in [("E", "crank", "'E'"), ("A", "rocker", "'rocker'"), ("A", "x", "'x'")] {
+    for (joint, on, word) in [("E", "crank", "'E'"), ("A", "rocker", "'rocker'"), ("A", "x", "'x'")]
+    {
         let none = run.reactions(&model, joint, on, Frame::Joint).unwrap_err().to_string();
         assert!(none.contains(word), "{none}");
     }
@@ -95,8 +96,8 @@ fn other_values_of_parameters() {
 #[test]
 fn all_faults_at_once_as_of_a_file() {
     let mut m = four_bar();
-    m.bar("crank").mass(1).length(1).ends("P", "Q");
-    m.add("C", Revolute::written().i("crank.A"));
+    m.add("E", Revolute::written().i("crank.A"));
+    m.add("crank", Torque::written().j("crank"));
     m.parameter("pi", 3);
     let found = m.build().unwrap_err().to_string();
     let same = Case { definition: m.definition().clone(), ..Case::default() };
@@ -105,9 +106,25 @@ fn all_faults_at_once_as_of_a_file() {
     for fault in read {
         assert!(found.contains(&fault.message), "{} is not in:\n{found}", fault.message);
     }
-    for part in ["bodies.crank", "joints.C", "j: missing; revolute needs it", "pi"] {
+    for part in ["joints.E.j: missing; revolute needs it", "forces.crank.torque", "parameters.pi"] {
         assert!(found.contains(part), "{part} is not in:\n{found}");
     }
+}
+
+#[test]
+fn names_that_are_given_twice() {
+    let mut m = four_bar();
+    m.parameter("k", 1);
+    m.bar("crank").mass(1).length(1).ends("P", "Q");
+    m.add("C", Revolute::written().i("crank.A").j("rocker.C"));
+    m.ground().point("A", 1, 1);
+    let found: Vec<_> = m.build().unwrap_err().0.iter().map(ToString::to_string).collect();
+    let twice = ["parameters.k", "bodies.crank", "bodies.ground.points.A", "joints.C"];
+    for path in twice {
+        let name = path.rsplit('.').next().unwrap();
+        assert!(found.contains(&format!("{path}: '{name}' is given twice")), "{path}: {found:#?}");
+    }
+    assert_eq!(found.len(), twice.len(), "{found:#?}");
 }
 
 #[test]
@@ -120,7 +137,8 @@ fn faults_of_the_mechanics() {
     m.add("E", Revolute::written().i("bob.A").j("cranc.A"));
     let found = m.build().unwrap_err().to_string();
     assert!(found.contains("joints.E.i") && found.contains("did you mean 'crank'"), "{found}");
-    let request = Start::new().set("crank.phi", 1).guess("wheel.x", 2).request(&four_bar().build().unwrap());
+    let request =
+        Start::new().set("crank.phi", 1).guess("wheel.x", 2).request(&four_bar().build().unwrap());
     assert_eq!(request.unwrap_err().0.len(), 2);
 }
 

@@ -127,8 +127,47 @@ impl ModelBuilder {
 
 /// Faults that the reader of files finds: missing fields, names that are used twice or reserved.
 fn structure(case: &Case) -> Result<(), Problems> {
-    let Err(found) = read(&write(case, Format::Json), Format::Json) else { return Ok(()) };
-    let problem =
-        |fault: super::Diagnostic| Problem::at(&fault.path, fault.message).maybe_hint(fault.hint);
-    Err(Problems(found.into_iter().map(problem).collect()))
+    let mut problems = given_twice(&case.definition);
+    if let Err(found) = read(&write(case, Format::Json), Format::Json) {
+        // without a path: keys that are given twice, with a line of a text that nobody wrote
+        let placed = found.into_iter().filter(|fault| !fault.path.is_empty());
+        problems.extend(
+            placed.map(|fault| Problem::at(&fault.path, fault.message).maybe_hint(fault.hint)),
+        );
+    }
+    match problems.is_empty() {
+        true => Ok(()),
+        false => Err(Problems(problems)),
+    }
+}
+
+/// Names that a file could not give twice, because they are keys of one table.
+fn given_twice(definition: &Definition) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    let mut report = |path: &[&str], names: Vec<&str>| {
+        for (k, name) in names.iter().enumerate() {
+            if names[..k].contains(name) {
+                let message = format!("'{}' is given twice", super::shown(name));
+                problems.push(Problem::at(&[path, &[name]].concat(), message));
+            }
+        }
+    };
+    report(&["parameters"], definition.parameters.iter().map(|(name, _)| name.as_str()).collect());
+    for (section, entries) in [
+        ("bodies", &definition.bodies),
+        ("joints", &definition.joints),
+        ("drivers", &definition.drivers),
+        ("forces", &definition.forces),
+    ] {
+        report(&[section], entries.iter().map(|entry| entry.name.as_str()).collect());
+        for entry in entries {
+            for (field, value) in &entry.fields {
+                if let Value::Table(points) = value {
+                    let names = points.iter().map(|(name, _)| name.as_str()).collect();
+                    report(&[section, &entry.name, field], names);
+                }
+            }
+        }
+    }
+    problems
 }
