@@ -2,10 +2,13 @@
 
 pub mod assemble;
 pub mod dynamics;
+mod errors;
 mod mobility;
 mod option_tables;
+mod results;
 mod state;
 
 pub use mobility::{mobility, Mobility};
 pub use option_tables::{analysis_tables, option_families, Family, Options};
+pub use results::NoResult;
 pub use state::State;

@@ -5,6 +5,8 @@
 //! [`Problem`](crate::model::Problem)s, and [`Document::diagnose`] says where in the text they are.
 
 mod bodies;
+mod body_builder;
+mod builder;
 mod check;
 mod diagnostic;
 mod document;
@@ -16,6 +18,7 @@ mod report;
 mod schema;
 mod shapes;
 mod start;
+mod start_builder;
 mod toml;
 mod toml_tables;
 mod tree;
@@ -23,6 +26,8 @@ mod write;
 mod write_json;
 mod write_toml;
 
+pub use body_builder::{Bar, BodyBuilder, General, Ground};
+pub use builder::ModelBuilder;
 use diagnostic::shown;
 pub use diagnostic::Diagnostic;
 pub use document::Document;

@@ -146,4 +146,3 @@ macro_rules! element {
         }
     };
 }
-pub use element;

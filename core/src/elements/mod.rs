@@ -1,6 +1,6 @@
 //! Elements: joints, drivers and forces. One file is one element.
 //!
-//! An element declares its fields once ([`element!`]) and states its physics once ([`Joint`] or
+//! An element declares its fields once ([`element!`](crate::element)) and states its physics once ([`Joint`] or
 //! [`Force`]), generic in the scalar. From that follow the reader of the file, the JSON schema, the
 //! Python class, the reference page, and all derivatives. To add one: write its file, name it in
 //! `list.rs`, and give it a test sample and a page. No other file names it.
@@ -13,6 +13,8 @@ mod formula;
 mod joint_trait;
 mod kinds;
 mod list;
+mod value;
+mod written;
 
 pub mod drivers;
 pub mod forces;
@@ -22,7 +24,7 @@ pub mod joints;
 pub mod test_elements;
 
 use declare::join;
-pub use declare::{element, Default, Element, Field, Table};
+pub use declare::{Default, Element, Field, Table};
 pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation};
 pub use formula::Formula;
@@ -34,3 +36,6 @@ pub use kinds::{
 pub use list::{
     catalogue, formulas, holding, states_of, Constraint, ForceElement, ForcePools, JointPools,
 };
+pub use value::{Number, Pair, Value};
+pub use written::Written;
+pub(crate) use written::{argument, declare as element};

@@ -11,6 +11,7 @@ mod link;
 mod model;
 mod parameters;
 mod problem;
+mod problems;
 mod size;
 mod variable;
 
@@ -21,5 +22,6 @@ pub use layout::{Block, Columns, Slots, StateLayout, WORKS};
 pub use link::{did_you_mean, Reach, Scope};
 pub use model::{Body, ConstraintItem, ForceItem, Model};
 pub use problem::Problem;
+pub use problems::Problems;
 pub use size::{column_scales, row_scales, size};
 pub use variable::{Dependence, Variable};

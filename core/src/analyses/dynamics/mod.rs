@@ -124,7 +124,8 @@ fn simulate<W: FnMut(f64) -> Flow>(
     options: &Options,
     eyes: Eyes<'_, W>,
 ) -> Result<Run, Box<Failure>> {
-    let clock = Instant::now();
+    // WebAssembly has no clock of its own
+    let clock = (!cfg!(target_family = "wasm")).then(Instant::now);
     options.check(model, start).map_err(|reason| Failure { reason, run: Run::default() })?;
     let mut system = MotionOde::new(model, options, cache.plan(model));
     let t0 = options.t_start.unwrap_or(start.t);
@@ -225,7 +226,7 @@ fn finish(
     system: MotionOde<'_>,
     mut recorder: Recorder<'_>,
     (outcome, factorisations, choice): End,
-    (clock, start): (Instant, &State),
+    (clock, start): (Option<Instant>, &State),
 ) -> Result<Run, Box<Failure>> {
     recorder.flush();
     let reports = recorder.factorisations();
@@ -243,7 +244,7 @@ fn finish(
             + took.factorisations as usize
             + system.factorisations()
             + reports,
-        seconds: clock.elapsed().as_secs_f64(),
+        seconds: clock.map_or(0.0, |clock| clock.elapsed().as_secs_f64()),
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached);
     let last = trajectory.q.rchunks(n.max(1)).next().unwrap_or(&start.q).to_vec();
