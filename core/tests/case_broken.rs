@@ -189,7 +189,13 @@ const JSON: &[Row] = &[
     ("{\"kempe\": 1, \"title\": \"a\\q\"}", 1, 26, "invalid escape", ""),
     ("{\"kempe\": 1, \"title\": \"\\ud800\"}", 1, 23, "unexpected end of hex escape", ""),
     ("{\"kempe\": 1, \"title\": \"a\tb\"}", 1, 25, "control character (\\u0000-\\u001F) found", ""),
-    ("{\"kempe\": 1,\n\"parameters\": {\"a\": NaN}}", 2, 21, "expected value; a number must be finite", ""),
+    (
+        "{\"kempe\": 1,\n\"parameters\": {\"a\": NaN}}",
+        2,
+        21,
+        "expected value; a number must be finite",
+        "",
+    ),
     (
         "{\"kempe\": 1, \"parameters\": {\"a\": -Infinity}}",
         1,

@@ -22,6 +22,7 @@ mod tree;
 mod write;
 mod write_json;
 mod write_toml;
+mod write_value;
 
 use diagnostic::shown;
 pub use diagnostic::Diagnostic;
