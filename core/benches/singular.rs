@@ -15,7 +15,7 @@ mod mechanisms;
 use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::{constraints, kinematics};
-use kempe::integrate::{Atol, Dop853, FirstOrder, Flow, Method, Rk45, Step};
+use kempe::integrate::{Atol, Dop853, Flow, Method, Ode, Rk45, Step, StepControl};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 use mechanisms::chain;
@@ -42,7 +42,7 @@ fn upright(windows: usize) -> (Model, State) {
 /// ψ″ = ω² sin ψ.
 struct Pendulum(f64);
 
-impl FirstOrder for Pendulum {
+impl Ode for Pendulum {
     type Stop = ();
     fn len(&self) -> usize {
         2
@@ -57,7 +57,7 @@ impl FirstOrder for Pendulum {
 fn truth(windows: usize) -> Vec<[f64; 2]> {
     let n = windows as f64;
     let w2 = 1.5 * 9.81 * (3.0 * n + 1.0) / (4.0 * n + 1.0);
-    let method = Dop853 { rtol: 1e-14, atol: Atol::Scalar(1e-15), ..Dop853::default() };
+    let method = Dop853::new(1e-14, 1e-15);
     let mut y = [0.0, 1.0];
     let mut all = vec![[0.0, 1.0]];
     for k in 0..(T_END / GRID).round() as usize {
@@ -79,8 +79,12 @@ fn options(scheme: &str, rtol: f64) -> Options {
         dense_output: false,
         stabilization: Stabilization::Projection(Projection::default()),
         scheme: match scheme {
-            "rk45" => Scheme::Rk45(Rk45 { rtol, atol, ..Rk45::default() }),
-            _ => Scheme::Dop853(Dop853 { rtol, atol, ..Dop853::default() }),
+            "rk45" => {
+                Scheme::Rk45(Rk45 { control: StepControl { rtol, atol, ..StepControl::default() } })
+            }
+            _ => Scheme::Dop853(Dop853 {
+                control: StepControl { rtol, atol, ..StepControl::default() },
+            }),
         },
         ..Options::classical(T_END)
     }

@@ -4,7 +4,7 @@ mod mechanisms;
 
 use kempe::analyses::dynamics::{dynamics, most_steps, Failure, Options, Output, Reason, Scheme};
 use kempe::analyses::State;
-use kempe::integrate::{Flow, Rk4, Rk45};
+use kempe::integrate::{Flow, Rk4, Rk45, StepControl};
 use kempe::model::Model;
 use mechanisms::{close, four_bar, largest, model, rate, start};
 
@@ -56,7 +56,8 @@ fn a_partial_solution_is_finite() {
     assert!(matches!(failure.reason, Reason::Integration { .. }), "{:?}", failure.reason);
     let run = &failure.run;
     assert!(run.trajectory.t.len() > 3);
-    for table in [&run.trajectory.q, &run.responses(&m).unwrap().a, &run.energies(&m).unwrap()] {
+    for table in [&run.trajectory.q, &run.accelerations(&m).unwrap().a, &run.energies(&m).unwrap()]
+    {
         assert!(table.iter().all(|x| x.is_finite()), "{table:?}");
     }
     assert!(run.dense.as_ref().unwrap().c.iter().all(|x| x.is_finite()));
@@ -101,7 +102,8 @@ value = "0.3 + 2*t"
 fn a_run_without_end_ends() {
     let (m, state) = four_bar();
     assert_eq!(most_steps(&m), 333_333);
-    let scheme = Scheme::Rk45(Rk45 { max_step: 1e-12, ..Rk45::default() });
+    let scheme =
+        Scheme::Rk45(Rk45 { control: StepControl { max_step: 1e-12, ..StepControl::default() } });
     let failure = failed(&m, &state, &Options { scheme, ..Options::classical(1.0) });
     let Reason::Integration { t, message, hint } = failure.reason else { panic!("integration") };
     assert_eq!((t, failure.run.trajectory.t.len()), (0.0, 1));

@@ -3,7 +3,7 @@
 mod mechanisms;
 
 use kempe::analyses::dynamics::{
-    dynamics, Options, Output, Responses, Run, Scheme, Stabilization, Trajectory,
+    dynamics, Accelerations, Options, Output, Run, Scheme, Stabilization, Trajectory,
 };
 use kempe::analyses::State;
 use kempe::integrate::{Flow, Rk4};
@@ -19,7 +19,7 @@ fn run(m: &Model, s: &State, options: &Options, h: f64) -> Run {
 fn difference(m: &Model, many: &Run, few: &Run, ratio: usize) -> f64 {
     let rows = few.trajectory.t.len();
     let tables = |run: &Run| {
-        let Responses { a, lam } = run.responses(m).unwrap();
+        let Accelerations { a, lam } = run.accelerations(m).unwrap();
         let Trajectory { q, v, works, .. } = run.trajectory.clone();
         [q, v, works, a, lam]
     };

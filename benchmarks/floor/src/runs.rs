@@ -36,7 +36,7 @@ pub fn measure(repeat: usize) -> Value {
         };
         let general = || {
             let run = dynamics(&model, &start, &options, |_| Flow::Continue).expect("runs well");
-            let responses = run.responses(&model).expect("regular all along");
+            let responses = run.accelerations(&model).expect("regular all along");
             (run, responses)
         };
         let found = medians(

@@ -28,12 +28,12 @@ const B: f64 = 1.0 / 3.0;
 
 /// Baumgarte's term, from the step and held over it.
 #[derive(Clone, Debug)]
-pub struct Held {
+pub struct StepwiseBaumgarte {
     /// Φ, Φ̇ and γ at the beginning of the step; the first becomes the term.
     terms: [Vec<f64>; 3],
 }
 
-impl Held {
+impl StepwiseBaumgarte {
     /// For a model.
     pub fn new(model: &Model) -> Self {
         Self { terms: std::array::from_fn(|_| vec![0.0; model.layout.n_rows]) }

@@ -56,7 +56,7 @@ fn a_frame_off_the_centre_moves_as_the_centred_one() {
     let runs = [&centred, &off].map(|m| {
         let (state, _) = start(m, &ask, &[]);
         let run = run(m, &state, &tolerances(2.0, 1e-11, 1e-13));
-        let (found, energies) = (run.responses(m).unwrap(), run.energies(m).unwrap());
+        let (found, energies) = (run.accelerations(m).unwrap(), run.energies(m).unwrap());
         let last = |table: &[f64], n: usize| table[table.len() - n..].to_vec();
         let (q, v) = (last(&run.trajectory.q, 6), last(&run.trajectory.v, 6));
         (q, v, last(&found.a, 6), last(&found.lam, 4), last(&energies, 5))

@@ -22,7 +22,7 @@ fn found(m: &Model, state: &State, t_end: f64, grid: f64, scheme: Scheme) -> Fou
         ..Options::classical(t_end)
     };
     let run = run(m, state, &every(grid, options));
-    let lam = run.responses(m).unwrap().lam;
+    let lam = run.accelerations(m).unwrap().lam;
     Found { q: run.trajectory.q, v: run.trajectory.v, lam }
 }
 

@@ -5,7 +5,7 @@ use kempe::analyses::assemble::{assemble, wishes, Failure, Report, Request, Wish
 use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme};
 use kempe::analyses::State;
 use kempe::case::{read, Format};
-use kempe::integrate::{Atol, Flow, Rk45};
+use kempe::integrate::{Flow, Rk45};
 use kempe::model::{build, Model, Value};
 
 /// The flagship, as users get it.
@@ -158,7 +158,7 @@ pub fn four_bar() -> (Model, State) {
 
 /// Options with the given tolerances.
 pub fn tolerances(t_end: f64, rtol: f64, atol: f64) -> Options {
-    let scheme = Scheme::Rk45(Rk45 { rtol, atol: Atol::Scalar(atol), ..Rk45::default() });
+    let scheme = Scheme::Rk45(Rk45::new(rtol, atol));
     Options { scheme, dense_output: false, ..Options::classical(t_end) }
 }
 

@@ -40,7 +40,7 @@ fn compare(case: &str, text: &str) {
         let run = run(&m, &state, &tolerances(t, 1e-10, 1e-13));
         let last = run.trajectory.t.len() - 1;
         let at = |table: &[f64], n: usize| table[last * n..][..n].to_vec();
-        let found = run.responses(&m).unwrap();
+        let found = run.accelerations(&m).unwrap();
         let (a, lam) = (at(&found.a, 3), at(&found.lam, 2));
         state.t = t;
         state.q = at(&run.trajectory.q, 3);

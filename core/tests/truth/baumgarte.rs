@@ -4,7 +4,7 @@ use crate::mechanisms::{every, four_bar, largest, model, residual, run, start, t
 use kempe::analyses::dynamics::{Options, Output, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::Gains;
-use kempe::integrate::{Dop853, Rk4, Rk45};
+use kempe::integrate::{Dop853, Rk4, Rk45, StepControl};
 use kempe::model::Model;
 
 const FROM_STEP: Stabilization = Stabilization::BaumgarteFromStep;
@@ -100,8 +100,12 @@ fn end(m: &Model, from: &State, options: &Options) -> Vec<f64> {
 fn constant(order: i32, step: f64) -> Scheme {
     match order {
         4 => Scheme::Rk4(Rk4::new(step)),
-        5 => Scheme::Rk45(Rk45 { step: Some(step), ..Rk45::default() }),
-        _ => Scheme::Dop853(Dop853 { step: Some(step), ..Dop853::default() }),
+        5 => Scheme::Rk45(Rk45 {
+            control: StepControl { step: Some(step), ..StepControl::default() },
+        }),
+        _ => Scheme::Dop853(Dop853 {
+            control: StepControl { step: Some(step), ..StepControl::default() },
+        }),
     }
 }
 
@@ -182,7 +186,8 @@ fn a_start_off_the_constraints_comes_back() {
         *q += 1e-5 * (1.0 + k as f64).sin();
     }
     let first = largest(&residual(&m, &from));
-    let method = Rk45 { first_step: Some(1e-9), ..Rk45::new(1e-8, 1e-11) };
+    let method =
+        Rk45 { control: StepControl { first_step: Some(1e-9), ..StepControl::new(1e-8, 1e-11) } };
     let options = Options {
         scheme: Scheme::Rk45(method),
         output: Output::Steps,

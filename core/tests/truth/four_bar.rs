@@ -38,7 +38,7 @@ fn accelerations_and_multipliers_at_the_start() {
     let run = run(&m, &start, &Options::classical(0.0));
     assert_eq!(run.trajectory.t, [0.0]);
     let (a, lam) = (numbers(&truth["a"]), numbers(&truth["lam"]));
-    let found = run.responses(&m).unwrap();
+    let found = run.accelerations(&m).unwrap();
     assert!(worst(&found.a, &a) < 1e-9 * largest(&a));
     assert!(worst(&found.lam, &lam) < 1e-9 * largest(&lam));
 }
@@ -58,7 +58,7 @@ fn at_states(times: &[f64]) -> Vec<(State, Vec<f64>, Vec<f64>)> {
             z: vec![],
         };
         assert_eq!(state.t, t);
-        let found = run.responses(&m).unwrap();
+        let found = run.accelerations(&m).unwrap();
         out.push((state.clone(), pick(&found.a, n), pick(&found.lam, rows)));
     }
     out

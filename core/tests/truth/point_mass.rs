@@ -90,7 +90,7 @@ fn an_angle_that_nothing_turns_stays() {
     let m = model(AT_A_DISTANCE);
     let run = released(&m, 3.0);
     assert!(run.trajectory.q.chunks(3).all(|q| q[2] == 0.0));
-    assert!(run.responses(&m).unwrap().a.chunks(3).all(|a| a[2] == 0.0));
+    assert!(run.accelerations(&m).unwrap().a.chunks(3).all(|a| a[2] == 0.0));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! How forward dynamics fails, in terms of the mechanism.
 
-use super::apart::Apart;
-use super::report::Halt;
+use super::constraint_violation::Violation;
+use super::report_projection::Halt;
 use super::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::Equation;
@@ -112,7 +112,7 @@ impl Reason {
     }
 
     /// Joints that nothing keeps together.
-    fn apart(model: &Model, t: f64, Apart { row, gap, most }: Apart) -> Self {
+    fn apart(model: &Model, t: f64, Violation { row, gap, most }: Violation) -> Self {
         let (k, equation) = model.layout.owner(row);
         let item = &model.constraints[k];
         let Equation { name, unit } = item.equations[equation];
@@ -129,7 +129,7 @@ impl Reason {
     pub(super) fn halt(model: &Model, t: f64, q: &[f64], halt: Halt) -> Self {
         match halt {
             Halt::Fault(fault) => Self::fault(model, t, q, fault),
-            Halt::Apart(apart) => Self::apart(model, t, apart),
+            Halt::Violation(apart) => Self::apart(model, t, apart),
             Halt::NotFinite => {
                 let (message, hint) = not_finite(t);
                 Self::Integration { t, message, hint }

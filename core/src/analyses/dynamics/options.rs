@@ -3,7 +3,7 @@
 use super::{Reason, Singularity};
 use crate::analyses::State;
 use crate::equations::Gains;
-use crate::integrate::{Atol, Dop853, GeneralizedAlpha, Radau, Rk4, Rk45};
+use crate::integrate::{Dop853, GeneralizedAlpha, Radau, Rk4, Rk45, StepControl};
 use crate::model::Model;
 use crate::stabilize::Projection;
 
@@ -35,16 +35,8 @@ pub enum Scheme {
 /// Options of the automatic choice of the method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Auto {
-    /// Relative tolerance.
-    pub rtol: f64,
-    /// Absolute tolerance.
-    pub atol: Atol,
-    /// Longest step, s.
-    pub max_step: f64,
-    /// First step, s; chosen if none.
-    pub first_step: Option<f64>,
-    /// Largest number of steps.
-    pub max_steps: Option<usize>,
+    /// Tolerances and steps; a constant step is refused.
+    pub control: StepControl,
 }
 
 impl Scheme {
@@ -61,18 +53,34 @@ pub fn most_steps(model: &Model) -> usize {
 }
 
 impl Scheme {
+    /// Tolerances and steps.
+    pub fn control(&self) -> &StepControl {
+        match self {
+            Self::Rk45(method) => &method.control,
+            Self::Dop853(method) => &method.control,
+            Self::Rk4(method) => &method.control,
+            Self::GeneralizedAlpha(method) => &method.control,
+            Self::Radau(method) => &method.control,
+            Self::Auto(method) => &method.control,
+        }
+    }
+
+    /// Tolerances and steps, to be changed.
+    pub fn control_mut(&mut self) -> &mut StepControl {
+        match self {
+            Self::Rk45(method) => &mut method.control,
+            Self::Dop853(method) => &mut method.control,
+            Self::Rk4(method) => &mut method.control,
+            Self::GeneralizedAlpha(method) => &mut method.control,
+            Self::Radau(method) => &mut method.control,
+            Self::Auto(method) => &mut method.control,
+        }
+    }
+
     /// The scheme with a bound on its steps: its own, or [`most_steps`].
     pub(super) fn bounded(&self, model: &Model) -> Self {
         let mut bounded = self.clone();
-        let max_steps = match &mut bounded {
-            Self::Rk45(method) => &mut method.max_steps,
-            Self::Dop853(method) => &mut method.max_steps,
-            Self::Rk4(method) => &mut method.max_steps,
-            Self::GeneralizedAlpha(method) => &mut method.max_steps,
-            Self::Radau(method) => &mut method.max_steps,
-            Self::Auto(method) => &mut method.max_steps,
-        };
-        max_steps.get_or_insert(most_steps(model));
+        bounded.control_mut().max_steps.get_or_insert(most_steps(model));
         bounded
     }
 }
@@ -84,7 +92,7 @@ pub enum Stabilization {
     None,
     /// Baumgarte's, with gains α and β.
     Baumgarte(Gains),
-    /// Baumgarte's, with gains from the step, and the term held over it ([`Held`](crate::stabilize::Held)).
+    /// Baumgarte's, with gains from the step, and the term held over it ([`StepwiseBaumgarte`](crate::stabilize::StepwiseBaumgarte)).
     BaumgarteFromStep,
     /// Projection of the start, of every accepted and of every reported state.
     Projection(Projection),
@@ -125,7 +133,7 @@ impl Options {
             t_end,
             t_start: None,
             output: Output::Steps,
-            scheme: Scheme::Auto(Auto::new()),
+            scheme: Scheme::Auto(Auto::default()),
             stabilization: Stabilization::Projection(Projection::default()),
             singularity: Singularity::Stop,
             dense_output: true,
@@ -174,6 +182,14 @@ impl Options {
                            implicit one has the constraints among its equations: use projection or none, \
                            or method rk45, dop853 or rk4";
             return Err(Reason::Option { name: "stabilization", message: message.to_string() });
+        }
+        if let (Scheme::Auto(_), Some(step)) = (&self.scheme, self.scheme.control().step) {
+            require(
+                "step",
+                step,
+                false,
+                "absent: the automatic choice of the method controls its steps",
+            )?;
         }
         let n = model.layout.n_q;
         let must = format!("as long as the coordinates of the model, {n}");

@@ -2,9 +2,9 @@
 //! the tables of options; here values are put in.
 
 use super::options::{Auto, Options, Output, Scheme, Stabilization};
-use super::singularity::Singularity;
+use super::singularity_passage::Singularity;
 use crate::equations::{at, Gains};
-use crate::integrate::{AlphaParameters, Atol, Dop853, GeneralizedAlpha, Radau, Rk4, Rk45};
+use crate::integrate::{AlphaParameters, Dop853, GeneralizedAlpha, Radau, Rk4, Rk45, StepControl};
 use crate::model::{Model, Problem, Reach, Scope, Value};
 use crate::stabilize::Projection;
 
@@ -37,15 +37,6 @@ struct Reader<'a> {
     problems: &'a mut Vec<Problem>,
 }
 
-/// What implicit methods have in common.
-struct Stepping {
-    rtol: f64,
-    atol: Atol,
-    step: Option<f64>,
-    max_step: f64,
-    first_step: Option<f64>,
-}
-
 impl<'a> Reader<'a> {
     fn options(&mut self) -> Options {
         let mut options = Options::new(self.number("t_end", "s").unwrap_or(f64::NAN));
@@ -69,29 +60,25 @@ impl<'a> Reader<'a> {
     fn scheme(&mut self, kind: &str, max_steps: Option<usize>) -> Scheme {
         if kind == "rk4" {
             let step = self.positive("step", "s").unwrap_or(f64::NAN);
-            return Scheme::Rk4(Rk4 { step, max_steps });
+            let control = StepControl { max_steps, ..StepControl::constant(step) };
+            return Scheme::Rk4(Rk4 { control });
         }
         if kind == "radau" {
-            let Stepping { rtol, atol, step, max_step, first_step } = self.stepping((1e-6, 1e-9));
-            return Scheme::Radau(Radau { rtol, atol, step, max_step, first_step, max_steps });
+            let control = self.implicit_control(StepControl::USUAL, max_steps);
+            return Scheme::Radau(Radau { control });
         }
         if matches!(kind, "generalized_alpha" | "hht") {
             return Scheme::GeneralizedAlpha(self.alpha_method(kind, max_steps));
         }
         let automatic = matches!(kind, "auto" | "");
-        let usual = if automatic { (1e-8, 1e-11) } else { (1e-6, 1e-9) };
-        let rtol = self.not_negative("rtol", "").unwrap_or(usual.0);
-        let atol = Atol::Scalar(self.not_negative("atol", "").unwrap_or(usual.1));
+        let usual = if automatic { StepControl::AUTO } else { StepControl::USUAL };
         let step = self.positive("step", "s");
-        let first_step = self.positive("first_step", "s");
-        let max_step = self.positive("max_step", "s").unwrap_or(f64::INFINITY);
-        if automatic {
-            return Scheme::Auto(Auto { rtol, atol, max_step, first_step, max_steps });
+        let control = StepControl { max_steps, step, ..self.tolerances(usual) };
+        match kind {
+            _ if automatic => Scheme::Auto(Auto { control }),
+            "dop853" => Scheme::Dop853(Dop853 { control }),
+            _ => Scheme::Rk45(Rk45 { control }),
         }
-        if kind == "dop853" {
-            return Scheme::Dop853(Dop853 { rtol, atol, step, max_step, first_step, max_steps });
-        }
-        Scheme::Rk45(Rk45 { rtol, atol, step, max_step, first_step, max_steps })
     }
 
     /// Generalized-α and HHT, which differ in what selects the member of the family.
@@ -105,12 +92,12 @@ impl<'a> Reader<'a> {
                 self.checked("rho", "", good, "in [0, 1)").unwrap_or(0.8),
             )
         };
-        let Stepping { rtol, atol, step, max_step, first_step } = self.stepping((1e-4, 1e-7));
-        GeneralizedAlpha { parameters, rtol, atol, step, max_step, first_step, max_steps }
+        let control = self.implicit_control(StepControl::LOW_ORDER, max_steps);
+        GeneralizedAlpha { parameters, control }
     }
 
-    /// Tolerances and steps of an implicit method, whose usual tolerances are given.
-    fn stepping(&mut self, usual: (f64, f64)) -> Stepping {
+    /// Tolerances and steps of an implicit method, with default tolerances.
+    fn implicit_control(&mut self, usual: (f64, f64), max_steps: Option<usize>) -> StepControl {
         let step = self.positive("step", "s");
         if step.is_some() {
             self.not_together(
@@ -118,14 +105,19 @@ impl<'a> Reader<'a> {
                 "not together with step, which is constant",
             );
         }
-        let (rtol, atol) = if step.is_some() { (1e-10, 1e-12) } else { usual };
-        Stepping {
-            rtol: self.not_negative("rtol", "").unwrap_or(rtol),
-            atol: Atol::Scalar(self.not_negative("atol", "").unwrap_or(atol)),
-            step,
-            max_step: self.positive("max_step", "s").unwrap_or(f64::INFINITY),
-            first_step: self.positive("first_step", "s"),
-        }
+        let usual = if step.is_some() { StepControl::NEWTON } else { usual };
+        StepControl { max_steps, step, ..self.tolerances(usual) }
+    }
+
+    /// Tolerances, and bounds of controlled steps.
+    fn tolerances(&mut self, (rtol, atol): (f64, f64)) -> StepControl {
+        let mut control = StepControl::new(
+            self.not_negative("rtol", "").unwrap_or(rtol),
+            self.not_negative("atol", "").unwrap_or(atol),
+        );
+        control.first_step = self.positive("first_step", "s");
+        control.max_step = self.positive("max_step", "s").unwrap_or(f64::INFINITY);
+        control
     }
 
     fn stabilization(&mut self, kind: &str) -> Stabilization {

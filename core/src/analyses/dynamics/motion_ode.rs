@@ -1,30 +1,30 @@
 //! The equations of motion as a first-order system y = (q, v, work).
 
 use super::options::{Options, Stabilization};
-use super::singularity::Passage;
+use super::singularity_passage::SingularityPassage;
 use crate::analyses::mobility;
 use crate::equations::augmented::Dependent;
 use crate::equations::{kinematics, Gains, Plan, Singular, Workspace};
-use crate::integrate::{all_finite, FirstOrder};
+use crate::integrate::{all_finite, Ode};
 use crate::math::{Lanes, Real};
 use crate::model::Model;
-use crate::stabilize::{Fault, Held, Projector};
+use crate::stabilize::{Fault, Projector, StepwiseBaumgarte};
 use std::sync::Arc;
 
 /// Works that are integrated beside the motion: dissipated, of drivers, of applied forces.
 pub(super) const WORKS: usize = 3;
 
 /// The right side of forward dynamics.
-pub(super) struct Equations<'a> {
+pub(super) struct MotionOde<'a> {
     pub model: &'a Model,
     pub workspace: Workspace,
     pub gains: Gains,
     /// Baumgarte's term, if its gains come from the step.
-    held: Option<Held>,
+    held: Option<StepwiseBaumgarte>,
     pub projector: Option<Projector<'a>>,
     /// Whether singular positions are passed.
     pub passing: bool,
-    pub passage: Passage,
+    pub passage: SingularityPassage,
 }
 
 /// Splits y into q, v and the works.
@@ -90,7 +90,7 @@ fn join_behind<const LEFT: usize>(
     }
 }
 
-impl<'a> Equations<'a> {
+impl<'a> MotionOde<'a> {
     /// With the plan of elimination of the model.
     pub fn new(model: &'a Model, options: &Options, plan: Arc<Plan>) -> Self {
         let projector = match options.stabilization {
@@ -103,9 +103,9 @@ impl<'a> Equations<'a> {
         if passing {
             workspace.pass_singular();
         }
-        let passage = Passage::new(options, passing);
+        let passage = SingularityPassage::new(options, passing);
         let held = match options.stabilization {
-            Stabilization::BaumgarteFromStep => Some(Held::new(model)),
+            Stabilization::BaumgarteFromStep => Some(StepwiseBaumgarte::new(model)),
             _ => None,
         };
         Self { model, workspace, gains: options.gains(), held, projector, passing, passage }
@@ -181,7 +181,7 @@ fn stop_if_finite(singular: Singular, t: f64, y: &[f64]) -> Result<(), (f64, Fau
     }
 }
 
-impl FirstOrder for Equations<'_> {
+impl Ode for MotionOde<'_> {
     type Stop = (f64, Fault);
 
     fn len(&self) -> usize {
@@ -202,12 +202,12 @@ impl FirstOrder for Equations<'_> {
     }
 
     /// Projection leaves the bodies where y says.
-    fn rate_accepted(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
+    fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
         self.evaluate(t, y, dy, true)
     }
 
     /// Gains may come from the step.
-    fn trying(&mut self, t: f64, y: &[f64], h: f64) -> bool {
+    fn before_trial(&mut self, t: f64, y: &[f64], h: f64) -> bool {
         let Some(held) = &mut self.held else { return false };
         let n = self.model.layout.n_q;
         held.hold(self.model, &mut self.workspace, t, (&y[..n], &y[n..2 * n]), h);
@@ -215,7 +215,7 @@ impl FirstOrder for Equations<'_> {
     }
 
     /// Near a singular position noise along the direction that is lost there would refuse every step.
-    fn remaining(&mut self, dy: &mut [f64]) -> bool {
+    fn project_error(&mut self, dy: &mut [f64]) -> bool {
         let (true, Some(projector)) = (self.passage.near, &mut self.projector) else {
             return false;
         };
@@ -226,17 +226,17 @@ impl FirstOrder for Equations<'_> {
         true
     }
 
-    fn near_obstacle(&self) -> bool {
+    fn near_time_to_avoid(&self) -> bool {
         self.passage.near || self.passage.in_reach()
     }
 
     /// A singular position ahead.
-    fn obstacle(&mut self, t: f64) -> Option<f64> {
+    fn time_to_avoid(&mut self, t: f64) -> Option<f64> {
         self.passage.foresee(t, &self.workspace)
     }
 
     /// The last evaluation was near the end of the step: its factor serves.
-    fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
+    fn project_accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
         if let Some(projector) = &mut self.projector {
             projector.sharpen(self.passage.in_reach());
         }
@@ -244,7 +244,7 @@ impl FirstOrder for Equations<'_> {
     }
 
     /// From here the way to a singular position is seen on.
-    fn stands(&mut self, t: f64) {
+    fn on_accepted_end(&mut self, t: f64) {
         self.passage.accept(t, &self.workspace);
     }
 }

@@ -12,8 +12,8 @@
 //! its steps; or it has died out before the start, and Radau begins. It is under way where its part in the
 //! velocities, |v⃛| / |λ|² after the third derivative of q along the motion, is above the tolerance.
 
-use super::choice::{Detector, Fastest, LIMIT, TO_GO};
 use super::options::Auto;
+use super::stiffness_detection::{Fastest, StiffnessDetector, LIMIT, TO_GO};
 use crate::integrate::Atol;
 use crate::model::{size, Model};
 
@@ -25,7 +25,7 @@ const PROBE: f64 = 1e-3;
 
 /// The judgement at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Forecast {
+pub(super) struct InitialStiffness {
     /// None where the equations are singular.
     fastest: Option<Fastest>,
     /// w, 1/s.
@@ -37,10 +37,10 @@ pub(super) struct Forecast {
     under_way: bool,
 }
 
-impl Forecast {
+impl InitialStiffness {
     pub fn new(
         model: &Model,
-        detector: &mut Detector<'_>,
+        detector: &mut StiffnessDetector<'_>,
         auto: &Auto,
         (t, t_end): (f64, f64),
         y: &[f64],
@@ -111,10 +111,10 @@ fn pace(model: &Model, v: &[f64], a: &[f64]) -> f64 {
 /// Whether a motion of this rate has a part in the velocities that the tolerance sees.
 fn excited(auto: &Auto, jerk: &[f64], v: &[f64], rate: f64) -> bool {
     let n = v.len();
-    let atol = |k: usize| match &auto.atol {
+    let atol = |k: usize| match &auto.control.atol {
         Atol::Scalar(atol) => *atol,
         Atol::Each(each) => each.get(n + k).copied().unwrap_or(0.0),
     };
     let parts = jerk.iter().map(|jerk| jerk.abs() / (rate * rate));
-    parts.zip(v).enumerate().any(|(k, (part, v))| part > atol(k) + auto.rtol * v.abs())
+    parts.zip(v).enumerate().any(|(k, (part, v))| part > atol(k) + auto.control.rtol * v.abs())
 }

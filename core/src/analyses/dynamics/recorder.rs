@@ -1,10 +1,10 @@
 //! What forward dynamics reports: states at chosen times.
 
-use super::batch::Batch;
+use super::accelerations::{States, MANY};
+use super::lane_batch::LaneBatch;
+use super::motion_ode::{MotionOde, WORKS};
 use super::options::{Options, Output, Scheme};
-use super::report::{Halt, Placer};
-use super::respond::{States, MANY};
-use super::system::{Equations, WORKS};
+use super::report_projection::{Halt, ReportProjection};
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
 use crate::model::Model;
@@ -41,13 +41,11 @@ const UNSEEN: usize = 4;
 
 /// The same for a scheme: a constant step beyond its stability opens joints within a few.
 fn unseen(scheme: &Scheme) -> usize {
-    let step = match scheme {
-        Scheme::Rk4(_) => return 1,
-        Scheme::Rk45(method) => method.step,
-        Scheme::Dop853(method) => method.step,
-        _ => None,
+    let constant = match scheme {
+        Scheme::GeneralizedAlpha(_) | Scheme::Radau(_) | Scheme::Auto(_) => None,
+        explicit => explicit.control().step,
     };
-    step.map_or(UNSEEN, |_| 1)
+    constant.map_or(UNSEEN, |_| 1)
 }
 
 /// How many states a grid asks for; none if the steps are to be reported.
@@ -84,7 +82,7 @@ impl Trajectory {
 
 /// The continuous extension of every step.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Dense {
+pub struct PiecewiseInterpolant {
     /// Step boundaries, one more than steps.
     pub t: Vec<f64>,
     /// y at the start of each step, rows of n_y.
@@ -111,13 +109,13 @@ pub(super) struct Recorder<'a> {
     latest: f64,
     y: Vec<f64>,
     pub trajectory: Trajectory,
-    pub dense: Option<Dense>,
+    pub dense: Option<PiecewiseInterpolant>,
     /// Of the continuous extension of the last step.
     coefficients: Vec<f64>,
     /// Brings reported states onto the constraints.
-    one: Placer<'a>,
+    one: ReportProjection<'a>,
     /// The same for those of a grid, if they are many.
-    many: Option<Batch<'a>>,
+    many: Option<LaneBatch<'a>>,
     /// Why it cannot go on, and when.
     pub halt: Option<(f64, Halt)>,
 }
@@ -125,7 +123,7 @@ pub(super) struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     /// With the model over lanes, if there are to be many.
     pub fn new(
-        system: &Equations<'a>,
+        system: &MotionOde<'a>,
         wide: Option<&'a Model<Lanes>>,
         options: &Options,
         t0: f64,
@@ -142,10 +140,12 @@ impl<'a> Recorder<'a> {
             latest: t0,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
             trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
-            dense: options.dense_output.then(|| Dense::with_room(model, options, t0)),
+            dense: options
+                .dense_output
+                .then(|| PiecewiseInterpolant::with_room(model, options, t0)),
             coefficients: Vec::new(),
-            one: Placer::new(model, options, system.workspace.clone()),
-            many: wide.map(|wide| Batch::new(wide, options, &system.workspace)),
+            one: ReportProjection::new(model, options, system.workspace.clone()),
+            many: wide.map(|wide| LaneBatch::new(wide, options, &system.workspace)),
             halt: None,
         };
         recorder.go_on();
@@ -170,7 +170,7 @@ impl<'a> Recorder<'a> {
             return Flow::Stop;
         }
         let apart = self.one.apart(t, y);
-        self.keep(t, y, apart.map_or(Ok(()), |apart| Err(Halt::Apart(apart))))
+        self.keep(t, y, apart.map_or(Ok(()), |apart| Err(Halt::Violation(apart))))
     }
 
     /// Reports the state of a step at a time between its ends; whether it can is known once it is placed.
@@ -267,7 +267,7 @@ impl<'a> Recorder<'a> {
         }
         *since = 0;
         match self.one.apart(step.t, step.y) {
-            Some(apart) => self.stop(step.t, Halt::Apart(apart)),
+            Some(apart) => self.stop(step.t, Halt::Violation(apart)),
             None => Flow::Continue,
         }
     }
@@ -299,7 +299,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-impl Dense {
+impl PiecewiseInterpolant {
     /// Empty, with room for the steps that a grid lets expect.
     fn with_room(model: &Model, options: &Options, t0: f64) -> Self {
         // of steps of several degrees all have the highest, from the start
@@ -315,7 +315,7 @@ impl Dense {
 
     /// Whether all numbers of the step are finite; else nothing is kept of it.
     fn add(&mut self, step: &Step<'_>, coefficients: &mut Vec<f64>) -> bool {
-        let own = step.dense.degree();
+        let own = step.interpolant.degree();
         coefficients.resize(own * step.y.len(), 0.0);
         step.coefficients(coefficients);
         if !all_finite(coefficients) {

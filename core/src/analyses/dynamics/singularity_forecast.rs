@@ -20,7 +20,7 @@ type Sample = (f64, f64);
 
 /// What was seen on the way.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Approach {
+pub(super) struct SingularityForecast {
     /// At the start of the step under way.
     start: Option<Sample>,
     /// At stages of the trial under way.
@@ -31,7 +31,7 @@ pub(super) struct Approach {
     position: Option<f64>,
 }
 
-impl Approach {
+impl SingularityForecast {
     /// The start of the run.
     pub fn begin(&mut self, start: Option<Sample>) {
         *self = Self { start, ..Self::default() };
@@ -110,7 +110,7 @@ mod tests {
     }
 
     fn foreseen(times: &[f64], from: f64, to: f64) -> Option<f64> {
-        let mut approach = Approach::default();
+        let mut approach = SingularityForecast::default();
         approach.begin(Some(pivot(from)));
         times.iter().for_each(|t| approach.pass(pivot(*t)));
         approach.foresee(pivot(to))
@@ -133,7 +133,7 @@ mod tests {
     fn what_is_behind_far_or_shallow_is_none() {
         assert_eq!(foreseen(&[0.5], 0.4, 0.6), None);
         assert_eq!(foreseen(&[], -1.0, -0.9), None);
-        let mut approach = Approach::default();
+        let mut approach = SingularityForecast::default();
         approach.begin(Some((0.0, 0.5)));
         approach.pass((0.1, 0.2));
         assert_eq!(approach.foresee((0.2, 0.5)), None);
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn it_stays_in_reach_until_it_is_passed() {
-        let mut approach = Approach::default();
+        let mut approach = SingularityForecast::default();
         approach.begin(Some(pivot(0.0)));
         assert!(approach.foresee(pivot(0.2)).is_some());
         approach.accept(Some(pivot(0.2)));

@@ -1,20 +1,22 @@
 //! The equations of motion as implicit methods want them: residuals, tangent, and the matrices of
 //! Newton's iteration by one plan of elimination.
 
+use super::motion_ode::WORKS;
 use super::options::{Options, Stabilization};
-use super::system::WORKS;
 use crate::equations::balance::Balance;
 use crate::equations::iteration::{assemble, Places};
 use crate::equations::tangent::Tangent;
 use crate::equations::{constraints, Gains, Workspace};
-use crate::integrate::{Constrained, Level, Point, Residual, Shares, SingularMatrix};
+use crate::integrate::{
+    ConstraintLevel, Dae, DaeResidual, Iterate, NewtonCoefficients, SingularMatrix,
+};
 use crate::math::Complex;
 use crate::model::Model;
 use crate::solve::BlockLu;
 use crate::stabilize::{Fault, Projector};
 
 /// The mechanism with the memory of implicit methods.
-pub(super) struct Implicit<'a> {
+pub(super) struct MotionDae<'a> {
     model: &'a Model,
     workspace: Workspace,
     projector: Option<Projector<'a>>,
@@ -30,7 +32,7 @@ pub(super) struct Implicit<'a> {
     accelerations: usize,
 }
 
-impl<'a> Implicit<'a> {
+impl<'a> MotionDae<'a> {
     pub fn new(model: &'a Model, options: &Options) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
@@ -57,12 +59,12 @@ impl<'a> Implicit<'a> {
         self.accelerations + self.projector.as_ref().map_or(0, |p| p.factorisations)
     }
 
-    fn shares<F>(shares: Shares<F>) -> [F; 4] {
-        [shares.mass, shares.damping, shares.stiffness, shares.rate]
+    fn coefficients<F>(coefficients: NewtonCoefficients<F>) -> [F; 4] {
+        [coefficients.mass, coefficients.damping, coefficients.stiffness, coefficients.rate]
     }
 }
 
-impl Constrained for Implicit<'_> {
+impl Dae for MotionDae<'_> {
     type Stop = (f64, Fault);
 
     fn coordinates(&self) -> usize {
@@ -101,32 +103,41 @@ impl Constrained for Implicit<'_> {
         Ok(())
     }
 
-    fn residual(&mut self, t: f64, at: Point<'_>, level: Level, out: Residual<'_>) {
+    fn residual(&mut self, t: f64, at: Iterate<'_>, level: ConstraintLevel, out: DaeResidual<'_>) {
         self.balance.evaluate(self.model, t, [at.q, at.v, at.a], at.lam);
         out.forces.copy_from_slice(&self.balance.forces);
         out.rows.copy_from_slice(match level {
-            Level::Position => &self.balance.position,
-            Level::Velocity => &self.balance.rate,
+            ConstraintLevel::Position => &self.balance.position,
+            ConstraintLevel::Velocity => &self.balance.rate,
         });
         let powers = self.balance.powers;
         out.powers.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
     }
 
-    fn linearize(&mut self, t: f64, at: Point<'_>) {
+    fn linearize(&mut self, t: f64, at: Iterate<'_>) {
         let motions = &mut self.balance.motions;
         crate::equations::kinematics::motions(at.q, at.v, motions);
         self.tangent.linearize(self.model, motions, t, at.a, at.lam);
     }
 
-    fn factor(&mut self, shares: Shares) -> Result<(), SingularMatrix> {
-        assemble(self.model, &self.places, &self.tangent, Self::shares(shares), &mut self.real);
+    fn factor(&mut self, coefficients: NewtonCoefficients) -> Result<(), SingularMatrix> {
+        assemble(
+            self.model,
+            &self.places,
+            &self.tangent,
+            Self::coefficients(coefficients),
+            &mut self.real,
+        );
         self.real.factor(&self.places.plan).map_err(|_| SingularMatrix)
     }
 
-    fn factor_complex(&mut self, shares: Shares<Complex>) -> Result<(), SingularMatrix> {
+    fn factor_complex(
+        &mut self,
+        coefficients: NewtonCoefficients<Complex>,
+    ) -> Result<(), SingularMatrix> {
         let plan = &self.places.plan;
         let lu = self.complex.get_or_insert_with(|| BlockLu::new(plan));
-        assemble(self.model, &self.places, &self.tangent, Self::shares(shares), lu);
+        assemble(self.model, &self.places, &self.tangent, Self::coefficients(coefficients), lu);
         lu.factor(plan).map_err(|_| SingularMatrix)
     }
 

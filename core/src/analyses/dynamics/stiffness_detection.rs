@@ -43,7 +43,7 @@ const DIFFERENCE: f64 = 1e-7;
 
 /// What was chosen, and why.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Choice {
+pub struct MethodChoice {
     /// The method at the end: its `type` in a file.
     pub method: &'static str,
     /// In words.
@@ -59,7 +59,7 @@ pub(super) struct Fastest {
 }
 
 /// Watches the steps of the explicit method.
-pub(super) struct Detector<'a> {
+pub(super) struct StiffnessDetector<'a> {
     model: &'a Model,
     workspace: Workspace,
     /// The vector of the power iteration: (q part, v part), and its two images.
@@ -73,7 +73,7 @@ pub(super) struct Detector<'a> {
     pub seen: Option<(Fastest, f64)>,
 }
 
-impl<'a> Detector<'a> {
+impl<'a> StiffnessDetector<'a> {
     /// With the workspace of the equations of motion of this run for its plan of elimination.
     pub fn new(model: &'a Model, one: &Workspace, t0: f64) -> Self {
         let n = 2 * model.layout.n_q;

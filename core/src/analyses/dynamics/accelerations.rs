@@ -4,10 +4,10 @@
 //! other, so several are solved at once: the same formulas over lanes. Where one of them is not regular (a position
 //! near a singular one, a number that is not finite), each is solved by itself.
 
-use super::batch::are_finite;
 use super::failure::Reason;
-use super::prepared::Common;
-use super::report::Halt;
+use super::lane_batch::are_finite;
+use super::model_cache::ModelCache;
+use super::report_projection::Halt;
 use super::Run;
 use crate::equations::{Gains, Singular, Workspace};
 use crate::integrate::{all_finite, Flow};
@@ -28,7 +28,7 @@ pub struct States<'a> {
 
 /// What states answer to forces, a row for each.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Responses {
+pub struct Accelerations {
     /// Accelerations, rows of n_q.
     pub a: Vec<f64>,
     /// Multipliers, rows of n_rows.
@@ -38,22 +38,22 @@ pub struct Responses {
 /// So many states that solving several at once is worth a model over lanes.
 pub(super) const MANY: usize = 4 * Lanes::WIDTH;
 
-/// See [`Prepared::responses`](super::Prepared::responses).
-pub(super) fn respond(
-    (model, common): (&Model, &Common),
+/// See [`Prepared::accelerations`](super::Prepared::accelerations).
+pub(super) fn accelerations(
+    (model, cache): (&Model, &ModelCache),
     states: States<'_>,
     passing: bool,
     mut watch: impl FnMut(f64) -> Flow,
-) -> Result<Responses, Reason> {
+) -> Result<Accelerations, Reason> {
     let States { t, q, v } = states;
     let (n, count) = (model.layout.n_q, t.len());
     assert_eq!([q.len(), v.len()], [n * count; 2], "a row for each time");
-    let mut one = Workspace::on(model, common.plan(model));
+    let mut one = Workspace::on(model, cache.plan(model));
     if passing {
         one.pass_singular();
     }
-    let mut many = (count >= MANY).then(|| Many::new(common.wide(model), &one));
-    let mut found = Responses::with_room(model, count);
+    let mut many = (count >= MANY).then(|| Many::new(cache.wide(model), &one));
+    let mut found = Accelerations::with_room(model, count);
     for first in (0..count).step_by(Lanes::WIDTH) {
         let end = (first + Lanes::WIDTH).min(count);
         if watch(t[first]) == Flow::Stop {
@@ -68,7 +68,7 @@ pub(super) fn respond(
     Ok(found)
 }
 
-impl Responses {
+impl Accelerations {
     fn with_room(model: &Model, count: usize) -> Self {
         let room = |width: usize| Vec::with_capacity(count * width);
         Self { a: room(model.layout.n_q), lam: room(model.layout.n_rows) }
@@ -82,7 +82,7 @@ fn one_by_one(
     model: &Model,
     workspace: &mut Workspace,
     (t, q, v): Rows<'_>,
-    found: &mut Responses,
+    found: &mut Accelerations,
 ) -> Result<(), Reason> {
     let n = model.layout.n_q;
     for (k, &t) in t.iter().enumerate() {
@@ -120,7 +120,7 @@ impl<'a> Many<'a> {
     }
 
     /// Solves four states, if there are four and every one is regular.
-    fn solve(&mut self, (t, q, v): Rows<'_>, found: &mut Responses) -> bool {
+    fn solve(&mut self, (t, q, v): Rows<'_>, found: &mut Accelerations) -> bool {
         let Ok(t) = t.try_into() else { return false };
         Lanes::from_rows(q, &mut self.q);
         Lanes::from_rows(v, &mut self.v);
@@ -143,9 +143,14 @@ impl Run {
     /// Accelerations and multipliers at the reported states, without stabilization.
     ///
     /// # Errors
-    /// As [`Prepared::responses`](super::Prepared::responses).
-    pub fn responses(&self, model: &Model) -> Result<Responses, Reason> {
+    /// As [`Prepared::accelerations`](super::Prepared::accelerations).
+    pub fn accelerations(&self, model: &Model) -> Result<Accelerations, Reason> {
         let watch = |_| Flow::Continue;
-        respond((model, &Common::default()), self.trajectory.states(), self.passing, watch)
+        accelerations(
+            (model, &ModelCache::default()),
+            self.trajectory.states(),
+            self.passing,
+            watch,
+        )
     }
 }

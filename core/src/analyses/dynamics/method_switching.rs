@@ -1,30 +1,30 @@
 //! The run of a method that is not named: explicit and implicit pieces, one after the other, as
 //! `choice` decides.
 
-use super::choice::{Choice, Detector, LIMIT, TRIAL, WORTH};
-use super::forecast::Forecast;
-use super::implicit::Implicit;
+use super::initial_stiffness::InitialStiffness;
+use super::motion_dae::MotionDae;
+use super::motion_ode::MotionOde;
 use super::options::{Auto, Options};
-use super::system::Equations;
+use super::stiffness_detection::{MethodChoice, StiffnessDetector, LIMIT, TRIAL, WORTH};
 use super::Outcome;
 use crate::integrate::{
-    Atol, Dop853, Ended, Flow, ImplicitMethod, Method, Observer, Radau, Statistics, Step,
+    Dop853, Ended, Flow, ImplicitMethod, Method, Observer, Radau, Statistics, Step, StepControl,
 };
 use crate::model::Model;
 
 /// Everything a run goes on with from piece to piece.
-pub(super) struct Automatic<'a, 'o> {
+pub(super) struct MethodSwitching<'a, 'o> {
     model: &'a Model,
     options: &'o Options,
     auto: &'o Auto,
-    detector: Detector<'a>,
-    implicit: Option<Implicit<'a>>,
+    detector: StiffnessDetector<'a>,
+    implicit: Option<MotionDae<'a>>,
     /// Last step of the method that ran last.
     step: Option<f64>,
     total: Option<Statistics>,
     /// Evaluations of the explicit pieces, of which each has its factorisation.
     pub explicitly: usize,
-    pub choice: Choice,
+    pub choice: MethodChoice,
 }
 
 /// Shows the steps on, and stops where `judge` says so.
@@ -56,18 +56,18 @@ impl<O: Observer, F: FnMut(&Step<'_>) -> bool> Observer for Judged<'_, O, F> {
     }
 }
 
-impl<'a, 'o> Automatic<'a, 'o> {
+impl<'a, 'o> MethodSwitching<'a, 'o> {
     /// Where the equations of motion are `system` to explicit methods.
-    pub fn new(system: &Equations<'a>, options: &'o Options, auto: &'o Auto, t0: f64) -> Self {
+    pub fn new(system: &MotionOde<'a>, options: &'o Options, auto: &'o Auto, t0: f64) -> Self {
         let model = system.model;
-        let choice = Choice { method: "dop853", why: String::new() };
+        let choice = MethodChoice { method: "dop853", why: String::new() };
         Self {
             model,
             options,
             auto,
-            detector: Detector::new(model, &system.workspace, t0),
+            detector: StiffnessDetector::new(model, &system.workspace, t0),
             implicit: None,
-            step: auto.first_step,
+            step: auto.control.first_step,
             total: None,
             explicitly: 0,
             choice,
@@ -77,13 +77,13 @@ impl<'a, 'o> Automatic<'a, 'o> {
     /// Integrates to the end, by one method or the other.
     pub fn run<O: Observer>(
         &mut self,
-        system: &mut Equations<'a>,
+        system: &mut MotionOde<'a>,
         t0: f64,
         y: &mut [f64],
         observer: &mut O,
     ) -> Outcome {
         let mut t = t0;
-        let forecast = self.foretell(t0, y);
+        let forecast = self.judge_start(t0, y);
         let mut skipped = forecast.implicit();
         let outcome = loop {
             if !std::mem::take(&mut skipped) {
@@ -105,13 +105,13 @@ impl<'a, 'o> Automatic<'a, 'o> {
     }
 
     /// Judges the model at the start, and has the detector know.
-    fn foretell(&mut self, t: f64, y: &[f64]) -> Forecast {
+    fn judge_start(&mut self, t: f64, y: &[f64]) -> InitialStiffness {
         let Self { model, options, auto, detector, choice, .. } = self;
-        let forecast = Forecast::new(model, detector, auto, (t, options.t_end), y);
+        let forecast = InitialStiffness::new(model, detector, auto, (t, options.t_end), y);
         let Some(fastest) = forecast.stiff() else { return forecast };
         if forecast.implicit() {
             detector.seen = Some((fastest, LIMIT / fastest.rate));
-            *choice = Choice { method: "radau", why: forecast.why_implicit() };
+            *choice = MethodChoice { method: "radau", why: forecast.why_implicit() };
         } else {
             detector.foretold = Some(fastest.rate);
         }
@@ -120,26 +120,19 @@ impl<'a, 'o> Automatic<'a, 'o> {
 
     /// Factorisations beside those that the integrators count.
     pub fn factorisations(&self) -> usize {
-        self.explicitly + self.implicit.as_ref().map_or(0, Implicit::factorisations)
+        self.explicitly + self.implicit.as_ref().map_or(0, MotionDae::factorisations)
     }
 
     /// A piece by DOP853; whether it ended for stiffness.
     fn explicit<O: Observer>(
         &mut self,
-        system: &mut Equations<'a>,
+        system: &mut MotionOde<'a>,
         t: f64,
         y: &mut [f64],
         observer: &mut O,
     ) -> (Outcome, bool) {
         let t_end = self.options.t_end;
-        let method = Dop853 {
-            step: None,
-            rtol: self.auto.rtol,
-            atol: self.auto.atol.clone(),
-            max_step: self.auto.max_step,
-            first_step: self.step.map(|h| h.min((t_end - t).abs())),
-            max_steps: self.steps_left(),
-        };
+        let method = Dop853 { control: self.control(t) };
         let detector = &mut self.detector;
         let foretold = detector.foretold.is_some();
         let judge = |step: &Step<'_>| detector.stiff(step, t_end);
@@ -149,7 +142,7 @@ impl<'a, 'o> Automatic<'a, 'o> {
         let outcome = self.add(outcome, last, true);
         if stiff {
             let (fastest, h) = self.detector.seen.expect("stiffness was seen");
-            self.choice = Choice {
+            self.choice = MethodChoice {
                 method: "radau",
                 why: format!(
                     "stiff: from t = {:.4} s on, since a damped motion with a rate of {:.2e} 1/s held the steps \
@@ -175,13 +168,7 @@ impl<'a, 'o> Automatic<'a, 'o> {
         observer: &mut O,
     ) -> (Outcome, bool) {
         let t_end = self.options.t_end;
-        let method = Radau {
-            first_step: self.step.map(|h| h.min((t_end - t).abs())),
-            max_step: self.auto.max_step,
-            max_steps: self.steps_left(),
-            atol: self.auto.atol.clone(),
-            ..Radau::new(self.auto.rtol, 0.0)
-        };
+        let method = Radau { control: self.control(t) };
         let explicit_step = self.detector.seen.map_or(0.0, |(_, h)| h);
         let (mut taken, mut since) = (0, t);
         let judge = |step: &Step<'_>| {
@@ -194,12 +181,13 @@ impl<'a, 'o> Automatic<'a, 'o> {
             h < WORTH * explicit_step && to_go > TRIAL as f64 * explicit_step
         };
         let mut judged = Judged { observer, judge, judged: false, last: None };
-        let implicit = self.implicit.get_or_insert_with(|| Implicit::new(self.model, self.options));
+        let implicit =
+            self.implicit.get_or_insert_with(|| MotionDae::new(self.model, self.options));
         let outcome = method.integrate(implicit, t, t_end, y, &mut judged).map_err(Box::new);
         let (back, last) = (judged.judged, judged.last);
         let outcome = self.add(outcome, last, false);
         if back {
-            self.choice = Choice {
+            self.choice = MethodChoice {
                 method: "dop853",
                 why: format!(
                     "hardly stiff: radau was tried at t = {t:.4} s, and its steps became no longer than {WORTH} of \
@@ -210,9 +198,15 @@ impl<'a, 'o> Automatic<'a, 'o> {
         (outcome, back)
     }
 
-    fn steps_left(&self) -> Option<usize> {
+    /// Tolerances and steps of a piece that begins at `t`.
+    fn control(&self, t: f64) -> StepControl {
         let taken = self.total.map_or(0, |total| total.steps);
-        self.auto.max_steps.map(|most| most - taken.min(most))
+        let StepControl { max_steps, .. } = self.auto.control;
+        StepControl {
+            first_step: self.step.map(|h| h.min((self.options.t_end - t).abs())),
+            max_steps: max_steps.map(|most| most - taken.min(most)),
+            ..self.auto.control.clone()
+        }
     }
 
     /// Counts a piece to those before; the outcome then tells of all.
@@ -246,7 +240,7 @@ impl<'a, 'o> Automatic<'a, 'o> {
         })
     }
 
-    fn not_stiff(&self, forecast: &Forecast) -> String {
+    fn not_stiff(&self, forecast: &InitialStiffness) -> String {
         match self.detector.seen {
             None => forecast.why_explicit(),
             Some((fastest, h)) => format!(
@@ -259,21 +253,9 @@ impl<'a, 'o> Automatic<'a, 'o> {
     }
 }
 
-impl Auto {
-    /// DOP853 or Radau with rtol 1e-8 and atol 1e-11.
-    pub fn new() -> Self {
-        Self {
-            rtol: 1e-8,
-            atol: Atol::Scalar(1e-11),
-            max_step: f64::INFINITY,
-            first_step: None,
-            max_steps: None,
-        }
-    }
-}
-
 impl Default for Auto {
+    /// DOP853 or Radau with rtol 1e-8 and atol 1e-11.
     fn default() -> Self {
-        Self::new()
+        Self { control: StepControl::with(StepControl::AUTO) }
     }
 }

@@ -16,7 +16,7 @@
 //!
 //! An error e of the node before enters by some e / r⁵: steps much longer than that before do without.
 
-use super::dense::{Dense, HIGHEST as DEGREE};
+use super::interpolant::{Interpolant, HIGHEST as DEGREE};
 use super::stages;
 use crate::math::{Lanes, Real};
 
@@ -65,7 +65,7 @@ struct Block {
 type Four = [Lanes; DEGREE + 1];
 
 /// The extension, and what it takes from the step before.
-pub(super) struct Birkhoff {
+pub(super) struct HermiteBirkhoff {
     /// Number of components of q.
     positions: usize,
     /// Length of the step before; 0 where it does not serve.
@@ -81,7 +81,7 @@ pub(super) struct Birkhoff {
     polynomials: Vec<Four>,
 }
 
-impl Birkhoff {
+impl HermiteBirkhoff {
     /// For y of `len` components, of which the first `positions` are q.
     pub fn new(len: usize, positions: usize) -> Self {
         let m = len - positions;
@@ -207,9 +207,9 @@ impl Birkhoff {
     }
 
     /// The extension that was completed.
-    pub fn dense(&self) -> Dense<'_> {
+    pub fn interpolant(&self) -> Interpolant<'_> {
         let (q, rates) = self.polynomials.split_at(self.positions.div_ceil(Lanes::WIDTH));
-        Dense::polynomials(Polynomials { q, rates, positions: self.positions })
+        Interpolant::polynomials(Polynomials { q, rates, positions: self.positions })
     }
 }
 

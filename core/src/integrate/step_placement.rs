@@ -40,7 +40,7 @@ pub(super) struct Gap {
 
 /// Obstacles of a run, and how the step under way has been placed.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Clearance {
+pub(super) struct StepPlacement {
     met: bool,
     tried: usize,
     /// The step to go on with; 0 if the step was not placed.
@@ -51,7 +51,7 @@ pub(super) struct Clearance {
     least: Option<f64>,
 }
 
-impl Clearance {
+impl StepPlacement {
     /// Before the first trial of a step.
     pub fn begin(&mut self) {
         let least = self.least.filter(|_| self.tried > 0);
@@ -129,40 +129,40 @@ mod tests {
     #[test]
     fn what_lies_in_the_gap_or_out_of_reach_is_passed_as_it_is() {
         for ahead in [-1.0, 0.01, 0.43, 0.5, 0.57, 1.4, 9.0] {
-            assert_eq!(Clearance::default().instead(GAP, 1.0, ahead, 10.0), None, "{ahead}");
+            assert_eq!(StepPlacement::default().instead(GAP, 1.0, ahead, 10.0), None, "{ahead}");
         }
     }
 
     #[test]
     fn a_shorter_step_passes_what_lies_near() {
-        let mut clearance = Clearance::default();
-        assert_eq!(clearance.instead(GAP, 1.0, 0.25, 10.0), Some(0.5));
-        assert_eq!(clearance.resume(0.6), 1.0);
+        let mut placement = StepPlacement::default();
+        assert_eq!(placement.instead(GAP, 1.0, 0.25, 10.0), Some(0.5));
+        assert_eq!(placement.resume(0.6), 1.0);
     }
 
     #[test]
     fn a_step_before_is_as_long_as_leaves_room_for_the_one_that_passes() {
         for ahead in [0.8, 1.0, 1.2] {
-            let placed = Clearance::default().instead(GAP, 1.0, ahead, 10.0).expect("placed");
+            let placed = StepPlacement::default().instead(GAP, 1.0, ahead, 10.0).expect("placed");
             assert!((ahead - placed - 0.5).abs() < 1e-15, "{ahead}");
         }
     }
 
     #[test]
     fn at_the_end_of_the_run_the_step_that_passes_fits() {
-        let mut clearance = Clearance::default();
-        let placed = clearance.instead(GAP, 1.0, 0.8, 1.0).expect("placed");
-        assert!((placed + clearance.resume(0.0) - 1.0).abs() < 1e-15);
-        assert_eq!(Clearance::default().instead(GAP, 1.0, 1.0, 1.0), None);
+        let mut placement = StepPlacement::default();
+        let placed = placement.instead(GAP, 1.0, 0.8, 1.0).expect("placed");
+        assert!((placed + placement.resume(0.0) - 1.0).abs() < 1e-15);
+        assert_eq!(StepPlacement::default().instead(GAP, 1.0, 1.0, 1.0), None);
     }
 
     #[test]
     fn a_step_that_passes_is_taken_once_its_like_does_not_get_better() {
-        let mut clearance = Clearance::default();
+        let mut placement = StepPlacement::default();
         let mut at_best = |norm: f64| {
-            clearance.begin();
-            clearance.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
-            clearance.at_best(norm, 1e-10)
+            placement.begin();
+            placement.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
+            placement.at_best(norm, 1e-10)
         };
         assert!(!at_best(900.0)); // the first
         assert!(!at_best(90.0)); // better by ten
@@ -173,22 +173,22 @@ mod tests {
 
     #[test]
     fn of_other_steps_none_is_taken_with_too_large_an_error() {
-        let mut clearance = Clearance::default();
-        clearance.instead(GAP, 1.0, 1.0, 10.0).expect("a step before");
-        assert!(!clearance.at_best(9.0, 1e-10) && !clearance.at_best(9.0, 1e-10));
+        let mut placement = StepPlacement::default();
+        placement.instead(GAP, 1.0, 1.0, 10.0).expect("a step before");
+        assert!(!placement.at_best(9.0, 1e-10) && !placement.at_best(9.0, 1e-10));
         // nor where what was tried before was of another obstacle
-        clearance.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
-        assert!(!clearance.at_best(9.0, 1e-10));
-        clearance.begin();
-        clearance.begin();
-        clearance.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
-        assert!(!clearance.at_best(9.0, 1e-10));
+        placement.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
+        assert!(!placement.at_best(9.0, 1e-10));
+        placement.begin();
+        placement.begin();
+        placement.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
+        assert!(!placement.at_best(9.0, 1e-10));
     }
 
     #[test]
     fn it_ends_after_a_few_trials() {
-        let mut clearance = Clearance::default();
-        let trials = (0..10).filter(|_| clearance.instead(GAP, 1.0, 1.0, 10.0).is_some());
+        let mut placement = StepPlacement::default();
+        let trials = (0..10).filter(|_| placement.instead(GAP, 1.0, 1.0, 10.0).is_some());
         assert_eq!(trials.count(), MOST);
     }
 }

@@ -17,7 +17,7 @@ const ADRIFT: f64 = 1.0;
 
 /// A row of Φ that stands open.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Apart {
+pub(super) struct Violation {
     pub row: usize,
     /// What is left of it, m or rad.
     pub gap: f64,
@@ -26,13 +26,13 @@ pub(super) struct Apart {
 }
 
 /// Looks at states for joints that came apart.
-pub(super) struct Guard<S = f64> {
+pub(super) struct ViolationCheck<S = f64> {
     /// Most that each row may be open.
     most: Vec<f64>,
     residual: Vec<S>,
 }
 
-impl<S: Real> Guard<S> {
+impl<S: Real> ViolationCheck<S> {
     /// For runs without projection.
     pub fn new(model: &Model<S>, options: &Options) -> Option<Self> {
         let most = match options.stabilization {
@@ -48,7 +48,7 @@ impl<S: Real> Guard<S> {
     }
 
     /// The row that is widest open, if it is too wide; over lanes, in any of them.
-    pub fn look(&mut self, model: &Model<S>, t: S, motions: &[Motion<S>]) -> Option<Apart> {
+    pub fn look(&mut self, model: &Model<S>, t: S, motions: &[Motion<S>]) -> Option<Violation> {
         constraints::residual(model, motions, t, &mut self.residual);
         let gaps = || self.residual.iter().map(|gap| gap.largest_magnitude());
         if gaps().zip(&self.most).all(|(gap, most)| gap <= *most) {
@@ -57,6 +57,6 @@ impl<S: Real> Guard<S> {
         let over = gaps().zip(&self.most).map(|(gap, most)| gap / most);
         let (row, widest) = over.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let gap = self.residual[row].largest_magnitude();
-        (widest > 1.0).then(|| Apart { row, gap, most: self.most[row] })
+        (widest > 1.0).then(|| Violation { row, gap, most: self.most[row] })
     }
 }

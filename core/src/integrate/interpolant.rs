@@ -5,7 +5,7 @@
 //! computed for a step nobody looks into. Hairer, Nørsett and Wanner, *Solving Ordinary Differential
 //! Equations I*, II.6.
 
-use super::birkhoff::Polynomials;
+use super::hermite_birkhoff::Polynomials;
 use crate::math::{Lanes, Real};
 
 /// Most stages of a method, with those of its extension and the jump of a projection.
@@ -24,7 +24,7 @@ pub(super) const HERMITE: [f64; 12] =
 
 /// What a step is like between its ends.
 #[derive(Clone, Copy, Debug)]
-pub struct Dense<'a> {
+pub struct Interpolant<'a> {
     form: Form<'a>,
     degree: usize,
 }
@@ -51,7 +51,7 @@ fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, b| b.plus_product(sum, theta))
 }
 
-impl<'a> Dense<'a> {
+impl<'a> Interpolant<'a> {
     /// `stages` in rows of `len`, of which the components are the first, as many as the caller wants of those in `table`.
     pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
         assert!(degree <= HIGHEST, "a method of a higher degree");
@@ -217,8 +217,8 @@ mod tests {
                 let stages: Vec<f64> = (0..3 * len).map(|k| (k as f64).sin()).collect();
                 let y_old: Vec<f64> = (0..n).map(|k| (k as f64).cos()).collect();
                 let mut out = vec![f64::NAN; n];
-                let dense = Dense::new(&stages, len, &HERMITE, 4);
-                dense.evaluate(&y_old, ahead, theta, &mut out);
+                let interpolant = Interpolant::new(&stages, len, &HERMITE, 4);
+                interpolant.evaluate(&y_old, ahead, theta, &mut out);
                 for (i, (out, y)) in out.iter().zip(&y_old).enumerate() {
                     let sum: f64 =
                         weights.iter().zip(0..).map(|(w, s)| w * stages[s * len + i]).sum();

@@ -1,18 +1,18 @@
 //! Reported states of a grid side by side: placed and kept four at once.
 
-use super::around;
+use super::branch_averaging;
+use super::motion_ode::WORKS;
 use super::options::Options;
-use super::output::Trajectory;
-use super::report::Placer;
-use super::system::WORKS;
+use super::recorder::Trajectory;
+use super::report_projection::ReportProjection;
 use crate::equations::Workspace;
 use crate::integrate::Step;
 use crate::math::{Lanes, Real};
 use crate::model::Model;
 
 /// States of a grid that wait until there is one for each lane.
-pub(super) struct Batch<'a> {
-    pub placer: Placer<'a, Lanes>,
+pub(super) struct LaneBatch<'a> {
+    pub placer: ReportProjection<'a, Lanes>,
     t: [f64; Lanes::WIDTH],
     waiting: usize,
     /// As they were put in, a row for each lane.
@@ -23,14 +23,14 @@ pub(super) struct Batch<'a> {
     y: Vec<Lanes>,
 }
 
-impl<'a> Batch<'a> {
+impl<'a> LaneBatch<'a> {
     /// With the workspace of the equations of motion of this run for its plan of elimination.
     pub fn new(model: &'a Model<Lanes>, options: &Options, one: &Workspace) -> Self {
         let (n, len) = (model.layout.n_q, 2 * model.layout.n_q + WORKS);
         let mut workspace = Workspace::like(model, one);
         workspace.refuse_singular();
         Self {
-            placer: Placer::new(model, options, workspace),
+            placer: ReportProjection::new(model, options, workspace),
             t: [0.0; Lanes::WIDTH],
             waiting: 0,
             given: vec![0.0; Lanes::WIDTH * len],
@@ -70,7 +70,7 @@ impl<'a> Batch<'a> {
         self.rates.copy_from_slice(&self.y[n..2 * n]);
         self.placer.place(Lanes::new(self.t), &mut self.y).is_ok()
             && are_finite([&self.y])
-            && self.placer.turn(&self.rates, &self.y[n..2 * n]) <= around::TURNED
+            && self.placer.turn(&self.rates, &self.y[n..2 * n]) <= branch_averaging::TURNED
     }
 
     /// Lanes without a state of their own repeat the last.

@@ -1,6 +1,6 @@
 //! Evaluations of f, counted and checked.
 
-use super::contract::FirstOrder;
+use super::ode::Ode;
 use super::stages::Block;
 use crate::math::{Lanes, Real};
 
@@ -13,12 +13,12 @@ pub(super) enum Trouble<E> {
 }
 
 /// A system with the count of its evaluations.
-pub(super) struct Rate<'a, Y> {
+pub(super) struct RightHandSide<'a, Y> {
     pub system: &'a mut Y,
     pub evaluations: usize,
 }
 
-impl<Y: FirstOrder> Rate<'_, Y> {
+impl<Y: Ode> RightHandSide<'_, Y> {
     /// dy = f(t, y), both in blocks; not asked whether that is finite.
     #[inline(always)]
     pub fn unasked(
@@ -54,7 +54,7 @@ impl<Y: FirstOrder> Rate<'_, Y> {
         let n = self.system.len();
         self.evaluations += 1;
         let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
-        self.system.rate_accepted(t, y, rates).map_err(Trouble::Stop)?;
+        self.system.rate_projected(t, y, rates).map_err(Trouble::Stop)?;
         self.finite(t, dy)
     }
 
@@ -79,7 +79,7 @@ impl<Y: FirstOrder> Rate<'_, Y> {
         y: &[Block],
         dy: &mut [Block],
     ) -> Result<bool, Trouble<Y::Stop>> {
-        let changed = self.system.trying(t, &y.as_flattened()[..self.system.len()], h);
+        let changed = self.system.before_trial(t, &y.as_flattened()[..self.system.len()], h);
         if changed {
             self.at(t, y, dy)?;
         }

@@ -9,13 +9,13 @@
 //! to an [`Observer`] is y = (q, v, quadratures), so output, dense output and events are those of the
 //! explicit methods.
 
-use super::contract::{Observer, Statistics};
 use super::failure::Failure;
+use super::ode::{Observer, Statistics};
 use crate::math::Complex;
 
 /// Coordinates, velocities, accelerations and multipliers, which need not satisfy anything.
 #[derive(Clone, Copy, Debug)]
-pub struct Point<'a> {
+pub struct Iterate<'a> {
     /// Coordinates.
     pub q: &'a [f64],
     /// Velocities.
@@ -28,7 +28,7 @@ pub struct Point<'a> {
 
 /// Which constraints a method puts beside the balance of forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
+pub enum ConstraintLevel {
     /// Φ: index 3.
     Position,
     /// Φ_q v + Φ_t: index 2.
@@ -37,7 +37,7 @@ pub enum Level {
 
 /// Where residuals go.
 #[derive(Debug)]
-pub struct Residual<'a> {
+pub struct DaeResidual<'a> {
     /// M a + Φ_qᵀ λ - Q, as long as q.
     pub forces: &'a mut [f64],
     /// The constraints at the level asked for, as long as λ.
@@ -55,7 +55,7 @@ pub struct Residual<'a> {
 ///
 /// with K and D the derivatives of the balance of forces by q and v, and B that of Φ_q v + Φ_t by q.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shares<F = f64> {
+pub struct NewtonCoefficients<F = f64> {
     /// Of M.
     pub mass: F,
     /// Of D.
@@ -71,7 +71,7 @@ pub struct Shares<F = f64> {
 pub struct SingularMatrix;
 
 /// A constrained mechanical system.
-pub trait Constrained {
+pub trait Dae {
     /// Why the system cannot go on; passed through untouched.
     type Stop;
 
@@ -99,22 +99,25 @@ pub trait Constrained {
     ) -> Result<(), Self::Stop>;
 
     /// Residuals at a point.
-    fn residual(&mut self, t: f64, at: Point<'_>, level: Level, out: Residual<'_>);
+    fn residual(&mut self, t: f64, at: Iterate<'_>, level: ConstraintLevel, out: DaeResidual<'_>);
 
     /// Finds and keeps M, D, K, B and Φ_q at a point.
-    fn linearize(&mut self, t: f64, at: Point<'_>);
+    fn linearize(&mut self, t: f64, at: Iterate<'_>);
 
     /// Factorises the matrix with the last tangent.
     ///
     /// # Errors
     /// [`SingularMatrix`].
-    fn factor(&mut self, shares: Shares) -> Result<(), SingularMatrix>;
+    fn factor(&mut self, coefficients: NewtonCoefficients) -> Result<(), SingularMatrix>;
 
     /// The same with complex coefficients; both factors are kept.
     ///
     /// # Errors
     /// [`SingularMatrix`].
-    fn factor_complex(&mut self, shares: Shares<Complex>) -> Result<(), SingularMatrix>;
+    fn factor_complex(
+        &mut self,
+        coefficients: NewtonCoefficients<Complex>,
+    ) -> Result<(), SingularMatrix>;
 
     /// Solves with the real factors, in place; (q part, λ part).
     fn solve(&mut self, x: &mut [f64]);
@@ -145,7 +148,7 @@ pub trait ImplicitMethod {
     ///
     /// # Errors
     /// [`Failure`], with the time and the state reached.
-    fn integrate<Y: Constrained, O: Observer>(
+    fn integrate<Y: Dae, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,

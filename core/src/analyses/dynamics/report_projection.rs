@@ -4,10 +4,10 @@
 //! placed at once (`batch`): the same formulas over lanes. Where one of them is not regular (a position near a singular
 //! one, a gap that does not close, a number that is not finite), each is solved by itself.
 
-use super::apart::{Apart, Guard};
-use super::around;
+use super::branch_averaging;
+use super::constraint_violation::{Violation, ViolationCheck};
+use super::motion_ode::parts;
 use super::options::{Options, Stabilization};
-use super::system::parts;
 use crate::equations::{kinematics, Gains, Workspace};
 use crate::integrate::all_finite;
 use crate::math::Real;
@@ -20,22 +20,22 @@ pub(super) enum Halt {
     /// It cannot be projected, or has no unique accelerations.
     Fault(Fault),
     /// Its joints are apart.
-    Apart(Apart),
+    Violation(Violation),
     /// A number of it is not finite.
     NotFinite,
 }
 
 /// Places reported states, one at a time or one in each lane.
-pub(super) struct Placer<'a, S = f64> {
+pub(super) struct ReportProjection<'a, S = f64> {
     pub model: &'a Model<S>,
     workspace: Workspace<S>,
     projector: Option<Projector<'a, S>>,
-    guard: Option<Guard<S>>,
+    guard: Option<ViolationCheck<S>>,
     /// Whether projection changed the last state.
     changed: bool,
 }
 
-impl<'a, S: Real> Placer<'a, S> {
+impl<'a, S: Real> ReportProjection<'a, S> {
     /// With the workspace of the equations of motion of this run, or a copy of it.
     pub fn new(model: &'a Model<S>, options: &Options, workspace: Workspace<S>) -> Self {
         let projector = match options.stabilization {
@@ -43,12 +43,12 @@ impl<'a, S: Real> Placer<'a, S> {
             _ => None,
         };
         let projector = projector.map(Projector::for_reports);
-        let guard = Guard::new(model, options);
+        let guard = ViolationCheck::new(model, options);
         Self { model, workspace, projector, guard, changed: false }
     }
 
     /// The joint that is apart at y, if one is.
-    pub fn apart(&mut self, t: S, y: &[S]) -> Option<Apart> {
+    pub fn apart(&mut self, t: S, y: &[S]) -> Option<Violation> {
         self.guard.as_ref()?;
         self.set_motions(y);
         self.guard.as_mut()?.look(self.model, t, &self.workspace.motions)
@@ -66,7 +66,7 @@ impl<'a, S: Real> Placer<'a, S> {
     /// [`Halt`]; of lanes, that of one of them.
     pub fn place(&mut self, t: S, y: &mut [S]) -> Result<(), Halt> {
         let Some(projector) = &mut self.projector else {
-            return self.apart(t, y).map_or(Ok(()), |apart| Err(Halt::Apart(apart)));
+            return self.apart(t, y).map_or(Ok(()), |apart| Err(Halt::Violation(apart)));
         };
         let (q, v, _) = parts(y, self.model.layout.n_q);
         let changed = projector.project(&mut self.workspace, t, (q, v), false);
@@ -77,7 +77,7 @@ impl<'a, S: Real> Placer<'a, S> {
     /// By what part of the fastest rate projection has changed the rates that were `given`.
     pub fn turn(&self, given: &[S], v: &[S]) -> f64 {
         let projector = self.projector.as_ref().filter(|_| self.changed);
-        projector.map_or(0.0, |projector| around::turn(projector, given, v))
+        projector.map_or(0.0, |projector| branch_averaging::turn(projector, given, v))
     }
 
     /// Factorisations, of all lanes one.
@@ -86,14 +86,14 @@ impl<'a, S: Real> Placer<'a, S> {
     }
 }
 
-impl Placer<'_> {
+impl ReportProjection<'_> {
     /// Whether joints are together at y, and the equations of motion have a solution there.
     ///
     /// # Errors
     /// [`Halt`].
     pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Halt> {
         if let Some(apart) = self.apart(t, y) {
-            return Err(Halt::Apart(apart));
+            return Err(Halt::Violation(apart));
         }
         self.set_motions(y);
         let solved = self.workspace.respond(self.model, t, Gains::default());
@@ -114,12 +114,13 @@ impl Placer<'_> {
         let turned = |solver: &Self, y: &[f64]| solver.turn(&given[n..2 * n], &y[n..2 * n]);
         self.place(t, y)?;
         let turn = turned(self, y);
-        let Some(projector) = self.projector.as_mut().filter(|_| turn > around::TURNED) else {
+        let Some(projector) = self.projector.as_mut().filter(|_| turn > branch_averaging::TURNED)
+        else {
             return Ok(());
         };
         let mut other = given.clone();
         let (q, v, _) = parts(&mut other, n);
-        let taken = around::take(projector, &mut self.workspace, t, (q, v));
+        let taken = branch_averaging::take(projector, &mut self.workspace, t, (q, v));
         let placed = taken.is_ok() && self.place(t, &mut other).is_ok();
         if placed && turned(self, &other) < turn {
             y.copy_from_slice(&other);

@@ -7,8 +7,8 @@
 //!   aside within a part of its size in which the branches cannot be told apart;
 //! * where its velocity is tangent to no branch: Φ_q a = γ has no solution.
 
-use super::approach::Approach;
 use super::options::Options;
+use super::singularity_forecast::SingularityForecast;
 use crate::equations::augmented::Dependent;
 use crate::equations::{constraints, forces, mass, Singular, Workspace};
 use crate::model::{size, Model};
@@ -37,7 +37,7 @@ const ROUNDING: f64 = 1e-9;
 const BALANCED: f64 = 1e-9;
 
 /// What a step came by.
-pub(super) struct Passage {
+pub(super) struct SingularityPassage {
     /// Whether a stage of the trial under way was near a singular position.
     pub near: bool,
     /// Why the last trial state that was refused was, and when.
@@ -45,19 +45,19 @@ pub(super) struct Passage {
     singularity: Singularity,
     /// Whether singular positions are passed at all.
     passing: bool,
-    approach: Approach,
+    approach: SingularityForecast,
     residual: Vec<f64>,
     loads: Vec<f64>,
 }
 
-impl Passage {
+impl SingularityPassage {
     pub fn new(options: &Options, passing: bool) -> Self {
         Self {
             near: false,
             undecided: None,
             singularity: options.singularity,
             passing,
-            approach: Approach::default(),
+            approach: SingularityForecast::default(),
             residual: Vec::new(),
             loads: Vec::new(),
         }

@@ -1,10 +1,10 @@
 //! What a system, an observer and a method promise each other.
 
-use super::dense::Dense;
 use super::failure::Failure;
+use super::interpolant::Interpolant;
 
 /// A first-order system y′ = f(t, y).
-pub trait FirstOrder {
+pub trait Ode {
     /// Why the system cannot go on; passed through untouched.
     type Stop;
 
@@ -29,7 +29,7 @@ pub trait FirstOrder {
         0
     }
 
-    /// dy = f(t, y); both of length [`FirstOrder::len`].
+    /// dy = f(t, y); both of length [`Ode::len`].
     ///
     /// # Errors
     /// Ends the integration at once. A trial state that is merely too far off should yield NaN
@@ -39,7 +39,7 @@ pub trait FirstOrder {
     /// Called before every step that is tried, from y at t over h, which is negative when integrating
     /// backward. May change f for the step, as gains that follow it do, and then returns true: the
     /// derivative at its beginning is evaluated afresh.
-    fn trying(&mut self, t: f64, y: &[f64], h: f64) -> bool {
+    fn before_trial(&mut self, t: f64, y: &[f64], h: f64) -> bool {
         let _ = (t, y, h);
         false
     }
@@ -51,44 +51,44 @@ pub trait FirstOrder {
     /// # Errors
     /// The state is refused: a method with step control tries a shorter step, and stops with this
     /// where none is short enough; one with constant steps stops at once.
-    fn accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
+    fn project_accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
         let _ = (t, y);
         Ok(false)
     }
 
-    /// The same as [`rate`](Self::rate) right after [`accepted`](Self::accepted) has changed y: what the system
+    /// The same as [`rate`](Self::rate) right after [`accepted`](Self::project_accepted) has changed y: what the system
     /// then knows of y it need not find again.
     ///
     /// # Errors
     /// As there.
-    fn rate_accepted(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
+    fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
         self.rate(t, y, dy)
     }
 
     /// Called by methods with step control where a step stands, before the observer sees it; f was
     /// evaluated last in its end.
-    fn stands(&mut self, t: f64) {
+    fn on_accepted_end(&mut self, t: f64) {
         let _ = t;
     }
 
-    /// Of a derivative at the last evaluated state, leaves the part that [`accepted`](Self::accepted)
+    /// Of a derivative at the last evaluated state, leaves the part that [`accepted`](Self::project_accepted)
     /// would not take away; false if it takes nothing. Linear in `dy`. By it a step is judged that the
     /// whole error estimate refuses.
-    fn remaining(&mut self, dy: &mut [f64]) -> bool {
+    fn project_error(&mut self, dy: &mut [f64]) -> bool {
         let _ = dy;
         false
     }
 
     /// Whether an obstacle may be near, by the evaluations of the trial under way: then f is evaluated in the
     /// very end of it too, which the error of a method may do without.
-    fn near_obstacle(&self) -> bool {
+    fn near_time_to_avoid(&self) -> bool {
         false
     }
 
     /// Called after every trial step, whether it will be accepted or not, with the time of its end, at
     /// which f was evaluated last, near the end if not in it. A time near which f is little but noise: a method with step control
     /// places its steps so that no stage comes near it.
-    fn obstacle(&mut self, t: f64) -> Option<f64> {
+    fn time_to_avoid(&mut self, t: f64) -> Option<f64> {
         let _ = t;
         None
     }
@@ -138,20 +138,20 @@ pub struct Step<'a> {
     /// Derivative at the end.
     pub dy: &'a [f64],
     /// The continuous extension.
-    pub dense: Dense<'a>,
+    pub interpolant: Interpolant<'a>,
 }
 
 impl Step<'_> {
     /// The state at a `time` within the step, into `out` (length of y).
     pub fn interpolate(&self, time: f64, out: &mut [f64]) {
         let (h, ahead) = (self.t - self.t_old, time - self.t_old);
-        self.dense.evaluate(self.y_old, ahead, ahead / h, out);
+        self.interpolant.evaluate(self.y_old, ahead, ahead / h, out);
     }
 
-    /// Coefficients b of y(θ) = y_old + h Σₖ bₖ θᵏ, k = 1…[`Dense::degree`], θ = (t - t_old) / h: into
+    /// Coefficients b of y(θ) = y_old + h Σₖ bₖ θᵏ, k = 1…[`Interpolant::degree`], θ = (t - t_old) / h: into
     /// `out`, row-major (len of y) × degree.
     pub fn coefficients(&self, out: &mut [f64]) {
-        self.dense.coefficients(out);
+        self.interpolant.coefficients(out);
     }
 }
 
@@ -208,7 +208,7 @@ pub trait Method {
     ///
     /// # Errors
     /// [`Failure`], with the time and the state reached.
-    fn integrate<Y: FirstOrder, O: Observer>(
+    fn integrate<Y: Ode, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,

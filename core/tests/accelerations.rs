@@ -2,7 +2,7 @@
 
 mod mechanisms;
 
-use kempe::analyses::dynamics::{Prepared, Reason, Responses, States};
+use kempe::analyses::dynamics::{Accelerations, Prepared, Reason, States};
 use kempe::analyses::State;
 use kempe::equations::{Gains, Workspace};
 use kempe::integrate::Flow;
@@ -16,8 +16,8 @@ fn turned(state: &State, count: usize) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     (t, (0..count).flat_map(of).collect(), state.v.repeat(count))
 }
 
-fn all(m: &Model, (t, q, v): &(Vec<f64>, Vec<f64>, Vec<f64>)) -> Result<Responses, Reason> {
-    Prepared::new(m).responses(States { t, q, v }, false, |_| Flow::Continue)
+fn all(m: &Model, (t, q, v): &(Vec<f64>, Vec<f64>, Vec<f64>)) -> Result<Accelerations, Reason> {
+    Prepared::new(m).accelerations(States { t, q, v }, false, |_| Flow::Continue)
 }
 
 #[test]
@@ -65,6 +65,7 @@ fn who_watches_may_stop() {
     let (m, state) = four_bar();
     let (t, q, v) = turned(&state, 40);
     let watch = |t: f64| if t > 1.0 { Flow::Stop } else { Flow::Continue };
-    let found = Prepared::new(&m).responses(States { t: &t, q: &q, v: &v }, false, watch).unwrap();
+    let found =
+        Prepared::new(&m).accelerations(States { t: &t, q: &q, v: &v }, false, watch).unwrap();
     assert_eq!(found.a.len(), 9 * 12);
 }

@@ -2,12 +2,12 @@
 //! what it needs, and the observer sees it.
 
 use super::adaptive::{Run, Work};
-use super::birkhoff::{Ends, INSIDE};
-use super::contract::{FirstOrder, Flow, Observer, Step};
-use super::dense::Dense;
 use super::embedded_pair::EmbeddedPair;
 use super::failure::Cause;
-use super::rate::{all_finite, Trouble};
+use super::hermite_birkhoff::{Ends, INSIDE};
+use super::interpolant::Interpolant;
+use super::ode::{Flow, Observer, Ode, Step};
+use super::right_hand_side::{all_finite, Trouble};
 use super::stages::{chord, row, row_mut};
 use crate::math::Lanes;
 use std::mem::swap;
@@ -15,14 +15,14 @@ use std::mem::swap;
 /// Whether the system changed the state; inside, why a shorter step is to be tried.
 type Settled<E> = Result<Result<bool, Cause<E>>, Cause<E>>;
 
-impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
+impl<Y: Ode, P: EmbeddedPair> Run<'_, Y, P> {
     /// Lets the system change the accepted state and evaluates the derivative there, where that is not
     /// known.
     pub(super) fn settle(&mut self, t_new: f64) -> Settled<Y::Stop> {
         let Work { width, k, y_new, trial, .. } = &mut self.work;
         trial.copy_from_slice(y_new);
         let y_projected = &mut y_new.as_flattened_mut()[..self.n];
-        let projected = match self.rate.system.accepted(t_new, y_projected) {
+        let projected = match self.rate.system.project_accepted(t_new, y_projected) {
             Ok(projected) => projected,
             Err(stop) => return Ok(Err(Cause::Equations(stop))),
         };
@@ -40,7 +40,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
                 Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
             }
         }
-        self.rate.system.stands(t_new);
+        self.rate.system.on_accepted_end(t_new);
         Ok(Ok(projected))
     }
 
@@ -53,22 +53,22 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
     ) -> Result<Flow, Cause<Y::Stop>> {
         let last = last_row::<P>(projected);
         let extension = self.extend(t_new, last, observer)?;
-        let Work { width, k, y, y_new, birkhoff, .. } = &mut self.work;
-        let dense = match (extension, &birkhoff) {
-            (None, Some(birkhoff)) => birkhoff.dense(),
+        let Work { width, k, y, y_new, hermite_birkhoff, .. } = &mut self.work;
+        let interpolant = match (extension, &hermite_birkhoff) {
+            (None, Some(hermite_birkhoff)) => hermite_birkhoff.interpolant(),
             (table, _) => {
                 let rows = P::STAGES + P::EXTRA + usize::from(projected);
                 let (stages, table) = (&k[..rows * *width], table.unwrap_or(P::WITHOUT_EXTRA));
-                Dense::new(stages.as_flattened(), Lanes::WIDTH * *width, table, P::DEGREE)
+                Interpolant::new(stages.as_flattened(), Lanes::WIDTH * *width, table, P::DEGREE)
             }
         };
         let ends =
             Ends::new(t_new - self.t, [y, y_new], [0, last].map(|s| row(k, *width, s)), self.n);
         let Ends { y_old, y: y_end, dy_old, dy, .. } = ends;
-        let step = Step { t_old: self.t, t: t_new, y_old, y: y_end, dy_old, dy, dense };
+        let step = Step { t_old: self.t, t: t_new, y_old, y: y_end, dy_old, dy, interpolant };
         let flow = observer.step(&step);
-        if let Some(birkhoff) = birkhoff {
-            birkhoff.remember(ends);
+        if let Some(hermite_birkhoff) = hermite_birkhoff {
+            hermite_birkhoff.remember(ends);
         }
         swap(y, y_new);
         // block by block: what a copy of all loads at once waits for blocks that were stored just now
@@ -87,28 +87,29 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         last: usize,
         observer: &O,
     ) -> Result<Option<&'static [f64]>, Cause<Y::Stop>> {
-        let Work { width, k, y, y_new, trial, birkhoff, .. } = &mut self.work;
+        let Work { width, k, y, y_new, trial, hermite_birkhoff, .. } = &mut self.work;
         let (n, h) = (self.n, t_new - self.t);
         let (stages, extra) = k.split_at_mut(P::STAGES * *width);
         let ends = || Ends::new(h, [y, y_new], [0, last].map(|s| row(stages, *width, s)), n);
-        if let Some(birkhoff) = birkhoff {
-            birkhoff.measure(ends(), P::MEAN, stages);
+        if let Some(hermite_birkhoff) = hermite_birkhoff {
+            hermite_birkhoff.measure(ends(), P::DOUBLE_QUADRATURE, stages);
         }
         if P::EXTRA == 0 || !observer.looks_inside(self.t, t_new) {
             return Ok(Some(P::WITHOUT_EXTRA));
         }
-        let outcome = match birkhoff.as_mut().filter(|birkhoff| birkhoff.serves(h)) {
-            Some(birkhoff) => {
-                birkhoff.predict(ends(), &mut trial.as_flattened_mut()[..n]);
-                let inside = row_mut(extra, *width, 0);
-                let outcome = self.rate.at(self.t + INSIDE * h, trial, inside);
-                let inside = &inside.as_flattened()[..n];
-                outcome.map(|()| birkhoff.complete(ends(), inside)).map(|()| None)
-            }
-            None => {
-                P::extend(&mut self.rate, (self.t, t_new), y, k, trial).map(|()| Some(P::TABLE))
-            }
-        };
+        let outcome =
+            match hermite_birkhoff.as_mut().filter(|hermite_birkhoff| hermite_birkhoff.serves(h)) {
+                Some(hermite_birkhoff) => {
+                    hermite_birkhoff.predict(ends(), &mut trial.as_flattened_mut()[..n]);
+                    let inside = row_mut(extra, *width, 0);
+                    let outcome = self.rate.at(self.t + INSIDE * h, trial, inside);
+                    let inside = &inside.as_flattened()[..n];
+                    outcome.map(|()| hermite_birkhoff.complete(ends(), inside)).map(|()| None)
+                }
+                None => {
+                    P::extend(&mut self.rate, (self.t, t_new), y, k, trial).map(|()| Some(P::TABLE))
+                }
+            };
         match outcome {
             Ok(table) => Ok(table),
             Err(Trouble::Stop(stop)) => Err(Cause::Equations(stop)),
