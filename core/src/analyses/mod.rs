@@ -4,8 +4,9 @@ pub mod assemble;
 pub mod dynamics;
 mod mobility;
 mod option_tables;
+pub mod options;
 mod state;
 
 pub use mobility::{mobility, Mobility};
-pub use option_tables::{analysis_tables, option_families, Family, Options};
+pub use option_tables::{declarations, option_families};
 pub use state::State;

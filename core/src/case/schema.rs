@@ -4,7 +4,7 @@ use serde_json::{json, Map, Value};
 
 use super::check::REDUNDANCY;
 use super::FORMAT_VERSION;
-use crate::analyses::{analysis_tables, option_families};
+use crate::analyses::{declarations, option_families};
 use crate::elements::{catalogue, Default, Field, Group, Shape, Table};
 use crate::model::body_tables;
 
@@ -73,7 +73,7 @@ fn sections() -> Value {
         sections[group.section()] = by_name(one_of(&tables));
     }
     sections["start"] = start;
-    sections["analyses"] = by_name(one_of(analysis_tables()));
+    sections["analyses"] = by_name(one_of(declarations().iter().map(|declared| &declared.table)));
     sections
 }
 

@@ -1,8 +1,8 @@
 //! The section `[start]`: coordinates that are set and guessed.
 
 use super::report::Report;
-use super::shapes::{number, wrong};
 use super::tree::{Data, Node};
+use super::values::{number, wrong};
 use super::Start;
 use crate::elements::Coordinate;
 use crate::model::Value;
