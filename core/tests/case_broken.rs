@@ -109,7 +109,7 @@ const TOML: &[Row] = &[
         5,
         1,
         "method.type: missing",
-        "\"rk45\", \"dop853\", \"rk4\", \"generalized_alpha\", \"hht\", \"radau\" or \"auto\"",
+        "\"auto\", \"rk45\", \"dop853\", \"rk4\", \"generalized_alpha\", \"hht\" or \"radau\"",
     ),
     (
         "[analyses.a]\ntype = 'dynamics'\nt_end = 1\nmethod = { type = 'rk4', stp = 1, step = 1 }\n",
@@ -122,7 +122,7 @@ const TOML: &[Row] = &[
         "[analyses.a]\ntype = 'dynamics'\nt_end = 1\nstabilization = 'none'\n",
         5,
         17,
-        "must be a table such as { type = \"baumgarte\" }",
+        "must be a table such as { type = \"projection\" }",
         "",
     ),
     (

@@ -41,15 +41,15 @@ pub(super) fn case(root: &Table) -> (Case, Vec<Problem>) {
     let mut case = Case::default();
     let mut namespace = Namespace::default();
     for (key, node) in &root.entries {
-        report.within(key, |report| section(report, key, node, &mut case, &mut namespace));
+        report.within(key, |report| section(report, (key, node), root, &mut case, &mut namespace));
     }
     (case, report.finish())
 }
 
 fn section(
     report: &mut Report,
-    key: &str,
-    node: &Node,
+    (key, node): (&str, &Node),
+    root: &Table,
     case: &mut Case,
     namespace: &mut Namespace,
 ) {
@@ -81,7 +81,7 @@ fn section(
         "joints" => model.joints = elements(report, node, Group::Joints, namespace),
         "drivers" => model.drivers = elements(report, node, Group::Drivers, namespace),
         "forces" => model.forces = elements(report, node, Group::Forces, namespace),
-        "start" => case.start = start::read(report, node),
+        "start" => case.start = start::read(report, node, root),
         "analyses" => case.analyses = analyses(report, node),
         _ => {
             let message = format!("unknown key '{}'", super::shown(key));
