@@ -26,7 +26,7 @@ const RUNS: usize = 15;
 /// Runs a mechanism and prints the median time per evaluation, also divided by `windows`.
 fn time(name: &str, (model, start): (Model, State), t_end: f64, windows: usize) {
     let options = dynamics::Options {
-        output: dynamics::Output::Every(0.01),
+        output_step: Some(0.01),
         dense_output: false,
         ..dynamics::Options::classical(t_end)
     };

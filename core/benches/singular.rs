@@ -12,7 +12,7 @@
 
 mod mechanisms;
 
-use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme, Stabilization};
+use kempe::analyses::dynamics::{dynamics, Options, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::{constraints, kinematics};
 use kempe::integrate::{Atol, Dop853, Flow, Method, Ode, Rk45, Step, StepControl};
@@ -75,10 +75,10 @@ fn truth(windows: usize) -> Vec<[f64; 2]> {
 fn options(scheme: &str, rtol: f64) -> Options {
     let atol = Atol::Scalar(1e-3 * rtol);
     Options {
-        output: Output::Every(GRID),
+        output_step: Some(GRID),
         dense_output: false,
         stabilization: Stabilization::Projection(Projection::default()),
-        scheme: match scheme {
+        method: match scheme {
             "rk45" => {
                 Scheme::Rk45(Rk45 { control: StepControl { rtol, atol, ..StepControl::default() } })
             }
@@ -110,7 +110,7 @@ fn measure(windows: usize, scheme: &str, rtol: f64, truth: &[[f64; 2]]) {
         Ok(run) => {
             let (error, residual) = errors(&model, &run, truth);
             let s = run.statistics;
-            let plain = Options { output: Output::Steps, ..options(scheme, rtol) };
+            let plain = Options { output_step: None, ..options(scheme, rtol) };
             let bare = dynamics(&model, &start, &plain, |_| Flow::Continue);
             let ms = bare.map_or(f64::NAN, |run| run.statistics.seconds * 1e3);
             println!(

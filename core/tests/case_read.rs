@@ -88,3 +88,20 @@ fn escapes_of_json_are_decoded() {
     ]);
     assert_eq!(case::parse_tree(json, Format::Json), Ok(wanted));
 }
+
+#[test]
+fn the_start_of_a_state_of_an_element_is_left_to_the_model() {
+    let text = |section: &str| {
+        format!(
+            "kempe = 1\n[start]\nset = {{ 'M.current' = 2 }}\nguess.M.current = 1\n[{section}.M]\n"
+        )
+    };
+    let torque = "type = 'torque'\nj = 'a'\ntorque = 1\n";
+    let (case, _) = case::read(&(text("forces") + torque), Format::Toml).expect("M is an element");
+    assert_eq!(case.start.set, [("M.current".to_string(), Value::Number(2.0))]);
+    assert_eq!(case.start.guess, [("M.current".to_string(), Value::Number(1.0))]);
+    let body = text("bodies") + "mass = 1\ninertia = 1\n";
+    let faults = case::read(&body, Format::Toml).expect_err("a body has no states");
+    assert_eq!(faults.len(), 2);
+    assert!(faults[0].message.contains("unknown coordinate 'current'"));
+}

@@ -230,7 +230,7 @@ fn constant_steps_are_projected_and_keep_their_order() {
     let (m, state) = four_bar();
     let constant = |step: f64, stabilization| {
         let scheme = Scheme::Rk4(Rk4::new(step));
-        Options { scheme, stabilization, dense_output: false, ..Options::classical(0.05) }
+        Options { method: scheme, stabilization, dense_output: false, ..Options::classical(0.05) }
     };
     let projection = Stabilization::Projection(Projection::default());
     let end = |options: &Options| {

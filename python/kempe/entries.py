@@ -10,7 +10,8 @@ import json
 from collections.abc import Mapping
 from typing import Any, NamedTuple, TypeAlias
 
-from kempe.options import Dynamics, NoStabilization, Option, core_options
+from kempe.option import Option, core_options
+from kempe.options import Dynamics, NoStabilization
 from kempe.values import Number, number
 
 #: ``json.dumps`` makes such an encoder for each text.

@@ -1,8 +1,7 @@
 //! Assembly as Python sees it.
 
-use crate::case::{raise_plain, tree};
-use crate::convert::{number, state, Row};
-use crate::errors::{Failure, Kind};
+use crate::convert::{number, state, tree, Row};
+use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
 use kempe::analyses::assemble::{self as core, Fault, Report, Request, Target};

@@ -1,6 +1,7 @@
 //! The declarations of elements, bodies and options as JSON.
 
-use kempe::analyses::{analysis_tables, option_families};
+use kempe::analyses::options::Declaration;
+use kempe::analyses::{declarations, option_families};
 use kempe::elements::{catalogue, formulas, Default, Field, Group, Shape, Table};
 use kempe::expression::unit::{Unit, UNITS};
 use kempe::expression::{Function, FUNCTIONS};
@@ -42,6 +43,13 @@ fn table(table: &Table) -> Value {
     json!({ "name": table.name, "doc": table.doc, "fields": fields })
 }
 
+/// An analysis or a set of options, with its class in Python.
+fn options(declared: &Declaration) -> Value {
+    let mut value = table(&declared.table);
+    value["class"] = json!(declared.class);
+    value
+}
+
 fn function(function: &Function) -> Value {
     json!({ "name": function.name, "arguments": function.arguments, "doc": function.doc })
 }
@@ -71,15 +79,10 @@ pub fn all() -> String {
         sections.insert(group.section().into(), own.collect());
     }
     for family in option_families() {
-        let options = family.options.iter().map(|options| {
-            let mut value = table(&options.table);
-            value["class"] = json!(options.class);
-            value
-        });
         let plural = format!("{}s", family.name);
-        sections.insert(plural, options.collect());
+        sections.insert(plural, family.options.iter().map(options).collect());
     }
-    sections.insert("analyses".into(), analysis_tables().iter().map(table).collect());
+    sections.insert("analyses".into(), declarations().iter().map(options).collect());
     sections.insert("functions".into(), FUNCTIONS.iter().map(function).collect());
     sections.insert("units".into(), UNITS.iter().map(unit).collect());
     Value::Object(sections).to_string()

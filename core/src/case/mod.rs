@@ -16,15 +16,16 @@ mod json;
 mod names;
 mod report;
 mod schema;
-mod shapes;
 mod start;
 mod start_builder;
 mod toml;
 mod toml_tables;
 mod tree;
+mod values;
 mod write;
 mod write_json;
 mod write_toml;
+mod write_value;
 
 pub use body_builder::{Bar, BodyBuilder, General, Ground};
 pub use builder::ModelBuilder;

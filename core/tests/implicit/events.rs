@@ -13,7 +13,7 @@ use kempe::stabilize::Projection;
 
 fn options(t_end: f64, scheme: Scheme) -> Options {
     let stabilization = Stabilization::Projection(Projection::default());
-    Options { scheme, stabilization, dense_output: false, ..Options::classical(t_end) }
+    Options { method: scheme, stabilization, dense_output: false, ..Options::classical(t_end) }
 }
 
 /// Where component `k` of y passes a level: the times in a run.

@@ -16,7 +16,7 @@ struct Found {
 
 fn found(m: &Model, state: &State, t_end: f64, grid: f64, scheme: Scheme) -> Found {
     let options = Options {
-        scheme,
+        method: scheme,
         stabilization: Stabilization::Projection(Projection::default()),
         dense_output: false,
         ..Options::classical(t_end)

@@ -13,7 +13,7 @@ use kempe::stabilize::Projection;
 
 fn options(t_end: f64, scheme: Scheme) -> Options {
     let stabilization = Stabilization::Projection(Projection::default());
-    Options { scheme, stabilization, ..Options::classical(t_end) }
+    Options { method: scheme, stabilization, ..Options::classical(t_end) }
 }
 
 fn alpha(rtol: f64) -> Scheme {

@@ -10,7 +10,7 @@ use kempe::stabilize::Projection;
 
 fn options(t_end: f64, scheme: Scheme) -> Options {
     Options {
-        scheme,
+        method: scheme,
         stabilization: Stabilization::Projection(Projection::default()),
         ..Options::classical(t_end)
     }

@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use kempe::analyses::assemble::{assemble, targets, Failure, Report, Request, Target};
-use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme};
+use kempe::analyses::dynamics::{dynamics, Options, Run, Scheme};
 use kempe::analyses::State;
 use kempe::case::{read, Format};
 use kempe::equations::kinematics::Motions;
@@ -160,7 +160,7 @@ pub fn four_bar() -> (Model, State) {
 /// Options with the given tolerances.
 pub fn tolerances(t_end: f64, rtol: f64, atol: f64) -> Options {
     let scheme = Scheme::Rk45(Rk45::new(rtol, atol));
-    Options { scheme, dense_output: false, ..Options::classical(t_end) }
+    Options { method: scheme, dense_output: false, ..Options::classical(t_end) }
 }
 
 /// Runs to the end, or panics with what is wrong.
@@ -170,7 +170,7 @@ pub fn run(model: &Model, state: &State, options: &Options) -> Run {
 
 /// Output every `h`.
 pub fn every(h: f64, options: Options) -> Options {
-    Options { output: Output::Every(h), ..options }
+    Options { output_step: Some(h), ..options }
 }
 
 /// Column of the coordinate `x`, `y` or `angle` of a body in q.

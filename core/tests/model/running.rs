@@ -1,7 +1,7 @@
 //! Forward dynamics at its edges.
 
 use crate::mechanisms::{close, every, four_bar, model, run, start, tolerances, worst, PENDULUM};
-use kempe::analyses::dynamics::{dynamics, Failure, Options, Output, Reason, Stabilization};
+use kempe::analyses::dynamics::{dynamics, Failure, Options, Reason, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::Gains;
 use kempe::integrate::Flow;
@@ -73,7 +73,7 @@ fn options_that_cannot_be() {
         stabilization: Stabilization::Baumgarte(Gains { alpha, beta }),
         ..tolerances(1.0, 1e-6, 1e-9)
     };
-    let output = |h| Options { output: Output::Every(h), ..tolerances(1.0, 1e-6, 1e-9) };
+    let output = |h| Options { output_step: Some(h), ..tolerances(1.0, 1e-6, 1e-9) };
     for (options, expected) in [
         (output(0.0), "output_step"),
         (output(-1.0), "output_step"),

@@ -2,7 +2,7 @@
 
 use crate::mechanisms::{close, every, four_bar, largest, residual, run, tolerances, worst};
 use crate::{number, numbers, reference};
-use kempe::analyses::dynamics::{Options, Output, Run, Stabilization};
+use kempe::analyses::dynamics::{Options, Run, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::Gains;
 use kempe::equations::{dense, kinematics};
@@ -105,7 +105,7 @@ fn classical(alpha: f64, beta: f64) -> (Run, f64, f64) {
     let (m, start) = four_bar();
     let options = Options {
         stabilization: Stabilization::Baumgarte(Gains { alpha, beta }),
-        output: Output::Steps,
+        output_step: None,
         ..tolerances(15.0, 1e-3, 1e-6)
     };
     let run = run(&m, &start, &options);

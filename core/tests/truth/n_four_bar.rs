@@ -96,7 +96,7 @@ fn by_implicit_methods() {
             (Scheme::GeneralizedAlpha(GeneralizedAlpha::new(parameters, 1e-6, 1e-9)), 1e-4),
         ] {
             let stabilization = Stabilization::Projection(Projection::default());
-            let options = Options { scheme, stabilization, ..Options::classical(0.5) };
+            let options = Options { method: scheme, stabilization, ..Options::classical(0.5) };
             let run = run(&m, &state, &options);
             let last = (run.trajectory.t.len() - 1) * m.layout.n_q;
             let (q, v) = (&run.trajectory.q[last..], &run.trajectory.v[last..]);
@@ -134,7 +134,7 @@ pub fn upright(n: usize) -> (Model, State) {
 fn passing(t_end: f64, rtol: f64) -> Options {
     let scheme = Scheme::Dop853(Dop853::new(rtol, 1e-3 * rtol));
     let stabilization = Stabilization::Projection(Projection::default());
-    Options { scheme, stabilization, dense_output: false, ..Options::classical(t_end) }
+    Options { method: scheme, stabilization, dense_output: false, ..Options::classical(t_end) }
 }
 
 /// Every bar lies on one line about twice a turn, of which there are five in 10 s.

@@ -3,7 +3,7 @@
 
 use crate::mechanisms::{close, run};
 use crate::n_four_bar::{upright, windows};
-use kempe::analyses::dynamics::{dynamics, Auto, Options, Output, Reason, Scheme, Stabilization};
+use kempe::analyses::dynamics::{dynamics, Auto, Options, Reason, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::integrate::{Dop853, Flow, Method, Ode, Step};
 use kempe::model::Model;
@@ -46,8 +46,14 @@ impl Ode for Pendulum {
 
 fn every_tenth(scheme: Scheme, t_end: f64) -> Options {
     let stabilization = Stabilization::Projection(Projection::default());
-    let output = Output::Every(0.1);
-    Options { scheme, stabilization, output, dense_output: false, ..Options::classical(t_end) }
+    let output_step = Some(0.1);
+    Options {
+        method: scheme,
+        stabilization,
+        output_step,
+        dense_output: false,
+        ..Options::classical(t_end)
+    }
 }
 
 fn at(rtol: f64) -> Scheme {

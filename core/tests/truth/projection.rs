@@ -57,7 +57,7 @@ fn the_trajectory_at_all_states() {
 fn the_trajectory_at_all_states_by_dop853() {
     let (m, start) = four_bar();
     let scheme = Scheme::Dop853(Dop853::new(1e-9, 1e-12));
-    let options = Options { scheme, ..projected(every(0.01, Options::classical(15.0))) };
+    let options = Options { method: scheme, ..projected(every(0.01, Options::classical(15.0))) };
     let run = run(&m, &start, &options);
     compare(&m, &run);
     // Runge–Kutta 4(5) needs 2303 steps and twice the evaluations

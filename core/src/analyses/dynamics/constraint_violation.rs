@@ -4,7 +4,8 @@
 //! mechanism's size the run is no motion of the mechanism. Who asks for no stabilization asks for the drift,
 //! but not for joints that are farther apart than the mechanism is large.
 
-use super::options::{Options, Stabilization};
+use super::options::Options;
+use super::stabilizations::Stabilization;
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, Gains};
 use crate::math::Real;

@@ -12,7 +12,7 @@
 //! its steps; or it has died out before the start, and Radau begins. It is under way where its part in the
 //! velocities, |v⃛| / |λ|² after the third derivative of q along the motion, is above the tolerance.
 
-use super::options::Auto;
+use super::methods::Auto;
 use super::stiffness_detection::{Fastest, StiffnessDetector, LIMIT, TO_GO};
 use crate::integrate::Atol;
 use crate::model::{size, Model};

@@ -2,9 +2,10 @@
 //! `choice` decides.
 
 use super::initial_stiffness::InitialStiffness;
+use super::methods::Auto;
 use super::motion_dae::MotionDae;
 use super::motion_ode::MotionOde;
-use super::options::{Auto, Options};
+use super::options::Options;
 use super::stiffness_detection::{MethodChoice, StiffnessDetector, LIMIT, TRIAL, WORTH};
 use super::Outcome;
 use crate::integrate::{
@@ -250,12 +251,5 @@ impl<'a, 'o> MethodSwitching<'a, 'o> {
                 fastest.rate
             ),
         }
-    }
-}
-
-impl Default for Auto {
-    /// DOP853 or Radau with rtol 1e-8 and atol 1e-11.
-    fn default() -> Self {
-        Self { control: StepControl::with(StepControl::AUTO) }
     }
 }

@@ -7,27 +7,30 @@ mod energies;
 mod failure;
 mod initial_stiffness;
 mod lane_batch;
+mod method_options;
 mod method_switching;
+mod methods;
 mod model_cache;
 mod motion_dae;
 mod motion_ode;
 mod options;
 mod prepared;
-mod read;
 mod recorder;
 mod report_projection;
 mod singularity_forecast;
 mod singularity_passage;
+mod stabilizations;
 mod stiffness_detection;
 
 pub use accelerations::{Accelerations, States};
 pub use energies::ENERGIES;
 pub use failure::{Failure, Reason};
-pub use options::{most_steps, Auto, Options, Output, Scheme, Stabilization};
+pub use methods::{Auto, Scheme};
+pub use options::{most_steps, read, Options, Output};
 pub use prepared::Prepared;
-pub use read::read;
 pub use recorder::{PiecewiseInterpolant, Trajectory};
 pub use singularity_passage::Singularity;
+pub use stabilizations::Stabilization;
 pub use stiffness_detection::MethodChoice;
 
 use super::State;
@@ -129,7 +132,7 @@ fn simulate<W: FnMut(f64) -> Flow>(
     options.check(model, start).map_err(|reason| Failure { reason, run: Run::default() })?;
     let mut system = MotionOde::new(model, options, cache.plan(model));
     let t0 = options.t_start.unwrap_or(start.t);
-    let wide = recorder::many(options.output, options.t_end - t0).then(|| cache.wide(model));
+    let wide = recorder::many(options.output_step, options.t_end - t0).then(|| cache.wide(model));
     let mut recorder = Recorder::new(&system, wide, options, t0);
     let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();
     y.resize(y.len() + WORKS, 0.0);
@@ -167,7 +170,7 @@ fn integrate_by<'a, O: Observer>(
         let evaluations = taken(&outcome).evaluations;
         (outcome, evaluations, None)
     };
-    match &options.scheme.bounded(model) {
+    match &options.bounded_method(model) {
         Scheme::Rk45(method) => explicit(method.integrate(system, t0, t_end, y, observer)),
         Scheme::Dop853(method) => explicit(method.integrate(system, t0, t_end, y, observer)),
         Scheme::Rk4(method) => explicit(method.integrate(system, t0, t_end, y, observer)),

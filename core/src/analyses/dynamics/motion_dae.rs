@@ -2,7 +2,8 @@
 //! Newton's iteration by one plan of elimination.
 
 use super::motion_ode::WORKS;
-use super::options::{Options, Stabilization};
+use super::options::Options;
+use super::stabilizations::Stabilization;
 use crate::equations::balance::Balance;
 use crate::equations::iteration::{assemble, Places};
 use crate::equations::tangent::Tangent;

@@ -1,7 +1,8 @@
 //! The equations of motion as a first-order system y = (q, v, work).
 
-use super::options::{Options, Stabilization};
+use super::options::Options;
 use super::singularity_passage::SingularityPassage;
+use super::stabilizations::Stabilization;
 use crate::analyses::mobility;
 use crate::equations::augmented::{Dependent, NearSingular};
 use crate::equations::{Gains, Plan, Singular, Workspace};

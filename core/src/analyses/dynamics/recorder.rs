@@ -2,8 +2,9 @@
 
 use super::accelerations::{States, MANY};
 use super::lane_batch::LaneBatch;
+use super::methods::Scheme;
 use super::motion_ode::{MotionOde, WORKS};
-use super::options::{Options, Output, Scheme};
+use super::options::Options;
 use super::report_projection::{Halt, ReportProjection};
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
@@ -23,11 +24,8 @@ pub struct Trajectory {
 }
 
 /// Whether a grid has so many states that solving several at once is worth a model over lanes.
-pub(super) fn many(output: Output, span: f64) -> bool {
-    match output {
-        Output::Every(h) => (span / h).abs() >= MANY as f64,
-        Output::Steps => false,
-    }
+pub(super) fn many(output_step: Option<f64>, span: f64) -> bool {
+    output_step.is_some_and(|h| (span / h).abs() >= MANY as f64)
 }
 
 /// Most numbers that room is made for beforehand; what is longer grows.
@@ -49,18 +47,15 @@ fn unseen(scheme: &Scheme) -> usize {
 }
 
 /// How many states a grid asks for; none if the steps are to be reported.
-fn asked(output: Output, span: f64) -> usize {
-    match output {
-        Output::Every(h) => ((span / h).abs() + 2.0) as usize, // NaN gives none
-        Output::Steps => 0,
-    }
+fn asked(output_step: Option<f64>, span: f64) -> usize {
+    output_step.map_or(0, |h| ((span / h).abs() + 2.0) as usize) // NaN gives none
 }
 
 impl Trajectory {
     /// Empty, with room for the states that a grid asks for: growing would copy them again and again.
-    fn with_room(model: &Model, output: Output, span: f64) -> Self {
+    fn with_room(model: &Model, output_step: Option<f64>, span: f64) -> Self {
         let n = model.layout.n_q;
-        let rows = asked(output, span).min(MOST_ROOM / (2 * n + 1 + WORKS));
+        let rows = asked(output_step, span).min(MOST_ROOM / (2 * n + 1 + WORKS));
         let room = |width: usize| Vec::with_capacity(rows * width);
         Self { t: room(1), q: room(n), v: room(n), works: room(WORKS) }
     }
@@ -95,7 +90,7 @@ pub struct PiecewiseInterpolant {
 
 /// Collects the output while the integrator runs.
 pub(super) struct Recorder<'a> {
-    output: Output,
+    output_step: Option<f64>,
     t0: f64,
     t_end: f64,
     /// 1 forward, -1 backward.
@@ -130,16 +125,16 @@ impl<'a> Recorder<'a> {
     ) -> Self {
         let model = system.model;
         let mut recorder = Self {
-            output: options.output,
+            output_step: options.output_step,
             t0,
             t_end: options.t_end,
             direction: (options.t_end - t0).signum(),
             next: 0,
             upcoming: t0,
-            unseen: [0, unseen(&options.scheme)],
+            unseen: [0, unseen(&options.method)],
             latest: t0,
             y: vec![0.0; 2 * model.layout.n_q + WORKS],
-            trajectory: Trajectory::with_room(model, options.output, options.t_end - t0),
+            trajectory: Trajectory::with_room(model, options.output_step, options.t_end - t0),
             dense: options
                 .dense_output
                 .then(|| PiecewiseInterpolant::with_room(model, options, t0)),
@@ -241,7 +236,7 @@ impl<'a> Recorder<'a> {
                 return self.stop(step.t, Halt::NotFinite);
             }
         }
-        if self.output == Output::Steps {
+        if self.output_step.is_none() {
             return self.report(step.t, step.y);
         }
         let mut flow = self.look_apart(step);
@@ -274,10 +269,7 @@ impl<'a> Recorder<'a> {
 
     /// Whether a step that ends at `t` is needed between its ends.
     pub fn looks_inside(&self, t: f64) -> bool {
-        match self.output {
-            Output::Every(_) => self.dense.is_some() || self.due(t).is_some(),
-            Output::Steps => self.dense.is_some(),
-        }
+        self.dense.is_some() || self.output_step.is_some() && self.due(t).is_some()
     }
 
     /// The next time of the grid if it has been reached.
@@ -289,7 +281,7 @@ impl<'a> Recorder<'a> {
 
     /// From one time of the grid to the next: t₀ + k h by multiplication, without drift.
     fn go_on(&mut self) {
-        let Output::Every(h) = self.output else { return };
+        let Some(h) = self.output_step else { return };
         self.next += 1;
         self.upcoming = self.t0 + self.direction * self.next as f64 * h;
         // a grid point that misses t_end by rounding only is t_end
@@ -303,10 +295,10 @@ impl PiecewiseInterpolant {
     /// Empty, with room for the steps that a grid lets expect.
     fn with_room(model: &Model, options: &Options, t0: f64) -> Self {
         // of steps of several degrees all have the highest, from the start
-        let several = matches!(options.scheme, Scheme::Auto(_) | Scheme::Dop853(_));
+        let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
         let degree = if several { HIGHEST } else { 0 };
         let n = 2 * model.layout.n_q + WORKS;
-        let steps = asked(options.output, options.t_end - t0) / IN_A_STEP;
+        let steps = asked(options.output_step, options.t_end - t0) / IN_A_STEP;
         let room = |width: usize| Vec::with_capacity(steps.min(MOST_ROOM / (HIGHEST * n)) * width);
         let mut dense = Self { t: room(1), y: room(n), c: room(HIGHEST * n), degree };
         dense.t.push(t0);

@@ -7,7 +7,8 @@
 use super::branch_averaging;
 use super::constraint_violation::{Violation, ViolationCheck};
 use super::motion_ode::parts;
-use super::options::{Options, Stabilization};
+use super::options::Options;
+use super::stabilizations::Stabilization;
 use crate::equations::{Gains, Workspace};
 use crate::integrate::all_finite;
 use crate::math::Real;

@@ -1,33 +1,9 @@
-//! What may stand in a field: the shape of a value against its declaration.
+//! Values of the file against what may stand in their place.
 
-use super::fields;
 use super::names;
 use super::report::{among, Report};
 use super::tree::{Data, Node};
-use crate::analyses::option_families;
-use crate::elements::Shape;
 use crate::expression::suggest::did_you_mean;
-
-/// Checks the present value.
-pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
-    match (shape, &node.data) {
-        (_, Data::Refused(_)) => {}
-        (Shape::Number | Shape::Law, _) => number(report, node),
-        (Shape::Pair, _) => pair(report, node),
-        (Shape::Points, _) => points(report, node),
-        (Shape::Names, _) => two_names(report, node),
-        (Shape::Count, _) => count(report, node),
-        (Shape::Word(words), _) => word(report, node, words),
-        (Shape::Options(family), _) => options(report, node, family),
-        (Shape::Flag, Data::Flag(_)) => {}
-        (Shape::Flag, _) => wrong(report, node, "true or false"),
-        (Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name, Data::Text(_)) => {}
-        (Shape::Body, _) => wrong(report, node, "the name of a body"),
-        (Shape::Point, _) => wrong(report, node, "a point as \"body.point\""),
-        (Shape::Coordinate, _) => wrong(report, node, "a coordinate as \"body.angle\""),
-        (Shape::Name, _) => wrong(report, node, "a name"),
-    }
-}
 
 /// Reports that something else must stand here.
 pub(super) fn wrong(report: &mut Report, node: &Node, wanted: &str) {
@@ -43,7 +19,8 @@ pub(super) fn number(report: &mut Report, node: &Node) {
     }
 }
 
-fn pair(report: &mut Report, node: &Node) {
+/// Two numbers.
+pub(super) fn pair(report: &mut Report, node: &Node) {
     match &node.data {
         Data::List(items) if items.len() == 2 => {
             for (k, item) in items.iter().enumerate() {
@@ -57,7 +34,8 @@ fn pair(report: &mut Report, node: &Node) {
     }
 }
 
-fn points(report: &mut Report, node: &Node) {
+/// Named points.
+pub(super) fn points(report: &mut Report, node: &Node) {
     let Data::Table(table) = &node.data else {
         return wrong(report, node, "a table of points { P = [x, y] }");
     };
@@ -69,7 +47,8 @@ fn points(report: &mut Report, node: &Node) {
     }
 }
 
-fn two_names(report: &mut Report, node: &Node) {
+/// Two different names.
+pub(super) fn two_names(report: &mut Report, node: &Node) {
     let Data::List(items) = &node.data else {
         return wrong(report, node, "a list of two names [\"A\", \"B\"]");
     };
@@ -89,7 +68,8 @@ fn two_names(report: &mut Report, node: &Node) {
     }
 }
 
-fn count(report: &mut Report, node: &Node) {
+/// A whole number from 1, or a formula.
+pub(super) fn count(report: &mut Report, node: &Node) {
     match &node.data {
         Data::Number(x) if x.fract() != 0.0 || *x < 1.0 => {
             report.say(format!("{x}; must be a whole number from 1"));
@@ -98,7 +78,8 @@ fn count(report: &mut Report, node: &Node) {
     }
 }
 
-fn word(report: &mut Report, node: &Node, words: &[&str]) {
+/// One of some words.
+pub(super) fn word(report: &mut Report, node: &Node, words: &[&str]) {
     match &node.data {
         Data::Text(text) if words.contains(&text.as_str()) => {}
         Data::Text(text) => {
@@ -107,17 +88,5 @@ fn word(report: &mut Report, node: &Node, words: &[&str]) {
             report.add(problem.hint(hint));
         }
         _ => wrong(report, node, &among("the word", words)),
-    }
-}
-
-fn options(report: &mut Report, node: &Node, family: &str) {
-    let Some(family) = option_families().iter().find(|f| f.name == family) else { return };
-    let tables: Vec<_> = family.options.iter().map(|o| &o.table).collect();
-    let Data::Table(table) = &node.data else {
-        let example = format!("a table such as {{ type = \"{}\" }}", tables[0].name);
-        return wrong(report, node, &example);
-    };
-    if let Some(declared) = fields::declared(report, table, &tables, family.name, None) {
-        fields::check(report, table, declared, true);
     }
 }
