@@ -15,3 +15,4 @@ pub mod math;
 pub mod model;
 pub mod solve;
 pub mod stabilize;
+pub mod symbolic;

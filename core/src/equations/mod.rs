@@ -9,6 +9,7 @@ pub mod constraints;
 pub mod dense;
 pub mod energy;
 pub mod forces;
+pub mod formulas;
 pub mod iteration;
 pub mod kinematics;
 mod laws;
