@@ -1,7 +1,7 @@
 //! kempe: planar multibody mechanics.
 //!
 //! Modules depend on each other in one direction only:
-//! `math ← expression ← elements ← model ← equations ← stabilize ← analyses ← case`;
+//! `math ← expression ← symbolic ← elements ← model ← equations ← stabilize ← analyses ← case`;
 //! `solve` and `integrate` know no mechanics. See `ARCHITECTURE.md`.
 #![forbid(unsafe_code)]
 

@@ -36,9 +36,9 @@ if TYPE_CHECKING:
     from kempe.errors import ModelError as ModelError
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
-    from kempe.labelled import Labelled as Labelled
-    from kempe.labelled import equations as equations
-    from kempe.labelled import show as show
+    from kempe.matrices import Labelled as Labelled
+    from kempe.symbolic import equations as equations
+    from kempe.matrices import show as show
     from kempe.matrices import Matrices as Matrices
     from kempe.model import Model as Model
     from kempe.motion import Motion as Motion
@@ -76,7 +76,7 @@ _HOME = {
     "IntegrationError": "errors",
     "InternalError": "errors",
     "KempeError": "errors",
-    "Labelled": "labelled",
+    "Labelled": "matrices",
     "Matrices": "matrices",
     "Model": "model",
     "ModelError": "errors",
@@ -97,7 +97,7 @@ _HOME = {
     "assemble": "analyses",
     "draw": "",
     "dynamics": "analyses",
-    "equations": "labelled",
+    "equations": "symbolic",
     "errors": "",
     "load": "case",
     "load_solution": "archive",
@@ -105,7 +105,7 @@ _HOME = {
     "plot": "",
     "report": "",
     "scene": "draw.scene",
-    "show": "labelled",
+    "show": "matrices",
     "study": "studies",
 }
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from kempe import _core
 from kempe.compiled import CompiledModel
-from kempe.entries import Request, encode, request
+from kempe.request_cache import Request, encode, request
 from kempe.errors import ModelError
 from kempe.model import Model
 from kempe.names import one_of

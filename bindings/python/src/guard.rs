@@ -44,6 +44,7 @@ pub const ENTRIES: &[&str] = &[
     "reaction",
     "force",
     "matrices",
+    "formulas",
     "_raise",
 ];
 

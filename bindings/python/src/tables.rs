@@ -1,7 +1,8 @@
 //! The declarations of elements, bodies and options as JSON.
 
 use kempe::analyses::{analysis_tables, option_families};
-use kempe::elements::{catalogue, formulas, Default, Field, Group, Shape, Table};
+use crate::formulas::declared;
+use kempe::elements::{catalogue, Default, Field, Group, Shape, Table};
 use kempe::expression::unit::{Unit, UNITS};
 use kempe::expression::{Function, FUNCTIONS};
 use kempe::model::body_tables;
@@ -50,14 +51,12 @@ fn unit((name, unit): &(&str, Unit)) -> Value {
     json!({ "name": name, "si": unit.scale(1.0), "dimension": unit.dimension.to_string() })
 }
 
-/// An element with its equations as formulas.
+/// An element, with its equations if it is a joint or driver.
 fn element(group: Group, own: &Table) -> Value {
     let mut value = table(own);
-    let Some(all) = formulas(group, own.name) else { return value };
-    let equations = all
-        .iter()
-        .map(|f| json!({ "residual": f.residual, "jacobian": f.jacobian, "gamma": f.gamma }));
-    value["formulas"] = equations.collect();
+    if group != Group::Forces {
+        value["formulas"] = declared(group, own.name);
+    }
     value
 }
 

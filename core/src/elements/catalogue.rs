@@ -4,7 +4,6 @@ use super::declare::{Element, Table};
 use super::derive::VelocityTerms;
 use super::drivers::CoordinateDriver;
 use super::forces::{SpringDamper, Torque, TorsionSpring};
-use super::formula::Formula;
 use super::joints::{Distance, Revolute, Translational};
 use super::kinds::{BodyId, Source};
 use super::traits::{Action, Attachment, Equation, Force, Joint, Part, Side, Situation};
@@ -171,14 +170,6 @@ macro_rules! constraints {
 
         fn constraint_tables() -> Vec<(Group, Table)> {
             vec![$($((Group::$Group, $Name::<f64>::table()),)+)+]
-        }
-
-        /// The equations of a type of joint or driver as formulas; None if there is no such type.
-        pub fn formulas(group: Group, kind: &str) -> Option<&'static [Formula]> {
-            $($(if group == Group::$Group && kind == $Name::<f64>::table().name {
-                return Some(&<$Name>::FORMULAS);
-            })+)+
-            None
         }
     };
 }

@@ -7,7 +7,6 @@
 
 mod declare;
 mod derive;
-mod formula;
 mod kinds;
 mod traits;
 
@@ -19,13 +18,12 @@ mod catalogue;
 
 pub(crate) use catalogue::jets;
 pub use catalogue::{
-    catalogue, formulas, Acting, Constraint, ForceElement, Group, Linear, Rows, MOST_EQUATIONS,
+    catalogue, Acting, Constraint, ForceElement, Group, Linear, Rows, MOST_EQUATIONS,
 };
 use declare::join;
 pub use declare::{element, Default, Element, Field, Table};
 pub use derive::{derived_jacobian, derived_velocity_terms, VelocityTerms};
 pub(crate) use derive::{moving, seeded};
-pub use formula::Formula;
 pub use kinds::{
     body, coordinate, law, number, pair, point, BodyId, Coordinate, CoordinateOf, Kind, PointOn,
     Shape, Source,

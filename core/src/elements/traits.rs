@@ -2,7 +2,6 @@
 
 use super::declare::Element;
 use super::derive;
-use super::formula::Formula;
 use super::kinds::BodyId;
 use crate::math::{Local, Motion, Pose, Real, Wrench};
 
@@ -42,9 +41,6 @@ pub trait Joint<const M: usize>: Element {
     /// Whether body j can only slide along the x axis of the joint frame of body i, so that the axes
     /// of both joint frames keep one direction: the other thing that assembly walks along.
     const SLIDES: bool = false;
-
-    /// The equations as formulas to be read.
-    const FORMULAS: [Formula; M];
 
     /// Bodies i and j; ground where a body is missing.
     fn ends<S>(e: &Self::Over<S>) -> [BodyId; 2];

@@ -81,7 +81,7 @@ impl Arena {
     pub fn factors(&mut self, id: Id) -> (f64, List) {
         match self.node(id).clone() {
             Node::Number(x) => (x.get(), Vec::new()),
-            Node::Product(factors) => (1.0, read(&factors)),
+            Node::Product(_) => (1.0, self.plain_factors(id)),
             Node::Sum(terms) if terms.len() == 1 => {
                 let (term, c) = (terms[0].0, terms[0].1.get());
                 (c, self.factors(term).1)
@@ -91,6 +91,14 @@ impl Arena {
                 (content, vec![(rest, 1.0)])
             }
             _ => (1.0, vec![(id, 1.0)]),
+        }
+    }
+
+    /// The factors of a product.
+    pub fn plain_factors(&self, id: Id) -> List {
+        match self.node(id) {
+            Node::Product(factors) => read(factors),
+            _ => vec![(id, 1.0)],
         }
     }
 

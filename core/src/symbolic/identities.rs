@@ -32,15 +32,21 @@ impl Arena {
         let (a, b) = (self.factors(first).1, self.factors(second).1);
         let common = shared(&a, &b);
         let (a, b) = (without(&a, &common), without(&b, &common));
-        let replacement = self.identity(&a, &b, c1 == c2)?;
+        let replacement = self.identity(&a, &b, c1 == c2, c1)?;
         let (c, factors) = self.factors(replacement);
         let mut all = common;
         all.extend(factors);
         Some(self.product(c1 * c, all))
     }
 
-    /// a + b, or a - b where `same` is false, as one expression.
-    fn identity(&mut self, a: &[(Id, f64)], b: &[(Id, f64)], same: bool) -> Option<Id> {
+    /// a + b, or a - b where `same` is false, as one expression; it will be multiplied by `c`.
+    fn identity(
+        &mut self,
+        a: &[(Id, f64)],
+        b: &[(Id, f64)],
+        same: bool,
+        c: f64,
+    ) -> Option<Id> {
         match (a, b) {
             // cos² + sin²
             ([(x, 2.0)], [(y, 2.0)]) if same => {
@@ -56,15 +62,15 @@ impl Arena {
             ([(p, 1.0), (q, 1.0)], [(r, 1.0), (s, 1.0)]) => {
                 let orders = [[*p, *q, *r, *s], [*q, *p, *r, *s], [*p, *q, *s, *r], [*q, *p, *s, *r]];
                 orders.into_iter().find_map(|order| {
-                    self.angle_sum(order, same).or_else(|| self.turned(order, same))
+                    self.angle_sum(order, same, c).or_else(|| self.turned(order, same))
                 })
             }
             _ => None,
         }
     }
 
-    /// cos α cos β ∓ sin α sin β, sin α cos β ± cos α sin β.
-    fn angle_sum(&mut self, [p, q, r, s]: [Id; 4], same: bool) -> Option<Id> {
+    /// cos α cos β ∓ sin α sin β, sin α cos β ± cos α sin β; -sin(α - β) as sin(β - α).
+    fn angle_sum(&mut self, [p, q, r, s]: [Id; 4], same: bool, c: f64) -> Option<Id> {
         let ((f, alpha), (g, beta)) = (self.trigonometric(p)?, self.trigonometric(q)?);
         let ((h, gamma), (k, delta)) = (self.trigonometric(r)?, self.trigonometric(s)?);
         if alpha != gamma || beta != delta || alpha == beta {
@@ -75,8 +81,10 @@ impl Arena {
             (Sin, Cos, Cos, Sin) => (Sin, same),
             _ => return None,
         };
-        let angle = self.sum(vec![(alpha, 1.0), (beta, if plus { 1.0 } else { -1.0 })]);
-        Some(self.call(function, &[angle]))
+        let side = if c < 0.0 && function == Sin && !plus { -1.0 } else { 1.0 };
+        let angle = self.sum(vec![(alpha, side), (beta, if plus { side } else { -side })]);
+        let called = self.call(function, &[angle]);
+        Some(self.sum(vec![(called, side)]))
     }
 
     /// x cos α - y sin α, x sin α + y cos α with a pair of constants (x, y).

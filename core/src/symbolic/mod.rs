@@ -35,5 +35,5 @@ mod style;
 
 pub(crate) use name::upright;
 pub use name::{Axis, Kind, Name};
-pub use scalar::{record, Record, Symbolic, System};
+pub use scalar::{record, Record, Symbolic, Differentiated};
 pub use style::Form;

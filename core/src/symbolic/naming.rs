@@ -150,16 +150,17 @@ fn letter(arena: &Arena, first: &str, k: usize) -> String {
 
 /// The name of a component of a vector, or of its rate.
 fn component(letter: &str, axis: Axis, kind: Kind, rate: bool) -> Name {
-    let (v, dot, over) = if rate { ("v", "\u{307}", "\\dot ") } else { ("", "", "") };
+    let (v, dot) = if rate { ("v", "\u{307}") } else { ("", "") };
     let axis_text = axis.text();
     let (first, index) = letter.split_once('_').unwrap_or((letter, ""));
+    let latex = if rate { format!("\\dot{{{first}}}") } else { first.to_string() };
     let comma = if index.is_empty() { "" } else { "," };
     Name {
         axis: Some(axis),
         ..Name::new(
             &format!("{letter}.{v}{axis_text}"),
             &format!("{letter}{dot}.{axis_text}"),
-            &format!("{over}{first}_{{{index}{comma}{axis_text}}}"),
+            &format!("{latex}_{{{index}{comma}{axis_text}}}"),
             kind,
         )
     }

@@ -16,8 +16,10 @@ impl Bits {
 }
 
 /// A positive number as numerator and denominator, each a text; "1" where nothing is to be written.
-pub(super) fn fraction(x: f64, pi: &str, times: &str) -> (String, String) {
-    if short(x) {
+/// 1/n stays a fraction if it is `divided` further.
+pub(super) fn fraction(x: f64, divided: bool, pi: &str, times: &str) -> (String, String) {
+    let part = 1.0 / x;
+    if short(x) && !(divided && part == part.round()) {
         return (digits(x), "1".to_string());
     }
     for (unit, symbol) in [(1.0, ""), (PI, pi)] {

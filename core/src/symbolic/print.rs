@@ -76,8 +76,15 @@ impl Arena {
     fn sum_text(&mut self, id: Id, form: Form) -> String {
         let mut text = String::new();
         for (k, (term, c)) in self.ordered_terms(id).into_iter().enumerate() {
-            let (own, factors) = self.factors(term);
-            let c = c * own;
+            let (own, mut factors) = self.factors(term);
+            let mut c = c * own;
+            // a bracket begins with a positive term, whatever the sign before it
+            for (base, e) in &mut factors {
+                if k > 0 && *e == 1.0 && self.is_sum(*base) && self.begins_negative(*base) {
+                    *base = self.sum(vec![(*base, -1.0)]);
+                    c = -c;
+                }
+            }
             match (k, c < 0.0) {
                 (0, true) => text.push_str(form.minus()),
                 (0, false) => {}
@@ -110,9 +117,9 @@ impl Arena {
 
     /// c·Π baseₖ^eₖ with c ≥ 0, as a quotient if an exponent is negative.
     fn product_text(&mut self, c: f64, factors: List, form: Form) -> (String, Binding) {
-        let (top, bottom) = fraction(c, form.pi(), form.times());
         let factors = self.ordered_factors(factors);
         let (above, below): (List, List) = factors.into_iter().partition(|(_, e)| *e > 0.0);
+        let (top, bottom) = fraction(c, !below.is_empty(), form.pi(), form.times());
         let mut above = self.power_texts(&above, form);
         let below = self.power_texts(&below, form);
         if top != "1" || above.is_empty() {

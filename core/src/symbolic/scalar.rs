@@ -3,7 +3,7 @@
 use super::arena::{Arena, Id, Node, Pair, Rate, Symbol, NAN, ONE, ZERO};
 use super::derivative::{By, Derivation};
 use super::function::Function;
-use super::name::{Axis, Name};
+use super::name::{Axis, Kind, Name};
 use super::style::Form;
 use crate::math::Real;
 use std::cell::{Cell, RefCell};
@@ -69,7 +69,7 @@ pub struct Record {
 
 /// Equations Φ = 0 with their derivatives.
 #[derive(Clone, Debug)]
-pub struct System {
+pub struct Differentiated {
     /// Φ.
     pub residual: Vec<Symbolic>,
     /// ∂Φ/∂q, a row for each equation.
@@ -118,12 +118,17 @@ impl Record {
     /// is written with the name `turned`, for the three forms.
     pub fn vector(&self, x: Symbolic, y: Symbolic, turned: [String; 3], owner: Option<usize>) {
         let (x, y) = (self.own(x), self.own(y));
-        let pair = Pair { x, y, turned, owner, angles: Vec::new() };
-        self.with((), |arena| arena.pairs.push(pair));
+        self.with((), |arena| {
+            let first = format!("{}.", turned[0]);
+            let taken = arena.symbols.iter().any(|symbol| symbol.name.text.starts_with(&first));
+            let [text, unicode, latex] = turned;
+            let turned = [if taken { text + "_" } else { text }, unicode, latex];
+            arena.pairs.push(Pair { x, y, turned, owner, angles: Vec::new() });
+        });
     }
 
     /// Φ with its parts named, ∂Φ/∂q and γ.
-    pub fn differentiate(&self, residual: &[Symbolic], unknowns: &[Symbolic]) -> System {
+    pub fn differentiate(&self, residual: &[Symbolic], unknowns: &[Symbolic]) -> Differentiated {
         let roots: Vec<Id> = residual.iter().map(|x| self.own(*x)).collect();
         let unknowns: Vec<Id> = unknowns.iter().map(|x| self.own(*x)).collect();
         let empty = (Vec::new(), Vec::new(), Vec::new());
@@ -145,7 +150,7 @@ impl Record {
             (residual, rows, gamma)
         });
         let out = |ids: Vec<Id>| ids.into_iter().map(|id| self.of(id)).collect();
-        System {
+        Differentiated {
             residual: out(residual),
             jacobian: jacobian.into_iter().map(out).collect(),
             gamma: out(gamma),
@@ -158,12 +163,14 @@ impl Record {
         self.with(String::new(), |arena| arena.write(id, form))
     }
 
-    /// Names and texts of the parts that expressions are written with, in the order of their use.
+    /// Names and texts of the parts that expressions are written with, turned
+    /// vectors first, rates last.
     pub fn definitions(&self, of: &[Symbolic], form: Form) -> Vec<(String, String)> {
         let roots: Vec<Id> = of.iter().map(|x| self.own(*x)).collect();
         self.with(Vec::new(), |arena| {
             let mut order = Vec::new();
             roots.iter().for_each(|root| arena.needed(*root, &mut order));
+            order.sort_by_cached_key(|id| arena.definition_key(*id));
             order.into_iter().map(|id| (arena.write(id, form), arena.meaning(id, form))).collect()
         })
     }
@@ -203,6 +210,22 @@ impl Arena {
         if definition.is_some() || matches!(self.node(id), Node::Turned { .. }) {
             order.push(id);
         }
+    }
+
+    /// Parts that are made of no other part first, and the components of a vector side by side.
+    fn definition_key(&mut self, id: Id) -> (usize, bool, String) {
+        let rate = self.symbol_of(id).is_some_and(|symbol| {
+            symbol.name.kind == Kind::Part && matches!(symbol.rate, Rate::Inline)
+        });
+        (self.depth(id), rate, self.write(id, Form::Expression))
+    }
+
+    /// How many named parts stand on each other in an expression.
+    fn depth(&self, id: Id) -> usize {
+        let definition = self.symbol_of(id).and_then(|symbol| symbol.definition);
+        let named = definition.is_some() || matches!(self.node(id), Node::Turned { .. });
+        let inner = definition.into_iter().chain(self.parts(id)).map(|part| self.depth(part));
+        inner.max().unwrap_or(0) + usize::from(named)
     }
 
     /// What the name of a part stands for.

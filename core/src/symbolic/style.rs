@@ -56,7 +56,8 @@ impl Form {
                 Some(raised) => format!("{base}{raised}"),
                 None => format!("{base}^{exponent}"),
             },
-            Self::Latex => format!("{{{base}}}^{{{exponent}}}"),
+            Self::Latex if base.contains('\'') => format!("{{{base}}}^{{{exponent}}}"),
+            Self::Latex => format!("{base}^{{{exponent}}}"),
         }
     }
 

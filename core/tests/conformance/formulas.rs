@@ -103,25 +103,31 @@ fn a_wrong_equation_is_seen() {
 }
 
 /// The equations of a type as lines.
-fn text(group: Group, kind: &str, form: Form) -> String {
+fn lines(group: Group, kind: &str, form: Form) -> String {
     let formulas = of_type(group, kind, form).unwrap();
-    let mut lines: Vec<String> =
-        formulas.definitions.iter().map(|(name, text)| format!("{name} = {text}")).collect();
+    let mut lines = vec![format!("# {kind}, {form:?}")];
+    lines.extend(formulas.definitions.iter().map(|(name, text)| format!("{name} = {text}")));
     for row in &formulas.rows {
         lines.push(format!("Φ = {}", row.residual));
-        lines.push(format!("Φ_q = [{}]", row.jacobian.join(", ")));
+        let entries = formulas.columns.iter().zip(&row.jacobian).filter(|(_, entry)| *entry != "0");
+        lines.extend(entries.map(|(column, entry)| format!("∂Φ/∂{column} = {entry}")));
         lines.push(format!("γ = {}", row.gamma));
     }
-    lines.join("\n") + "\n"
+    lines.join("\n") + "\n\n"
 }
 
+/// A new element adds its text to the file; read it as on a blackboard.
 #[test]
-fn show() {
-    for (group, table) in catalogue() {
-        if group != Group::Forces {
-            for form in [Form::Expression, Form::Unicode, Form::Latex] {
-                println!("{}\n{}", table.name, text(group, table.name, form));
-            }
+fn printed_equations_are_those_of_the_file() {
+    let mut text = String::new();
+    for (group, table) in catalogue().iter().filter(|(group, _)| *group != Group::Forces) {
+        for form in [Form::Expression, Form::Unicode, Form::Latex] {
+            text += &lines(*group, table.name, form);
         }
     }
+    let known = include_str!("formulas.txt");
+    for (line, known) in text.lines().zip(known.lines()) {
+        assert_eq!(line, known);
+    }
+    assert_eq!(text, known, "all:\n{text}");
 }

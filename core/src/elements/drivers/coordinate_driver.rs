@@ -4,7 +4,7 @@
 //! stands on ground and presses against it. The law may use t and the positions of other bodies.
 
 use crate::elements::{
-    element, Attachment, BodyId, Coordinate, CoordinateOf, Equation, Formula, Joint, Side,
+    element, Attachment, BodyId, Coordinate, CoordinateOf, Equation, Joint, Side,
 };
 use crate::math::{Local, Pose, Real};
 
@@ -27,12 +27,6 @@ impl CoordinateDriver {
 }
 
 impl Joint<1> for CoordinateDriver {
-    const FORMULAS: [Formula; 1] = [Formula {
-        residual: "j.coordinate - value",
-        jacobian: ["0", "0", "0", "is_x", "is_y", "is_angle"],
-        gamma: "ddt(value)",
-    }];
-
     fn ends<S>(e: &CoordinateDriver<S>) -> [BodyId; 2] {
         [BodyId::GROUND, e.coordinate.body]
     }

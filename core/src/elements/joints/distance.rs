@@ -6,7 +6,7 @@
 //! length 1. No square root, so that Φ and its derivatives are finite for all d; where the points meet
 //! Φ_q is zero. l > 0.
 
-use crate::elements::{element, Attachment, BodyId, Equation, Formula, Joint, Side, VelocityTerms};
+use crate::elements::{element, Attachment, BodyId, Equation, Joint, Side, VelocityTerms};
 use crate::math::{Motion, Pose, Real, Vec2};
 
 element! {
@@ -24,43 +24,6 @@ element! {
 }
 
 impl Joint<1> for Distance {
-    const FORMULAS: [Formula; 1] = [Formula {
-        residual: "((j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-                   - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))^2 \
-                   + (j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-                   - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle))^2 - length^2)/(2*length)",
-        jacobian: [
-            "-(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-             - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))/length",
-            "-(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-             - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle))/length",
-            "((i.s.x*sin(i.angle) + i.s.y*cos(i.angle)) \
-             *(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) - i.x) \
-             - (i.s.x*cos(i.angle) - i.s.y*sin(i.angle)) \
-             *(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) - i.y))/length",
-            "(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-             - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))/length",
-            "(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-             - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle))/length",
-            "((j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-             *(j.y - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)) \
-             - (j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-             *(j.x - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle)))/length",
-        ],
-        gamma: "-((j.vx - j.omega*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-                - i.vx + i.omega*(i.s.x*sin(i.angle) + i.s.y*cos(i.angle)))^2 \
-                + (j.vy + j.omega*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-                - i.vy - i.omega*(i.s.x*cos(i.angle) - i.s.y*sin(i.angle)))^2)/length \
-                + ((j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-                - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle)) \
-                *(j.omega^2*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-                - i.omega^2*(i.s.x*cos(i.angle) - i.s.y*sin(i.angle))) \
-                + (j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-                - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)) \
-                *(j.omega^2*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-                - i.omega^2*(i.s.x*sin(i.angle) + i.s.y*cos(i.angle))))/length",
-    }];
-
     fn ends<S>(e: &Distance<S>) -> [BodyId; 2] {
         [e.i.body, e.j.body]
     }

@@ -2,7 +2,7 @@
 //!
 //! Φ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ = 0. Two equations, no restriction of the domain.
 
-use crate::elements::{element, Attachment, BodyId, Equation, Formula, Joint, Side, VelocityTerms};
+use crate::elements::{element, Attachment, BodyId, Equation, Joint, Side, VelocityTerms};
 use crate::math::{Motion, Pose, Real, Vec2};
 
 element! {
@@ -20,37 +20,6 @@ element! {
 
 impl Joint<2> for Revolute {
     const PINS: bool = true;
-
-    const FORMULAS: [Formula; 2] = [
-        Formula {
-            residual: "j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-                       - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle)",
-            jacobian: [
-                "-1",
-                "0",
-                "i.s.x*sin(i.angle) + i.s.y*cos(i.angle)",
-                "1",
-                "0",
-                "-j.s.x*sin(j.angle) - j.s.y*cos(j.angle)",
-            ],
-            gamma: "j.omega^2*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-                    - i.omega^2*(i.s.x*cos(i.angle) - i.s.y*sin(i.angle))",
-        },
-        Formula {
-            residual: "j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-                       - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)",
-            jacobian: [
-                "0",
-                "-1",
-                "-i.s.x*cos(i.angle) + i.s.y*sin(i.angle)",
-                "0",
-                "1",
-                "j.s.x*cos(j.angle) - j.s.y*sin(j.angle)",
-            ],
-            gamma: "j.omega^2*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-                    - i.omega^2*(i.s.x*sin(i.angle) + i.s.y*cos(i.angle))",
-        },
-    ];
 
     fn ends<S>(e: &Revolute<S>) -> [BodyId; 2] {
         [e.i.body, e.j.body]
