@@ -108,8 +108,7 @@ fn derivatives_are_those_of_dual_numbers_and_jets() {
                 symbol(name, symbol(&format!("{name}_t"), Symbolic::zero()))
             };
             let unknowns = ["a", "b", "c"].map(moving);
-            let scope =
-                Scope { parameters: &unknowns, time: Symbolic::zero(), variables: &[] };
+            let scope = Scope { parameters: &unknowns, time: Symbolic::zero(), variables: &[] };
             let found = record.differentiate(&[tape.evaluate(&scope)], &unknowns);
             let mut all = vec![found.residual[0], found.gamma[0]];
             all.extend(&found.jacobian[0]);
@@ -130,8 +129,7 @@ fn derivatives_are_those_of_dual_numbers_and_jets() {
                 values.push(value(&names, &values, text));
                 names.push(name.clone());
             }
-            let found: Vec<f64> =
-                printed.iter().map(|text| value(&names, &values, text)).collect();
+            let found: Vec<f64> = printed.iter().map(|text| value(&names, &values, text)).collect();
             let dual: [Dual<3>; 3] = std::array::from_fn(|k| Dual::variable(at[k], k));
             let jet: [Jet; 3] = std::array::from_fn(|k| Jet::new(at[k], speed[k], 0.0));
             let scope = Scope { parameters: &dual, time: Dual::zero(), variables: &[] };
@@ -141,7 +139,11 @@ fn derivatives_are_those_of_dual_numbers_and_jets() {
             let expected = [first.value, -second, first.slope[0], first.slope[1], first.slope[2]];
             for (k, (found, expected)) in found.iter().zip(expected).enumerate() {
                 let gap = (found - expected).abs();
-                assert!(gap <= 1e-12 * (1.0 + expected.abs()), "{law}, {k}: {found} {expected}\n{}", printed[k]);
+                assert!(
+                    gap <= 1e-12 * (1.0 + expected.abs()),
+                    "{law}, {k}: {found} {expected}\n{}",
+                    printed[k]
+                );
             }
         }
     }

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe.arrays import Floats, fixed
-from kempe.partial_run import PartialRun
 from kempe.compiled import CompiledModel
 from kempe.dense import DenseOutput
 from kempe.energy import Energy
 from kempe.errors import IntegrationError, ModelError, SingularityError
 from kempe.motion import Motion
+from kempe.partial_run import PartialRun
 from kempe.state import State
 
 if TYPE_CHECKING:

@@ -1,7 +1,7 @@
 """The equations of joints and drivers as formulas with the names of a model.
 
-The core evaluates each joint's residual over symbolic numbers, simplifies and differentiates it, and
-prints the result. Here the texts are laid out.
+The core evaluates the residual of each joint over symbolic numbers, simplifies and differentiates
+it, and prints the result. This module lays out the texts.
 """
 
 from __future__ import annotations
@@ -103,7 +103,8 @@ def equations(model: Model | CompiledModel) -> list[Equations]:
 
     compiled = compiled_model(model)
     tree = json.loads(compiled.case)
-    return [_of(compiled, info, tree[info.group][info.name]) for info in compiled.constraints.values()]
+    infos = compiled.constraints.values()
+    return [_of(compiled, info, tree[info.group][info.name]) for info in infos]
 
 
 def _of(compiled: CompiledModel, info: ConstraintInfo, entry: Mapping[str, Any]) -> Equations:
@@ -114,7 +115,7 @@ def _of(compiled: CompiledModel, info: ConstraintInfo, entry: Mapping[str, Any])
         return told
 
     expressions = printed("expression")
-    points = {written.get("i"): info.point_i, written.get("j"): info.point_j}
+    points = {written.get("i", ""): info.point_i, written.get("j", ""): info.point_j}
     used = {name.rpartition(".")[0] for name in expressions["names"]}
     return Equations(
         name=info.name,

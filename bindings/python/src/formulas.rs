@@ -3,8 +3,8 @@
 use crate::convert::refuse;
 use crate::guard::guard;
 use crate::model::PyModel;
-use kempe::equations::formulas::{of_constraint, of_type, Formulas};
 use kempe::elements::Group;
+use kempe::equations::formulas::{of_constraint, of_type, Formulas};
 use kempe::symbolic::Form;
 use pyo3::prelude::*;
 use serde_json::{json, Value};

@@ -1,7 +1,7 @@
 //! The declarations of elements, bodies and options as JSON.
 
-use kempe::analyses::{analysis_tables, option_families};
 use crate::formulas::declared;
+use kempe::analyses::{analysis_tables, option_families};
 use kempe::elements::{catalogue, Default, Field, Group, Shape, Table};
 use kempe::expression::unit::{Unit, UNITS};
 use kempe::expression::{Function, FUNCTIONS};

@@ -20,7 +20,11 @@ pub(super) enum Node {
     /// A name, by its index among the symbols.
     Symbol(usize),
     /// A component of a pair of constants (x, y) that is turned by an angle.
-    Turned { pair: usize, angle: Id, axis: Axis },
+    Turned {
+        pair: usize,
+        angle: Id,
+        axis: Axis,
+    },
     /// Σ cₖ·termₖ with terms that are neither numbers (but one) nor sums, by rising index; one term
     /// only if its factor is not 1.
     Sum(Vec<(Id, Bits)>),

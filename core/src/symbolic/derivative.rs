@@ -144,13 +144,7 @@ fn unary(arena: &mut Arena, function: Function, x: Id, y: Id) -> Id {
 }
 
 /// The derivative of f(a, b) = y for slopes of a and b.
-fn binary(
-    arena: &mut Arena,
-    function: Function,
-    [a, b]: [Id; 2],
-    [da, db]: [Id; 2],
-    y: Id,
-) -> Id {
+fn binary(arena: &mut Arena, function: Function, [a, b]: [Id; 2], [da, db]: [Id; 2], y: Id) -> Id {
     match function {
         Function::Atan2 => {
             let (first, second) = (arena.multiply(b, da), arena.multiply(a, db));

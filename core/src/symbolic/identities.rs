@@ -10,9 +10,8 @@ impl Arena {
     pub fn reduce(&mut self, terms: &[(Id, f64)]) -> Option<List> {
         for k in 1..terms.len() {
             for l in 0..k {
-                let joined = self
-                    .join(terms[k], terms[l])
-                    .or_else(|| self.join(terms[l], terms[k]));
+                let joined =
+                    self.join(terms[k], terms[l]).or_else(|| self.join(terms[l], terms[k]));
                 if let Some(joined) = joined {
                     let others = terms.iter().enumerate().filter(|(at, _)| *at != k && *at != l);
                     let mut left: List = others.map(|(_, term)| *term).collect();
@@ -40,13 +39,7 @@ impl Arena {
     }
 
     /// a + b, or a - b where `same` is false, as one expression; it will be multiplied by `c`.
-    fn identity(
-        &mut self,
-        a: &[(Id, f64)],
-        b: &[(Id, f64)],
-        same: bool,
-        c: f64,
-    ) -> Option<Id> {
+    fn identity(&mut self, a: &[(Id, f64)], b: &[(Id, f64)], same: bool, c: f64) -> Option<Id> {
         match (a, b) {
             // cos² + sin²
             ([(x, 2.0)], [(y, 2.0)]) if same => {
@@ -60,7 +53,8 @@ impl Arena {
                 Some(self.power(other, 2.0))
             }
             ([(p, 1.0), (q, 1.0)], [(r, 1.0), (s, 1.0)]) => {
-                let orders = [[*p, *q, *r, *s], [*q, *p, *r, *s], [*p, *q, *s, *r], [*q, *p, *s, *r]];
+                let orders =
+                    [[*p, *q, *r, *s], [*q, *p, *r, *s], [*p, *q, *s, *r], [*q, *p, *s, *r]];
                 orders.into_iter().find_map(|order| {
                     self.angle_sum(order, same, c).or_else(|| self.turned(order, same))
                 })
@@ -116,7 +110,8 @@ fn shared(a: &[(Id, f64)], b: &[(Id, f64)]) -> List {
     let exponent = |id| b.iter().find(|(other, _)| *other == id).map(|(_, e)| *e);
     let common = |(id, e): &(Id, f64)| {
         let other = exponent(*id)?;
-        (e.signum() == other.signum()).then(|| (*id, if e.abs() < other.abs() { *e } else { other }))
+        (e.signum() == other.signum())
+            .then(|| (*id, if e.abs() < other.abs() { *e } else { other }))
     };
     a.iter().filter_map(common).collect()
 }

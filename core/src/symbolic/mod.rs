@@ -35,5 +35,5 @@ mod style;
 
 pub(crate) use name::upright;
 pub use name::{Axis, Kind, Name};
-pub use scalar::{record, Record, Symbolic, Differentiated};
+pub use scalar::{record, Differentiated, Record, Symbolic};
 pub use style::Form;

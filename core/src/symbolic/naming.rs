@@ -141,11 +141,13 @@ impl Arena {
 /// A letter that no other name begins with; a number follows from the second on.
 fn letter(arena: &Arena, first: &str, k: usize) -> String {
     let letter = if k == 0 { first.to_string() } else { format!("{first}_{}", k + 1) };
-    let taken = |name: &Name| {
-        name.text == letter || name.text.starts_with(&format!("{letter}."))
-    };
+    let taken = |name: &Name| name.text == letter || name.text.starts_with(&format!("{letter}."));
     let foreign = arena.symbols.iter().any(|s| s.definition.is_none() && taken(&s.name));
-    if foreign { letter + "_" } else { letter }
+    if foreign {
+        letter + "_"
+    } else {
+        letter
+    }
 }
 
 /// The name of a component of a vector, or of its rate.

@@ -134,7 +134,11 @@ impl Arena {
         }
         let latex = form == Form::Latex;
         let enclosed = |(text, binding): (String, Binding), least: Binding| {
-            if binding < least && !latex { form.brackets(&text) } else { text }
+            if binding < least && !latex {
+                form.brackets(&text)
+            } else {
+                text
+            }
         };
         let top = enclosed(joined(above, form), Binding::Product);
         let bottom = enclosed(joined(under, form), Binding::Power);

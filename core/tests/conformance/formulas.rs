@@ -2,7 +2,7 @@
 
 use crate::mechanisms::{close, Random};
 use crate::samples::{constraints, motion, of_end, random};
-use kempe::elements::{catalogue, Constraint, Group, Rows};
+use kempe::elements::{catalogue, Constraint, Field, Group, Rows};
 use kempe::equations::formulas::{of_element, of_type, Formulas};
 use kempe::expression::{Expression, Scope};
 use kempe::symbolic::Form;
@@ -36,19 +36,21 @@ fn table(c: &Constraint, states: [[f64; 6]; 2], formulas: &Formulas) -> Table {
         }
     }
     let fields = catalogue().into_iter().find(|(_, t)| t.name == c.kind()).unwrap().1.fields;
-    let mut names = fields.into_iter().flat_map(|field| {
+    let law = |field: &&Field| format!("{:?}", field.shape) == "Law";
+    let laws: Vec<&str> = fields.iter().filter(law).map(|field| field.name).collect();
+    let mut names = fields.iter().flat_map(|field| {
         let name = field.name;
         match format!("{:?}", field.shape).as_str() {
             "Point" => vec![format!("{name}.s.x"), format!("{name}.s.y")],
             "Pair" => vec![format!("{name}_i"), format!("{name}_j")],
-            "Number" => vec![name.to_string()],
-            "Law" => vec![name.to_string()],
+            "Number" | "Law" => vec![name.to_string()],
             _ => vec![],
         }
     });
     c.map(&mut |x| table.put(&names.next().unwrap(), *x));
-    for rate in ["value_t", "value_tt"] {
-        table.put(rate, 0.0);
+    for law in laws {
+        table.put(&format!("{law}_t"), 0.0);
+        table.put(&format!("{law}_tt"), 0.0);
     }
     for (name, text) in &formulas.definitions {
         let value = table.value(text);
@@ -116,7 +118,7 @@ fn lines(group: Group, kind: &str, form: Form) -> String {
     lines.join("\n") + "\n\n"
 }
 
-/// A new element adds its text to the file; read it as on a blackboard.
+/// `KEMPE_WRITE=1` writes the file; read it as you would read a blackboard.
 #[test]
 fn printed_equations_are_those_of_the_file() {
     let mut text = String::new();
@@ -124,6 +126,11 @@ fn printed_equations_are_those_of_the_file() {
         for form in [Form::Expression, Form::Unicode, Form::Latex] {
             text += &lines(*group, table.name, form);
         }
+    }
+    if std::env::var_os("KEMPE_WRITE").is_some() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/formulas.txt");
+        std::fs::write(file, &text).unwrap();
+        return;
     }
     let known = include_str!("formulas.txt");
     for (line, known) in text.lines().zip(known.lines()) {

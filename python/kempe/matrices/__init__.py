@@ -1,4 +1,4 @@
-"""The matrices of the equations of motion: as arrays, and printed with names of rows and columns."""
+"""The matrices of the equations of motion: as arrays, and printed with labels."""
 
 from kempe.matrices.labelled import NAMES, Labelled, show
 from kempe.matrices.values import Matrices, matrices

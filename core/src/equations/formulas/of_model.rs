@@ -75,11 +75,8 @@ fn points(
     element: &Constraint<Tape>,
     written: &dyn Fn(&str) -> Option<String>,
 ) -> Vec<Option<Symbolic>> {
-    let reference = Laws {
-        parameters: &model.parameters,
-        t: 0.0,
-        coordinate: |_: BodyId, _: Coordinate| 0.0,
-    };
+    let reference =
+        Laws { parameters: &model.parameters, t: 0.0, coordinate: |_: BodyId, _: Coordinate| 0.0 };
     let mut values = Vec::new();
     element.map(&mut |tape| values.push(tape.evaluate(&reference)));
     let mut all = Vec::new();
