@@ -64,7 +64,7 @@ impl Arena {
         match terms[..] {
             [] => ZERO,
             [(ONE, c)] => self.number(c),
-            [(id, c)] if c == 1.0 => id,
+            [(id, 1.0)] => id,
             _ => {
                 let sum = self.add(Node::Sum(write(terms)));
                 self.name_of(sum)
@@ -123,7 +123,7 @@ impl Arena {
         let factors = merge(factors);
         let product = match factors[..] {
             [] => return self.number(c),
-            [(base, e)] if e == 1.0 => base,
+            [(base, 1.0)] => base,
             _ => self.add(Node::Product(write(factors))),
         };
         if c == 0.0 {

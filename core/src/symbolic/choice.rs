@@ -25,7 +25,7 @@ impl Arena {
     fn by_sign(&mut self, d: Id, [positive, negative, zero]: [Id; 3]) -> Id {
         // where d is zero, so is floor(d)
         let floor = self.call(Floor, &[d]);
-        let zero = match self.terms(zero).iter().any(|term| *term == (floor, 1.0)) {
+        let zero = match self.terms(zero).contains(&(floor, 1.0)) {
             true => self.sum(vec![(zero, 1.0), (floor, -1.0)]),
             false => zero,
         };
