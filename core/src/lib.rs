@@ -15,7 +15,7 @@
 #![forbid(unsafe_code)]
 
 // The modules depend on each other in one direction only, see ARCHITECTURE.md:
-// math ← expression ← elements ← model ← equations ← stabilize ← analyses ← case.
+// math ← expression ← symbolic ← elements ← model ← equations ← stabilize ← analyses ← case.
 // They are public for the tests, benchmarks and bindings of this repository; what other programs use is
 // named below.
 #[doc(hidden)]
@@ -37,6 +37,8 @@ pub mod model;
 pub mod solve;
 #[doc(hidden)]
 pub mod stabilize;
+#[doc(hidden)]
+pub mod symbolic;
 
 pub use analyses::assemble::{assemble, Report, Request};
 pub use analyses::dynamics::read as read_options;

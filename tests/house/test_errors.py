@@ -52,6 +52,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
     "force": lambda: _core.force(MODEL, "spring", "rocker", None, "global", TIMES, ROW, ROW),
     "matrices": lambda: _core.matrices(MODEL, T, Q, V, "{}"),
+    "formulas": lambda: _core.formulas(MODEL, "C", {}, "latex"),
     "_raise": lambda: _core._raise("ModelError", "wrong"),
 }
 

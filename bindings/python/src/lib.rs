@@ -11,6 +11,7 @@ mod convert;
 mod dynamics;
 mod errors;
 mod evaluate;
+mod formulas;
 mod guard;
 mod model;
 mod options;
@@ -83,6 +84,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(evaluate::reaction, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::matrices, module)?)?;
+    module.add_function(wrap_pyfunction!(formulas::formulas, module)?)?;
     module.add_function(wrap_pyfunction!(_inject_panic, module)?)?;
     module.add_function(wrap_pyfunction!(_raise, module)?)?;
     Ok(())

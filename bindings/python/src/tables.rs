@@ -1,8 +1,9 @@
 //! The declarations of elements, bodies and options as JSON.
 
+use crate::formulas::declared;
 use kempe::analyses::options::Declaration;
 use kempe::analyses::{declarations, option_families};
-use kempe::elements::{catalogue, formulas, Default, Field, Group, Shape, Table};
+use kempe::elements::{catalogue, Default, Field, Group, Shape, Table};
 use kempe::expression::unit::{Unit, UNITS};
 use kempe::expression::{Function, FUNCTIONS};
 use kempe::model::body_tables;
@@ -58,14 +59,12 @@ fn unit((name, unit): &(&str, Unit)) -> Value {
     json!({ "name": name, "si": unit.scale(1.0), "dimension": unit.dimension.to_string() })
 }
 
-/// An element with its equations as formulas.
+/// An element, with its equations if it is a joint or driver.
 fn element(group: Group, own: &Table) -> Value {
     let mut value = table(own);
-    let Some(all) = formulas(group, own.name) else { return value };
-    let equations = all
-        .iter()
-        .map(|f| json!({ "residual": f.residual, "jacobian": f.jacobian, "gamma": f.gamma }));
-    value["formulas"] = equations.collect();
+    if group != Group::Forces {
+        value["formulas"] = declared(group, own.name);
+    }
     value
 }
 

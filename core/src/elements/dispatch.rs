@@ -204,16 +204,6 @@ macro_rules! constraints {
             $($($(#[$on])* all.push(declared::<$Name>(Group::$Group));)+)+
             all
         }
-
-        /// The equations of a type of joint or driver as formulas; None if there is no such type.
-        pub fn formulas(group: Group, kind: &str) -> Option<&'static [Formula]> {
-            $($($(#[$on])* {
-                if group == Group::$Group && kind == <$Name>::NAME {
-                    return Some(<$Name as Joint>::FORMULAS);
-                }
-            })+)+
-            None
-        }
     };
 }
 

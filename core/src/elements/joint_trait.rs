@@ -2,7 +2,6 @@
 
 use super::declare::Element;
 use super::derive;
-use super::formula::Formula;
 use super::kinds::{BodyId, CoordinateOf};
 use crate::math::{Local, Motion, Pose, Real};
 
@@ -96,9 +95,6 @@ pub trait Joint: Element {
     /// Whether there are two equations whose columns of translation never change: -I for body i, +I for
     /// body j, as in Φ = point_j - point_i (Haug 3.3.12).
     const CONSTANT_COLUMNS: bool = false;
-
-    /// The equations as formulas to be read.
-    const FORMULAS: &'static [Formula] = &[];
 
     /// Number of internal coordinates, 0 to 3.
     const OWN: usize = 0;

@@ -7,7 +7,6 @@ use super::dispatch::{
 use super::drivers::CoordinateDriver;
 use super::force_trait::{Force, OwnPowers, OwnState, Part, Situation};
 use super::forces::{SpringDamper, Torque, TorsionSpring};
-use super::formula::Formula;
 use super::joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
 use super::joints::{Distance, Revolute, Translational};
 use super::kinds::{BodyId, CoordinateOf, JointId, Source};

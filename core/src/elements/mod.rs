@@ -9,7 +9,6 @@ mod declare;
 pub(crate) mod derive;
 mod dispatch;
 mod force_trait;
-mod formula;
 mod joint_trait;
 mod kinds;
 mod list;
@@ -27,14 +26,13 @@ use declare::join;
 pub use declare::{Default, Element, Field, Table};
 pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation};
-pub use formula::Formula;
 pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
 pub use kinds::{
     body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, JointId,
     Kind, PointOn, Shape, Source,
 };
 pub use list::{
-    catalogue, formulas, holding, states_of, Constraint, ForceElement, ForcePools, JointPools,
+    catalogue, holding, states_of, Constraint, ForceElement, ForcePools, JointPools,
 };
 pub use value::{Number, Pair, Value};
 pub use written::Written;

@@ -11,6 +11,7 @@ mod coupling;
 pub mod dense;
 pub mod energy;
 pub mod forces;
+pub mod formulas;
 mod grounded;
 mod inertia;
 pub mod iteration;

@@ -4,7 +4,7 @@
 //! stands on ground and presses against it. The law may use t and the positions of other bodies.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Coordinate, Equation, Fixes, Formula, Joint,
+    element, At, Attachment, BodyId, Coordinate, Equation, Fixes, Joint,
 };
 use crate::math::{Local, Real};
 
@@ -20,12 +20,6 @@ element! {
 }
 
 impl Joint for CoordinateDriver {
-    const FORMULAS: &'static [Formula] = &[Formula {
-        residual: "j.coordinate - value",
-        jacobian: ["0", "0", "0", "is_x", "is_y", "is_angle"],
-        gamma: "ddt(value)",
-    }];
-
     fn bodies<S>(e: &CoordinateDriver<S>) -> Vec<BodyId> {
         vec![BodyId::GROUND, e.coordinate.body]
     }

@@ -7,7 +7,7 @@
 //! Φ_q is zero. l > 0.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Formula, Joint, Linearized, Moving,
+    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Moving,
 };
 use crate::math::{Real, Vec2};
 
@@ -26,43 +26,6 @@ element! {
 }
 
 impl Joint for Distance {
-    const FORMULAS: &'static [Formula] = &[Formula {
-        residual: "((j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-                   - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))^2 \
-                   + (j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-                   - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle))^2 - length^2)/(2*length)",
-        jacobian: [
-            "-(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-             - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))/length",
-            "-(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-             - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle))/length",
-            "((i.s.x*sin(i.angle) + i.s.y*cos(i.angle)) \
-             *(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) - i.x) \
-             - (i.s.x*cos(i.angle) - i.s.y*sin(i.angle)) \
-             *(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) - i.y))/length",
-            "(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-             - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))/length",
-            "(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-             - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle))/length",
-            "((j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-             *(j.y - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)) \
-             - (j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-             *(j.x - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle)))/length",
-        ],
-        gamma: "-((j.vx - j.omega*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-                - i.vx + i.omega*(i.s.x*sin(i.angle) + i.s.y*cos(i.angle)))^2 \
-                + (j.vy + j.omega*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-                - i.vy - i.omega*(i.s.x*cos(i.angle) - i.s.y*sin(i.angle)))^2)/length \
-                + ((j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-                - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle)) \
-                *(j.omega^2*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-                - i.omega^2*(i.s.x*cos(i.angle) - i.s.y*sin(i.angle))) \
-                + (j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-                - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)) \
-                *(j.omega^2*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-                - i.omega^2*(i.s.x*sin(i.angle) + i.s.y*cos(i.angle))))/length",
-    }];
-
     fn bodies<S>(e: &Distance<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
     }

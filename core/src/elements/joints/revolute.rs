@@ -3,7 +3,7 @@
 //! Φ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ = 0. Two equations, no restriction of the domain.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Formula, Joint, Linearized, Moving,
+    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Moving,
 };
 use crate::math::Real;
 
@@ -22,37 +22,6 @@ element! {
 
 impl Joint for Revolute {
     const CONSTANT_COLUMNS: bool = true;
-
-    const FORMULAS: &'static [Formula] = &[
-        Formula {
-            residual: "j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-                       - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle)",
-            jacobian: [
-                "-1",
-                "0",
-                "i.s.x*sin(i.angle) + i.s.y*cos(i.angle)",
-                "1",
-                "0",
-                "-j.s.x*sin(j.angle) - j.s.y*cos(j.angle)",
-            ],
-            gamma: "j.omega^2*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-                    - i.omega^2*(i.s.x*cos(i.angle) - i.s.y*sin(i.angle))",
-        },
-        Formula {
-            residual: "j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-                       - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)",
-            jacobian: [
-                "0",
-                "-1",
-                "-i.s.x*cos(i.angle) + i.s.y*sin(i.angle)",
-                "0",
-                "1",
-                "j.s.x*cos(j.angle) - j.s.y*sin(j.angle)",
-            ],
-            gamma: "j.omega^2*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-                    - i.omega^2*(i.s.x*sin(i.angle) + i.s.y*cos(i.angle))",
-        },
-    ];
 
     fn bodies<S>(e: &Revolute<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]

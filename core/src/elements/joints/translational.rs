@@ -8,7 +8,7 @@
 //! of φⱼ - φᵢ, which differ.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Formula, Joint, Linearized, Moving,
+    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Moving,
 };
 use crate::math::{Local, Pose, Real, Rotation, Vec2};
 
@@ -35,38 +35,6 @@ fn directions<S: Real>(e: &Translational<S>, i: &Pose<S>) -> (Vec2<S>, Vec2<S>) 
 }
 
 impl Joint for Translational {
-    const FORMULAS: &'static [Formula] = &[
-        Formula {
-            residual: "cos(i.angle + i.axis)*(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-                       - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)) \
-                       - sin(i.angle + i.axis)*(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-                       - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))",
-            jacobian: [
-                "sin(i.angle + i.axis)",
-                "-cos(i.angle + i.axis)",
-                "-cos(i.angle + i.axis)*(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) - i.x) \
-                 - sin(i.angle + i.axis)*(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) - i.y)",
-                "-sin(i.angle + i.axis)",
-                "cos(i.angle + i.axis)",
-                "j.s.x*cos(i.angle + i.axis - j.angle) + j.s.y*sin(i.angle + i.axis - j.angle)",
-            ],
-            gamma: "j.omega^2*(j.s.y*cos(i.angle + i.axis - j.angle) \
-                    - j.s.x*sin(i.angle + i.axis - j.angle)) \
-                    + 2*i.omega*(cos(i.angle + i.axis)*(j.vx - i.vx \
-                    - j.omega*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle))) \
-                    + sin(i.angle + i.axis)*(j.vy - i.vy \
-                    + j.omega*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)))) \
-                    + i.omega^2*(cos(i.angle + i.axis)*(j.y + j.s.x*sin(j.angle) \
-                    + j.s.y*cos(j.angle) - i.y) \
-                    - sin(i.angle + i.axis)*(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) - i.x))",
-        },
-        Formula {
-            residual: "j.angle + j.axis - i.angle - i.axis",
-            jacobian: ["0", "0", "-1", "0", "0", "1"],
-            gamma: "0",
-        },
-    ];
-
     fn bodies<S>(e: &Translational<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
     }

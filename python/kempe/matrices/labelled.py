@@ -10,12 +10,12 @@ import numpy as np
 
 from kempe.arrays import Floats
 from kempe.errors import ModelError
-from kempe.labelled import written
+from kempe.matrices import writing
 from kempe.names import one_of
 
 if TYPE_CHECKING:
     from kempe.compiled import CompiledModel
-    from kempe.matrices import Matrices
+    from kempe.matrices.values import Matrices
     from kempe.model import Model
     from kempe.state import State
     from kempe.values import Number
@@ -71,16 +71,16 @@ class Labelled:
 
     def text(self) -> str:
         """Aligned lines with the names, zeros as dots."""
-        return written.text(self.rows, self.columns, self.cells())
+        return writing.text(self.rows, self.columns, self.cells())
 
     def csv(self) -> str:
         """Comma-separated lines with a header, every digit kept."""
         header = self.columns or (self.name,)
-        return written.csv(self.rows, header, self.values.reshape(len(self.rows), -1))
+        return writing.csv(self.rows, header, self.values.reshape(len(self.rows), -1))
 
     def latex(self) -> str:
         """A ``bmatrix`` of amsmath with the names of rows and columns beside it."""
-        return written.latex(self.name, self.rows, self.columns, self.cells())
+        return writing.latex(self.name, self.rows, self.columns, self.cells())
 
     def __array__(self, dtype: object = None, copy: bool | None = None) -> Floats:
         """The values, so that numpy takes this for what it shows."""

@@ -46,7 +46,7 @@ class Iterations:
 
     def latex(self) -> str:
         """A ``tabular``."""
-        from kempe.labelled.written import latex_number
+        from kempe.matrices.writing import latex_number
 
         lines = [
             f"{k} & ${latex_number(row.residual)}$ & "

@@ -1,4 +1,4 @@
-"""The beginning of a run: what is kept where something does not follow from a later state."""
+"""The first rows of a run, up to a state at which a value cannot be computed."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Beginning:
-    """What ``_core.Run`` holds, of its first rows.
+class PartialRun:
+    """The first rows of a ``_core.Run``, with the same attributes.
 
     Attributes:
-        run: the whole.
-        rows: how many of them.
-        message: why there are no more.
+        run: the whole run.
+        rows: the number of rows kept.
+        message: the reason why later rows are left out.
     """
 
     run: _core.Run
@@ -46,7 +46,7 @@ class Beginning:
 
     @property
     def statistics(self) -> str:
-        """What the whole run took, as JSON."""
+        """Steps, evaluations and times of the whole run, as JSON."""
         return self.run.statistics
 
     def responses(self) -> tuple[Floats, Floats]:

@@ -1,7 +1,7 @@
-"""What a simulation is asked for, as an entry of a case and as the text of it that the core reads.
+"""The options of a simulation as an entry of a case and as the text that the core reads, cached.
 
-Loops over starts or brief intervals ask for the same again and again. What was checked and written
-once is kept by the values, all of which are immutable, and not by the objects they came in.
+Loops over starts or brief intervals repeat the same options many times. A checked request is kept
+under the values of its options, all of which are immutable.
 """
 
 from __future__ import annotations
@@ -14,25 +14,25 @@ from kempe.option import Option, core_options
 from kempe.options import Dynamics, NoStabilization
 from kempe.values import Number, number
 
-#: ``json.dumps`` makes such an encoder for each text.
+#: ``json.dumps`` would construct such an encoder for each text.
 encode = json.JSONEncoder(allow_nan=False).encode
 
-#: Values of these types, and of no subclass, are told apart by type and value.
+#: Values of exactly these types are distinguished by type and value.
 _PLAIN = frozenset({float, int, bool, str, type(None)})
-#: The options whose text follows from their fields.
+#: Options whose text follows from their fields.
 _KNOWN = frozenset(Option.__subclasses__())
 _NONE = NoStabilization()
-#: How many are kept.
+#: The largest number of requests kept.
 _MOST = 64
 
 
 class Request(NamedTuple):
-    """A simulation that was asked for.
+    """A requested simulation.
 
     Attributes:
-        entry: as in a file.
-        text: what the core wants of it.
-        t_end: time at which it ends, s, whatever the text says; as there when None.
+        entry: its options as in a file.
+        text: the options that the core reads, as JSON.
+        t_end: end of the simulation, s; it replaces that of the text unless it is None.
     """
 
     entry: Mapping[str, Any]
@@ -57,7 +57,7 @@ def request(asked: Asked, dense_output: bool, singularity: str) -> Request:
         singularity: as in ``Dynamics``.
 
     Raises:
-        ModelError: a value is not what its field wants.
+        ModelError: a value is not allowed in its field.
     """
     key = _key(asked, dense_output, singularity)
     known = None if key is None else _kept.get(key)
@@ -73,7 +73,7 @@ def request(asked: Asked, dense_output: bool, singularity: str) -> Request:
 
 
 def _key(asked: Asked, dense_output: bool, singularity: str) -> _Key | None:
-    """All but t_end, each value with its type: 1 is not True; None where a value may change."""
+    """Options but t_end, each with its type, since 1 == True; None where a value is mutable."""
     _, output_step, method, stabilization, max_steps = asked
     chosen = _NONE if stabilization is None else stabilization
     kinds = type(method), type(chosen)
@@ -86,7 +86,7 @@ def _key(asked: Asked, dense_output: bool, singularity: str) -> _Key | None:
 
 
 def _keep(key: _Key, made: Request) -> None:
-    if 0.0 in key[-1]:  # -0.0 equals it, and is written otherwise
+    if 0.0 in key[-1]:  # -0.0 equals 0.0 but is written differently
         return
     if len(_kept) >= _MOST:
         _kept.clear()
