@@ -86,6 +86,13 @@ class Model:
         body is ground.
         """
 
+    def symbols(self) -> str:
+        """The symbols that a drawing shows for the elements, in the order of the model, as JSON.
+
+        ``[{"element": name, "mark": word, "i": end, "j": end, "radius": null | m}]``, where an end
+        is ``{"body": number, "point": null | [x, y], "axis": angle}``.
+        """
+
     def allowing_redundancy(self) -> Model:
         """The same model with redundant constraints accepted."""
 

@@ -196,6 +196,16 @@ class CompiledModel:
         infos = map(_force, self._about["forces"])
         return MappingProxyType({info.name: info for info in infos})
 
+    @cached_property
+    def symbols(self) -> tuple[dict[str, Any], ...]:
+        """What a drawing shows for joints, drivers and forces, in their order.
+
+        Each has ``element`` (its name), ``mark`` (a word of the scene's vocabulary), ``i`` and
+        ``j`` (``body``: number, ``point``: place in its frame or None, ``axis``: angle) and
+        ``radius``.
+        """
+        return tuple(json.loads(self.core.symbols()))
+
     def body(self, name: str) -> BodyInfo:
         """A body by name, ground among them.
 

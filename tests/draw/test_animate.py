@@ -38,7 +38,7 @@ def test_pins_are_drawn_where_the_solution_has_them(four_bar: kp.Solution) -> No
 
 
 def test_frames_differ_and_what_stands_still_does_not(four_bar: kp.Solution) -> None:
-    frame = Frame(kp.scene(four_bar), (8, 4.5), 80)
+    frame = Frame(kp.scene(four_bar), 640 / 7.2)
     first, later = np.array(frame.pixels(0)), np.array(frame.pixels(20))
     assert first.shape == (360, 640, 4)
     assert (first != later).any()

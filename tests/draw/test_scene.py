@@ -9,10 +9,11 @@ import kempe as kp
 import numpy as np
 import pytest
 from draw.mechanisms import moving, pendulum, point_pendulum, slider_crank, sprung
+from house.places import ROOT
 from kempe.draw.geometry import placed, smooth
 from kempe.draw.numbers import plain, round_below
 from kempe.draw.scene import playback_rate
-from kempe.plot.symbols import spring_damper
+from kempe.draw.symbols import MARKS
 
 #: Numbers are rounded to nine significant digits.
 HALF_A_DIGIT = 5.001e-9
@@ -45,7 +46,7 @@ def test_it_fits_its_schema_and_is_json(four_bar: kp.Solution, hostile: kp.Solut
 
 def test_a_scene_of_another_version_does_not_fit(four_bar: kp.Solution) -> None:
     with pytest.raises(jsonschema.ValidationError):
-        jsonschema.validate(kp.scene(four_bar.initial) | {"scene": 2}, SCHEMA)
+        jsonschema.validate(kp.scene(four_bar.initial) | {"scene": 3}, SCHEMA)
 
 
 def test_poses_rates_and_reactions_are_those_of_the_solution(four_bar: kp.Solution) -> None:
@@ -131,39 +132,48 @@ def test_bodies_are_drawn_by_their_shape(four_bar: kp.Solution) -> None:
     assert sorted(plate["outline"]) == [[0, 0], [1, 0], [1, 0.5]]  # S lies inside
 
 
-def test_a_spring_is_drawn_at_the_joint_of_its_bodies(four_bar: kp.Solution) -> None:
-    (spring,) = kp.scene(four_bar.initial)["forces"]
-    assert (spring["bodies"], spring["point"]) == ([0, 3], [9, 0])
+def marked(scene: dict[str, Any]) -> list[tuple[str, str]]:
+    return [(symbol["element"], symbol["mark"]) for symbol in scene["symbols"]]
 
 
-def test_a_spring_damper_is_drawn_between_its_points(four_bar: kp.Solution) -> None:
-    (spring,) = kp.scene(sprung())["forces"]
+def test_symbols_are_those_of_the_elements(four_bar: kp.Solution) -> None:
+    spiral = [("spring", "spiral_spring"), ("spring", "rotary_dashpot")]
+    assert marked(kp.scene(four_bar)) == [*((name, "pin") for name in "ABCD"), *spiral]
+    assert marked(kp.scene(sprung()))[1:] == [("s", "spring"), ("s", "dashpot")]
+    assert marked(kp.scene(point_pendulum())) == [("rod", "rod")]
+    words = SCHEMA["$defs"]["symbol"]["properties"]["mark"]["enum"]
+    assert set(words) == set(MARKS)
+
+
+def test_a_symbol_without_points_is_at_the_joint_of_its_bodies(four_bar: kp.Solution) -> None:
+    spring = kp.scene(four_bar.initial)["symbols"][4]
+    assert (spring["bodies"], spring["points"]) == ([0, 3], [None, [9, 0]])
+    rest = float(four_bar.initial["rocker"].angle)
+    assert spring["turning"] == pytest.approx([rest, 0.0])
+
+
+def test_a_symbol_between_points_has_them() -> None:
+    spring = kp.scene(sprung())["symbols"][1]
     assert (spring["bodies"], spring["points"]) == ([0, 1], [[-1.2, 0.3], [0.5, 0]])
-    assert kp.scene(four_bar.initial)["forces"][0]["points"] is None
-
-
-def test_the_lines_of_a_spring_damper_join_its_ends_and_keep_their_width() -> None:
-    begin, end = np.array([1.0, 2.0]), np.array([4.0, 6.0])
-    for half in (0.1, 2.0):
-        lines = spring_damper(begin, end, half)
-        np.testing.assert_allclose([lines[0], lines[-1]], [begin, end])
-        across = (lines - begin) @ np.array([-0.8, 0.6])
-        assert np.nanmax(np.abs(across)) == pytest.approx(half)
-    assert np.all(spring_damper(begin, begin, 0.1)[0] == begin)
 
 
 def test_a_slider_is_drawn_along_its_axis() -> None:
     solution = slider_crank()
     scene = kp.scene(solution)
-    assert [joint["slide"] is None for joint in scene["joints"]] == [True, True, True, False]
-    guide = scene["joints"][3]
-    assert guide["axes"] == [0.3, 0.1]
-    low, high = guide["slide"]
+    guide = scene["symbols"][3]
+    assert (guide["mark"], guide["axes"]) == ("slide", [0.3, 0.1])
+    low, high = guide["reach"]
     B = pins(scene, 1)[:, 3]
     along = B @ [np.cos(0.3), np.sin(0.3)]
     np.testing.assert_allclose([low, high], [along.min(), along.max()], rtol=1e-7)
     assert high - low == pytest.approx(0.2, abs=1e-3)  # twice the crank
     np.testing.assert_allclose(B @ [-np.sin(0.3), np.cos(0.3)], 0.0, atol=1e-6)
+
+
+def test_one_unit_of_length_for_the_whole_drawing(four_bar: kp.Solution) -> None:
+    assert kp.scene(four_bar)["length"] == {"unit": "m", "metres": 1.0}
+    small = kp.load(ROOT / "examples" / "squeezer.toml").start()
+    assert kp.scene(small)["length"] == {"unit": "mm", "metres": 1e-3}
 
 
 def test_traces_are_points_that_move(four_bar: kp.Solution) -> None:

@@ -42,6 +42,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "Case.check": lambda: CASE.check(MODEL),
     "Case.analyses": CASE.analyses,
     "Model.describe": MODEL.describe,
+    "Model.symbols": MODEL.symbols,
     "Model.allowing_redundancy": MODEL.allowing_redundancy,
     "assemble": lambda: _core.assemble(MODEL, "{}", "{}", 0.0, Q, V),
     "dynamics": lambda: _core.dynamics(MODEL, T, Q, V, OPTIONS, None),

@@ -9,6 +9,7 @@ import pytest
 from kempe import plot
 from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
 from matplotlib.axes import Axes
+from plot.paintings import links
 
 Draw = Callable[..., Axes]
 
@@ -146,7 +147,7 @@ def test_the_energy_adds_up(flagship: kp.Solution) -> None:
 def test_links_stand_where_the_bodies_are(flagship: kp.Solution, t: float | None) -> None:
     axes = plot.configuration(flagship, t)
     state = flagship(0.0 if t is None else t)
-    drawn = [np.asarray(line.get_xydata()) for line in axes.lines]
+    drawn = [axes.transData.inverted().transform(corners) for _, corners in links(axes)]
     for body in ("crank", "coupler", "rocker"):
         ends = [
             flagship.model.bodies[body].points[name]

@@ -7,11 +7,12 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import plot
-from kempe.plot.labels import clipped_lengths
+from kempe.draw.labels import clipped_lengths
 from kempe.plot.page import file_names
 from matplotlib.text import Text
 from plot.conftest import NAMES, chain, driven, pendulum
 from plot.overlaps import boxes, cut_off, overlaps
+from plot.paintings import links
 
 FLAGSHIP = [
     "01_mechanism",
@@ -53,8 +54,7 @@ def test_a_figure_of_the_flagship_can_be_read(flagship_pages: list[plot.Page], s
 def test_names_lie_on_no_link(flagship_pages: list[plot.Page], name: str) -> None:
     figure = plot.select(flagship_pages, [name])[0].figure()
     axes = figure.axes[0]
-    links = [line for line in axes.lines if len(np.atleast_1d(line.get_xdata())) == 2]
-    ends = [axes.transData.transform(line.get_xydata()) for line in links]
+    ends = [corners for _, corners in links(axes)]
     assert len(ends) == 6
     numbers = {"1", "2", "3"}
     for text, box in boxes(figure):

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from kempe.plot.labels import clipped_lengths, place_labels
-from kempe.plot.units import scale
+from kempe.draw.labels import Taken, clipped_lengths, place_labels
+from kempe.draw.units import scale
 
 
 @pytest.mark.parametrize(
@@ -34,7 +34,8 @@ def test_a_name_lies_on_no_line_and_no_other_name() -> None:
     segments = np.array([anchors[:2], anchors[1:3]])
     sizes = np.tile([20.0, 8.0], (4, 1))
     inside = np.array([[-100.0, -100.0], [100.0, 100.0]])
-    centres = place_labels(anchors, sizes, segments, [], inside)
+    taken = Taken(segments[None], np.zeros(2), np.empty((1, 0, 4)), inside)
+    centres = anchors + place_labels(anchors[None], sizes, taken)
     for centre, size in zip(centres, sizes, strict=True):
         assert clipped_lengths(centre - size / 2, centre + size / 2, segments).sum() == 0.0
     for k, one in enumerate(centres):

@@ -10,6 +10,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe.cli import main
+from kempe.plot import study_figures
 from kempe.plot.study_gaps import joint_gaps, magnification
 from kempe.studies import Outcome, Variant
 from kempe.studies.findings import growth
@@ -123,7 +124,7 @@ def test_the_order_that_is_told_is_four(found: kp.Study) -> None:
 
 
 def test_tables_and_figures_are_written(found: kp.Study, tmp_path: Path) -> None:
-    written = found.save(tmp_path)
+    written = [*found.save(tmp_path), *study_figures.write(found, tmp_path / "figures")]
     assert [path.name for path in written] == [
         "study.md",
         "study.csv",

@@ -3,7 +3,7 @@
 use crate::guard::guard;
 use crate::recent_options::RecentOptions;
 use kempe::analyses::dynamics::Prepared;
-use kempe::elements::Side;
+use kempe::elements::{SceneSymbol, Side, SymbolEnd};
 use kempe::math::Local;
 use kempe::model::{Body, ConstraintItem, ForceItem, Model};
 use pyo3::prelude::*;
@@ -40,6 +40,11 @@ impl PyModel {
         guard("Model.describe", || Ok(describe(&self.model).to_string()))
     }
 
+    /// The symbols of all elements, in the order of the model, as JSON.
+    fn symbols(&self) -> PyResult<String> {
+        guard("Model.symbols", || Ok(symbols(&self.model).to_string()))
+    }
+
     /// The same model with redundant constraints accepted.
     fn allowing_redundancy(&self) -> PyResult<Self> {
         guard("Model.allowing_redundancy", || Ok(Self::new(self.model.allowing_redundancy())))
@@ -48,6 +53,21 @@ impl PyModel {
 
 fn pair(s: &Local) -> Value {
     json!([s.x, s.y])
+}
+
+fn symbols(model: &Model) -> Value {
+    let end = |end: &SymbolEnd| json!({ "body": end.body.0, "point": end.point.as_ref().map(pair), "axis": end.axis });
+    let one = |element: &str, symbol: &SceneSymbol| {
+        json!({
+            "element": element,
+            "mark": symbol.mark.name(),
+            "i": end(&symbol.i),
+            "j": end(&symbol.j),
+            "radius": symbol.mark.radius(),
+        })
+    };
+    let all = model.symbols();
+    all.iter().flat_map(|(name, own)| own.iter().map(|symbol| one(name, symbol))).collect()
 }
 
 fn describe(model: &Model) -> Value {

@@ -2,10 +2,10 @@
 
 use super::dynamics::{Reason, Run};
 use crate::elements::Coordinate;
-use crate::equations::kinematics;
-use crate::equations::reactions::{reaction_on, Frame};
+use crate::equations::kinematics::Motions;
+use crate::equations::reactions::{reaction, Frame};
 use crate::math::Wrench;
-use crate::model::{columns, Model};
+use crate::model::Model;
 use std::fmt;
 
 /// Why a result cannot be given.
@@ -47,7 +47,8 @@ impl Run {
             })?;
         let table = if coordinate.is_rate() { &self.trajectory.v } else { &self.trajectory.q };
         let rows = table.chunks_exact(model.layout.n_q.max(1));
-        Ok(rows.map(|row| row[columns(body)][coordinate.column()]).collect())
+        let columns = model.layout.bodies[body.0];
+        Ok(rows.map(|row| columns.of(row)[coordinate.column()]).collect())
     }
 
     /// Force, and torque about the joint point, of a joint or driver on a body at the reported times.
@@ -68,15 +69,15 @@ impl Run {
             .ok_or_else(|| NoResult::Unknown(format!("there is no joint or driver '{joint}'")))?;
         let apart = || NoResult::Unknown(format!("'{on}' is not a body of '{joint}'"));
         let body = model.body(on).ok_or_else(apart)?;
-        let lam = self.responses(model).map_err(NoResult::Unsolved)?.lam;
+        let lam = self.accelerations(model).map_err(NoResult::Unsolved)?.lam;
         let (n, rows) = (model.layout.n_q, model.layout.constraints[k].rows.clone());
-        let mut motions = Vec::new();
+        let mut motions = Motions::new(&model.layout);
         let at = |(state, &t): (usize, &f64)| {
             let coordinates = state * n..(state + 1) * n;
             let [q, v] = [&self.trajectory.q, &self.trajectory.v].map(|x| &x[coordinates.clone()]);
-            kinematics::motions(q, v, &mut motions);
+            motions.place(&model.layout, q, v);
             let own = &lam[state * model.layout.n_rows..][rows.clone()];
-            reaction_on(model, k, body, frame, &motions, t, own).ok_or_else(apart)
+            reaction(model, k, body, frame, &motions, t, own).ok_or_else(apart)
         };
         self.trajectory.t.iter().enumerate().map(at).collect()
     }

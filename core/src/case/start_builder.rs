@@ -1,7 +1,7 @@
 //! The start of a case, written in Rust and read for assembly.
 
 use super::Start;
-use crate::analyses::assemble::{wishes, Request};
+use crate::analyses::assemble::{targets, Request};
 use crate::elements::Number;
 use crate::model::{Model, Problems};
 
@@ -28,7 +28,7 @@ impl Start {
     /// # Errors
     /// Every coordinate that the model does not have, and every faulty value.
     pub fn request(&self, model: &Model) -> Result<Request, Problems> {
-        let (set, guess) = (wishes(model, "set", &self.set), wishes(model, "guess", &self.guess));
+        let (set, guess) = (targets(model, "set", &self.set), targets(model, "guess", &self.guess));
         match (set, guess) {
             (Ok(set), Ok(guess)) => Ok(Request { set, guess, ..Request::default() }),
             (set, guess) => {

@@ -139,6 +139,10 @@ macro_rules! constraints {
         }
 
         impl Constraint {
+            /// The symbols that a drawing shows for it.
+            pub fn symbols(&self) -> Vec<SceneSymbol> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::symbols(e),)+)+ }
+            }
             /// First values of the internal coordinates for bodies at given poses.
             pub fn own_start(&self, bodies: &[Pose]) -> Vec<f64> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::own_start(e, bodies),)+)+ }
@@ -262,6 +266,10 @@ macro_rules! forces {
         }
 
         impl ForceElement {
+            /// The symbols that a drawing shows for it.
+            pub fn symbols(&self) -> Vec<SceneSymbol> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::symbols(e),)+ }
+            }
             /// A field with an impossible value, and the reason.
             pub fn fault(&self) -> Option<(&'static str, String)> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::fault(e),)+ }

@@ -2,6 +2,7 @@
 
 use super::declare::Element;
 use super::kinds::{BodyId, JointId};
+use super::symbols::SceneSymbol;
 use crate::math::{Local, Motion, Real, Wrench};
 
 /// What a force may depend on.
@@ -129,6 +130,12 @@ pub trait Force: Element {
     fn potential<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
         let _ = (e, at);
         S::zero()
+    }
+
+    /// The symbols that a drawing shows for the element; a law that varies is NaN here.
+    fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {
+        let _ = e;
+        Vec::new()
     }
 
     /// A field with an impossible value, and the reason; values that are not finite are refused anyway.

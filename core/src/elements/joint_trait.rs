@@ -3,6 +3,7 @@
 use super::declare::Element;
 use super::derive;
 use super::kinds::{BodyId, CoordinateOf};
+use super::symbols::SceneSymbol;
 use crate::math::{Local, Motion, Pose, Real};
 
 /// A scalar constraint equation of a joint: its name in labels and its unit.
@@ -121,6 +122,12 @@ pub trait Joint: Element {
     fn own_start(e: &Self::Over<f64>, bodies: &[Pose]) -> Vec<f64> {
         let _ = (e, bodies);
         vec![0.0; Self::OWN]
+    }
+
+    /// The symbols that a drawing shows for the element; a law that varies is NaN here.
+    fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {
+        let _ = e;
+        Vec::new()
     }
 
     /// A field with an impossible value, and the reason; values that are not finite are refused anyway.

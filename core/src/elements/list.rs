@@ -10,6 +10,7 @@ use super::forces::{SpringDamper, Torque, TorsionSpring};
 use super::joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
 use super::joints::{Distance, Revolute, Translational};
 use super::kinds::{BodyId, CoordinateOf, JointId, Source};
+use super::symbols::SceneSymbol;
 #[cfg(feature = "test-elements")]
 use super::test_elements::{Bead, Lag, Levels, Pulley, Rubbing, TurnedPin};
 use crate::expression::Tape;

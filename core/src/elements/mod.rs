@@ -12,6 +12,7 @@ mod force_trait;
 mod joint_trait;
 mod kinds;
 mod list;
+mod symbols;
 mod value;
 mod written;
 
@@ -31,9 +32,8 @@ pub use kinds::{
     body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, JointId,
     Kind, PointOn, Shape, Source,
 };
-pub use list::{
-    catalogue, holding, states_of, Constraint, ForceElement, ForcePools, JointPools,
-};
+pub use list::{catalogue, holding, states_of, Constraint, ForceElement, ForcePools, JointPools};
+pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 pub use value::{Number, Pair, Value};
 pub use written::Written;
 pub(crate) use written::{argument, declare as element};

@@ -13,6 +13,7 @@ mod parameters;
 mod problem;
 mod problems;
 mod size;
+mod symbols;
 mod variable;
 
 pub use blueprint::{build, Blueprint};

@@ -7,3 +7,4 @@ mod building;
 mod edges;
 mod refused;
 mod running;
+mod symbols;

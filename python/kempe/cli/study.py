@@ -39,6 +39,7 @@ def study(
     import warnings
 
     from kempe.analyses import AssemblyWarning
+    from kempe.plot import study_figures
     from kempe.studies import study as compute
 
     case = read_case(file, settings)
@@ -48,7 +49,8 @@ def study(
         found = compute(case, analysis, progress=None if silent else status.update)
     console = answers()
     _show(console, found)
-    written = found.save(output or Path("out") / file.stem / "study")
+    folder = output or Path("out") / file.stem / "study"
+    written = [*found.save(folder), *study_figures.write(found, folder / "figures")]
     heading(console, "Files")
     for path in written:
         console.print(Text(f"  {path}"))

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from kempe.draw.frame import Frame, Picture
+from kempe.draw.frame import SIZE, Frame, Picture
 from kempe.draw.player import player
 from kempe.draw.sampling import FRAMES_PER_SECOND
 from kempe.draw.scene import playback_rate, scene
@@ -25,15 +25,14 @@ _MOST_PICTURES = 20_000
 
 @dataclass(frozen=True)
 class Film:
-    """How a format is drawn: size of the picture in inches, dots per inch, frames per second."""
+    """How a format is drawn: dots per inch of the frame, frames per second."""
 
-    size: tuple[float, float]
     dpi: float
     fps: float
 
 
 #: 1280 × 720 and 640 × 360; a GIF counts time in hundredths of a second.
-_FILMS = {"mp4": Film((9.6, 5.4), 1280 / 9.6, 30.0), "gif": Film((8.0, 4.5), 80.0, 20.0)}
+_FILMS = {"mp4": Film(1280 / SIZE[0], 30.0), "gif": Film(640 / SIZE[0], 20.0)}
 
 
 def animate(
@@ -103,7 +102,7 @@ def _pictures(
     if count > _MOST_PICTURES:
         raise ModelError(f"{count} pictures are too many", hint="raise speed= or lower fps=")
     shown = scene(solution, frames=(count - 1) * _pieces(count, each) + 1)
-    frame = Frame(shown, film.size, film.dpi)
+    frame = Frame(shown, film.dpi)
     times = np.array(shown["frames"]["t"])
     for done, t in enumerate(np.linspace(begin, end, count), start=1):
         yield frame.pixels(int(np.abs(times - t).argmin()))

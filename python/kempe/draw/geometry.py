@@ -22,11 +22,6 @@ def placed(poses: Floats, points: Floats | Sequence[float]) -> Floats:
     return found
 
 
-def turned(points: Floats, angle: float) -> Floats:
-    """Points (n, 2) turned about the origin by an angle, rad."""
-    return placed(np.array([0.0, 0.0, angle]), points)
-
-
 def smooth(poses: Floats, rates: Floats, t: Floats, pieces: int) -> Floats:
     """Poses of a body between its frames too, by Hermite's cubic polynomials, (n, 3).
 
@@ -58,31 +53,3 @@ def limits(bounds: Sequence[float], aspect: float) -> Floats:
     height = max(span[1] + 2.0 * room, (span[0] + 2.0 * room) / aspect)
     half = np.array([aspect * height, height]) / 2.0
     return np.concatenate([middle - half, middle + half])
-
-
-def support(at: Floats, size: float) -> tuple[Floats, list[Floats]]:
-    """The triangle under a joint to ground, and the lines of the ground under it."""
-    x, y = at
-    triangle = np.array(
-        [[x, y], [x - 0.7 * size, y - 1.2 * size], [x + 0.7 * size, y - 1.2 * size]]
-    )
-    base = y - 1.2 * size
-    lines = [np.array([[x - 1.2 * size, base], [x + 1.2 * size, base]])]
-    for k in np.linspace(-0.9, 1.2, 6):
-        begin = x + k * size
-        lines.append(np.array([[begin, base], [begin - 0.4 * size, base - 0.4 * size]]))
-    return triangle, lines
-
-
-def spiral(at: Floats, radius: float, begin: float, turn: float) -> Floats:
-    """Archimedes' spiral around a point, (n, 2), m.
-
-    Args:
-        at: its middle.
-        radius: of its outer end.
-        begin: angle of its inner end, rad.
-        turn: angle from the inner to the outer end, rad.
-    """
-    share = np.linspace(0.0, 1.0, min(4000, max(48, int(abs(turn) * 12))))
-    r, angle = radius * (0.15 + 0.85 * share), begin + turn * share
-    return np.column_stack([at[0] + r * np.cos(angle), at[1] + r * np.sin(angle)])

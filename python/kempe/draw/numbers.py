@@ -10,13 +10,16 @@ from kempe.arrays import Floats
 
 def plain(values: Floats) -> Any:
     """Nested lists of the values to nine significant digits; None for what is not finite."""
-    return _plain(values.tolist())
+    return rounded_all(values.tolist())
 
 
-def _plain(value: Any) -> Any:
-    if isinstance(value, list):
-        return [_plain(entry) for entry in value]
-    return rounded(value)
+def rounded_all(data: Any) -> Any:
+    """The same data with every fraction to nine significant digits."""
+    if isinstance(data, dict):
+        return {key: rounded_all(value) for key, value in data.items()}
+    if isinstance(data, list):
+        return [rounded_all(value) for value in data]
+    return rounded(data) if isinstance(data, float) else data
 
 
 def rounded(value: float) -> float | None:

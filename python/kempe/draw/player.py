@@ -17,6 +17,8 @@ from pathlib import Path
 
 from kempe import files
 from kempe._version import __version__
+from kempe.draw.frame import frame_items
+from kempe.draw.numbers import rounded_all
 from kempe.draw.scene import Scene, scene
 from kempe.solution import Solution
 from kempe.state import State
@@ -27,6 +29,7 @@ MODULES = (
     "motion",
     "view",
     "surface",
+    "place",
     "paint",
     "measure",
     "drawing",
@@ -60,7 +63,8 @@ def player(solution: Solution | State, path: Path | str, *, speed: float = 1.0) 
 
 
 def page(shown: Scene) -> str:
-    """The text of the page that shows a scene."""
+    """The text of the page that shows a scene, with its display list."""
+    shown = {**shown, "display": rounded_all(frame_items(shown))}
     style, script = _asset("player.css"), _script()
     policy = (
         f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; "

@@ -15,6 +15,7 @@ from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
 from kempe.draw import channels, sampling, shapes
 from kempe.draw.numbers import plain, round_below, rounded
+from kempe.draw.units import scale
 from kempe.errors import ModelError
 from kempe.motion import Motion
 from kempe.names import unknown
@@ -24,7 +25,7 @@ from kempe.state import State
 Scene: TypeAlias = dict[str, Any]
 
 #: Version of the format.
-FORMAT = 1
+FORMAT = 2
 UNITS = {"time": "s", "length": "m", "angle": "rad", "force": "N", "torque": "N·m"}
 #: Length of the arrow of the largest reaction, as a share of the size of the drawing.
 _LONGEST_ARROW = 0.3
@@ -58,7 +59,7 @@ def scene(
     model = solution_or_state.model
     motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model))
     bodies = [shapes.body(model, name) for name in model.all_bodies]
-    joints = [shapes.joint(motion, name) for name in model.joints]
+    joints = [shapes.joint(model, name) for name in model.joints]
     bounds = shapes.bounds(motion, bodies, joints)
     size = float(max(bounds[2:] - bounds[:2])) or 1.0
     reactions = _reactions(motion)
@@ -68,9 +69,10 @@ def scene(
         "units": dict(UNITS),
         "gravity": plain(np.array(model.gravity)),
         "bounds": plain(bounds),
+        "length": _length(size),
         "bodies": bodies,
         "joints": joints,
-        "forces": [shapes.force(model, name) for name in model.forces],
+        "symbols": shapes.symbols(motion),
         "traces": _traces(motion, size, traces),
         "frames": {
             "t": plain(motion.t),
@@ -83,6 +85,12 @@ def scene(
         "reaction_scale": _reaction_scale(reactions, size),
         "channels": channels.channels(motion),
     }
+
+
+def _length(size: float) -> dict[str, Any]:
+    """The unit in which the drawing counts lengths, and what it is in m."""
+    chosen = scale("m", size)
+    return {"unit": chosen.unit, "metres": chosen.divisor}
 
 
 def _reactions(motion: Motion) -> Floats:

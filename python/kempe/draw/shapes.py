@@ -1,4 +1,4 @@
-"""How bodies, joints and forces are drawn: outlines in the frame of the body, and places."""
+"""What is drawn: outlines of bodies, joints and symbols with their places on two bodies."""
 
 from __future__ import annotations
 
@@ -8,12 +8,10 @@ from typing import Any
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, Vector
+from kempe.compiled import BodyInfo, CompiledModel, Vector
 from kempe.draw.numbers import plain
 from kempe.motion import Motion
 
-#: Joints whose bodies slide on each other.
-SLIDES = ("translational",)
 #: Points of a body that are closer to a line than this share of its length lie on it.
 _STRAIGHT = 1e-9
 
@@ -31,50 +29,68 @@ def body(model: CompiledModel, name: str) -> dict[str, Any]:
     }
 
 
-def joint(motion: Motion, name: str) -> dict[str, Any]:
-    """A joint: name, type, the numbers of its bodies, its point and x axis on each, its slide."""
-    model = motion.model
+def joint(model: CompiledModel, name: str) -> dict[str, Any]:
+    """A joint: name, the numbers of its bodies, and its point on each."""
     info = model.joints[name]
     return {
         "name": name,
-        "type": info.type,
         "bodies": [model.all_bodies[info.i].number, model.all_bodies[info.j].number],
         "points": [_numbers(info.point_i), _numbers(info.point_j)],
-        "axes": plain(np.array([info.axis_i, info.axis_j])),
-        "slide": plain(_slide(motion, info)) if info.type in SLIDES else None,
     }
 
 
-def _slide(motion: Motion, info: ConstraintInfo) -> Floats:
-    """Least and largest place of the point of j along the axis, from the point of i, (2,), m."""
-    i, j = motion.body(info.i), motion.body(info.j)
-    away = j.at(info.point_j).position - i.at(info.point_i).position
-    direction = i.angle + info.axis_i
-    along = away[:, 0] * np.cos(direction) + away[:, 1] * np.sin(direction)
-    return np.array([along.min(), along.max()])
+def symbols(motion: Motion) -> list[dict[str, Any]]:
+    """What is drawn for joints, drivers and forces: marks with their places on two bodies.
 
-
-def force(model: CompiledModel, name: str) -> dict[str, Any]:
-    """A force element: name, type, bodies, where it is drawn on body j, and its two points if any.
-
-    An element between two points is drawn there; another between two bodies that a joint connects
-    at that joint, others at the mass centre of body j.
+    A mark without points is drawn around the joint that its two bodies share, otherwise at the mass
+    centre of body j.
     """
-    info = model.forces[name]
-    i, j = info.i, info.j
-    shared = next((c for c in model.joints.values() if {c.i, c.j} == {i, j}), None)
-    on_j = model.all_bodies[j].center if shared is None else _point_on(shared, j)
-    return {
-        "name": name,
-        "type": info.type,
-        "bodies": [model.all_bodies[i].number, model.all_bodies[j].number],
-        "point": _numbers(on_j if info.points is None else info.points[1]),
-        "points": None if info.points is None else [_numbers(at) for at in info.points],
+    return [_symbol(motion, told) for told in motion.model.symbols]
+
+
+def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
+    i, j = told["i"], told["j"]
+    found = {
+        "element": told["element"],
+        "mark": told["mark"],
+        "bodies": [i["body"], j["body"]],
+        "points": [i["point"], j["point"] or _pivot(motion.model, i["body"], j["body"])],
+        "axes": [i["axis"], j["axis"]],
+        "radius": told["radius"],
+        "reach": None,
+        "turning": None,
     }
+    if i["point"] is None:
+        angles = [motion.body(_name(motion, end)).angle for end in found["bodies"]]
+        turn = np.atleast_1d(angles[1] - angles[0])
+        found["turning"] = [float(turn[0]), float(np.abs(turn - turn[0]).max())]
+    elif told["mark"] == "slide":
+        found["reach"] = _reach(motion, found)
+    return found
 
 
-def _point_on(info: ConstraintInfo, name: str) -> Vector:
-    return info.point_j if info.j == name else info.point_i
+def _name(motion: Motion, number: int) -> str:
+    return list(motion.model.all_bodies)[number]
+
+
+def _pivot(model: CompiledModel, i: int, j: int) -> list[float]:
+    """The point of body j in the joint that it shares with body i, or its mass centre."""
+    for other in model.symbols:
+        ends = {other[side]["body"]: other[side]["point"] for side in ("i", "j")}
+        if set(ends) == {i, j} and None not in ends.values():
+            found: list[float] = ends[j]
+            return found
+    return [*list(model.all_bodies.values())[j].center]
+
+
+def _reach(motion: Motion, symbol: dict[str, Any]) -> list[float]:
+    """Least and largest place of the point of j along the axis of i, from the point of i, m."""
+    i, j = (motion.body(_name(motion, number)) for number in symbol["bodies"])
+    at_i, at_j = symbol["points"]
+    away = j.at(at_j).position - i.at(at_i).position
+    direction = i.angle + symbol["axes"][0]
+    along = away[..., 0] * np.cos(direction) + away[..., 1] * np.sin(direction)
+    return [float(along.min()), float(along.max())]
 
 
 def _numbers(at: Vector) -> list[float]:
@@ -89,7 +105,8 @@ def outline(model: CompiledModel, info: BodyInfo) -> Floats:
     named points and those of their joints, a general body its mass centre too.
     """
     corners = [*info.points.values()]
-    corners += [_point_on(c, info.name) for c in model.joints.values() if info.name in (c.i, c.j)]
+    corners += [c.point_i for c in model.joints.values() if c.i == info.name]
+    corners += [c.point_j for c in model.joints.values() if c.j == info.name]
     if info.type == "bar" and info.mass > 0.0:
         half = math.sqrt(12.0 * info.inertia / info.mass) / 2.0
         corners += [(-half, 0.0), (half, 0.0)]

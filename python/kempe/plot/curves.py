@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe.arrays import Floats
+from kempe.draw.units import NOISE, Scale, scale
 from kempe.plot import style
 from kempe.plot.time_axis import show_time
-from kempe.plot.units import NOISE, Scale, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,9 +6,9 @@ import math
 from typing import TYPE_CHECKING
 
 from kempe.arrays import Floats
+from kempe.draw.units import Scale, power_of_ten
 from kempe.plot import style
 from kempe.plot.curves import Curve, Panel, add_lines, finish
-from kempe.plot.units import Scale, power_of_ten
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

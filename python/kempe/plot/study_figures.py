@@ -33,7 +33,8 @@ def write(study: Study, folder: Path) -> list[Path]:
     """
     written: list[Path] = []
     for name, draw in FIGURES.items():
-        figure = style.figure()
-        draw(study, figure.add_subplot())
+        with style.applied():
+            figure = style.figure()
+            draw(study, figure.add_subplot())
         written += style.save(figure, folder / name)
     return written

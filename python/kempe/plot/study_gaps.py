@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.arrays import Floats
+from kempe.draw.items import NUMBER, arrow_head, fill, line, on_body
+from kempe.draw.scene import scene
 from kempe.plot import style
+from kempe.plot.picture import drawn, paint
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,26 +42,24 @@ def gaps(study: Study, ax: Axes) -> None:
         return
     outcome, solution = chosen[0], chosen[0].solution
     state = state_at(solution, int(solution.drift.position.argmax()))
-    drawn = [outline(state, name) for name in state.model.bodies]
-    corners = np.vstack(drawn)
-    size = float(max(corners.max(axis=0) - corners.min(axis=0))) or 1.0
     begin, along = joint_gaps(state)
-    factor = magnification(float(np.hypot(*along.T).max(initial=0.0)), size)
-    for info, line in zip(state.model.bodies.values(), drawn, strict=True):
-        ax.plot(*line.T, color=style.colour(info.number), linewidth=2.0)
-    ax.plot(*begin.T, "o", color="black", markerfacecolor="white", markersize=5)
-    for name, point, gap in zip(state.model.joints, begin, along, strict=True):
-        end = point + factor * gap
-        ax.annotate("", end, point, arrowprops={"arrowstyle": "->", "color": "#CC0000", "lw": 1.5})
-        told = style.verbatim(f"{name}: {1e3 * float(np.hypot(*gap)):.3g} mm")
-        ax.annotate(told, point, xytext=(8, -16), textcoords="offset points", fontsize=9)
-        ax.update_datalim([end])
-    ax.set_aspect("equal", adjustable="datalim")
-    ax.margins(0.15)
-    ax.set_xlabel("x / m")
-    ax.set_ylabel("y / m")
+    shown = scene(state)
+    low, high = np.array(shown["bounds"]).reshape(2, 2)
+    factor = magnification(float(np.hypot(*along.T).max(initial=0.0)), float((high - low).max()))
     when = f"t = {float(state.t):.3g} s, gaps magnified {factor:g} times"
-    ax.set_title(style.verbatim(f"{outcome.variant.name}\n{when}"), fontsize=10)
+    made = drawn(ax, shown, style.verbatim(f"{outcome.variant.name}\n{when}"))
+    for name, point, gap in zip(state.model.joints, begin, along, strict=True):
+        length = float(np.hypot(*gap))
+        if length == 0.0:
+            continue
+        angle = float(np.arctan2(gap[1], gap[0]))
+        frame = on_body(0, [float(x) for x in point], turn=angle)
+        shaft = [[0.0, 0.0, 0.0, 0.0], [factor * length, 0.0, -4.0, 0.0]]
+        head = [[factor * length, 0.0, *at] for at in arrow_head((0.0, 0.0), 0.0)]
+        made.add([line(name, frame, shaft, "drive", 1.5, layer=NUMBER)])
+        made.add([fill(name, frame, head, "drive", layer=NUMBER)])
+        made.name("joint", f"{name}: {1e3 * length:.3g} mm", frame)
+    paint(ax, made)
 
 
 def joint_gaps(state: State) -> tuple[Floats, Floats]:
@@ -103,11 +104,3 @@ def state_at(solution: Solution, k: int) -> State:
     from kempe.state import State
 
     return State(solution.model, float(solution.t[k]), solution.q[k], solution.v[k])
-
-
-def outline(state: State, name: str) -> Floats:
-    """The corners of a body, closed where there are more than two, (n, 2), m."""
-    body = state.body(name)
-    names = list(state.model.bodies[name].points)
-    corners = [body.point(point).position for point in names] or [body.r]
-    return np.array([*corners, corners[0]] if len(corners) > 2 else corners)

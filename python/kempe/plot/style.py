@@ -7,19 +7,20 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from kempe.draw.palette import COLOURS, GROUND, LONGEST_NAME, colour, one_line, verbatim
+
+__all__ = ["COLOURS", "GROUND", "LONGEST_NAME", "colour", "verbatim"]
+
 if TYPE_CHECKING:
     from pathlib import Path
 
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Okabe & Ito (2008), told apart with any colour vision, the darker ones first.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 #: The lines of one panel in order: in print without colours the dashes tell them apart.
 DASHES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 2)))
 SUM = {"color": "#000000", "linestyle": "-", "linewidth": 1.6, "zorder": 1.9}
 EARLIER = "#BBBBBB"
-GROUND = "#444444"
 QUIET = "#F2F2F2"
 
 MILLIMETRE = 1.0 / 25.4
@@ -27,7 +28,6 @@ WIDTH = 160.0  # mm: the text of an A4 page
 HEIGHT = 75.0  # mm: of a figure with one panel
 DOTS_PER_INCH = 200
 FORMATS = ("png", "svg", "pdf")
-LONGEST_NAME = 24
 
 _FONTS: dict[Any, Any] = {
     "font.family": "sans-serif",
@@ -73,11 +73,6 @@ def on(ax: Axes | None) -> Iterator[Axes]:
     """The axes to draw in, in the style of kempe: those given, or new ones when None."""
     with applied():
         yield new_axes() if ax is None else ax
-
-
-def colour(number: int) -> str:
-    """Colour of the k-th moving body, from 1."""
-    return COLOURS[(number - 1) % len(COLOURS)]
 
 
 def line(k: int) -> dict[str, Any]:
@@ -159,15 +154,6 @@ def _print(made: Figure, form: str, file: BinaryIO) -> None:
         made.savefig(file, format=form, metadata={"CreationDate": None})
 
 
-def verbatim(text: str) -> str:
-    """Text that matplotlib is to show as it is, not to read as mathematics."""
-    return text.replace("$", r"\$")
-
-
 def short(name: str, longest: int = LONGEST_NAME) -> str:
     """A name for a title or a legend: verbatim, on one line, its middle left out if too long."""
-    text = " ".join(name.split())
-    if len(text) > longest:
-        half = (longest - 1) // 2
-        text = f"{text[:half]}…{text[-half:]}"
-    return verbatim(text)
+    return verbatim(one_line(name, longest))

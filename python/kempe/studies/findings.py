@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from kempe.studies.run import Outcome, Study
+    from kempe.studies.outcome import Outcome, Outcomes
 
 #: Below it differences from the reference say nothing, since the reference has errors of its own.
 DOUBT = 1e-9
 
 
-def findings(study: Study) -> list[str]:
+def findings(study: Outcomes) -> list[str]:
     """Sentences, each from the data; those that do not apply are left out."""
     return [
         *_stabilization(study),
@@ -28,7 +28,7 @@ def findings(study: Study) -> list[str]:
     ]
 
 
-def _stabilization(study: Study) -> Iterator[str]:
+def _stabilization(study: Outcomes) -> Iterator[str]:
     """What each pair of gains leaves open, at each tolerance."""
     by_number = groupby(study.group("stabilization"), key=lambda o: o.variant.number)
     for number, group in by_number:
@@ -41,7 +41,7 @@ def _stabilization(study: Study) -> Iterator[str]:
             yield f"With RK45 at rtol {number:g} the constraints open by up to: {'; '.join(told)}."
 
 
-def _sweep(study: Study) -> Iterator[str]:
+def _sweep(study: Outcomes) -> Iterator[str]:
     outcomes = [o for o in study.group("beta") if not o.diverged]
     if len(outcomes) < 2:
         return
@@ -61,7 +61,7 @@ def _sweep(study: Study) -> Iterator[str]:
         yield f"Above β = {a.variant.beta:g} the steps grow as β^{power:.2f}: {why}."
 
 
-def _steps(study: Study) -> Iterator[str]:
+def _steps(study: Outcomes) -> Iterator[str]:
     """Where weak gains beat strong ones with constant steps, and where they do not."""
     strong, weak = (_at(study, *gains) for gains in ((10.0, 200.0), (1.0, 20.0)))
     for h in sorted(set(strong) & set(weak)):
@@ -75,14 +75,14 @@ def _steps(study: Study) -> Iterator[str]:
         )
 
 
-def _at(study: Study, alpha: float, beta: float) -> dict[float, Outcome]:
+def _at(study: Outcomes, alpha: float, beta: float) -> dict[float, Outcome]:
     group = study.group("step")
     return {
         o.variant.number: o for o in group if (o.variant.alpha, o.variant.beta) == (alpha, beta)
     }
 
 
-def _divergence(study: Study) -> Iterator[str]:
+def _divergence(study: Outcomes) -> Iterator[str]:
     for o in study.outcomes:
         if not o.diverged:
             continue
@@ -107,7 +107,7 @@ def growth(alpha: float, beta: float, step: float) -> float:
     return float(max(abs(1.0 + z + z**2 / 2.0 + z**3 / 6.0 + z**4 / 24.0) for z in steps))
 
 
-def _orders(study: Study) -> Iterator[str]:
+def _orders(study: Outcomes) -> Iterator[str]:
     """Observed order of RK4: the slope of the error over the step."""
     for gains in ((10.0, 200.0), (1.0, 20.0)):
         group = [o for o in _at(study, *gains).values() if not o.diverged]
@@ -123,7 +123,7 @@ def _logarithms(points: Iterable[tuple[float, float]]) -> tuple[list[float], lis
     return list(x), list(y)
 
 
-def _cheapest(study: Study) -> Iterator[str]:
+def _cheapest(study: Outcomes) -> Iterator[str]:
     """The fewest evaluations that keep every position within a millimetre and a micrometre."""
     for bound, told in ((1e-3, "1 mm"), (1e-6, "1 µm")):
         good = [o for o in study.outcomes[1:] if o.position_error <= bound]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +12,9 @@ from kempe.analyses import simulate
 from kempe.arrays import Floats, fixed
 from kempe.errors import IntegrationError, ModelError, SingularityError
 from kempe.names import one_of
+from kempe.studies import table
+from kempe.studies.findings import findings
+from kempe.studies.outcome import Outcome, Outcomes
 from kempe.studies.variants import Variant, variants
 
 if TYPE_CHECKING:
@@ -22,94 +24,28 @@ if TYPE_CHECKING:
 
 #: Output times where the analysis names no output_step.
 OUTPUTS = 1500
-#: A variant that needs more is told as one that does not get through.
+#: A variant that needs more steps counts as one that does not get through.
 MOST_STEPS = 300_000
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """What a variant gave.
-
-    Attributes:
-        variant: how it was computed.
-        solution: on the common output times, or until it diverged; None if not even the start
-            could be computed.
-        diverged_at: time of the divergence, s; None if it got to the end.
-        reason: why it diverged; empty if it did not.
-        angle_error: largest difference of any body's angle from the reference, rad; NaN if
-            it diverged.
-        position_error: the same of any body's position, m.
-        residual: largest |Φ| over time, lengths and angles alike, m and rad; NaN if diverged.
-        residual_at: when, s.
-        imbalance: largest error of the energy balance, relative to the largest kinetic energy.
-        steps: steps taken.
-        evaluations: evaluations of the accelerations.
-        seconds: time that the integration took, s.
-    """
-
-    variant: Variant
-    solution: Solution | None
-    diverged_at: float | None
-    reason: str
-    angle_error: float
-    position_error: float
-    residual: float
-    residual_at: float
-    imbalance: float
-    steps: int
-    evaluations: int
-    seconds: float
-
-    @property
-    def diverged(self) -> bool:
-        """Whether it did not get to the end."""
-        return bool(self.reason)
-
-
-@dataclass(frozen=True)
-class Study:
-    """The outcomes of a study.
-
-    Attributes:
-        title: of the model.
-        analysis: name of the analysis.
-        outcomes: in the order of ``variants()``; the first is the reference.
-    """
-
-    title: str
-    analysis: str
-    outcomes: tuple[Outcome, ...]
-
-    @property
-    def reference(self) -> Outcome:
-        """The most accurate run."""
-        return self.outcomes[0]
-
-    def group(self, name: str) -> tuple[Outcome, ...]:
-        """The outcomes of one group of variants."""
-        return tuple(o for o in self.outcomes if o.variant.group == name)
+class Study(Outcomes):
+    """The outcomes of a study, with what they say."""
 
     def findings(self) -> list[str]:
         """What the numbers say, in sentences."""
-        from kempe.studies.findings import findings
-
         return findings(self)
 
     def table(self) -> str:
         """All outcomes as a table in Markdown."""
-        from kempe.studies.table import markdown
-
-        return markdown(self)
+        return table.markdown(self)
 
     def save(self, folder: Path | str) -> list[Path]:
-        """Write table (CSV, JSON, Markdown) and figures into a folder; returns the files.
+        """Write the table (CSV, JSON, Markdown) into a folder; returns the files.
 
         Raises:
             FileError: a file cannot be written.
         """
-        from kempe.studies.table import write
-
-        return write(self, Path(folder))
+        return table.write(self, Path(folder))
 
     def __str__(self) -> str:
         return "\n".join([self.table(), "", *self.findings()])

@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from kempe import files
+from kempe.studies.findings import findings
 from kempe.studies.variants import GROUPS
 
 if TYPE_CHECKING:
-    from kempe.studies.run import Outcome, Study
+    from kempe.studies.outcome import Outcome, Outcomes
 
 HEADER = (
     "variant",
@@ -47,7 +48,7 @@ def fate(outcome: Outcome) -> str:
     return f"diverged{when}: {outcome.reason}"
 
 
-def markdown(study: Study) -> str:
+def markdown(study: Outcomes) -> str:
     """A table for each group of variants."""
     lines = [f"# Study of {study.analysis}: {study.title}", "", *_about(study)]
     for group, title in GROUPS.items():
@@ -60,7 +61,7 @@ def markdown(study: Study) -> str:
     return "\n".join(lines)
 
 
-def _about(study: Study) -> list[str]:
+def _about(study: Outcomes) -> list[str]:
     return [
         "Errors are the largest differences of any body from the most accurate run",
         f"({study.reference.variant.name}) over all output times; the residual is the largest |Φ|.",
@@ -71,7 +72,7 @@ def _row(row: Any) -> str:
     return "| " + " | ".join(str(cell).replace("|", "\\|") for cell in row) + " |"
 
 
-def records(study: Study) -> list[dict[str, Any]]:
+def records(study: Outcomes) -> list[dict[str, Any]]:
     """The outcomes as plain data, SI units; None where a variant diverged."""
     return [_record(outcome) for outcome in study.outcomes]
 
@@ -102,7 +103,7 @@ def _record(outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def csv_text(study: Study) -> str:
+def csv_text(study: Outcomes) -> str:
     """One line for each variant; empty where there is no number."""
     rows = records(study)
     out = io.StringIO()
@@ -112,39 +113,29 @@ def csv_text(study: Study) -> str:
     return out.getvalue()
 
 
-def json_text(study: Study) -> str:
+def json_text(study: Outcomes) -> str:
     """Everything, with the findings."""
     whole = {
         "title": study.title,
         "analysis": study.analysis,
-        "findings": study.findings(),
+        "findings": findings(study),
         "variants": records(study),
     }
     return json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def write(study: Study, folder: Path) -> list[Path]:
-    """Write the tables and the figures; returns the files.
+def write(study: Outcomes, folder: Path) -> list[Path]:
+    """Write the tables; returns the files.
 
     Raises:
         FileError: a file cannot be written.
     """
-    from kempe.plot import study_figures
-
+    told = [f"- {finding}" for finding in findings(study)]
     texts = {
-        "study.md": "\n".join(
-            [
-                markdown(study),
-                "",
-                "## Findings",
-                "",
-                *(f"- {told}" for told in study.findings()),
-                "",
-            ]
-        ),
+        "study.md": "\n".join([markdown(study), "", "## Findings", "", *told, ""]),
         "study.csv": csv_text(study),
         "study.json": json_text(study),
     }
     for name, text in texts.items():
         files.write_text(folder / name, text)
-    return [*(folder / name for name in texts), *study_figures.write(study, folder / "figures")]
+    return [folder / name for name in texts]

@@ -25,8 +25,7 @@ impl<'a> Reader<'a> {
         path: &[String],
         read: impl FnOnce(&mut Reader<'_>) -> Option<T>,
     ) -> Result<T, Vec<Problem>> {
-        let bodies = vec!["ground".to_string()];
-        let scope = &Scope { parameters: model.blueprint.parameters.clone(), bodies };
+        let scope = &Scope::of_parameters(&model.blueprint.parameters);
         let mut problems = Vec::new();
         let path = path.to_vec();
         let found = read(&mut Reader { model, scope, fields, path, problems: &mut problems });
@@ -72,7 +71,7 @@ impl<'a> Reader<'a> {
     pub fn number<B: Bounded>(&mut self, key: &str, unit: &str) -> Option<f64> {
         let (value, path) = (self.get(key)?, self.path_of(key));
         let tape = self.scope.formula(value, &path, unit, Reach::Parameters, self.problems)?;
-        let x = tape.evaluate(&at(&self.model.parameters, &[], 0.0));
+        let x = tape.evaluate(&at(&self.model.parameters, &[], &[], 0.0));
         if !x.is_finite() {
             return self.refuse(key, format!("becomes {x}; must be finite"));
         }

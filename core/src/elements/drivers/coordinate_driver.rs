@@ -4,7 +4,7 @@
 //! stands on ground and presses against it. The law may use t and the positions of other bodies.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Coordinate, Equation, Fixes, Joint,
+    element, At, Attachment, BodyId, Coordinate, Equation, Fixes, Joint, SceneSymbol,
 };
 use crate::math::{Local, Real};
 
@@ -38,6 +38,10 @@ impl Joint for CoordinateDriver {
             Coordinate::Angle | Coordinate::Omega => j.angle - i.angle,
         };
         phi[0] = measured - e.value;
+    }
+
+    fn symbols(e: &CoordinateDriver) -> Vec<SceneSymbol> {
+        vec![SceneSymbol::drive(e.coordinate)]
     }
 
     fn attachment<S: Real>(_: &CoordinateDriver<S>, _: usize) -> Attachment<S> {

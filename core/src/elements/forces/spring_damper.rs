@@ -8,7 +8,7 @@
 //! taken as zero, the mean of its directions; the damping is -c ḋ, its limit on both sides of a
 //! passage. All states are thus allowed, and the force is finite in all of them.
 
-use crate::elements::{element, BodyId, Force, Nature, Part, Situation};
+use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
 use crate::math::{Local, Real, Vec2, Wrench};
 
 element! {
@@ -45,6 +45,14 @@ impl Force for SpringDamper {
 
     fn bodies<S>(e: &SpringDamper<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
+    }
+
+    fn symbols(e: &SpringDamper) -> Vec<SceneSymbol> {
+        [(e.stiffness, Mark::Spring), (e.damping, Mark::Dashpot)]
+            .into_iter()
+            .filter(|(coefficient, _)| *coefficient != 0.0)
+            .map(|(_, mark)| SceneSymbol::between_points(mark, &e.i, &e.j))
+            .collect()
     }
 
     fn action<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {

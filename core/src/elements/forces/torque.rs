@@ -3,7 +3,7 @@
 //! T = law of time and state; positive turns body j counter-clockwise. Its work counts as applied. All
 //! states.
 
-use crate::elements::{element, BodyId, Force, Nature, Part, Situation};
+use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
 use crate::math::{Real, Wrench};
 
 element! {
@@ -23,6 +23,11 @@ impl Force for Torque {
 
     fn bodies<S>(e: &Torque<S>) -> Vec<BodyId> {
         vec![e.i, e.j]
+    }
+
+    fn symbols(e: &Torque) -> Vec<SceneSymbol> {
+        let acts = e.torque != 0.0;
+        acts.then(|| SceneSymbol::between_bodies(Mark::TorqueArrow, e.i, e.j)).into_iter().collect()
     }
 
     fn action<S: Real>(e: &Torque<S>, _: &Situation<'_, S>, out: &mut [Wrench<S>]) {

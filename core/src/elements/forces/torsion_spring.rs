@@ -3,7 +3,7 @@
 //! θ = φⱼ - φᵢ, continuous, never modulo 2π. Torque on j: -k (θ - θ₀) - c θ̇; opposite on i.
 //! V = ½ k (θ - θ₀)². All real θ.
 
-use crate::elements::{element, BodyId, Force, Nature, Part, Situation};
+use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
 use crate::math::{Real, Wrench};
 
 element! {
@@ -31,6 +31,14 @@ impl Force for TorsionSpring {
 
     fn bodies<S>(e: &TorsionSpring<S>) -> Vec<BodyId> {
         vec![e.i, e.j]
+    }
+
+    fn symbols(e: &TorsionSpring) -> Vec<SceneSymbol> {
+        [(e.stiffness, Mark::SpiralSpring), (e.damping, Mark::RotaryDashpot)]
+            .into_iter()
+            .filter(|(coefficient, _)| *coefficient != 0.0)
+            .map(|(_, mark)| SceneSymbol::between_bodies(mark, e.i, e.j))
+            .collect()
     }
 
     fn action<S: Real>(e: &TorsionSpring<S>, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {

@@ -7,7 +7,7 @@
 //! Φ_q is zero. l > 0.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Moving,
+    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Moving, SceneSymbol,
 };
 use crate::math::{Real, Vec2};
 
@@ -36,6 +36,10 @@ impl Joint for Distance {
 
     fn residual<S: Real>(e: &Distance<S>, at: &At<'_, S>, phi: &mut [S]) {
         phi[0] = excess(e, at.j().point(e.j.s) - at.i().point(e.i.s));
+    }
+
+    fn symbols(e: &Distance) -> Vec<SceneSymbol> {
+        vec![SceneSymbol::between_points(Mark::Rod, &e.i, &e.j)]
     }
 
     fn attachment<S: Real>(e: &Distance<S>, body: usize) -> Attachment<S> {

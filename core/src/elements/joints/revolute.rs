@@ -3,7 +3,7 @@
 //! Φ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ = 0. Two equations, no restriction of the domain.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Moving,
+    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Moving, SceneSymbol,
 };
 use crate::math::Real;
 
@@ -34,6 +34,10 @@ impl Joint for Revolute {
     fn residual<S: Real>(e: &Revolute<S>, at: &At<'_, S>, phi: &mut [S]) {
         let gap = at.j().point(e.j.s) - at.i().point(e.i.s);
         phi.copy_from_slice(&[gap.x, gap.y]);
+    }
+
+    fn symbols(e: &Revolute) -> Vec<SceneSymbol> {
+        vec![SceneSymbol::between_points(Mark::Pin, &e.i, &e.j)]
     }
 
     fn attachment<S: Real>(e: &Revolute<S>, body: usize) -> Attachment<S> {

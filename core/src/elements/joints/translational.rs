@@ -8,7 +8,8 @@
 //! of φⱼ - φᵢ, which differ.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Moving,
+    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Moving, SceneSymbol,
+    SymbolEnd,
 };
 use crate::math::{Local, Pose, Real, Rotation, Vec2};
 
@@ -47,6 +48,11 @@ impl Joint for Translational {
         let (_, n) = directions(e, at.i());
         let apart = at.j().point(e.j.s) - at.i().point(e.i.s);
         phi.copy_from_slice(&[n.dot(apart), turned(e, at.i(), at.j())]);
+    }
+
+    fn symbols(e: &Translational) -> Vec<SceneSymbol> {
+        let [i, j] = [(&e.i, 0), (&e.j, 1)].map(|(on, k)| SymbolEnd::point(on).along(e.axes[k]));
+        vec![SceneSymbol { mark: Mark::Slide, i, j }]
     }
 
     fn attachment<S: Real>(e: &Translational<S>, body: usize) -> Attachment<S> {

@@ -149,7 +149,8 @@ pub(super) fn internal(record: &Record, count: usize) -> Vec<Symbolic> {
             _ => (format!("u{}", k + 1), format!("_{{{}}}", k + 1)),
         };
         let latex = [format!("u{index}"), format!("\\dot{{u}}{index}")];
-        let rate_name = Name::new(&format!("{text}_rate"), &format!("d{text}/dt"), &latex[1], Kind::Rate);
+        let rate_name =
+            Name::new(&format!("{text}_rate"), &format!("d{text}/dt"), &latex[1], Kind::Rate);
         let rate = record.changing(rate_name, Symbolic::zero());
         record.changing(Name::new(&text, &text, &latex[0], Kind::Coordinate), rate)
     };

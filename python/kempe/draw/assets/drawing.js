@@ -1,7 +1,7 @@
 // The drawing: what is shown of the scene at one instant, and the part of the plane that is seen.
 import { paintGravity, paintGrid, paintLengthScale, paintReactions } from "./measure.js";
 import { placed } from "./motion.js";
-import { paintBodies, paintForces, paintGround, paintNames, paintNumbers, paintPaths, paintPins, paintRails, paintRods, paintSliders, springRadius } from "./paint.js";
+import { paintItems, paintPaths } from "./paint.js";
 import { cleared, sharpen } from "./surface.js";
 import { extent, View } from "./view.js";
 
@@ -14,7 +14,6 @@ export class Drawing {
     this.view = new View(scene.bounds);
     this.shown = { names: true, numbers: true, paths: true, reactions: false };
     this.magnification = 1;
-    this.first = motion.at(motion.begin);
     const piece = extent(scene.bounds) / 200;
     this.traces = scene.traces.map(({ body, point }) => ({ body, path: line(motion.path(body, point, piece)) }));
     this.resize();
@@ -27,32 +26,11 @@ export class Drawing {
     this.view.resize(width, height);
   }
 
-  /** Where the joints are on the canvas at one instant, CSS pixels; drawn on body j. */
+  /** Where the joints are on the canvas at one instant, CSS pixels: their points on body j. */
   pins(now) {
-    return this.scene.joints.map(({ name, type, bodies: [i, j], points, axes, slide }) => {
-      const ends = [i, j].map((body, k) => this.view.toScreen(placed(now.poses[body], points[k])));
-      return {
-        name,
-        body: j,
-        slides: slide !== null,
-        angle: now.poses[j][2] + axes[1],
-        grounded: i === 0 || j === 0,
-        at: ends[1],
-        support: ends[i === 0 && type === "distance" ? 0 : 1],
-        rod: type === "distance" ? ends : null,
-      };
+    return this.scene.joints.map(({ name, bodies, points }) => {
+      return { name, at: this.view.toScreen(placed(now.poses[bodies[1]], points[1])) };
     });
-  }
-
-  /** How far from each joint its name must stay, px: there may be a spring or a slider. */
-  rooms(now, pins) {
-    const { scene, view } = this;
-    const spirals = scene.forces.filter(({ points }) => points === null);
-    const springs = spirals.map(({ bodies, point }) => view.toScreen(placed(now.poses[bodies[1]], point)));
-    const sliders = pins.filter(({ slides }) => slides).map(({ at }) => at);
-    const near = ([x, y], others) => others.some(([a, b]) => Math.hypot(a - x, b - y) < 4);
-    const room = (at) => (near(at, springs) ? springRadius(view) + 6 : near(at, sliders) ? 27 : 15);
-    return pins.map(({ at, slides }) => (slides ? 15 : room(at)));
   }
 
   /** Draw the instant t. */
@@ -60,20 +38,11 @@ export class Drawing {
     const { scene, view, shown } = this;
     const context = cleared(this.canvas);
     const now = this.motion.at(t);
-    const pins = this.pins(now);
     const step = paintGrid(context, view, colours);
     if (shown.paths) paintPaths(context, view, this.traces, colours);
-    paintGround(context, view, scene, pins, colours);
-    paintRails(context, view, scene, now, colours);
-    paintBodies(context, view, scene, now, colours);
-    paintSliders(context, pins, colours);
-    paintRods(context, pins, colours);
-    paintForces(context, view, scene, now, this.first, colours);
-    if (shown.reactions) paintReactions(context, view, pins, now.forces, this.pixelsPerNewton(), colours);
-    paintPins(context, pins, colours);
-    if (shown.numbers) paintNumbers(context, view, scene, now, colours);
-    if (shown.names) paintNames(context, view, pins, this.rooms(now, pins), colours);
-    paintLengthScale(context, view, step, colours);
+    paintItems(context, view, scene.display, now.poses, shown, colours);
+    if (shown.reactions) paintReactions(context, view, this.pins(now), now.forces, this.pixelsPerNewton(), colours);
+    paintLengthScale(context, view, step, scene.length, colours);
     paintGravity(context, view, scene.gravity, colours);
   }
 

@@ -25,7 +25,7 @@ export function paintGrid(context, view, colours) {
 }
 
 /** How long a step of the grid is. */
-export function paintLengthScale(context, view, step, colours) {
+export function paintLengthScale(context, view, step, { unit, metres }, colours) {
   const length = step * view.scale;
   const [x, y] = [16, view.height - 16];
   context.strokeStyle = colours.soft;
@@ -34,7 +34,7 @@ export function paintLengthScale(context, view, step, colours) {
   context.font = font(12);
   context.textAlign = "center";
   context.textBaseline = "alphabetic";
-  rimmed(context, roundQuantity(step, "m"), [x + length / 2, y - 6], colours.soft, colours.panel);
+  rimmed(context, `${Number((step / metres).toPrecision(3))} ${unit}`, [x + length / 2, y - 6], colours.soft, colours.panel);
 }
 
 /** Which way things fall. */

@@ -29,7 +29,7 @@ const BODY_COLOURS = 7;
 export function palette() {
   const style = getComputedStyle(document.documentElement);
   const read = (name) => style.getPropertyValue(`--${name}`).trim();
-  const names = ["panel", "edge", "text", "soft", "accent", "grid", "ground", "pin", "force", "reaction"];
+  const names = ["panel", "edge", "text", "soft", "accent", "grid", "ground", "paper", "ink", "force", "drive", "quiet", "reaction"];
   const colours = Object.fromEntries(names.map((name) => [name, read(name)]));
   const bodies = Array.from({ length: BODY_COLOURS }, (_, k) => read(`body-${k + 1}`));
   return { ...colours, body: (number) => (number ? bodies[(number - 1) % BODY_COLOURS] : colours.ground) };

@@ -1,0 +1,133 @@
+//! The symbols of a drawing, as data: what an element looks like, without its type.
+//!
+//! An element returns its symbols from the hook `symbols` of its trait. The numbers that it sees are
+//! those of the model; a law that depends on time or state is NaN there. The test `x != 0.0` is
+//! therefore true for every law that may differ from zero.
+
+use super::kinds::{BodyId, Coordinate, CoordinateOf, PointOn};
+use crate::math::Local;
+
+/// The vocabulary of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mark {
+    /// A pin that joins the points of i and j.
+    Pin,
+    /// A rigid connection of the points of i and j.
+    Clamp,
+    /// A block on j at its point, between rails on i along the axis of i.
+    Slide,
+    /// A massless rod with a pin at each point.
+    Rod,
+    /// A coil spring between the points.
+    Spring,
+    /// A dashpot between the points.
+    Dashpot,
+    /// A spiral spring between the bodies, around the joint that they share.
+    SpiralSpring,
+    /// A rotary dashpot between the bodies, around the joint that they share.
+    RotaryDashpot,
+    /// A curved arrow: a torque on j.
+    TorqueArrow,
+    /// A straight arrow: a force on j at its point, along the axis of i.
+    ForceArrow,
+    /// A curved arrow: a prescribed angle of j.
+    DriveTurn,
+    /// A straight arrow: a prescribed position of the point of j along the axis of i.
+    DriveShift,
+    /// A pitch circle on j around its point, with this radius in m.
+    Circle(f64),
+}
+
+impl Mark {
+    /// The word for it in a scene.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pin => "pin",
+            Self::Clamp => "clamp",
+            Self::Slide => "slide",
+            Self::Rod => "rod",
+            Self::Spring => "spring",
+            Self::Dashpot => "dashpot",
+            Self::SpiralSpring => "spiral_spring",
+            Self::RotaryDashpot => "rotary_dashpot",
+            Self::TorqueArrow => "torque_arrow",
+            Self::ForceArrow => "force_arrow",
+            Self::DriveTurn => "drive_turn",
+            Self::DriveShift => "drive_shift",
+            Self::Circle(_) => "circle",
+        }
+    }
+
+    /// Radius in m of a symbol that has the size of the mechanism.
+    pub fn radius(self) -> Option<f64> {
+        match self {
+            Self::Circle(radius) => Some(radius),
+            _ => None,
+        }
+    }
+}
+
+/// Where a symbol is fixed on one body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SymbolEnd {
+    /// The body.
+    pub body: BodyId,
+    /// s′ of a point, m; none where the symbol belongs to the body as a whole.
+    pub point: Option<Local>,
+    /// Angle of the symbol's axis in the body frame, rad.
+    pub axis: f64,
+}
+
+impl SymbolEnd {
+    /// A body as a whole.
+    pub fn body(body: BodyId) -> Self {
+        Self { body, point: None, axis: 0.0 }
+    }
+
+    /// A point of a body.
+    pub fn point(on: &PointOn) -> Self {
+        Self { body: on.body, point: Some(on.s), axis: 0.0 }
+    }
+
+    /// The same end with an axis at this angle.
+    pub fn along(self, axis: f64) -> Self {
+        Self { axis, ..self }
+    }
+}
+
+/// A symbol of the scene between the bodies i and j.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneSymbol {
+    /// What is drawn.
+    pub mark: Mark,
+    /// Where on body i.
+    pub i: SymbolEnd,
+    /// Where on body j.
+    pub j: SymbolEnd,
+}
+
+impl SceneSymbol {
+    /// A symbol between two points.
+    pub fn between_points(mark: Mark, i: &PointOn, j: &PointOn) -> Self {
+        Self { mark, i: SymbolEnd::point(i), j: SymbolEnd::point(j) }
+    }
+
+    /// A symbol between two bodies, without points.
+    pub fn between_bodies(mark: Mark, i: BodyId, j: BodyId) -> Self {
+        Self { mark, i: SymbolEnd::body(i), j: SymbolEnd::body(j) }
+    }
+
+    /// The arrow of a prescribed coordinate, measured from ground.
+    pub fn drive(driven: CoordinateOf) -> Self {
+        let CoordinateOf { body, coordinate } = driven;
+        let axis = match coordinate {
+            Coordinate::Angle | Coordinate::Omega => {
+                return Self::between_bodies(Mark::DriveTurn, BodyId::GROUND, body);
+            }
+            Coordinate::X | Coordinate::Vx => 0.0,
+            Coordinate::Y | Coordinate::Vy => std::f64::consts::FRAC_PI_2,
+        };
+        let origin = SymbolEnd { point: Some(Local::zero()), ..SymbolEnd::body(body) };
+        Self { mark: Mark::DriveShift, i: SymbolEnd::body(BodyId::GROUND).along(axis), j: origin }
+    }
+}

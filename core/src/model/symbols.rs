@@ -1,0 +1,40 @@
+//! The symbols of all elements of a model.
+
+use super::model::Model;
+use crate::elements::SceneSymbol;
+use crate::expression::{Symbol, Tape, Values};
+
+/// Values of the parameters; a formula that uses more than these is not evaluated.
+struct Parameters<'a>(&'a [f64]);
+
+impl Values<f64> for Parameters<'_> {
+    fn parameter(&self, k: usize) -> f64 {
+        self.0[k]
+    }
+    fn time(&self) -> f64 {
+        f64::NAN
+    }
+    fn variable(&self, _: usize) -> f64 {
+        f64::NAN
+    }
+}
+
+impl Model {
+    /// The symbols of each joint, driver and force with its name, in the order of the model.
+    pub fn symbols(&self) -> Vec<(&str, Vec<SceneSymbol>)> {
+        let known = |symbol: &Symbol| matches!(symbol, Symbol::Parameter(_));
+        let value = &mut |tape: &Tape| match tape.symbols().iter().all(known) {
+            true => tape.evaluate(&Parameters(&self.parameters)),
+            false => f64::NAN,
+        };
+        let blueprint = &self.blueprint;
+        let mut found = Vec::new();
+        for (name, _, formula) in &blueprint.constraints {
+            found.push((name.as_str(), formula.map(value).symbols()));
+        }
+        for (name, _, formula) in &blueprint.forces {
+            found.push((name.as_str(), formula.map(value).symbols()));
+        }
+        found
+    }
+}

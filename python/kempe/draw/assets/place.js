@@ -1,0 +1,54 @@
+// Where the items of the display list are at one instant: the rules of kempe/draw/placing.py.
+import { placed } from "./motion.js";
+
+const SPACING = 4;
+const STROKE = 5;
+
+/** Origin, angle and local places (px) of rows in the frame of an item; `unit` is px for each point of print. */
+function inFrame(frame, rows, poses, view, unit) {
+  const at = (body, point) => view.toScreen(placed(poses[body], point));
+  if (frame.type === "body") {
+    const angle = poses[frame.turns_with][2] + frame.turn;
+    const local = rows.map(([x, y, px, py]) => [x * view.scale + px * unit, y * view.scale + py * unit]);
+    return { origin: at(frame.body, frame.at), angle, local };
+  }
+  const [i, j] = frame.bodies;
+  if (frame.type === "line") {
+    const [begin, end] = frame.ends.map((point, k) => at(frame.bodies[k], point));
+    const [dx, dy] = [end[0] - begin[0], begin[1] - end[1]];
+    const length = Math.hypot(dx, dy);
+    const squeezed = frame.room ? Math.min(1, length / (frame.room * unit)) : 1;
+    const local = rows.map(([x, , px, py]) => [x * length + px * squeezed * unit, py * unit]);
+    return { origin: begin, angle: Math.atan2(dy, dx), local };
+  }
+  const turn = frame.turn + poses[j][2] - poses[i][2];
+  const local = rows.map(([x, , radius]) => {
+    const angle = poses[i][2] + x * turn;
+    return [radius * unit * Math.cos(angle), radius * unit * Math.sin(angle)];
+  });
+  return { origin: at(j, frame.at), angle: 0, local };
+}
+
+/** The points of an item on the canvas, px; `angle` is that of its frame, counter-clockwise. */
+export function placeItem(item, poses, view, unit) {
+  const { origin, angle, local } = inFrame(item.frame, item.points, poses, view, unit);
+  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+  const points = local.map(([x, y]) => [origin[0] + cos * x - sin * y, origin[1] - sin * x - cos * y]);
+  return { points, angle };
+}
+
+/** Strokes of ground on one side of a line, as a path. */
+export function hatching(points, side, unit) {
+  let strokes = "";
+  for (let k = 1; k < points.length; k += 1) {
+    const [[x0, y0], [x1, y1]] = [points[k - 1], points[k]];
+    const length = Math.hypot(x1 - x0, y1 - y0) || 1;
+    const [ux, uy] = [(x1 - x0) / length, (y1 - y0) / length];
+    const reach = (STROKE * unit) / Math.SQRT2;
+    const [dx, dy] = [reach * (side * uy - ux), reach * (-side * ux - uy)];
+    for (let at = 0.75 * SPACING * unit; at < length; at += SPACING * unit) {
+      strokes += `M${x0 + at * ux} ${y0 + at * uy}l${dx} ${dy}`;
+    }
+  }
+  return strokes;
+}

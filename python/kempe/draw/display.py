@@ -1,0 +1,327 @@
+"""The display list of a scene: what figures, frames and the page paint.
+
+Symbols are chosen by the physics that the elements declare, names are laid out once for the whole
+motion, and names of what coincides are written once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+
+from kempe.arrays import Floats
+from kempe.draw import items, symbols
+from kempe.draw.geometry import placed
+from kempe.draw.items import Frame, Item, fill, line, metres, on_body, print_points, text, upright
+from kempe.draw.labels import Taken, measured, place_labels
+from kempe.draw.palette import one_line
+from kempe.draw.placing import View, place
+from kempe.draw.scene import Scene
+
+#: Instants at which names are kept clear of everything.
+_SAMPLES = 12
+#: Places no farther apart than this share of the drawing at any instant are one place.
+_SAME = 1e-3
+#: Where a name is anchored along the x axis of a frame.
+_HALF_WAY = {"body": 0.0, "line": 0.5}
+#: More names than these do not fit on a drawing.
+MOST_NAMES, MOST_NUMBERS = 60, 40
+_LINK, _EDGE, _TINT = 8.0, 1.0, 0.72
+_NUMBER = 7.0  # radius of the circle around a number
+_MOST_OBSTACLES = 60  # corners of one item
+
+#: Role, names and frame of what has one place.
+_Named = tuple[str, list[str], Frame]
+#: A name that waits for its place: of what, words, role, and the frame of its anchor.
+_Name = tuple[str, str, str, Frame]
+
+
+class Places:
+    """Paths of points, those of one place once.
+
+    Args:
+        near: paths that are always so near are one place, m.
+    """
+
+    def __init__(self, near: float) -> None:
+        self._near = near
+        self._paths: Floats | None = None
+
+    def index(self, path: Floats) -> int:
+        """The number of the place of a path, (n_t, 2); a new one if there is none yet."""
+        if self._paths is None:
+            self._paths = path[None]
+            return 0
+        apart = np.abs(self._paths - path).max(axis=(1, 2))
+        k = int(np.argmin(apart))
+        if apart[k] < self._near:
+            return k
+        self._paths = np.concatenate([self._paths, path[None]])
+        return len(self._paths) - 1
+
+    def is_new(self, path: Floats) -> bool:
+        """Whether a path has a place of its own, which it takes."""
+        before = 0 if self._paths is None else len(self._paths)
+        return self.index(path) == before
+
+
+class Display:
+    """A display list in the making.
+
+    Args:
+        scene: what is drawn.
+        view: the scale and the edges for which names are laid out.
+    """
+
+    def __init__(self, scene: Scene, view: View) -> None:
+        self.scene, self.view = scene, view
+        frames = scene["frames"]["poses"]
+        chosen = np.unique(np.linspace(0, len(frames) - 1, _SAMPLES).round().astype(int))
+        poses = [[[0.0] * 3, *frames[k]] for k in chosen]
+        #: Of all bodies, ground first, at some instants, (n_t, n_bodies, 3).
+        self.poses = np.nan_to_num(np.array(poses, dtype=np.float64).reshape(len(chosen), -1, 3))
+        low, high = np.array(scene["bounds"]).reshape(2, 2)
+        self._near = _SAME * (float((high - low).max()) or 1.0)
+        self._items: list[Item] = []
+        self._names: list[_Name] = []
+
+    def add(self, found: Iterator[Item] | list[Item]) -> None:
+        """Add items."""
+        self._items += found
+
+    def finish(self) -> list[Item]:
+        """The display list in the order of painting, with the names in their places."""
+        self.add(list(self._laid_out()))
+        self._names = []
+        return sorted(self._items, key=lambda item: int(item["layer"]))
+
+    # --- the mechanism ----------------------------------------------------------------------------
+
+    def draw_mechanism(self) -> None:
+        """Bodies, the symbols of all elements, supports, and points without a symbol."""
+        for body in self.scene["bodies"][1:]:
+            self.add(_link(body))
+        rings, pinned = symbols.Rings(), Places(self._near)
+        for _, group in groupby(self.scene["symbols"], key=lambda symbol: symbol["element"]):
+            own = list(group)
+            aside = symbols.parallel(own)
+            for symbol in own:
+                if symbol["mark"] != "pin" or pinned.is_new(self._ends(symbol)[-1]):
+                    self.add(symbols.draw(symbol, rings, aside.get(symbol["mark"], 0.0)))
+        self._draw_supports()
+        self._draw_points()
+
+    def _draw_supports(self) -> None:
+        """One support for each place on ground on which something turns."""
+        supported = Places(self._near)
+        for symbol in self.scene["symbols"]:
+            if symbol["mark"] in symbols.PINNED:
+                for body, at in zip(symbol["bodies"], symbol["points"], strict=True):
+                    if body == 0 and supported.is_new(self._path(body, at)):
+                        self.add(symbols.support(symbol["element"], at))
+
+    def _draw_points(self) -> None:
+        """A cross or a dot at each named point that no symbol has."""
+        marked = Places(self._near)
+        for symbol in self.scene["symbols"]:
+            for path in self._ends(symbol):
+                marked.is_new(path)
+        for body in self.scene["bodies"]:
+            for point in body["points"]:
+                if marked.is_new(self._path(body["number"], point["at"])):
+                    self.add(symbols.cross(body["name"], body["number"], point["at"]))
+
+    def _path(self, body: int, at: items.At) -> Floats:
+        """Where a point of a body is at the instants, (n_t, 2), m."""
+        return placed(self.poses[:, body], at)
+
+    def _ends(self, symbol: symbols.Symbol) -> list[Floats]:
+        """Where the points of a symbol are at the instants."""
+        ends = zip(symbol["bodies"], symbol["points"], strict=True)
+        return [self._path(body, at) for body, at in ends if at is not None]
+
+    # --- names ------------------------------------------------------------------------------------
+
+    def name_joints(self) -> None:
+        """Write the names of the joints, of those at one place together, and of free points."""
+        joints = self.scene["joints"]
+        if len(joints) > MOST_NAMES:
+            return
+        rods = {s["element"]: s for s in self.scene["symbols"] if s["mark"] == "rod"}
+        places, found = Places(self._near), list[_Named]()
+        for joint in joints:
+            rod = rods.get(joint["name"])
+            if rod is not None:
+                self.name("joint", joint["name"], items.between(rod["bodies"], rod["points"]))
+                continue
+            number, at = joint["bodies"][1], joint["points"][1]
+            k = places.index(self._path(number, at))
+            if k == len(found):
+                found.append(("joint", [], upright(number, at)))
+            found[k][1].append(one_line(joint["name"]))
+        count = sum(len(body["points"]) for body in self.scene["bodies"])
+        for body in self.scene["bodies"] if count <= MOST_NAMES else []:
+            for point in body["points"]:
+                k = places.index(self._path(body["number"], point["at"]))
+                if k == len(found):
+                    found.append(("point", [], upright(body["number"], point["at"])))
+                if found[k][0] == "point":  # where there is a joint its points go unnamed
+                    found[k][1].append(one_line(point["name"]))
+        for role, names, frame in found:
+            self.name(role, ", ".join(dict.fromkeys(names)), frame)
+
+    def name_elements(self) -> None:
+        """Write the names of forces and drivers beside their symbols."""
+        seen = {joint["name"] for joint in self.scene["joints"]}
+        for symbol in self.scene["symbols"]:
+            if symbol["element"] in seen or len(seen) > MOST_NAMES:
+                continue
+            seen.add(symbol["element"])
+            i, j = symbol["bodies"]
+            role = "driver" if symbol["mark"].startswith("drive") else "element"
+            if symbol["mark"] in ("spring", "dashpot"):
+                frame = items.between((i, j), symbol["points"])
+                self.name(role, symbol["element"], frame)
+            else:
+                self.name(role, symbol["element"], upright(j, symbol["points"][1]))
+
+    def number_bodies(self, index_base: int = 1, *, names: bool = False) -> None:
+        """Write a number in a circle on each body, and its name beside it.
+
+        Args:
+            index_base: number of the first body.
+            names: whether to write names.
+        """
+        bodies = self.scene["bodies"][1:]
+        if len(bodies) > MOST_NUMBERS:
+            return
+        ends = [path for symbol in self.scene["symbols"] for path in self._ends(symbol)]
+        pins = [self.view.points(path) for path in ends]
+        for body in bodies:
+            number = str(body["number"] - 1 + index_base)
+            at = self._free_place(body, pins)
+            words = one_line(body["name"]) if names else ""
+            if at is None:
+                at = body["center"]
+                role, words = ("body", f"{number} {words}") if names else ("number", number)
+                self._names.append((body["name"], words, role, upright(body["number"], at)))
+                continue
+            self.add(_numbered(body, at, number))
+            pins.append(self.view.points(self._path(body["number"], at)))
+            if words:
+                self.name("body", body["name"], upright(body["number"], at))
+
+    def _free_place(self, body: dict[str, Any], pins: list[Floats]) -> items.At | None:
+        """Where a number covers no pin and no other number; None if there is no room."""
+        corners = np.array(body["outline"])
+        shares = [0.5, 0.35, 0.65, 0.25, 0.75]
+        along = [corners[0] + share * (corners[len(corners) // 2] - corners[0]) for share in shares]
+        for at in (corners.mean(axis=0), np.array(body["center"]), *along):
+            path = self.view.points(self._path(body["number"], at))
+            gaps = [float(np.hypot(*(path - pin).T).min()) for pin in pins]
+            if min(gaps, default=np.inf) > 2.0 * _NUMBER:
+                return [float(x) for x in at]
+        return None
+
+    def name(self, role: str, words: str, frame: Frame) -> None:
+        """Write a name near the origin of a frame or half-way along it, where there is room."""
+        self._names.append((words, one_line(words), role, frame))
+
+    def _laid_out(self) -> Iterator[Item]:
+        if not self._names:
+            return
+        found = [
+            text(of, frame, [_HALF_WAY[frame["type"]], 0.0, 0.0, 0.0], words, role)
+            for of, words, role, frame in self._names
+        ]
+        anchors = np.array(
+            [[place(one, poses, self.view)[0] for one in found] for poses in self.poses]
+        )
+        sizes = np.array([size_of(one) for one in found])
+        offsets = place_labels(anchors, sizes, self.taken())
+        for one, offset in zip(found, offsets, strict=True):
+            one["offset"] = [float(x) for x in offset]
+            if one["role"] == "number":
+                self.add(_circled(one["of"], one["frame"], one["offset"]))
+            yield one
+
+    def taken(self) -> Taken:
+        """What names must not lie on: lines, texts and what is outside of the view."""
+        count = len(self.poses)
+        segments, reach, boxes = [np.empty((count, 0, 2, 2))], [], [np.empty((count, 0, 4))]
+        for item in self._items:
+            if item["kind"] == "text":
+                half = np.array(size_of(item)) / 2.0
+                centre = self._placed(item)
+                boxes.append(np.concatenate([centre - half, centre + half], axis=2))
+            elif item["layer"] < items.NUMBER:
+                points = self._placed({**item, "points": _thinned(item)})
+                segments.append(np.stack([points[:, :-1], points[:, 1:]], axis=2))
+                half_width = item.get("width", 0.0) / 2.0 + (4.0 if item.get("hatch") else 0.0)
+                reach += [half_width] * (points.shape[1] - 1)
+        edges = np.array([[0.0, 0.0], self.view.size])
+        lines = np.concatenate(segments, axis=1)
+        return Taken(lines, np.array(reach), np.concatenate(boxes, axis=1), edges)
+
+    def _placed(self, item: Item) -> Floats:
+        """The points of an item at the instants, (n_t, n, 2), points of print."""
+        return np.array([place(item, poses, self.view) for poses in self.poses])
+
+
+def display(scene: Scene, view: View) -> list[Item]:
+    """The display list of frames and of the page: everything numbered and named."""
+    made = Display(scene, view)
+    made.draw_mechanism()
+    made.number_bodies()
+    made.name_joints()
+    made.name_elements()
+    return made.finish()
+
+
+def size_of(item: Item) -> tuple[float, float]:
+    """Width and height of a text, points."""
+    if item["role"] == "number":
+        return 2.0 * _NUMBER, 2.0 * _NUMBER
+    return measured(item["text"], item["size"], item["weight"] == "bold", item["slanted"])
+
+
+def _thinned(item: Item) -> items.Rows:
+    rows: items.Rows = item["points"]
+    if item.get("closed"):
+        rows = [*rows, rows[0]]
+    return rows[:: len(rows) // _MOST_OBSTACLES + 1] if len(rows) > _MOST_OBSTACLES else rows
+
+
+def _link(body: dict[str, Any]) -> Iterator[Item]:
+    """A rounded bar or plate: a wide dark line and a narrower light one in it."""
+    number, corners, of = body["number"], np.array(body["outline"]), body["name"]
+    colour, frame = f"body {number}", on_body(number)
+    if len(corners) == 1:
+        rows = [[*corner, *at] for corner in corners for at in items.circle(_NUMBER)]
+        yield fill(of, frame, rows, colour, layer=items.BODY, tint=_TINT)
+        yield line(of, frame, rows, colour, _EDGE, layer=items.BODY, closed=True)
+        return
+    rows, closed = metres(corners), len(corners) > 2
+    yield line(of, frame, rows, colour, _LINK + 2.0 * _EDGE, layer=items.BODY, closed=closed)
+    if closed:
+        yield fill(of, frame, rows, colour, layer=items.BODY, tint=_TINT)
+    yield line(of, frame, rows, colour, _LINK, layer=items.BODY, closed=closed, tint=_TINT)
+
+
+def _numbered(body: dict[str, Any], at: items.At, number: str) -> list[Item]:
+    frame, of = upright(body["number"], at), body["name"]
+    return [*_circled(of, frame, (0.0, 0.0)), text(of, frame, [0.0] * 4, number, "number")]
+
+
+def _circled(of: str, frame: Frame, offset: items.At) -> list[Item]:
+    """The circle around the number of a body."""
+    rim = print_points(items.circle(_NUMBER) + np.asarray(offset))
+    colour = f"body {frame['body']}"
+    found = [
+        fill(of, frame, rim, "paper", layer=items.NUMBER),
+        line(of, frame, rim, colour, 1.0, layer=items.NUMBER, closed=True),
+    ]
+    return [{**item, "numbered": True} for item in found]

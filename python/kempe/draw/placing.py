@@ -1,0 +1,112 @@
+"""Where the items of a display list are at one instant: the only place where metres become points.
+
+``assets/place.js`` has the same rules for the page.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from kempe.arrays import Floats
+from kempe.draw.geometry import placed
+from kempe.draw.items import Frame, Item
+
+#: Of the hatching of ground: distance and length of its strokes, and their width, points.
+_SPACING, _STROKE, HATCH_WIDTH = 4.0, 5.0, 0.7
+
+
+@dataclass(frozen=True)
+class View:
+    """The part of the plane that is seen.
+
+    Attributes:
+        low: least x and y, m.
+        scale: points of print for each metre.
+        size: width and height, points.
+    """
+
+    low: Floats
+    scale: float
+    size: Floats
+
+    def points(self, places: Floats) -> Floats:
+        """Places in the plane in points of print, from the lower left corner."""
+        found: Floats = (places - self.low) * self.scale
+        return found
+
+    def plane(self, points: Floats) -> Floats:
+        """The place in the plane, m, of points of print."""
+        found: Floats = points / self.scale + self.low
+        return found
+
+
+def view_of(limits: Floats, width: float) -> View:
+    """The view of [least x, least y, largest x, largest y], m, so many points wide."""
+    scale = width / float(limits[2] - limits[0])
+    return View(limits[:2], scale, (limits[2:] - limits[:2]) * scale)
+
+
+def place(item: Item, poses: Floats, view: View) -> Floats:
+    """The points of an item, (n, 2), points of print.
+
+    Args:
+        item: of a display list.
+        poses: x, y and angle of each body, ground first, (n_bodies, 3).
+        view: what is seen.
+    """
+    origin, angle, local = _in_frame(
+        item["frame"], np.asarray(item["points"], dtype=np.float64), poses, view
+    )
+    c, s = np.cos(angle), np.sin(angle)
+    found: Floats = origin + local @ np.array([[c, s], [-s, c]])
+    return found
+
+
+def direction(item: Item, poses: Floats, view: View) -> float:
+    """The angle of the x axis of an item's frame, rad."""
+    return float(_in_frame(item["frame"], np.zeros((1, 4)), poses, view)[1])
+
+
+def _in_frame(
+    frame: Frame, rows: Floats, poses: Floats, view: View
+) -> tuple[Floats, float, Floats]:
+    """Origin and angle of a frame, and the rows in it, points."""
+    if frame["type"] == "body":
+        origin = view.points(placed(poses[frame["body"]], frame["at"]))
+        angle = poses[frame["turns_with"], 2] + frame["turn"]
+        return origin, angle, rows[:, :2] * view.scale + rows[:, 2:]
+    i, j = frame["bodies"]
+    if frame["type"] == "line":
+        begin, end = (view.points(placed(poses[b], at)) for b, at in _ends(frame))
+        along = end - begin
+        length = float(np.hypot(*along))
+        squeezed = min(1.0, length / frame["room"]) if frame["room"] else 1.0
+        local = np.column_stack([rows[:, 0] * length + rows[:, 2] * squeezed, rows[:, 3]])
+        return begin, float(np.arctan2(along[1], along[0])), local
+    turn = frame["turn"] + poses[j, 2] - poses[i, 2]
+    polar = poses[i, 2] + rows[:, 0] * turn
+    local = rows[:, 2:3] * np.column_stack([np.cos(polar), np.sin(polar)])
+    return view.points(placed(poses[j], frame["at"])), 0.0, local
+
+
+def _ends(frame: Frame) -> Sequence[tuple[int, Sequence[float]]]:
+    return list(zip(frame["bodies"], frame["ends"], strict=True))
+
+
+def hatching(points: Floats, side: int) -> Floats:
+    """Short strokes on one side of a line, (k, 2, 2), points."""
+    found = []
+    for begin, end in pairwise(points):
+        length = float(np.hypot(*(end - begin)))
+        if length == 0.0:
+            continue
+        along = (end - begin) / length
+        aside = side * np.array([-along[1], along[0]])
+        stroke = _STROKE * (aside - along) / np.sqrt(2.0)
+        for at in np.arange(0.75 * _SPACING, length, _SPACING):
+            found.append([begin + at * along, begin + at * along + stroke])
+    return np.array(found).reshape(-1, 2, 2)

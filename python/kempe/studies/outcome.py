@@ -1,0 +1,75 @@
+"""What the variants of a study gave."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from kempe.studies.variants import Variant
+
+if TYPE_CHECKING:
+    from kempe.solution import Solution
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a variant gave.
+
+    Attributes:
+        variant: how it was computed.
+        solution: on the common output times, or until it diverged; None if not even the start
+            could be computed.
+        diverged_at: time of the divergence, s; None if it got to the end.
+        reason: why it diverged; empty if it did not.
+        angle_error: largest difference of any body's angle from the reference, rad; NaN if
+            it diverged.
+        position_error: the same of any body's position, m.
+        residual: largest |Φ| over time, lengths and angles alike, m and rad; NaN if diverged.
+        residual_at: when, s.
+        imbalance: largest error of the energy balance, relative to the largest kinetic energy.
+        steps: steps taken.
+        evaluations: evaluations of the accelerations.
+        seconds: time that the integration took, s.
+    """
+
+    variant: Variant
+    solution: Solution | None
+    diverged_at: float | None
+    reason: str
+    angle_error: float
+    position_error: float
+    residual: float
+    residual_at: float
+    imbalance: float
+    steps: int
+    evaluations: int
+    seconds: float
+
+    @property
+    def diverged(self) -> bool:
+        """Whether it did not get to the end."""
+        return bool(self.reason)
+
+
+@dataclass(frozen=True)
+class Outcomes:
+    """The outcomes of a study.
+
+    Attributes:
+        title: of the model.
+        analysis: name of the analysis.
+        outcomes: in the order of ``variants()``; the first is the reference.
+    """
+
+    title: str
+    analysis: str
+    outcomes: tuple[Outcome, ...]
+
+    @property
+    def reference(self) -> Outcome:
+        """The most accurate run."""
+        return self.outcomes[0]
+
+    def group(self, name: str) -> tuple[Outcome, ...]:
+        """The outcomes of one group of variants."""
+        return tuple(o for o in self.outcomes if o.variant.group == name)
