@@ -124,7 +124,7 @@ fn defaults_of_a_file_are_those_of_the_constructors() {
     let (t_end, chosen) = (("t_end", Value::Number(1.0)), |kind: &str| {
         Value::Table(vec![("type".to_string(), Value::from(kind))])
     });
-    assert_eq!(options(&[t_end.clone()]), Options::new(1.0));
+    assert_eq!(options(std::slice::from_ref(&t_end)), Options::new(1.0));
     for (key, family, default) in [
         ("method", Scheme::family(), "auto"),
         ("stabilization", Stabilization::family(), "projection"),
