@@ -153,6 +153,13 @@ const TOML: &[Row] = &[
         "not together with output_step",
         "",
     ),
+    (
+        "[analyses.a]\ntype = 'dynamics'\nt_end = 1\nmethod = { type = 'rk45', step = 1, max_step = 1 }\n",
+        5,
+        48,
+        "analyses.a.method.max_step: not together with step; remove one of them",
+        "",
+    ),
     // values
     ("[parameters]\na = nan\n", 3, 5, "parameters.a: nan; must be a finite number", ""),
     ("[parameters]\na = -inf\n", 3, 5, "-inf; must be a finite number", ""),

@@ -50,7 +50,8 @@ class RK45(Option):
     Attributes:
         rtol: Relative tolerance of one step.
         atol: Absolute tolerance of one step, in the units of the state.
-        step: Constant step, whatever the tolerances; if absent, the step is controlled [s].
+        step: Constant step, whatever the tolerances; if absent, the step is controlled. Not
+            together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -82,7 +83,8 @@ class DOP853(Option):
     Attributes:
         rtol: Relative tolerance of one step.
         atol: Absolute tolerance of one step, in the units of the state.
-        step: Constant step, whatever the tolerances; if absent, the step is controlled [s].
+        step: Constant step, whatever the tolerances; if absent, the step is controlled. Not
+            together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -135,8 +137,8 @@ class GeneralizedAlpha(Option):
             step that of Newton's iteration, 1e-10 if absent.
         atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 of methods of order 2; with
             step that of Newton's iteration, 1e-12 if absent.
-        step: Constant step, without control of the error; if absent, the step is controlled
-            [s].
+        step: Constant step, without control of the error; if absent, the step is controlled.
+            Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -171,8 +173,8 @@ class HHT(Option):
             step that of Newton's iteration, 1e-10 if absent.
         atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 of methods of order 2; with
             step that of Newton's iteration, 1e-12 if absent.
-        step: Constant step, without control of the error; if absent, the step is controlled
-            [s].
+        step: Constant step, without control of the error; if absent, the step is controlled.
+            Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -208,8 +210,8 @@ class Radau(Option):
             step that of Newton's iteration, 1e-10 if absent.
         atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 of methods of order 2; with
             step that of Newton's iteration, 1e-12 if absent.
-        step: Constant step, without control of the error; if absent, the step is controlled
-            [s].
+        step: Constant step, without control of the error; if absent, the step is controlled.
+            Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -263,7 +265,7 @@ class Baumgarte(Option):
             about 3/beta [1/s].
         gains: "step" computes them from each step h that is tried, alpha = 7/(12 h) and beta =
             1/(sqrt(3) h), and holds the term over the step, which neither limits the step nor
-            lowers the order of the method.
+            lowers the order of the method. Not together with alpha and beta.
     """
 
     alpha: Number | None = None
@@ -297,7 +299,7 @@ class Dynamics(Analysis):
     Attributes:
         t_end: Time at which the simulation ends [s].
         output_step: Time between the reported states; if absent, the steps of the solver are
-            reported [s].
+            reported. Not together with output [s].
         method: Method of integration.
         stabilization: What keeps the constraints from drifting.
         max_steps: Most steps before the solver gives up; if steps of bounded length cannot

@@ -46,7 +46,7 @@ impl<'t> Reader<'t, '_> {
         Ok(match raw.as_bytes()[0] {
             b'{' => Data::Table(self.table(raw, depth)?),
             b'[' => {
-                let item = |raw| Ok(self.node(raw, raw, depth)?);
+                let item = |raw| self.node(raw, raw, depth);
                 Data::List(Parts::of(raw).map(item).collect::<Result<_, Fault>>()?)
             }
             b'"' => Data::Text(self.string(raw)?),

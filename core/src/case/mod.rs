@@ -2,7 +2,17 @@
 //!
 //! A case is a model, a start and any number of analyses, in TOML or JSON. [`read`] reports all
 //! faults of the structure at once; faults of the mechanics come from elsewhere as
-//! [`Problem`](crate::model::Problem)s, and [`Document::diagnose`] says where in the text they are.
+//! [`Problem`](crate::model::Problem)s, and [`Document::diagnose`] finds their places in the text.
+//!
+//! | file | concept |
+//! |---|---|
+//! | `tree`, `fault` | values with their places, and faults of syntax |
+//! | `json`, `toml`, `toml_tables` | text → tree |
+//! | `diagnostic`, `document` | places → line, column, excerpt |
+//! | `report` | problems by path |
+//! | `names`, `values`, `fields`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
+//! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
+//! | `schema` | the JSON Schema |
 
 mod bodies;
 mod body_builder;

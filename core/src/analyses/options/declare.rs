@@ -14,6 +14,22 @@ pub struct Declaration {
     pub excludes: &'static [(&'static str, &'static [&'static str])],
 }
 
+impl Declaration {
+    /// With the exclusions in the docs of the options that exclude others.
+    pub fn new(
+        class: &'static str,
+        mut table: Table,
+        excludes: &'static [(&'static str, &'static [&'static str])],
+    ) -> Self {
+        for (one, others) in excludes {
+            for field in table.fields.iter_mut().filter(|field| field.name == *one) {
+                field.doc += &format!(" Not together with {}.", others.join(" and "));
+            }
+        }
+        Self { class, table, excludes }
+    }
+}
+
 /// Sets of options of which an analysis takes one, such as the methods of integration.
 #[derive(Clone, Debug)]
 pub struct Family {
@@ -84,11 +100,11 @@ macro_rules! options {
                         doc: doc(&[$($about),*]),
                     },)*
                 ];
-                $crate::analyses::options::Declaration {
-                    class: $class,
-                    table: $crate::elements::Table { name: $name, doc: doc(&[$($doc),*]), fields },
-                    excludes: &[$($((stringify!($one), &[$(stringify!($other)),+]),)+)?],
-                }
+                $crate::analyses::options::Declaration::new(
+                    $class,
+                    $crate::elements::Table { name: $name, doc: doc(&[$($doc),*]), fields },
+                    &[$($((stringify!($one), &[$(stringify!($other)),+]),)+)?],
+                )
             }
 
             #[allow(unused_variables)] // where there are no options
