@@ -17,7 +17,7 @@ HEADER = ("iteration", "residual", "step", "damping")
 
 @dataclass(frozen=True)
 class Iterations:
-    """How Newton–Raphson closes a mechanism from the guess as it stands.
+    """The Newton–Raphson iterations that close a mechanism from a guess.
 
     Attributes:
         rows: residual, step and damping; the first is the start.
@@ -26,7 +26,7 @@ class Iterations:
     rows: tuple[Iteration, ...]
 
     def text(self) -> str:
-        """A table, and what each step did to the number of digits."""
+        """A table with residual, step and damping of each iteration."""
         lines = [
             "Newton–Raphson from the guess as it stands (bodies hung by their joints, loops open)",
             "lengths relative to the size of the mechanism",
@@ -59,10 +59,10 @@ class Iterations:
 
 
 def iterations(case: Case) -> Iterations:
-    """Assemble a case by Newton–Raphson from its guess as it stands.
+    """Assemble a case by Newton–Raphson from its guess.
 
     Args:
-        case: what is assembled.
+        case: the case to be assembled.
 
     Raises:
         AssemblyError: the iteration does not converge from this guess.

@@ -3,13 +3,25 @@
 use super::algebra::List;
 use super::arena::{Arena, Id, Node, ONE};
 use super::name::Kind;
+use super::style::Form;
 
 /// Sums are not multiplied out beyond this number of terms.
 const MOST_TERMS: usize = 200;
 
 impl Arena {
+    /// The shorter of an expression as it is and with its terms collected.
+    pub fn simplest(&mut self, id: Id) -> Id {
+        let collected = self.collected(id);
+        let [now, then] = [id, collected].map(|id| self.write(id, Form::Expression).len());
+        if then < now {
+            collected
+        } else {
+            id
+        }
+    }
+
     /// The expression with like terms merged across brackets, and common factors before brackets.
-    pub fn collected(&mut self, id: Id) -> Id {
+    fn collected(&mut self, id: Id) -> Id {
         let (c, factors) = self.factors(id);
         let mut made = self.number(c);
         for (base, e) in factors {

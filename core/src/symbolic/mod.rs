@@ -21,6 +21,7 @@
 mod algebra;
 mod arena;
 mod choice;
+mod definitions;
 mod derivative;
 mod factor;
 mod function;
@@ -30,10 +31,11 @@ mod naming;
 mod number;
 mod order;
 mod print;
+mod record;
 mod scalar;
 mod style;
 
 pub(crate) use name::upright;
 pub use name::{Axis, Kind, Name};
-pub use scalar::{record, Differentiated, Record, Symbolic};
+pub use record::{record, Differentiated, Record, Symbolic};
 pub use style::Form;

@@ -1,4 +1,4 @@
-"""A matrix with the names of its rows and columns, and where it comes from."""
+"""A matrix of the equations of motion with the names of its rows and columns."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from kempe.state import State
     from kempe.values import Number
 
-#: What can be shown: its symbol and what it is.
+#: The matrices that can be shown, each with its symbol and its meaning.
 NAMES: Mapping[str, tuple[str, str]] = {
     "M": ("M", "mass matrix"),
     "Phi": ("Φ", "residuals of the constraints, m and rad"),
@@ -34,7 +34,8 @@ NAMES: Mapping[str, tuple[str, str]] = {
     "lam": ("λ", "multipliers, N and N·m"),
 }
 
-#: Rounding errors of an assembled position; in a residual they are the news and are shown.
+#: Entries below this fraction of the largest are rounding errors and are shown as zeros. A residual
+#: consists of rounding errors, so that all of its entries are shown.
 ROUNDING = 1e-13
 
 
@@ -56,13 +57,13 @@ class Labelled:
 
     @property
     def title(self) -> str:
-        """One line: symbol, what it is, and its size."""
+        """One line: symbol, meaning and size."""
         symbol, meaning = NAMES[self.name]
         size = " × ".join(map(str, self.values.shape))
         return f"{symbol}, {meaning}, {size}"
 
     def cells(self) -> Floats:
-        """The values as a matrix (rows, columns) without what rounding left of zeros."""
+        """The values as a matrix (rows, columns), with rounding errors set to zero."""
         full: Floats = self.values.reshape(len(self.rows), -1)
         if self.name == "Phi":
             return full
@@ -83,7 +84,7 @@ class Labelled:
         return writing.latex(self.name, self.rows, self.columns, self.cells())
 
     def __array__(self, dtype: object = None, copy: bool | None = None) -> Floats:
-        """The values, so that numpy takes this for what it shows."""
+        """The values, for conversion by numpy."""
         return np.array(self.values, dtype=dtype, copy=copy)  # type: ignore[call-overload,no-any-return]
 
     def __str__(self) -> str:
@@ -103,10 +104,10 @@ def show(
 
     Args:
         model: the mechanism.
-        state: where it is.
+        state: the state at which the matrix is evaluated.
         what: "Phi_q", "M", "Phi", "nu", "gamma", "Q", "kkt", "rhs", "a" or "lam".
-        assembly: coordinates that are held, as ``set`` of an assembly; each adds the row of a
-            driver, so that "Phi_q" is the matrix of the Newton iteration.
+        assembly: coordinates that an assembly would hold by ``set``. Each adds the row of a driver,
+            so that "Phi_q" is the matrix of the Newton iteration.
 
     Returns:
         The matrix; ``text()``, ``csv()`` and ``latex()`` write it.

@@ -6,7 +6,7 @@ use super::{print, residual, Formulas};
 use crate::elements::{BodyId, Constraint, Coordinate};
 use crate::equations::laws::Laws;
 use crate::expression::Tape;
-use crate::math::Pose;
+use crate::math::{Pose, Real};
 use crate::model::{Dependence, Model};
 use crate::symbolic::{record, Form, Name, Record, Symbolic};
 
@@ -25,27 +25,29 @@ pub fn of_constraint(
         let t = record.time();
         let names = model.blueprint.parameters.iter();
         let parameters: Vec<Symbolic> = names.map(|p| record.symbol(Name::field(p))).collect();
-        let bodies: Vec<Coordinates> = model
-            .bodies
-            .iter()
-            .enumerate()
-            .map(|(at, body)| Coordinates::new(record, &BodyName::given(&body.name), at))
+        let bodies: Vec<(BodyId, Coordinates)> = touched(element)
+            .into_iter()
+            .map(|id| {
+                let name = BodyName::given(&model.bodies[id.0].name);
+                (id, Coordinates::new(record, &name, id.0))
+            })
             .collect();
-        let coordinate = |body: BodyId, c: Coordinate| bodies[body.0].of(c);
+        let find = |id: BodyId| bodies.iter().find(|(known, _)| *known == id);
+        let coordinate = |body: BodyId, c: Coordinate| {
+            find(body).map_or(Symbolic::zero(), |(_, coordinates)| coordinates.of(c))
+        };
         let values = Laws { parameters: &parameters, t, coordinate, z: &[] };
         let mut points = points(record, model, element, written).into_iter();
         let over = element.map(&mut |tape| match points.next().flatten() {
             Some(component) => component,
             None => tape.evaluate(&values),
         });
-        let pose = |body: BodyId| match body.is_ground() {
-            true => Pose::identity(),
-            false => bodies[body.0].pose(),
+        let pose = |body: BodyId| {
+            find(body).map_or(Pose::identity(), |(_, coordinates)| coordinates.pose())
         };
         let own = internal(record, element.own());
         let phi = residual(&over, pose, &own, t);
-        let columns: Vec<&Coordinates> =
-            touched(element).into_iter().map(|body| &bodies[body.0]).collect();
+        let columns: Vec<&Coordinates> = bodies.iter().map(|(_, body)| body).collect();
         print(record, &phi, (&columns, &own), form)
     })
 }
