@@ -1,6 +1,7 @@
 """The player in a browser: it shows the solution, and does what its controls say."""
 
 import io
+import re
 from typing import Any
 
 import kempe as kp
@@ -15,6 +16,9 @@ from draw.mechanisms import (
     slider_crank,
     sprung,
 )
+from house.places import PACKAGE
+from kempe.draw.frame import frame_items
+from kempe.draw.placing import View, place
 from PIL import Image
 
 SIZES = [(1600, 900), (600, 800)]
@@ -352,3 +356,31 @@ def test_seeking_nonsense_changes_nothing(opened: Any, solutions: dict[str, kp.S
     assert watched.state()["t"] == 1.0
     watched.page.evaluate("kempe.seek(-99)")
     assert watched.state()["t"] == 0.0
+
+
+@pytest.mark.parametrize("made", [moving, slider_crank, sprung, point_pendulum])
+def test_the_page_puts_items_where_frames_have_them(browser: Any, made: Any) -> None:
+    """``place.js`` and ``kempe.draw.placing`` are the same rules."""
+    shown = kp.scene(made())
+    found, scale = frame_items(shown), 17.0
+    poses = [[0.0] * 3, *shown["frames"]["poses"][-1]]
+    page = browser.new_page()
+    page.add_script_tag(content="".join(map(plain_script, ("motion", "place"))))
+    told = page.evaluate(
+        """([items, poses, scale]) => {
+          const view = { scale, toScreen: ([x, y]) => [x * scale, -y * scale] };
+          return items.map((item) => placeItem(item, poses, view, 1).points);
+        }""",
+        [found, poses, scale],
+    )
+    page.close()
+    view = View(np.zeros(2), scale, np.array([500.0, 300.0]))
+    for item, points in zip(found, told, strict=True):
+        expected = place(item, np.array(poses), view)
+        np.testing.assert_allclose(np.array(points) * [1, -1], expected, atol=1e-9)
+
+
+def plain_script(name: str) -> str:
+    """A module of the page as a script whose functions everybody sees."""
+    text = (PACKAGE / "draw" / "assets" / f"{name}.js").read_text(encoding="utf-8")
+    return re.sub(r"^(import .*;$|export )", "", text, flags=re.MULTILINE)

@@ -150,17 +150,17 @@ def test_rails_on_a_moving_body_are_not_hatched() -> None:
 def test_ground_is_hatched_once_under_each_pin_on_it(example: kp.State) -> None:
     scene = kp.scene(example)
     view, poses = frame_view(scene), poses_of(scene)
-    hatched = [one for one in frame_items(scene) if one.get("hatch") and len(one["points"]) == 2]
-    bases = {tuple(np.round(place(one, poses, view).mean(axis=0), 6)) for one in hatched}
-    assert len(bases) == len(hatched)
-    pivots = [
-        at(scene, view, symbol, k)
+    hatched = [one for one in frame_items(scene) if one.get("hatch")]
+    supports = [one for one in hatched if not np.any(np.array(one["points"])[:, :2])]
+    bases = {tuple(np.round(place(one, poses, view).mean(axis=0), 5)) for one in supports}
+    pivots = {
+        tuple(np.round(at(scene, view, symbol, k) - [0.0, 12.0], 5))
         for symbol in scene["symbols"]
         for k in (0, 1)
         if symbol["bodies"][k] == 0 and symbol["mark"] in symbols.PINNED
-    ]
-    for x, y in pivots:
-        assert any(abs(bx - x) < 1e-5 and abs(by - y + 12.0) < 1e-5 for bx, by in bases)
+    }
+    assert bases == pivots
+    assert len(bases) == len(supports)
 
 
 def test_a_rod_reaches_from_point_to_point_with_a_pin_at_each() -> None:

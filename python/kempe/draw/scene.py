@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.compiled import CompiledModel
+from kempe.compiled import COORDINATES, RATES, CompiledModel
 from kempe.draw import channels, sampling, shapes
 from kempe.draw.numbers import plain, round_below, rounded
 from kempe.draw.units import scale
@@ -76,8 +76,8 @@ def scene(
         "traces": _traces(motion, size, traces),
         "frames": {
             "t": plain(motion.t),
-            "poses": plain(motion.q.reshape(len(motion.t), -1, 3)),
-            "rates": plain(motion.v.reshape(len(motion.t), -1, 3)),
+            "poses": plain(_of_bodies(motion, COORDINATES)),
+            "rates": plain(_of_bodies(motion, RATES)),
             "reactions": plain(reactions),
         },
         "interpolation": sampling.interpolation(solution_or_state, motion, size),
@@ -91,6 +91,15 @@ def _length(size: float) -> dict[str, Any]:
     """The unit in which the drawing counts lengths, and what it is in m."""
     chosen = scale("m", size)
     return {"unit": chosen.unit, "metres": chosen.divisor}
+
+
+def _of_bodies(motion: Motion, quantities: Sequence[str]) -> Floats:
+    """Three quantities of each moving body, (n_t, n_bodies, 3)."""
+    found = np.empty((len(motion.t), len(motion.model.bodies), len(quantities)))
+    for k, name in enumerate(motion.model.bodies):
+        for c, quantity in enumerate(quantities):
+            found[:, k, c] = getattr(motion.body(name), quantity)
+    return found
 
 
 def _reactions(motion: Motion) -> Floats:

@@ -32,9 +32,9 @@ def add_dimensions(made: Display) -> None:
         if body["number"] and len(body["outline"]) == 2
     ]
     grounded = [
-        joint["points"][joint["bodies"].index(0)]
-        for joint in scene["joints"]
-        if 0 in joint["bodies"]
+        symbol["points"][symbol["bodies"].index(0)]
+        for symbol in scene["symbols"]
+        if symbol["mark"] in ("pin", "rod") and 0 in symbol["bodies"]
     ]
     if len(grounded) == 2 and grounded[0] != grounded[1]:
         spans.append(((0, 0), grounded))

@@ -9,6 +9,7 @@ import numpy as np
 
 from kempe.arrays import Floats
 from kempe.plot import style
+from kempe.studies.outcome import differences
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,13 +36,7 @@ def error_history(study: Study, ax: Axes) -> None:
     if reference is None:
         return
 
-    def error(solution: Solution) -> Floats:
-        count = min(len(solution.t), len(reference.t))
-        apart = (solution.q[:count] - reference.q[:count]).reshape(count, -1, 3)
-        found: Floats = np.hypot(apart[:, :, 0], apart[:, :, 1]).max(axis=1, initial=0.0)
-        return found
-
-    _draw(ax, _shown(study), error)
+    _draw(ax, _shown(study), lambda solution: differences(solution, reference)[1])
     ax.set_ylabel("position error / m")
     ax.set_title(style.verbatim(f"Difference from {study.reference.variant.name}"))
 

@@ -33,15 +33,18 @@ def transient(motion: Motion) -> float | None:
     duration = float(t[-1] - t[0])
     if len(t) < 3 or duration <= 0.0:
         return None
-    travel = np.ptp(motion.q, axis=0)
-    angles = np.arange(len(travel)) % 3 == 2
-    most = np.where(angles, travel[angles].max(initial=0.0), travel[~angles].max(initial=0.0))
+    bodies = [motion.body(name) for name in motion.model.bodies]
+    angles = [body.angle for body in bodies]
+    places = [values for body in bodies for values in (body.x, body.y)]
     times = []
-    for values in motion.q.T[travel > _STILL * most]:
-        found = settling(t, values)
-        if found.time is None:
-            return None
-        times.append(found.time - float(t[0]))
+    for family in (angles, places):
+        travel = [float(np.ptp(values)) for values in family]
+        for values, far in zip(family, travel, strict=True):
+            if far > _STILL * max(travel):
+                found = settling(t, values)
+                if found.time is None:
+                    return None
+                times.append(found.time - float(t[0]))
     until = _rounded_up(max(times, default=duration))
     return float(t[0]) + until if until <= _LONGEST * duration else None
 

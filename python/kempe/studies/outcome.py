@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from kempe.arrays import Floats, fixed
 from kempe.studies.variants import Variant
 
 if TYPE_CHECKING:
@@ -73,3 +76,15 @@ class Outcomes:
     def group(self, name: str) -> tuple[Outcome, ...]:
         """The outcomes of one group of variants."""
         return tuple(o for o in self.outcomes if o.variant.group == name)
+
+
+def differences(solution: Solution, reference: Solution) -> tuple[Floats, Floats]:
+    """Largest difference of any body's angle, rad, and of any position, m, at each time, (n_t,)."""
+    count = min(len(solution.t), len(reference.t))
+    angle, position = np.zeros(count), np.zeros(count)
+    for name in solution.model.bodies:
+        one, other = solution.body(name), reference.body(name)
+        angle = np.maximum(angle, np.abs(one.angle[:count] - other.angle[:count]))
+        apart = one.r[:count] - other.r[:count]
+        position = np.maximum(position, np.hypot(apart[:, 0], apart[:, 1]))
+    return fixed(angle), fixed(position)

@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe.analyses import simulate
-from kempe.arrays import Floats, fixed
 from kempe.errors import IntegrationError, ModelError, SingularityError
 from kempe.names import one_of
 from kempe.studies import table
 from kempe.studies.findings import findings
-from kempe.studies.outcome import Outcome, Outcomes
+from kempe.studies.outcome import Outcome, Outcomes, differences
 from kempe.studies.variants import Variant, variants
 
 if TYPE_CHECKING:
@@ -161,12 +160,3 @@ def _diverged(way: Variant, partial: Solution | None, t: float | None, reason: s
         evaluations=int(cost.get("evaluations", 0)),
         seconds=float(cost.get("seconds", 0.0)),
     )
-
-
-def differences(solution: Solution, reference: Solution) -> tuple[Floats, Floats]:
-    """Largest difference of any body's angle, rad, and of any position, m, at each time, (n_t,)."""
-    count = min(len(solution.t), len(reference.t))
-    apart = (solution.q[:count] - reference.q[:count]).reshape(count, -1, 3)
-    angle = np.abs(apart[:, :, 2]).max(axis=1, initial=0.0)
-    position = np.hypot(apart[:, :, 0], apart[:, :, 1]).max(axis=1, initial=0.0)
-    return fixed(angle), fixed(position)
