@@ -10,7 +10,7 @@
 
 mod mechanisms;
 
-use kempe::analyses::dynamics::{dynamics, Auto, Options, Output, Run, Scheme, Stabilization};
+use kempe::analyses::dynamics::{dynamics, Auto, Options, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::integrate::{AlphaParameters, Dop853, Flow, GeneralizedAlpha, Radau};
 use kempe::model::Model;
@@ -35,8 +35,8 @@ fn dop853(rtol: f64) -> Scheme {
 
 fn run(model: &Model, start: &State, t_end: f64, scheme: &Scheme, output: f64) -> Run {
     let options = Options {
-        output: Output::Every(output),
-        scheme: scheme.clone(),
+        output_step: Some(output),
+        method: scheme.clone(),
         stabilization: Stabilization::Projection(Projection::default()),
         dense_output: false,
         ..Options::classical(t_end)

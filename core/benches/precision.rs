@@ -10,7 +10,7 @@
 
 mod mechanisms;
 
-use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme, Stabilization};
+use kempe::analyses::dynamics::{dynamics, Options, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::{constraints, kinematics, Gains};
 use kempe::integrate::{Dop853, Flow, Rk45};
@@ -36,8 +36,14 @@ fn scheme(name: &str, rtol: f64) -> Scheme {
 }
 
 fn options(t_end: f64, scheme: Scheme, stabilization: Stabilization) -> Options {
-    let output = Output::Every(0.01);
-    Options { output, scheme, stabilization, dense_output: false, ..Options::classical(t_end) }
+    let output_step = Some(0.01);
+    Options {
+        output_step,
+        method: scheme,
+        stabilization,
+        dense_output: false,
+        ..Options::classical(t_end)
+    }
 }
 
 fn run(model: &Model, start: &State, options: &Options) -> Run {
@@ -48,14 +54,14 @@ fn residual(model: &Model, run: &Run) -> f64 {
     let mut phi = vec![0.0; model.layout.n_rows];
     let states = run.trajectory.t.iter().zip(run.trajectory.q.chunks_exact(model.layout.n_q));
     states.fold(0.0, |worst, (&t, q)| {
-        constraints::residual(model, &kinematics::at_rest(q), t, &mut phi);
+        constraints::residual(model, &kinematics::Motions::at_rest(&model.layout, q), t, &mut phi);
         phi.iter().fold(worst, |worst, phi| worst.max(phi.abs()))
     })
 }
 
 /// Median time of a run, ms.
 fn time(model: &Model, start: &State, options: &Options) -> f64 {
-    let bare = Options { output: Output::Every(options.t_end), ..options.clone() };
+    let bare = Options { output_step: Some(options.t_end), ..options.clone() };
     let mut times: Vec<f64> =
         (0..RUNS).map(|_| 1e3 * run(model, start, &bare).statistics.seconds).collect();
     times.sort_by(f64::total_cmp);

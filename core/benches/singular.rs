@@ -12,10 +12,10 @@
 
 mod mechanisms;
 
-use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme, Stabilization};
+use kempe::analyses::dynamics::{dynamics, Options, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::{constraints, kinematics};
-use kempe::integrate::{Atol, Dop853, FirstOrder, Flow, Method, Rk45, Step};
+use kempe::integrate::{Atol, Dop853, Flow, Method, Ode, Rk45, Step, StepControl};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 use mechanisms::chain;
@@ -42,7 +42,7 @@ fn upright(windows: usize) -> (Model, State) {
 /// ψ″ = ω² sin ψ.
 struct Pendulum(f64);
 
-impl FirstOrder for Pendulum {
+impl Ode for Pendulum {
     type Stop = ();
     fn len(&self) -> usize {
         2
@@ -57,7 +57,7 @@ impl FirstOrder for Pendulum {
 fn truth(windows: usize) -> Vec<[f64; 2]> {
     let n = windows as f64;
     let w2 = 1.5 * 9.81 * (3.0 * n + 1.0) / (4.0 * n + 1.0);
-    let method = Dop853 { rtol: 1e-14, atol: Atol::Scalar(1e-15), ..Dop853::default() };
+    let method = Dop853::new(1e-14, 1e-15);
     let mut y = [0.0, 1.0];
     let mut all = vec![[0.0, 1.0]];
     for k in 0..(T_END / GRID).round() as usize {
@@ -75,12 +75,16 @@ fn truth(windows: usize) -> Vec<[f64; 2]> {
 fn options(scheme: &str, rtol: f64) -> Options {
     let atol = Atol::Scalar(1e-3 * rtol);
     Options {
-        output: Output::Every(GRID),
+        output_step: Some(GRID),
         dense_output: false,
         stabilization: Stabilization::Projection(Projection::default()),
-        scheme: match scheme {
-            "rk45" => Scheme::Rk45(Rk45 { rtol, atol, ..Rk45::default() }),
-            _ => Scheme::Dop853(Dop853 { rtol, atol, ..Dop853::default() }),
+        method: match scheme {
+            "rk45" => {
+                Scheme::Rk45(Rk45 { control: StepControl { rtol, atol, ..StepControl::default() } })
+            }
+            _ => Scheme::Dop853(Dop853 {
+                control: StepControl { rtol, atol, ..StepControl::default() },
+            }),
         },
         ..Options::classical(T_END)
     }
@@ -93,7 +97,7 @@ fn errors(model: &Model, run: &Run, truth: &[[f64; 2]]) -> (f64, f64) {
     let (mut error, mut residual) = (0.0_f64, 0.0_f64);
     for ((q, t), [x, y]) in run.trajectory.q.chunks_exact(n).zip(&run.trajectory.t).zip(truth) {
         error = error.max((2.0 * q[0] - x).hypot(2.0 * q[1] - y));
-        constraints::residual(model, &kinematics::at_rest(q), *t, &mut phi);
+        constraints::residual(model, &kinematics::Motions::at_rest(&model.layout, q), *t, &mut phi);
         residual = phi.iter().fold(residual, |r, phi| r.max(phi.abs()));
     }
     (error, residual)
@@ -106,7 +110,7 @@ fn measure(windows: usize, scheme: &str, rtol: f64, truth: &[[f64; 2]]) {
         Ok(run) => {
             let (error, residual) = errors(&model, &run, truth);
             let s = run.statistics;
-            let plain = Options { output: Output::Steps, ..options(scheme, rtol) };
+            let plain = Options { output_step: None, ..options(scheme, rtol) };
             let bare = dynamics(&model, &start, &plain, |_| Flow::Continue);
             let ms = bare.map_or(f64::NAN, |run| run.statistics.seconds * 1e3);
             println!(

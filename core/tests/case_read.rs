@@ -1,7 +1,9 @@
 //! Reading: the flagship as a case, and what the text of TOML and JSON may do.
 
+use kempe::analyses::dynamics::{self, Options, Scheme, Stabilization};
+use kempe::analyses::options::Member;
 use kempe::case::{self, Format};
-use kempe::model::Value;
+use kempe::model::{build, Model, Value};
 
 const FOUR_BAR: &str = include_str!("../../examples/four_bar.toml");
 
@@ -87,4 +89,51 @@ fn escapes_of_json_are_decoded() {
         ("b".to_string(), Value::List(vec![Value::Flag(true), (-150.0).into()])),
     ]);
     assert_eq!(case::parse_tree(json, Format::Json), Ok(wanted));
+}
+
+#[test]
+fn the_start_of_a_state_of_an_element_is_left_to_the_model() {
+    let text = |section: &str| {
+        format!(
+            "kempe = 1\n[start]\nset = {{ 'M.current' = 2 }}\nguess.M.current = 1\n[{section}.M]\n"
+        )
+    };
+    let torque = "type = 'torque'\nj = 'a'\ntorque = 1\n";
+    let (case, _) = case::read(&(text("forces") + torque), Format::Toml).expect("M is an element");
+    assert_eq!(case.start.set, [("M.current".to_string(), Value::Number(2.0))]);
+    assert_eq!(case.start.guess, [("M.current".to_string(), Value::Number(1.0))]);
+    let body = text("bodies") + "mass = 1\ninertia = 1\n";
+    let faults = case::read(&body, Format::Toml).expect_err("a body has no states");
+    assert_eq!(faults.len(), 2);
+    assert!(faults[0].message.contains("unknown coordinate 'current'"));
+}
+
+fn four_bar() -> Model {
+    let (case, _) = case::read(FOUR_BAR, Format::Toml).expect("the example is right");
+    build(&case.definition, &[]).expect("the model is right")
+}
+
+fn options(fields: &[(&str, Value)]) -> Options {
+    let fields: Vec<(String, Value)> =
+        fields.iter().map(|(key, value)| (key.to_string(), value.clone())).collect();
+    dynamics::read(&four_bar(), &fields, &[]).expect("the options are right")
+}
+
+#[test]
+fn defaults_of_a_file_are_those_of_the_constructors() {
+    let (t_end, chosen) = (("t_end", Value::Number(1.0)), |kind: &str| {
+        Value::Table(vec![("type".to_string(), Value::from(kind))])
+    });
+    assert_eq!(options(std::slice::from_ref(&t_end)), Options::new(1.0));
+    for (key, family, default) in [
+        ("method", Scheme::family(), "auto"),
+        ("stabilization", Stabilization::family(), "projection"),
+    ] {
+        assert_eq!(family.name, key);
+        assert_eq!(family.options[0].table.name, default);
+        let read = options(&[t_end.clone(), (key, chosen(default))]);
+        assert_eq!(read, Options::new(1.0), "{default}");
+    }
+    let classical = [t_end, ("method", chosen("rk45")), ("stabilization", chosen("baumgarte"))];
+    assert_eq!(options(&classical), Options::classical(1.0));
 }

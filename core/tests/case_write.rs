@@ -106,8 +106,14 @@ impl Dice {
             Shape::Options(family) => {
                 let families = kempe::analyses::option_families();
                 let family = families.iter().find(|f| f.name == family).expect("it is listed");
-                let table = self.pick(&family.options).table;
-                Value::Table(self.fields(&table, true, used))
+                let options = self.pick(&family.options);
+                let mut fields = self.fields(&options.table, true, used);
+                for (one, others) in options.excludes {
+                    if fields.iter().any(|(key, _)| key == one) {
+                        fields.retain(|(key, _)| !others.contains(&key.as_str()));
+                    }
+                }
+                Value::Table(fields)
             }
         }
     }
@@ -151,7 +157,9 @@ impl Dice {
             drivers: self.entries(&elements(Group::Drivers), used),
             forces: self.entries(&elements(Group::Forces), used),
         };
-        let analyses = self.entries(kempe::analyses::analysis_tables(), used);
+        let analyses: Vec<Table> =
+            kempe::analyses::declarations().iter().map(|d| d.table.clone()).collect();
+        let analyses = self.entries(&analyses, used);
         let start = Start { set: self.coordinates(used), guess: self.coordinates(used) };
         Case { definition, start, analyses: analyses.into_iter().map(consistent).collect() }
     }

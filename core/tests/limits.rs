@@ -2,9 +2,9 @@
 
 mod mechanisms;
 
-use kempe::analyses::dynamics::{dynamics, most_steps, Failure, Options, Output, Reason, Scheme};
+use kempe::analyses::dynamics::{dynamics, most_steps, Failure, Options, Reason, Scheme};
 use kempe::analyses::State;
-use kempe::integrate::{Flow, Rk4, Rk45};
+use kempe::integrate::{Flow, Rk4, Rk45, StepControl};
 use kempe::model::Model;
 use mechanisms::{close, four_bar, largest, model, rate, start};
 
@@ -35,7 +35,7 @@ fn a_kinetic_energy_that_is_no_number_is_no_success() {
     let scheme = Scheme::Rk4(Rk4::new(1e-200));
     for dense_output in [false, true] {
         let options =
-            Options { scheme: scheme.clone(), dense_output, ..Options::classical(3e-200) };
+            Options { method: scheme.clone(), dense_output, ..Options::classical(3e-200) };
         let found = dynamics(&m, &state, &options, |_| Flow::Continue);
         let energies = found.map_err(|failure| failure.reason).and_then(|run| run.energies(&m));
         let told = energies.unwrap_err().to_string();
@@ -52,11 +52,12 @@ fn a_partial_solution_is_finite() {
     );
     let (state, _) = start(&m, &[("ball.angle", "1")], &[]);
     let scheme = Scheme::Rk4(Rk4::new(0.25));
-    let failure = failed(&m, &state, &Options { scheme, ..Options::classical(100.0) });
+    let failure = failed(&m, &state, &Options { method: scheme, ..Options::classical(100.0) });
     assert!(matches!(failure.reason, Reason::Integration { .. }), "{:?}", failure.reason);
     let run = &failure.run;
     assert!(run.trajectory.t.len() > 3);
-    for table in [&run.trajectory.q, &run.responses(&m).unwrap().a, &run.energies(&m).unwrap()] {
+    for table in [&run.trajectory.q, &run.accelerations(&m).unwrap().a, &run.energies(&m).unwrap()]
+    {
         assert!(table.iter().all(|x| x.is_finite()), "{table:?}");
     }
     assert!(run.dense.as_ref().unwrap().c.iter().all(|x| x.is_finite()));
@@ -101,14 +102,15 @@ value = "0.3 + 2*t"
 fn a_run_without_end_ends() {
     let (m, state) = four_bar();
     assert_eq!(most_steps(&m), 333_333);
-    let scheme = Scheme::Rk45(Rk45 { max_step: 1e-12, ..Rk45::default() });
-    let failure = failed(&m, &state, &Options { scheme, ..Options::classical(1.0) });
+    let scheme =
+        Scheme::Rk45(Rk45 { control: StepControl { max_step: 1e-12, ..StepControl::default() } });
+    let failure = failed(&m, &state, &Options { method: scheme, ..Options::classical(1.0) });
     let Reason::Integration { t, message, hint } = failure.reason else { panic!("integration") };
     assert_eq!((t, failure.run.trajectory.t.len()), (0.0, 1));
     assert!(message.contains("more than max_steps = 333333"), "{message}");
     assert!(hint.contains("larger steps"), "{hint}");
 
-    let options = Options { output: Output::Every(1e-12), ..Options::classical(1.0) };
+    let options = Options { output_step: Some(1e-12), ..Options::classical(1.0) };
     let Reason::Option { name, .. } = failed(&m, &state, &options).reason else { panic!("option") };
     assert_eq!(name, "output_step");
 }

@@ -2,7 +2,7 @@
 
 mod mechanisms;
 
-use kempe::analyses::dynamics::{dynamics, Options, Output, Prepared, Run, Scheme, Stabilization};
+use kempe::analyses::dynamics::{dynamics, Options, Prepared, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::integrate::{Dop853, Flow, Radau, Rk45};
 use kempe::model::Model;
@@ -12,28 +12,28 @@ use std::sync::Arc;
 /// Steps and grids of few states and of many, by several methods; some want the model over lanes, some do not.
 fn ways() -> Vec<Options> {
     let base = Options::new(0.3);
-    let every = |n: f64| Output::Every(0.3 / n);
+    let every = |n: f64| Some(0.3 / n);
     vec![
-        Options { output: every(5.0), ..base.clone() },
-        Options { output: every(90.0), ..base.clone() },
+        Options { output_step: every(5.0), ..base.clone() },
+        Options { output_step: every(90.0), ..base.clone() },
         base.clone(),
         Options {
-            scheme: Scheme::Dop853(Dop853::new(1e-5, 1e-8)),
-            output: every(77.0),
+            method: Scheme::Dop853(Dop853::new(1e-5, 1e-8)),
+            output_step: every(77.0),
             ..base.clone()
         },
         Options {
-            scheme: Scheme::Radau(Radau::new(1e-5, 1e-8)),
-            output: every(50.0),
+            method: Scheme::Radau(Radau::new(1e-5, 1e-8)),
+            output_step: every(50.0),
             ..base.clone()
         },
         Options {
-            scheme: Scheme::Rk45(Rk45::new(1e-6, 1e-9)),
+            method: Scheme::Rk45(Rk45::new(1e-6, 1e-9)),
             stabilization: Stabilization::BaumgarteFromStep,
-            output: every(40.0),
+            output_step: every(40.0),
             ..base.clone()
         },
-        Options { output: every(90.0), ..Options::classical(0.3) },
+        Options { output_step: every(90.0), ..Options::classical(0.3) },
     ]
 }
 

@@ -6,7 +6,6 @@ use kempe::analyses::dynamics::{dynamics, Options, Reason, Scheme, Stabilization
 use kempe::analyses::State;
 use kempe::equations::{dense, energy, kinematics, mass, Workspace};
 use kempe::integrate::{Flow, Rk4};
-use kempe::math::Motion;
 use kempe::model::Model;
 use kempe::stabilize::{Fault, Projection, Projector};
 use mechanisms::{
@@ -26,15 +25,9 @@ fn project(m: &Model, state: &State) -> Result<(State, bool), Fault> {
     Ok((out, changed))
 }
 
-fn motions(state: &State) -> Vec<Motion> {
-    let mut motions = Vec::new();
-    kinematics::motions(&state.q, &state.v, &mut motions);
-    motions
-}
-
 /// M x at a state.
 fn mass_times(m: &Model, state: &State, x: &[f64]) -> Vec<f64> {
-    let motions = motions(state);
+    let motions = kinematics::Motions::at(&m.layout, &state.q, &state.v);
     let bodies = m.bodies[1..].iter().zip(&motions[1..]).zip(x.chunks_exact(3));
     bodies.flat_map(|((b, motion), x)| mass::block(b, motion).times([x[0], x[1], x[2]])).collect()
 }
@@ -60,7 +53,7 @@ fn the_nearest_state_in_the_metric_of_the_masses() {
         assert!(changed);
         assert!(largest(&residual(&m, &found)) < 1e-11 && largest(&rate(&m, &found)) < 1e-11);
         // the velocities found span the admissible ones, of which there is one direction
-        let phi_q = dense::jacobian(&m, &kinematics::at_rest(&found.q), 0.0);
+        let phi_q = dense::jacobian(&m, &kinematics::Motions::at_rest(&m.layout, &found.q), 0.0);
         assert!(phi_q.chunks_exact(9).all(|row| dot(row, &found.v).abs() < 1e-11));
         let momentum = mass_times(&m, &found, &found.v);
         let by = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<f64>>();
@@ -72,7 +65,9 @@ fn the_nearest_state_in_the_metric_of_the_masses() {
         // chord directions are those of a state nearby
         assert!(cosine(&dv).abs() < 10.0 * size, "{:.2e}", cosine(&dv));
         assert!(cosine(&dq).abs() < 10.0 * size, "{:.2e}", cosine(&dq));
-        let kinetic = |state: &State| energy::kinetic(&m, &motions(state));
+        let kinetic = |state: &State| {
+            energy::kinetic(&m, &kinematics::Motions::at(&m.layout, &state.q, &state.v))
+        };
         assert!(kinetic(&found) < kinetic(&state));
     }
 }
@@ -94,7 +89,7 @@ fn a_factor_from_elsewhere_only_costs_iterations() {
         (Projector::new(&m, Projection::default()), Workspace::new(&m));
     let (_, mut elsewhere) = off(1.0);
     let gains = kempe::equations::Gains::default();
-    workspace.accelerate(&m, 0.0, &elsewhere.q, &elsewhere.v, gains).unwrap();
+    workspace.accelerate(&m, 0.0, [&elsewhere.q, &elsewhere.v, &[]], gains).unwrap();
     elsewhere = state;
     let State { q, v, .. } = &mut elsewhere;
     projector.project(&mut workspace, 0.0, (q, v), true).unwrap();
@@ -235,7 +230,7 @@ fn constant_steps_are_projected_and_keep_their_order() {
     let (m, state) = four_bar();
     let constant = |step: f64, stabilization| {
         let scheme = Scheme::Rk4(Rk4::new(step));
-        Options { scheme, stabilization, dense_output: false, ..Options::classical(0.05) }
+        Options { method: scheme, stabilization, dense_output: false, ..Options::classical(0.05) }
     };
     let projection = Stabilization::Projection(Projection::default());
     let end = |options: &Options| {

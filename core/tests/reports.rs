@@ -3,7 +3,7 @@
 mod mechanisms;
 
 use kempe::analyses::dynamics::{
-    dynamics, Options, Output, Responses, Run, Scheme, Stabilization, Trajectory,
+    dynamics, Accelerations, Options, Run, Scheme, Stabilization, Trajectory,
 };
 use kempe::analyses::State;
 use kempe::integrate::{Flow, Rk4};
@@ -11,7 +11,7 @@ use kempe::model::Model;
 use mechanisms::{four_bar, model, start, SLIDER_CRANK};
 
 fn run(m: &Model, s: &State, options: &Options, h: f64) -> Run {
-    let options = Options { output: Output::Every(h), ..options.clone() };
+    let options = Options { output_step: Some(h), ..options.clone() };
     dynamics(m, s, &options, |_| Flow::Continue).unwrap()
 }
 
@@ -19,7 +19,7 @@ fn run(m: &Model, s: &State, options: &Options, h: f64) -> Run {
 fn difference(m: &Model, many: &Run, few: &Run, ratio: usize) -> f64 {
     let rows = few.trajectory.t.len();
     let tables = |run: &Run| {
-        let Responses { a, lam } = run.responses(m).unwrap();
+        let Accelerations { a, lam } = run.accelerations(m).unwrap();
         let Trajectory { q, v, works, .. } = run.trajectory.clone();
         [q, v, works, a, lam]
     };
@@ -118,7 +118,7 @@ fn the_flagship_by_any_way() {
     agree(&m, &s, &Options::new(0.2));
     agree(&m, &s, &Options::classical(0.2));
     agree(&m, &s, &Options { stabilization: Stabilization::None, ..Options::new(0.2) });
-    agree(&m, &s, &Options { scheme: Scheme::Rk4(Rk4::new(2e-3)), ..Options::new(0.2) });
+    agree(&m, &s, &Options { method: Scheme::Rk4(Rk4::new(2e-3)), ..Options::new(0.2) });
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn backward_in_time() {
 #[test]
 fn stopped_where_the_caller_stops() {
     let (m, s) = four_bar();
-    let options = Options { output: Output::Every(1e-3), ..Options::new(1.0) };
+    let options = Options { output_step: Some(1e-3), ..Options::new(1.0) };
     let watch = |t: f64| if t >= 0.0305 { Flow::Stop } else { Flow::Continue };
     let stopped = dynamics(&m, &s, &options, watch).unwrap();
     // all that was seen before is there, though it is not a whole number of fours

@@ -36,10 +36,9 @@ if TYPE_CHECKING:
     from kempe.errors import ModelError as ModelError
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
-    from kempe.labelled import Labelled as Labelled
-    from kempe.labelled import equations as equations
-    from kempe.labelled import show as show
+    from kempe.matrices import Labelled as Labelled
     from kempe.matrices import Matrices as Matrices
+    from kempe.matrices import show as show
     from kempe.model import Model as Model
     from kempe.motion import Motion as Motion
     from kempe.options import DOP853 as DOP853
@@ -58,6 +57,7 @@ if TYPE_CHECKING:
     from kempe.state import State as State
     from kempe.studies import Study as Study
     from kempe.studies import study as study
+    from kempe.symbolic import equations as equations
 
 #: Public name → the module of kempe that holds it; "" means that the name is a module itself.
 _HOME = {
@@ -76,7 +76,7 @@ _HOME = {
     "IntegrationError": "errors",
     "InternalError": "errors",
     "KempeError": "errors",
-    "Labelled": "labelled",
+    "Labelled": "matrices",
     "Matrices": "matrices",
     "Model": "model",
     "ModelError": "errors",
@@ -97,7 +97,7 @@ _HOME = {
     "assemble": "analyses",
     "draw": "",
     "dynamics": "analyses",
-    "equations": "labelled",
+    "equations": "symbolic",
     "errors": "",
     "load": "case",
     "load_solution": "archive",
@@ -105,7 +105,7 @@ _HOME = {
     "plot": "",
     "report": "",
     "scene": "draw.scene",
-    "show": "labelled",
+    "show": "matrices",
     "study": "studies",
 }
 

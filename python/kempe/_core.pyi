@@ -20,7 +20,7 @@ def catalogue() -> str:
     ``{"bodies": [table], "joints": …, "drivers": …, "forces": …, "methods": …,
     "stabilizations": …, "analyses": …}`` with ``table = {"name", "doc", "fields": [{"name",
     "shape", "unit", "default", "doc"}]}``; joints and drivers have
-    ``"formulas": [{"residual", "jacobian": [6 texts], "gamma"}]`` too; shapes are body, point,
+    ``"formulas"`` as ``formulas`` gives them, in Unicode; shapes are body, point,
     coordinate, number, law, pair and others. Then the language of formulas: ``"functions":
     [{"name", "arguments", "doc"}]`` and ``"units": [{"name", "si", "dimension"}]``, with ``si`` the
     factor to the SI unit.
@@ -204,6 +204,18 @@ def matrices(model: Model, t: float, q: _F, v: _F, set: str) -> dict[str, _F]:  
         set: further driver rows, as in ``assemble``.
     """
 
-def _entries() -> list[str]: ...
+def formulas(model: Model, name: str, written: dict[str, str], form: str) -> str:
+    """Φ, Φ_q and γ of a joint or driver as formulas, as JSON.
+
+    ``{"columns": [text], "definitions": [[name, text]], "rows": [{"residual", "jacobian": [text],
+    "gamma"}], "names": [text]}`` with one entry of ``jacobian`` for each column.
+
+    Args:
+        model: the mechanism.
+        name: of the joint or driver.
+        written: the fields of its entry that are texts; points are named as written there.
+        form: "expression", "unicode" or "latex".
+    """
+
 def _inject_panic(entry: str | None) -> None: ...
 def _raise(kind: str, message: str) -> None: ...

@@ -79,15 +79,15 @@ def entry(declared: dict[str, Any]) -> str:
     return f"{text}\n{table(FIELDS, rows)}{shown}"
 
 
-def equations(formulas: list[dict[str, Any]]) -> str:
-    """Φ, the row of Φ_q and γ of each equation of a joint, as the core tells them."""
-    lines = []
-    for formula in formulas:
-        lines += [f"Φ   = {formula['residual']}"]
-        lines += [f"Φ_q = [{', '.join(formula['jacobian'])}]"]
-        lines += [f"γ   = {formula['gamma']}", ""]
-    told = "\n".join(lines[:-1])
-    about = "Its equations, with Φ_q by x, y and angle of body i and of body j:"
+def equations(formulas: dict[str, Any]) -> str:
+    """Φ, the row of Φ_q and γ of each equation of a joint, as the core prints them."""
+    parts = [f"{name} = {text}" for name, text in formulas["definitions"]]
+    blocks = ["\n".join(parts)] if parts else []
+    for row in formulas["rows"]:
+        entries = ", ".join(row["jacobian"])
+        blocks.append(f"Φ   = {row['residual']}\nΦ_q = [{entries}]\nγ   = {row['gamma']}")
+    about = f"Its equations, with Φ_q by {', '.join(formulas['columns'])}:"
+    told = "\n\n".join(blocks)
     return f"\n{about}\n\n```\n{told}\n```\n"
 
 

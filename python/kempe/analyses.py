@@ -10,11 +10,12 @@ import numpy as np
 
 from kempe import _core
 from kempe.compiled import CompiledModel
-from kempe.entries import Request, encode, request
 from kempe.errors import ModelError
 from kempe.model import Model
 from kempe.names import one_of
-from kempe.options import Auto, Dynamics, Option, Projection, core_options
+from kempe.option import Option, core_options
+from kempe.options import Auto, Dynamics, Projection
+from kempe.request_cache import Request, encode, request
 from kempe.solution import Solution
 from kempe.state import AssemblyReport, State
 from kempe.values import Number, number, numbers

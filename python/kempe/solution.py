@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe.arrays import Floats, fixed
-from kempe.beginning import Beginning
 from kempe.compiled import CompiledModel
 from kempe.dense import DenseOutput
 from kempe.energy import Energy
 from kempe.errors import IntegrationError, ModelError, SingularityError
 from kempe.motion import Motion
+from kempe.partial_run import PartialRun
 from kempe.state import State
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ class Solution(Motion):
         except (IntegrationError, SingularityError) as error:
             rows = int(np.count_nonzero(np.cumsum(self.t == error.t) == 0))
             if rows:
-                kept = Beginning(self._run, rows, str(error))
+                kept = PartialRun(self._run, rows, str(error))
                 error.solution = Solution(self.model, kept)  # type: ignore[arg-type,union-attr]
             raise
 

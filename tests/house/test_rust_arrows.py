@@ -6,7 +6,17 @@ import pytest
 from house.places import CORE
 from house.rust_source import modules_named
 
-LAYERS = ["math", "expression", "elements", "model", "equations", "stabilize", "analyses", "case"]
+LAYERS = [
+    "math",
+    "expression",
+    "symbolic",
+    "elements",
+    "model",
+    "equations",
+    "stabilize",
+    "analyses",
+    "case",
+]
 
 #: Module → the modules it may name. Numerical methods know no mechanics.
 MAY_USE = {name: set(LAYERS[: at + 1]) for at, name in enumerate(LAYERS)}

@@ -2,13 +2,14 @@
 
 import json
 from dataclasses import MISSING, fields
+from pathlib import Path
 
 import kempe as kp
 import numpy as np
 import pytest
-from kempe import _core
+from kempe import _core, _generate, options
 from kempe.bodies import Bar, Body
-from kempe.options import Option
+from kempe.option import Option
 
 CATALOGUE = json.loads(_core.catalogue())
 FAMILIES = [*CATALOGUE["methods"], *CATALOGUE["stabilizations"]]
@@ -50,9 +51,13 @@ def test_bodies_are_those_of_the_core(kind: type) -> None:
 
 def test_a_simulation_has_the_fields_of_the_core() -> None:
     (table,) = (table for table in CATALOGUE["analyses"] if table["name"] == "dynamics")
-    names = {"after" if name == "from" else name for name in declared(table)}
-    # output = "steps" is what output_step=None means
-    assert set(defaults(kp.Dynamics)) == names - {"output"}
+    names = ["after" if name == "from" else name for name in declared(table)]
+    assert list(defaults(kp.Dynamics)) == names
+
+
+def test_the_options_are_what_the_catalogue_says() -> None:
+    written = Path(options.__file__).read_text(encoding="utf-8")
+    assert _generate.options_source(_core.catalogue()) == written
 
 
 def test_all_options_reach_the_core(model: kp.Model) -> None:
@@ -88,7 +93,7 @@ def test_a_constant_step_is_kept(
 ) -> None:
     sol = kp.dynamics(model, start, t_end=0.1, method=method(step=0.001))
     np.testing.assert_allclose(np.diff(sol.t), 0.001, rtol=1e-12)
-    with pytest.raises(kp.ModelError, match=r"max_step: 1; must be absent beside a constant step"):
+    with pytest.raises(kp.ModelError, match=r"max_step: not together with step; remove one"):
         kp.dynamics(model, start, t_end=0.1, method=method(step=0.001, max_step=1))
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
-from kempe import entries
+from kempe import request_cache
 from kempe.model import Model
 from kempe.solution import Solution
 from kempe.state import State
@@ -19,9 +19,9 @@ GRID: dict[str, Any] = {"t_end": 0.1, "output_step": 0.005}
 
 @pytest.fixture(autouse=True)
 def nothing_kept() -> Iterator[None]:
-    entries._kept.clear()
+    request_cache._kept.clear()
     yield
-    entries._kept.clear()
+    request_cache._kept.clear()
 
 
 def numbers(sol: Solution) -> tuple[bytes, ...]:
@@ -30,7 +30,7 @@ def numbers(sol: Solution) -> tuple[bytes, ...]:
 
 def anew(model: Model, start: State, **wanted: Any) -> Solution:
     """The same asked of a model that nothing was asked of, with nothing kept."""
-    entries._kept.clear()
+    request_cache._kept.clear()
     fresh = Model.from_tree(model.tree())
     return kp.dynamics(fresh, start, **wanted)
 
@@ -44,7 +44,7 @@ def message(model: Model, start: State, **wanted: Any) -> str:
 @pytest.mark.parametrize("method", [kp.DOP853(rtol=1e-5), kp.Radau(), kp.Auto(), kp.RK4(1e-3)])
 def test_the_same_asked_again_gives_the_same_bits(model: Model, start: State, method: Any) -> None:
     first, again = (kp.dynamics(model, start, method=method, **GRID) for _ in range(2))
-    assert len(entries._kept) == 1
+    assert len(request_cache._kept) == 1
     assert numbers(first) == numbers(again)
     assert numbers(again) == numbers(anew(model, start, method=method, **GRID))
 
@@ -64,9 +64,9 @@ def test_what_differs_is_not_taken_for_the_same(model: Model, start: State) -> N
     for _ in range(2):
         for way in ways:
             sol = kp.dynamics(model, start, **GRID, **way)
-            kept = dict(entries._kept)
+            kept = dict(request_cache._kept)
             fresh = anew(model, start, **GRID, **way)
-            entries._kept.update(kept)
+            request_cache._kept.update(kept)
             assert numbers(sol) == numbers(fresh)
             assert (sol.dense is None) == (fresh.dense is None)
             assert sol.statistics["evaluations"] == fresh.statistics["evaluations"]
@@ -82,7 +82,7 @@ def test_the_end_is_that_of_the_call(model: Model, start: State) -> None:
         assert json.loads(sol.model.case) == json.loads(fresh.model.case)
     for wrong in (float("nan"), float("inf"), True, None, "", "nothing", Decimal(1)):
         told = message(model, start, t_end=wrong, output_step=0.01)
-        entries._kept.clear()
+        request_cache._kept.clear()
         assert told == message(model, start, t_end=wrong, output_step=0.01)
         kp.dynamics(model, start, t_end=0.1, output_step=0.01)
 
@@ -133,9 +133,9 @@ def test_formulas_are_of_the_model_that_is_asked(model: Model, start: State) -> 
 
 
 def test_no_more_are_kept_than_few(model: Model, start: State) -> None:
-    for k in range(entries._MOST + 3):
+    for k in range(request_cache._MOST + 3):
         kp.dynamics(model, start, t_end=0.001, method=kp.RK45(rtol=1e-3 * (k + 1)))
-    assert len(entries._kept) <= entries._MOST
+    assert len(request_cache._kept) <= request_cache._MOST
 
 
 def test_threads_get_what_they_ask_for(model: Model, start: State) -> None:

@@ -3,7 +3,7 @@
 use crate::evaluations::{assembled, FLAGSHIP};
 use crate::turns::medians;
 use cpu_time::ThreadTime;
-use kempe::analyses::dynamics::{dynamics, Options, Output, Scheme};
+use kempe::analyses::dynamics::{dynamics, Options, Scheme};
 use kempe::integrate::{Flow, Rk45};
 use kempe_floor::chain::Chain;
 use kempe_floor::dormand_prince::{integrate, Effort};
@@ -29,14 +29,14 @@ pub fn measure(repeat: usize) -> Value {
     let at = |rtol: f64| {
         let tolerances = (rtol, 1e-3 * rtol);
         let options = Options {
-            output: Output::Every(GRID),
+            output_step: Some(GRID),
             dense_output: false,
-            scheme: Scheme::Rk45(Rk45::new(rtol, 1e-3 * rtol)),
+            method: Scheme::Rk45(Rk45::new(rtol, 1e-3 * rtol)),
             ..Options::classical(T_END)
         };
         let general = || {
             let run = dynamics(&model, &start, &options, |_| Flow::Continue).expect("runs well");
-            let responses = run.responses(&model).expect("regular all along");
+            let responses = run.accelerations(&model).expect("regular all along");
             (run, responses)
         };
         let found = medians(

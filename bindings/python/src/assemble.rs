@@ -1,11 +1,10 @@
 //! Assembly as Python sees it.
 
-use crate::case::{raise_plain, tree};
-use crate::convert::{number, state, Row};
-use crate::errors::{Failure, Kind};
+use crate::convert::{number, state, tree, Row};
+use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
-use kempe::analyses::assemble::{self as core, Fault, Report, Request, Wish};
+use kempe::analyses::assemble::{self as core, Fault, Report, Request, Target};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use serde_json::{json, Value};
@@ -13,9 +12,14 @@ use serde_json::{json, Value};
 /// Time, q, v, and the report as JSON.
 type Assembled<'py> = (f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, String);
 
-/// Wishes from a JSON text.
-pub fn wishes(py: Python<'_>, model: &PyModel, section: &str, text: &str) -> PyResult<Vec<Wish>> {
-    core::wishes(&model.model, section, &tree(py, text)?).map_err(|mut found| {
+/// Targets from a JSON text.
+pub fn targets(
+    py: Python<'_>,
+    model: &PyModel,
+    section: &str,
+    text: &str,
+) -> PyResult<Vec<Target>> {
+    core::targets(&model.model, section, &tree(py, text)?).map_err(|mut found| {
         for problem in &mut found {
             problem.path.remove(0); // "start" is a section of files
         }
@@ -43,8 +47,8 @@ pub fn assemble<'py>(
             _ => None,
         };
         let request = Request {
-            set: wishes(py, model, "set", set)?,
-            guess: wishes(py, model, "guess", guess)?,
+            set: targets(py, model, "set", set)?,
+            guess: targets(py, model, "guess", guess)?,
             state: given,
             t: number(py, "t", t)?,
             from_guess,

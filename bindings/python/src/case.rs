@@ -1,6 +1,7 @@
 //! A case as Python sees it: text in, text out, and the compiled model.
 
-use crate::errors::{Failure, Kind, Problem};
+use crate::convert::tree;
+use crate::errors::{raise, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
 use kempe::case::{self, Case, Diagnostic, Document, Format};
@@ -24,53 +25,6 @@ fn format_named(py: Python<'_>, name: &str) -> PyResult<Format> {
             Err(Failure::new(Kind::File, format!("format '{name}'; must be toml or json"))
                 .raise(py))
         }
-    }
-}
-
-/// A fault for Python: with its place in a file, or by path alone where there is no file.
-fn problem(diagnostic: &Diagnostic, origin: Option<&str>) -> Problem {
-    let path = diagnostic.path.join(".");
-    if origin.is_some() {
-        let position = Some((diagnostic.line, diagnostic.column));
-        return Problem { message: diagnostic.to_string(), path, position };
-    }
-    let hint = diagnostic.hint.as_ref().map(|hint| format!("; {hint}")).unwrap_or_default();
-    let place = if path.is_empty() { String::new() } else { format!("{path}: ") };
-    Problem { message: format!("{place}{}{hint}", diagnostic.message), path, position: None }
-}
-
-/// All faults as one exception.
-pub fn raise(py: Python<'_>, kind: Kind, found: &[Diagnostic], origin: Option<&str>) -> PyErr {
-    let problems: Vec<Problem> = found.iter().map(|d| problem(d, origin)).collect();
-    let texts: Vec<&str> = problems.iter().map(|p| p.message.as_str()).collect();
-    let text = texts.join("\n");
-    let message = match origin {
-        Some(origin) if found.len() == 1 => format!("{origin}: {text}"),
-        Some(origin) => format!("{origin}: {} problems\n{text}", found.len()),
-        None => text,
-    };
-    let name = found.first().and_then(|d| d.path.get(1).cloned()).unwrap_or_default();
-    Failure::new(kind, message).name(name).problems(problems).raise(py)
-}
-
-/// Faults that have no text behind them, as one exception.
-pub fn raise_plain(py: Python<'_>, kind: Kind, found: &[model::Problem]) -> PyErr {
-    let problem = |p: &model::Problem| Problem {
-        message: p.to_string(),
-        path: p.path.join("."),
-        position: None,
-    };
-    let problems: Vec<Problem> = found.iter().map(problem).collect();
-    let texts: Vec<&str> = problems.iter().map(|p| p.message.as_str()).collect();
-    Failure::new(kind, texts.join("\n")).problems(problems).raise(py)
-}
-
-/// The value of a JSON text that the front wrote.
-pub fn tree(py: Python<'_>, text: &str) -> PyResult<Vec<(String, Value)>> {
-    match case::parse_tree(text, Format::Json) {
-        Ok(Value::Table(fields)) => Ok(fields),
-        Ok(_) => Ok(Vec::new()),
-        Err(found) => Err(raise(py, Kind::Model, &found, None)),
     }
 }
 
@@ -122,8 +76,8 @@ impl PyCase {
         guard("Case.check", || {
             let mut found = Vec::new();
             let start = &self.case.start;
-            for (section, wishes) in [("set", &start.set), ("guess", &start.guess)] {
-                let read = kempe::analyses::assemble::wishes(&model.model, section, wishes);
+            for (section, targets) in [("set", &start.set), ("guess", &start.guess)] {
+                let read = kempe::analyses::assemble::targets(&model.model, section, targets);
                 found.extend(read.err().unwrap_or_default());
             }
             for entry in &self.case.analyses {

@@ -1,8 +1,9 @@
 //! Arrays in and out, checked: shapes and finiteness are told by name.
 
-use crate::errors::{Failure, Kind};
+use crate::errors::{raise, Failure, Kind};
 use kempe::analyses::State;
-use kempe::model::Model;
+use kempe::case::{self, Format};
+use kempe::model::{Model, Value};
 use numpy::ndarray::{Array2, Dimension};
 use numpy::{IntoPyArray, PyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -59,6 +60,15 @@ pub fn state(py: Python<'_>, model: &Model, t: f64, q: &Row<'_>, v: &Row<'_>) ->
     let n = model.layout.n_q;
     let (q, v) = (row(py, "q", q, n)?, row(py, "v", v, n)?);
     Ok(State { t: number(py, "t", t)?, q, v, z: Vec::new() })
+}
+
+/// The value of a JSON text that the front wrote.
+pub fn tree(py: Python<'_>, text: &str) -> PyResult<Vec<(String, Value)>> {
+    match case::parse_tree(text, Format::Json) {
+        Ok(Value::Table(fields)) => Ok(fields),
+        Ok(_) => Ok(Vec::new()),
+        Err(found) => Err(raise(py, Kind::Model, &found, None)),
+    }
 }
 
 /// A table of `width` columns.

@@ -1,6 +1,8 @@
 //! Errors on their way to Python: a [`Failure`] is filled here and raised as a class of
 //! `kempe.errors`, which is imported only when there is something to raise.
 
+use kempe::case::Diagnostic;
+use kempe::model;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -141,6 +143,44 @@ fn problems<'py>(
         })
         .collect();
     PyTuple::new(module.py(), made?)
+}
+
+/// A fault for Python: with its place in a file, or by path alone where there is no file.
+fn problem(diagnostic: &Diagnostic, origin: Option<&str>) -> Problem {
+    let path = diagnostic.path.join(".");
+    if origin.is_some() {
+        let position = Some((diagnostic.line, diagnostic.column));
+        return Problem { message: diagnostic.to_string(), path, position };
+    }
+    let hint = diagnostic.hint.as_ref().map(|hint| format!("; {hint}")).unwrap_or_default();
+    let place = if path.is_empty() { String::new() } else { format!("{path}: ") };
+    Problem { message: format!("{place}{}{hint}", diagnostic.message), path, position: None }
+}
+
+/// All faults as one exception.
+pub fn raise(py: Python<'_>, kind: Kind, found: &[Diagnostic], origin: Option<&str>) -> PyErr {
+    let problems: Vec<Problem> = found.iter().map(|d| problem(d, origin)).collect();
+    let texts: Vec<&str> = problems.iter().map(|p| p.message.as_str()).collect();
+    let text = texts.join("\n");
+    let message = match origin {
+        Some(origin) if found.len() == 1 => format!("{origin}: {text}"),
+        Some(origin) => format!("{origin}: {} problems\n{text}", found.len()),
+        None => text,
+    };
+    let name = found.first().and_then(|d| d.path.get(1).cloned()).unwrap_or_default();
+    Failure::new(kind, message).name(name).problems(problems).raise(py)
+}
+
+/// Faults that have no text behind them, as one exception.
+pub fn raise_plain(py: Python<'_>, kind: Kind, found: &[model::Problem]) -> PyErr {
+    let problem = |p: &model::Problem| Problem {
+        message: p.to_string(),
+        path: p.path.join("."),
+        position: None,
+    };
+    let problems: Vec<Problem> = found.iter().map(problem).collect();
+    let texts: Vec<&str> = problems.iter().map(|p| p.message.as_str()).collect();
+    Failure::new(kind, texts.join("\n")).problems(problems).raise(py)
 }
 
 /// A failure of the class named `kind` with every attribute filled, for the tests in Python.

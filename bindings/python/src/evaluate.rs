@@ -1,6 +1,6 @@
 //! Equations evaluated at given states.
 
-use crate::assemble::wishes;
+use crate::assemble::targets;
 use crate::convert::{refuse, rows, state, table, Row, Rows};
 use crate::guard::guard;
 use crate::model::PyModel;
@@ -211,7 +211,7 @@ pub fn matrices<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     guard("matrices", || {
         let state = state(py, &model.model, t, &q, &v)?;
-        let set = wishes(py, model, "set", set)?;
+        let set = targets(py, model, "set", set)?;
         let extended = holding(&model.model, &Request { set, t, ..Request::default() });
         let all = kempe::equations::dense::matrices(&extended, t, &state.q, &state.v);
         let (n, m) = (extended.layout.n_q, extended.layout.n_rows);

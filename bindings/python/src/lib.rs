@@ -11,9 +11,11 @@ mod convert;
 mod dynamics;
 mod errors;
 mod evaluate;
+mod formulas;
 mod guard;
 mod model;
 mod options;
+mod recent_options;
 mod respond;
 mod tables;
 mod watch;
@@ -51,17 +53,11 @@ fn is_reserved(name: &str) -> PyResult<bool> {
     guard("is_reserved", || Ok(kempe::expression::is_reserved(name)))
 }
 
-/// Names of all guarded entry points, for the test that walks over them.
-#[pyfunction]
-fn _entries() -> Vec<&'static str> {
-    guard::ENTRIES.to_vec()
-}
-
 /// Test hook: the next call of the named entry point panics; `None` takes that back.
 #[pyfunction]
 #[pyo3(signature = (entry))]
-fn _inject_panic(entry: Option<&str>) -> PyResult<()> {
-    guard::arm(entry)
+fn _inject_panic(entry: Option<&str>) {
+    guard::arm(entry);
 }
 
 /// Test hook: raise the error class `kind` with every attribute filled.
@@ -88,7 +84,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(evaluate::reaction, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::matrices, module)?)?;
-    module.add_function(wrap_pyfunction!(_entries, module)?)?;
+    module.add_function(wrap_pyfunction!(formulas::formulas, module)?)?;
     module.add_function(wrap_pyfunction!(_inject_panic, module)?)?;
     module.add_function(wrap_pyfunction!(_raise, module)?)?;
     Ok(())

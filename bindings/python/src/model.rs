@@ -1,7 +1,7 @@
 //! A compiled model, and what it holds as JSON.
 
 use crate::guard::guard;
-use crate::options::Last;
+use crate::recent_options::RecentOptions;
 use kempe::analyses::dynamics::Prepared;
 use kempe::elements::{SceneSymbol, Side, SymbolEnd};
 use kempe::math::Local;
@@ -18,7 +18,7 @@ pub struct PyModel {
     /// What its simulations have in common.
     pub prepared: Arc<Prepared<Arc<Model>>>,
     /// The options that were read for it last.
-    pub options: Last,
+    pub options: RecentOptions,
 }
 
 /// Python's allocator aligns objects to 16 bytes and asks for nothing more.
@@ -29,7 +29,7 @@ impl PyModel {
     pub fn new(model: Model) -> Self {
         let model = Arc::new(model);
         let prepared = Arc::new(Prepared::new(Arc::clone(&model)));
-        Self { model, prepared, options: Last::default() }
+        Self { model, prepared, options: RecentOptions::default() }
     }
 }
 

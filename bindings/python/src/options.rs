@@ -1,29 +1,11 @@
 //! Options of forward dynamics from Python, as text in the form of a file.
 
-use crate::case::{raise, raise_plain};
 use crate::convert::number;
-use crate::errors::Kind;
+use crate::errors::{raise, raise_plain, Kind};
 use crate::model::PyModel;
 use kempe::analyses::dynamics::{self, Options};
 use kempe::case::{self, Format};
 use pyo3::prelude::*;
-use std::sync::{Mutex, PoisonError};
-
-/// The last options that were read for a model: loops over starts ask for the same again and again.
-#[derive(Default)]
-pub struct Last(Mutex<Option<(String, Options)>>);
-
-impl Last {
-    fn of(&self, text: &str) -> Option<Options> {
-        let last = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        last.as_ref().filter(|(known, _)| known == text).map(|(_, options)| options.clone())
-    }
-
-    fn keep(&self, text: &str, options: &Options) {
-        let mut last = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        *last = Some((text.to_string(), options.clone()));
-    }
-}
 
 /// Options from `{"type": "dynamics", "t_end": 15, "method": {"type": "rk45", …}, …}`; with `t_end`
 /// instead of what the text says, if given.

@@ -20,11 +20,11 @@ pub fn responses<'py>(
     passing: bool,
 ) -> PyResult<(Table<'py>, Table<'py>)> {
     let mut watch = Watch::new(None);
-    let found = py.detach(|| model.responses(states, passing, |t| watch.look(t)));
+    let found = py.detach(|| model.accelerations(states, passing, |t| watch.look(t)));
     if let Some(error) = watch.raised {
         return Err(error);
     }
-    let core::Responses { a, lam } = found.map_err(|reason| missing(py, reason))?;
+    let core::Accelerations { a, lam } = found.map_err(|reason| missing(py, reason))?;
     let model = model.model();
     let (n, m, count) = (model.layout.n_q, model.layout.n_rows, states.t.len());
     Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?))

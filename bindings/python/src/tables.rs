@@ -1,7 +1,9 @@
 //! The declarations of elements, bodies and options as JSON.
 
-use kempe::analyses::{analysis_tables, option_families};
-use kempe::elements::{catalogue, formulas, Default, Field, Group, Shape, Table};
+use crate::formulas::declared;
+use kempe::analyses::options::Declaration;
+use kempe::analyses::{declarations, option_families};
+use kempe::elements::{catalogue, Default, Field, Group, Shape, Table};
 use kempe::expression::unit::{Unit, UNITS};
 use kempe::expression::{Function, FUNCTIONS};
 use kempe::model::body_tables;
@@ -42,6 +44,13 @@ fn table(table: &Table) -> Value {
     json!({ "name": table.name, "doc": table.doc, "fields": fields })
 }
 
+/// An analysis or a set of options, with its class in Python.
+fn options(declared: &Declaration) -> Value {
+    let mut value = table(&declared.table);
+    value["class"] = json!(declared.class);
+    value
+}
+
 fn function(function: &Function) -> Value {
     json!({ "name": function.name, "arguments": function.arguments, "doc": function.doc })
 }
@@ -50,14 +59,12 @@ fn unit((name, unit): &(&str, Unit)) -> Value {
     json!({ "name": name, "si": unit.scale(1.0), "dimension": unit.dimension.to_string() })
 }
 
-/// An element with its equations as formulas.
+/// An element, with its equations if it is a joint or driver.
 fn element(group: Group, own: &Table) -> Value {
     let mut value = table(own);
-    let Some(all) = formulas(group, own.name) else { return value };
-    let equations = all
-        .iter()
-        .map(|f| json!({ "residual": f.residual, "jacobian": f.jacobian, "gamma": f.gamma }));
-    value["formulas"] = equations.collect();
+    if group != Group::Forces {
+        value["formulas"] = declared(group, own.name);
+    }
     value
 }
 
@@ -71,15 +78,10 @@ pub fn all() -> String {
         sections.insert(group.section().into(), own.collect());
     }
     for family in option_families() {
-        let options = family.options.iter().map(|options| {
-            let mut value = table(&options.table);
-            value["class"] = json!(options.class);
-            value
-        });
         let plural = format!("{}s", family.name);
-        sections.insert(plural, options.collect());
+        sections.insert(plural, family.options.iter().map(options).collect());
     }
-    sections.insert("analyses".into(), analysis_tables().iter().map(table).collect());
+    sections.insert("analyses".into(), declarations().iter().map(options).collect());
     sections.insert("functions".into(), FUNCTIONS.iter().map(function).collect());
     sections.insert("units".into(), UNITS.iter().map(unit).collect());
     Value::Object(sections).to_string()

@@ -73,8 +73,8 @@ pub fn centred() -> String {
 pub fn assembled(text: &str) -> (Model, State) {
     let (case, _) = case::read(text, case::Format::Toml).expect("the case is sound");
     let model = build(&case.definition, &[]).expect("the model is sound");
-    let set = assemble::wishes(&model, "set", &case.start.set).expect("sound wishes");
-    let guess = assemble::wishes(&model, "guess", &case.start.guess).expect("sound guesses");
+    let set = assemble::targets(&model, "set", &case.start.set).expect("sound targets");
+    let guess = assemble::targets(&model, "guess", &case.start.guess).expect("sound guesses");
     let request = assemble::Request { set, guess, ..Default::default() };
     let (state, _) = assemble::assemble(&model, &request).expect("the linkage closes");
     (model, state)

@@ -7,8 +7,9 @@
 use super::assemble::Closing;
 use crate::elements::{BodyId, Coordinate, CoordinateOf};
 use crate::equations::augmented::Augmented;
-use crate::equations::{self, constraints, kinematics};
-use crate::model::Model;
+use crate::equations::kinematics::Motions;
+use crate::equations::{self, constraints};
+use crate::model::{column_scales, Model};
 use crate::solve::{normalize_rows, rank, Rank, RANK_TOLERANCE};
 use std::sync::Arc;
 
@@ -77,7 +78,7 @@ fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
         return false;
     }
     let mut matrix = Augmented::new(model);
-    let motions = kinematics::at_rest(q);
+    let motions = Motions::at_rest(&model.layout, q);
     matrix.set_weights(&vec![1.0; q.len()]);
     constraints::jacobian(model, &motions, t, matrix.jacobian_mut());
     matrix.factor().is_ok() && matrix.cancellation().is_none_or(|(_, kept)| kept > BEYOND_DOUBT)
@@ -89,13 +90,11 @@ fn dense_rank(model: &Model, t: f64, q: &[f64]) -> Rank {
 
 fn scaled_rank(model: &Model, t: f64, q: &[f64], tolerance: f64) -> Rank {
     let n = model.layout.n_q;
-    let mut dense = equations::dense::jacobian(model, &kinematics::at_rest(q), t);
+    let mut dense = equations::dense::jacobian(model, &Motions::at_rest(&model.layout, q), t);
     // metres and radians become comparable by the size of the mechanism
-    let size = crate::model::size(model);
-    for (k, entry) in dense.iter_mut().enumerate() {
-        if k % n % 3 != 2 {
-            *entry *= size;
-        }
+    let scales = column_scales(model);
+    for row in dense.chunks_exact_mut(n.max(1)) {
+        row.iter_mut().zip(&scales).for_each(|(entry, scale)| *entry *= scale);
     }
     // a law without derivative here constrains nothing
     dense.iter_mut().filter(|entry| !entry.is_finite()).for_each(|entry| *entry = 0.0);
@@ -119,19 +118,21 @@ fn groups(model: &Model, rank: &Rank) -> Vec<Vec<usize>> {
 /// falls back to the meeting point; so the angle of body `held` is kept away from it (ground: none).
 fn neighbour(model: &Model, t: f64, q: &[f64], held: usize) -> Option<Vec<f64>> {
     let extended = match held.checked_sub(1) {
-        Some(k) => Some(holding(model, BodyId(held), *q.get(3 * k + 2)? + EXCURSION)),
+        Some(_) => {
+            let columns = model.layout.bodies.get(held).filter(|columns| columns.count == 3)?;
+            Some(holding(model, BodyId(held), columns.of(q)[2] + EXCURSION))
+        }
         None => None,
     };
     let mut closing = Closing::new(extended.as_ref().unwrap_or(model), t);
-    let size = closing.size;
     // fixed numbers without pattern, so that no symmetry of the mechanism survives
     let excursion =
         |k: usize| EXCURSION * ((12.9898 * (k as f64 + 1.0)).sin() * 43758.5453).fract();
-    let unit = |k: usize| if k % 3 == 2 { 1.0 } else { size };
+    let unit = column_scales(model);
     let mut near: Vec<f64> =
-        q.iter().enumerate().map(|(k, q)| q + excursion(k) * unit(k)).collect();
+        q.iter().enumerate().map(|(k, q)| q + excursion(k) * unit[k]).collect();
     let (_, closed) = closing.close(&mut near);
-    let moved = q.iter().zip(&near).enumerate().any(|(k, (a, b))| (a - b).abs() > 1e-5 * unit(k));
+    let moved = q.iter().zip(&near).enumerate().any(|(k, (a, b))| (a - b).abs() > 1e-5 * unit[k]);
     (closed && moved).then_some(near)
 }
 

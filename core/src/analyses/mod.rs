@@ -2,10 +2,14 @@
 
 pub mod assemble;
 pub mod dynamics;
+mod errors;
 mod mobility;
 mod option_tables;
+pub mod options;
+mod results;
 mod state;
 
 pub use mobility::{mobility, Mobility};
-pub use option_tables::{analysis_tables, option_families, Family, Options};
+pub use option_tables::{declarations, option_families};
+pub use results::NoResult;
 pub use state::State;

@@ -3,11 +3,11 @@
 use super::bodies::Bodies;
 use super::names::{self, Namespace};
 use super::report::Report;
-use super::shapes::{number, shape, wrong};
 use super::tree::{Data, Node, Table};
+use super::values::{number, pair, word, wrong};
 use super::{fields, start, Case, FORMAT_VERSION};
-use crate::analyses::analysis_tables;
-use crate::elements::{catalogue, Group, Shape, Table as Declaration};
+use crate::analyses;
+use crate::elements::{catalogue, Group, Table as Declaration};
 use crate::expression::suggest::did_you_mean;
 use crate::model::{Entry, Problem, Value};
 
@@ -41,15 +41,15 @@ pub(super) fn case(root: &Table) -> (Case, Vec<Problem>) {
     let mut case = Case::default();
     let mut namespace = Namespace::default();
     for (key, node) in &root.entries {
-        report.within(key, |report| section(report, key, node, &mut case, &mut namespace));
+        report.within(key, |report| section(report, (key, node), root, &mut case, &mut namespace));
     }
     (case, report.finish())
 }
 
 fn section(
     report: &mut Report,
-    key: &str,
-    node: &Node,
+    (key, node): (&str, &Node),
+    root: &Table,
     case: &mut Case,
     namespace: &mut Namespace,
 ) {
@@ -61,11 +61,11 @@ fn section(
             _ => wrong(report, node, "a text"),
         },
         "gravity" => {
-            shape(report, node, Shape::Pair);
+            pair(report, node);
             model.gravity = Some(node.value());
         }
         "redundancy" => {
-            shape(report, node, Shape::Word(&REDUNDANCY));
+            word(report, node, &REDUNDANCY);
             if let Data::Text(word) = &node.data {
                 model.redundancy = Some(word.clone());
             }
@@ -81,7 +81,7 @@ fn section(
         "joints" => model.joints = elements(report, node, Group::Joints, namespace),
         "drivers" => model.drivers = elements(report, node, Group::Drivers, namespace),
         "forces" => model.forces = elements(report, node, Group::Forces, namespace),
-        "start" => case.start = start::read(report, node),
+        "start" => case.start = start::read(report, node, root),
         "analyses" => case.analyses = analyses(report, node),
         _ => {
             let message = format!("unknown key '{}'", super::shown(key));
@@ -205,20 +205,14 @@ fn elements(
 }
 
 fn analyses(report: &mut Report, node: &Node) -> Vec<Entry> {
-    let known: Vec<&Declaration> = analysis_tables().iter().collect();
     let mut earlier: Vec<String> = vec!["start".to_string()];
     entries(report, node, |report, name, table| {
         match name {
             "start" => report.say_of_key("'start' is where a case starts and cannot be a name"),
             _ => names::key(report, name),
         }
-        if let Some(declared) = fields::declared(report, table, &known, "analysis", None) {
-            fields::check(report, table, declared, true);
-        }
+        fields::options(report, table, analyses::declarations(), "analysis");
         from(report, table, &earlier);
-        if table.get("output").is_some() && table.get("output_step").is_some() {
-            report.within("output", |report| report.say("not together with output_step; keep one"));
-        }
         earlier.push(name.to_string());
     })
 }

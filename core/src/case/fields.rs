@@ -1,10 +1,11 @@
 //! The fields of an element, body, analysis or set of options against its declaration.
 
 use super::report::{among, Report};
-use super::shapes::{shape, wrong};
-use super::tree::{Data, Table};
-use crate::analyses::analysis_tables;
-use crate::elements::{catalogue, Field, Table as Declaration};
+use super::tree::{Data, Node, Table};
+use super::values::{count, number, pair, points, two_names, word, wrong};
+use crate::analyses::options::Declaration as Options;
+use crate::analyses::{declarations, option_families};
+use crate::elements::{catalogue, Field, Shape, Table as Declaration};
 use crate::expression::suggest::{closest, did_you_mean};
 use crate::model::body_tables;
 
@@ -47,7 +48,7 @@ pub(super) fn declared<'d>(
 fn belongs(name: &str) -> Option<String> {
     let elements = catalogue().into_iter().map(|(group, table)| (group.section(), table.name));
     let bodies = body_tables().into_iter().map(|table| ("bodies", table.name));
-    let analyses = analysis_tables().iter().map(|table| ("analyses", table.name));
+    let analyses = declarations().iter().map(|declared| ("analyses", declared.table.name));
     let (section, _) = elements.chain(bodies).chain(analyses).find(|(_, known)| *known == name)?;
     (name != "ground").then(|| format!("'{name}' belongs in [{section}]"))
 }
@@ -76,6 +77,56 @@ pub(super) fn check(report: &mut Report, table: &Table, declared: &Declaration, 
                 let message = format!("missing; {} needs it", declared.name);
                 report.add(report.here(message).hint(meaning(field)));
             });
+        }
+    }
+}
+
+/// Checks the present value.
+pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
+    match (shape, &node.data) {
+        (_, Data::Refused(_)) => {}
+        (Shape::Number | Shape::Law, _) => number(report, node),
+        (Shape::Pair, _) => pair(report, node),
+        (Shape::Points, _) => points(report, node),
+        (Shape::Names, _) => two_names(report, node),
+        (Shape::Count, _) => count(report, node),
+        (Shape::Word(words), _) => word(report, node, words),
+        (Shape::Options(family), _) => chosen(report, node, family),
+        (Shape::Flag, Data::Flag(_)) => {}
+        (Shape::Flag, _) => wrong(report, node, "true or false"),
+        (Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name, Data::Text(_)) => {}
+        (Shape::Body, _) => wrong(report, node, "the name of a body"),
+        (Shape::Point, _) => wrong(report, node, "a point as \"body.point\""),
+        (Shape::Coordinate, _) => wrong(report, node, "a coordinate as \"body.angle\""),
+        (Shape::Name, _) => wrong(report, node, "a name"),
+    }
+}
+
+/// Checks the present value as a set of options of a family.
+fn chosen(report: &mut Report, node: &Node, family: &str) {
+    let Some(family) = option_families().iter().find(|f| f.name == family) else { return };
+    match &node.data {
+        Data::Table(table) => options(report, table, &family.options, family.name),
+        _ => {
+            let example = family.options[0].table.name;
+            wrong(report, node, &format!("a table such as {{ type = \"{example}\" }}"));
+        }
+    }
+}
+
+/// Checks the present table as one of some sets of options.
+pub(super) fn options(report: &mut Report, table: &Table, known: &[Options], noun: &str) {
+    let tables: Vec<&Declaration> = known.iter().map(|options| &options.table).collect();
+    let Some(declared) = declared(report, table, &tables, noun, None) else { return };
+    check(report, table, declared, true);
+    let own = known.iter().filter(|options| options.table.name == declared.name);
+    for (one, others) in own.flat_map(|options| options.excludes) {
+        for other in others.iter().filter(|_| table.get(one).is_some()) {
+            if table.get(other).is_some() {
+                report.within(other, |report| {
+                    report.say(format!("not together with {one}; remove one of them"));
+                });
+            }
         }
     }
 }

@@ -1,261 +1,126 @@
-//! JSON (RFC 8259) → [`Table`] with places. Strict: no comments, no trailing commas.
+//! JSON (RFC 8259) → [`Table`] with places. `serde_json` checks the syntax; its raw values are slices of the text,
+//! whose addresses give the places of keys and values.
 
 use std::ops::Range;
+
+use serde_json::value::RawValue;
+use serde_json::{from_str, Deserializer, Error};
 
 use super::fault::Faults;
 use super::tree::{number, too_deep, too_many, Data, Node, Table, MOST_DEPTH, MOST_VALUES};
 
 /// Reads a text; the first fault of syntax and all keys that are given twice, or the tree.
 pub(super) fn parse(text: &str, faults: &mut Faults) -> Table {
-    let mut reader = Reader { text, at: 0, values: 0, faults };
-    match reader.document() {
-        Ok(table) => table,
-        Err((place, message)) => {
-            faults.push(place, message);
-            Table::default()
-        }
+    let mut reader = Reader { text, values: 0, faults };
+    let root = from_str::<&RawValue>(text).map_err(|error| fault(text, &error));
+    match root.and_then(|root| reader.data(root.get(), 0)) {
+        Ok(Data::Table(table)) => return table,
+        Ok(_) => faults.push(0..1, "expected '{'; a case is a table"),
+        Err((place, message)) => faults.push(place, message),
     }
+    Table::default()
 }
 
-type Read<T> = Result<T, (Range<usize>, String)>;
+type Fault = (Range<usize>, String);
 
 struct Reader<'t, 'f> {
     text: &'t str,
-    at: usize,
     values: usize,
     faults: &'f mut Faults,
 }
 
-impl Reader<'_, '_> {
-    fn peek(&self) -> Option<char> {
-        self.text[self.at..].chars().next()
-    }
-    fn next_if(&mut self, wanted: char) -> bool {
-        let found = self.peek() == Some(wanted);
-        if found {
-            self.at += wanted.len_utf8();
-        }
-        found
-    }
-    fn skip(&mut self, wanted: impl Fn(char) -> bool) {
-        let rest = &self.text[self.at..];
-        self.at += rest.find(|c| !wanted(c)).unwrap_or(rest.len());
-    }
-    fn blanks(&mut self) {
-        self.skip(|c| matches!(c, ' ' | '\t' | '\n' | '\r'));
-    }
-    fn fail<T>(&self, message: impl Into<String>) -> Read<T> {
-        let end = self.at + self.peek().map_or(0, char::len_utf8);
-        Err((self.at..end, message.into()))
-    }
-    /// Fails where something else than `expected` stands.
-    fn expected<T>(&self, expected: &str) -> Read<T> {
-        let found = match self.peek() {
-            None => "the end of the text".to_string(),
-            Some('/' | '#') => return self.fail("JSON has no comments"),
-            Some(c) => format!("'{}'", super::shown(&c.to_string())),
-        };
-        self.fail(format!("expected {expected}, not {found}"))
+impl<'t> Reader<'t, '_> {
+    fn place(&self, raw: &str) -> Range<usize> {
+        let start = raw.as_ptr() as usize - self.text.as_ptr() as usize;
+        start..start + raw.len()
     }
 
-    fn document(&mut self) -> Read<Table> {
-        self.blanks();
-        if self.peek() != Some('{') {
-            return self.expected("'{'");
-        }
-        let table = self.table(0)?;
-        self.blanks();
-        match self.peek() {
-            None => Ok(table),
-            Some(_) => self.expected("the end of the text"),
-        }
-    }
-
-    fn value(&mut self, depth: usize) -> Read<(Range<usize>, Data)> {
-        let start = self.at;
+    fn data(&mut self, raw: &'t str, depth: usize) -> Result<Data, Fault> {
         self.values += 1;
         if self.values > MOST_VALUES {
-            return self.fail(too_many());
+            return Err((self.place(raw), too_many()));
         }
         if depth > MOST_DEPTH {
-            return self.fail(too_deep());
+            return Err((self.place(raw), too_deep()));
         }
-        let data = match self.peek() {
-            Some('{') => Data::Table(self.table(depth)?),
-            Some('[') => Data::List(self.list(depth)?),
-            Some('"') => Data::Text(self.string()?),
-            Some(c) if c == '-' || c == '+' || c == '.' || c.is_ascii_digit() => self.number()?,
-            Some(c) if c.is_alphabetic() => self.word()?,
-            Some('\'') => return self.fail("a text stands in double quotes"),
-            _ => return self.expected("a value"),
-        };
-        Ok((start..self.at, data))
-    }
-
-    fn table(&mut self, depth: usize) -> Read<Table> {
-        let mut table = Table::default();
-        self.at += 1;
-        self.blanks();
-        if self.next_if('}') {
-            return Ok(table);
-        }
-        loop {
-            self.blanks();
-            if self.peek() != Some('"') {
-                return self.expected("a key in double quotes");
+        Ok(match raw.as_bytes()[0] {
+            b'{' => Data::Table(self.table(raw, depth)?),
+            b'[' => {
+                let item = |raw| self.node(raw, raw, depth);
+                Data::List(Parts::of(raw).map(item).collect::<Result<_, Fault>>()?)
             }
-            let start = self.at;
-            let key = self.string()?;
-            let place = start..self.at;
-            self.blanks();
-            if !self.next_if(':') {
-                return self.expected("':'");
-            }
-            self.blanks();
-            let (span, data) = self.value(depth + 1)?;
-            if let Err(fault) = table.insert(key, Node { key: place, span, data }) {
-                self.faults.add(fault);
-            }
-            self.blanks();
-            if self.next_if('}') {
-                return Ok(table);
-            }
-            if !self.next_if(',') {
-                return self.expected("',' or '}'");
-            }
-        }
-    }
-
-    fn list(&mut self, depth: usize) -> Read<Vec<Node>> {
-        let mut items = Vec::new();
-        self.at += 1;
-        self.blanks();
-        if self.next_if(']') {
-            return Ok(items);
-        }
-        loop {
-            self.blanks();
-            let (span, data) = self.value(depth + 1)?;
-            items.push(Node { key: span.clone(), span, data });
-            self.blanks();
-            if self.next_if(']') {
-                return Ok(items);
-            }
-            if !self.next_if(',') {
-                return self.expected("',' or ']'");
-            }
-        }
-    }
-
-    fn word(&mut self) -> Read<Data> {
-        let start = self.at;
-        self.skip(|c| c.is_alphanumeric() || c == '_');
-        let word = &self.text[start..self.at];
-        Ok(match word {
-            "true" => Data::Flag(true),
-            "false" => Data::Flag(false),
-            "null" => Data::Refused("null is no value of a case; leave the key out".to_string()),
-            "NaN" | "nan" => number("nan", false),
-            "Infinity" | "inf" => number("inf", false),
-            _ => {
-                let place = start..self.at;
-                return Err((
-                    place,
-                    format!("'{}' is no value; a text stands in double quotes", super::shown(word)),
-                ));
-            }
+            b'"' => Data::Text(self.string(raw)?),
+            b't' | b'f' => Data::Flag(raw == "true"),
+            b'n' => Data::Refused("null is no value of a case; leave the key out".to_string()),
+            _ => number(raw, !raw.contains(['.', 'e', 'E'])),
         })
     }
 
-    fn number(&mut self) -> Read<Data> {
-        let start = self.at;
-        self.skip(|c| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.' | '_'));
-        let digits = &self.text[start..self.at];
-        if matches!(digits, "-Infinity" | "-inf" | "+inf" | "+Infinity" | "-NaN") {
-            return Ok(number(digits, false));
-        }
-        match is_number(digits) {
-            true => Ok(number(digits, !digits.contains(['.', 'e', 'E']))),
-            false => Err((start..self.at, format!("'{}' is no number", super::shown(digits)))),
-        }
+    fn node(&mut self, key: &str, raw: &'t str, depth: usize) -> Result<Node, Fault> {
+        Ok(Node { key: self.place(key), span: self.place(raw), data: self.data(raw, depth + 1)? })
     }
 
-    fn string(&mut self) -> Read<String> {
-        let start = self.at;
-        let mut text = String::new();
-        self.at += 1;
-        loop {
-            let from = self.at;
-            self.skip(|c| c != '"' && c != '\\' && c >= ' ');
-            text.push_str(&self.text[from..self.at]);
-            match self.peek() {
-                Some('"') => break,
-                Some('\\') => text.push(self.escape()?),
-                Some('\n' | '\r') | None => {
-                    return Err((start..self.at, "the text has no closing '\"'".to_string()))
-                }
-                Some(_) => return self.fail("a control character must be written as an escape"),
+    fn table(&mut self, raw: &'t str, depth: usize) -> Result<Table, Fault> {
+        let mut table = Table::default();
+        let mut parts = Parts::of(raw);
+        while let (Some(key), Some(value)) = (parts.next(), parts.next()) {
+            let node = self.node(key, value, depth)?;
+            if let Err(fault) = table.insert(self.string(key)?, node) {
+                self.faults.add(fault);
             }
         }
-        self.at += 1;
-        Ok(text)
+        Ok(table)
     }
 
-    fn escape(&mut self) -> Read<char> {
-        let start = self.at;
-        self.at += 1;
-        let Some(c) = self.peek() else { return self.expected("an escape") };
-        self.at += c.len_utf8();
-        let decoded = match c {
-            '"' | '\\' | '/' => Some(c),
-            'b' => Some('\u{8}'),
-            'f' => Some('\u{c}'),
-            'n' => Some('\n'),
-            'r' => Some('\r'),
-            't' => Some('\t'),
-            'u' => self.code_point(),
-            _ => None,
-        };
-        decoded.ok_or_else(|| (start..self.at, "no such escape".to_string()))
-    }
-
-    /// The digits after `\u`, and a second unit after a high surrogate.
-    fn code_point(&mut self) -> Option<char> {
-        let high = self.unit()?;
-        if !(0xD800..0xDC00).contains(&high) {
-            return char::from_u32(high);
-        }
-        if !(self.next_if('\\') && self.next_if('u')) {
-            return None;
-        }
-        let low = self.unit().filter(|low| (0xDC00..0xE000).contains(low))?;
-        char::from_u32(0x10000 + ((high - 0xD800) << 10) + (low - 0xDC00))
-    }
-
-    fn unit(&mut self) -> Option<u32> {
-        let digits = self.text.get(self.at..self.at + 4)?;
-        if !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
-            return None;
-        }
-        self.at += 4;
-        u32::from_str_radix(digits, 16).ok()
+    /// A text without its escapes; half of a surrogate pair is found only here.
+    fn string(&self, raw: &str) -> Result<String, Fault> {
+        from_str(raw).map_err(|error| (self.place(raw), words(&error)))
     }
 }
 
-/// -? (0 | 1-9 digits) (. digits)? ([eE] [+-]? digits)?
-fn is_number(text: &str) -> bool {
-    let digits = |s: &str| !s.is_empty() && s.bytes().all(|b| b.is_ascii_digit());
-    let body = text.strip_prefix('-').unwrap_or(text);
-    let (mantissa, exponent) = match body.split_once(['e', 'E']) {
-        Some((mantissa, exponent)) => (mantissa, Some(exponent)),
-        None => (body, None),
+/// The items of a list, or the keys and values of a table in turn; the syntax has been checked.
+struct Parts<'t>(&'t str);
+
+impl<'t> Parts<'t> {
+    fn of(raw: &'t str) -> Self {
+        Self(&raw[1..raw.len() - 1])
+    }
+}
+
+impl<'t> Iterator for Parts<'t> {
+    type Item = &'t str;
+
+    fn next(&mut self) -> Option<&'t str> {
+        let rest = self.0.trim_start_matches([' ', '\t', '\n', '\r', ',', ':']);
+        let mut stream = Deserializer::from_str(rest).into_iter::<&RawValue>();
+        let part = stream.next()?.ok()?;
+        self.0 = &rest[stream.byte_offset()..];
+        Some(part.get())
+    }
+}
+
+/// The message of an error without its line and column.
+fn words(error: &Error) -> String {
+    let text = error.to_string();
+    text.rsplit_once(" at line ").map_or(text.as_str(), |(words, _)| words).to_string()
+}
+
+/// A fault of syntax: its place, and advice for what people write who do not know JSON.
+fn fault(text: &str, error: &Error) -> Fault {
+    let before: usize = text.split_inclusive('\n').take(error.line() - 1).map(str::len).sum();
+    let mut message = words(error);
+    // serde_json names the last byte that it accepted before a control character
+    let late = usize::from(!message.starts_with("control character"));
+    let mut at = before + error.column().saturating_sub(late);
+    if error.is_eof() {
+        at = text.len();
+    }
+    message += match text.as_bytes().get(at) {
+        Some(b'/' | b'#') => "; JSON has no comments",
+        Some(b'\'') => "; a text is written in double quotes",
+        Some(b'N' | b'I') => "; a number must be finite",
+        Some(b'\n' | b'\r') => "; the text has no closing '\"'",
+        _ => "",
     };
-    let (whole, fraction) = match mantissa.split_once('.') {
-        Some((whole, fraction)) => (whole, Some(fraction)),
-        None => (mantissa, None),
-    };
-    digits(whole)
-        && (whole.len() == 1 || !whole.starts_with('0'))
-        && fraction.is_none_or(digits)
-        && exponent.is_none_or(|e| digits(e.strip_prefix(['+', '-']).unwrap_or(e)))
+    (at..at + 1, message)
 }

@@ -2,9 +2,21 @@
 //!
 //! A case is a model, a start and any number of analyses, in TOML or JSON. [`read`] reports all
 //! faults of the structure at once; faults of the mechanics come from elsewhere as
-//! [`Problem`](crate::model::Problem)s, and [`Document::diagnose`] says where in the text they are.
+//! [`Problem`](crate::model::Problem)s, and [`Document::diagnose`] finds their places in the text.
+//!
+//! | file | concept |
+//! |---|---|
+//! | `tree`, `fault` | values with their places, and faults of syntax |
+//! | `json`, `toml`, `toml_tables` | text → tree |
+//! | `diagnostic`, `document` | places → line, column, excerpt |
+//! | `report` | problems by path |
+//! | `names`, `values`, `fields`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
+//! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
+//! | `schema` | the JSON Schema |
 
 mod bodies;
+mod body_builder;
+mod builder;
 mod check;
 mod diagnostic;
 mod document;
@@ -14,15 +26,19 @@ mod json;
 mod names;
 mod report;
 mod schema;
-mod shapes;
 mod start;
+mod start_builder;
 mod toml;
 mod toml_tables;
 mod tree;
+mod values;
 mod write;
 mod write_json;
 mod write_toml;
+mod write_value;
 
+pub use body_builder::{Bar, BodyBuilder, General, Ground};
+pub use builder::ModelBuilder;
 use diagnostic::shown;
 pub use diagnostic::Diagnostic;
 pub use document::Document;

@@ -1,14 +1,14 @@
-//! The section `[start]`: coordinates that are set and guessed.
+//! The section `[start]`: coordinates that are set and guessed, and states of elements.
 
 use super::report::Report;
-use super::shapes::{number, wrong};
-use super::tree::{Data, Node};
+use super::tree::{Data, Node, Table};
+use super::values::{number, wrong};
 use super::Start;
-use crate::elements::Coordinate;
+use crate::elements::{Coordinate, Group};
 use crate::model::Value;
 
-/// Reads the present value as the section.
-pub(super) fn read(report: &mut Report, node: &Node) -> Start {
+/// Reads the present value as the section of the case with this root.
+pub(super) fn read(report: &mut Report, node: &Node, root: &Table) -> Start {
     let mut start = Start::default();
     let Data::Table(table) = &node.data else {
         wrong(report, node, "a table with set and guess");
@@ -16,8 +16,8 @@ pub(super) fn read(report: &mut Report, node: &Node) -> Start {
     };
     for (key, node) in &table.entries {
         report.within(key, |report| match key.as_str() {
-            "set" => start.set = coordinates(report, node),
-            "guess" => start.guess = coordinates(report, node),
+            "set" => start.set = coordinates(report, node, root),
+            "guess" => start.guess = coordinates(report, node, root),
             _ => {
                 let message = format!("unknown key '{}' of start", super::shown(key));
                 report.unknown_key(message, key, &["set", "guess"]);
@@ -28,7 +28,7 @@ pub(super) fn read(report: &mut Report, node: &Node) -> Start {
 }
 
 /// `{ "crank.angle" = 1 }` or `{ crank = { angle = 1 } }`, which a dotted key means.
-fn coordinates(report: &mut Report, node: &Node) -> Vec<(String, Value)> {
+fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, Value)> {
     let mut found: Vec<(String, Value)> = Vec::new();
     let Data::Table(table) = &node.data else {
         wrong(report, node, "a table such as { \"crank.angle\" = 0 }");
@@ -47,14 +47,14 @@ fn coordinates(report: &mut Report, node: &Node) -> Vec<(String, Value)> {
             Data::Table(of_body) => {
                 for (name, node) in &of_body.entries {
                     report.within(name, |report| {
-                        coordinate(report, name);
+                        coordinate(report, root, (key, name));
                         take(report, format!("{key}.{name}"), node);
                     });
                 }
             }
             _ => {
                 match key.split_once('.') {
-                    Some((_, name)) => coordinate(report, name),
+                    Some(of) => coordinate(report, root, of),
                     None => report.say_of_key(format!(
                         "'{}' is no coordinate; must be \"body.coordinate\", such as \"crank.angle\"",
                         super::shown(key)
@@ -67,9 +67,16 @@ fn coordinates(report: &mut Report, node: &Node) -> Vec<(String, Value)> {
     found
 }
 
-fn coordinate(report: &mut Report, name: &str) {
-    if Coordinate::named(name).is_none() {
+/// Checks the name of a coordinate. States of elements are known to the model alone.
+fn coordinate(report: &mut Report, root: &Table, (owner, name): (&str, &str)) {
+    if Coordinate::named(name).is_none() && !is_element(root, owner) {
         let known = Coordinate::ALL.map(Coordinate::name);
         report.unknown_key(format!("unknown coordinate '{}'", super::shown(name)), name, &known);
     }
+}
+
+fn is_element(root: &Table, name: &str) -> bool {
+    let sections = [Group::Joints, Group::Drivers, Group::Forces].map(|g| root.get(g.section()));
+    let mut sections = sections.into_iter().flatten();
+    sections.any(|section| section.child(name).is_some())
 }

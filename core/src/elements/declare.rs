@@ -84,6 +84,8 @@ pub struct Table {
 pub trait Element {
     /// The element over the scalar (or formula) `S`.
     type Over<S>;
+    /// The `type` in the file and the method in Python.
+    const NAME: &'static str;
     /// The declaration as data.
     fn table() -> Table;
     /// Reads all fields; None if any was faulty (the source keeps the reports).
@@ -111,6 +113,7 @@ macro_rules! element {
 
         impl $crate::elements::Element for $Name {
             type Over<S> = $Name<S>;
+            const NAME: &'static str = $name;
 
             fn table() -> $crate::elements::Table {
                 $crate::elements::Table {
@@ -143,4 +146,3 @@ macro_rules! element {
         }
     };
 }
-pub use element;

@@ -1,29 +1,20 @@
-//! Φ_q and γ from Φ alone, by dual numbers and a time jet.
+//! Φ_q and γ from Φ alone: dual numbers over one participant at a time, and a jet in time.
 
-use super::traits::Joint;
+use super::joint_trait::{At, Joint, Linearized, Moving};
 use crate::math::{Dual, Jet, Lift, Motion, Pose, Real, Rotation, Vec2};
 
-/// Φ, its time derivative along the motion, and the right side γ of Φ_q q̈ = γ.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VelocityTerms<S, const M: usize> {
-    /// Φ(q, t).
-    pub residual: [S; M],
-    /// Φ_q q̇ + Φ_t.
-    pub rate: [S; M],
-    /// γ = -d²Φ/dt² at q̈ = 0 (Haug 3.6.11).
-    pub gamma: [S; M],
-}
+/// Dual numbers over the three unknowns of one participant.
+pub(crate) type ByThree<S> = Dual<3, S>;
 
-/// A pose whose three coordinates are the seeds `first`, `first + 1`, `first + 2`.
-pub(crate) fn seeded<const N: usize, S: Real>(pose: &Pose<S>, first: usize) -> Pose<Dual<N, S>> {
-    let angle = Dual::variable(pose.angle, first + 2);
-    // sin and cos are at hand in the pose: only their slopes are new
+/// A pose whose three coordinates are the seeds.
+pub(crate) fn seeded<S: Real>(pose: &Pose<S>) -> Pose<ByThree<S>> {
+    // sin and cos are known from the pose: only their slopes are new
     let (mut cos, mut sin) = (Dual::lift(pose.rotation.cos), Dual::lift(pose.rotation.sin));
-    cos.slope[first + 2] = -pose.rotation.sin;
-    sin.slope[first + 2] = pose.rotation.cos;
+    cos.slope[2] = -pose.rotation.sin;
+    sin.slope[2] = pose.rotation.cos;
     Pose {
-        r: Vec2::new(Dual::variable(pose.r.x, first), Dual::variable(pose.r.y, first + 1)),
-        angle,
+        r: Vec2::new(Dual::variable(pose.r.x, 0), Dual::variable(pose.r.y, 1)),
+        angle: Dual::variable(pose.angle, 2),
         rotation: Rotation { cos, sin },
     }
 }
@@ -42,37 +33,105 @@ pub(crate) fn moving<S: Real>(m: &Motion<S>) -> Pose<Jet<S>> {
     }
 }
 
-/// ∂Φ/∂(qᵢ, qⱼ) by six dual parts.
-pub fn derived_jacobian<const M: usize, E: Joint<M> + ?Sized, S: Real>(
-    e: &E::Over<S>,
-    i: &Pose<S>,
-    j: &Pose<S>,
-    t: S,
-) -> [[S; 6]; M] {
-    let lifted = E::map(e, &mut |s: &S| Dual::<6, S>::lift(*s));
-    let phi = E::residual(&lifted, &seeded(i, 0), &seeded(j, 3), Dual::lift(t));
-    phi.map(|row| row.slope)
-}
-
-/// Φ, Φ̇ and γ by a jet in time; fields are constant.
-pub fn derived_velocity_terms<const M: usize, E: Joint<M> + ?Sized, S: Real>(
-    e: &E::Over<S>,
-    i: &Motion<S>,
-    j: &Motion<S>,
-    t: S,
-) -> VelocityTerms<S, M> {
-    let lifted = E::map(e, &mut |s: &S| Jet::lift(*s));
-    let time = Jet::new(t, S::one(), S::zero());
-    VelocityTerms::from_jets(E::residual(&lifted, &moving(i), &moving(j), time))
-}
-
-impl<S: Real, const M: usize> VelocityTerms<S, M> {
-    /// From the jet of Φ taken at q̈ = 0.
-    pub fn from_jets(phi: [Jet<S>; M]) -> Self {
-        Self {
-            residual: phi.map(|p| p.value),
-            rate: phi.map(|p| p.rate),
-            gamma: phi.map(|p| -p.second),
-        }
+/// Calls `f` with n values, on the stack where they are few.
+#[inline(always)]
+pub(crate) fn with_values<T: Copy, R>(
+    n: usize,
+    value: impl Fn(usize) -> T,
+    f: impl FnOnce(&mut [T]) -> R,
+) -> R {
+    match n {
+        0 => f(&mut []),
+        1 => f(&mut std::array::from_fn::<T, 1, _>(&value)),
+        2 => f(&mut std::array::from_fn::<T, 2, _>(&value)),
+        3 => f(&mut std::array::from_fn::<T, 3, _>(&value)),
+        4 => f(&mut std::array::from_fn::<T, 4, _>(&value)),
+        6 => f(&mut std::array::from_fn::<T, 6, _>(&value)),
+        9 => f(&mut std::array::from_fn::<T, 9, _>(&value)),
+        _ => f(&mut (0..n).map(value).collect::<Vec<T>>()),
     }
+}
+
+/// [`Joint::linearize`] from [`Joint::residual`].
+pub fn linearize<E: Joint + ?Sized, S: Real>(
+    e: &E::Over<S>,
+    at: &Moving<'_, S>,
+    out: Linearized<'_, S>,
+) {
+    let residual = |at: &At<'_, Jet<S>>, phi: &mut [Jet<S>]| {
+        E::residual(&E::map(e, &mut |s: &S| Jet::lift(*s)), at, phi);
+    };
+    let columns = |at: &At<'_, ByThree<S>>, phi: &mut [ByThree<S>]| {
+        E::residual(&E::map(e, &mut |s: &S| Dual::lift(*s)), at, phi);
+    };
+    terms(at, residual, [out.residual, out.rate, out.gamma]);
+    let m = out.columns.len() / participants(at.bodies.len(), at.own.len());
+    for (participant, rows) in out.columns.chunks_exact_mut(m).enumerate() {
+        let own = participant == at.bodies.len();
+        columns_of(at, |body| body == participant, own, columns, rows);
+    }
+}
+
+/// Number of participants of a joint: its bodies, and one for its internal coordinates.
+pub(crate) fn participants(bodies: usize, own: usize) -> usize {
+    bodies + usize::from(own > 0)
+}
+
+/// Φ, Φ̇ and γ from the jet of `residual` in time.
+pub(crate) fn terms<S: Real>(
+    at: &Moving<'_, S>,
+    residual: impl FnOnce(&At<'_, Jet<S>>, &mut [Jet<S>]),
+    [phi, rate, gamma]: [&mut [S]; 3],
+) {
+    let t = Jet::new(at.t, S::one(), S::zero());
+    let own = |k: usize| Jet::new(at.own[k], at.own_rates[k], S::zero());
+    with_values(
+        at.bodies.len(),
+        |b| moving(&at.bodies[b]),
+        |bodies| {
+            with_values(at.own.len(), own, |own| {
+                with_values(
+                    phi.len(),
+                    |_| Jet::zero(),
+                    |jets| {
+                        residual(&At { bodies, own, t }, jets);
+                        for (k, jet) in jets.iter().enumerate() {
+                            (phi[k], rate[k], gamma[k]) = (jet.value, jet.rate, -jet.second);
+                        }
+                    },
+                );
+            });
+        },
+    );
+}
+
+/// The rows of Φ_q in the columns of the bodies that `varies` selects by their places, or of the
+/// internal coordinates.
+pub(crate) fn columns_of<S: Real>(
+    at: &Moving<'_, S>,
+    varies: impl Fn(usize) -> bool,
+    own_varies: bool,
+    residual: impl FnOnce(&At<'_, ByThree<S>>, &mut [ByThree<S>]),
+    rows: &mut [[S; 3]],
+) {
+    let body = |b: usize| match varies(b) {
+        true => seeded(&at.bodies[b].pose),
+        false => at.bodies[b].pose.lift(),
+    };
+    let own = |k: usize| match own_varies {
+        true => Dual::variable(at.own[k], k),
+        false => Dual::lift(at.own[k]),
+    };
+    with_values(at.bodies.len(), body, |bodies| {
+        with_values(at.own.len(), own, |own| {
+            with_values(
+                rows.len(),
+                |_| Dual::zero(),
+                |phi| {
+                    residual(&At { bodies, own, t: Dual::lift(at.t) }, phi);
+                    rows.iter_mut().zip(phi).for_each(|(row, phi)| *row = phi.slope);
+                },
+            );
+        });
+    });
 }

@@ -18,6 +18,10 @@ impl BodyId {
     }
 }
 
+/// A joint or driver of a model, in the order of the rows of Φ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JointId(pub usize);
+
 /// A point fixed in a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointOn<S = f64> {
@@ -129,6 +133,8 @@ pub trait Source {
     fn point(&mut self, field: &Field) -> Option<PointOn<Tape>>;
     /// A coordinate of a moving body.
     fn coordinate(&mut self, field: &Field) -> Option<CoordinateOf>;
+    /// A joint by name.
+    fn joint(&mut self, field: &Field) -> Option<JointId>;
     /// A formula in the parameters.
     fn number(&mut self, field: &Field) -> Option<Tape>;
     /// A formula in the parameters, time and state.
@@ -181,6 +187,10 @@ kind!(
 kind!(
     /// A coordinate of a body.
     coordinate, Coordinate, S => CoordinateOf, |v, _f| *v
+);
+kind!(
+    /// A joint.
+    joint, Name, S => JointId, |v, _f| *v
 );
 kind!(
     /// A constant.

@@ -1,35 +1,39 @@
 //! Elements: joints, drivers and forces. One file is one element.
 //!
-//! An element declares its fields once ([`element!`]) and states its physics once ([`Joint`] or
+//! An element declares its fields once ([`element!`](crate::element)) and states its physics once ([`Joint`] or
 //! [`Force`]), generic in the scalar. From that follow the reader of the file, the JSON schema, the
-//! Python class, the reference page, and all derivatives. To add one: write its file, name it in the
-//! list below, and give it a test and a page.
+//! Python class, the reference page, and all derivatives. To add one: write its file, name it in
+//! `list.rs`, and give it a test sample and a page. No other file names it.
 
 mod declare;
-mod derive;
-mod formula;
+pub(crate) mod derive;
+mod dispatch;
+mod force_trait;
+mod joint_trait;
 mod kinds;
+mod list;
 mod symbols;
-mod traits;
+mod value;
+mod written;
 
 pub mod drivers;
 pub mod forces;
 pub mod joints;
+#[cfg(feature = "test-elements")]
+#[path = "../../tests/elements/mod.rs"]
+pub mod test_elements;
 
-mod catalogue;
-
-pub(crate) use catalogue::jets;
-pub use catalogue::{
-    catalogue, formulas, Acting, Constraint, ForceElement, Group, Linear, Rows, MOST_EQUATIONS,
-};
 use declare::join;
-pub use declare::{element, Default, Element, Field, Table};
-pub use derive::{derived_jacobian, derived_velocity_terms, VelocityTerms};
-pub(crate) use derive::{moving, seeded};
-pub use formula::Formula;
+pub use declare::{Default, Element, Field, Table};
+pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
+pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation};
+pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
 pub use kinds::{
-    body, coordinate, law, number, pair, point, BodyId, Coordinate, CoordinateOf, Kind, PointOn,
-    Shape, Source,
+    body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, JointId,
+    Kind, PointOn, Shape, Source,
 };
+pub use list::{catalogue, holding, states_of, Constraint, ForceElement, ForcePools, JointPools};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
-pub use traits::{Action, Attachment, Equation, Force, Joint, Nature, Part, Side, Situation};
+pub use value::{Number, Pair, Value};
+pub use written::Written;
+pub(crate) use written::{argument, declare as element};

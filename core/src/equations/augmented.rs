@@ -3,59 +3,50 @@
 //! With W = M and μ = 0 it is the matrix of the equations of motion (Haug 6.3.18); with W = I it
 //! gives the smallest step of Newton's method, with μ > 0 a damped one.
 
-use super::plan::{ArmedPin, Plan};
-use super::{anchors, mass};
+use super::plan::Plan;
+use super::{mass, Compiled};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 pub use crate::solve::Dependent;
-use crate::solve::{Bytes, Pattern, Saddle, Weight};
+use crate::solve::{InverseMass, Saddle};
 use std::sync::Arc;
 
 /// ε² of near singular positions: between the noise of positions over ε and the load over a time in
 /// proportion to ε; `docs/performance.md` has the errors for others.
 pub const RIDGE: f64 = 1e-10;
 
+/// What a factorisation does near a singular position, where a row of Φ_q comes near to dependence.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NearSingular {
+    /// Factorises as everywhere; only dependent rows are refused.
+    #[default]
+    Ignore,
+    /// Factorises with the ridge ε² = [`RIDGE`], which bounds the multipliers.
+    Regularise,
+    /// Refuses.
+    Refuse,
+}
+
 /// Matrix and factors, on a shared plan.
 #[derive(Clone, Debug)]
 pub struct Augmented<S = f64> {
     plan: Arc<Plan>,
     saddle: Saddle<S>,
-    /// Whether near singular positions are to be passed.
-    passing: bool,
-    /// Whether they are refused instead.
-    refusing: bool,
-    /// Whether the factor at hand has it.
-    ridged: bool,
-    /// Whether the entries of Φ_q are those of all constraints.
-    whole: bool,
-}
-
-/// What an evaluation puts into the matrix piece by piece.
-pub(super) struct Parts<'a, S> {
-    pub pattern: &'a Pattern,
-    pub saddle: &'a mut Saddle<S>,
-    /// The pins given by arms, in the order of elimination.
-    pub armed: &'a [ArmedPin],
-    /// The constraints given by entries.
-    pub others: &'a [u32],
+    near_singular: NearSingular,
+    /// Whether the factor at hand has the ridge.
+    regularised: bool,
 }
 
 impl<S: Real> Augmented<S> {
     /// Memory and elimination order for a model, see [`Plan::free`].
-    pub fn new<P>(model: &Model<P>) -> Self {
+    pub fn new<P: Real>(model: &Model<P>) -> Self {
         Self::on(Arc::new(Plan::free(model)))
     }
 
     /// Memory for a plan that was made for the model.
     pub fn on(plan: Arc<Plan>) -> Self {
-        Self {
-            saddle: Saddle::new(&plan.pattern),
-            plan,
-            passing: false,
-            refusing: false,
-            ridged: false,
-            whole: true,
-        }
+        let saddle = Saddle::new(&plan.pattern);
+        Self { saddle, plan, near_singular: NearSingular::Ignore, regularised: false }
     }
 
     /// The plan, for others of the same model.
@@ -63,107 +54,95 @@ impl<S: Real> Augmented<S> {
         &self.plan
     }
 
-    /// The pieces; inertia, which no state changes, must stand there already. The factor is then without ridge.
+    /// Plan and numbers for an evaluation that puts its rows into the matrix piece by piece; inertia, which no state
+    /// changes, must be set already. The factor is then without ridge.
     #[inline(always)]
-    pub(super) fn parts_mut(&mut self) -> Parts<'_, S> {
-        self.ridged = false;
-        let Plan { pattern, armed, others, .. } = &*self.plan;
-        self.whole = armed.is_empty() && pattern.anchors().is_empty();
-        Parts { pattern, saddle: &mut self.saddle, armed, others }
+    pub(super) fn parts_mut(&mut self) -> (&Plan, &mut Saddle<S>) {
+        self.regularised = false;
+        (&self.plan, &mut self.saddle)
     }
 
-    /// W = M at the given motions, with the inertia that the model adds to bodies without their own.
-    pub fn set_mass(&mut self, model: &Model<S>, motions: &[Motion<S>]) {
-        self.set_inertia(model);
-        let bodies = model.inertias.iter().zip(&motions[1..]);
-        for (weight, (inertia, motion)) in self.saddle.weights.iter_mut().zip(bodies) {
-            mass::turn(inertia, motion, weight);
+    /// W = M at the given motions, with the inertia that is added to bodies without their own.
+    pub fn set_mass(&mut self, compiled: &Compiled<S>, motions: &[Motion<S>]) {
+        self.set_inertia(compiled);
+        let Self { plan, saddle, .. } = self;
+        for &k in plan.pattern.coupled() {
+            let k = k as usize;
+            mass::turn(&compiled.inertias[k], &motions[k + 1], &mut saddle.masses[k]);
         }
-        for (anchor, held) in model.anchors.iter().zip(&mut self.saddle.anchors) {
-            let body = anchor.body as usize;
-            anchors::turn(anchor, &motions[body + 1], &mut self.saddle.weights[body], held);
+        for (grounded, group) in compiled.grounded.iter().zip(&mut saddle.condensed) {
+            grounded.turn(&compiled.inertias, motions, group);
         }
     }
 
     /// What no state changes of W = M.
-    pub(super) fn set_inertia(&mut self, model: &Model<S>) {
-        for (weight, inertia) in self.saddle.weights.iter_mut().zip(&model.inertias) {
+    pub(super) fn set_inertia(&mut self, compiled: &Compiled<S>) {
+        let (bodies, own) = self.saddle.masses.split_at_mut(compiled.inertias.len());
+        for (mass, inertia) in bodies.iter_mut().zip(&compiled.inertias) {
             let [m, j] = inertia.inverse;
-            weight.inverse = [m, m, j];
+            *mass = InverseMass::diagonal([m, m, j]);
         }
-        for (anchor, held) in model.anchors.iter().zip(&mut self.saddle.anchors) {
-            let weight = &mut self.saddle.weights[anchor.body as usize];
-            weight.inverse = [S::zero(), S::zero(), anchor.inverse];
-            weight.held = S::one() / anchor.mass;
-            (held.mass, held.inverse) = (anchor.mass, anchor.inverse);
+        own.fill(InverseMass::diagonal([S::one() / compiled.own_mass; 3]));
+        let condensed = 0..self.saddle.condensed.len();
+        for (k, grounded) in condensed.zip(&compiled.grounded) {
+            grounded.set(k, &mut self.saddle);
         }
     }
 
     /// W diagonal, shape (n_q).
     ///
     /// # Panics
-    /// If bodies are anchored.
+    /// If grounded bodies are condensed.
     pub fn set_weights(&mut self, weights: &[S]) {
-        assert!(!self.plan.anchored, "anchored bodies weigh what they do");
-        for (weight, d) in self.saddle.weights.iter_mut().zip(weights.chunks_exact(3)) {
-            let inverse = [d[0], d[1], d[2]].map(|d| S::one() / d);
-            *weight = Weight { inverse, shift: [S::zero(); 2], held: S::zero() };
+        assert!(!self.plan.condenses, "condensed bodies have their own mass");
+        for (mass, columns) in self.saddle.masses.iter_mut().zip(&self.plan.owners) {
+            let mut inverse = [S::one(); 3];
+            let d = &weights[columns.range()];
+            inverse.iter_mut().zip(d).for_each(|(inverse, d)| *inverse = S::one() / *d);
+            *mass = InverseMass::diagonal(inverse);
         }
     }
 
     /// The entries of Φ_q, to be filled.
     pub fn jacobian_mut(&mut self) -> &mut [S] {
-        self.whole = true;
         self.saddle.entries.as_flattened_mut()
     }
 
     /// The entries of Φ_q.
-    ///
-    /// # Panics
-    /// After an evaluation, before [`restore_jacobian`](Self::restore_jacobian): that gives pins by their arms.
     pub fn jacobian(&self) -> &[S] {
-        assert!(self.whole, "entries of Φ_q that an evaluation left out: restore_jacobian()");
         self.saddle.entries.as_flattened()
-    }
-
-    /// The entries of Φ_q, of which those of pins may be of an earlier state.
-    pub(super) fn jacobian_of_others(&self) -> &[S] {
-        self.saddle.entries.as_flattened()
-    }
-
-    /// Fills in the entries of Φ_q that the last evaluation left out.
-    pub fn restore_jacobian(&mut self) {
-        if !self.whole {
-            self.saddle.restore_entries(&self.plan.pattern);
-            self.whole = true;
-        }
     }
 
     /// Sets the damping μ, one for each row.
     ///
     /// # Panics
-    /// If bodies are anchored.
+    /// If grounded bodies are condensed.
     pub fn set_damping(&mut self, mu: impl IntoIterator<Item = S>) {
-        assert!(!self.plan.anchored, "anchors are not damped");
+        assert!(!self.plan.condenses, "condensed rows are not damped");
         self.saddle.damping.clear();
         self.saddle.damping.extend(mu);
     }
 
-    /// From now on near singular positions are factorised with the ridge ε² = [`RIDGE`].
-    pub fn pass_singular(&mut self) {
-        self.saddle.refuse_near();
-        self.passing = true;
+    /// Sets what is done near singular positions from now on.
+    ///
+    /// # Panics
+    /// If a policy other than [`NearSingular::Ignore`] is to be taken back.
+    pub fn set_near_singular(&mut self, policy: NearSingular) {
+        match policy {
+            NearSingular::Ignore => assert_eq!(self.near_singular, policy, "it stays"),
+            NearSingular::Regularise | NearSingular::Refuse => self.saddle.refuse_near(),
+        }
+        self.near_singular = policy;
     }
 
-    /// From now on near singular positions are refused.
-    pub fn refuse_singular(&mut self) {
-        self.pass_singular();
-        self.refusing = true;
+    /// What is done near singular positions.
+    pub fn near_singular(&self) -> NearSingular {
+        self.near_singular
     }
 
     /// Whether the factor at hand is that of a near singular position, with the ridge.
-    pub fn ridged(&self) -> bool {
-        self.ridged
+    pub fn regularised(&self) -> bool {
+        self.regularised
     }
 
     /// Factorises.
@@ -171,32 +150,31 @@ impl<S: Real> Augmented<S> {
     /// # Errors
     /// The row of Φ_q that depends on the others, or a coordinate without mass.
     pub fn factor(&mut self) -> Result<(), Dependent> {
-        self.ridged = false;
-        match self.saddle.factor(&self.plan.pattern) {
-            Err(Dependent::Row(row)) if self.passing => {
-                self.ridged = self.saddle.factor_near(&self.plan.pattern, RIDGE)?;
-                match self.ridged && self.refusing {
-                    true => Err(Dependent::Row(row)),
-                    false => Ok(()),
-                }
-            }
-            outcome => outcome,
+        self.regularised = false;
+        let refused = match self.saddle.factor(&self.plan.pattern) {
+            Err(Dependent::Row(row)) if self.near_singular != NearSingular::Ignore => row,
+            outcome => return outcome,
+        };
+        self.regularised = self.saddle.factor_regularised(&self.plan.pattern, RIDGE)?;
+        match self.regularised && self.near_singular == NearSingular::Refuse {
+            true => Err(Dependent::Row(refused)),
+            false => Ok(()),
         }
     }
 
     /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [S]) {
-        self.saddle.solve(&self.plan.pattern, x);
-    }
-
-    /// Bytes of the plan and of the numbers.
-    pub fn bytes(&self) -> Bytes {
-        self.plan.bytes() + self.saddle.bytes(&self.plan.pattern)
-    }
-
-    /// The work of finding the elimination order and the plan, see [`Pattern::effort`].
-    pub fn effort(&self) -> usize {
-        self.plan.pattern.effort()
+        let Plan { pattern, .. } = &*self.plan;
+        let padding = pattern.n_unknowns() + pattern.n_rows() - x.len();
+        if padding == 0 {
+            return self.saddle.solve(pattern, x);
+        }
+        let (q, rows) = x.split_at_mut(pattern.n_unknowns() - padding);
+        let zeros = vec![S::zero(); padding];
+        let mut padded = [&*q, &zeros, &*rows].concat();
+        self.saddle.solve(pattern, &mut padded);
+        q.copy_from_slice(&padded[..q.len()]);
+        rows.copy_from_slice(&padded[q.len() + padding..]);
     }
 
     /// How many digits the worst pivot lost: the constraint row and the pivot over what it was

@@ -1,24 +1,28 @@
-//! The balance that implicit methods bring to zero: r = M a + Φ_qᵀ λ - Q, Φ and Φ_q v + Φ_t, at any
-//! (q, v, a, λ), without solving for anything.
+//! The balance that implicit methods bring to zero: r = M a + Φ_qᵀ λ - Q, Φ, Φ_q v + Φ_t, and the rates
+//! ż of first-order states, at any (q, v, a, λ, z) and without solving for anything.
 
 use super::energy::Powers;
-use super::{constraints, forces, kinematics, mass};
-use crate::math::Motion;
+use super::forces::{self, Acting};
+use super::kinematics::Motions;
+use super::{constraints, mass, Compiled};
 use crate::model::Model;
 
 /// Residuals at one state, with the memory for them.
 #[derive(Clone, Debug)]
 pub struct Balance {
     /// Motion of every body, ground first.
-    pub motions: Vec<Motion>,
+    pub motions: Motions,
     /// r = M a + Φ_qᵀ λ - Q, N and N·m, shape (n_q).
     pub forces: Vec<f64>,
     /// Φ, shape (n_rows).
     pub position: Vec<f64>,
     /// Φ_q v + Φ_t, shape (n_rows).
     pub rate: Vec<f64>,
+    /// ż, shape (n_z).
+    pub state_rates: Vec<f64>,
     /// Powers of forces and drivers.
     pub powers: Powers,
+    compiled: Compiled,
     gamma: Vec<f64>,
     jacobian: Vec<f64>,
     applied: Vec<f64>,
@@ -29,11 +33,13 @@ impl Balance {
     pub fn new(model: &Model) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         Self {
-            motions: Vec::with_capacity(model.bodies.len()),
+            motions: Motions::new(&model.layout),
             forces: vec![0.0; n],
             position: vec![0.0; m],
             rate: vec![0.0; m],
+            state_rates: vec![0.0; model.layout.n_z],
             powers: Powers::zero(),
+            compiled: Compiled::new(model),
             gamma: vec![0.0; m],
             jacobian: vec![0.0; model.layout.n_entries],
             applied: vec![0.0; n],
@@ -41,27 +47,23 @@ impl Balance {
     }
 
     /// Evaluates all of it.
-    pub fn evaluate(&mut self, model: &Model, t: f64, [q, v, a]: [&[f64]; 3], lam: &[f64]) {
+    pub fn evaluate(&mut self, model: &Model, t: f64, [q, v, a, z]: [&[f64]; 4], lam: &[f64]) {
         let Self { motions, forces: out, position, rate, gamma, jacobian, applied, .. } = self;
-        kinematics::motions(q, v, motions);
+        motions.place(&model.layout, q, v);
         constraints::velocity_terms(model, motions, t, position, rate, gamma);
         constraints::jacobian(model, motions, t, jacobian);
-        self.powers = forces::generalized(model, motions, t, applied);
-        let bodies = model.bodies.iter().zip(motions.iter()).skip(1);
-        let columns = out.chunks_exact_mut(3).zip(a.chunks_exact(3)).zip(applied.chunks_exact(3));
-        for (((out, a), applied), (body, motion)) in columns.zip(bodies) {
-            let inertial = mass::block(body, motion).times([a[0], a[1], a[2]]);
-            (0..3).for_each(|c| out[c] = inertial[c] - applied[c]);
-        }
+        let acting = Acting { z, lam: Some(lam), t };
+        self.powers = forces::generalized(model, &self.compiled, motions, acting, applied);
+        forces::state_rates(model, motions, acting, &mut self.state_rates);
+        out.iter_mut().zip(&*applied).for_each(|(out, applied)| *out = -applied);
+        mass::add_times(model, motions, a, out);
         constraints::add_transposed(model, jacobian, lam, out);
-        let mut rows = [0.0; crate::elements::MOST_EQUATIONS];
-        for (k, item) in model.constraints.iter().enumerate().filter(|(_, c)| c.driven) {
-            let rows = &mut rows[..item.equations.len()];
-            constraints::times(model, k, jacobian, v, rows);
-            let range = model.layout.constraints[k].rows.clone();
-            for (rate, lam) in rows.iter().zip(&lam[range]) {
-                self.powers.drivers -= rate * lam;
-            }
+        let driven = model.constraints.iter().zip(&model.layout.constraints).enumerate();
+        for (k, (_, slots)) in driven.filter(|(_, (item, _))| item.driven) {
+            let mut rows = vec![0.0; slots.rows.len()];
+            constraints::times(model, k, jacobian, v, &mut rows);
+            let lam = &lam[slots.rows.clone()];
+            self.powers.drivers -= rows.iter().zip(lam).map(|(rate, lam)| rate * lam).sum::<f64>();
         }
     }
 }

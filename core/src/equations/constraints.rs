@@ -1,103 +1,71 @@
 //! Φ, Φ_q, Φ̇ and γ of all joints and drivers (Haug 3.6).
 //!
-//! A constraint whose fields are constant is evaluated as its element states it. One with a law of
-//! time or state takes the derived path: duals over each body it touches, and a jet in time, with
-//! the law evaluated on the same scalar.
+//! A constraint with constant fields is evaluated by its element. One with a law of time or state is
+//! derived: dual numbers over each body that it touches, and a jet in time, with the law evaluated over
+//! the same scalar.
 
+use super::kinematics::Motions;
 use super::laws::{self, Laws};
 use super::motion::Gains;
-use crate::elements::{
-    jets, moving, seeded, BodyId, Constraint, Coordinate, Linear, Rows, VelocityTerms,
-    MOST_EQUATIONS,
+use crate::elements::derive::{
+    columns_of, moving, participants, seeded, terms, with_values, ByThree,
 };
+use crate::elements::{At, BodyId, Constraint, Coordinate, Joint, Linearized, Moving};
 use crate::expression::Tape;
-use crate::math::{Dual, Jet, Lift, Motion, Pose, Real};
-use crate::model::{Block, ConstraintItem, Model, Slots};
+use crate::math::{Jet, Real, Twist};
+use crate::model::{Block, ConstraintItem, Model, Slots, StateLayout};
 
 /// Φ(q, t), shape (m).
-pub fn residual<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, out: &mut [S]) {
+pub fn residual<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, out: &mut [S]) {
     for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
-        let [i, j] = item.element.ends().map(|b| &motions[b.0].pose);
-        let out = &mut out[slots.rows.clone()];
-        match &item.law {
-            None => item.element.residual(i, j, t, out),
-            Some(law) => {
-                let values = laws::at(&model.parameters, motions, t);
-                law.map(&mut |tape| tape.evaluate(&values)).residual(i, j, t, out);
-            }
-        }
+        let phi = &mut out[slots.rows.clone()];
+        let (own, _) = motions.own(slots.own);
+        with_values(
+            item.bodies.len(),
+            |b| motions[item.bodies[b].0].pose,
+            |bodies| {
+                let at = At { bodies, own, t };
+                match &item.law {
+                    None => item.element.residual(&at, phi),
+                    Some(law) => {
+                        let values = laws::at(&model.parameters, motions, &[], t);
+                        law.map(&mut |tape| tape.evaluate(&values)).residual(&at, phi);
+                    }
+                }
+            },
+        );
     }
 }
 
 /// Stored entries of Φ_q, in the order of the layout.
-pub fn jacobian<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S, entries: &mut [S]) {
-    (0..model.constraints.len()).for_each(|k| jacobian_of(model, k, motions, t, entries));
+pub fn jacobian<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, entries: &mut [S]) {
+    for (k, slots) in model.layout.constraints.iter().enumerate() {
+        linearize_one(model, k, motions, t, |_, columns| store(columns, slots, entries));
+    }
 }
 
-/// The same of constraint `k` alone.
-pub(super) fn jacobian_of<S: Real>(
+/// Φ, Φ_q q̇ + Φ_t, and γ, each of shape (m).
+pub fn velocity_terms<S: Real>(
     model: &Model<S>,
-    k: usize,
-    motions: &[Motion<S>],
+    motions: &Motions<S>,
     t: S,
-    entries: &mut [S],
+    residual: &mut [S],
+    rate: &mut [S],
+    gamma: &mut [S],
 ) {
-    let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
-    if item.law.is_some() {
-        return law_blocks(model, item, slots, motions, t, entries);
-    }
-    let ends = item.element.ends();
-    let [i, j] = ends.map(|b| &motions[b.0].pose);
-    let mut rows = [[S::zero(); 6]; MOST_EQUATIONS];
-    let rows = &mut rows[..slots.rows.len()];
-    item.element.jacobian(i, j, t, rows);
-    store(ends, rows, slots, entries);
-}
-
-/// Puts the rows of a constraint into its blocks.
-#[inline(always)]
-fn store<S: Real>(ends: [BodyId; 2], rows: &[[S; 6]], slots: &Slots, entries: &mut [S]) {
-    for block in &slots.blocks {
-        let out = entries[block.first..][..3 * rows.len()].chunks_exact_mut(3);
-        match ends.map(|body| body == block.body) {
-            [true, false] => out.zip(rows).for_each(|(out, row)| out.copy_from_slice(&row[..3])),
-            [false, true] => out.zip(rows).for_each(|(out, row)| out.copy_from_slice(&row[3..])),
-            // a joint of a body with itself adds up both columns
-            _ => out.zip(rows).for_each(|(out, row)| {
-                out.copy_from_slice(&[row[0] + row[3], row[1] + row[4], row[2] + row[5]]);
-            }),
-        }
+    for (k, slots) in model.layout.constraints.iter().enumerate() {
+        linearize_one(model, k, motions, t, |terms, _| {
+            residual[slots.rows.clone()].copy_from_slice(terms.residual);
+            rate[slots.rows.clone()].copy_from_slice(terms.rate);
+            gamma[slots.rows.clone()].copy_from_slice(terms.gamma);
+        });
     }
 }
 
-/// The same, but for the columns ±I of joints that pin, which never change: they stand there already.
-#[inline(always)]
-pub(super) fn update<S: Real, const M: usize>(
-    ends: [BodyId; 2],
-    rows: &[[S; 6]; M],
-    slots: &Slots,
-    entries: &mut [S],
-) {
-    match slots.blocks.as_slice() {
-        [i, j] if M == 2 && j.sign != 0.0 => {
-            let out = &mut entries[i.first..i.first + 12]; // that of j follows
-            (out[2], out[5]) = (rows[0][2], rows[1][2]);
-            (out[8], out[11]) = (rows[0][5], rows[1][5]);
-        }
-        [one] if M == 2 && one.sign != 0.0 => {
-            let angle = if one.sign > 0.0 { 5 } else { 2 };
-            let out = &mut entries[one.first..one.first + 6];
-            (out[2], out[5]) = (rows[0][angle], rows[1][angle]);
-        }
-        _ => store(ends, rows, slots, entries),
-    }
-}
-
-/// Φ_q into `entries` as [`jacobian`], where such an entry stands already, and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m),
-/// into `right`, in one pass.
+/// Φ_q into `entries` as [`jacobian`], and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m), into `right`.
 pub fn linearize<S: Real>(
     model: &Model<S>,
-    motions: &[Motion<S>],
+    motions: &Motions<S>,
     t: S,
     gains: Gains,
     right: &mut [S],
@@ -108,45 +76,43 @@ pub fn linearize<S: Real>(
 }
 
 /// The same of the constraints `which` alone.
-#[inline(always)] // once in an evaluation: a call saves and restores more than it shares
 pub(super) fn linearize_some<S: Real>(
     model: &Model<S>,
     which: impl Iterator<Item = usize>,
-    motions: &[Motion<S>],
+    motions: &Motions<S>,
     t: S,
     stabilized: Stabilized<S>,
     right: &mut [S],
     entries: &mut [S],
 ) {
     for k in which {
-        let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
-        let right = &mut right[slots.rows.clone()];
-        let Some(law) = &item.law else {
-            item.element.linearize(motions, t, Target { slots, stabilized, right, entries });
-            continue;
-        };
-        let (m, none) = (slots.rows.len(), [S::zero(); MOST_EQUATIONS]);
-        let mut terms =
-            VelocityTerms::<S, MOST_EQUATIONS> { residual: none, rate: none, gamma: none };
-        let out = Rows {
-            residual: &mut terms.residual[..m],
-            rate: &mut terms.rate[..m],
-            gamma: &mut terms.gamma[..m],
-        };
-        law_velocity_terms(model, law, item.element.ends(), motions, t, out);
-        stabilized.put(&terms, right);
-        law_blocks(model, item, slots, motions, t, entries);
+        let slots = &model.layout.constraints[k];
+        linearize_one(model, k, motions, t, |terms, columns| {
+            stabilized.put(terms, &mut right[slots.rows.clone()]);
+            store(columns, slots, entries);
+        });
     }
 }
 
-/// Baumgarte's gains as γ̂ takes them.
+/// Φ, Φ̇ and γ of one constraint, one entry for each of its equations.
+#[derive(Debug)]
+pub struct Terms<'a, S> {
+    /// Φ.
+    pub residual: &'a [S],
+    /// Φ_q q̇ + Φ_t.
+    pub rate: &'a [S],
+    /// γ.
+    pub gamma: &'a [S],
+}
+
+/// Baumgarte's gains in γ̂.
 #[derive(Clone, Copy)]
 pub(super) struct Stabilized<S> {
     /// 2α.
     damping: S,
     /// β².
     stiffness: S,
-    /// Whether there is none.
+    /// Whether both are zero.
     none: bool,
 }
 
@@ -157,11 +123,11 @@ impl<S: Real> Stabilized<S> {
         Self { damping, stiffness: S::constant(gains.beta * gains.beta), none }
     }
 
-    /// γ̂ of the first rows, as many as `right` takes.
+    /// γ̂ of the rows of one constraint.
     #[inline(always)]
-    pub fn put<const M: usize>(&self, terms: &VelocityTerms<S, M>, right: &mut [S]) {
+    pub fn put(&self, terms: &Terms<'_, S>, right: &mut [S]) {
         if self.none {
-            right.copy_from_slice(&terms.gamma[..right.len()]);
+            right.copy_from_slice(terms.gamma);
             return;
         }
         for (k, right) in right.iter_mut().enumerate() {
@@ -171,164 +137,203 @@ impl<S: Real> Stabilized<S> {
     }
 }
 
-/// Where a constraint puts γ̂ and its rows of Φ_q.
-struct Target<'a, S> {
-    slots: &'a Slots,
-    stabilized: Stabilized<S>,
-    /// γ̂ of its rows.
-    right: &'a mut [S],
-    entries: &'a mut [S],
+/// The rows of Φ_q of a constraint, as its blocks take them.
+pub(super) enum ByBlock<'a, S> {
+    /// By participant of the element.
+    Participants(&'a [BodyId], &'a [[S; 3]]),
+    /// By block: a law may touch more bodies than the element.
+    Blocks(&'a [[S; 3]]),
 }
 
-impl<S: Real> Linear<S> for Target<'_, S> {
-    #[inline(always)]
-    fn take<const M: usize>(
-        self,
-        ends: [BodyId; 2],
-        terms: &VelocityTerms<S, M>,
-        rows: &[[S; 6]; M],
-    ) {
-        self.stabilized.put(terms, &mut self.right[..M]);
-        update(ends, rows, self.slots, self.entries);
-    }
-}
-
-/// Φ, Φ̇ and γ of constraint `k` alone into its own rows, and its blocks of Φ_q into `entries` of all.
-pub(super) fn linearize_one<S: Real>(
+/// Gives Φ, Φ̇, γ and the rows of Φ_q of constraint `k`, an `element` with constant fields, to `take`.
+#[inline(always)]
+pub(super) fn linearize_element<E: Joint, S: Real, R>(
     model: &Model<S>,
     k: usize,
-    motions: &[Motion<S>],
+    element: &E::Over<S>,
+    motions: &Motions<S>,
     t: S,
-    [residual, rate, gamma]: [&mut [S]; 3],
-    entries: &mut [S],
-) {
-    velocity_terms_of(model, k, motions, t, Rows { residual, rate, gamma });
-    jacobian_of(model, k, motions, t, entries);
+    take: impl FnOnce(&Terms<'_, S>, ByBlock<'_, S>) -> R,
+) -> R {
+    let (bodies, slots) = (&model.constraints[k].bodies, &model.layout.constraints[k]);
+    let (own, own_rates) = motions.own(slots.own);
+    let m = slots.rows.len();
+    let count = participants(bodies.len(), own.len());
+    let body = |b: usize| motions[bodies[b].0];
+    with_values(bodies.len(), body, |all| {
+        let at = Moving { bodies: all, own, own_rates, t };
+        with_values(
+            3 * m,
+            |_| S::zero(),
+            |terms| {
+                let (residual, rest) = terms.split_at_mut(m);
+                let (rate, gamma) = rest.split_at_mut(m);
+                with_values(
+                    count * m,
+                    |_| [S::zero(); 3],
+                    |columns| {
+                        let out = Linearized { residual, rate, gamma, columns };
+                        E::linearize(element, &at, out);
+                        let by_block = ByBlock::Participants(bodies, columns);
+                        take(&Terms { residual, rate, gamma }, by_block)
+                    },
+                )
+            },
+        )
+    })
 }
 
-/// Blocks of a constraint with a law.
-fn law_blocks<S: Real>(
+/// Gives Φ, Φ̇, γ and the rows of Φ_q of constraint `k` to `take`.
+pub(super) fn linearize_one<S: Real, R>(
     model: &Model<S>,
-    item: &ConstraintItem<S>,
-    slots: &Slots,
-    motions: &[Motion<S>],
+    k: usize,
+    motions: &Motions<S>,
     t: S,
-    entries: &mut [S],
-) {
-    for block in &slots.blocks {
-        let out = &mut entries[block.first..][..3 * slots.rows.len()];
-        law_block(model, item, motions, t, block, out);
-    }
-}
-
-/// Derivatives of a constraint with a law by the coordinates of one body.
-pub(super) fn law_block<S: Real>(
-    model: &Model<S>,
-    item: &ConstraintItem<S>,
-    motions: &[Motion<S>],
-    t: S,
-    block: &Block,
-    out: &mut [S],
-) {
-    type D<S> = Dual<3, S>;
-    let pose = |body: BodyId| -> Pose<D<S>> {
-        let pose = &motions[body.0].pose;
-        if body == block.body {
-            seeded(pose, 0)
-        } else {
-            lifted(pose)
-        }
+    take: impl FnOnce(&Terms<'_, S>, ByBlock<'_, S>) -> R,
+) -> R {
+    let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
+    let (own, own_rates) = motions.own(slots.own);
+    let (m, bodies) = (slots.rows.len(), &item.bodies);
+    let count = match &item.law {
+        None => participants(bodies.len(), own.len()),
+        Some(_) => slots.blocks.len(),
     };
-    let t = D::lift(t);
-    let coordinate =
-        |body: BodyId, c: Coordinate| -> D<S> { c.of(&pose(body), &crate::math::Twist::zero()) };
-    let values = Laws { parameters: &model.parameters, t, coordinate };
-    let Some(law) = &item.law else { return };
-    let element = law.map(&mut |tape| tape.evaluate(&values));
-    let [i, j] = element.ends().map(pose);
-    let mut phi = [D::<S>::zero(); MOST_EQUATIONS];
-    let m = out.len() / 3;
-    element.residual(&i, &j, t, &mut phi[..m]);
-    for (phi, out) in phi[..m].iter().zip(out.chunks_exact_mut(3)) {
-        out.copy_from_slice(&phi.slope);
-    }
-}
-
-fn lifted<S: Real>(pose: &Pose<S>) -> Pose<Dual<3, S>> {
-    Pose {
-        r: pose.r.lift(),
-        angle: Lift::lift(pose.angle),
-        rotation: crate::math::Rotation {
-            cos: Lift::lift(pose.rotation.cos),
-            sin: Lift::lift(pose.rotation.sin),
+    with_values(
+        bodies.len(),
+        |b| motions[bodies[b].0],
+        |all| {
+            let at = Moving { bodies: all, own, own_rates, t };
+            with_values(
+                3 * m,
+                |_| S::zero(),
+                |terms| {
+                    let (residual, rest) = terms.split_at_mut(m);
+                    let (rate, gamma) = rest.split_at_mut(m);
+                    with_values(
+                        count * m,
+                        |_| [S::zero(); 3],
+                        |columns| {
+                            let by_block = match &item.law {
+                                None => {
+                                    let out = Linearized { residual, rate, gamma, columns };
+                                    item.element.linearize(&at, out);
+                                    ByBlock::Participants(bodies, columns)
+                                }
+                                Some(law) => {
+                                    law_terms(model, law, motions, &at, [residual, rate, gamma]);
+                                    for (block, rows) in
+                                        slots.blocks.iter().zip(columns.chunks_exact_mut(m))
+                                    {
+                                        law_columns((model, item, law), motions, &at, block, rows);
+                                    }
+                                    ByBlock::Blocks(columns)
+                                }
+                            };
+                            take(&Terms { residual, rate, gamma }, by_block)
+                        },
+                    )
+                },
+            )
         },
-    }
+    )
 }
 
-/// Φ, Φ_q q̇ + Φ_t, and γ, each of shape (m).
-pub fn velocity_terms<S: Real>(
-    model: &Model<S>,
-    motions: &[Motion<S>],
-    t: S,
-    residual: &mut [S],
-    rate: &mut [S],
-    gamma: &mut [S],
-) {
-    for (k, slots) in model.layout.constraints.iter().enumerate() {
-        let rows = slots.rows.clone();
-        let out = Rows {
-            residual: &mut residual[rows.clone()],
-            rate: &mut rate[rows.clone()],
-            gamma: &mut gamma[rows],
-        };
-        velocity_terms_of(model, k, motions, t, out);
-    }
-}
-
-/// The same of constraint `k` alone.
-pub(super) fn velocity_terms_of<S: Real>(
-    model: &Model<S>,
-    k: usize,
-    motions: &[Motion<S>],
-    t: S,
-    out: Rows<'_, S>,
-) {
-    let item = &model.constraints[k];
-    let ends = item.element.ends();
-    match &item.law {
-        None => item.element.velocity_terms(&motions[ends[0].0], &motions[ends[1].0], t, out),
-        Some(law) => law_velocity_terms(model, law, ends, motions, t, out),
+/// Puts the rows of a constraint into its blocks.
+pub(super) fn store<S: Real>(rows: ByBlock<'_, S>, slots: &Slots, entries: &mut [S]) {
+    let m = slots.rows.len();
+    for (b, block) in slots.blocks.iter().enumerate() {
+        let out = &mut entries[block.first..][..3 * m];
+        match rows {
+            ByBlock::Blocks(rows) => out.copy_from_slice(rows[b * m..][..m].as_flattened()),
+            ByBlock::Participants(bodies, rows) => {
+                out.fill(S::zero());
+                let own = block.body.is_none();
+                for (p, rows) in rows.chunks_exact(m).enumerate() {
+                    let same = bodies.get(p).map_or(own, |body| Some(*body) == block.body);
+                    if same {
+                        let rows = rows.as_flattened();
+                        out.iter_mut().zip(rows).for_each(|(out, x)| *out += *x);
+                    }
+                }
+            }
+        }
     }
 }
 
 /// Φ, Φ̇ and γ of a constraint with a law, by a jet in time.
-fn law_velocity_terms<S: Real>(
+fn law_terms<S: Real>(
     model: &Model<S>,
     law: &Constraint<Tape>,
-    ends: [BodyId; 2],
-    motions: &[Motion<S>],
-    t: S,
-    out: Rows<'_, S>,
+    motions: &Motions<S>,
+    at: &Moving<'_, S>,
+    out: [&mut [S]; 3],
 ) {
-    let time = Jet::new(t, S::one(), S::zero());
-    let coordinate = |body: BodyId, c: Coordinate| -> Jet<S> {
-        let motion = &motions[body.0];
-        let [position, rate] = [c.column(), c.column() + 3]
-            .map(|k| Coordinate::ALL[k].of(&motion.pose, &motion.twist));
-        Jet::new(position, rate, S::zero())
+    let coordinate =
+        |body: BodyId, c: Coordinate| -> Jet<S> { c.of(&moving(&motions[body.0]), &Twist::zero()) };
+    let residual = |at: &At<'_, Jet<S>>, phi: &mut [Jet<S>]| {
+        let values = Laws { parameters: &model.parameters, t: at.t, coordinate, z: &[] };
+        law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
     };
-    let values = Laws { parameters: &model.parameters, t: time, coordinate };
-    let element = law.map(&mut |tape| tape.evaluate(&values));
-    let [i, j] = ends.map(|b| moving(&motions[b.0]));
-    jets(&element, &i, &j, time, out);
+    terms(at, residual, out);
+}
+
+/// Derivatives of a constraint with a law by the coordinates of one owner.
+fn law_columns<S: Real>(
+    (model, item, law): (&Model<S>, &ConstraintItem<S>, &Constraint<Tape>),
+    motions: &Motions<S>,
+    at: &Moving<'_, S>,
+    block: &Block,
+    rows: &mut [[S; 3]],
+) {
+    let coordinate = |body: BodyId, c: Coordinate| -> ByThree<S> {
+        let pose = &motions[body.0].pose;
+        let pose = if Some(body) == block.body { seeded(pose) } else { pose.lift() };
+        c.of(&pose, &Twist::zero())
+    };
+    let residual = |at: &At<'_, ByThree<S>>, phi: &mut [ByThree<S>]| {
+        let values = Laws { parameters: &model.parameters, t: at.t, coordinate, z: &[] };
+        law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
+    };
+    let varies = |b: usize| Some(item.bodies[b]) == block.body;
+    columns_of(at, varies, block.body.is_none(), residual, rows);
+}
+
+/// Derivatives of constraint `k` by the coordinates of one body, one row for each equation, into
+/// `rows`; a body that it does not touch has zeros. Ground takes part only as a body of the element.
+pub(super) fn columns_by_body<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    t: S,
+    body: BodyId,
+    rows: &mut [[S; 3]],
+) {
+    let slots = &model.layout.constraints[k];
+    let m = slots.rows.len();
+    rows.fill([S::zero(); 3]);
+    let mut add = |from: &[[S; 3]]| {
+        for (row, from) in rows.iter_mut().zip(from) {
+            row.iter_mut().zip(from).for_each(|(row, x)| *row += *x);
+        }
+    };
+    linearize_one(model, k, motions, t, |_, columns| match columns {
+        ByBlock::Participants(bodies, columns) => {
+            let own = bodies.iter().zip(columns.chunks_exact(m)).filter(|(b, _)| **b == body);
+            own.for_each(|(_, rows)| add(rows));
+        }
+        ByBlock::Blocks(columns) => {
+            let blocks = slots.blocks.iter().zip(columns.chunks_exact(m));
+            let own = blocks.filter(|(block, _)| block.body == Some(body));
+            own.for_each(|(_, rows)| add(rows));
+        }
+    });
 }
 
 /// ν = -Φ_t: the right side of Φ_q q̇ = ν (Haug 3.6.10), shape (m).
 pub fn nu<S: Real>(model: &Model<S>, q: &[S], t: S) -> Vec<S> {
     let m = model.layout.n_rows;
-    let (mut phi, mut rate, mut gamma) =
-        (vec![S::zero(); m], vec![S::zero(); m], vec![S::zero(); m]);
-    let motions = super::kinematics::at_rest(q);
+    let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![S::zero(); m]);
+    let motions = Motions::at_rest(&model.layout, q);
     velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
     rate.into_iter().map(|r| -r).collect()
 }
@@ -337,11 +342,10 @@ pub fn nu<S: Real>(model: &Model<S>, q: &[S], t: S) -> Vec<S> {
 pub fn add_transposed<S: Real>(model: &Model<S>, entries: &[S], lam: &[S], y: &mut [S]) {
     for slots in &model.layout.constraints {
         for block in &slots.blocks {
-            let columns = &mut y[crate::model::columns(block.body)];
-            for (row, entries) in slots.rows.clone().zip(entries[block.first..].chunks_exact(3)) {
-                for (y, e) in columns.iter_mut().zip(entries) {
-                    *y += *e * lam[row];
-                }
+            for (r, row) in slots.rows.clone().enumerate() {
+                let entries = &entries[StateLayout::entries(block, r)];
+                let y = &mut y[block.columns.range()];
+                y.iter_mut().zip(entries).for_each(|(y, e)| *y += *e * lam[row]);
             }
         }
     }
@@ -351,9 +355,17 @@ pub fn add_transposed<S: Real>(model: &Model<S>, entries: &[S], lam: &[S], y: &m
 pub fn times<S: Real>(model: &Model<S>, k: usize, entries: &[S], x: &[S], out: &mut [S]) {
     out.fill(S::zero());
     for block in &model.layout.constraints[k].blocks {
-        let columns = &x[crate::model::columns(block.body)];
-        for (out, entries) in out.iter_mut().zip(entries[block.first..].chunks_exact(3)) {
-            *out += entries[0] * columns[0] + entries[1] * columns[1] + entries[2] * columns[2];
+        let [x, y, angle] = block.columns.of(x);
+        for (r, out) in out.iter_mut().enumerate() {
+            let entries = &entries[StateLayout::entries(block, r)];
+            *out += entries[0] * x + entries[1] * y + entries[2] * angle;
         }
+    }
+}
+
+/// Φ_q x, shape (m).
+pub fn times_all<S: Real>(model: &Model<S>, entries: &[S], x: &[S], out: &mut [S]) {
+    for (k, slots) in model.layout.constraints.iter().enumerate() {
+        times(model, k, entries, x, &mut out[slots.rows.clone()]);
     }
 }

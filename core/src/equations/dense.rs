@@ -1,8 +1,9 @@
 //! The matrices of the equations in full, for people to look at.
 
-use super::{constraints, forces, kinematics, mass};
-use crate::math::Motion;
-use crate::model::{columns, Model};
+use super::forces::Acting;
+use super::kinematics::Motions;
+use super::{constraints, forces, mass, Compiled};
+use crate::model::Model;
 
 /// Matrices row by row, and right sides, at one state.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,14 +25,14 @@ pub struct Matrices {
 }
 
 /// All matrices at a state.
-pub fn matrices(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Matrices {
+pub fn matrices(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Matrices {
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
-    let mut motions = Vec::new();
-    kinematics::motions(q, v, &mut motions);
+    let motions = Motions::at(&model.layout, q, v);
     let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
     constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
     let mut q_forces = vec![0.0; n];
-    forces::generalized(model, &motions, t, &mut q_forces);
+    let acting = Acting { z, lam: None, t };
+    forces::generalized(model, &Compiled::new(model), &motions, acting, &mut q_forces);
     let mass = mass_matrix(model, &motions);
     let jacobian = jacobian(model, &motions, t);
     let kkt = augmented(&mass, &jacobian, n, m);
@@ -40,29 +41,27 @@ pub fn matrices(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Matrices {
 }
 
 /// Φ_q, row by row, shape (n_rows, n_q).
-pub fn jacobian(model: &Model, motions: &[Motion], t: f64) -> Vec<f64> {
+pub fn jacobian(model: &Model, motions: &Motions, t: f64) -> Vec<f64> {
     let n = model.layout.n_q;
     let mut entries = vec![0.0; model.layout.n_entries];
     constraints::jacobian(model, motions, t, &mut entries);
     let mut full = vec![0.0; model.layout.n_rows * n];
-    for ((row, column), entry) in model.layout.positions().zip(entries) {
-        full[row * n + column] = entry;
+    for (row, column, at) in model.layout.positions() {
+        full[row * n + column] = entries[at];
     }
     full
 }
 
-fn mass_matrix(model: &Model, motions: &[Motion]) -> Vec<f64> {
+fn mass_matrix(model: &Model, motions: &Motions) -> Vec<f64> {
     let n = model.layout.n_q;
     let mut full = vec![0.0; n * n];
-    for (k, (body, motion)) in model.bodies.iter().zip(motions).enumerate().skip(1) {
-        let block = mass::block(body, motion);
-        let own = columns(crate::elements::BodyId(k));
-        for (c, column) in own.clone().enumerate() {
-            let unit = std::array::from_fn(|k| if k == c { 1.0 } else { 0.0 });
-            for (row, entry) in own.clone().zip(block.times(unit)) {
-                full[row * n + column] = entry;
-            }
-        }
+    let (mut unit, mut product) = (vec![0.0; n], vec![0.0; n]);
+    for column in 0..n {
+        unit[column] = 1.0;
+        product.fill(0.0);
+        mass::add_times(model, motions, &unit, &mut product);
+        (0..n).for_each(|row| full[row * n + column] = product[row]);
+        unit[column] = 0.0;
     }
     full
 }

@@ -2,19 +2,18 @@
 //!
 //! Balance: T + V + dissipated - work of drivers - work of applied forces is constant.
 
-use super::forces;
+use super::forces::{self, Acting};
+use super::kinematics::Motions;
 use crate::elements::Nature;
 use crate::math::{Motion, Real, Twist};
-use crate::model::{Body, Inertia, Model};
+use crate::model::{Body, Model};
 
 /// Kinetic energy ½ q̇ᵀ M q̇, J: by the velocity of the mass centre and the inertia about it.
 pub fn kinetic<S: Real>(model: &Model<S>, motions: &[Motion<S>]) -> S {
     let mut twice = S::zero();
-    for (body, inertia, motion) in moving(model, motions) {
-        let Twist { mut velocity, omega } = motion.twist;
-        if inertia.coupled {
-            velocity = velocity + motion.pose.global(body.center).perp().scale(omega);
-        }
+    for (body, motion) in moving(model, motions) {
+        let Twist { velocity, omega } = motion.twist;
+        let velocity = velocity + motion.pose.global(body.center).perp().scale(omega);
         twice = twice.plus_product(body.mass, velocity.dot(velocity));
         twice = twice.plus_product(body.inertia, omega * omega);
     }
@@ -22,17 +21,13 @@ pub fn kinetic<S: Real>(model: &Model<S>, motions: &[Motion<S>]) -> S {
 }
 
 /// Potential energy of gravity (zero at the global origin) and of the forces, J.
-pub fn potential<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S) -> S {
+pub fn potential<S: Real>(model: &Model<S>, motions: &Motions<S>, z: &[S], t: S) -> S {
     let mut sum = S::zero();
-    for (body, inertia, motion) in moving(model, motions) {
-        let center = match inertia.coupled {
-            true => motion.pose.point(body.center),
-            false => motion.pose.r,
-        };
-        sum = sum.minus_product(body.mass, model.gravity.dot(center));
+    for (body, motion) in moving(model, motions) {
+        sum = sum.minus_product(body.mass, model.gravity.dot(motion.pose.point(body.center)));
     }
-    for item in &model.forces {
-        sum += forces::potential(item, motions, t);
+    for k in 0..model.forces.len() {
+        sum += forces::potential(model, k, motions, Acting { z, lam: None, t });
     }
     sum
 }
@@ -41,9 +36,8 @@ pub fn potential<S: Real>(model: &Model<S>, motions: &[Motion<S>], t: S) -> S {
 fn moving<'a, S>(
     model: &'a Model<S>,
     motions: &'a [Motion<S>],
-) -> impl Iterator<Item = (&'a Body<S>, &'a Inertia<S>, &'a Motion<S>)> {
-    let bodies = model.bodies[1..].iter().zip(&model.inertias).zip(&motions[1..]);
-    bodies.map(|((body, inertia), motion)| (body, inertia, motion))
+) -> impl Iterator<Item = (&'a Body<S>, &'a Motion<S>)> {
+    model.bodies.iter().zip(motions).skip(1)
 }
 
 /// Powers that the energy balance integrates, W.
@@ -67,7 +61,7 @@ impl<S: Real> Powers<S> {
     #[inline(always)]
     pub(super) fn add(&mut self, nature: Nature, law: bool, power: impl Fn() -> S) {
         match (law, nature) {
-            (false, Nature::Conservative) => {}
+            (false, Nature::Conservative) | (_, Nature::Exchanged) => {}
             (_, Nature::Dissipative) => self.dissipated -= power(),
             _ => self.applied += power(), // a law of time or state: no potential keeps its work
         }

@@ -10,8 +10,9 @@
 //! their solution. Redundant rows are damped with μ, for the same reason without harm.
 
 use super::tangent::Tangent;
+use super::Compiled;
 use crate::math::Field;
-use crate::model::{Layout, Model};
+use crate::model::{Model, StateLayout};
 use crate::solve::{BlockLu, LuPlan};
 
 /// Damping of redundant rows, relative to the compliance of the bodies.
@@ -28,15 +29,17 @@ pub struct Places {
     /// Slot of the diagonal block of each constraint, and its rows.
     diagonal: Vec<(usize, usize)>,
     damping: f64,
+    /// Inertia added to the bodies, kg·m².
+    added_inertia: Vec<f64>,
 }
 
 impl Places {
     /// For a model and the pattern of its tangent.
     pub fn new(model: &Model, tangent: &Tangent) -> Self {
         let layout = &model.layout;
-        let bodies = layout.n_q / 3;
+        let bodies = layout.owners.len();
         let rows = layout.constraints.iter().map(|slots| slots.rows.len());
-        let sizes: Vec<usize> = std::iter::repeat_n(3, bodies).chain(rows).collect();
+        let sizes: Vec<usize> = layout.owners.iter().map(|owner| owner.count).chain(rows).collect();
         let mut entries = tangent.pairs().to_vec();
         entries.extend(blocks(layout).map(|(k, body, _)| (bodies + k, body)));
         let plan = LuPlan::new(sizes, bodies, &entries);
@@ -55,20 +58,22 @@ impl Places {
             .collect();
         let compliance = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
         let damping = if model.allow_redundancy { REDUNDANT * compliance } else { 0.0 };
-        Self { plan, pairs, jacobian, diagonal, damping }
+        let added_inertia = Compiled::new(model).added_inertia;
+        Self { plan, pairs, jacobian, diagonal, damping, added_inertia }
     }
 }
 
 /// Each block of Φ_q: constraint, body (from 0 without ground), first entry.
-fn blocks(layout: &Layout) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
-    layout.constraints.iter().enumerate().flat_map(|(k, slots)| {
-        slots.blocks.iter().map(move |block| (k, block.body.0 - 1, block.first))
-    })
+fn blocks(layout: &StateLayout) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
+    layout
+        .constraints
+        .iter()
+        .enumerate()
+        .flat_map(|(k, slots)| slots.blocks.iter().map(move |block| (k, block.owner, block.first)))
 }
 
 /// Puts the matrix together, with the factors [c_a, c_v, c_q, c_b] of M, D, K and B.
 pub fn assemble<F: Field>(
-    model: &Model,
     places: &Places,
     tangent: &Tangent,
     [c_a, c_v, c_q, c_b]: [F; 4],
@@ -85,9 +90,9 @@ pub fn assemble<F: Field>(
             }
         }
     }
-    let added = &model.added_inertia[1..];
     // the diagonal blocks are the first pairs
-    for ((mass, added), &slot) in tangent.mass.iter().zip(added).zip(&places.pairs) {
+    for ((mass, added), &slot) in tangent.mass.iter().zip(&places.added_inertia).zip(&places.pairs)
+    {
         let block = lu.block_mut(slot);
         let (m, b) = (mass.mass, mass.coupling);
         let full = [[m, 0.0, b.x], [0.0, m, b.y], [b.x, b.y, mass.inertia + added]];

@@ -1,38 +1,133 @@
-//! Poses and twists of all bodies from q and q̇.
+//! Poses and twists of all bodies, and internal coordinates of elements, from q and q̇.
 
 use crate::math::{Motion, Pose, Real, Rotation, Twist};
+use crate::model::{Columns, Model, StateLayout};
+use std::ops::Deref;
 
-/// Motion of every body, ground first, from q (3 n_b) and v (3 n_b). What `out` holds must come from here or
-/// be empty: ground is not written again. No allocation if it has held as many bodies before.
-#[inline(always)] // once in an evaluation: a call saves and restores more than it shares
-pub fn motions<S: Real>(q: &[S], v: &[S], out: &mut Vec<Motion<S>>) {
-    out.resize(q.len() / 3 + 1, Motion { pose: Pose::identity(), twist: Twist::zero() });
-    let moving = out[1..].iter_mut().zip(q.chunks_exact(3).zip(v.chunks_exact(3)));
-    for (motion, (q, v)) in moving {
-        let pose = &mut motion.pose;
-        (pose.angle, pose.rotation) = (q[2], Rotation::new(q[2]));
-        (pose.r.x, pose.r.y) = (q[0], q[1]);
-        put_rates(v, &mut motion.twist);
+/// The motion of every body, ground first, and the internal coordinates of elements.
+///
+/// It dereferences to the motions of the bodies.
+#[derive(Clone, Debug)]
+pub struct Motions<S = f64> {
+    bodies: Vec<Motion<S>>,
+    /// The first column of the internal coordinates.
+    first_own: usize,
+    own: Vec<S>,
+    own_rates: Vec<S>,
+}
+
+impl<S> Deref for Motions<S> {
+    type Target = [Motion<S>];
+    fn deref(&self) -> &[Motion<S>] {
+        &self.bodies
     }
 }
 
-/// Gives the moving bodies the rates v (3 n_b); their positions stay.
-pub fn set_rates<S: Real>(v: &[S], motions: &mut [Motion<S>]) {
-    for (motion, v) in motions[1..].iter_mut().zip(v.chunks_exact(3)) {
-        put_rates(v, &mut motion.twist);
+impl<S: Real> Motions<S> {
+    /// Memory for a model; everything rests in the origin.
+    pub fn new(layout: &StateLayout) -> Self {
+        let bodies = layout.bodies.len();
+        let first_own = layout.bodies.iter().map(|columns| columns.range().end).max().unwrap_or(0);
+        let none = vec![S::zero(); layout.n_q - first_own];
+        Self {
+            bodies: vec![Motion::ground(); bodies],
+            first_own,
+            own: none.clone(),
+            own_rates: none,
+        }
+    }
+
+    /// At the coordinates `q` and rates `v`, both of shape (n_q).
+    pub fn at(layout: &StateLayout, q: &[S], v: &[S]) -> Self {
+        let mut motions = Self::new(layout);
+        motions.place(layout, q, v);
+        motions
+    }
+
+    /// At rest.
+    pub fn at_rest(layout: &StateLayout, q: &[S]) -> Self {
+        Self::at(layout, q, &vec![S::zero(); q.len()])
+    }
+
+    /// Sets coordinates and rates, both of shape (n_q).
+    #[inline(always)] // in every evaluation
+    pub fn place(&mut self, layout: &StateLayout, q: &[S], v: &[S]) {
+        for (motion, columns) in self.bodies[1..].iter_mut().zip(&layout.bodies[1..]) {
+            let (pose, q) = (&mut motion.pose, &q[columns.range()]);
+            (pose.r.x, pose.r.y) = (q[0], q[1]);
+            if let Some(angle) = q.get(2) {
+                (pose.angle, pose.rotation) = (*angle, Rotation::new(*angle));
+            }
+            put_rates(&v[columns.range()], &mut motion.twist);
+        }
+        self.own.copy_from_slice(&q[self.first_own..]);
+        self.own_rates.copy_from_slice(&v[self.first_own..]);
+    }
+
+    /// Sets the rates `v`, shape (n_q); positions stay.
+    pub fn set_rates(&mut self, layout: &StateLayout, v: &[S]) {
+        for (motion, columns) in self.bodies[1..].iter_mut().zip(&layout.bodies[1..]) {
+            put_rates(&v[columns.range()], &mut motion.twist);
+        }
+        self.own_rates.copy_from_slice(&v[self.first_own..]);
+    }
+
+    /// Internal coordinates of an element and their rates.
+    pub fn own(&self, columns: Columns) -> (&[S], &[S]) {
+        let range = match columns.count {
+            0 => 0..0,
+            count => columns.first - self.first_own..columns.first - self.first_own + count,
+        };
+        (&self.own[range.clone()], &self.own_rates[range])
+    }
+
+    /// A copy without derivatives over a scalar that contains this one.
+    pub fn lift<T: crate::math::Lift<S>>(&self) -> Motions<T> {
+        let lift = |x: &[S]| x.iter().map(|x| T::lift(*x)).collect();
+        Motions {
+            bodies: self.bodies.iter().map(Motion::lift).collect(),
+            first_own: self.first_own,
+            own: lift(&self.own),
+            own_rates: lift(&self.own_rates),
+        }
+    }
+
+    /// The motion of a body, to be changed.
+    pub(super) fn body_mut(&mut self, body: usize) -> &mut Motion<S> {
+        &mut self.bodies[body]
+    }
+
+    /// Internal coordinates of an element and their rates, to be changed.
+    pub(super) fn own_mut(&mut self, columns: Columns) -> (&mut [S], &mut [S]) {
+        let first = columns.first.saturating_sub(self.first_own);
+        let range = first..first + columns.count;
+        (&mut self.own[range.clone()], &mut self.own_rates[range])
     }
 }
 
-/// Number by number: what is put together first is copied twice.
+/// Number by number: a twist that is put together first would be copied twice.
 #[inline(always)]
 fn put_rates<S: Real>(v: &[S], twist: &mut Twist<S>) {
     (twist.velocity.x, twist.velocity.y) = (v[0], v[1]);
-    twist.omega = v[2];
+    if let Some(omega) = v.get(2) {
+        twist.omega = *omega;
+    }
 }
 
-/// Motion of every body at rest.
-pub fn at_rest<S: Real>(q: &[S]) -> Vec<Motion<S>> {
-    let mut out = Vec::with_capacity(q.len() / 3 + 1);
-    motions(q, &vec![S::zero(); q.len()], &mut out);
-    out
+/// The coordinates of poses of all bodies, ground first, with the internal coordinates that elements
+/// start from there; shape (n_q).
+pub fn coordinates(model: &Model, poses: &[Pose]) -> Vec<f64> {
+    let layout = &model.layout;
+    let mut q = vec![0.0; layout.n_q];
+    for (pose, columns) in poses.iter().zip(&layout.bodies) {
+        let three = [pose.r.x, pose.r.y, pose.angle];
+        q[columns.range()].copy_from_slice(&three[..columns.count]);
+    }
+    for (item, slots) in model.constraints.iter().zip(&layout.constraints) {
+        if slots.own.count > 0 {
+            let bodies: Vec<Pose> = item.bodies.iter().map(|body| poses[body.0]).collect();
+            q[slots.own.range()].copy_from_slice(&item.element.own_start(&bodies));
+        }
+    }
+    q
 }

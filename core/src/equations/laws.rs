@@ -1,11 +1,12 @@
-//! Values that the formulas of laws may use: parameters, time, and the motion of the bodies.
+//! Values that the formulas of laws may use: parameters, time, the motion of the bodies, and
+//! first-order states.
 
 use crate::elements::{BodyId, Coordinate};
 use crate::expression::Values;
 use crate::math::{Lift, Motion, Real};
-use crate::model::variable;
+use crate::model::Variable;
 
-/// Parameters over `S`, time and coordinates over a scalar `T` that contains it.
+/// Parameters over `S`; time, coordinates and states over a scalar `T` that contains it.
 #[derive(Debug)]
 pub struct Laws<'a, S, T, F> {
     /// Values of the parameters.
@@ -14,6 +15,8 @@ pub struct Laws<'a, S, T, F> {
     pub t: T,
     /// The value of a coordinate of a body.
     pub coordinate: F,
+    /// First-order states; empty where laws may not use them.
+    pub z: &'a [T],
 }
 
 impl<S: Real, T: Lift<S>, F: Fn(BodyId, Coordinate) -> T> Values<T> for Laws<'_, S, T, F> {
@@ -24,8 +27,10 @@ impl<S: Real, T: Lift<S>, F: Fn(BodyId, Coordinate) -> T> Values<T> for Laws<'_,
         self.t
     }
     fn variable(&self, k: usize) -> T {
-        let (body, coordinate) = variable(k);
-        (self.coordinate)(body, coordinate)
+        match Variable::at(k) {
+            Variable::Coordinate(body, coordinate) => (self.coordinate)(body, coordinate),
+            Variable::State(k) => self.z[k],
+        }
     }
 }
 
@@ -33,11 +38,12 @@ impl<S: Real, T: Lift<S>, F: Fn(BodyId, Coordinate) -> T> Values<T> for Laws<'_,
 pub fn at<'a, S: Real>(
     parameters: &'a [S],
     motions: &'a [Motion<S>],
+    z: &'a [S],
     t: S,
 ) -> Laws<'a, S, S, impl Fn(BodyId, Coordinate) -> S + 'a> {
     let coordinate = move |body: BodyId, c: Coordinate| {
         let m = &motions[body.0];
         c.of(&m.pose, &m.twist)
     };
-    Laws { parameters, t, coordinate }
+    Laws { parameters, t, coordinate, z }
 }

@@ -3,9 +3,10 @@
 //!
 //! With c the mass centre and b = B c′ = (A c′)⊥:  M = [m I, m b; m bᵀ, J + m |c′|²].
 
+use super::Inertia;
 use crate::math::{Motion, Real, Vec2};
-use crate::model::{Body, Inertia};
-use crate::solve::Weight;
+use crate::model::{Body, Model};
+use crate::solve::InverseMass;
 
 /// The four numbers that a block holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,13 +29,12 @@ pub fn block<S: Real>(body: &Body<S>, motion: &Motion<S>) -> MassBlock<S> {
     }
 }
 
-/// Shifts the inverse of the block to the mass centre by b, where it is diagonal in m and J: these stand in
-/// `weight` already.
+/// Turns the inverse of the block with the body: b of the mass centre is its direction. 1/m and 1/J are set already.
 #[inline(always)]
-pub fn turn<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, weight: &mut Weight<S>) {
+pub fn turn<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, mass: &mut InverseMass<S>) {
     if inertia.coupled {
         let b = motion.pose.global(inertia.center).perp();
-        weight.shift = [b.x, b.y];
+        mass.direction = [-b.x, -b.y, S::one()];
     }
 }
 
@@ -47,5 +47,13 @@ impl<S: Real> MassBlock<S> {
             self.mass * x[1] + b.y * x[2],
             b.x * x[0] + b.y * x[1] + self.inertia * x[2],
         ]
+    }
+}
+
+/// y += M x, shape (n_q); internal coordinates have no mass.
+pub fn add_times<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S], y: &mut [S]) {
+    let bodies = model.bodies.iter().zip(motions).zip(&model.layout.bodies).skip(1);
+    for ((body, motion), columns) in bodies {
+        columns.add(block(body, motion).times(columns.of(x)), y);
     }
 }

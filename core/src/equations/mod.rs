@@ -2,25 +2,32 @@
 //!
 //! Functions of a [`Model`](crate::model::Model) and plain slices; scratch is a [`Workspace`].
 
-mod anchors;
+mod added_inertia;
 pub mod augmented;
 pub mod balance;
+mod compiled;
 pub mod constraints;
+mod coupling;
 pub mod dense;
 pub mod energy;
 pub mod forces;
+pub mod formulas;
+mod grounded;
+mod inertia;
 pub mod iteration;
 pub mod kinematics;
 mod laws;
 pub mod mass;
 pub mod motion;
-mod pins;
 mod plan;
 pub mod reactions;
 mod refine;
 mod residuals;
+mod roles;
 pub mod tangent;
 
+pub use compiled::Compiled;
+pub use inertia::Inertia;
 pub use laws::{at, Laws};
 pub use motion::{Gains, Singular, Workspace};
 pub use plan::Plan;

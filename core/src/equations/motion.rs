@@ -7,14 +7,16 @@
 //!
 //! For the integrator γ may be replaced by Baumgarte's γ̂ = γ - 2α Φ̇ - β² Φ (Haug 7.3.8).
 
-use super::augmented::{Augmented, Dependent, Parts};
+use super::augmented::{Augmented, Dependent, NearSingular};
 use super::constraints::{self, Stabilized};
 use super::energy::Powers;
+use super::forces::{self, Acting};
+use super::kinematics::Motions;
 use super::plan::Plan;
-use super::{anchors, forces, kinematics, mass, pins, refine};
-use crate::math::{Motion, Real};
+use super::roles::{self, Roles};
+use super::{mass, refine, Compiled};
+use crate::math::Real;
 use crate::model::Model;
-use crate::solve::Bytes;
 use std::sync::Arc;
 
 /// Baumgarte's gains; zeros leave γ as it is.
@@ -30,28 +32,46 @@ pub struct Gains {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Singular(pub Dependent);
 
-/// Scratch for one model; carries no truth from one call to the next.
+/// Memory for the equations of motion of one model, and the results of the last evaluation: motions, accelerations,
+/// multipliers, powers, Φ_q and the factors of the matrix.
+///
+/// No evaluation depends on those before it. But projection and implicit methods use the factors, and Φ_q, that the last
+/// one left, on purpose: between an evaluation and such a use no other may come.
 #[derive(Clone, Debug)]
 pub struct Workspace<S = f64> {
     /// Motion of every body, ground first.
-    pub motions: Vec<Motion<S>>,
+    pub motions: Motions<S>,
+    /// First-order states of elements, shape (n_z).
+    pub z: Vec<S>,
+    /// Data derived from the model.
+    pub compiled: Arc<Compiled<S>>,
+    /// Joints and drivers by role.
+    roles: Roles<S>,
     /// The augmented matrix.
     pub matrix: Augmented<S>,
     /// Right side, then solution (q̈, λ).
     solution: Vec<S>,
     /// Powers of the force elements.
     powers: Powers<S>,
-    /// What γ is lessened by, whatever the state; empty if nothing.
-    held: Vec<S>,
-    /// Correction of the solution where the matrix is not that of the equations.
-    correction: Option<Vec<S>>,
-    /// Whether near singular positions are looked at twice.
-    passing: bool,
+    /// Subtracted from γ, whatever the state; empty if nothing.
+    offset: Vec<S>,
+    /// Whether the matrix is never that of the equations: inertia is added, or redundant rows are damped.
+    modified: bool,
     n_q: usize,
+    /// Number of unknowns of the solver: n_q, and padding behind a short last group.
+    n_unknowns: usize,
 }
 
 /// Damping of redundant rows, relative to the largest compliance 1/m.
 const REDUNDANT: f64 = 1e-10;
+
+/// Damping with which the multipliers of redundant constraints become the smallest that carry the loads.
+fn redundant_rows<S: Real>(model: &Model<S>) -> impl Iterator<Item = S> {
+    let compliance = |b: &crate::model::Body<S>| S::one() / b.mass;
+    let largest = model.bodies[1..].iter().map(compliance).fold(S::zero(), S::max);
+    let mu = largest * S::constant(REDUNDANT);
+    std::iter::repeat_n(mu, model.layout.n_rows)
+}
 
 impl<S: Real> Workspace<S> {
     /// All memory that evaluations of this model need.
@@ -66,49 +86,33 @@ impl<S: Real> Workspace<S> {
 
     /// The same on the plan of the model's [equations of motion](Plan::of_motion).
     pub fn on(model: &Model<S>, plan: Arc<Plan>) -> Self {
-        let (n, m) = (model.layout.n_q, model.layout.n_rows);
-        let mut workspace = Self {
-            motions: Vec::with_capacity(model.bodies.len()),
-            matrix: Augmented::on(plan),
-            solution: vec![S::zero(); n + m],
-            powers: Powers::zero(),
-            held: Vec::new(),
-            correction: model.has_added_inertia().then(|| vec![S::zero(); n + m]),
-            passing: false,
-            n_q: n,
-        };
-        workspace.matrix.set_inertia(model);
+        let (n_unknowns, m) = (plan.n_unknowns(), model.layout.n_rows);
+        let compiled = Arc::new(Compiled::new(model));
+        let roles = Roles::new(model, &compiled, &plan);
+        let mut matrix = Augmented::on(plan);
+        matrix.set_inertia(&compiled);
         if model.allow_redundancy {
-            workspace.allow_redundancy(model);
+            matrix.set_damping(redundant_rows(model));
         }
-        workspace
+        Self {
+            motions: Motions::new(&model.layout),
+            z: vec![S::zero(); model.layout.n_z],
+            roles,
+            matrix,
+            modified: compiled.adds_mass || model.allow_redundancy,
+            compiled,
+            solution: vec![S::zero(); n_unknowns + m],
+            powers: Powers::zero(),
+            offset: Vec::new(),
+            n_q: model.layout.n_q,
+            n_unknowns,
+        }
     }
 
-    /// From now on near singular positions are passed, with the ridge of [`Augmented`].
-    pub fn pass_singular(&mut self) {
-        self.passing = true;
-        self.matrix.pass_singular();
-    }
-
-    /// From now on positions near singular ones are refused.
-    pub fn refuse_singular(&mut self) {
-        self.passing = true;
-        self.matrix.refuse_singular();
-    }
-
-    /// From now on γ is lessened by `term`, shape (n_rows), at every state.
-    pub fn hold(&mut self, term: &[S]) {
-        self.held.clear();
-        self.held.extend_from_slice(term);
-    }
-
-    /// Accepts redundant constraints: the multipliers become the smallest that carry the loads.
-    fn allow_redundancy(&mut self, model: &Model<S>) {
-        let compliance = |b: &crate::model::Body<S>| S::one() / b.mass;
-        let largest = model.bodies[1..].iter().map(compliance).fold(S::zero(), S::max);
-        let mu = largest * S::constant(REDUNDANT);
-        self.matrix.set_damping((0..model.layout.n_rows).map(|_| mu));
-        self.correction = Some(vec![S::zero(); self.solution.len()]);
+    /// From now on `term`, shape (n_rows), is subtracted from γ at every state.
+    pub fn set_offset(&mut self, term: &[S]) {
+        self.offset.clear();
+        self.offset.extend_from_slice(term);
     }
 
     /// Solves the equations of motion at a state; then [`a`](Self::a), [`lam`](Self::lam).
@@ -119,95 +123,70 @@ impl<S: Real> Workspace<S> {
         &mut self,
         model: &Model<S>,
         t: S,
-        q: &[S],
-        v: &[S],
+        [q, v, z]: [&[S]; 3],
         gains: Gains,
     ) -> Result<(), Singular> {
-        kinematics::motions(q, v, &mut self.motions);
+        self.place(model, [q, v, z]);
         self.respond(model, t, gains)
     }
 
-    /// The same at the state that the [`motions`](Self::motions) describe.
+    /// Sets coordinates, rates and first-order states, shapes (n_q), (n_q) and (n_z).
+    #[inline(always)]
+    pub fn place(&mut self, model: &Model<S>, [q, v, z]: [&[S]; 3]) {
+        self.motions.place(&model.layout, q, v);
+        self.z.copy_from_slice(z);
+    }
+
+    /// The same at the state that was [placed](Self::place).
     ///
     /// # Errors
     /// As [`accelerate`](Self::accelerate).
     #[inline(always)]
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
-        if self.correction.is_none() {
-            match self.solve_armed(model, t, gains) {
-                Err(Dependent::Row(_)) if self.passing => {}
+        if !self.modified {
+            match self.solve_directly(model, t, gains) {
+                Err(Dependent::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
                 outcome => return outcome.map_err(Singular),
             }
         }
-        self.set_up(model, t, gains);
-        self.factor_and_refine(model).map_err(Singular)
+        self.solve_and_refine(model, t, gains).map_err(Singular)
     }
 
-    /// q̈ and λ with pins by their arms: one pass over them before elimination, and one after.
+    /// q̈ and λ where the matrix is that of the equations: joints are put into it as they are evaluated.
     #[inline(always)]
-    fn solve_armed(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
-        let Self { motions, matrix, solution, powers, held, n_q, .. } = self;
-        let (stabilized, n) = (Stabilized::new(gains), *n_q);
-        let Parts { pattern, saddle, armed, others } = matrix.parts_mut();
-        for &k in pattern.coupled() {
+    fn solve_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
+        let Self { motions, z, compiled, roles, matrix, solution, powers, offset, .. } = self;
+        let (plan, saddle) = matrix.parts_mut();
+        let stabilized = Stabilized::new(gains);
+        let at = roles::At { model, compiled, plan, motions, t, stabilized, offset };
+        for &k in plan.pattern.coupled() {
             let k = k as usize;
-            mass::turn(&model.inertias[k], &motions[k + 1], &mut saddle.weights[k]);
+            mass::turn(&compiled.inertias[k], &motions[k + 1], &mut saddle.masses[k]);
         }
-        let (forces, right) = solution.split_at_mut(n);
-        *powers = forces::generalized(model, motions, t, forces);
-        let (others, entries) =
-            (others.iter().map(|k| *k as usize), saddle.entries.as_flattened_mut());
-        constraints::linearize_some(model, others, motions, t, stabilized, right, entries);
-        right.iter_mut().zip(&*held).for_each(|(right, held)| *right -= *held);
-        anchors::begin(&model.anchors, motions, stabilized, held, saddle, (forces, right));
-        saddle.weigh_others(pattern, solution);
-        let (x, right) = solution.split_at_mut(n);
-        pins::begin(&model.pins, armed, motions, stabilized, saddle, (x, right));
-        pins::hold(&model.pins, armed, held, right);
-        saddle.finish_begun(pattern, solution)?;
-        let (x, lam) = solution.split_at_mut(n);
-        pins::spread(&model.pins, armed, saddle, (x, lam));
-        saddle.unbend(pattern, solution);
-        Ok(())
+        let (x, right) = solution.split_at_mut(self.n_unknowns);
+        *powers = forces::generalized(model, compiled, motions, Acting { z, lam: None, t }, x);
+        roles::put_others(roles, at, saddle, right);
+        roles::condense(roles, at, saddle, (x, right));
+        saddle.divide_by_masses(&plan.pattern, x);
+        roles::put(roles, at, saddle, (x, right));
+        saddle.finish(&plan.pattern, solution)
     }
 
-    /// The matrix and the right side (Q, γ̂), with all entries.
-    fn set_up(&mut self, model: &Model<S>, t: S, gains: Gains) {
-        let (forces, right) = self.solution.split_at_mut(self.n_q);
-        let entries = self.matrix.jacobian_mut();
-        constraints::linearize(model, &self.motions, t, gains, right, entries);
-        // none but where a stabilization holds its term over a step
-        right.iter_mut().zip(&self.held).for_each(|(right, held)| *right -= *held);
-        self.matrix.set_mass(model, &self.motions);
-        self.powers = forces::generalized(model, &self.motions, t, forces);
-    }
-
-    /// Where the factor is not that of the equations.
-    fn factor_and_refine(&mut self, model: &Model<S>) -> Result<(), Dependent> {
-        self.matrix.factor()?;
-        let mut correction = match self.correction.take() {
-            Some(correction) => correction,
-            None => vec![S::zero(); self.solution.len()],
-        };
-        let x = &mut self.solution;
-        let solved = refine::solve(model, &self.motions, &self.matrix, x, &mut correction);
-        if model.has_added_inertia() || model.allow_redundancy {
-            self.correction = Some(correction);
-        }
-        solved
-    }
-
-    /// Bytes that evaluations hold and touch: of this, and of the model what they read of bodies and pins;
-    /// other constraints and forces are not counted.
-    pub fn bytes(&self, model: &Model<S>) -> Bytes {
-        // no motion is there before the first evaluation
-        let motions = std::mem::size_of::<Motion<S>>() * model.bodies.len();
-        let own = Bytes { held: motions, touched: motions } + Bytes::touched(&self.solution);
-        let aside = self.correction.as_deref().map_or(Bytes::default(), Bytes::aside);
-        let of_model = Bytes::touched(&model.pins)
-            + Bytes::touched(&model.inertias)
-            + Bytes::touched(&model.anchors);
-        self.matrix.bytes() + own + aside + of_model
+    /// The same by the whole matrix, with a factor that may be that of a modified one.
+    fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
+        let Self { motions, z, compiled, matrix, solution, powers, offset, .. } = self;
+        let (n, padded) = (self.n_q, self.n_unknowns);
+        let mut x = vec![S::zero(); n + solution.len() - padded];
+        let (forces, right) = x.split_at_mut(n);
+        constraints::linearize(model, motions, t, gains, right, matrix.jacobian_mut());
+        right.iter_mut().zip(offset).for_each(|(right, offset)| *right -= *offset);
+        matrix.set_mass(compiled, motions);
+        *powers = forces::generalized(model, compiled, motions, Acting { z, lam: None, t }, forces);
+        matrix.factor()?;
+        let outcome = refine::solve((model, compiled), motions, matrix, &mut x);
+        solution[..n].copy_from_slice(&x[..n]);
+        solution[padded..].copy_from_slice(&x[n..]);
+        outcome
     }
 
     /// q̈, shape (n_q).
@@ -217,7 +196,7 @@ impl<S: Real> Workspace<S> {
 
     /// λ, shape (n_rows).
     pub fn lam(&self) -> &[S] {
-        &self.solution[self.n_q..]
+        &self.solution[self.n_unknowns..]
     }
 
     /// Powers at the state of the last [`accelerate`](Self::accelerate), drivers included.
@@ -232,11 +211,10 @@ impl<S: Real> Workspace<S> {
     #[inline(never)]
     fn powers_driven(&self, model: &Model<S>, v: &[S]) -> Powers<S> {
         let mut powers = self.powers;
-        let mut rows = [S::zero(); crate::elements::MOST_EQUATIONS];
         for (k, item) in model.constraints.iter().enumerate().filter(|(_, c)| c.driven) {
             let range = model.layout.constraints[k].rows.clone();
-            let rows = &mut rows[..item.equations.len()];
-            constraints::times(model, k, self.matrix.jacobian_of_others(), v, rows);
+            let mut rows = vec![S::zero(); item.equations.len()];
+            constraints::times(model, k, self.matrix.jacobian(), v, &mut rows);
             for (rate, lam) in rows.iter().zip(&self.lam()[range]) {
                 powers.drivers -= *rate * *lam;
             }

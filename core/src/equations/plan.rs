@@ -1,86 +1,85 @@
-//! What matrices of a model have in common, whatever their numbers: pattern, order and plan of elimination.
+//! The structure of the augmented matrix of a model, whatever its numbers: pattern and program of elimination.
 
-use crate::model::{Anchor, Block, Layout, Model, Slots};
-use crate::solve::{Armed, Bytes, Pattern, RowBlock};
+use super::Compiled;
+use crate::math::Real;
+use crate::model::{Block, Columns, Model, Slots, StateLayout};
+use crate::solve::{Group, Pattern, RowBlock};
 
-/// A plan of elimination for one model over any scalar; found once, shared by any number of matrices.
+/// Most rows of a block of the solver: an element of more rows has several blocks.
+const ROWS: usize = 3;
+
+/// Structure and symbolic factorisation for one model over any scalar; found once, shared by any number of matrices.
 #[derive(Debug)]
 pub struct Plan {
     pub(super) pattern: Pattern,
-    /// The pins whose rows of Φ_q matrices give by their arms.
-    pub(super) armed: Vec<ArmedPin>,
-    /// The other constraints, but for anchors.
-    pub(super) others: Vec<u32>,
-    /// Whether bodies that are pinned to ground are anchored there.
-    pub(super) anchored: bool,
-}
-
-/// A pin all of whose rows have arms.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ArmedPin {
-    /// Its place among the pins.
-    pub pin: u32,
-    /// Its place in the matrix.
-    pub rows: Armed,
+    /// The constraints that are condensed with the grounded bodies that they hold, in the order of those.
+    pub(super) condensed: Vec<usize>,
+    /// The constraints whose rows an evaluation puts into the matrix as pins, in the order of
+    /// [`Pattern::pin_rows`].
+    pub(super) pins: Vec<usize>,
+    /// The columns of every owner of coordinates.
+    pub(super) owners: Vec<Columns>,
+    /// Whether grounded bodies are condensed.
+    pub(super) condenses: bool,
 }
 
 impl Plan {
-    /// Of the equations of motion of a model: anchored, unless redundant constraints are accepted.
-    pub fn of_motion<P>(model: &Model<P>) -> Self {
-        match model.allow_redundancy {
-            true => Self::free(model),
-            false => Self::anchored(model),
-        }
+    /// Of the equations of motion of a model: grounded bodies are condensed, unless redundant constraints are
+    /// accepted.
+    pub fn of_motion<S: Real>(model: &Model<S>) -> Self {
+        Self::with(model, !model.allow_redundancy)
     }
 
     /// Bodies first, then the constraints by minimum degree, so that every pivot is safe while Φ_q has full rank.
-    pub fn free<P>(model: &Model<P>) -> Self {
-        Self::with(model, &[], false)
+    pub fn free<S: Real>(model: &Model<S>) -> Self {
+        Self::with(model, false)
     }
 
-    /// The same for W = M without damping: pins to ground are eliminated with the bodies that they hold.
-    pub fn anchored<P>(model: &Model<P>) -> Self {
-        let constraint = |anchor: &Anchor<P>| model.pins[anchor.pin as usize].constraint as usize;
-        let anchors: Vec<usize> = model.anchors.iter().map(constraint).collect();
-        Self::with(model, &anchors, true)
+    fn with<S: Real>(model: &Model<S>, condenses: bool) -> Self {
+        let compiled = Compiled::new(model);
+        let (blocks, owners) = row_blocks(&model.layout);
+        let first = |k: usize| owners.partition_point(|owner| *owner < k);
+        let grounded = compiled.grounded.iter().filter(|_| condenses);
+        let condensed: Vec<usize> = grounded.map(|grounded| grounded.constraint).collect();
+        let condensed_blocks: Vec<usize> = condensed.iter().map(|k| first(*k)).collect();
+        let pattern = Pattern::new(&groups(model, &compiled), &blocks, &condensed_blocks);
+        let pins = pattern.pin_rows().iter().map(|rows| owners[rows.block as usize]).collect();
+        Self { pattern, condensed, pins, owners: model.layout.owners.clone(), condenses }
     }
 
-    fn with<P>(model: &Model<P>, anchors: &[usize], anchored: bool) -> Self {
-        let coupled = model.inertias.iter().map(|inertia| inertia.coupled);
-        let pattern = Pattern::new(coupled.collect(), &row_blocks(&model.layout), anchors);
-        let (armed, others) = split(model, &pattern);
-        Self { pattern, armed, others, anchored }
+    /// Number of unknowns of the solver: the coordinates, and those that pad a short last group.
+    pub(super) fn n_unknowns(&self) -> usize {
+        self.pattern.n_unknowns()
     }
 
-    /// Bytes of it.
-    pub fn bytes(&self) -> Bytes {
-        self.pattern.bytes() + Bytes::touched(&self.armed) + Bytes::touched(&self.others)
+    /// Number of products of blocks in one elimination.
+    pub fn n_products(&self) -> usize {
+        self.pattern.n_products()
     }
 }
 
-/// The pins that arms can give, and the other constraints.
-fn split<P>(model: &Model<P>, pattern: &Pattern) -> (Vec<ArmedPin>, Vec<u32>) {
-    let mut pin: Vec<Option<u32>> = vec![None; model.constraints.len()];
-    (0..).zip(&model.pins).for_each(|(k, p)| pin[p.constraint as usize] = Some(k));
-    let mut others = vec![true; model.constraints.len()];
-    pattern.anchors().iter().for_each(|anchor| others[anchor.block as usize] = false);
-    let mut armed = Vec::with_capacity(pattern.armed().len());
-    for &rows in pattern.armed() {
-        let block = rows.block as usize;
-        armed.push(ArmedPin { pin: pin[block].expect("unit blocks are those of pins"), rows });
-        others[block] = false;
-    }
-    (armed, (0..).zip(others).filter(|(_, other)| *other).map(|(k, _)| k).collect())
+/// The owners of coordinates as groups of unknowns.
+fn groups<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> Vec<Group> {
+    let bodies = compiled.inertias.iter().map(|inertia| inertia.coupled);
+    let coupled = bodies.chain(std::iter::repeat(false));
+    let owners = model.layout.owners.iter().zip(coupled);
+    owners.map(|(columns, coupled)| Group { size: columns.count, coupled }).collect()
 }
 
-/// The constraints as blocks of rows.
-fn row_blocks(layout: &Layout) -> Vec<RowBlock> {
-    let touches =
-        |blocks: &[Block]| blocks.iter().map(|block| (block.body.0 - 1, block.first)).collect();
-    let block = |slots: &Slots| RowBlock {
-        size: slots.rows.len(),
-        touches: touches(&slots.blocks),
-        signs: slots.blocks.iter().map(|block| block.sign).filter(|sign| *sign != 0.0).collect(),
-    };
-    layout.constraints.iter().map(block).collect()
+/// The constraints as blocks of at most three rows, and the constraint of each block.
+fn row_blocks(layout: &StateLayout) -> (Vec<RowBlock>, Vec<usize>) {
+    let (mut row_blocks, mut owners) = (Vec::new(), Vec::new());
+    for (k, Slots { rows, blocks, .. }) in layout.constraints.iter().enumerate() {
+        for skipped in (0..rows.len()).step_by(ROWS) {
+            let touch = |block: &Block| (block.owner, StateLayout::entries(block, skipped).start);
+            let signs = blocks.iter().map(|block| block.sign).filter(|sign| *sign != 0.0);
+            owners.push(k);
+            row_blocks.push(RowBlock {
+                size: (rows.len() - skipped).min(ROWS),
+                touches: blocks.iter().map(touch).collect(),
+                signs: signs.collect(),
+            });
+        }
+    }
+    (row_blocks, owners)
 }

@@ -1,7 +1,10 @@
 //! Joint reactions (Haug 6.6.8, 6.6.9): F″ = -Cᵀ Aᵀ Φ_rᵀ λ and T″ = -(Φ_φᵀ - s′ᵀ Bᵀ Φ_rᵀ) λ.
 
-use crate::elements::{Attachment, BodyId, Side, MOST_EQUATIONS};
-use crate::math::{Local, Motion, Pose, Real, Rotation, Vec2, Wrench};
+use super::constraints;
+use super::kinematics::Motions;
+use crate::elements::derive::with_values;
+use crate::elements::{Attachment, BodyId};
+use crate::math::{Local, Pose, Real, Rotation, Vec2, Wrench};
 use crate::model::Model;
 
 /// The frame in which a reaction's components are given.
@@ -15,94 +18,77 @@ pub enum Frame {
     Joint,
 }
 
-/// Force and torque of constraint `k` on its body i or j, reduced to the joint point; `lam` are the
-/// multipliers of its own rows.
+/// Force and torque of constraint `k` on a body, reduced to the joint point; `lam` are the multipliers of
+/// its own rows. None for a body that the constraint does not touch.
+///
+/// A body that only a law names, such as the other wheel of a coupling by angles, has no joint point:
+/// its reaction is reduced to the origin of its frame, and its joint frame is the body frame. Ground
+/// carries the opposite of all other bodies together.
 pub fn reaction<S: Real>(
     model: &Model<S>,
     k: usize,
-    side: Side,
-    frame: Frame,
-    motions: &[Motion<S>],
-    t: S,
-    lam: &[S],
-) -> Wrench<S> {
-    let element = &model.constraints[k].element;
-    let at = element.attachment(side);
-    let ends = element.ends();
-    let (body, own) = match side {
-        Side::I => (ends[0], 0),
-        Side::J => (ends[1], 3),
-    };
-    let w = match &model.constraints[k].law {
-        Some(_) => by_law(model, k, body, motions, t, lam),
-        None => {
-            let [i, j] = ends.map(|b| &motions[b.0].pose);
-            let mut rows = [[S::zero(); 6]; MOST_EQUATIONS];
-            element.jacobian(i, j, t, &mut rows[..lam.len()]);
-            against(rows.iter().map(|row| [0, 1, 2].map(|c| row[own + c])), lam)
-        }
-    };
-    reduced(w, &motions[body.0].pose, at, frame)
-}
-
-/// The same on any body that the constraint touches, None for others. A body that only a law names,
-/// such as the other wheel of a gear-like coupling, has no joint point: its reaction is reduced to
-/// the origin of its frame, and its joint frame is the body frame.
-pub fn reaction_on<S: Real>(
-    model: &Model<S>,
-    k: usize,
     body: BodyId,
     frame: Frame,
-    motions: &[Motion<S>],
+    motions: &Motions<S>,
     t: S,
     lam: &[S],
 ) -> Option<Wrench<S>> {
-    let [i, j] = model.constraints[k].element.ends();
-    if body == i || body == j {
-        let side = if body == j { Side::J } else { Side::I };
-        return Some(reaction(model, k, side, frame, motions, t, lam));
+    let item = &model.constraints[k];
+    let place = item.bodies.iter().position(|b| *b == body);
+    let blocks = &model.layout.constraints[k].blocks;
+    if place.is_none() && blocks.iter().all(|block| block.body != Some(body)) {
+        return None;
     }
-    model.layout.constraints[k].blocks.iter().find(|b| b.body == body)?;
-    let at = Attachment { s: Local::zero(), axis: S::zero() };
-    Some(reduced(by_law(model, k, body, motions, t, lam), &motions[body.0].pose, at, frame))
+    let at = match place {
+        Some(place) => item.element.attachment(place),
+        None => Attachment { s: Local::zero(), axis: S::zero() },
+    };
+    let on_body = match body.is_ground() && item.law.is_some() {
+        true => on_ground(model, k, motions, t, lam),
+        false => against(model, k, body, motions, t, lam),
+    };
+    Some(reduced(on_body, &motions[body.0].pose, at, frame))
 }
 
-/// -Φ_qᵀ λ of one body for a constraint with a law, whose own derivatives count; what it takes from
-/// all bodies together rests on ground.
-fn by_law<S: Real>(
+/// -Φ_qᵀ λ in the columns of one body: the wrench about the origin of its frame.
+fn against<S: Real>(
     model: &Model<S>,
     k: usize,
     body: BodyId,
-    motions: &[Motion<S>],
+    motions: &Motions<S>,
+    t: S,
+    lam: &[S],
+) -> Wrench<S> {
+    with_values(
+        lam.len(),
+        |_| [S::zero(); 3],
+        |rows| {
+            constraints::columns_by_body(model, k, motions, t, body, rows);
+            let mut w = Wrench::zero();
+            for ([x, y, angle], lam) in rows.iter().zip(lam) {
+                let row = Wrench { force: Vec2::new(*x, *y).scale(*lam), torque: *angle * *lam };
+                w = w + -row;
+            }
+            w
+        },
+    )
+}
+
+/// What a constraint with a law takes from all moving bodies together, about the global origin.
+fn on_ground<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
     t: S,
     lam: &[S],
 ) -> Wrench<S> {
     let mut sum = Wrench::zero();
-    for block in &model.layout.constraints[k].blocks {
-        if block.body != body && !body.is_ground() {
-            continue;
-        }
-        let mut rows = [S::zero(); 3 * MOST_EQUATIONS];
-        let rows = &mut rows[..3 * lam.len()];
-        super::constraints::law_block(model, &model.constraints[k], motions, t, block, rows);
-        let w = against(rows.chunks_exact(3).map(|row| [row[0], row[1], row[2]]), lam);
-        if !body.is_ground() {
-            return w;
-        }
-        let arm = motions[block.body.0].pose.r;
+    for body in model.layout.constraints[k].blocks.iter().filter_map(|block| block.body) {
+        let w = against(model, k, body, motions, t, lam);
+        let arm = motions[body.0].pose.r;
         sum = sum + -Wrench { force: w.force, torque: w.torque + arm.cross(w.force) };
     }
     sum
-}
-
-/// -Σ λ row.
-fn against<S: Real>(rows: impl Iterator<Item = [S; 3]>, lam: &[S]) -> Wrench<S> {
-    let mut w = Wrench::zero();
-    for ([x, y, angle], lam) in rows.zip(lam) {
-        let row = Wrench { force: Vec2::new(x, y).scale(*lam), torque: angle * *lam };
-        w = w + -row;
-    }
-    w
 }
 
 /// A wrench about the frame's origin, taken to the joint point and into a frame.
@@ -119,7 +105,7 @@ fn reduced<S: Real>(w: Wrench<S>, pose: &Pose<S>, at: Attachment<S>, frame: Fram
     Wrench { force, torque: w.torque - arm.cross(w.force) }
 }
 
-/// Components in the frame asked for; the result's frame is the caller's knowledge from here on.
+/// Components in the requested frame; from here on the caller keeps track of the frame.
 fn as_vector<S: Real>(s: Local<S>) -> Vec2<S> {
     Vec2::new(s.x, s.y)
 }

@@ -7,8 +7,9 @@
 //! its joints; that of redundant rows by their damping (the method of multipliers).
 
 use super::augmented::{Augmented, Dependent};
-use super::{constraints, mass};
-use crate::math::{Motion, Real};
+use super::kinematics::Motions;
+use super::{constraints, mass, Compiled};
+use crate::math::Real;
 use crate::model::Model;
 
 /// Steps for redundant rows, whose error falls by ten digits in each, and near singular positions,
@@ -26,16 +27,15 @@ const ACCEPTED: f64 = 1e-9;
 /// # Errors
 /// The angle of a body without inertia that a torque turns while nothing resists.
 pub(super) fn solve<S: Real>(
-    model: &Model<S>,
-    motions: &[Motion<S>],
+    (model, compiled): (&Model<S>, &Compiled<S>),
+    motions: &Motions<S>,
     matrix: &Augmented<S>,
     x: &mut [S],
-    correction: &mut [S],
 ) -> Result<(), Dependent> {
-    let b = x.to_vec();
+    let (b, correction) = (x.to_vec(), &mut *vec![S::zero(); x.len()]);
     let n = model.layout.n_q;
     matrix.solve(x);
-    if matrix.ridged() || !model.has_added_inertia() {
+    if matrix.regularised() || !compiled.adds_mass {
         for _ in 0..FOR_REDUNDANCY {
             step(model, motions, matrix, &b, x, correction);
         }
@@ -50,12 +50,12 @@ pub(super) fn solve<S: Real>(
         }
         last = relative;
     }
-    Err(Dependent::Column(unresisted(model, correction)))
+    Err(Dependent::Column(unresisted(model, &compiled.added_inertia, correction)))
 }
 
 fn step<S: Real>(
     model: &Model<S>,
-    motions: &[Motion<S>],
+    motions: &Motions<S>,
     matrix: &Augmented<S>,
     b: &[S],
     x: &mut [S],
@@ -69,7 +69,7 @@ fn step<S: Real>(
 /// b - K x.
 fn remainder<S: Real>(
     model: &Model<S>,
-    motions: &[Motion<S>],
+    motions: &Motions<S>,
     jacobian: &[S],
     b: &[S],
     x: &[S],
@@ -80,14 +80,8 @@ fn remainder<S: Real>(
     let (upper, lower) = out.split_at_mut(n);
     upper.fill(S::zero());
     constraints::add_transposed(model, jacobian, lam, upper);
-    let bodies = model.bodies.iter().zip(motions).skip(1);
-    for ((out, a), (body, motion)) in upper.chunks_exact_mut(3).zip(a.chunks_exact(3)).zip(bodies) {
-        let inertial = mass::block(body, motion).times([a[0], a[1], a[2]]);
-        out.iter_mut().zip(inertial).for_each(|(out, f)| *out += f);
-    }
-    for (k, slots) in model.layout.constraints.iter().enumerate() {
-        constraints::times(model, k, jacobian, a, &mut lower[slots.rows.clone()]);
-    }
+    mass::add_times(model, motions, a, upper);
+    constraints::times_all(model, jacobian, a, lower);
     out.iter_mut().zip(b).for_each(|(out, b)| *out = *b - *out);
 }
 
@@ -97,11 +91,12 @@ fn largest<S: Real>(x: &[S]) -> f64 {
     x.iter().map(|x| 1.0 / (one / *x).least_magnitude()).fold(0.0, f64::max)
 }
 
-/// The angle with added inertia that was corrected most.
-fn unresisted<S: Real>(model: &Model<S>, correction: &[S]) -> usize {
-    let angles =
-        (1..model.bodies.len()).filter(|b| model.added_inertia[*b].least_magnitude() > 0.0);
+/// The coordinate with added inertia that was corrected most.
+fn unresisted<S: Real>(model: &Model<S>, added: &[S], correction: &[S]) -> usize {
+    let bodies = model.layout.bodies[1..].iter().zip(added);
+    let angles = bodies.filter(|(_, added)| added.least_magnitude() > 0.0);
+    let angles = angles.map(|(columns, _)| columns.first + 2);
+    let own = model.layout.owners[added.len()..].iter().flat_map(|columns| columns.range());
     let size = |column: &usize| largest(&correction[*column..=*column]);
-    let most = angles.map(|b| 3 * b - 1).max_by(|a, b| size(a).total_cmp(&size(b)));
-    most.unwrap_or(0)
+    angles.chain(own).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0)
 }

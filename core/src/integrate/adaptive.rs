@@ -3,15 +3,15 @@
 //! With the elementary control step for step what `scipy.integrate.solve_ivp` does, so that counts of steps
 //! can be compared.
 
-use super::adaptive_options::Options;
-use super::birkhoff::Birkhoff;
-use super::clearance::Clearance;
-use super::contract::{Ended, FirstOrder, Flow, Observer, Statistics};
 use super::embedded_pair::EmbeddedPair;
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
-use super::rate::{Rate, Trouble};
+use super::hermite_birkhoff::HermiteBirkhoff;
+use super::ode::{Ended, Flow, Observer, Ode, Statistics};
+use super::right_hand_side::{RightHandSide, Trouble};
 use super::stages::{combine, room, row_mut, rows_mut, width, Block};
+use super::step_control::StepControl;
+use super::step_placement::StepPlacement;
 use super::step_size::{initial_step, least_step, probing_step, StepSize};
 use super::tolerances::Tolerances;
 use crate::math::Lanes;
@@ -35,13 +35,13 @@ pub(super) struct Work {
     remaining: Vec<Block>,
     tolerances: Tolerances,
     /// The extension of systems of second order, for pairs whose own takes extra stages.
-    pub birkhoff: Option<Birkhoff>,
+    pub hermite_birkhoff: Option<HermiteBirkhoff>,
 }
 
 impl Work {
-    fn new<P: EmbeddedPair>(system: &impl FirstOrder, options: &Options<'_>) -> Self {
+    fn new<P: EmbeddedPair>(system: &impl Ode, options: &StepControl) -> Self {
         let (n, controlled, positions) = (system.len(), system.controlled(), system.positions());
-        let second_order = positions > 0 && !P::MEAN.is_empty();
+        let second_order = positions > 0 && !P::DOUBLE_QUADRATURE.is_empty();
         Self {
             width: width(n),
             k: room(P::STAGES + P::EXTRA + 2, n),
@@ -49,30 +49,30 @@ impl Work {
             y_new: room(1, n),
             trial: room(1, n),
             remaining: Vec::new(),
-            tolerances: Tolerances::new(options.rtol, options.atol, controlled),
-            birkhoff: second_order.then(|| Birkhoff::new(n, positions)),
+            tolerances: Tolerances::new(options.rtol, &options.atol, controlled),
+            hermite_birkhoff: second_order.then(|| HermiteBirkhoff::new(n, positions)),
         }
     }
 }
 
 /// An integration under way.
 pub(super) struct Run<'a, Y, P> {
-    pub rate: Rate<'a, Y>,
-    options: &'a Options<'a>,
+    pub rate: RightHandSide<'a, Y>,
+    options: &'a StepControl,
     pub n: usize,
     pub t: f64,
     t_end: f64,
     direction: f64,
     pub steps: usize,
     rejected: usize,
-    clearance: Clearance,
+    placement: StepPlacement,
     pub work: Work,
     pair: std::marker::PhantomData<P>,
 }
 
 /// Integrates with the pair `P`; the body of [`Method::integrate`](super::Method::integrate).
-pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
-    options: &Options<'_>,
+pub(super) fn integrate<P: EmbeddedPair, Y: Ode, O: Observer>(
+    options: &StepControl,
     system: &mut Y,
     (t0, t_end): (f64, f64),
     y: &mut [f64],
@@ -82,7 +82,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
     let checked = options.begin((t0, t_end), (y, n), controlled);
     let work = Work::new::<P>(system, options);
     let mut run = Run::<Y, P> {
-        rate: Rate { system, evaluations: 0 },
+        rate: RightHandSide { system, evaluations: 0 },
         options,
         n,
         t: t0,
@@ -90,7 +90,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
         direction: (t_end - t0).signum(),
         steps: 0,
         rejected: 0,
-        clearance: Clearance::default(),
+        placement: StepPlacement::default(),
         work,
         pair: std::marker::PhantomData,
     };
@@ -103,7 +103,7 @@ pub(super) fn integrate<P: EmbeddedPair, Y: FirstOrder, O: Observer>(
     conclude(outcome, run.statistics(), y)
 }
 
-impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
+impl<Y: Ode, P: EmbeddedPair> Run<'_, Y, P> {
     fn statistics(&self) -> Statistics {
         Statistics {
             steps: self.steps,
@@ -193,8 +193,8 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         let t = self.t;
         let least = least_step(t, self.direction);
         size.begin(least, self.options.max_step);
-        self.clearance.begin();
-        size.control = self.clearance.control(P::CONTROL);
+        self.placement.begin();
+        size.control = self.placement.control(P::CONTROL);
         let mut refusal = None;
         loop {
             if size.size < least {
@@ -207,7 +207,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
             let h = t_new - t;
             let trial = self.attempt(t_new).map(|norm| self.judged(norm, h));
             let norm = trial.as_ref().map_or(f64::NAN, |norm| *norm);
-            let at_best = self.clearance.at_best(norm, self.options.rtol);
+            let at_best = self.placement.at_best(norm, self.options.rtol);
             let placed = self.placed(t_new).filter(|_| !at_best);
             match trial {
                 Err(Trouble::Stop(stop)) => return Err(Cause::Equations(stop)),
@@ -215,7 +215,7 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
                 Ok(norm) if norm < 1.0 || at_best => match self.settle(t_new)? {
                     Ok(projected) => {
                         size.accept(h.abs(), norm);
-                        size.size = self.clearance.resume(size.size);
+                        size.size = self.placement.resume(size.size);
                         return Ok((t_new, projected));
                     }
                     Err(cause) => {
@@ -241,10 +241,10 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
 
     /// The step to try instead of that to `t_new`, so as to keep clear of an obstacle.
     fn placed(&mut self, t_new: f64) -> Option<f64> {
-        let obstacle = self.rate.system.obstacle(t_new)?;
+        let obstacle = self.rate.system.time_to_avoid(t_new)?;
         let [h, left] = [t_new, self.t_end].map(|end| (end - self.t).abs());
         let left = left.min(self.options.max_step);
-        self.clearance.instead(P::GAP, h, self.direction * (obstacle - self.t), left)
+        self.placement.instead(P::GAP, h, self.direction * (obstacle - self.t), left)
     }
 
     /// The error norm of a step to `t_new`.
@@ -252,17 +252,17 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         self.advance(t_new)?;
         let Work { k, y, y_new, tolerances, .. } = &self.work;
         let norm = P::error_norm(t_new - self.t, k, (y, y_new), tolerances);
-        Ok(self.clearance.strictness() * norm)
+        Ok(self.placement.strictness() * norm)
     }
 
     /// The stages of a step to `t_new`, and the state there.
     fn advance(&mut self, t_new: f64) -> Result<(), Trouble<Y::Stop>> {
-        let Work { width, k, y, y_new, trial, birkhoff, .. } = &mut self.work;
+        let Work { width, k, y, y_new, trial, hermite_birkhoff, .. } = &mut self.work;
         if self.rate.begin(self.t, t_new - self.t, y, row_mut(k, *width, 0))? {
-            birkhoff.iter_mut().for_each(Birkhoff::forget);
+            hermite_birkhoff.iter_mut().for_each(HermiteBirkhoff::forget);
         }
         P::advance(&mut self.rate, (self.t, t_new), y, k, trial, y_new)?;
-        if !P::LAST_IN_ERROR && self.rate.system.near_obstacle() {
+        if !P::LAST_IN_ERROR && self.rate.system.near_time_to_avoid() {
             self.rate.at(t_new, y_new, row_mut(k, *width, P::STAGES - 1))?;
         }
         Ok(())
@@ -277,11 +277,11 @@ impl<Y: FirstOrder, P: EmbeddedPair> Run<'_, Y, P> {
         remaining.clear();
         remaining.extend_from_slice(&k[..P::STAGES * *width]);
         let mut rows = remaining.chunks_exact_mut(*width);
-        if !rows.all(|dy| self.rate.system.remaining(&mut dy.as_flattened_mut()[..self.n])) {
+        if !rows.all(|dy| self.rate.system.project_error(&mut dy.as_flattened_mut()[..self.n])) {
             return norm;
         }
         let left = P::error_norm(h, remaining, (y, y_new), tolerances);
-        norm.min(self.clearance.strictness() * left)
+        norm.min(self.placement.strictness() * left)
     }
 }
 

@@ -18,9 +18,11 @@
 //! carried from step to step over h and h², the velocities themselves on the constraints.
 
 use super::alpha_parameters::AlphaParameters;
-use super::constrained::{Constrained, Level, Point, Residual, Shares};
-use super::knot::{Counted, Knot, Scale};
-use super::rate::all_finite;
+use super::dae::{ConstraintLevel, Dae, DaeResidual, Iterate, NewtonCoefficients};
+use super::error_weights::ErrorWeights;
+use super::evaluation_counter::CountedDae;
+use super::implicit_state::ImplicitState;
+use super::right_hand_side::all_finite;
 
 /// Most iterations with one matrix.
 const MOST: usize = 10;
@@ -37,9 +39,9 @@ const PART: f64 = 1e-2;
 pub(super) struct AlphaStep {
     pub parameters: AlphaParameters,
     /// The beginning: q, v on the constraints, a = v̇.
-    pub start: Knot,
+    pub start: ImplicitState,
     /// The end: q, v of the method, a = v̇.
-    pub end: Knot,
+    pub end: ImplicitState,
     /// (a - v̇) / h, (v of the method - v) / h², and the rate of a, at the beginning.
     pub shift: Vec<f64>,
     pub normal: Vec<f64>,
@@ -64,8 +66,8 @@ impl AlphaStep {
         let row = || vec![0.0; n];
         Self {
             parameters,
-            start: Knot::new(n, m, works),
-            end: Knot::new(n, m, works),
+            start: ImplicitState::new(n, m, works),
+            end: ImplicitState::new(n, m, works),
             shift: row(),
             normal: row(),
             slope: row(),
@@ -81,9 +83,9 @@ impl AlphaStep {
         }
     }
 
-    fn shares(&self, h: f64) -> Shares {
+    fn coefficients(&self, h: f64) -> NewtonCoefficients {
         let AlphaParameters { beta, gamma, .. } = self.parameters;
-        Shares {
+        NewtonCoefficients {
             mass: self.parameters.acceleration_share(),
             damping: gamma * h,
             stiffness: beta * h * h,
@@ -92,23 +94,23 @@ impl AlphaStep {
     }
 
     /// Makes the matrix at the beginning of a step, for [`filter`](Self::filter).
-    pub fn factor_at_start<Y: Constrained>(
+    pub fn factor_at_start<Y: Dae>(
         &mut self,
-        system: &mut Counted<'_, Y>,
+        system: &mut CountedDae<'_, Y>,
         t: f64,
         h: f64,
     ) -> bool {
         system.linearize(t, self.start.point());
         self.factored = None;
-        system.factor(self.shares(h))
+        system.factor(self.coefficients(h))
     }
 
     /// The state at t + h into `end`; whether Newton's iteration converged.
-    pub fn advance<Y: Constrained>(
+    pub fn advance<Y: Dae>(
         &mut self,
-        system: &mut Counted<'_, Y>,
+        system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
-        scale: &mut Scale,
+        scale: &mut ErrorWeights,
     ) -> bool {
         self.predict(h);
         let at_hand = self.factored.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs());
@@ -117,7 +119,7 @@ impl AlphaStep {
         }
         self.predict(h);
         system.linearize(t + h, self.end.point());
-        let factored = system.factor(self.shares(h));
+        let factored = system.factor(self.coefficients(h));
         self.factored = factored.then_some(h);
         self.singular = !factored;
         let converged = factored && self.newton(system, (t, h), scale, 0.9);
@@ -144,11 +146,11 @@ impl AlphaStep {
         end.lam.copy_from_slice(&start.lam);
     }
 
-    fn newton<Y: Constrained>(
+    fn newton<Y: Dae>(
         &mut self,
-        system: &mut Counted<'_, Y>,
+        system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
-        scale: &mut Scale,
+        scale: &mut ErrorWeights,
         slow: f64,
     ) -> bool {
         let mut last = f64::INFINITY;
@@ -173,12 +175,12 @@ impl AlphaStep {
     }
 
     /// One correction of `end`; its norm.
-    fn correct<Y: Constrained>(
+    fn correct<Y: Dae>(
         &mut self,
-        system: &mut Counted<'_, Y>,
+        system: &mut CountedDae<'_, Y>,
         t: f64,
         h: f64,
-        scale: &mut Scale,
+        scale: &mut ErrorWeights,
     ) -> f64 {
         let AlphaParameters { beta, gamma, .. } = self.parameters;
         system.counts.iterations += 1;
@@ -203,21 +205,21 @@ impl AlphaStep {
     }
 
     /// Residuals at `end`: forces into the first part of x, Φ into `rows`.
-    fn evaluate<Y: Constrained>(&mut self, system: &mut Counted<'_, Y>, t: f64) {
+    fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64) {
         let n = self.dv.len();
-        let Knot { q, v, a, lam, powers } = &mut self.end;
-        let out = Residual { forces: &mut self.x[..n], rows: &mut self.rows, powers };
-        system.residual(t, Point { q, v, a, lam }, Level::Position, out);
+        let ImplicitState { q, v, a, lam, powers } = &mut self.end;
+        let out = DaeResidual { forces: &mut self.x[..n], rows: &mut self.rows, powers };
+        system.residual(t, Iterate { q, v, a, lam }, ConstraintLevel::Position, out);
     }
 
     /// The estimated error of the step over its tolerance: C_q h² (a₁ - a₀) for q and C_v h³ v⃛ for v,
     /// v⃛ from the last three accelerations; both without their part normal to the constraints, which the
     /// constraints themselves prevent. Stiff motions are not filtered out: what rings in a enters q.
-    pub fn error<Y: Constrained>(
+    pub fn error<Y: Dae>(
         &mut self,
-        system: &mut Counted<'_, Y>,
+        system: &mut CountedDae<'_, Y>,
         h: f64,
-        scale: &Scale,
+        scale: &ErrorWeights,
     ) -> f64 {
         let n = self.dv.len();
         let (c_q, c_v) = (self.parameters.position_error(), self.parameters.velocity_error());
@@ -242,7 +244,7 @@ impl AlphaStep {
 
     /// The norm of corrections that are rounding alone: of q relative to its largest component, since
     /// the constraints are sums of all of them; of v that over h.
-    fn rounding(&self, h: f64, scale: &mut Scale) -> f64 {
+    fn rounding(&self, h: f64, scale: &mut ErrorWeights) -> f64 {
         let AlphaParameters { beta, gamma, .. } = self.parameters;
         scale.set(&self.start, &self.end);
         let q = ROUNDING * self.start.q.iter().fold(0.0, |most: f64, q| most.max(q.abs()));
@@ -255,7 +257,7 @@ impl AlphaStep {
     }
 
     /// x ← the solution of [S Φ_qᵀ; Φ_q 0] with M x (1 - α_m)/(1 - α_f) on the right.
-    pub fn filter<Y: Constrained>(&mut self, system: &mut Counted<'_, Y>, x: &mut [f64]) {
+    pub fn filter<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, x: &mut [f64]) {
         let n = x.len();
         let share = self.parameters.acceleration_share();
         self.dv.fill(0.0);
@@ -266,12 +268,12 @@ impl AlphaStep {
     }
 
     /// Puts the end onto the constraints; the normal part of its velocities is kept for the next step.
-    pub fn project<Y: Constrained>(
+    pub fn project<Y: Dae>(
         &mut self,
-        system: &mut Counted<'_, Y>,
+        system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
     ) -> Result<bool, Y::Stop> {
-        let Knot { q, v, .. } = &mut self.end;
+        let ImplicitState { q, v, .. } = &mut self.end;
         self.normal.copy_from_slice(v);
         let changed = system.system.project(t + h, q, v)?;
         for (normal, v) in self.normal.iter_mut().zip(v.iter()) {
@@ -283,7 +285,7 @@ impl AlphaStep {
 
     /// Whether the end is finite.
     pub fn finite(&self) -> bool {
-        let Knot { q, v, a, lam, powers } = &self.end;
+        let ImplicitState { q, v, a, lam, powers } = &self.end;
         [q, v, a, lam, powers].into_iter().all(|x| all_finite(x))
     }
 

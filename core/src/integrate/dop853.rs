@@ -8,62 +8,38 @@
 //! 46 mechanisms 4 % fewer evaluations for the same error (`docs/performance.md`).
 //!
 //! The extension needs three stages more than the step, or for a system of second order one evaluation
-//! (`birkhoff`). They are evaluated only for observers that look between the ends; for others it is the cubic
+//! (`hermite_birkhoff`). They are evaluated only for observers that look between the ends; for others it is the cubic
 //! Hermite polynomial. The derivative at the end is evaluated where the step stands, since the estimate does
 //! without: one evaluation less than scipy's for every step that is rejected.
 
 use super::adaptive::integrate;
-use super::adaptive_options::{usable_rtol, Atol, Options};
-use super::clearance::Gap;
-use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::dop853_coefficients::*;
 use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
-use super::rate::{Rate, Trouble};
+use super::ode::{Method, Observer, Ode, Statistics};
+use super::right_hand_side::{RightHandSide, Trouble};
 use super::stages::{rows, rows_mut, sum_at, Block, Trial};
+use super::step_control::StepControl;
+use super::step_placement::Gap;
 use super::step_size::Control;
 use super::tolerances::Tolerances;
 
 /// DOP853 with its options.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Dop853 {
-    /// Relative tolerance; raised to 100 ε ≈ 2.2e-14 if it is smaller.
-    pub rtol: f64,
-    /// Absolute tolerance, in the units of y; a component that stays zero needs one above 0.
-    pub atol: Atol,
-    /// Constant step, whatever its error; then there is neither a first nor a largest one.
-    pub step: Option<f64>,
-    /// Largest step.
-    pub max_step: f64,
-    /// First step; chosen if `None`.
-    pub first_step: Option<f64>,
-    /// Largest number of accepted steps.
-    pub max_steps: Option<usize>,
-}
-
-impl Default for Dop853 {
-    /// rtol 1e-3, atol 1e-6, no bounds.
-    fn default() -> Self {
-        Self {
-            rtol: 1e-3,
-            atol: Atol::Scalar(1e-6),
-            step: None,
-            max_step: f64::INFINITY,
-            first_step: None,
-            max_steps: None,
-        }
-    }
+    /// Tolerances and steps.
+    pub control: StepControl,
 }
 
 impl Dop853 {
     /// With the given tolerances and no bounds.
     pub fn new(rtol: f64, atol: f64) -> Self {
-        Self { rtol, atol: Atol::Scalar(atol), ..Self::default() }
+        Self { control: StepControl::new(rtol, atol) }
     }
 }
 
 impl Method for Dop853 {
-    fn integrate<Y: FirstOrder, O: Observer>(
+    fn integrate<Y: Ode, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,
@@ -71,15 +47,7 @@ impl Method for Dop853 {
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Statistics, Failure<Y::Stop>> {
-        let options = Options {
-            rtol: usable_rtol(self.rtol),
-            atol: &self.atol,
-            step: self.step,
-            max_step: self.max_step,
-            first_step: self.first_step,
-            max_steps: self.max_steps,
-        };
-        integrate::<Pair, Y, O>(&options, system, (t0, t_end), y, observer)
+        integrate::<Pair, Y, O>(&self.control.usable(), system, (t0, t_end), y, observer)
     }
 }
 
@@ -155,11 +123,11 @@ impl EmbeddedPair for Pair {
     // between the stages at 1/3 and 3/5
     const GAP: Gap = Gap { middle: 7.0 / 15.0, half: 2.0 / 15.0 };
     const TABLE: &'static [f64] = &TABLE;
-    const MEAN: &'static [f64] = &MEAN;
+    const DOUBLE_QUADRATURE: &'static [f64] = &DOUBLE_QUADRATURE;
     const WITHOUT_EXTRA: &'static [f64] = &HERMITE;
 
-    fn advance<Y: FirstOrder>(
-        rate: &mut Rate<'_, Y>,
+    fn advance<Y: Ode>(
+        rate: &mut RightHandSide<'_, Y>,
         (t, t_new): (f64, f64),
         y: &[Block],
         k: &mut [Block],
@@ -183,8 +151,8 @@ impl EmbeddedPair for Pair {
         trial.end(B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new)
     }
 
-    fn extend<Y: FirstOrder>(
-        rate: &mut Rate<'_, Y>,
+    fn extend<Y: Ode>(
+        rate: &mut RightHandSide<'_, Y>,
         (t, t_new): (f64, f64),
         y: &[Block],
         k: &mut [Block],

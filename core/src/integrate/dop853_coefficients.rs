@@ -83,7 +83,7 @@ pub(super) const B: [f64; 8] = [
 /// Weights bᵢ (1 - cᵢ) of stages 1 to 12 for ∫ y dt over a step: by the conditions for order 8 of the trees of
 /// which the root has a leaf more.
 #[rustfmt::skip]
-pub(super) const MEAN: [f64; 12] = [
+pub(super) const DOUBLE_QUADRATURE: [f64; 12] = [
     B[0], 0.0, 0.0, 0.0, 0.0, B[1] * (1.0 - C[4]), B[2] * (1.0 - C[5]), B[3] * (1.0 - C[6]),
     B[4] * (1.0 - C[7]), B[5] * (1.0 - C[8]), B[6] * (1.0 - C[9]), B[7] * (1.0 - C[10]),
 ];

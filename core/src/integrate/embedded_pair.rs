@@ -1,9 +1,9 @@
 //! What the loop of `adaptive` asks of an embedded Runge–Kutta pair.
 
-use super::clearance::Gap;
-use super::contract::FirstOrder;
-use super::rate::{Rate, Trouble};
+use super::ode::Ode;
+use super::right_hand_side::{RightHandSide, Trouble};
 use super::stages::Block;
+use super::step_placement::Gap;
 use super::step_size::Control;
 use super::tolerances::Tolerances;
 
@@ -28,15 +28,15 @@ pub(super) trait EmbeddedPair {
     const TABLE: &'static [f64];
     /// Weights wᵢ of the stages by which ∫ y dt = h y_old + h² Σ wᵢ kᵢ over a step, to its order: where
     /// there are extra stages, for systems that can do without them.
-    const MEAN: &'static [f64] = &[];
+    const DOUBLE_QUADRATURE: &'static [f64] = &[];
     /// The table of a lesser extension, with zeros for the extra stages.
     const WITHOUT_EXTRA: &'static [f64] = Self::TABLE;
 
     /// The stages after the first, which is given, in rows of `k`, the last one only if it is
     /// [`LAST_IN_ERROR`](Self::LAST_IN_ERROR); the state at `t_new` into `y_new`. `work` is scratch as long
     /// as y.
-    fn advance<Y: FirstOrder>(
-        rate: &mut Rate<'_, Y>,
+    fn advance<Y: Ode>(
+        rate: &mut RightHandSide<'_, Y>,
         span: (f64, f64),
         y: &[Block],
         k: &mut [Block],
@@ -45,8 +45,8 @@ pub(super) trait EmbeddedPair {
     ) -> Result<(), Trouble<Y::Stop>>;
 
     /// The extra stages of an accepted step, in the rows of `k` after the others.
-    fn extend<Y: FirstOrder>(
-        _rate: &mut Rate<'_, Y>,
+    fn extend<Y: Ode>(
+        _rate: &mut RightHandSide<'_, Y>,
         _span: (f64, f64),
         _y: &[Block],
         _k: &mut [Block],

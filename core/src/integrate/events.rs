@@ -4,7 +4,7 @@
 //! hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without using
 //! derivatives*, Adv. Eng. Softw. 28 (1997) 145): inverse quadratic where that is safe, else bisection.
 
-use super::contract::Step;
+use super::ode::Step;
 
 /// Which changes of sign count, along the direction of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! How an integration fails.
 
-use super::contract::{Ended, Statistics};
+use super::ode::{Ended, Statistics};
 use std::fmt;
 
 /// Why an integration failed.

@@ -3,16 +3,17 @@
 //! Order 2 for q, v and λ. Between steps the cubic Hermite polynomial of q and v. For stiff forces and
 //! for tolerances of about 1e-2 to 1e-4; see `alpha_step` for the method itself.
 
-use super::adaptive_options::{Atol, Options};
 use super::alpha_parameters::AlphaParameters;
 use super::alpha_step::AlphaStep;
 use super::arguments::{refusal, Refused};
-use super::constrained::{Constrained, ImplicitMethod};
-use super::contract::{Ended, Flow, Observer, Statistics, Step};
-use super::dense::{Dense, HERMITE};
+use super::dae::{Dae, ImplicitMethod};
+use super::error_weights::ErrorWeights;
+use super::evaluation_counter::CountedDae;
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
-use super::knot::{Counted, Scale};
+use super::interpolant::{Interpolant, HERMITE};
+use super::ode::{Ended, Flow, Observer, Statistics, Step};
+use super::step_control::StepControl;
 use super::step_size::{least_step, Control, StepSize};
 
 /// Order of the error estimate.
@@ -32,37 +33,20 @@ const KEEP: f64 = 1.2;
 pub struct GeneralizedAlpha {
     /// Which member of the family.
     pub parameters: AlphaParameters,
-    /// Relative tolerance of a step; with a constant step, of Newton's iteration alone.
-    pub rtol: f64,
-    /// Absolute tolerance of a step; with a constant step, of Newton's iteration alone.
-    pub atol: Atol,
-    /// A constant step; none for step control.
-    pub step: Option<f64>,
-    /// Longest step.
-    pub max_step: f64,
-    /// First step; chosen if none.
-    pub first_step: Option<f64>,
-    /// Largest number of steps.
-    pub max_steps: Option<usize>,
+    /// Tolerances and steps.
+    pub control: StepControl,
 }
 
 impl GeneralizedAlpha {
     /// With step control and no bounds on steps.
     pub fn new(parameters: AlphaParameters, rtol: f64, atol: f64) -> Self {
-        Self {
-            parameters,
-            rtol,
-            atol: Atol::Scalar(atol),
-            step: None,
-            max_step: f64::INFINITY,
-            first_step: None,
-            max_steps: None,
-        }
+        Self { parameters, control: StepControl::new(rtol, atol) }
     }
 
     /// With a constant step, and Newton's iteration to `rtol` and `atol`.
     pub fn constant(parameters: AlphaParameters, step: f64, rtol: f64, atol: f64) -> Self {
-        Self { step: Some(step), ..Self::new(parameters, rtol, atol) }
+        let control = StepControl { step: Some(step), ..StepControl::new(rtol, atol) };
+        Self { parameters, control }
     }
 
     fn check(&self) -> Result<(), Refused> {
@@ -73,25 +57,14 @@ impl GeneralizedAlpha {
         }
         Ok(())
     }
-
-    fn options(&self) -> Options<'_> {
-        Options {
-            rtol: self.rtol,
-            atol: &self.atol,
-            step: self.step,
-            max_step: self.max_step,
-            first_step: self.first_step,
-            max_steps: self.max_steps,
-        }
-    }
 }
 
 /// An integration under way.
-struct Run<'a, 'b, Y: Constrained> {
-    system: Counted<'a, Y>,
-    options: &'b GeneralizedAlpha,
+struct Run<'a, 'b, Y: Dae> {
+    system: CountedDae<'a, Y>,
+    options: &'b StepControl,
     step: AlphaStep,
-    scale: Scale,
+    scale: ErrorWeights,
     t: f64,
     t_end: f64,
     /// y at the end of a step; the rows of its continuous extension.
@@ -101,7 +74,7 @@ struct Run<'a, 'b, Y: Constrained> {
 }
 
 impl ImplicitMethod for GeneralizedAlpha {
-    fn integrate<Y: Constrained, O: Observer>(
+    fn integrate<Y: Dae, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,
@@ -114,12 +87,12 @@ impl ImplicitMethod for GeneralizedAlpha {
         let checked = self
             .check()
             .map_err(refusal)
-            .and_then(|()| self.options().begin((t0, t_end), (y, len), 2 * n));
+            .and_then(|()| self.control.begin((t0, t_end), (y, len), 2 * n));
         let mut run = Run {
-            system: Counted::new(system, t0),
-            options: self,
+            system: CountedDae::new(system, t0),
+            options: &self.control,
             step: AlphaStep::new(self.parameters, n, m, works),
-            scale: Scale::new(&self.options(), n),
+            scale: ErrorWeights::new(&self.control, n),
             t: t0,
             t_end,
             y_new: vec![0.0; len],
@@ -131,7 +104,7 @@ impl ImplicitMethod for GeneralizedAlpha {
     }
 }
 
-impl<Y: Constrained> Run<'_, '_, Y> {
+impl<Y: Dae> Run<'_, '_, Y> {
     fn go<O: Observer>(
         &mut self,
         grid: Option<Grid>,
@@ -149,8 +122,8 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             (Some(h), _) | (None, Some(h)) => h,
             (None, None) => {
                 let Self { system, step, scale, .. } = self;
-                let knots = (&step.start, &mut step.end);
-                let first = system.first_step((self.t, self.t_end), knots, scale, ERROR_ORDER);
+                let state = (&step.start, &mut step.end);
+                let first = system.first_step((self.t, self.t_end), state, scale, ERROR_ORDER);
                 first.map_err(Cause::Equations)?.min(self.options.max_step)
             }
         };
@@ -309,7 +282,7 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             y: y_new,
             dy_old: &rows[..len],
             dy: &rows[len..2 * len],
-            dense: Dense::new(rows, len, &HERMITE, 4),
+            interpolant: Interpolant::new(rows, len, &HERMITE, 4),
         });
         y.copy_from_slice(y_new);
         step.move_on(h);

@@ -5,16 +5,17 @@
 //! while Newton's iteration converges fast, the factors while the step stays (Hairer and Wanner,
 //! *Solving Ordinary Differential Equations II*, IV.8). Between steps the polynomials of collocation.
 
-use super::adaptive_options::{usable_rtol, Atol, Options};
-use super::constrained::{Constrained, ImplicitMethod};
-use super::contract::{Ended, Flow, Observer, Statistics, Step};
-use super::dense::Dense;
+use super::dae::{Dae, ImplicitMethod};
+use super::error_weights::ErrorWeights;
+use super::evaluation_counter::CountedDae;
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
-use super::knot::{Counted, Scale};
+use super::interpolant::Interpolant;
+use super::ode::{Ended, Flow, Observer, Statistics, Step};
 use super::radau_coefficients::{DEGREE, EXTENSION};
-use super::radau_step::{Enough, RadauStep, Solved, ROWS};
-use super::rate::all_finite;
+use super::radau_step::{NewtonLimits, NewtonOutcome, RadauStep, ROWS};
+use super::right_hand_side::all_finite;
+use super::step_control::StepControl;
 use super::step_size::least_step;
 
 /// Order of the error estimate.
@@ -33,70 +34,35 @@ const SHORTEN: f64 = 0.5;
 /// Most iterations for a step of controlled length.
 const MOST: usize = 7;
 /// What is asked of Newton's iteration with a constant step.
-const CONSTANT: Enough = Enough { tolerance: 1e-2, most: 25 };
+const CONSTANT: NewtonLimits = NewtonLimits { tolerance: 1e-2, most: 25 };
 /// An error below counts as this in the prediction from it.
 const LEAST_NORM: f64 = 1e-2;
 
 /// Radau IIA of order 5 with its options.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Radau {
-    /// Relative tolerance of a step; with a constant step, of Newton's iteration alone.
-    pub rtol: f64,
-    /// Absolute tolerance of a step; with a constant step, of Newton's iteration alone.
-    pub atol: Atol,
-    /// A constant step; none for step control.
-    pub step: Option<f64>,
-    /// Longest step.
-    pub max_step: f64,
-    /// First step; chosen if none.
-    pub first_step: Option<f64>,
-    /// Largest number of steps.
-    pub max_steps: Option<usize>,
-}
-
-impl Default for Radau {
-    /// rtol 1e-3 and atol 1e-6, as in scipy.
-    fn default() -> Self {
-        Self::new(1e-3, 1e-6)
-    }
+    /// Tolerances and steps.
+    pub control: StepControl,
 }
 
 impl Radau {
     /// With the given tolerances and no bounds on steps.
     pub fn new(rtol: f64, atol: f64) -> Self {
-        Self {
-            rtol,
-            atol: Atol::Scalar(atol),
-            step: None,
-            max_step: f64::INFINITY,
-            first_step: None,
-            max_steps: None,
-        }
+        Self { control: StepControl::new(rtol, atol) }
     }
 
     /// With a constant step, and Newton's iteration to `rtol` and `atol`.
     pub fn constant(step: f64, rtol: f64, atol: f64) -> Self {
-        Self { step: Some(step), ..Self::new(rtol, atol) }
-    }
-
-    fn options(&self) -> Options<'_> {
-        Options {
-            rtol: usable_rtol(self.rtol),
-            atol: &self.atol,
-            step: self.step,
-            max_step: self.max_step,
-            first_step: self.first_step,
-            max_steps: self.max_steps,
-        }
+        Self { control: StepControl { step: Some(step), ..StepControl::new(rtol, atol) } }
     }
 }
 
 /// An integration under way.
-struct Run<'a, 'b, Y: Constrained> {
-    system: Counted<'a, Y>,
-    options: Options<'b>,
+struct Run<'a, Y: Dae> {
+    system: CountedDae<'a, Y>,
+    options: StepControl,
     step: RadauStep,
-    scale: Scale,
+    scale: ErrorWeights,
     t: f64,
     t_end: f64,
     direction: f64,
@@ -113,7 +79,7 @@ struct Run<'a, 'b, Y: Constrained> {
 }
 
 impl ImplicitMethod for Radau {
-    fn integrate<Y: Constrained, O: Observer>(
+    fn integrate<Y: Dae, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,
@@ -123,12 +89,12 @@ impl ImplicitMethod for Radau {
     ) -> Result<Statistics, Failure<Y::Stop>> {
         let (n, m, works) = (system.coordinates(), system.multipliers(), system.quadratures());
         let len = 2 * n + works;
-        let options = self.options();
+        let options = self.control.usable();
         let checked = options.begin((t0, t_end), (y, len), 2 * n);
         let mut run = Run {
-            system: Counted::new(system, t0),
+            system: CountedDae::new(system, t0),
             step: RadauStep::new(n, m, works),
-            scale: Scale::new(&options, n),
+            scale: ErrorWeights::new(&options, n),
             options,
             t: t0,
             t_end,
@@ -145,7 +111,7 @@ impl ImplicitMethod for Radau {
     }
 }
 
-impl<Y: Constrained> Run<'_, '_, Y> {
+impl<Y: Dae> Run<'_, Y> {
     fn go<O: Observer>(
         &mut self,
         grid: Option<Grid>,
@@ -163,8 +129,8 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             (Some(h), _) | (None, Some(h)) => h,
             (None, None) => {
                 let Self { system, step, scale, .. } = self;
-                let knots = (&step.start, &mut step.stages[0]);
-                let first = system.first_step((self.t, self.t_end), knots, scale, ERROR_ORDER);
+                let state = (&step.start, &mut step.stages[0]);
+                let first = system.first_step((self.t, self.t_end), state, scale, ERROR_ORDER);
                 first.map_err(Cause::Equations)?
             }
         };
@@ -194,11 +160,11 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             }
             let span = (t, t_new - t);
             let solved = self.step.advance(&mut self.system, span, &mut self.scale, CONSTANT);
-            if let Solved::Converged(_, rate) = solved {
+            if let NewtonOutcome::Converged(_, rate) = solved {
                 self.keep_tangent = rate <= FAST;
                 return Ok(t_new);
             }
-            singular = matches!(solved, Solved::Singular);
+            singular = matches!(solved, NewtonOutcome::Singular);
         }
         Err(self.gave_up(true, singular))
     }
@@ -222,10 +188,11 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             if !self.step.fresh && !self.keep_tangent {
                 self.step.linearize(&mut self.system, t, h);
             }
-            let enough = Enough { tolerance: newton_tolerance(self.options.rtol), most: MOST };
+            let enough =
+                NewtonLimits { tolerance: newton_tolerance(self.options.rtol), most: MOST };
             let solved = self.step.advance(&mut self.system, (t, h), &mut self.scale, enough);
-            let Solved::Converged(iterations, rate) = solved else {
-                singular = matches!(solved, Solved::Singular);
+            let NewtonOutcome::Converged(iterations, rate) = solved else {
+                singular = matches!(solved, NewtonOutcome::Singular);
                 unsolved = true;
                 // an old tangent gets another chance before the step is blamed
                 if self.step.fresh {
@@ -341,7 +308,7 @@ impl<Y: Constrained> Run<'_, '_, Y> {
             y: y_new,
             dy_old,
             dy: dy_new,
-            dense: Dense::new(rows, len, &*EXTENSION, DEGREE),
+            interpolant: Interpolant::new(rows, len, &*EXTENSION, DEGREE),
         });
         y.copy_from_slice(y_new);
         step.move_on(h);

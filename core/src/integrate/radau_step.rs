@@ -12,8 +12,10 @@
 //! once real and once complex (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8 and
 //! VII.6), whose condition does not grow as h falls. Of q and v the order is 5, of λ 3.
 
-use super::constrained::{Constrained, Level, Point, Residual, Shares};
-use super::knot::{Counted, Knot, Scale};
+use super::dae::{ConstraintLevel, Dae, DaeResidual, Iterate, NewtonCoefficients};
+use super::error_weights::ErrorWeights;
+use super::evaluation_counter::CountedDae;
+use super::implicit_state::ImplicitState;
 use super::radau_coefficients::{lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
 use crate::math::{Complex, Field};
 
@@ -26,7 +28,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 pub(super) const ROWS: usize = 8;
 
 /// How Newton's iteration ended.
-pub(super) enum Solved {
+pub(super) enum NewtonOutcome {
     /// After so many iterations, with this rate of convergence.
     Converged(usize, f64),
     Diverged,
@@ -36,7 +38,7 @@ pub(super) enum Solved {
 
 /// When Newton's iteration is content, and when it gives up.
 #[derive(Clone, Copy)]
-pub(super) struct Enough {
+pub(super) struct NewtonLimits {
     /// Norm of what may be left.
     pub tolerance: f64,
     /// Most iterations.
@@ -45,9 +47,9 @@ pub(super) struct Enough {
 
 /// State and memory of a run.
 pub(super) struct RadauStep {
-    pub start: Knot,
+    pub start: ImplicitState,
     /// v - v₀ at the stages is `z`; knots hold q, v, a, λ and the powers.
-    pub stages: [Knot; 3],
+    pub stages: [ImplicitState; 3],
     z: [Vec<f64>; 3],
     /// Stages of the step before, for the prediction, and its length.
     z_before: [Vec<f64>; 3],
@@ -60,7 +62,7 @@ pub(super) struct RadauStep {
     /// Estimated errors of q and v.
     error: [Vec<f64>; 2],
     /// The start moved by them, and the move along it that the error estimate sees.
-    moved: Knot,
+    moved: ImplicitState,
     along: Vec<f64>,
     /// Whether the tangent is that of the beginning of this step.
     pub fresh: bool,
@@ -71,8 +73,8 @@ impl RadauStep {
     pub fn new(n: usize, m: usize, works: usize) -> Self {
         let rows = |len: usize| std::array::from_fn(|_| vec![0.0; len]);
         Self {
-            start: Knot::new(n, m, works),
-            stages: std::array::from_fn(|_| Knot::new(n, m, works)),
+            start: ImplicitState::new(n, m, works),
+            stages: std::array::from_fn(|_| ImplicitState::new(n, m, works)),
             z: rows(n),
             z_before: rows(n),
             lam_before: rows(m),
@@ -82,7 +84,7 @@ impl RadauStep {
             complex: vec![Complex::zero(); n + m],
             dq: vec![0.0; n],
             error: std::array::from_fn(|_| vec![0.0; n]),
-            moved: Knot::new(n, m, works),
+            moved: ImplicitState::new(n, m, works),
             along: vec![0.0; n],
             fresh: false,
             factored: None,
@@ -90,17 +92,19 @@ impl RadauStep {
     }
 
     /// Solves for the stages of a step.
-    pub fn advance<Y: Constrained>(
+    pub fn advance<Y: Dae>(
         &mut self,
-        system: &mut Counted<'_, Y>,
+        system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
-        scale: &mut Scale,
-        enough: Enough,
-    ) -> Solved {
+        scale: &mut ErrorWeights,
+        enough: NewtonLimits,
+    ) -> NewtonOutcome {
         if !self.factored.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs()) {
             self.factored = None;
-            if !(system.factor(shares(h / REAL)) && system.factor_complex(complex_shares(h))) {
-                return Solved::Singular;
+            if !(system.factor(coefficients(h / REAL))
+                && system.factor_complex(complex_coefficients(h)))
+            {
+                return NewtonOutcome::Singular;
             }
             self.factored = Some(h);
         }
@@ -110,10 +114,10 @@ impl RadauStep {
 
     /// Finds the tangent at the beginning of the step, but for the positions, which are taken from its
     /// middle: bodies turn, and the iteration converges twice as fast.
-    pub fn linearize<Y: Constrained>(&mut self, system: &mut Counted<'_, Y>, t: f64, h: f64) {
-        let Knot { q, v, a, lam, .. } = &self.start;
+    pub fn linearize<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64, h: f64) {
+        let ImplicitState { q, v, a, lam, .. } = &self.start;
         self.dq.iter_mut().zip(q.iter().zip(v)).for_each(|(mid, (q, v))| *mid = q + 0.5 * h * v);
-        system.linearize(t + 0.5 * h, Point { q: &self.dq, v, a, lam });
+        system.linearize(t + 0.5 * h, Iterate { q: &self.dq, v, a, lam });
         self.fresh = true;
         self.factored = None;
     }
@@ -142,14 +146,14 @@ impl RadauStep {
         }
     }
 
-    fn newton<Y: Constrained>(
+    fn newton<Y: Dae>(
         &mut self,
-        system: &mut Counted<'_, Y>,
+        system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
-        scale: &mut Scale,
-        Enough { tolerance, most }: Enough,
-    ) -> Solved {
-        self.spread(h);
+        scale: &mut ErrorWeights,
+        NewtonLimits { tolerance, most }: NewtonLimits,
+    ) -> NewtonOutcome {
+        self.update_stages(h);
         scale.set(&self.start, &self.stages[2]);
         let mut last = f64::INFINITY;
         let mut rate = 0.0;
@@ -157,30 +161,30 @@ impl RadauStep {
             self.evaluate(system, (t, h));
             let norm = self.correct(system, h, scale);
             if !norm.is_finite() {
-                return Solved::Diverged;
+                return NewtonOutcome::Diverged;
             }
             let enough = tolerance.max(self.rounding(scale));
             if iteration > 1 {
                 rate = norm / last;
                 let to_come = rate.powi((most - iteration) as i32) / (1.0 - rate) * norm;
                 if rate >= 1.0 && norm > enough || rate < 1.0 && to_come > enough {
-                    return Solved::Diverged;
+                    return NewtonOutcome::Diverged;
                 }
                 let left = if rate < 0.5 { norm * rate / (1.0 - rate) } else { norm };
                 if left <= enough {
-                    return Solved::Converged(iteration, rate);
+                    return NewtonOutcome::Converged(iteration, rate);
                 }
             }
             if norm <= 0.1 * enough {
-                return Solved::Converged(iteration, rate);
+                return NewtonOutcome::Converged(iteration, rate);
             }
             last = norm;
         }
-        Solved::Diverged
+        NewtonOutcome::Diverged
     }
 
     /// q, v and a of the stages from Z.
-    fn spread(&mut self, h: f64) {
+    fn update_stages(&mut self, h: f64) {
         let Self { start, stages, z, .. } = self;
         for (i, stage) in stages.iter_mut().enumerate() {
             for k in 0..start.q.len() {
@@ -193,23 +197,23 @@ impl RadauStep {
     }
 
     /// Residuals of all stages, and their powers.
-    pub fn evaluate<Y: Constrained>(&mut self, system: &mut Counted<'_, Y>, (t, h): (f64, f64)) {
+    pub fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, (t, h): (f64, f64)) {
         let n = self.dq.len();
         for ((stage, residual), c) in self.stages.iter_mut().zip(&mut self.residuals).zip(C) {
-            let Knot { q, v, a, lam, powers } = stage;
+            let ImplicitState { q, v, a, lam, powers } = stage;
             let (forces, rows) = residual.split_at_mut(n);
-            let at = Point { q, v, a, lam };
-            let out = Residual { forces, rows, powers };
-            system.residual(t + c * h, at, Level::Velocity, out);
+            let at = Iterate { q, v, a, lam };
+            let out = DaeResidual { forces, rows, powers };
+            system.residual(t + c * h, at, ConstraintLevel::Velocity, out);
         }
     }
 
     /// One correction of the stages; its norm.
-    fn correct<Y: Constrained>(
+    fn correct<Y: Dae>(
         &mut self,
-        system: &mut Counted<'_, Y>,
+        system: &mut CountedDae<'_, Y>,
         h: f64,
-        scale: &Scale,
+        scale: &ErrorWeights,
     ) -> f64 {
         let n = self.dq.len();
         system.counts.iterations += 1;
@@ -242,12 +246,12 @@ impl RadauStep {
                 }
             }
         }
-        self.spread(h);
+        self.update_stages(h);
         self.norm(h, scale)
     }
 
     /// Of the last correction, as mean over the stages.
-    fn norm(&mut self, h: f64, scale: &Scale) -> f64 {
+    fn norm(&mut self, h: f64, scale: &ErrorWeights) -> f64 {
         let n = self.dq.len();
         let mut sum = 0.0;
         for i in 0..3 {
@@ -262,7 +266,7 @@ impl RadauStep {
     }
 
     /// The norm of corrections that are rounding alone.
-    fn rounding(&self, scale: &Scale) -> f64 {
+    fn rounding(&self, scale: &ErrorWeights) -> f64 {
         let n = self.dq.len();
         let largest = self.stages[2].v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
         let parts = scale.weights[n..].iter().filter(|w| **w > 0.0);
@@ -273,11 +277,11 @@ impl RadauStep {
     /// The estimated error of the step over its tolerance: the difference from an embedded method of
     /// order 3, filtered by the real matrix (IV.8.19 and IV.8.20 of the book). With `again`, that of a
     /// step from the start moved by the estimate, which is what a stiff start needs.
-    pub fn error<Y: Constrained>(
+    pub fn error<Y: Dae>(
         &mut self,
-        system: &mut Counted<'_, Y>,
+        system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
-        scale: &Scale,
+        scale: &ErrorWeights,
         again: bool,
     ) -> Result<f64, Y::Stop> {
         let n = self.dq.len();
@@ -338,13 +342,13 @@ impl RadauStep {
     }
 }
 
-fn shares(step: f64) -> Shares {
-    Shares { mass: 1.0, damping: step, stiffness: step * step, rate: step }
+fn coefficients(step: f64) -> NewtonCoefficients {
+    NewtonCoefficients { mass: 1.0, damping: step, stiffness: step * step, rate: step }
 }
 
-fn complex_shares(h: f64) -> Shares<Complex> {
+fn complex_coefficients(h: f64) -> NewtonCoefficients<Complex> {
     let step = Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h);
-    Shares { mass: Complex::one(), damping: step, stiffness: step * step, rate: step }
+    NewtonCoefficients { mass: Complex::one(), damping: step, stiffness: step * step, rate: step }
 }
 
 #[inline(always)]

@@ -2,30 +2,28 @@
 //! 435); between steps the cubic Hermite polynomial, of order 3.
 
 use super::arguments::{check_problem, refusal};
-use super::contract::{Ended, FirstOrder, Flow, Method, Observer, Statistics, Step};
-use super::dense::{Dense, HERMITE};
 use super::failure::{conclude, Cause, Failure};
 use super::fixed_step::Grid;
-use super::rate::{all_finite, Rate, Trouble};
+use super::interpolant::{Interpolant, HERMITE};
+use super::ode::{Ended, Flow, Method, Observer, Ode, Statistics, Step};
+use super::right_hand_side::{all_finite, RightHandSide, Trouble};
 use super::stages::{chord, combine, room, row, row_mut, rows_mut, Block, Trial};
+use super::step_control::StepControl;
 use crate::math::Lanes;
 
 /// Classical Runge–Kutta 4 with its options.
 ///
-/// Steps end at t0 + k `step`, computed by multiplication; the last is shortened to end at t_end.
-/// Errors are not estimated.
+/// It needs a constant step; errors are not estimated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rk4 {
-    /// Step, > 0, also when integrating backward.
-    pub step: f64,
-    /// Largest number of steps; more are refused before the first.
-    pub max_steps: Option<usize>,
+    /// The step, and the largest number of steps.
+    pub control: StepControl,
 }
 
 impl Rk4 {
     /// With the given step and no bound on their number.
     pub fn new(step: f64) -> Self {
-        Self { step, max_steps: None }
+        Self { control: StepControl::constant(step) }
     }
 }
 
@@ -50,9 +48,9 @@ impl Work {
     }
 
     /// y at t + h, from y and the derivative there.
-    fn advance<Y: FirstOrder>(
+    fn advance<Y: Ode>(
         &mut self,
-        rate: &mut Rate<'_, Y>,
+        rate: &mut RightHandSide<'_, Y>,
         t: f64,
         h: f64,
     ) -> Result<(), Trouble<Y::Stop>> {
@@ -71,7 +69,7 @@ impl Work {
 }
 
 impl Method for Rk4 {
-    fn integrate<Y: FirstOrder, O: Observer>(
+    fn integrate<Y: Ode, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,
@@ -79,19 +77,20 @@ impl Method for Rk4 {
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Statistics, Failure<Y::Stop>> {
-        let grid = check_problem(t0, t_end, y, system.len())
-            .map_err(refusal)
-            .and_then(|()| Grid::new(t0, t_end, self.step, self.max_steps));
+        let grid = check_problem(t0, t_end, y, system.len()).map_err(refusal).and_then(|()| {
+            let StepControl { step, max_steps, .. } = self.control;
+            Grid::new(t0, t_end, step.unwrap_or(f64::NAN), max_steps)
+        });
         let mut statistics = Statistics::none(t0);
-        let mut rate = Rate { system, evaluations: 0 };
+        let mut rate = RightHandSide { system, evaluations: 0 };
         let outcome = grid.and_then(|grid| go(&mut rate, t0, &grid, y, observer, &mut statistics));
         statistics.evaluations = rate.evaluations;
         conclude(outcome, statistics, y)
     }
 }
 
-fn go<Y: FirstOrder, O: Observer>(
-    rate: &mut Rate<'_, Y>,
+fn go<Y: Ode, O: Observer>(
+    rate: &mut RightHandSide<'_, Y>,
     t0: f64,
     grid: &Grid,
     y: &mut [f64],
@@ -119,9 +118,9 @@ fn go<Y: FirstOrder, O: Observer>(
 }
 
 /// Offers the new state to the system and the step to the observer, and moves on.
-fn finish<Y: FirstOrder, O: Observer>(
+fn finish<Y: Ode, O: Observer>(
     work: &mut Work,
-    rate: &mut Rate<'_, Y>,
+    rate: &mut RightHandSide<'_, Y>,
     (t, t_new): (f64, f64),
     y: &mut [f64],
     observer: &mut O,
@@ -130,7 +129,7 @@ fn finish<Y: FirstOrder, O: Observer>(
     let Work { k, y: y_old, y_new, .. } = work;
     let width = y_old.len();
     let y_settled = &mut y_new.as_flattened_mut()[..n];
-    let changed = rate.system.accepted(t_new, y_settled).map_err(Cause::Equations)?;
+    let changed = rate.system.project_accepted(t_new, y_settled).map_err(Cause::Equations)?;
     if changed && !all_finite(y_settled) {
         return Err(Cause::NotFinite { t: t_new });
     }
@@ -139,7 +138,7 @@ fn finish<Y: FirstOrder, O: Observer>(
     chord(y_old, y_new, t_new - t, row_mut(k, width, 2));
     let [of_old, of_new] = [0, 1].map(|s| &row(k, width, s).as_flattened()[..n]);
     let end = &y_new.as_flattened()[..n];
-    let dense = k[..3 * width].as_flattened();
+    let interpolant = k[..3 * width].as_flattened();
     let flow = observer.step(&Step {
         t_old: t,
         t: t_new,
@@ -147,7 +146,7 @@ fn finish<Y: FirstOrder, O: Observer>(
         y: end,
         dy_old: of_old,
         dy: of_new,
-        dense: Dense::new(dense, Lanes::WIDTH * width, &HERMITE, 4),
+        interpolant: Interpolant::new(interpolant, Lanes::WIDTH * width, &HERMITE, 4),
     });
     y.copy_from_slice(end);
     std::mem::swap(y_old, y_new);

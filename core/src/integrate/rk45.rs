@@ -5,61 +5,32 @@
 //! with the optimal c₆. Control: that of `scipy.integrate.RK45`.
 
 use super::adaptive::integrate;
-use super::adaptive_options::{usable_rtol, Atol, Options};
-use super::clearance::Gap;
-use super::contract::{FirstOrder, Method, Observer, Statistics};
 use super::embedded_pair::EmbeddedPair;
 use super::failure::Failure;
-use super::rate::{Rate, Trouble};
+use super::ode::{Method, Observer, Ode, Statistics};
+use super::right_hand_side::{RightHandSide, Trouble};
 use super::stages::{rows, rows_mut, sum_at, Block, Trial};
+use super::step_control::StepControl;
+use super::step_placement::Gap;
 use super::step_size::Control;
 use super::tolerances::Tolerances;
 
 /// Dormand–Prince 5(4) with its options.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rk45 {
-    /// Relative tolerance; raised to [`Rk45::rtol_used`].
-    pub rtol: f64,
-    /// Absolute tolerance, in the units of y; a component that stays zero needs one above 0.
-    pub atol: Atol,
-    /// Constant step, whatever its error; then there is neither a first nor a largest one.
-    pub step: Option<f64>,
-    /// Largest step.
-    pub max_step: f64,
-    /// First step; chosen if `None`.
-    pub first_step: Option<f64>,
-    /// Largest number of accepted steps.
-    pub max_steps: Option<usize>,
-}
-
-impl Default for Rk45 {
-    /// rtol 1e-3, atol 1e-6, no bounds.
-    fn default() -> Self {
-        Self {
-            rtol: 1e-3,
-            atol: Atol::Scalar(1e-6),
-            step: None,
-            max_step: f64::INFINITY,
-            first_step: None,
-            max_steps: None,
-        }
-    }
+    /// Tolerances and steps.
+    pub control: StepControl,
 }
 
 impl Rk45 {
     /// With the given tolerances and no bounds.
     pub fn new(rtol: f64, atol: f64) -> Self {
-        Self { rtol, atol: Atol::Scalar(atol), ..Self::default() }
-    }
-
-    /// The relative tolerance in use: `rtol`, or 100 ε ≈ 2.2e-14 if that is larger.
-    pub fn rtol_used(&self) -> f64 {
-        usable_rtol(self.rtol)
+        Self { control: StepControl::new(rtol, atol) }
     }
 }
 
 impl Method for Rk45 {
-    fn integrate<Y: FirstOrder, O: Observer>(
+    fn integrate<Y: Ode, O: Observer>(
         &self,
         system: &mut Y,
         t0: f64,
@@ -67,15 +38,7 @@ impl Method for Rk45 {
         y: &mut [f64],
         observer: &mut O,
     ) -> Result<Statistics, Failure<Y::Stop>> {
-        let options = Options {
-            rtol: self.rtol_used(),
-            atol: &self.atol,
-            step: self.step,
-            max_step: self.max_step,
-            first_step: self.first_step,
-            max_steps: self.max_steps,
-        };
-        integrate::<DormandPrince, Y, O>(&options, system, (t0, t_end), y, observer)
+        integrate::<DormandPrince, Y, O>(&self.control.usable(), system, (t0, t_end), y, observer)
     }
 }
 
@@ -122,8 +85,8 @@ impl EmbeddedPair for DormandPrince {
     const GAP: Gap = Gap { middle: 0.55, half: 0.25 };
     const TABLE: &'static [f64] = &P;
 
-    fn advance<Y: FirstOrder>(
-        rate: &mut Rate<'_, Y>,
+    fn advance<Y: Ode>(
+        rate: &mut RightHandSide<'_, Y>,
         (t, t_new): (f64, f64),
         y: &[Block],
         k: &mut [Block],

@@ -3,8 +3,8 @@
 //! States and stages are rows of whole blocks with zeros behind the last number, so that sums over them are
 //! taken four numbers at once and know no remainder.
 
-use super::contract::FirstOrder;
-use super::rate::{Rate, Trouble};
+use super::ode::Ode;
+use super::right_hand_side::{RightHandSide, Trouble};
 use crate::math::{Lanes, Real};
 
 /// Numbers side by side.
@@ -96,7 +96,7 @@ pub(super) fn row_mut(k: &mut [Block], width: usize, s: usize) -> &mut [Block] {
 
 /// A step that is tried.
 pub(super) struct Trial<'r, 's, Y> {
-    rate: &'r mut Rate<'s, Y>,
+    rate: &'r mut RightHandSide<'s, Y>,
     t: f64,
     h: f64,
     y: &'r [Block],
@@ -106,11 +106,11 @@ pub(super) struct Trial<'r, 's, Y> {
     last: f64,
 }
 
-impl<'r, 's, Y: FirstOrder> Trial<'r, 's, Y> {
+impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
     /// Of length h from y at t; `work` is scratch.
     #[inline(always)]
     pub fn new(
-        rate: &'r mut Rate<'s, Y>,
+        rate: &'r mut RightHandSide<'s, Y>,
         (t, h): (f64, f64),
         y: &'r [Block],
         work: &'r mut [Block],

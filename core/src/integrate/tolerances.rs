@@ -1,7 +1,7 @@
 //! What errors of a step are measured by: atolᵢ + rtol max(|yᵢ|, |y_newᵢ|).
 
-use super::adaptive_options::Atol;
 use super::stages::{room, Block};
+use super::step_control::Atol;
 use crate::math::{Lanes, Real};
 
 /// Tolerances of every component.

@@ -164,6 +164,15 @@ impl<S: Real> Pose<S> {
             y: (cos * s.along[1]).plus_product(sin, s.across[1]),
         }
     }
+    /// The same pose over a scalar that contains this one.
+    pub fn lift<T: Lift<S>>(&self) -> Pose<T> {
+        let Rotation { cos, sin } = self.rotation;
+        Pose {
+            r: self.r.lift(),
+            angle: T::lift(self.angle),
+            rotation: Rotation { cos: T::lift(cos), sin: T::lift(sin) },
+        }
+    }
     /// r + A s′: a point of the body in the global frame (Haug 2.4.8).
     pub fn point(&self, s: Local<S>) -> Vec2<S> {
         self.r + self.rotation * s
@@ -196,6 +205,18 @@ pub struct Motion<S = f64> {
 }
 
 impl<S: Real> Motion<S> {
+    /// At rest in the global frame, as ground is.
+    pub fn ground() -> Self {
+        Self { pose: Pose::identity(), twist: Twist::zero() }
+    }
+    /// The same motion over a scalar that contains this one.
+    pub fn lift<T: Lift<S>>(&self) -> Motion<T> {
+        let Twist { velocity, omega } = self.twist;
+        Motion {
+            pose: self.pose.lift(),
+            twist: Twist { velocity: velocity.lift(), omega: T::lift(omega) },
+        }
+    }
     /// Velocity of a body-fixed point: ṙ + B s′ φ̇ (Haug 2.6.4).
     pub fn point_velocity(&self, s: Local<S>) -> Vec2<S> {
         self.twist.velocity + self.pose.global(s).perp().scale(self.twist.omega)

@@ -2,11 +2,14 @@
 
 use super::bodies;
 use super::definition::{Definition, Entry, Value};
-use super::link::{Linker, Scope};
+use super::link::{self, Linker, Scope};
 use super::model::{Body, Model};
 use super::problem::Problem;
+use super::variable::Variable;
 use super::{checks, parameters};
-use crate::elements::{BodyId, Constraint, CoordinateOf, ForceElement, Group};
+use crate::elements::{
+    holding, BodyId, Constraint, CoordinateOf, Fixes, ForceElement, Group, OwnState,
+};
 use crate::expression::{Symbol, Tape};
 use std::sync::Arc;
 
@@ -25,8 +28,8 @@ pub struct Blueprint {
     pub bodies: Vec<Body<Tape>>,
     /// Joints, then drivers.
     pub constraints: Vec<(String, Group, Constraint<Tape>)>,
-    /// Forces.
-    pub forces: Vec<(String, ForceElement<Tape>)>,
+    /// Forces, with their first-order states.
+    pub forces: Vec<(String, &'static [OwnState], ForceElement<Tape>)>,
 }
 
 /// Links a definition and puts numbers in. `overrides` replace parameters by name.
@@ -87,16 +90,18 @@ impl Blueprint {
             problems.push(Problem::at(&[group.section(), &entry.name], message));
             return;
         };
-        let mut linker = Linker::new(group, entry, scope, &self.bodies, problems);
+        let joints: Vec<&str> = self.constraints.iter().map(|(name, ..)| name.as_str()).collect();
+        let mut linker = Linker::new(group, entry, scope, (&self.bodies, &joints), problems);
         let known = if group == Group::Forces {
             ForceElement::read(kind, &mut linker).map(|e| {
-                let e = e.filter(|e| self.two_bodies(group, entry, e.ends(), problems));
-                self.forces.extend(e.map(|e| (entry.name.clone(), e)));
+                let e = e.filter(|e| self.two_bodies(group, entry, &e.bodies(), problems));
+                let states = link::states(entry);
+                self.forces.extend(e.map(|e| (entry.name.clone(), states, e)));
             })
         } else {
             Constraint::read(group, kind, &mut linker).map(|e| {
                 let e = e.filter(|e| {
-                    self.two_bodies(group, entry, e.ends(), problems)
+                    self.two_bodies(group, entry, &e.bodies(), problems)
                         && self.not_circular(entry, e, problems)
                 });
                 self.constraints.extend(e.map(|e| (entry.name.clone(), group, e)));
@@ -109,18 +114,19 @@ impl Blueprint {
         }
     }
 
-    /// Reports an element whose ends are on one body: it would say nothing, or something impossible.
+    /// Reports an element between a body and itself: it would be empty or impossible.
     fn two_bodies(
         &self,
         group: Group,
         entry: &Entry,
-        ends: [BodyId; 2],
+        bodies: &[BodyId],
         problems: &mut Vec<Problem>,
     ) -> bool {
-        if ends[0] != ends[1] {
+        let [i, j, ..] = bodies else { return true };
+        if i != j {
             return true;
         }
-        let body = &self.bodies[ends[0].0].name;
+        let body = &self.bodies[i.0].name;
         let message = format!("both ends of this {} are on '{body}'", group.singular());
         let hint = "it must connect two different bodies";
         problems.push(Problem::at(&[group.section(), &entry.name], message).hint(hint));
@@ -134,16 +140,19 @@ impl Blueprint {
         constraint: &Constraint<Tape>,
         problems: &mut Vec<Problem>,
     ) -> bool {
-        let Constraint::CoordinateDriver(driver) = constraint else { return true };
-        let CoordinateOf { body, coordinate } = driver.coordinate;
-        let own = Symbol::Variable(6 * body.0 + coordinate as usize);
-        if !driver.value.symbols().contains(&own) {
-            return true;
+        for fixed in constraint.fixes() {
+            let Fixes::Coordinate(CoordinateOf { body, coordinate }, value) = fixed else {
+                continue;
+            };
+            let own = Symbol::Variable(Variable::Coordinate(body, coordinate).index());
+            if value.symbols().contains(&own) {
+                let name = format!("{}.{}", self.bodies[body.0].name, coordinate.name());
+                let message = format!("the law uses {name}, the coordinate that it drives");
+                problems.push(Problem::at(&["drivers", &entry.name, "value"], message));
+                return false;
+            }
         }
-        let name = format!("{}.{}", self.bodies[body.0].name, coordinate.name());
-        let message = format!("the law uses {name}, the coordinate that it drives");
-        problems.push(Problem::at(&["drivers", &entry.name, "value"], message));
-        false
+        true
     }
 
     /// The same mechanism with further drivers that make coordinates follow given laws: what
@@ -151,11 +160,7 @@ impl Blueprint {
     pub fn holding(&self, held: &[(String, CoordinateOf, Tape)]) -> Self {
         let mut extended = self.clone();
         for (name, coordinate, value) in held {
-            let driver = crate::elements::drivers::CoordinateDriver {
-                coordinate: *coordinate,
-                value: value.clone(),
-            };
-            let driver = Constraint::CoordinateDriver(driver);
+            let driver = holding(*coordinate, value.clone());
             extended.constraints.push((name.clone(), Group::Drivers, driver));
         }
         extended

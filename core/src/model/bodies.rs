@@ -3,6 +3,7 @@
 //! A bar is shorthand: it becomes a general body whose numbers are formulas in its own, such as
 //! J = m L²/12, so that nothing after this file knows bars.
 
+use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::link::{Reach, Scope};
 use super::model::Body;
@@ -47,9 +48,10 @@ impl Reader<'_> {
         match self.entry.get("type") {
             Some(Value::Text(kind)) if kind == "bar" => self.bar(),
             Some(Value::Text(kind)) if kind == "body" => self.general(),
+            Some(Value::Text(kind)) if kind == POINT_MASS => self.point_mass(),
             None => self.general(),
             _ => {
-                self.report("type", "must be 'bar' or 'body'");
+                self.report("type", "must be 'body', 'bar' or 'point_mass'");
                 self.blank("body")
             }
         }
@@ -66,7 +68,21 @@ impl Reader<'_> {
             center: Local { x: zero(), y: zero() },
             points: Vec::new(),
             drawn: None,
+            turns: kind != POINT_MASS,
         }
+    }
+
+    fn point_mass(&mut self) -> Body<Tape> {
+        let mut body = self.blank(POINT_MASS);
+        let zero = || Tape::from(0.0);
+        body.mass = self.number("mass", "kg").unwrap_or(body.mass);
+        body.inertia = zero();
+        body.points.push(("P".to_string(), Local { x: zero(), y: zero() }));
+        if let Some(value) = self.entry.get("at") {
+            let at = self.scope.pair(value, &self.path("at"), "m", self.problems);
+            body.drawn = at.map(|[x, y]| [x, y, zero()]);
+        }
+        body
     }
 
     fn general(&mut self) -> Body<Tape> {

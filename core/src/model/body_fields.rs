@@ -2,10 +2,13 @@
 
 use crate::elements::{Default, Field, Shape, Table};
 
-/// The types of bodies: `body` (the type if none is written), `bar`, and `ground`, which is not
-/// written as a type but is the body of that name.
+/// The `type` of a body without an angle.
+pub(super) const POINT_MASS: &str = "point_mass";
+
+/// The types of bodies: `body` (the type if none is written), `bar`, `point_mass`, and `ground`, which
+/// is not written as a type but is the body of that name.
 pub fn body_tables() -> Vec<Table> {
-    vec![body(), bar(), ground()]
+    vec![body(), bar(), point_mass(), ground()]
 }
 
 fn points() -> Field {
@@ -71,6 +74,23 @@ fn bar() -> Table {
             ),
             through(),
             points(),
+        ],
+    }
+}
+
+fn point_mass() -> Table {
+    Table {
+        name: POINT_MASS,
+        doc: "A point with mass and one named point, P. It has no angle.".to_string(),
+        fields: vec![
+            mass(),
+            Field::optional(
+                "at",
+                Shape::Pair,
+                "m",
+                Default::Absent,
+                "Position in the global frame when assembly starts, [x, y].",
+            ),
         ],
     }
 }

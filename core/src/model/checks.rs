@@ -29,6 +29,9 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
     }
     for item in model.forces.iter().filter(|f| f.law.is_none()) {
         item.element.map(&mut |x| check(&["forces", &item.name], *x, problems));
+        if let Some((field, message)) = item.element.fault() {
+            problems.push(Problem::at(&["forces", &item.name, field], message));
+        }
     }
 }
 

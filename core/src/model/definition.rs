@@ -1,43 +1,6 @@
 //! A model as written: names, numbers and formulas as text, in the order of the file.
 
-/// A value as it stands in a file.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Value {
-    /// A number.
-    Number(f64),
-    /// A name or a formula.
-    Text(String),
-    /// true or false.
-    Flag(bool),
-    /// A list.
-    List(Vec<Value>),
-    /// Keys with values, in order.
-    Table(Vec<(String, Value)>),
-}
-
-impl Value {
-    /// What a reader of the file would call it.
-    pub fn noun(&self) -> &'static str {
-        match self {
-            Self::Number(_) => "a number",
-            Self::Text(_) => "a text",
-            Self::Flag(_) => "true or false",
-            Self::List(_) => "a list",
-            Self::Table(_) => "a table",
-        }
-    }
-}
-
-impl From<f64> for Value {
-    fn from(x: f64) -> Self {
-        Self::Number(x)
-    }
-}
-impl From<&str> for Value {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_string())
-    }
-}
+pub use crate::elements::Value;
 
 /// A named thing with its fields: a body, a joint, a force, an analysis.
 #[derive(Clone, Debug, PartialEq)]

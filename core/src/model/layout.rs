@@ -1,20 +1,56 @@
-//! Index ranges: which columns a body owns, which rows and Jacobian entries a constraint owns.
+//! Index ranges: which columns a body owns, which rows and entries of Φ_q a constraint owns, which
+//! states an element owns, and where all of them are in y = (q, v, z, works).
 //!
-//! Φ_q is stored by constraint: for each moving body that a constraint touches a dense block of
-//! (equations × 3) entries, row by row. Ground owns no columns.
+//! Φ_q is stored by constraint: for each owner of columns that a constraint touches there is a dense
+//! block of (equations × 3) entries, row by row, padded with zeros where the owner has fewer than three
+//! columns. Ground owns no columns.
 
 use crate::elements::BodyId;
 use std::ops::Range;
 
-/// One block of Φ_q: the equations of a constraint by the coordinates of a body.
+/// Works that are integrated with the motion: dissipated, of drivers, of applied forces.
+pub const WORKS: usize = 3;
+
+/// The coordinates of one owner: a moving body, or an element with internal coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Columns {
+    /// The first column.
+    pub first: usize,
+    /// Number of columns, at most three; zero for ground.
+    pub count: usize,
+}
+
+impl Columns {
+    /// The columns as a range.
+    pub fn range(self) -> Range<usize> {
+        self.first..self.first + self.count
+    }
+    /// Adds the first numbers of three to these columns of `y`.
+    #[inline(always)]
+    pub fn add<S: crate::math::Real>(self, three: [S; 3], y: &mut [S]) {
+        y[self.range()].iter_mut().zip(three).for_each(|(y, x)| *y += x);
+    }
+    /// These columns of `x`, padded with zeros to three.
+    #[inline(always)]
+    pub fn of<S: crate::math::Real>(self, x: &[S]) -> [S; 3] {
+        let mut three = [S::zero(); 3];
+        three.iter_mut().zip(&x[self.range()]).for_each(|(to, x)| *to = *x);
+        three
+    }
+}
+
+/// One block of Φ_q: the equations of a constraint by the coordinates of one owner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
-    /// The moving body.
-    pub body: BodyId,
+    /// Place of the owner among [`StateLayout::owners`].
+    pub owner: usize,
+    /// Its columns.
+    pub columns: Columns,
+    /// The body, if the owner is one.
+    pub body: Option<BodyId>,
     /// Index of the block's first entry; entry (row r, column c) is `first + 3 r + c`.
     pub first: usize,
-    /// ±1 where the first two columns of a block of two rows are ±I, whatever the state: at a joint that
-    /// pins two points, Φ = point_j - point_i (Haug 3.3.12). 0 for other blocks.
+    /// ±1 where the columns of translation are ±I whatever the state (Haug 3.3.12), else 0.
     pub sign: f64,
 }
 
@@ -25,8 +61,10 @@ pub(super) struct Touched {
     pub equations: usize,
     /// Bodies, i and j first.
     pub bodies: Vec<BodyId>,
-    /// Whether it only pins a point of body i to one of body j, with two equations.
-    pub pins: bool,
+    /// Number of its internal coordinates.
+    pub own: usize,
+    /// Whether its columns of translation are -I for body i and +I for body j.
+    pub constant_columns: bool,
 }
 
 /// Rows and blocks of one constraint.
@@ -34,63 +72,144 @@ pub(super) struct Touched {
 pub struct Slots {
     /// Rows of Φ.
     pub rows: Range<usize>,
-    /// Blocks of Φ_q, bodies i and j first, then bodies that only a law names.
+    /// Blocks of Φ_q: bodies i and j first, then bodies that only a law names, then the internal
+    /// coordinates.
     pub blocks: Vec<Block>,
+    /// Columns of the internal coordinates.
+    pub own: Columns,
 }
 
 /// All index ranges of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Layout {
-    /// Number of coordinates, three for each moving body.
+pub struct StateLayout {
+    /// Number of coordinates.
     pub n_q: usize,
     /// Number of constraint equations.
     pub n_rows: usize,
     /// Number of stored entries of Φ_q.
     pub n_entries: usize,
+    /// Number of first-order states of elements.
+    pub n_z: usize,
+    /// Number of works.
+    pub n_works: usize,
+    /// Columns of every body, ground first.
+    pub bodies: Vec<Columns>,
+    /// Columns of the moving bodies, then of the elements with internal coordinates.
+    pub owners: Vec<Columns>,
     /// One for each constraint.
     pub constraints: Vec<Slots>,
+    /// Places in z of the states of each force.
+    pub states: Vec<Range<usize>>,
 }
 
-/// Columns of a body; empty for ground.
-pub fn columns(body: BodyId) -> Range<usize> {
-    match body.0 {
-        0 => 0..0,
-        k => 3 * (k - 1)..3 * k,
-    }
-}
-
-impl Layout {
-    /// For `n_bodies` moving bodies and what the constraints touch.
-    pub(super) fn new(n_bodies: usize, constraints: impl Iterator<Item = Touched>) -> Self {
-        let mut layout = Self { n_q: 3 * n_bodies, ..Self::default() };
-        for Touched { equations: m, bodies, pins } in constraints {
-            let (i, j) = (bodies.first().copied(), bodies.get(1).copied());
-            let sign = |body| match Some(body) == j {
-                _ if !pins || i == j => 0.0,
-                true => 1.0,
-                false => -1.0,
-            };
-            let rows = layout.n_rows..layout.n_rows + m;
-            layout.n_rows = rows.end;
-            let mut blocks: Vec<Block> = Vec::new();
-            for body in bodies {
-                if !body.is_ground() && blocks.iter().all(|b| b.body != body) {
-                    let first = layout.n_entries;
-                    blocks.push(Block { body, first, sign: sign(body) });
-                    layout.n_entries += 3 * m;
-                }
-            }
-            layout.constraints.push(Slots { rows, blocks });
+impl StateLayout {
+    /// For the number of coordinates of each moving body, what the constraints touch, and the number of
+    /// states of each force.
+    pub(super) fn new(
+        bodies: impl Iterator<Item = usize>,
+        constraints: &[Touched],
+        states: impl Iterator<Item = usize>,
+    ) -> Self {
+        let mut layout =
+            Self { n_works: WORKS, bodies: vec![Columns::default()], ..Self::default() };
+        for count in bodies {
+            let columns = layout.own(count);
+            layout.bodies.push(columns);
+        }
+        for touched in constraints {
+            let slots = layout.slots(touched);
+            layout.constraints.push(slots);
+        }
+        for count in states {
+            layout.states.push(layout.n_z..layout.n_z + count);
+            layout.n_z += count;
         }
         layout
     }
 
-    /// Position (row, column) of every stored entry of Φ_q, in storage order.
-    pub fn positions(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+    /// The next columns, for a new owner.
+    fn own(&mut self, count: usize) -> Columns {
+        let columns = Columns { first: self.n_q, count };
+        self.owners.push(columns);
+        self.n_q += count;
+        columns
+    }
+
+    fn slots(&mut self, touched: &Touched) -> Slots {
+        let Touched { equations, bodies, own, constant_columns } = touched;
+        let rows = self.n_rows..self.n_rows + equations;
+        self.n_rows = rows.end;
+        let (i, j) = (bodies.first(), bodies.get(1));
+        let sign = |body: &BodyId| match Some(body) == j {
+            _ if !constant_columns || i == j => 0.0,
+            true => 1.0,
+            false => -1.0,
+        };
+        let mut blocks: Vec<Block> = Vec::new();
+        for body in bodies {
+            if !body.is_ground() && blocks.iter().all(|b| b.body != Some(*body)) {
+                let (owner, sign) = (body.0 - 1, sign(body));
+                blocks.push(self.block(owner, Some(*body), sign, *equations));
+            }
+        }
+        let mut columns = Columns::default();
+        if *own > 0 {
+            columns = self.own(*own);
+            blocks.push(self.block(self.owners.len() - 1, None, 0.0, *equations));
+        }
+        Slots { rows, blocks, own: columns }
+    }
+
+    fn block(&mut self, owner: usize, body: Option<BodyId>, sign: f64, rows: usize) -> Block {
+        let first = self.n_entries;
+        self.n_entries += 3 * rows;
+        Block { owner, columns: self.owners[owner], body, first, sign }
+    }
+
+    /// Number of components of y = (q, v, z, works).
+    pub fn n_y(&self) -> usize {
+        2 * self.n_q + self.n_z + self.n_works
+    }
+
+    /// Splits y = (q, v, z, works) into its parts.
+    pub fn split<'a, S>(&self, y: &'a [S]) -> [&'a [S]; 4] {
+        let (q, rest) = y.split_at(self.n_q);
+        let (v, rest) = rest.split_at(self.n_q);
+        let (z, works) = rest.split_at(self.n_z);
+        [q, v, z, works]
+    }
+
+    /// The same, to be changed.
+    pub fn split_mut<'a, S>(&self, y: &'a mut [S]) -> [&'a mut [S]; 4] {
+        let (q, rest) = y.split_at_mut(self.n_q);
+        let (v, rest) = rest.split_at_mut(self.n_q);
+        let (z, works) = rest.split_at_mut(self.n_z);
+        [q, v, z, works]
+    }
+
+    /// For each coordinate whether it is a length, else an angle. An internal coordinate counts as a
+    /// length.
+    pub fn lengths(&self) -> Vec<bool> {
+        let mut lengths = vec![true; self.n_q];
+        let full = self.bodies.iter().filter(|body| body.count == 3);
+        full.for_each(|body| lengths[body.first + 2] = false);
+        lengths
+    }
+
+    /// The place of the stored entries of row r of a block.
+    pub fn entries(block: &Block, row: usize) -> Range<usize> {
+        block.first + 3 * row..block.first + 3 * row + 3
+    }
+
+    /// Position (row, column) and place of every entry of Φ_q that is not padding, in storage order.
+    pub fn positions(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
         self.constraints.iter().flat_map(|slots| {
             slots.blocks.iter().flat_map(|block| {
-                let cells = move |row| columns(block.body).map(move |column| (row, column));
-                slots.rows.clone().flat_map(cells)
+                let rows = slots.rows.clone().enumerate();
+                rows.flat_map(|(r, row)| {
+                    let places = Self::entries(block, r);
+                    block.columns.range().zip(places).map(move |(column, at)| (row, column, at))
+                })
             })
         })
     }
@@ -99,5 +218,11 @@ impl Layout {
     pub fn owner(&self, row: usize) -> (usize, usize) {
         let k = self.constraints.partition_point(|slots| slots.rows.end <= row);
         (k, row - self.constraints[k].rows.start)
+    }
+
+    /// The body that owns a coordinate, and the coordinate's index within it; None for an internal one.
+    pub fn body_of(&self, column: usize) -> Option<(BodyId, usize)> {
+        let body = self.bodies.iter().position(|b| b.range().contains(&column))?;
+        Some((BodyId(body), column - self.bodies[body].first))
     }
 }

@@ -1,19 +1,33 @@
 //! From the text of a field to what it means: names become indices, text becomes formulas.
 
+use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::model::Body;
 use super::problem::Problem;
-use crate::elements::{BodyId, Coordinate, CoordinateOf, Default, Field, Group, PointOn, Source};
+use super::variable::Variable;
+use crate::elements::{
+    states_of, BodyId, Coordinate, CoordinateOf, Default, Field, Group, JointId, OwnState, PointOn,
+    Source,
+};
 use crate::expression::unit::Unit;
 use crate::expression::{suggest, Expression, ExpressionError, Names, Symbol, Tape};
 
 /// The names that formulas may use.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Scope {
     /// Parameters, in order.
     pub parameters: Vec<String>,
-    /// Bodies; index 0 is ground.
-    pub bodies: Vec<String>,
+    /// Bodies, each with whether it has an angle; index 0 is ground.
+    pub bodies: Vec<(String, bool)>,
+    /// First-order states of elements, such as `motor.current`, in the order of z.
+    pub states: Vec<String>,
+}
+
+/// The first-order states of a force as written.
+pub(super) fn states(entry: &Entry) -> &'static [OwnState] {
+    let Some(Value::Text(kind)) = entry.get("type") else { return &[] };
+    let given = |field: &str| entry.get(field).is_some_and(|value| *value != Value::Number(0.0));
+    states_of(kind, &given)
 }
 
 /// How much a formula may depend on.
@@ -41,11 +55,14 @@ impl Names for Visible<'_> {
         if name == "t" {
             return Some(Symbol::Time);
         }
+        let variable = |variable: Variable| Some(Symbol::Variable(variable.index()));
+        if let Some(k) = scope.states.iter().position(|state| state == name) {
+            return variable(Variable::State(k)).filter(|_| self.1 == Reach::State);
+        }
         let (body, coordinate) = name.rsplit_once('.')?;
-        let body = scope.bodies.iter().position(|b| b == body).filter(|k| *k > 0)?;
-        let coordinate = Coordinate::named(coordinate)?;
-        let visible = self.1 == Reach::State || !coordinate.is_rate();
-        visible.then_some(Symbol::Variable(6 * body + coordinate as usize))
+        let body = scope.bodies.iter().position(|(b, _)| b == body).filter(|k| *k > 0)?;
+        let coordinate = Coordinate::named(coordinate).filter(|c| self.sees(body, *c))?;
+        variable(Variable::Coordinate(BodyId(body), coordinate))
     }
 
     fn known(&self) -> Vec<String> {
@@ -54,25 +71,47 @@ impl Names for Visible<'_> {
             return known;
         }
         known.push("t".to_string());
-        let visible = |c: &Coordinate| self.1 == Reach::State || !c.is_rate();
-        for body in &self.0.bodies[1..] {
-            let coordinates = Coordinate::ALL.into_iter().filter(visible);
+        for (k, (body, _)) in self.0.bodies.iter().enumerate().skip(1) {
+            let coordinates = Coordinate::ALL.into_iter().filter(|c| self.sees(k, *c));
             known.extend(coordinates.map(|c| format!("{body}.{}", c.name())));
         }
+        if self.1 == Reach::State {
+            known.extend(self.0.states.iter().cloned());
+        }
         known
+    }
+}
+
+impl Visible<'_> {
+    /// Whether a formula may use a coordinate of a body.
+    fn sees(&self, body: usize, coordinate: Coordinate) -> bool {
+        let has = coordinate.column() < 2 || self.0.bodies[body].1;
+        has && (self.1 == Reach::State || !coordinate.is_rate())
     }
 }
 
 impl Scope {
     /// The names of a definition.
     pub fn new(definition: &Definition) -> Self {
+        let turns = |b: &Entry| b.get("type") != Some(&Value::Text(POINT_MASS.to_string()));
         let moving = definition.bodies.iter().filter(|b| b.name != "ground");
+        let states = definition.forces.iter().flat_map(|entry| {
+            let names = states(entry).iter();
+            names.map(move |state| format!("{}.{}", entry.name, state.name))
+        });
         Self {
             parameters: definition.parameters.iter().map(|(name, _)| name.clone()).collect(),
-            bodies: std::iter::once("ground".to_string())
-                .chain(moving.map(|b| b.name.clone()))
+            bodies: std::iter::once(("ground".to_string(), true))
+                .chain(moving.map(|b| (b.name.clone(), turns(b))))
                 .collect(),
+            states: states.collect(),
         }
+    }
+
+    /// The parameters alone.
+    pub fn of_parameters(parameters: &[String]) -> Self {
+        let bodies = vec![("ground".to_string(), true)];
+        Self { parameters: parameters.to_vec(), bodies, states: Vec::new() }
     }
 
     /// A formula from a number or a text; reports a fault at `path`.
@@ -162,6 +201,7 @@ pub struct Linker<'a> {
     entry: &'a Entry,
     scope: &'a Scope,
     bodies: &'a [Body<Tape>],
+    joints: &'a [&'a str],
     problems: &'a mut Vec<Problem>,
 }
 
@@ -171,10 +211,10 @@ impl<'a> Linker<'a> {
         group: Group,
         entry: &'a Entry,
         scope: &'a Scope,
-        bodies: &'a [Body<Tape>],
+        (bodies, joints): (&'a [Body<Tape>], &'a [&'a str]),
         problems: &'a mut Vec<Problem>,
     ) -> Self {
-        Self { group, section: group.section(), entry, scope, bodies, problems }
+        Self { group, section: group.section(), entry, scope, bodies, joints, problems }
     }
 
     fn path(&self, field: &Field) -> [String; 3] {
@@ -285,6 +325,11 @@ impl Source for Linker<'_> {
         let (body, name) = self.split(field, "body.x, body.y or body.angle")?;
         match Coordinate::named(name) {
             _ if body.is_ground() => self.report(field, "ground does not move".to_string(), None),
+            Some(Coordinate::Angle) if !self.bodies[body.0].turns => {
+                let message =
+                    format!("{} is a point mass and has no angle", self.bodies[body.0].name);
+                self.report(field, message, None)
+            }
             Some(coordinate) if !coordinate.is_rate() => Some(CoordinateOf { body, coordinate }),
             _ => {
                 let message = format!("'{name}' is not one of x, y, angle");
@@ -292,6 +337,15 @@ impl Source for Linker<'_> {
                 self.report(field, message, hint)
             }
         }
+    }
+
+    fn joint(&mut self, field: &Field) -> Option<JointId> {
+        let name = self.text(field)?;
+        if let Some(k) = self.joints.iter().position(|joint| *joint == name) {
+            return Some(JointId(k));
+        }
+        let hint = did_you_mean(name, self.joints, "joints");
+        self.report(field, format!("unknown joint '{name}'"), hint)
     }
 
     fn number(&mut self, field: &Field) -> Option<Tape> {

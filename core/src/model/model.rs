@@ -1,13 +1,10 @@
 //! A model as numbers: immutable, over any scalar.
 
-use super::added_inertia;
-use super::anchor::{anchors, Anchor};
 use super::blueprint::Blueprint;
-use super::inertia::{inertias, Inertia};
-use super::layout::{Layout, Touched};
-use super::pin::{pins, Pin};
-use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group};
-use crate::expression::{Symbol, Tape, Values};
+use super::layout::{StateLayout, Touched};
+use super::variable::Dependence;
+use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, JointId, OwnState};
+use crate::expression::{Tape, Values};
 use crate::math::{Lift, Local, Real, Vec2};
 use std::sync::Arc;
 
@@ -28,6 +25,8 @@ pub struct Body<S = f64> {
     pub points: Vec<(String, Local<S>)>,
     /// Where it was drawn: x, y, angle; a guess for assembly.
     pub drawn: Option<[S; 3]>,
+    /// Whether the angle is a coordinate; a point mass has none.
+    pub turns: bool,
 }
 
 impl<S> Body<S> {
@@ -44,6 +43,7 @@ impl<S> Body<S> {
             center,
             points,
             drawn: self.drawn.as_ref().map(|[x, y, angle]| [f(x), f(y), f(angle)]),
+            turns: self.turns,
         }
     }
 
@@ -60,7 +60,9 @@ pub struct ConstraintItem<S = f64> {
     pub name: String,
     /// Joint or driver.
     pub group: Group,
-    /// The element; where `law` is given its laws stand at their value for t = 0.
+    /// The bodies whose poses enter Φ: i and j first.
+    pub bodies: Vec<BodyId>,
+    /// The element; if there is a `law`, with its formulas at t = 0.
     pub element: Constraint<S>,
     /// The element over formulas, if one of them depends on time or state.
     pub law: Option<Box<Constraint<Tape>>>,
@@ -75,7 +77,13 @@ pub struct ConstraintItem<S = f64> {
 pub struct ForceItem<S = f64> {
     /// Its name.
     pub name: String,
-    /// The element; where `law` is given its laws stand at their value for t = 0.
+    /// The bodies on which it acts: i and j first.
+    pub bodies: Vec<BodyId>,
+    /// Its first-order states.
+    pub states: &'static [OwnState],
+    /// The joint whose reaction enters it.
+    pub reaction: Option<JointId>,
+    /// The element; if there is a `law`, with its formulas at t = 0.
     pub element: ForceElement<S>,
     /// The element over formulas, if one of them depends on time or state.
     pub law: Option<Box<ForceElement<Tape>>>,
@@ -94,19 +102,10 @@ pub struct Model<S = f64> {
     pub bodies: Vec<Body<S>>,
     /// Joints and drivers, in the order of their rows.
     pub constraints: Vec<ConstraintItem<S>>,
-    /// Those of them that only pin two points, as numbers.
-    pub pins: Vec<Pin<S>>,
-    /// Moving bodies that one of them holds to ground.
-    pub anchors: Vec<Anchor<S>>,
     /// Forces.
     pub forces: Vec<ForceItem<S>>,
-    /// Moments of inertia that are added to bodies without their own while the equations are solved,
-    /// and taken back then, kg·m²; zero for others and for ground.
-    pub added_inertia: Vec<S>,
-    /// Of the moving bodies: without ground.
-    pub inertias: Vec<Inertia<S>>,
     /// Index ranges.
-    pub layout: Layout,
+    pub layout: StateLayout,
     /// Whether a joint or driver is driven.
     pub driven: bool,
     /// Whether redundant constraints are accepted; their multipliers are then the smallest that
@@ -129,37 +128,6 @@ impl<S: Real> Values<S> for Reference<'_, S> {
     }
 }
 
-/// The body and coordinate that a variable of a formula stands for: six to a body.
-pub fn variable(k: usize) -> (BodyId, crate::elements::Coordinate) {
-    (BodyId(k / 6), crate::elements::Coordinate::ALL[k % 6])
-}
-
-/// Time and state dependence of the formulas of an element.
-#[derive(Clone, Debug, Default)]
-pub struct Dependence {
-    /// On t.
-    pub time: bool,
-    /// On coordinates or rates of these bodies.
-    pub bodies: Vec<BodyId>,
-}
-
-impl Dependence {
-    /// Collects what a formula depends on.
-    pub fn add(&mut self, tape: &Tape) {
-        for symbol in tape.symbols() {
-            match symbol {
-                Symbol::Parameter(_) => {}
-                Symbol::Time => self.time = true,
-                Symbol::Variable(k) => self.bodies.push(variable(*k).0),
-            }
-        }
-    }
-    /// Whether anything varies.
-    pub fn any(&self) -> bool {
-        self.time || !self.bodies.is_empty()
-    }
-}
-
 impl<S: Real> Model<S> {
     /// The model of a blueprint with the given parameter values.
     pub fn new(blueprint: &Arc<Blueprint>, parameters: &[S]) -> Self {
@@ -170,54 +138,52 @@ impl<S: Real> Model<S> {
         for (name, group, formula) in &blueprint.constraints {
             let mut depends = Dependence::default();
             formula.map(&mut |tape| depends.add(tape));
-            let equations = formula.equations();
-            let bodies = formula.ends().into_iter().chain(depends.bodies.iter().copied());
+            let (equations, bodies) = (formula.equations(), formula.bodies());
             touched.push(Touched {
                 equations: equations.len(),
-                bodies: bodies.collect(),
-                pins: formula.pins() && equations.len() == 2 && !depends.any(),
+                bodies: bodies.iter().chain(&depends.bodies).copied().collect(),
+                own: formula.own(),
+                constant_columns: formula.constant_columns() && !depends.any(),
             });
             constraints.push(ConstraintItem {
                 name: name.clone(),
                 group: *group,
+                bodies,
                 element: formula.map(value),
                 law: depends.any().then(|| Box::new(formula.clone())),
                 driven: *group == Group::Drivers,
                 equations,
             });
         }
-        let forces = blueprint.forces.iter().map(|(name, formula)| {
+        let forces = blueprint.forces.iter().map(|(name, states, formula)| {
             let mut depends = Dependence::default();
             formula.map(&mut |tape| depends.add(tape));
-            let law = depends.any().then(|| Box::new(formula.clone()));
-            ForceItem { name: name.clone(), element: formula.map(value), law }
+            ForceItem {
+                name: name.clone(),
+                bodies: formula.bodies(),
+                reaction: formula.reaction(),
+                states,
+                element: formula.map(value),
+                law: depends.any().then(|| Box::new(formula.clone())),
+            }
         });
-        let forces = forces.collect();
+        let forces: Vec<ForceItem<S>> = forces.collect();
         let bodies: Vec<Body<S>> = blueprint.bodies.iter().map(|body| body.map(value)).collect();
         let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
-        let added_inertia = added_inertia::added(&bodies, &constraints);
-        let layout = Layout::new(blueprint.bodies.len() - 1, touched.into_iter());
-        let pins = pins(&constraints, &layout);
+        let unknowns = bodies[1..].iter().map(|body| if body.turns { 3 } else { 2 });
+        let states = forces.iter().map(|item| item.states.len());
+        let layout = StateLayout::new(unknowns, &touched, states);
         Self {
             blueprint: Arc::clone(blueprint),
             parameters: parameters.to_vec(),
             gravity,
-            inertias: inertias(&blueprint.bodies, &bodies, &added_inertia),
-            anchors: anchors(&pins, &bodies, &added_inertia),
-            added_inertia,
             driven: constraints.iter().any(|item| item.driven),
             bodies,
-            pins,
             layout,
             constraints,
             forces,
             allow_redundancy: blueprint.allow_redundancy,
         }
-    }
-
-    /// Whether a body has an inertia that is not its own.
-    pub fn has_added_inertia(&self) -> bool {
-        self.added_inertia.iter().any(|added| added.least_magnitude() > 0.0)
     }
 
     /// The same model with redundant constraints accepted.

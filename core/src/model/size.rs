@@ -14,6 +14,12 @@ pub fn size<S: Real>(model: &Model<S>) -> f64 {
     }
 }
 
+/// Scale of each coordinate, shape (n_q): the size for lengths, 1 for angles.
+pub fn column_scales<S: Real>(model: &Model<S>) -> Vec<f64> {
+    let size = size(model);
+    model.layout.lengths().into_iter().map(|length| if length { size } else { 1.0 }).collect()
+}
+
 /// Scale of each row of Φ, shape (n_rows): the size for lengths, 1 for angles.
 pub fn row_scales<S: Real>(model: &Model<S>) -> Vec<f64> {
     let size = size(model);

@@ -32,7 +32,7 @@ impl Model {
         for (name, _, formula) in &blueprint.constraints {
             found.push((name.as_str(), formula.map(value).symbols()));
         }
-        for (name, formula) in &blueprint.forces {
+        for (name, _, formula) in &blueprint.forces {
             found.push((name.as_str(), formula.map(value).symbols()));
         }
         found

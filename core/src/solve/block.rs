@@ -1,9 +1,10 @@
 //! Arithmetic of blocks of at most 3 × 3, in registers: sizes are constants, so loops unroll.
 //!
-//! A block of U is stored by rows, lists of three numbers, of which it may use fewer. One of L below the
-//! diagonal is stored by columns, without gaps, and as L D: then products with few rows are sums of whole
-//! rows, and what was written as a pair of numbers is read as one.
+//! A block of U is stored by rows of three numbers. A block of L below the diagonal is stored by columns, without gaps,
+//! and as L D: products with few rows are then sums of whole rows, and pairs of numbers are read as they were
+//! written. (A vector load that spans two recent scalar stores cannot be forwarded and stalls.)
 
+use super::mass_block::dot;
 use crate::math::Real;
 
 /// `N` items from `first`: one bounds check.
@@ -20,43 +21,33 @@ pub(super) fn part_mut<T, const N: usize>(x: &mut [T], first: u32) -> &mut [T; N
     x[first..first + N].first_chunk_mut().expect("as long as the range")
 }
 
-/// A row of a block of U in two forms, side by side: plain, and scaled by the inverse of Dw.
+/// A row a of A in one group, transformed by W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ of the group.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Twin<S> {
+pub(super) struct TransformedRow<S> {
+    /// a₀, a₁ and aᵀ e.
     pub plain: [S; 3],
+    /// The same times d₀⁻¹, d₁⁻¹ and d₂⁻¹.
     pub scaled: [S; 3],
 }
 
-impl<S: Real> Twin<S> {
-    /// y += A x by rows.
-    #[inline(always)]
-    pub fn add_times<const N: usize>(rows: &[Self; N], x: &[S; 3], y: &mut [S; N]) {
-        for (y, Self { plain: a, .. }) in y.iter_mut().zip(rows) {
-            *y = y.plus_product(a[0], x[0]).plus_product(a[1], x[1]).plus_product(a[2], x[2]);
-        }
+/// y += A x by rows.
+#[inline(always)]
+pub(super) fn add_times<S: Real, const N: usize>(rows: &[[S; 3]; N], x: &[S; 3], y: &mut [S; N]) {
+    for (y, a) in y.iter_mut().zip(rows) {
+        *y = y.plus_product(a[0], x[0]).plus_product(a[1], x[1]).plus_product(a[2], x[2]);
     }
 }
 
-/// aᵀ b over the first `K` components.
+/// target += A W⁻¹ Bᵀ.
 #[inline(always)]
-fn dot<S: Real, const K: usize>(a: &[S; 3], b: &[S; 3]) -> S {
-    let mut sum = a[0] * b[0];
-    for k in 1..K {
-        sum += a[k] * b[k];
-    }
-    sum
-}
-
-/// target += A D⁻¹ Bᵀ over `K` columns.
-#[inline(always)]
-pub(super) fn add<S: Real, const M: usize, const N: usize, const K: usize>(
+pub(super) fn add<S: Real, const M: usize, const N: usize>(
     target: &mut [[S; N]; M],
-    a: &[Twin<S>; M],
-    b: &[Twin<S>; N],
+    a: &[TransformedRow<S>; M],
+    b: &[TransformedRow<S>; N],
 ) {
     for (target, a) in target.iter_mut().zip(a) {
         for (target, b) in target.iter_mut().zip(b) {
-            *target += dot::<S, K>(&a.plain, &b.scaled);
+            *target += dot(&a.plain, &b.scaled);
         }
     }
 }
@@ -134,29 +125,41 @@ pub(super) fn subtract_products<S: Real, const M: usize, const N: usize>(
     }
 }
 
-/// y -= Aᵀ x by rows, for the first `N` columns.
+/// y += Aᵀ x by rows.
+pub(super) fn add_transposed<S: Real>(rows: &[[S; 3]], x: &[S], y: &mut [S; 3]) {
+    for (a, x) in rows.iter().zip(x) {
+        (0..3).for_each(|c| y[c] = y[c].plus_product(a[c], *x));
+    }
+}
+
+/// x -= W⁻¹ Aᵀ λ by rows, with e of the group.
 #[inline(always)]
 pub(super) fn subtract_transposed<S: Real, const N: usize>(
-    y: &mut [S; N],
-    a: impl Iterator<Item = [S; 3]>,
-    x: &[S],
+    rows: &[TransformedRow<S>; N],
+    e: &[S; 3],
+    lambda: &[S; N],
+    x: &mut [S; 3],
 ) {
-    for (a, x) in a.zip(x) {
-        for c in 0..N {
-            y[c] = y[c].minus_product(a[c], *x);
-        }
+    let mut along = S::zero();
+    for (TransformedRow { scaled, .. }, lambda) in rows.iter().zip(lambda) {
+        x[0] = x[0].minus_product(scaled[0], *lambda);
+        x[1] = x[1].minus_product(scaled[1], *lambda);
+        along = along.plus_product(scaled[2], *lambda);
+    }
+    for (x, e) in x.iter_mut().zip(e) {
+        *x = x.minus_product(*e, along);
     }
 }
 
 /// A diagonal block of S before elimination, of which the lower triangle is summed up.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Open<S, const N: usize> {
+pub(super) struct DiagonalBlock<S, const N: usize> {
     pub s: [[S; N]; N],
-    /// What its pivots are judged by.
+    /// The sums that its pivots are judged by.
     pub magnitude: [S; N],
 }
 
-impl<S: Real, const N: usize> Open<S, N> {
+impl<S: Real, const N: usize> DiagonalBlock<S, N> {
     #[inline(always)]
     pub fn read(x: &[S], first: u32) -> Self {
         let x = &x[first as usize..first as usize + numbers(N)];
@@ -175,7 +178,7 @@ impl<S: Real, const N: usize> Open<S, N> {
     }
 }
 
-/// Stores what stands for a diagonal block, as [`numbers`] says.
+/// Stores a diagonal block or its factor, in the order that [`numbers`] describes.
 #[inline(always)]
 fn store_triangle<S: Real, const N: usize>(
     x: &mut [S],
@@ -193,7 +196,7 @@ fn store_triangle<S: Real, const N: usize>(
 
 /// L and 1 / D of a diagonal block: unit lower triangle without its diagonal, and the pivots.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Diagonal<S, const N: usize> {
+pub(super) struct DiagonalFactor<S, const N: usize> {
     pub lower: [[S; N]; N],
     pub pivot: [S; N],
     pub inverse: [S; N],
@@ -201,7 +204,7 @@ pub(super) struct Diagonal<S, const N: usize> {
 
 /// L D Lᵀ of a diagonal block, of which the lower triangle is read.
 #[inline(always)]
-pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> Diagonal<S, N> {
+pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> DiagonalFactor<S, N> {
     let (mut pivot, mut inverse) = ([S::zero(); N], [S::zero(); N]);
     if N == 2 {
         // by the determinant, so that the second division need not wait for the first
@@ -210,7 +213,7 @@ pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> Diagonal
         (pivot[0], pivot[1]) = (s[0][0], det * first);
         (inverse[0], inverse[1]) = (first, s[0][0] * second);
         s[1][0] = s[1][0] * first;
-        return Diagonal { lower: s, pivot, inverse };
+        return DiagonalFactor { lower: s, pivot, inverse };
     }
     for j in 0..N {
         pivot[j] = s[j][j];
@@ -224,10 +227,10 @@ pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> Diagonal
             s[i][j] = l;
         }
     }
-    Diagonal { lower: s, pivot, inverse }
+    DiagonalFactor { lower: s, pivot, inverse }
 }
 
-impl<S: Real, const N: usize> Diagonal<S, N> {
+impl<S: Real, const N: usize> DiagonalFactor<S, N> {
     /// x ← L⁻¹ x.
     #[inline(always)]
     pub fn forward(&self, x: &mut [S; N]) {
@@ -257,15 +260,15 @@ impl<S: Real, const N: usize> Diagonal<S, N> {
         }
     }
 
-    /// Stores 1 / D and L, with what its pivots were judged by.
+    /// Stores 1 / D and L, with the sums that its pivots were judged by.
     #[inline(always)]
     pub fn store(&self, x: &mut [S], first: u32, magnitude: &[S; N]) {
         store_triangle(x, first, [&self.inverse, magnitude], &self.lower);
     }
 }
 
-/// Numbers that a diagonal block of `n` rows takes: n for its diagonal, then 1 / D, n for what pivots are judged by,
-/// and what is left of the diagonal, row by row: of S, then of L.
+/// How many numbers are stored for a diagonal block of `n` rows: its n diagonal entries, later 1 / D; the n sums that
+/// pivots are judged by; and the entries left of the diagonal, row by row, of S and later of L.
 pub(super) fn numbers(n: usize) -> usize {
     2 * n + n * (n - 1) / 2
 }

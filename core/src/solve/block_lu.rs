@@ -4,7 +4,7 @@
 //! that every loop has a constant length. Pivots are sought within a diagonal block only; a pivot that is
 //! nothing but what was cancelled in it is refused.
 
-use super::lu_plan::LuPlan;
+use super::lu_symbolic::LuPlan;
 use crate::math::Field;
 
 /// A block, row by row.

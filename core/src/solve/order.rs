@@ -17,7 +17,7 @@ use std::collections::BinaryHeap;
 /// first index of each block of unknowns that stay together and in order (the coordinates of a body,
 /// the rows of a joint): ascending, beginning with 0, with `n_first` on a block boundary; `None` makes
 /// every unknown a block. Among equals the lowest index goes first: a chain is
-/// eaten from one end, so that no pivot joins two long parts of it, which would be small by their inertia alone.
+/// eliminated from one end, so that no pivot joins two long parts of it, which would be small by their inertia alone.
 ///
 /// Returns `order`, length `n`: `order[k]` is eliminated k-th. Near-linear in time for chains.
 ///
@@ -31,16 +31,6 @@ pub fn groups_first(
     entries: &[(usize, usize)],
     blocks: Option<&[usize]>,
 ) -> Vec<usize> {
-    counted(n_first, n, entries, blocks).0
-}
-
-/// The same with the number of neighbours and elements that were looked at on the way.
-pub(super) fn counted(
-    n_first: usize,
-    n: usize,
-    entries: &[(usize, usize)],
-    blocks: Option<&[usize]>,
-) -> (Vec<usize>, usize) {
     let single: Vec<usize>;
     let starts = match blocks {
         Some(starts) => starts,
@@ -57,7 +47,7 @@ pub(super) fn counted(
         order.extend(starts[block]..end(block));
         graph.eliminate(block);
     }
-    (order, graph.visits)
+    order
 }
 
 /// Order in which `n` blocks are eliminated: each of those from `n_first` on after all of the first
@@ -118,8 +108,6 @@ struct Graph {
     /// them waits; empty if all wait for all.
     waiters: Vec<Vec<usize>>,
     waits_for: Vec<usize>,
-    /// Neighbours and elements looked at.
-    visits: usize,
 }
 
 const NOBODY: usize = usize::MAX;
@@ -157,7 +145,6 @@ impl Graph {
             outside_of: vec![NOBODY; count],
             waiters: Vec::new(),
             waits_for: Vec::new(),
-            visits: 0,
         }
     }
 
@@ -214,10 +201,8 @@ impl Graph {
         for &i in &found {
             self.mark[i] = p;
         }
-        self.visits += found.len();
         for e in std::mem::take(&mut self.elements[p]) {
             self.absorbed[e] = true;
-            self.visits += self.members[e].len();
             for i in std::mem::take(&mut self.members[e]) {
                 if self.mark[i] != p {
                     self.mark[i] = p;
@@ -231,7 +216,6 @@ impl Graph {
     /// Drops what the new element p covers, and subtracts i from what other elements have outside p.
     fn detach(&mut self, i: usize, p: usize) {
         let (absorbed, mark) = (&self.absorbed, &self.mark);
-        self.visits += self.neighbours[i].len() + self.elements[i].len();
         self.elements[i].retain(|&e| !absorbed[e]);
         self.neighbours[i].retain(|&v| mark[v] != p);
         for &e in &self.elements[i] {
@@ -247,7 +231,6 @@ impl Graph {
     fn update_key(&mut self, i: usize, total: usize) {
         let (second, old, _) = self.key[i];
         let clique = total - self.weight[i];
-        self.visits += self.neighbours[i].len() + self.elements[i].len();
         let direct: usize = self.neighbours[i].iter().map(|&v| self.weight[v]).sum();
         let through: usize = self.elements[i].iter().map(|&e| self.outside[e]).sum();
         let degree = (direct + clique + through).min(old + clique);

@@ -6,72 +6,70 @@
 //! S λ = A W⁻¹ f - g,   x = W⁻¹ (f - Aᵀ λ),   S = L D Lᵀ
 //! ```
 //!
-//! W enters as its own factors, W = Lw Dw Lwᵀ group by group: with U = A Lw⁻ᵀ, S = U Dw⁻¹ Uᵀ is a sum of
-//! products without cancellation on its diagonal. A pivot d of S is judged by that sum: it is refused
-//! when d ≤ [`PIVOT_TOLERANCE`] S_kk. A dependent row of A leaves a ratio near 1e-16 whatever its scale;
-//! a mechanism near a singular position a small one, which [`Saddle::cancellation`] shows.
+//! W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ, group by group, so that S is a sum of products without cancellation on its
+//! diagonal. A pivot d of S is judged by that sum: it is refused when d ≤ [`PIVOT_TOLERANCE`] S_kk. A dependent row of A
+//! leaves a ratio near 1e-16 whatever its scale; a mechanism near a singular position leaves a small one, which
+//! [`Saddle::cancellation`] returns.
 
-use super::anchor::Anchor;
-use super::arm::Arm;
 use super::block::{
     add, columns, factorise, forward, part, part_mut, scaled, store, subtract, subtract_times,
-    Diagonal, Open, Twin,
+    DiagonalBlock, DiagonalFactor, TransformedRow,
 };
+use super::condensed::CondensedGroup;
+use super::mass_block::{above_zero, check, is_usable, Dependent, InverseMass, PIVOT_TOLERANCE};
 use super::pattern::Pattern;
-use super::steps::{next, Ahead, Left, Row, Start, Update};
-use super::weight::{above_zero, check, Dependent, Weight};
+use super::pin_block::PinBlock;
+use super::records::{next, Ahead, Left, Row, Update};
 use crate::math::Real;
-
-/// Smallest ratio of a pivot to the diagonal entry it was cancelled from that is still trusted.
-pub const PIVOT_TOLERANCE: f64 = 1e-13;
 
 /// Smallest pivot of all: its inverse is still a number, and that of a matrix with NaN or inf is refused.
 const LEAST_PIVOT: f64 = 1e-300;
 
-/// A matrix and its factors; all memory is taken in [`Saddle::new`].
+/// A matrix and its factors; all memory is taken in [`Saddle::new`]. The table in [`solve`](super) describes every array.
 ///
 /// Between a factorisation and the solutions that use it the matrix must stay as it is.
 #[derive(Clone, Debug)]
 pub struct Saddle<S> {
-    /// W, one for each group.
-    pub weights: Vec<Weight<S>>,
-    /// The rest of W where rows are anchored; the weight of such a group is that of its third unknown alone.
-    pub anchors: Vec<Anchor<S>>,
+    /// W⁻¹, one for each group.
+    pub masses: Vec<InverseMass<S>>,
+    /// W of the condensed groups.
+    pub condensed: Vec<CondensedGroup<S>>,
     /// Entries of A in rows of three, as the pattern places them.
     pub entries: Vec<[S; 3]>,
-    /// The pairs of rows [±I b], as the pattern places them.
-    pub arms: Vec<Arm<S>>,
-    /// μ, one for each row; empty for none.
+    /// μ, one for each row; empty for none. Condensed rows are not damped.
     pub damping: Vec<S>,
     /// Smallest ratio of a pivot to S_kk that is accepted; [`PIVOT_TOLERANCE`] at first.
     pub(super) least: f64,
     /// Part of S_kk that is added to it, 0 at first.
     pub(super) ridge: f64,
-    /// Rows of U.
-    pub(super) u: Vec<Twin<S>>,
-    /// For each row of blocks L D of those left of the diagonal, then what its diagonal block came to.
+    /// The pairs of rows [±I b].
+    pub(super) pins: Vec<PinBlock<S>>,
+    /// The other rows of A, transformed.
+    pub(super) u: Vec<TransformedRow<S>>,
+    /// For each row of blocks L D of those left of the diagonal, then its diagonal block.
     pub(super) factors: Vec<S>,
 }
 
 impl<S: Real> Saddle<S> {
     /// Memory for matrices of the given pattern: W = I, A = 0 but for the unit blocks, μ = 0.
     pub fn new(pattern: &Pattern) -> Self {
-        let (zero, none) = (S::zero(), [S::zero(); 3]);
-        let weight = Weight { inverse: [S::one(); 3], shift: [zero; 2], held: zero };
+        let (zero, one, none) = (S::zero(), S::one(), [S::zero(); 3]);
         let mut entries = vec![none; pattern.n_entries];
         for &(row, sign) in &pattern.units {
-            let (row, sign) = (row as usize, S::constant(sign.into()));
+            let (row, sign) = (row as usize, S::constant(sign));
             (entries[row][0], entries[row + 1][1]) = (sign, sign);
         }
+        let n_pins = pattern.storage.n_pins;
+        let condensed = CondensedGroup::new(one, [zero; 2], one);
         Self {
-            weights: vec![weight; pattern.n_groups],
-            anchors: vec![Anchor::unit(); pattern.anchors.len()],
+            masses: vec![InverseMass::diagonal([one; 3]); pattern.starts.len()],
+            condensed: vec![condensed; pattern.condensed.len()],
             entries,
-            arms: vec![Arm::zero(); pattern.places.arms.len()],
             damping: Vec::new(),
             least: PIVOT_TOLERANCE,
             ridge: 0.0,
-            u: vec![Twin { plain: none, scaled: none }; pattern.places.general.len()],
+            pins: vec![PinBlock::zero(); n_pins],
+            u: vec![TransformedRow { plain: none, scaled: none }; pattern.storage.rows.len()],
             factors: vec![zero; pattern.n_factors],
         }
     }
@@ -85,9 +83,15 @@ impl<S: Real> Saddle<S> {
     /// # Panics
     /// If the matrix is of another pattern.
     pub fn factor(&mut self, pattern: &Pattern) -> Result<(), Dependent> {
-        check(&self.weights, &pattern.loose)?;
-        self.transform::<true>(pattern);
-        self.begin_all(pattern, &pattern.steps.starts);
+        self.reduce_all(pattern);
+        self.check(pattern)?;
+        self.factor_reduced(pattern)
+    }
+
+    /// The same once condensed groups are reduced.
+    pub(super) fn factor_reduced(&mut self, pattern: &Pattern) -> Result<(), Dependent> {
+        self.put_other_rows(pattern);
+        self.put_all_pin_rows(pattern);
         self.eliminate::<false>(pattern, &mut [])
     }
 
@@ -100,44 +104,66 @@ impl<S: Real> Saddle<S> {
     /// # Panics
     /// As [`factor`](Self::factor) and [`solve`](Self::solve).
     pub fn factor_and_solve(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
-        self.transform::<true>(pattern);
-        self.weigh(pattern, x);
-        self.finish(pattern, &pattern.steps.starts, x)?;
-        self.unbend(pattern, x);
-        Ok(())
+        self.reduce_all(pattern);
+        let (f, g) = self.begin(pattern, x);
+        self.put_all_pin_rows(pattern);
+        self.put_right_sides_of_pins(pattern, f, g);
+        self.finish(pattern, x)
     }
 
-    /// The same once all row blocks of [`Pattern::armed`] are begun: their entries are not read, `x` was
-    /// weighed, their right sides stand in it, and it lacks -Dw⁻¹ Uᵀ λ of these rows in the end.
+    /// e of condensed groups from the entries, and what follows from it.
+    fn reduce_all(&mut self, pattern: &Pattern) {
+        assert_eq!(self.entries.len(), pattern.n_entries, "a matrix of this pattern");
+        for (place, group) in pattern.condensed.iter().zip(&mut self.condensed) {
+            let mass = &mut self.masses[place.group as usize];
+            group.reduce(place.sign, part(&self.entries, place.entry), mass);
+        }
+    }
+
+    /// The rows of the `k`-th condensation: keeps them, and turns f of their group and their right side `g` into x
+    /// for λ = 0 of all others, in `x`, and what λ of the rows follows from, which is returned.
+    #[inline(always)]
+    pub fn condense(
+        &mut self,
+        pattern: &Pattern,
+        k: usize,
+        rows: &[[S; 3]; 2],
+        x: &mut [S],
+        mut g: [S; 2],
+    ) -> [S; 2] {
+        let (place, group) = (&pattern.condensed[k], &mut self.condensed[k]);
+        let mass = &mut self.masses[place.group as usize];
+        *part_mut(&mut self.entries, place.entry) = *rows;
+        group.reduce(place.sign, rows, mass);
+        group.begin(place.sign, mass, part_mut(x, place.at), &mut g);
+        g
+    }
+
+    /// Solves once all condensed groups are [condensed](Self::condense), x = W⁻¹ f stands for the other groups, and
+    /// the diagonal blocks and right sides of [`Pattern::pin_rows`] are in place.
     ///
     /// # Errors
     /// As [`factor`](Self::factor); `x` is then lost.
-    ///
-    /// # Panics
-    /// As [`factor`](Self::factor) and [`solve`](Self::solve).
     #[inline(always)] // once in an evaluation
-    pub fn finish_begun(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
-        self.transform::<false>(pattern);
-        self.finish(pattern, &pattern.steps.starts[..pattern.steps.n_mixed], x)
+    pub fn finish(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
+        self.put_other_rows(pattern);
+        let (f, g) = x.split_at_mut(pattern.n_unknowns());
+        self.put_other_right_sides(pattern, f, g);
+        // an unusable mass spoils a pivot, or else the unknowns of its group
+        self.eliminate::<true>(pattern, g).or_else(|row| self.check(pattern).and(Err(row)))?;
+        self.substitute_back(pattern, g);
+        self.update_groups(pattern, f, g);
+        Ok(())
     }
 
-    /// From x = Dw⁻¹ Lw⁻¹ f to Lwᵀ x, with the row blocks of `starts` still to be begun.
-    #[inline(always)]
-    fn finish(
-        &mut self,
-        pattern: &Pattern,
-        starts: &[Start],
-        x: &mut [S],
-    ) -> Result<(), Dependent> {
-        self.begin_all(pattern, starts);
-        let (f, g) = x.split_at_mut(pattern.n_unknowns());
-        self.right_sides(pattern, starts, f, g);
-        // a useless weight spoils a pivot, or else the unknowns of its group
-        self.eliminate::<true>(pattern, g)
-            .or_else(|row| check(&self.weights, &pattern.loose).and(Err(row)))?;
-        self.substitute_back(pattern, g);
-        self.spread_all(pattern, starts, f, g);
-        Ok(())
+    /// Whether every pivot of W is usable.
+    fn check(&self, pattern: &Pattern) -> Result<(), Dependent> {
+        let useless = |group: u32| !is_usable(self.masses[group as usize].along);
+        let mut rows = pattern.condensed.iter().filter(|place| place.sign == 0.0);
+        match rows.find(|place| useless(place.group)) {
+            Some(place) => Err(Dependent::Row(place.row as usize)),
+            None => check(&self.masses, &pattern.free, &pattern.starts),
+        }
     }
 
     /// The row whose pivot was cancelled most, and its ratio d / S_kk: 1 means nothing was lost, 1e-10
@@ -145,7 +171,7 @@ impl<S: Real> Saddle<S> {
     pub fn cancellation(&self, pattern: &Pattern) -> Option<(usize, f64)> {
         // S_kk / d, of which the largest is sought: one division
         let mut worst = None;
-        for row in &pattern.steps.rows {
+        for row in &pattern.program.rows {
             let (first, size) = (row.row as usize, usize::from(row.size));
             let (inverse, rest) = self.factors[row.diagonal as usize..].split_at(size);
             for (k, (inverse, magnitude)) in inverse.iter().zip(rest).enumerate() {
@@ -165,8 +191,8 @@ impl<S: Real> Saddle<S> {
         pattern: &Pattern,
         g: &mut [S],
     ) -> Result<(), Dependent> {
-        let mut ahead = pattern.steps.ahead();
-        for row in &pattern.steps.rows {
+        let mut ahead = pattern.program.ahead();
+        for row in &pattern.program.rows {
             if row.pins {
                 self.row::<2, RHS, true>(row, &mut ahead, g)?;
             } else {
@@ -176,8 +202,8 @@ impl<S: Real> Saddle<S> {
         Ok(())
     }
 
-    /// A row of any kind, apart from those of pins alone; gives what is then ahead, so that the loop over these
-    /// need not leave that in memory.
+    /// A row of any kind, apart from those of pins alone; returns the records that are then ahead, so that the loop
+    /// over rows need not keep them in memory.
     #[inline(never)] // as above
     fn mixed_row<'a, const RHS: bool>(
         &mut self,
@@ -201,10 +227,10 @@ impl<S: Real> Saddle<S> {
         ahead: &mut Ahead<'_>,
         g: &mut [S],
     ) -> Result<(), Dependent> {
-        let Open { mut s, magnitude } = Open::read(&self.factors, row.diagonal);
+        let DiagonalBlock { mut s, magnitude } = DiagonalBlock::read(&self.factors, row.diagonal);
         let mut y = if RHS { *part(g, row.row) } else { [S::zero(); N] };
         if !RHS {
-            // near singular positions, where it is not 0, are never factorised and solved at once
+            // a regularised matrix is never factorised and solved at once
             (0..N).for_each(|i| s[i][i] += magnitude[i] * S::constant(self.ridge));
         }
         for left in next(&mut ahead.left, row.left) {
@@ -232,7 +258,7 @@ impl<S: Real> Saddle<S> {
     fn keep<const N: usize>(
         &mut self,
         row: &Row,
-        diagonal: &Diagonal<S, N>,
+        diagonal: &DiagonalFactor<S, N>,
         magnitude: &[S; N],
     ) -> Result<(), Dependent> {
         for (i, magnitude) in magnitude.iter().enumerate() {
@@ -245,8 +271,8 @@ impl<S: Real> Saddle<S> {
         Ok(())
     }
 
-    /// One block left of the diagonal, of K columns: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ. What follows
-    /// from it for the diagonal block: s -= (L D) Lᵀ, with `RHS` y -= L y′ as well.
+    /// One block left of the diagonal, of K columns: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ. Then the
+    /// diagonal block s -= (L D) Lᵀ, and with `RHS` y -= L y′.
     #[inline(always)]
     fn left<const N: usize, const K: usize, const RHS: bool, const PINS: bool>(
         &mut self,
@@ -260,10 +286,10 @@ impl<S: Real> Saddle<S> {
         for pair in next(&mut ahead.pairs, left.pairs) {
             let [own, other] = pair.first;
             if PINS || N == 2 && K == 2 && pair.sign != 0.0 {
-                let [own, other] = [own, other].map(|arm| &self.arms[arm as usize]);
-                other.add_product(&own.plain, pair.sign, &mut block);
+                let [own, other] = [own, other].map(|pin| &self.pins[pin as usize]);
+                other.add_product(&own.along, pair.sign, &mut block);
             } else {
-                add::<S, K, N, 3>(&mut block, part(&self.u, other), part(&self.u, own));
+                add(&mut block, part(&self.u, other), part(&self.u, own));
             }
         }
         for update in next(&mut ahead.updates, left.updates) {

@@ -1,12 +1,12 @@
-//! The solution with the factors of a [`Saddle`]: forward through L, then back.
+//! The solution with the factors of a [`Saddle`]: forward through L, then back, then the unknowns of the groups.
 
 use super::block::{
-    backward, columns, forward, part, part_mut, scaled, subtract_products, subtract_times,
+    add_transposed, backward, columns, forward, part, part_mut, scaled, subtract_products,
+    subtract_times,
 };
 use super::pattern::Pattern;
+use super::records::{last, next, Ahead, Below, Left, Row};
 use super::saddle::Saddle;
-use super::steps::{last, next, Ahead, Below, Left, Row};
-use super::weight::Weight;
 use crate::math::Real;
 
 impl<S: Real> Saddle<S> {
@@ -15,12 +15,11 @@ impl<S: Real> Saddle<S> {
     /// # Panics
     /// If `x` has another length.
     pub fn solve(&self, pattern: &Pattern, x: &mut [S]) {
-        self.weigh(pattern, x);
-        let (f, g) = x.split_at_mut(pattern.n_unknowns());
-        let starts = &pattern.steps.starts;
-        self.right_sides(pattern, starts, f, g);
-        let mut ahead = pattern.steps.ahead();
-        for row in &pattern.steps.rows {
+        let (f, g) = self.begin(pattern, x);
+        self.put_right_sides_of_pins(pattern, f, g);
+        self.put_other_right_sides(pattern, f, g);
+        let mut ahead = pattern.program.ahead();
+        for row in &pattern.program.rows {
             match row.size {
                 1 => self.forward::<1>(row, &mut ahead, g),
                 2 => self.forward::<2>(row, &mut ahead, g),
@@ -28,46 +27,61 @@ impl<S: Real> Saddle<S> {
             }
         }
         self.substitute_back(pattern, g);
-        self.spread_all(pattern, starts, f, g);
-        self.unbend(pattern, x);
+        self.update_groups(pattern, f, g);
     }
 
-    /// f ← Dw⁻¹ Lw⁻¹ f; with anchors, see there.
+    /// x for λ = 0 of all rows but the condensed ones, where f was; with the right sides behind it.
     ///
     /// # Panics
     /// If `x` has another length than unknowns and rows together.
-    #[inline(always)]
-    pub fn weigh(&self, pattern: &Pattern, x: &mut [S]) {
+    pub(super) fn begin<'a>(
+        &self,
+        pattern: &Pattern,
+        x: &'a mut [S],
+    ) -> (&'a mut [S], &'a mut [S]) {
         assert_eq!(x.len(), pattern.n_unknowns() + pattern.n_rows(), "one right side for each row");
-        self.anchor(pattern, x);
-        self.weigh_others(pattern, x);
+        let (f, g) = x.split_at_mut(pattern.n_unknowns());
+        for (place, group) in pattern.condensed.iter().zip(&self.condensed) {
+            let mass = &self.masses[place.group as usize];
+            group.begin(place.sign, mass, part_mut(f, place.at), part_mut(g, place.row));
+        }
+        self.divide_by_masses(pattern, f);
+        (f, g)
     }
 
-    /// [`weigh`](Self::weigh) once all anchors [hold](super::Anchor::hold) their groups.
+    /// f ← W⁻¹ f of all groups that are not condensed.
     #[inline(always)]
-    pub fn weigh_others(&self, pattern: &Pattern, x: &mut [S]) {
-        for &group in &pattern.coupled {
-            let [x, y, angle] = part_mut(x, 3 * group);
-            let Weight { shift, .. } = &self.weights[group as usize];
-            *angle = *angle - shift[0] * *x - shift[1] * *y;
+    pub fn divide_by_masses(&self, pattern: &Pattern, f: &mut [S]) {
+        for &group in &pattern.diagonal {
+            let x = part_mut::<S, 3>(f, pattern.starts[group as usize]);
+            let mass = &self.masses[group as usize];
+            let ([d0, d1], d2) = (mass.translation, mass.along);
+            // all at once: numbers that are written as a pair are read as one
+            *x = [x[0] * d0, x[1] * d1, x[2] * d2];
         }
-        for &group in &pattern.loose {
-            let x = part_mut::<S, 3>(x, 3 * group);
-            let Weight { inverse, .. } = &self.weights[group as usize];
-            // all at once: what is written as a pair of numbers is read as one
-            *x = [x[0] * inverse[0], x[1] * inverse[1], x[2] * inverse[2]];
+        for &group in &pattern.coupled {
+            let x = part_mut::<S, 3>(f, pattern.starts[group as usize]);
+            *x = self.masses[group as usize].times(x);
         }
     }
 
-    /// x ← Lw⁻ᵀ x, and λ of anchors.
+    /// x -= W⁻¹ Aᵀ λ, then λ of condensed rows.
     #[inline(always)]
-    pub fn unbend(&self, pattern: &Pattern, x: &mut [S]) {
-        self.release(pattern, x);
-        for &group in &pattern.coupled {
-            let [x, y, angle] = part_mut(x, 3 * group);
-            let Weight { shift, .. } = &self.weights[group as usize];
-            *x -= shift[0] * *angle;
-            *y -= shift[1] * *angle;
+    pub(super) fn update_groups(&self, pattern: &Pattern, x: &mut [S], g: &mut [S]) {
+        self.subtract_other_rows(pattern, x, g);
+        self.subtract_pin_rows(pattern, x, g);
+        let (mut pins, mut others) = (&pattern.loads.pins[..], &pattern.loads.others[..]);
+        for (place, group) in pattern.condensed.iter().zip(&self.condensed) {
+            let mut sum = [S::zero(); 3];
+            for load in next(&mut pins, place.pins) {
+                let (sign, lambda) = (S::constant(load.sign), part::<S, 2>(g, load.row));
+                (0..2).for_each(|i| sum[i] = sum[i].plus_product(sign, lambda[i]));
+            }
+            for load in next(&mut others, place.others) {
+                let rows = &self.entries[load.entry as usize..][..load.size as usize];
+                add_transposed(rows, &g[load.row as usize..], &mut sum);
+            }
+            group.finish(place.sign, part(x, place.at), &sum, part_mut(g, place.row));
         }
     }
 
@@ -107,8 +121,8 @@ impl<S: Real> Saddle<S> {
     /// λ = L⁻ᵀ D⁻¹ y; columns with nothing below have it already.
     #[inline(always)]
     pub(super) fn substitute_back(&self, pattern: &Pattern, g: &mut [S]) {
-        let mut below = &pattern.steps.below[..];
-        for row in pattern.steps.rows.iter().rev() {
+        let mut below = &pattern.program.below[..];
+        for row in pattern.program.rows.iter().rev() {
             if row.below == 0 {
                 continue;
             }
@@ -136,7 +150,7 @@ impl<S: Real> Saddle<S> {
         let inverse = part::<S, N>(&self.factors, row.diagonal);
         let y = part::<S, N>(g, row.row);
         let mut lambda: [S; N] = std::array::from_fn(|i| y[i] * inverse[i]);
-        // the newest unknown is waited for last
+        // the newest unknown enters last
         for block in below.iter().rev() {
             match block.size {
                 _ if PINS => self.pull::<2, N>(block, inverse, g, &mut lambda),

@@ -20,7 +20,7 @@
 //!
 //! which falls for every h'/h < 4/b - 1. No step control lets a step grow by more than 10.
 
-use crate::equations::{constraints, kinematics, Workspace};
+use crate::equations::{constraints, Workspace};
 use crate::model::Model;
 
 /// b: an error falls by a third in a step, and does not grow while steps grow tenfold.
@@ -28,12 +28,12 @@ const B: f64 = 1.0 / 3.0;
 
 /// Baumgarte's term, from the step and held over it.
 #[derive(Clone, Debug)]
-pub struct Held {
+pub struct StepwiseBaumgarte {
     /// Φ, Φ̇ and γ at the beginning of the step; the first becomes the term.
     terms: [Vec<f64>; 3],
 }
 
-impl Held {
+impl StepwiseBaumgarte {
     /// For a model.
     pub fn new(model: &Model) -> Self {
         Self { terms: std::array::from_fn(|_| vec![0.0; model.layout.n_rows]) }
@@ -50,11 +50,11 @@ impl Held {
         h: f64,
     ) {
         let [term, rate, gamma] = &mut self.terms;
-        kinematics::motions(q, v, &mut workspace.motions);
+        workspace.motions.place(&model.layout, q, v);
         constraints::velocity_terms(model, &workspace.motions, t, term, rate, gamma);
         let (damping, stiffness) = ((1.0 + 0.5 * B) / h, B / (h * h));
         let pairs = term.iter_mut().zip(rate);
         pairs.for_each(|(phi, rate)| *phi = damping * *rate + stiffness * *phi);
-        workspace.hold(term);
+        workspace.set_offset(term);
     }
 }

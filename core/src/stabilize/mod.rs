@@ -7,5 +7,5 @@
 mod baumgarte;
 mod projection;
 
-pub use baumgarte::Held;
+pub use baumgarte::StepwiseBaumgarte;
 pub use projection::{Fault, Projection, Projector};

@@ -13,9 +13,10 @@
 //! motion, so its last factor serves: chord iterations, whose error falls by about the share of the
 //! mechanism's size that is corrected. It is factorised anew only where that is too slow.
 
-use crate::equations::{constraints, kinematics, Residuals, Singular, Workspace};
-use crate::math::{Largest, Motion, Real};
-use crate::model::{size, Model};
+use crate::equations::kinematics::Motions;
+use crate::equations::{constraints, Residuals, Singular, Workspace};
+use crate::math::{Largest, Real};
+use crate::model::{column_scales, Model};
 
 /// Most iterations for positions, and for velocities.
 const MOST: usize = 12;
@@ -70,8 +71,8 @@ pub enum Fault {
 pub struct Projector<'a, S = f64> {
     model: &'a Model<S>,
     tolerance: f64,
-    /// 1 / size of the mechanism.
-    per_size: f64,
+    /// 1 / scale of each coordinate.
+    per_scale: Vec<f64>,
     /// Φ and Φ̇.
     residuals: Residuals<S>,
     /// The largest of each, scaled.
@@ -114,7 +115,7 @@ impl<'a, S: Real> Projector<'a, S> {
         Self {
             model,
             tolerance: options.tolerance,
-            per_size: 1.0 / size(model),
+            per_scale: column_scales(model).into_iter().map(|scale| 1.0 / scale).collect(),
             residuals: Residuals::new(model),
             gaps: [f64::NAN; 2],
             known: Known::Nothing,
@@ -212,7 +213,7 @@ impl<'a, S: Real> Projector<'a, S> {
                 return Ok(iteration > 0);
             }
             let slow = gap > SLOW * last;
-            if newton && workspace.matrix.ridged() && gap > 0.5 * last {
+            if newton && workspace.matrix.regularised() && gap > 0.5 * last {
                 let scale = if level == Level::Velocity { self.largest(v) } else { 1.0 };
                 if gap <= level.near() * scale {
                     return Ok(true);
@@ -292,19 +293,19 @@ impl<'a, S: Real> Projector<'a, S> {
 
     /// Brings the motions to the state at hand.
     #[inline]
-    fn move_bodies(&self, motions: &mut Vec<Motion<S>>, (q, v): (&[S], &[S])) {
+    fn move_bodies(&self, motions: &mut Motions<S>, (q, v): (&[S], &[S])) {
         match self.known {
-            Known::Nothing => kinematics::motions(q, v, motions),
-            Known::Positions => kinematics::set_rates(v, motions),
+            Known::Nothing => motions.place(&self.model.layout, q, v),
+            Known::Positions => motions.set_rates(&self.model.layout, v),
             Known::All => {}
         }
     }
 
     /// Factorises at the state that `look` saw last.
     fn factor(&mut self, workspace: &mut Workspace<S>, t: S) -> Result<(), Fault> {
-        let Workspace { motions, matrix, .. } = workspace;
+        let Workspace { motions, matrix, compiled, .. } = workspace;
         self.residuals.jacobian(self.model, motions, t, matrix.jacobian_mut());
-        matrix.set_mass(self.model, motions);
+        matrix.set_mass(compiled, motions);
         self.factorisations += 1;
         matrix.factor().map_err(|dependent| Fault::Singular(Singular(dependent)))
     }
@@ -338,22 +339,17 @@ impl<'a, S: Real> Projector<'a, S> {
 
     /// Largest coordinate or rate, lengths over the size of the mechanism.
     pub fn largest(&self, x: &[S]) -> f64 {
-        self.largest_of(x.chunks_exact(3).map(|x| [x[0], x[1], x[2]]))
+        self.largest_of(x.iter().copied())
     }
 
     /// The largest difference of coordinates or rates, scaled as by [`Self::largest`].
     pub fn largest_difference(&self, a: &[S], b: &[S]) -> f64 {
-        let both = a.chunks_exact(3).zip(b.chunks_exact(3));
-        self.largest_of(both.map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]]))
+        self.largest_of(a.iter().zip(b).map(|(a, b)| *a - *b))
     }
 
-    fn largest_of(&self, bodies: impl Iterator<Item = [S; 3]>) -> f64 {
-        let (mut lengths, mut largest) = (Largest::new(), Largest::new());
-        for [x, y, angle] in bodies {
-            [x, y].into_iter().for_each(|x| lengths.add(x));
-            largest.add(angle);
-        }
-        largest.join(lengths.scaled(S::constant(self.per_size)));
+    fn largest_of(&self, x: impl Iterator<Item = S>) -> f64 {
+        let mut largest = Largest::new();
+        x.zip(&self.per_scale).for_each(|(x, per_scale)| largest.add(x * S::constant(*per_scale)));
         largest.get()
     }
 }

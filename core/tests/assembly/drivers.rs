@@ -2,7 +2,7 @@
 
 use crate::mechanisms::{close, largest, model, rate, residual, run, start, tolerances, FOUR_BAR};
 use kempe::analyses::assemble::{assemble, Request};
-use kempe::analyses::dynamics::{Options, Responses};
+use kempe::analyses::dynamics::{Accelerations, Options};
 
 fn driven(value: &str) -> String {
     let driver = format!("[drivers.motor]\ntype = \"coordinate_driver\"\ncoordinate = \"crank.angle\"\nvalue = \"{value}\"\n\n[forces.spring]");
@@ -19,7 +19,7 @@ fn the_law_holds_at_the_time_of_assembly() {
         close("omega", state.v[2], 0.5 + 0.3 * (3.0 * t).cos(), 1e-12);
         assert!(largest(&residual(&m, &state)) < 1e-11 && largest(&rate(&m, &state)) < 1e-11);
         let run = run(&m, &state, &Options::classical(t));
-        close("alpha", run.responses(&m).unwrap().a[2], -0.9 * (3.0 * t).sin(), 1e-11);
+        close("alpha", run.accelerations(&m).unwrap().a[2], -0.9 * (3.0 * t).sin(), 1e-11);
     }
 }
 
@@ -76,7 +76,7 @@ fn a_coupling_of_two_bodies() {
     let w = (12.0_f64 / 1.3).sqrt();
     let last = 6 * (run.trajectory.t.len() - 1);
     close("angle", run.trajectory.q[last + 2], 0.4 * w.cos() + 1.5 / w * w.sin(), 1e-8);
-    let Responses { a, lam } = run.responses(&m).unwrap();
+    let Accelerations { a, lam } = run.accelerations(&m).unwrap();
     close("alpha", a[2], -12.0 / 1.3 * 0.4, 1e-10);
     // torque of the gear on the driven wheel is -λ, on the other 2 λ
     close("second", -3.0 * 0.8 - lam[4], 0.2 * a[5], 1e-10);

@@ -1,7 +1,7 @@
 //! What assembly says when a position cannot be.
 
 use crate::mechanisms::{asked, close, model, refused, FOUR_BAR};
-use kempe::analyses::assemble::{assemble, wishes, Fault, Request};
+use kempe::analyses::assemble::{assemble, targets, Fault, Request};
 use kempe::analyses::State;
 
 fn slider(value: &str) -> String {
@@ -71,14 +71,14 @@ fn wishes_that_cannot_be_read() {
         ("crank.angle", "1/0", ["start.set.crank.angle", ""]),
         ("crank.angle", "t", ["start.set.crank.angle", "t"]),
     ] {
-        let found = wishes(&m, "set", &[(key.to_string(), value.into())]).expect_err(key);
+        let found = targets(&m, "set", &[(key.to_string(), value.into())]).expect_err(key);
         let text = found[0].to_string();
         assert!(parts.iter().all(|part| text.contains(part)), "{key} = {value}: {text}");
     }
-    let wish = &asked(&m, "set", &[("crank.angle", "L1*30*deg/10")])[0];
-    close("a formula", wish.value, 30_f64.to_radians(), 1e-15);
-    let wish = &asked(&m, "set", &[("crank.x", "250 mm")])[0];
-    close("a unit", wish.value, 0.25, 1e-16);
+    let target = &asked(&m, "set", &[("crank.angle", "L1*30*deg/10")])[0];
+    close("a formula", target.value, 30_f64.to_radians(), 1e-15);
+    let target = &asked(&m, "set", &[("crank.x", "250 mm")])[0];
+    close("a unit", target.value, 0.25, 1e-16);
 }
 
 #[test]

@@ -4,10 +4,10 @@
 mod mechanisms;
 
 mod andrews;
+mod angle_winding;
 mod closures;
 mod drivers;
 mod failures;
 mod redundancy;
 mod six_bars;
-mod turns;
 mod velocities;

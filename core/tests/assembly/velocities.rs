@@ -73,8 +73,7 @@ fn guessed_rates_give_the_nearest_motion() {
         let mut v: Vec<f64> = state.v.iter().zip(&unit.v).map(|(v, u)| v + scale * u).collect();
         v[2] -= 2.0;
         v[8] += 3.0;
-        let mut motions = Vec::new();
-        kinematics::motions(&state.q, &v, &mut motions);
+        let motions = kinematics::Motions::at(&m.layout, &state.q, &v);
         energy::kinetic(&m, &motions)
     };
     assert!(distance(0.0) < distance(0.01) && distance(0.0) < distance(-0.01));

@@ -2,11 +2,13 @@
 //! forces and the reactions of all its joints and drivers; and so is ground.
 
 use crate::mechanisms::{close, model, Random};
-use kempe::elements::{BodyId, Side};
-use kempe::equations::reactions::{reaction, reaction_on, Frame};
-use kempe::equations::{forces, Gains, Workspace};
+use kempe::elements::BodyId;
+use kempe::equations::forces::{self, Acting};
+use kempe::equations::kinematics::Motions;
+use kempe::equations::reactions::{reaction, Frame};
+use kempe::equations::{Gains, Workspace};
 use kempe::math::{Local, Rotation, Vec2};
-use kempe::model::{columns, Model};
+use kempe::model::Model;
 
 const COUPLED: &str = r#"
 gravity = [1.3, -9.81]
@@ -71,7 +73,7 @@ impl At {
         let mut numbers = Random::new(seed);
         let (q, v) = (numbers.many(m.layout.n_q), numbers.many(m.layout.n_q));
         let mut workspace = Workspace::new(m);
-        workspace.accelerate(m, 0.4, &q, &v, Gains::default()).unwrap();
+        workspace.accelerate(m, 0.4, [&q, &v, &[]], Gains::default()).unwrap();
         Self { workspace, t: 0.4 }
     }
 
@@ -86,25 +88,22 @@ impl At {
         let pose = motions[body.0].pose;
         for (k, item) in m.constraints.iter().enumerate() {
             let lam = self.lam(m, k);
-            let Some(w) = reaction_on(m, k, body, Frame::Global, motions, self.t, &lam) else {
+            let Some(w) = reaction(m, k, body, Frame::Global, motions, self.t, &lam) else {
                 continue;
             };
-            let [i, j] = item.element.ends();
-            let at = match () {
-                () if body == j => pose.point(item.element.attachment(Side::J).s),
-                () if body == i => pose.point(item.element.attachment(Side::I).s),
-                () => pose.r,
+            let at = match item.bodies.iter().position(|b| *b == body) {
+                Some(place) => pose.point(item.element.attachment(place).s),
+                None => pose.r,
             };
             force = force + w.force;
             moment += w.torque + at.cross(w.force);
         }
-        for item in &m.forces {
-            forces::each_action(m, item, motions, self.t, |_, ends, action| {
-                for (end, w) in ends.into_iter().zip([action.on_i, action.on_j]) {
-                    if end == body {
-                        force = force + w.force;
-                        moment += w.torque + pose.r.cross(w.force);
-                    }
+        for k in 0..m.forces.len() {
+            let acting = Acting { z: &[], lam: None, t: self.t };
+            forces::each_wrench(m, k, motions, acting, |_, on, w| {
+                if on == body {
+                    force = force + w.force;
+                    moment += w.torque + pose.r.cross(w.force);
                 }
             });
         }
@@ -120,7 +119,7 @@ fn of_every_body() {
         let (mut all, mut all_moments) = (Vec2::zero(), 0.0);
         for (b, body) in m.bodies.iter().enumerate().skip(1) {
             let motion = at.workspace.motions[b];
-            let a = &at.workspace.a()[columns(BodyId(b))];
+            let a = m.layout.bodies[b].of(at.workspace.a());
             let arm = motion.pose.global(body.center);
             let w = motion.twist.omega;
             let a_c = Vec2::new(a[0], a[1]) + arm.perp().scale(a[2]) - arm.scale(w * w);
@@ -147,11 +146,11 @@ fn of_every_body() {
 
 fn gap_couple(m: &Model, at: &At, k: usize) -> f64 {
     let motions = &at.workspace.motions;
-    let element = &m.constraints[k].element;
-    let [i, j] = element.ends();
-    let point = |body: BodyId, side| motions[body.0].pose.point(element.attachment(side).s);
-    let on_j = reaction(m, k, Side::J, Frame::Global, motions, at.t, &at.lam(m, k));
-    (point(j, Side::J) - point(i, Side::I)).cross(on_j.force)
+    let item = &m.constraints[k];
+    let point =
+        |place: usize| motions[item.bodies[place].0].pose.point(item.element.attachment(place).s);
+    let on_j = reaction(m, k, item.bodies[1], Frame::Global, motions, at.t, &at.lam(m, k));
+    (point(1) - point(0)).cross(on_j.unwrap().force)
 }
 
 #[test]
@@ -160,14 +159,14 @@ fn frames_turn_the_components() {
     let at = At::random(&m, 7);
     let motions = &at.workspace.motions;
     for (k, item) in m.constraints.iter().enumerate() {
-        for (side, body) in [Side::I, Side::J].into_iter().zip(item.element.ends()) {
+        for (place, &body) in item.bodies.iter().enumerate() {
             let lam = at.lam(&m, k);
             let [global, in_body, joint] = [Frame::Global, Frame::Body, Frame::Joint]
-                .map(|frame| reaction(&m, k, side, frame, motions, at.t, &lam));
+                .map(|frame| reaction(&m, k, body, frame, motions, at.t, &lam).unwrap());
             let rotation = motions[body.0].pose.rotation;
             let back = rotation * Local::new(in_body.force.x, in_body.force.y);
             close(&item.name, (back - global.force).norm(), 0.0, 1e-12 * (1.0 + back.norm()));
-            let axis = motions[body.0].pose.angle + item.element.attachment(side).axis;
+            let axis = motions[body.0].pose.angle + item.element.attachment(place).axis;
             let back = Rotation::new(axis) * Local::new(joint.force.x, joint.force.y);
             close(&item.name, (back - global.force).norm(), 0.0, 1e-11 * (1.0 + back.norm()));
             assert_eq!(global.torque.to_bits(), joint.torque.to_bits());
@@ -179,26 +178,27 @@ fn frames_turn_the_components() {
 fn the_axes_of_a_pin_are_its_joint_frame() {
     let m = model(COUPLED);
     let element = &m.constraints[0].element;
-    assert_eq!(element.attachment(Side::I).axis, 0.3);
-    assert_eq!(element.attachment(Side::J).axis, -1.1);
+    assert_eq!(element.attachment(0).axis, 0.3);
+    assert_eq!(element.attachment(1).axis, -1.1);
 }
 
 #[test]
 fn a_pin_carries_no_torque_and_a_motor_no_force() {
     let m = model(COUPLED);
     let at = At::random(&m, 9);
-    let on = |k: usize, side| {
-        reaction(&m, k, side, Frame::Global, &at.workspace.motions, at.t, &at.lam(&m, k))
+    let on = |k: usize, place: usize| {
+        let (body, lam) = (m.constraints[k].bodies[place], at.lam(&m, k));
+        reaction(&m, k, body, Frame::Global, &at.workspace.motions, at.t, &lam).unwrap()
     };
     for k in 0..3 {
-        close("torque of a pin", on(k, Side::J).torque, 0.0, 1e-10);
-        close("torque of a pin", on(k, Side::I).torque, 0.0, 1e-10);
+        close("torque of a pin", on(k, 1).torque, 0.0, 1e-10);
+        close("torque of a pin", on(k, 0).torque, 0.0, 1e-10);
     }
     let lam = at.lam(&m, 3)[0];
-    let gear = reaction_on(&m, 3, BodyId(3), Frame::Global, &at.workspace.motions, at.t, &[lam]);
+    let gear = reaction(&m, 3, BodyId(3), Frame::Global, &at.workspace.motions, at.t, &[lam]);
     close("torque on the other wheel", gear.unwrap().torque, -1.5 * lam, 1e-12 * lam.abs());
-    close("torque on the driven wheel", on(3, Side::J).torque, -lam, 1e-12 * lam.abs());
-    let nothing = reaction_on(&m, 4, BodyId(3), Frame::Global, &at.workspace.motions, at.t, &[1.0]);
+    close("torque on the driven wheel", on(3, 1).torque, -lam, 1e-12 * lam.abs());
+    let nothing = reaction(&m, 4, BodyId(3), Frame::Global, &at.workspace.motions, at.t, &[1.0]);
     assert!(nothing.is_none());
 }
 
@@ -208,12 +208,11 @@ fn laws_of_other_bodies_have_their_columns() {
     let m = model(COUPLED);
     let mut numbers = Random::new(11);
     let q = numbers.many(m.layout.n_q);
-    let dense =
-        kempe::equations::dense::jacobian(&m, &kempe::equations::kinematics::at_rest(&q), 0.4);
+    let dense = kempe::equations::dense::jacobian(&m, &Motions::at_rest(&m.layout, &q), 0.4);
     let n = m.layout.n_q;
     let phi = |q: &[f64]| {
         let mut phi = vec![0.0; m.layout.n_rows];
-        let motions = kempe::equations::kinematics::at_rest(q);
+        let motions = Motions::at_rest(&m.layout, q);
         kempe::equations::constraints::residual(&m, &motions, 0.4, &mut phi);
         phi
     };

@@ -9,6 +9,7 @@ mod constraints;
 mod energy;
 mod equilibrium;
 mod forces;
+mod formulas;
 mod mass;
 mod pins;
 mod samples;

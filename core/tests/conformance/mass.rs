@@ -3,7 +3,7 @@
 
 use crate::mechanisms::{close, model, run, start, tolerances, worst, Random};
 use kempe::elements::BodyId;
-use kempe::equations::{energy, kinematics, mass};
+use kempe::equations::{energy, kinematics, mass, Compiled};
 use kempe::math::{Dual, Lift};
 use kempe::model::Model;
 
@@ -56,7 +56,7 @@ fn a_frame_off_the_centre_moves_as_the_centred_one() {
     let runs = [&centred, &off].map(|m| {
         let (state, _) = start(m, &ask, &[]);
         let run = run(m, &state, &tolerances(2.0, 1e-11, 1e-13));
-        let (found, energies) = (run.responses(m).unwrap(), run.energies(m).unwrap());
+        let (found, energies) = (run.accelerations(m).unwrap(), run.energies(m).unwrap());
         let last = |table: &[f64], n: usize| table[table.len() - n..].to_vec();
         let (q, v) = (last(&run.trajectory.q, 6), last(&run.trajectory.v, 6));
         (q, v, last(&found.a, 6), last(&found.lam, 4), last(&energies, 5))
@@ -71,8 +71,7 @@ fn a_frame_off_the_centre_moves_as_the_centred_one() {
         close("alpha", a[1][angle], a[0][angle], 1e-6);
     }
     assert!(worst(lam[1], lam[0]) < 1e-6);
-    let mut motions = Vec::new();
-    kinematics::motions(q[1], v[1], &mut motions);
+    let motions = kinematics::Motions::at(&off.layout, q[1], v[1]);
     for body in [1, 2] {
         let centre = motions[body].pose.point(off.bodies[body].center);
         close("x of the centre", centre.x, q[0][3 * body - 3], 1e-8);
@@ -98,11 +97,9 @@ fn m_is_the_second_derivative_of_the_kinetic_energy() {
             d
         })
         .collect();
-    let mut motions = Vec::new();
-    kinematics::motions(&lifted, &seeded, &mut motions);
+    let motions = kinematics::Motions::at(&wide.layout, &lifted, &seeded);
     let kinetic = energy::kinetic(&wide, &motions);
-    let mut plain = Vec::new();
-    kinematics::motions(&q, &v, &mut plain);
+    let plain = kinematics::Motions::at(&m.layout, &q, &v);
     for body in [1, 2] {
         let block = mass::block(&m.bodies[body], &plain[body]);
         for column in 0..3 {
@@ -125,11 +122,7 @@ fn the_quadratic_term_is_that_of_lagrange() {
     m.forces.clear();
     let mut numbers = Random::new(6);
     let (q, v) = (numbers.many(6), numbers.many(6));
-    let at = |q: &[f64]| {
-        let mut motions = Vec::new();
-        kinematics::motions(q, &v, &mut motions);
-        motions
-    };
+    let at = |q: &[f64]| kinematics::Motions::at(&m.layout, q, &v);
     let momentum = |q: &[f64]| -> Vec<f64> {
         let motions = at(q);
         (1..3)
@@ -143,7 +136,8 @@ fn the_quadratic_term_is_that_of_lagrange() {
     let moved = |h: f64| q.iter().zip(&v).map(|(q, v)| q + h * v).collect::<Vec<_>>();
     let (after, before) = (momentum(&moved(h)), momentum(&moved(-h)));
     let mut force = vec![0.0; 6];
-    kempe::equations::forces::generalized(&m, &at(&q), 0.0, &mut force);
+    let acting = kempe::equations::forces::Acting { z: &[], lam: None, t: 0.0 };
+    kempe::equations::forces::generalized(&m, &Compiled::new(&m), &at(&q), acting, &mut force);
     for k in 0..6 {
         let shifted = |h: f64| {
             let mut q = q.clone();

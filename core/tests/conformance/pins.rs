@@ -1,4 +1,5 @@
-//! Evaluations give pins by their arms; what they say must be what all entries of Φ_q say.
+//! Evaluations put joints of two rows into the matrix as they come, and condense grounded bodies: the results must be
+//! those of the full matrices.
 
 use crate::mechanisms::{model, Random, FOUR_BAR};
 use kempe::equations::augmented::Augmented;
@@ -87,8 +88,10 @@ fn accelerations_solve_the_equations_in_full() {
         for _ in 0..5 {
             let (q, v) = (numbers.many(n), numbers.many(n));
             let mut workspace = Workspace::new(&model);
-            workspace.accelerate(&model, 0.2, &q, &v, gains).expect("random states are regular");
-            let full = dense::matrices(&model, 0.2, &q, &v);
+            workspace
+                .accelerate(&model, 0.2, [&q, &v, &[]], gains)
+                .expect("random states are regular");
+            let full = dense::matrices(&model, 0.2, [&q, &v, &[]]);
             let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
             let motions = &workspace.motions;
             constraints::velocity_terms(&model, motions, 0.2, &mut phi, &mut rate, &mut gamma);
@@ -102,16 +105,17 @@ fn accelerations_solve_the_equations_in_full() {
     }
 }
 
-/// The entries that an evaluation leaves out come back.
+/// An evaluation leaves all entries of Φ_q.
 #[test]
-fn entries_are_restored() {
+fn an_evaluation_leaves_the_entries() {
     for model in mechanisms() {
         let n = model.layout.n_q;
         let mut numbers = Random::new(12);
         let (q, v) = (numbers.many(n), numbers.many(n));
         let mut workspace = Workspace::new(&model);
-        workspace.accelerate(&model, 0.0, &q, &v, Gains::default()).expect("a regular state");
-        workspace.matrix.restore_jacobian();
+        workspace
+            .accelerate(&model, 0.0, [&q, &v, &[]], Gains::default())
+            .expect("a regular state");
         let mut entries = vec![0.0; model.layout.n_entries];
         constraints::jacobian(&model, &workspace.motions, 0.0, &mut entries);
         close(workspace.matrix.jacobian(), &entries, "Φ_q");
@@ -126,7 +130,9 @@ fn residuals_are_those_of_the_constraints() {
         let mut numbers = Random::new(15);
         let (q, v) = (numbers.many(n), numbers.many(n));
         let mut workspace = Workspace::new(&model);
-        workspace.accelerate(&model, 0.2, &q, &v, Gains::default()).expect("a regular state");
+        workspace
+            .accelerate(&model, 0.2, [&q, &v, &[]], Gains::default())
+            .expect("a regular state");
         let motions = &workspace.motions;
         let mut residuals = Residuals::new(&model);
         let gaps = residuals.look(&model, motions, 0.2);
@@ -144,16 +150,6 @@ fn residuals_are_those_of_the_constraints() {
     }
 }
 
-#[test]
-#[should_panic(expected = "restore_jacobian")]
-fn stale_entries_are_not_given_out() {
-    let model = model(FOUR_BAR);
-    let mut workspace = Workspace::new(&model);
-    let q = Random::new(13).many(model.layout.n_q);
-    workspace.accelerate(&model, 0.0, &q, &q, Gains::default()).expect("a regular state");
-    workspace.matrix.jacobian();
-}
-
 /// The factor that an evaluation leaves solves as one of the entries does.
 #[test]
 fn the_factor_of_an_evaluation_serves_other_right_sides() {
@@ -162,12 +158,13 @@ fn the_factor_of_an_evaluation_serves_other_right_sides() {
         let mut numbers = Random::new(14);
         let (q, v, b) = (numbers.many(n), numbers.many(n), numbers.many(n + m));
         let mut workspace = Workspace::new(&model);
-        workspace.accelerate(&model, 0.0, &q, &v, Gains::default()).expect("a regular state");
-        let mut motions = Vec::new();
-        kinematics::motions(&q, &v, &mut motions);
+        workspace
+            .accelerate(&model, 0.0, [&q, &v, &[]], Gains::default())
+            .expect("a regular state");
+        let motions = kinematics::Motions::at(&model.layout, &q, &v);
         let mut matrix = Augmented::new(&model);
         constraints::jacobian(&model, &motions, 0.0, matrix.jacobian_mut());
-        matrix.set_mass(&model, &motions);
+        matrix.set_mass(&workspace.compiled, &motions);
         matrix.factor().expect("a regular state");
         let (mut found, mut wanted) = (b.clone(), b);
         workspace.matrix.solve(&mut found);

@@ -4,8 +4,10 @@ use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{SpringDamper, Torque, TorsionSpring};
 use kempe::elements::joints::{Distance, Revolute, Translational};
+use kempe::elements::test_elements::{Bead, Lag, Levels, Pulley, Rubbing, TurnedPin};
 use kempe::elements::{
-    catalogue, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, PointOn,
+    catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, JointId,
+    Linearized, Moving, PointOn,
 };
 use kempe::math::{Local, Motion, Pose, Real, Twist, Vec2};
 
@@ -28,6 +30,10 @@ pub fn constraints() -> Vec<Constraint> {
             axes: [0.7, -0.3],
         }),
         Constraint::Distance(Distance { i: on(1, 0.6, -0.2), j: on(2, -0.3, 0.8), length: 1.4 }),
+        Constraint::TurnedPin(TurnedPin { i: on(1, 0.3, -0.7), j: on(2, -1.1, 0.4) }),
+        Constraint::Bead(Bead { i: on(1, 0.2, 0.5), j: BodyId(2), bend: 0.8 }),
+        Constraint::Levels(Levels { i: BodyId(1), j: BodyId(2), k: BodyId(3), steps: [0.3, -0.4] }),
+        Constraint::Pulley(Pulley { i: BodyId(1), j: BodyId(2), k: BodyId(3), ratio: 0.7 }),
     ];
     for (coordinate, value) in
         [(Coordinate::X, 0.4), (Coordinate::Y, -1.3), (Coordinate::Angle, 2.1)]
@@ -48,6 +54,9 @@ pub fn forces() -> Vec<ForceElement> {
         free_angle: 0.6,
     })];
     all.push(ForceElement::Torque(Torque { i: BodyId(1), j: BodyId(2), torque: 1.3 }));
+    all.push(ForceElement::Lag(Lag { i: BodyId(1), j: BodyId(2), stiffness: 4.0, time: 0.3 }));
+    let (joint, i, j) = (JointId(0), BodyId(1), BodyId(2));
+    all.push(ForceElement::Rubbing(Rubbing { joint, i, j, arm: 0.05, speed: 0.4 }));
     for free_length in [0.0, 0.9] {
         all.push(ForceElement::SpringDamper(SpringDamper {
             i: on(1, 0.3, -0.7),
@@ -70,18 +79,82 @@ pub fn random(random: &mut Random) -> [f64; 6] {
     std::array::from_fn(|_| 2.0 * random.next())
 }
 
-/// Those of body i of a constraint: at rest in the origin if that is ground.
-pub fn of_end(body: BodyId, random_state: [f64; 6]) -> [f64; 6] {
-    if body.is_ground() {
-        [0.0; 6]
-    } else {
-        random_state
-    }
-}
-
 /// The state after `h` along the motion with constant rates.
 pub fn later(s: [f64; 6], h: f64) -> [f64; 6] {
     std::array::from_fn(|k| if k < 3 { s[k] + h * s[k + 3] } else { s[k] })
+}
+
+/// A state of all participants of a joint: bodies, and internal coordinates with their rates.
+#[derive(Clone, Debug)]
+pub struct Participants<S = f64> {
+    pub bodies: Vec<[S; 6]>,
+    pub own: Vec<[S; 2]>,
+}
+
+impl Participants {
+    /// Random; ground rests in the origin.
+    pub fn random(c: &Constraint, numbers: &mut Random) -> Self {
+        let body = |b: &BodyId, numbers: &mut Random| match b.is_ground() {
+            true => [0.0; 6],
+            false => random(numbers),
+        };
+        let bodies = c.bodies().iter().map(|b| body(b, numbers)).collect();
+        let own = (0..c.own()).map(|_| [2.0 * numbers.next(), 2.0 * numbers.next()]).collect();
+        Self { bodies, own }
+    }
+
+    /// After `h` along the motion with constant rates.
+    pub fn later(&self, h: f64) -> Self {
+        let own = self.own.iter().map(|[u, rate]| [u + h * rate, *rate]).collect();
+        Self { bodies: self.bodies.iter().map(|s| later(*s, h)).collect(), own }
+    }
+
+    /// Moved by `h` in one coordinate: three to a body, then the internal ones.
+    pub fn moved(&self, coordinate: usize, h: f64) -> Self {
+        let mut moved = self.clone();
+        match moved.bodies.get_mut(coordinate / 3) {
+            Some(body) => body[coordinate % 3] += h,
+            None => moved.own[coordinate - 3 * self.bodies.len()][0] += h,
+        }
+        moved
+    }
+}
+
+impl<S: Real> Participants<S> {
+    /// Over another scalar.
+    pub fn map<T>(&self, f: impl Fn(S) -> T + Copy) -> Participants<T> {
+        Participants {
+            bodies: self.bodies.iter().map(|s| s.map(f)).collect(),
+            own: self.own.iter().map(|s| s.map(f)).collect(),
+        }
+    }
+}
+
+/// Φ.
+pub fn phi<S: Real>(c: &Constraint<S>, at: &Participants<S>, t: S) -> Vec<S> {
+    let mut out = vec![S::zero(); c.equations().len()];
+    let bodies: Vec<Pose<S>> = at.bodies.iter().map(|s| motion(*s).pose).collect();
+    let own: Vec<S> = at.own.iter().map(|[u, _]| *u).collect();
+    c.residual(&At { bodies: &bodies, own: &own, t }, &mut out);
+    out
+}
+
+/// Φ, Φ̇, γ, and Φ_q with a row of three for each equation of each participant.
+pub type Terms<S> = ([Vec<S>; 3], Vec<[S; 3]>);
+
+/// All of [`Terms`].
+pub fn terms<S: Real>(c: &Constraint<S>, at: &Participants<S>, t: S) -> Terms<S> {
+    let m = c.equations().len();
+    let mut out = [0, 1, 2].map(|_| vec![S::zero(); m]);
+    let participants = at.bodies.len() + usize::from(c.own() > 0);
+    let mut columns = vec![[S::zero(); 3]; m * participants];
+    let bodies: Vec<Motion<S>> = at.bodies.iter().map(|s| motion(*s)).collect();
+    let own: Vec<S> = at.own.iter().map(|[u, _]| *u).collect();
+    let own_rates: Vec<S> = at.own.iter().map(|[_, rate]| *rate).collect();
+    let [residual, rate, gamma] = &mut out;
+    let moving = Moving { bodies: &bodies, own: &own, own_rates: &own_rates, t };
+    c.linearize(&moving, Linearized { residual, rate, gamma, columns: &mut columns });
+    (out, columns)
 }
 
 #[test]

@@ -4,30 +4,41 @@ use crate::mechanisms::{close, every, model, run, start, tolerances};
 use crate::samples::motion;
 use kempe::elements::forces::SpringDamper;
 use kempe::elements::{BodyId, Element, Force, PointOn, Situation};
-use kempe::math::{Dual, Lift, Local};
+use kempe::math::{Dual, Lift, Local, Motion, Real, Wrench};
 
 fn spring(free_length: f64) -> SpringDamper {
     let at = |body| PointOn { body: BodyId(body), s: Local::zero() };
     SpringDamper { i: at(0), j: at(1), stiffness: 50.0, damping: 3.0, free_length }
 }
 
-/// Both points in one place, j moving away with (2, -1) m/s.
-fn together<S: Lift<f64>>(x: S) -> Situation<S> {
+/// Both points in one place but for `x`, j moving away with (2, -1) m/s.
+fn together<S: Lift<f64>>(x: S) -> [Motion<S>; 2] {
     let still = motion([0.0; 6].map(S::lift));
     let mut moving = [0.0, 0.0, 0.0, 2.0, -1.0, 0.0].map(S::lift);
     moving[0] = x;
-    Situation { i: still, j: motion(moving), t: S::zero() }
+    [still, motion(moving)]
+}
+
+fn at<S: Real>(bodies: &[Motion<S>; 2]) -> Situation<'_, S> {
+    Situation { bodies, z: &[], reaction: Wrench::zero(), t: S::zero() }
+}
+
+/// The wrenches of stiffness on i and j, then of damping.
+fn action<S: Real>(e: &SpringDamper<S>, bodies: &[Motion<S>; 2]) -> [Wrench<S>; 4] {
+    let mut out = [Wrench::zero(); 4];
+    SpringDamper::action(e, &at(bodies), &mut out);
+    out
 }
 
 #[test]
 fn where_the_points_meet_the_force_is_finite_and_damps() {
     for free_length in [0.0, 0.4] {
         let e = spring(free_length);
-        let [stiffness, damping] = SpringDamper::action(&e, &together(0.0));
-        assert_eq!((stiffness.on_j.force.x, stiffness.on_j.force.y), (0.0, 0.0));
-        assert_eq!((damping.on_j.force.x, damping.on_j.force.y), (-6.0, 3.0));
-        assert_eq!(damping.on_i.force.x, 6.0);
-        let potential = SpringDamper::potential(&e, &together(0.0));
+        let [_, stiffness, pulled, damping] = action(&e, &together(0.0));
+        assert_eq!((stiffness.force.x, stiffness.force.y), (0.0, 0.0));
+        assert_eq!((damping.force.x, damping.force.y), (-6.0, 3.0));
+        assert_eq!(pulled.force.x, 6.0);
+        let potential = SpringDamper::potential(&e, &at(&together(0.0)));
         close("V", potential, 25.0 * free_length * free_length, 0.0);
     }
 }
@@ -37,9 +48,9 @@ fn the_slope_without_a_free_length_is_the_stiffness_even_where_the_points_meet()
     for x in [0.0, 1e-200, 1e-9, 0.3] {
         let there = together(Dual::<1>::variable(x, 0));
         let e = SpringDamper::map(&spring(0.0), &mut |s| Dual::lift(*s));
-        let [stiffness, _] = SpringDamper::action(&e, &there);
-        assert_eq!(stiffness.on_j.force.x.value, -50.0 * x);
-        assert_eq!(stiffness.on_j.force.x.slope[0], -50.0);
+        let [_, stiffness, ..] = action(&e, &there);
+        assert_eq!(stiffness.force.x.value, -50.0 * x);
+        assert_eq!(stiffness.force.x.slope[0], -50.0);
     }
 }
 

@@ -1,15 +1,16 @@
 //! What elements, bodies and analyses declare of themselves.
 
-use kempe::analyses::{analysis_tables, option_families};
+use kempe::analyses::{declarations, option_families};
 use kempe::elements::{catalogue, Shape, Table};
 use kempe::expression::unit::Unit;
 use kempe::model::body_tables;
 use std::collections::HashSet;
 
 fn tables() -> Vec<Table> {
-    let options = option_families().iter().flat_map(|f| &f.options).map(|o| o.table.clone());
+    let options = option_families().iter().flat_map(|f| &f.options);
+    let options = declarations().iter().chain(options).map(|declared| declared.table.clone());
     let elements = catalogue().into_iter().map(|(_, table)| table);
-    elements.chain(body_tables()).chain(analysis_tables().iter().cloned()).chain(options).collect()
+    elements.chain(body_tables()).chain(options).collect()
 }
 
 #[test]

@@ -6,13 +6,14 @@ use kempe::analyses::dynamics::{dynamics_by_steps, Options, Scheme, Stabilizatio
 use kempe::analyses::State;
 use kempe::integrate::{
     locate, AlphaParameters, Direction, Dop853, Flow, GeneralizedAlpha, Radau, Rk4, Rk45,
+    StepControl,
 };
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 
 fn options(t_end: f64, scheme: Scheme) -> Options {
     let stabilization = Stabilization::Projection(Projection::default());
-    Options { scheme, stabilization, dense_output: false, ..Options::classical(t_end) }
+    Options { method: scheme, stabilization, dense_output: false, ..Options::classical(t_end) }
 }
 
 /// Where component `k` of y passes a level: the times in a run.
@@ -66,7 +67,7 @@ fn radau(h: f64) -> Scheme {
 }
 
 fn rk45(h: f64) -> Scheme {
-    Scheme::Rk45(Rk45 { step: Some(h), ..Rk45::default() })
+    Scheme::Rk45(Rk45 { control: StepControl { step: Some(h), ..StepControl::default() } })
 }
 
 /// A rod that swings, with the components of y that are its angle and its rate.

@@ -16,13 +16,13 @@ struct Found {
 
 fn found(m: &Model, state: &State, t_end: f64, grid: f64, scheme: Scheme) -> Found {
     let options = Options {
-        scheme,
+        method: scheme,
         stabilization: Stabilization::Projection(Projection::default()),
         dense_output: false,
         ..Options::classical(t_end)
     };
     let run = run(m, state, &every(grid, options));
-    let lam = run.responses(m).unwrap().lam;
+    let lam = run.accelerations(m).unwrap().lam;
     Found { q: run.trajectory.q, v: run.trajectory.v, lam }
 }
 

@@ -7,13 +7,13 @@ use crate::mechanisms::{
 use kempe::analyses::dynamics::{dynamics, Auto, Options, Reason, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::Gains;
-use kempe::integrate::{AlphaParameters, Dop853, Flow, GeneralizedAlpha, Radau};
+use kempe::integrate::{AlphaParameters, Dop853, Flow, GeneralizedAlpha, Radau, StepControl};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 
 fn options(t_end: f64, scheme: Scheme) -> Options {
     let stabilization = Stabilization::Projection(Projection::default());
-    Options { scheme, stabilization, ..Options::classical(t_end) }
+    Options { method: scheme, stabilization, ..Options::classical(t_end) }
 }
 
 fn alpha(rtol: f64) -> Scheme {
@@ -38,7 +38,7 @@ fn agree(m: &Model, state: &State, t_end: f64, bounds: [f64; 2]) {
         let (q, v) = (&found.trajectory.q, &found.trajectory.v);
         let off = worst(q, &exact.trajectory.q);
         assert!(off < bound, "q off by {off:.1e}, allowed {bound:.1e}");
-        let [lam, truth] = [&found, &exact].map(|run| run.responses(m).unwrap().lam);
+        let [lam, truth] = [&found, &exact].map(|run| run.accelerations(m).unwrap().lam);
         let off = worst(&lam, &truth) / largest(&truth).max(1.0);
         assert!(off < 100.0 * bound, "lambda off by {off:.1e}");
         let scale = largest(v).max(1.0);
@@ -237,7 +237,9 @@ fn steps_are_counted_and_bounded() {
     let s = found.statistics;
     assert!(s.jacobians > 0 && s.jacobians <= s.steps + s.rejected);
     assert!(s.iterations >= s.steps && s.factorisations >= 2 * s.jacobians);
-    let bounded = Scheme::Radau(Radau { max_steps: Some(3), ..Radau::new(1e-6, 1e-9) });
+    let bounded = Scheme::Radau(Radau {
+        control: StepControl { max_steps: Some(3), ..StepControl::new(1e-6, 1e-9) },
+    });
     assert!(refused(&options(0.2, bounded)).to_string().contains("max_steps = 3"));
 }
 

@@ -4,13 +4,13 @@ use crate::mechanisms::{asked, every, model, run, start, with, worst, FOUR_BAR};
 use kempe::analyses::assemble::{assemble, Request};
 use kempe::analyses::dynamics::{Auto, Options, Scheme, Stabilization};
 use kempe::analyses::State;
-use kempe::integrate::{AlphaParameters, Dop853, GeneralizedAlpha, Radau, Rk45};
+use kempe::integrate::{AlphaParameters, Dop853, GeneralizedAlpha, Radau, Rk45, StepControl};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 
 fn options(t_end: f64, scheme: Scheme) -> Options {
     Options {
-        scheme,
+        method: scheme,
         stabilization: Stabilization::Projection(Projection::default()),
         ..Options::classical(t_end)
     }
@@ -56,8 +56,12 @@ fn a_stiff_damper_takes_few_steps() {
         assert!(off < error, "{told}: {off:.1e}");
     }
     // what an explicit method would need, from how far a thousand steps take it
-    let explicit =
-        options(15.0, Scheme::Rk45(Rk45 { max_steps: Some(1000), ..Rk45::new(1e-6, 1e-9) }));
+    let explicit = options(
+        15.0,
+        Scheme::Rk45(Rk45 {
+            control: StepControl { max_steps: Some(1000), ..StepControl::new(1e-6, 1e-9) },
+        }),
+    );
     let failure = kempe::analyses::dynamics::dynamics(&m, &state, &explicit, |_| {
         kempe::integrate::Flow::Continue
     });
@@ -190,7 +194,7 @@ fn dop853_at_the_same_tolerance_agrees_where_it_can() {
     let implicit =
         run(&m, &state, &every(0.05, options(2.0, Scheme::Radau(Radau::new(1e-9, 1e-12)))));
     assert!(worst(&implicit.trajectory.q, &explicit.trajectory.q) < 1e-10);
-    let [lam, truth] = [&implicit, &explicit].map(|run| run.responses(&m).unwrap().lam);
+    let [lam, truth] = [&implicit, &explicit].map(|run| run.accelerations(&m).unwrap().lam);
     assert!(worst(&lam, &truth) < 1e-3); // of 1e5 N
 }
 

@@ -1,11 +1,10 @@
 //! The tangent against differences of the balance, for every element, with laws of time and state.
 
 use crate::mechanisms::{model, Random};
-use kempe::elements::BodyId;
 use kempe::equations::balance::Balance;
 use kempe::equations::kinematics;
 use kempe::equations::tangent::Tangent;
-use kempe::model::{columns, Model};
+use kempe::model::Model;
 
 /// All joints, all forces, frames off the mass centres, laws that name other bodies.
 const EVERYTHING: &str = r#"
@@ -88,7 +87,7 @@ impl At {
     /// (r, Φ̇).
     fn residual(&self, m: &Model) -> (Vec<f64>, Vec<f64>) {
         let mut balance = Balance::new(m);
-        balance.evaluate(m, 0.7, [&self.q, &self.v, &self.a], &self.lam);
+        balance.evaluate(m, 0.7, [&self.q, &self.v, &self.a, &[]], &self.lam);
         (balance.forces, balance.rate)
     }
 }
@@ -123,14 +122,13 @@ fn the_tangent_is_the_derivative_of_the_balance() {
     let mut tangent = Tangent::new(&m);
     for seed in 1..6 {
         let at = At::random(&m, seed);
-        let mut motions = Vec::new();
-        kinematics::motions(&at.q, &at.v, &mut motions);
-        tangent.linearize(&m, &motions, 0.7, &at.a, &at.lam);
+        let motions = kinematics::Motions::at(&m.layout, &at.q, &at.v);
+        tangent.linearize(&m, &motions, 0.7, [&at.a, &at.lam, &[]]);
         let stiffness = full(n, tangent.pairs(), &tangent.stiffness);
         let damping = full(n, tangent.pairs(), &tangent.damping);
         let mut rate = vec![vec![0.0; n]; m.layout.n_rows];
-        for ((row, column), entry) in m.layout.positions().zip(&tangent.rate) {
-            rate[row][column] = *entry;
+        for (row, column, at) in m.layout.positions() {
+            rate[row][column] = tangent.rate[at];
         }
         for c in 0..n {
             let by_q = |x: f64| {
@@ -174,10 +172,9 @@ fn products_with_the_tangent() {
     let m = model(EVERYTHING);
     let (n, rows) = (m.layout.n_q, m.layout.n_rows);
     let at = At::random(&m, 9);
-    let mut motions = Vec::new();
-    kinematics::motions(&at.q, &at.v, &mut motions);
+    let motions = kinematics::Motions::at(&m.layout, &at.q, &at.v);
     let mut tangent = Tangent::new(&m);
-    tangent.linearize(&m, &motions, 0.7, &at.a, &at.lam);
+    tangent.linearize(&m, &motions, 0.7, [&at.a, &at.lam, &[]]);
     let (x, s) = (Random::new(3).many(n), Random::new(4).many(n));
     let mut out = vec![0.0; n + rows];
     tangent.times(&m, &x, &s, &mut out);
@@ -198,7 +195,7 @@ fn products_with_the_tangent() {
 fn only_what_an_element_couples_has_a_block() {
     let m = model(EVERYTHING);
     let tangent = Tangent::new(&m);
-    let column = |name: &str| columns(m.body(name).unwrap_or(BodyId::GROUND)).start / 3;
+    let column = |name: &str| m.body(name).expect("a body").0 - 1;
     let has = |a: &str, b: &str| tangent.pairs().contains(&(column(a), column(b)));
     assert!(has("a", "b") && has("b", "c") && has("a", "c") && has("c", "a"));
     let four_bar = model(crate::mechanisms::FOUR_BAR);

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 /// An oscillator that carries ∫ 1e6 y² dt as a quadrature.
 struct WithQuadrature;
 
-impl FirstOrder for WithQuadrature {
+impl Ode for WithQuadrature {
     type Stop = String;
     fn len(&self) -> usize {
         3
@@ -38,7 +38,7 @@ struct OnCircle {
     calls: usize,
 }
 
-impl FirstOrder for OnCircle {
+impl Ode for OnCircle {
     type Stop = String;
     fn len(&self) -> usize {
         2
@@ -47,7 +47,7 @@ impl FirstOrder for OnCircle {
         oscillator(t, y, dy);
         Ok(())
     }
-    fn accepted(&mut self, _: f64, y: &mut [f64]) -> Result<bool, String> {
+    fn project_accepted(&mut self, _: f64, y: &mut [f64]) -> Result<bool, String> {
         self.calls += 1;
         let r = y[0].hypot(y[1]);
         y[0] /= r;

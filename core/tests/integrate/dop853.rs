@@ -1,7 +1,7 @@
 //! DOP853: pair, estimate and extension those of scipy, of order 8 and 7; steps of its own.
 
 use super::*;
-use kempe::integrate::{Atol, Dop853, Observer};
+use kempe::integrate::{Atol, Dop853, Observer, StepControl};
 
 /// Sees the steps from their ends only.
 struct Ends;
@@ -15,7 +15,7 @@ impl Observer for Ends {
     }
 }
 
-fn ends<Y: FirstOrder<Stop = String>>(
+fn ends<Y: Ode<Stop = String>>(
     method: &Dop853,
     mut system: Y,
     (t0, t_end): (f64, f64),
@@ -60,7 +60,12 @@ fn it_judges_steps_as_scipy_does() {
         let method = Dop853::new(rtol, 1e-3 * rtol);
         // next to 1 the norm is known to rounding over the tolerance
         let near = 1e-12 + 1e-15 / rtol;
-        let told = |h: f64| first(problem, &Dop853 { first_step: Some(h), ..method.clone() });
+        let told = |h: f64| {
+            first(
+                problem,
+                &Dop853 { control: StepControl { first_step: Some(h), ..method.control.clone() } },
+            )
+        };
         let (h, found, rejected) = told(longest * (1.0 - near));
         assert_eq!((h, rejected), (longest * (1.0 - near), 0), "{rtol}");
         assert!((found - y).abs() < 10.0 * near, "{found} {y}");
@@ -85,7 +90,8 @@ fn bounded_steps_are_those_of_scipy() {
         (LINEAR, (0.0, 2.0), 0.004, Atol::Scalar(1e-6), 502, -0.4115900596614714),
     ];
     for ((f, y0), span, max_step, atol, steps, last) in cases {
-        let method = Dop853 { atol, max_step, ..Dop853::new(1e-3, 0.0) };
+        let method =
+            Dop853 { control: StepControl { atol, max_step, ..StepControl::new(1e-3, 0.0) } };
         let mut y = y0.to_vec();
         let done = ends(&method, plain(y0.len(), f), span, &mut y);
         assert_eq!((done.steps, done.evaluations), (steps, 2 + 12 * steps), "{span:?}");
@@ -150,7 +156,7 @@ fn the_extension_is_that_of_scipy() {
             let (mut z, mut c) = ([0.0; 2], [0.0; 14]);
             step.interpolate(*t, &mut z);
             assert!((z[0] - truth[0]).abs() < 1e-14 && (z[1] - truth[1]).abs() < 1e-14, "{z:?}");
-            assert_eq!(step.dense.degree(), 7);
+            assert_eq!(step.interpolant.degree(), 7);
             step.coefficients(&mut c);
             let (h, theta) = (step.t - step.t_old, (t - step.t_old) / (step.t - step.t_old));
             let sum = c[..7].iter().rev().fold(0.0, |sum, c| (sum + c) * theta);
@@ -189,7 +195,7 @@ impl Observer for Errors {
 }
 
 fn errors(h: f64, look: bool) -> [f64; 2] {
-    let method = Dop853 { step: Some(h), ..Dop853::default() };
+    let method = Dop853 { control: StepControl { step: Some(h), ..StepControl::default() } };
     let (mut y, mut observer) = ([1.0, 0.0], Errors { look, between: 0.0 });
     method.integrate(&mut plain(2, oscillator), 0.0, 4.0, &mut y, &mut observer).unwrap();
     [(y[0] - 4.0_f64.cos()).hypot(y[1] + 4.0_f64.sin()), observer.between]
@@ -207,7 +213,7 @@ fn observed_orders() {
 /// Motion on the unit circle, put back onto it after every step.
 struct OnCircle;
 
-impl FirstOrder for OnCircle {
+impl Ode for OnCircle {
     type Stop = String;
     fn len(&self) -> usize {
         2
@@ -216,7 +222,7 @@ impl FirstOrder for OnCircle {
         oscillator(t, y, dy);
         Ok(())
     }
-    fn accepted(&mut self, _: f64, y: &mut [f64]) -> Result<bool, String> {
+    fn project_accepted(&mut self, _: f64, y: &mut [f64]) -> Result<bool, String> {
         let r = y[0].hypot(y[1]);
         y.iter_mut().for_each(|y| *y /= r);
         Ok(true)
@@ -250,7 +256,8 @@ fn an_extra_stage_off_the_domain_costs_the_extension_alone() {
             dy[0] = f64::NAN; // the second of the three
         }
     });
-    let method = Dop853 { first_step: Some(0.1), ..Dop853::new(1e-3, 1e-6) };
+    let method =
+        Dop853 { control: StepControl { first_step: Some(0.1), ..StepControl::new(1e-3, 1e-6) } };
     let (mut system, mut y, mut errors) = (system, [1.0, 0.0], Errors { look: true, between: 0.0 });
     let done = method.integrate(&mut system, 0.0, 0.1, &mut y, &mut errors).unwrap();
     assert_eq!((done.steps, done.rejected, done.evaluations), (1, 0, 15));

@@ -1,7 +1,7 @@
 //! Changes of sign within a step.
 
 use super::*;
-use kempe::integrate::{locate, Direction, Rk4, Rk45};
+use kempe::integrate::{locate, Direction, Rk4, Rk45, StepControl};
 use std::f64::consts::PI;
 
 /// All events of cos t - c on (0, 20) at the given tolerance.
@@ -17,7 +17,7 @@ fn crossings(direction: Direction, span: (f64, f64), level: f64) -> Vec<f64> {
         }
         Flow::Continue
     };
-    let method = Rk45 { max_step: 0.01, ..Rk45::new(1e-12, 1e-14) };
+    let method = Rk45 { control: StepControl { max_step: 0.01, ..StepControl::new(1e-12, 1e-14) } };
     let mut y = [span.0.cos(), -span.0.sin()];
     method.integrate(&mut system, span.0, span.1, &mut y, &mut observer).unwrap();
     found

@@ -1,7 +1,7 @@
 //! Every way an integration fails.
 
 use super::*;
-use kempe::integrate::{Atol, Cause, Dop853, Rk4, Rk45};
+use kempe::integrate::{Atol, Cause, Dop853, Rk4, Rk45, StepControl};
 
 fn cause(outcome: Outcome) -> Cause<String> {
     outcome.unwrap_err().cause
@@ -32,20 +32,52 @@ fn arguments_are_refused_by_name() {
     }
     assert_eq!(with(Rk45::new(-1e-3, 1e-6), span, y0), "rtol");
     assert_eq!(with(Rk45::new(1e-3, -1e-6), span, y0), "atol");
-    let each = |atol: &[f64]| Rk45 { atol: Atol::Each(atol.to_vec()), ..good.clone() };
+    let each = |atol: &[f64]| Rk45 {
+        control: StepControl { atol: Atol::Each(atol.to_vec()), ..good.control.clone() },
+    };
     assert_eq!(with(each(&[1e-6, -1.0]), span, y0), "atol");
     assert_eq!(with(each(&[1e-6]), span, y0), "atol");
     for bad in [0.0, -1.0, f64::NAN] {
-        assert_eq!(with(Rk45 { max_step: bad, ..good.clone() }, span, y0), "max_step");
-        assert_eq!(with(Rk45 { first_step: Some(bad), ..good.clone() }, span, y0), "first_step");
+        assert_eq!(
+            with(Rk45 { control: StepControl { max_step: bad, ..good.control.clone() } }, span, y0),
+            "max_step"
+        );
+        assert_eq!(
+            with(
+                Rk45 { control: StepControl { first_step: Some(bad), ..good.control.clone() } },
+                span,
+                y0
+            ),
+            "first_step"
+        );
         let fixed = run(&Rk4::new(bad), plain(2, oscillator), span, &mut y0.clone());
         assert_eq!(refused(fixed), "step");
-        assert_eq!(with(Rk45 { step: Some(bad), ..good.clone() }, span, y0), "step");
+        assert_eq!(
+            with(
+                Rk45 { control: StepControl { step: Some(bad), ..good.control.clone() } },
+                span,
+                y0
+            ),
+            "step"
+        );
     }
-    let constant = Rk45 { step: Some(0.1), ..good.clone() };
-    assert_eq!(with(Rk45 { first_step: Some(0.1), ..constant.clone() }, span, y0), "first_step");
-    assert_eq!(with(Rk45 { max_step: 0.1, ..constant }, span, y0), "max_step");
-    assert_eq!(with(Rk45 { first_step: Some(2.0), ..good }, span, y0), "first_step");
+    let constant = Rk45 { control: StepControl { step: Some(0.1), ..good.control.clone() } };
+    assert_eq!(
+        with(
+            Rk45 { control: StepControl { first_step: Some(0.1), ..constant.control.clone() } },
+            span,
+            y0
+        ),
+        "first_step"
+    );
+    assert_eq!(
+        with(Rk45 { control: StepControl { max_step: 0.1, ..constant.control } }, span, y0),
+        "max_step"
+    );
+    assert_eq!(
+        with(Rk45 { control: StepControl { first_step: Some(2.0), ..good.control } }, span, y0),
+        "first_step"
+    );
     for bad in [f64::INFINITY, 1e-20] {
         let fixed = run(&Rk4::new(bad), plain(2, oscillator), span, &mut y0.clone());
         assert_eq!(refused(fixed), "step");
@@ -55,8 +87,8 @@ fn arguments_are_refused_by_name() {
 
 #[test]
 fn a_tolerance_below_rounding_is_raised() {
-    assert_eq!(Rk45::new(0.0, 1e-12).rtol_used(), 100.0 * f64::EPSILON);
-    assert_eq!(Rk45::new(1e-9, 1e-12).rtol_used(), 1e-9);
+    assert_eq!(Rk45::new(0.0, 1e-12).control.usable().rtol, 100.0 * f64::EPSILON);
+    assert_eq!(Rk45::new(1e-9, 1e-12).control.usable().rtol, 1e-9);
     let raised = run(&Rk45::new(0.0, 0.0), plain(1, relaxation), (0.0, 0.01), &mut [0.5]).unwrap();
     let same = Rk45::new(100.0 * f64::EPSILON, 0.0);
     assert_eq!(raised, run(&same, plain(1, relaxation), (0.0, 0.01), &mut [0.5]).unwrap());
@@ -103,7 +135,8 @@ fn a_derivative_that_is_not_finite_is_named_with_its_time() {
 fn a_trial_outside_the_domain_only_shortens_the_step() {
     // y' = -sqrt(y), not a number below 0; ends before it gets there
     let root = |_: f64, y: &[f64], dy: &mut [f64]| dy[0] = -y[0].sqrt();
-    let method = Rk45 { first_step: Some(1.9), ..Rk45::new(1e-2, 1e-4) };
+    let method =
+        Rk45 { control: StepControl { first_step: Some(1.9), ..StepControl::new(1e-2, 1e-4) } };
     let mut y = [1.0];
     let done = run(&method, plain(1, root), (0.0, 1.9), &mut y).unwrap();
     assert!(done.rejected > 0);
@@ -117,7 +150,7 @@ struct Flawed {
     evaluations: usize,
 }
 
-impl FirstOrder for Flawed {
+impl Ode for Flawed {
     type Stop = String;
 
     fn len(&self) -> usize {
@@ -151,8 +184,7 @@ fn flawed(method: &impl Method, flaw: f64, at: usize) -> Outcome {
 
 #[test]
 fn one_stage_that_is_not_finite_refuses_its_step_whatever_comes_of_it() {
-    let (pair, eighth, fixed) =
-        (Rk45::new(1e-4, 1e-6), Dop853::new(1e-6, 1e-8), Rk4 { step: 0.2, max_steps: None });
+    let (pair, eighth, fixed) = (Rk45::new(1e-4, 1e-6), Dop853::new(1e-6, 1e-8), Rk4::new(0.2));
     let [five, eight] =
         [flawed(&pair, 0.0, 0), flawed(&eighth, 0.0, 0)].map(|outcome| outcome.unwrap());
     for flaw in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -175,7 +207,7 @@ fn one_stage_that_is_not_finite_refuses_its_step_whatever_comes_of_it() {
 
 #[test]
 fn the_number_of_steps_can_be_bounded() {
-    let most = Rk45 { max_steps: Some(5), ..Rk45::new(1e-6, 1e-9) };
+    let most = Rk45 { control: StepControl { max_steps: Some(5), ..StepControl::new(1e-6, 1e-9) } };
     let failure = run(&most, plain(2, van_der_pol), (0.0, 20.0), &mut [2.0, 0.0]).unwrap_err();
     assert_eq!(failure.cause, Cause::MaxSteps { steps: 5 });
     assert_eq!(failure.statistics.steps, 5);
@@ -185,7 +217,7 @@ fn the_number_of_steps_can_be_bounded() {
 /// At rest, and refused six times for each state that is accepted.
 struct Reluctant(usize);
 
-impl FirstOrder for Reluctant {
+impl Ode for Reluctant {
     type Stop = String;
 
     fn len(&self) -> usize {
@@ -197,7 +229,7 @@ impl FirstOrder for Reluctant {
         Ok(())
     }
 
-    fn accepted(&mut self, _: f64, _: &mut [f64]) -> Result<bool, String> {
+    fn project_accepted(&mut self, _: f64, _: &mut [f64]) -> Result<bool, String> {
         self.0 += 1;
         match self.0 % 7 {
             0 => Ok(false),
@@ -209,7 +241,13 @@ impl FirstOrder for Reluctant {
 #[test]
 fn a_run_that_gets_nowhere_ends_before_its_steps_are_counted_out() {
     let first_step = Some(1e-9);
-    let method = Rk45 { max_steps: Some(40_000), first_step, ..Rk45::new(1e-6, 1e-3) };
+    let method = Rk45 {
+        control: StepControl {
+            max_steps: Some(40_000),
+            first_step,
+            ..StepControl::new(1e-6, 1e-3)
+        },
+    };
     let failure = run(&method, Reluctant(0), (0.0, 1e300), &mut [0.0]).unwrap_err();
     assert!(matches!(failure.cause, Cause::StepTooSmall { .. }), "{:?}", failure.cause);
     let found = failure.statistics;
@@ -225,12 +263,20 @@ fn too_many_steps_are_refused_before_the_first() {
         assert_eq!((failure.statistics.evaluations, failure.y), (0, Box::from([2.0, 0.0])));
     }
     let max_steps = Some(5);
-    check(&Rk4 { step: 0.1, max_steps }, 10.0, 0.1);
-    check(&Rk4 { step: 1e-12, max_steps }, 1e12, 1e-12);
-    check(&Rk45 { step: Some(0.1), max_steps, ..Rk45::default() }, 10.0, 0.1);
-    check(&Dop853 { max_step: 1e-12, max_steps, ..Dop853::default() }, 1e12, 1e-12);
+    check(&Rk4 { control: StepControl { max_steps, ..StepControl::constant(0.1) } }, 10.0, 0.1);
+    check(&Rk4 { control: StepControl { max_steps, ..StepControl::constant(1e-12) } }, 1e12, 1e-12);
+    check(
+        &Rk45 { control: StepControl { step: Some(0.1), max_steps, ..StepControl::default() } },
+        10.0,
+        0.1,
+    );
+    check(
+        &Dop853 { control: StepControl { max_step: 1e-12, max_steps, ..StepControl::default() } },
+        1e12,
+        1e-12,
+    );
     for max_steps in [Some(10), None] {
-        let enough = Rk4 { step: 0.1, max_steps };
+        let enough = Rk4 { control: StepControl { max_steps, ..StepControl::constant(0.1) } };
         assert!(run(&enough, plain(2, oscillator), (0.0, 1.0), &mut [2.0, 0.0]).is_ok());
     }
 }
@@ -240,7 +286,7 @@ struct Stops {
     in_rate: bool,
 }
 
-impl FirstOrder for Stops {
+impl Ode for Stops {
     type Stop = String;
     fn len(&self) -> usize {
         1
@@ -253,7 +299,7 @@ impl FirstOrder for Stops {
             Ok(())
         }
     }
-    fn accepted(&mut self, t: f64, _: &mut [f64]) -> Result<bool, String> {
+    fn project_accepted(&mut self, t: f64, _: &mut [f64]) -> Result<bool, String> {
         if !self.in_rate && t > 1.0 {
             Err("the crank locks".into())
         } else {
@@ -269,7 +315,7 @@ fn a_system_that_stops_is_a_failure_at_once() {
             let outcome = run(&Rk4::new(method), Stops { in_rate }, (0.0, 2.0), &mut [0.0]);
             assert_eq!(cause(outcome), Cause::Equations("the crank locks".into()));
         }
-        let method = Rk45 { max_step: 0.3, ..Rk45::default() };
+        let method = Rk45 { control: StepControl { max_step: 0.3, ..StepControl::default() } };
         let failure = run(&method, Stops { in_rate }, (0.0, 2.0), &mut [0.0]).unwrap_err();
         assert_eq!(failure.to_string(), "the crank locks");
         // an evaluation that stops does so at once; a refused end is tried nearer and nearer

@@ -8,7 +8,7 @@ mod order;
 mod scipy;
 mod second_order;
 
-use kempe::integrate::{Failure, FirstOrder, Flow, Method, Statistics, Step};
+use kempe::integrate::{Failure, Flow, Method, Ode, Statistics, Step};
 
 /// A system by closure, without any stop.
 struct Plain<F> {
@@ -16,7 +16,7 @@ struct Plain<F> {
     f: F,
 }
 
-impl<F: FnMut(f64, &[f64], &mut [f64])> FirstOrder for Plain<F> {
+impl<F: FnMut(f64, &[f64], &mut [f64])> Ode for Plain<F> {
     type Stop = String;
     fn len(&self) -> usize {
         self.len
@@ -33,7 +33,7 @@ fn plain<F: FnMut(f64, &[f64], &mut [f64])>(len: usize, f: F) -> Plain<F> {
 
 type Outcome = Result<Statistics, Failure<String>>;
 
-fn run<Y: FirstOrder<Stop = String>>(
+fn run<Y: Ode<Stop = String>>(
     method: &impl Method,
     mut system: Y,
     span: (f64, f64),

@@ -1,7 +1,7 @@
 //! Observed orders, the continuous extension, and where fixed steps land.
 
 use super::*;
-use kempe::integrate::{Dop853, Rk4, Rk45};
+use kempe::integrate::{Dop853, Rk4, Rk45, StepControl};
 
 /// Slope of log error over log step.
 fn slope(errors: &[(f64, f64)]) -> f64 {
@@ -33,7 +33,7 @@ fn oscillator_errors(method: &impl Method) -> (f64, f64) {
 fn observed_orders() {
     let steps = [0.1, 0.05, 0.025];
     let rk4 = steps.map(|h| (h, oscillator_errors(&Rk4::new(h))));
-    let constant = |h| Rk45 { step: Some(h), ..Rk45::default() };
+    let constant = |h| Rk45 { control: StepControl { step: Some(h), ..StepControl::default() } };
     let rk45 = steps.map(|h| (h, oscillator_errors(&constant(h))));
     let end = |all: [(f64, (f64, f64)); 3]| slope(&all.map(|(h, e)| (h, e.0)));
     let between = |all: [(f64, (f64, f64)); 3]| slope(&all.map(|(h, e)| (h, e.1)));
@@ -107,7 +107,8 @@ fn a_pair_with_a_constant_step_lands_as_well() {
             times.push(s.t);
             Flow::Continue
         };
-        let method = Dop853 { step: Some(step), ..Dop853::new(1e-14, 1e-14) };
+        let method =
+            Dop853 { control: StepControl { step: Some(step), ..StepControl::new(1e-14, 1e-14) } };
         let mut system = plain(2, oscillator);
         let done =
             method.integrate(&mut system, t0, t_end, &mut [1.0, 0.0], &mut observer).unwrap();

@@ -1,7 +1,7 @@
 //! Step for step the control of scipy.
 
 use super::*;
-use kempe::integrate::{Atol, Ended, Rk45};
+use kempe::integrate::{Atol, Ended, Rk45, StepControl};
 
 /// Steps, evaluations and last state of `scipy.integrate.solve_ivp(f, (t0, t1), y0, method="RK45",
 /// rtol=…, atol=…)`, scipy 1.17.1.
@@ -47,12 +47,19 @@ fn rk45_takes_the_steps_of_scipy_backward_and_with_options() {
     assert_eq!((done.steps, done.evaluations), (38, 230));
     assert!((y[0] - 4.9081311863546624e-05).abs() < 1e-13);
 
-    let each = Rk45 { atol: Atol::Each(vec![1e-9, 1e-5]), max_step: 0.05, ..Rk45::new(1e-6, 0.0) };
+    let each = Rk45 {
+        control: StepControl {
+            atol: Atol::Each(vec![1e-9, 1e-5]),
+            max_step: 0.05,
+            ..StepControl::new(1e-6, 0.0)
+        },
+    };
     let mut y = [2.0, 0.0];
     let done = run(&each, plain(2, van_der_pol), (0.0, 20.0), &mut y).unwrap();
     assert_eq!((done.steps, done.evaluations), (401, 2408));
 
-    let first = Rk45 { first_step: Some(1.0), ..Rk45::new(1e-6, 1e-9) };
+    let first =
+        Rk45 { control: StepControl { first_step: Some(1.0), ..StepControl::new(1e-6, 1e-9) } };
     let mut y = [2.0, 0.0];
     let done = run(&first, plain(2, van_der_pol), (0.0, 20.0), &mut y).unwrap();
     assert_eq!((done.steps, done.rejected, done.evaluations), (243, 60, 1819));

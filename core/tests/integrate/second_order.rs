@@ -1,7 +1,7 @@
 //! The extension of DOP853 for systems of second order: one evaluation, through the step before.
 
 use super::*;
-use kempe::integrate::{Dop853, Observer};
+use kempe::integrate::{Dop853, Observer, StepControl};
 
 /// q̈ = a(t, q) with w = ∫ q̇² dt; y = (q, v, w).
 struct Mass<F> {
@@ -12,7 +12,7 @@ struct Mass<F> {
     changes: bool,
 }
 
-impl<F: Fn(f64, f64) -> f64> FirstOrder for Mass<F> {
+impl<F: Fn(f64, f64) -> f64> Ode for Mass<F> {
     type Stop = String;
     fn len(&self) -> usize {
         3
@@ -27,7 +27,7 @@ impl<F: Fn(f64, f64) -> f64> FirstOrder for Mass<F> {
         dy.copy_from_slice(&[y[1], (self.a)(t, y[0]), y[1] * y[1]]);
         Ok(())
     }
-    fn trying(&mut self, _: f64, _: &[f64], _: f64) -> bool {
+    fn before_trial(&mut self, _: f64, _: &[f64], _: f64) -> bool {
         self.changes
     }
 }
@@ -74,7 +74,10 @@ fn circle(step: &Step<'_>, t: f64) -> [f64; 3] {
 
 fn constant(told: bool, h: f64, look: bool) -> ([f64; 3], Statistics, [f64; 3]) {
     let mut observer = Errors { truth: circle, look, worst: [0.0; 3] };
-    let (mut y, method) = ([1.0, 0.0, 0.0], Dop853 { step: Some(h), ..Dop853::default() });
+    let (mut y, method) = (
+        [1.0, 0.0, 0.0],
+        Dop853 { control: StepControl { step: Some(h), ..StepControl::default() } },
+    );
     let done = method.integrate(&mut oscillating(told), 0.0, 8.0, &mut y, &mut observer).unwrap();
     (y, done, observer.worst)
 }
@@ -118,7 +121,8 @@ fn it_is_exact_to_the_ninth_degree_over_unequal_steps() {
     };
     let a = |t: f64, _: f64| 72.0 * t.powi(7);
     let mut system = Mass { a, told: true, changes: false };
-    let method = Dop853 { first_step: Some(0.1), ..Dop853::new(1e-12, 1e-12) };
+    let method =
+        Dop853 { control: StepControl { first_step: Some(0.1), ..StepControl::new(1e-12, 1e-12) } };
     method.integrate(&mut system, 0.0, 1.0, &mut [0.0; 3], &mut observer).unwrap();
     assert!(worst[0] < 1e-13 && worst[1] < 1e-12, "{worst:?}");
     assert!(ratios[0] < 0.6 && ratios[1] > 1.0, "{ratios:?}");
@@ -127,7 +131,7 @@ fn it_is_exact_to_the_ninth_degree_over_unequal_steps() {
 #[test]
 fn rates_are_the_derivative_of_positions_and_both_meet_the_ends() {
     let mut observer = |step: &Step<'_>| {
-        let (h, d) = (step.t - step.t_old, step.dense.degree());
+        let (h, d) = (step.t - step.t_old, step.interpolant.degree());
         let (mut c, mut z) = (vec![0.0; 3 * d], [0.0; 3]);
         step.coefficients(&mut c);
         step.interpolate(step.t, &mut z);
@@ -143,7 +147,10 @@ fn rates_are_the_derivative_of_positions_and_both_meet_the_ends() {
         }
         Flow::Continue
     };
-    let (mut y, method) = ([1.0, 0.0, 0.0], Dop853 { step: Some(0.5), ..Dop853::default() });
+    let (mut y, method) = (
+        [1.0, 0.0, 0.0],
+        Dop853 { control: StepControl { step: Some(0.5), ..StepControl::default() } },
+    );
     method.integrate(&mut oscillating(true), 0.0, 8.0, &mut y, &mut observer).unwrap();
 }
 
@@ -153,12 +160,14 @@ fn it_does_without_where_equations_change_or_steps_differ_much() {
     let step = Some(0.5);
     let mut looks = |_: &Step<'_>| Flow::Continue;
     let mut changing = Mass { changes: true, ..oscillating(true) };
-    let (mut y, method) = ([1.0, 0.0, 0.0], Dop853 { step, ..Dop853::default() });
+    let (mut y, method) =
+        ([1.0, 0.0, 0.0], Dop853 { control: StepControl { step, ..StepControl::default() } });
     let done = method.integrate(&mut changing, 0.0, 8.0, &mut y, &mut looks).unwrap();
     assert_eq!(done.evaluations, 1 + 16 * (12 + 1 + 3));
 
     // 0.001, 0.01, 0.1 and the rest
-    let growing = Dop853 { first_step: Some(1e-3), ..Dop853::new(0.1, 0.1) };
+    let growing =
+        Dop853 { control: StepControl { first_step: Some(1e-3), ..StepControl::new(0.1, 0.1) } };
     let mut y = [1.0, 0.0, 0.0];
     let done = growing.integrate(&mut oscillating(true), 0.0, 1.0, &mut y, &mut looks).unwrap();
     assert_eq!((done.steps, done.evaluations), (4, 1 + 4 * 15));
@@ -178,7 +187,10 @@ fn a_state_inside_off_the_domain_costs_the_extension_alone() {
     };
     let mut observer = Errors { truth: circle, look: true, worst: [0.0; 3] };
     let mut system = Mass { a, told: true, changes: false };
-    let (mut y, method) = ([1.0, 0.0, 0.0], Dop853 { step: Some(0.1), ..Dop853::default() });
+    let (mut y, method) = (
+        [1.0, 0.0, 0.0],
+        Dop853 { control: StepControl { step: Some(0.1), ..StepControl::default() } },
+    );
     let done = method.integrate(&mut system, 0.0, 0.2, &mut y, &mut observer).unwrap();
     assert_eq!((done.steps, done.evaluations), (2, 29));
     assert!(observer.worst[0] > 1e-8 && observer.worst[0] < 1e-6, "{:?}", observer.worst);

@@ -1,11 +1,12 @@
 //! Mechanisms from text, for the tests that include this file; not every test uses all of it.
 #![allow(dead_code)]
 
-use kempe::analyses::assemble::{assemble, wishes, Failure, Report, Request, Wish};
-use kempe::analyses::dynamics::{dynamics, Options, Output, Run, Scheme};
+use kempe::analyses::assemble::{assemble, targets, Failure, Report, Request, Target};
+use kempe::analyses::dynamics::{dynamics, Options, Run, Scheme};
 use kempe::analyses::State;
 use kempe::case::{read, Format};
-use kempe::integrate::{Atol, Flow, Rk45};
+use kempe::equations::kinematics::Motions;
+use kempe::integrate::{Flow, Rk45};
 use kempe::model::{build, Model, Value};
 
 /// The flagship, as users get it.
@@ -122,11 +123,11 @@ pub fn with(text: &str, overrides: &[(&str, f64)]) -> Model {
     build(&case.definition, &overrides).unwrap_or_else(|p| panic!("{p:#?}"))
 }
 
-/// Wishes written as in a file, such as ("crank.angle", "70*deg").
-pub fn asked(model: &Model, section: &str, written: &[(&str, &str)]) -> Vec<Wish> {
+/// Targets written as in a file, such as ("crank.angle", "70*deg").
+pub fn asked(model: &Model, section: &str, written: &[(&str, &str)]) -> Vec<Target> {
     let written: Vec<_> =
         written.iter().map(|(key, text)| (key.to_string(), Value::from(*text))).collect();
-    wishes(model, section, &written).unwrap_or_else(|p| panic!("{p:#?}"))
+    targets(model, section, &written).unwrap_or_else(|p| panic!("{p:#?}"))
 }
 
 /// What assembly is asked for.
@@ -158,8 +159,8 @@ pub fn four_bar() -> (Model, State) {
 
 /// Options with the given tolerances.
 pub fn tolerances(t_end: f64, rtol: f64, atol: f64) -> Options {
-    let scheme = Scheme::Rk45(Rk45 { rtol, atol: Atol::Scalar(atol), ..Rk45::default() });
-    Options { scheme, dense_output: false, ..Options::classical(t_end) }
+    let scheme = Scheme::Rk45(Rk45::new(rtol, atol));
+    Options { method: scheme, dense_output: false, ..Options::classical(t_end) }
 }
 
 /// Runs to the end, or panics with what is wrong.
@@ -169,18 +170,18 @@ pub fn run(model: &Model, state: &State, options: &Options) -> Run {
 
 /// Output every `h`.
 pub fn every(h: f64, options: Options) -> Options {
-    Options { output: Output::Every(h), ..options }
+    Options { output_step: Some(h), ..options }
 }
 
 /// Column of the coordinate `x`, `y` or `angle` of a body in q.
 pub fn column(model: &Model, body: &str, coordinate: usize) -> usize {
-    3 * (model.body(body).expect("a body").0 - 1) + coordinate
+    model.layout.bodies[model.body(body).expect("a body").0].first + coordinate
 }
 
 /// Φ at a state.
 pub fn residual(model: &Model, state: &State) -> Vec<f64> {
     let mut phi = vec![0.0; model.layout.n_rows];
-    let motions = kempe::equations::kinematics::at_rest(&state.q);
+    let motions = Motions::at_rest(&model.layout, &state.q);
     kempe::equations::constraints::residual(model, &motions, state.t, &mut phi);
     phi
 }
@@ -188,8 +189,7 @@ pub fn residual(model: &Model, state: &State) -> Vec<f64> {
 /// Φ_q q̇ + Φ_t at a state.
 pub fn rate(model: &Model, state: &State) -> Vec<f64> {
     let m = model.layout.n_rows;
-    let mut motions = Vec::new();
-    kempe::equations::kinematics::motions(&state.q, &state.v, &mut motions);
+    let motions = Motions::at(&model.layout, &state.q, &state.v);
     let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
     kempe::equations::constraints::velocity_terms(
         model, &motions, state.t, &mut phi, &mut rate, &mut gamma,

@@ -14,7 +14,7 @@ fn a_free_body_falls() {
     assert_eq!(state.v[2], 3.0);
     let run = run(&m, &state, &every(0.25, tolerances(1.0, 1e-10, 1e-12)));
     assert_eq!(run.trajectory.t.len(), 5);
-    assert!(run.responses(&m).unwrap().lam.is_empty());
+    assert!(run.accelerations(&m).unwrap().lam.is_empty());
     let centre = |k: usize| {
         let q = &run.trajectory.q[3 * k..];
         kempe::math::Pose::new(q[0], q[1], q[2]).point(m.bodies[1].center)
@@ -73,7 +73,7 @@ fn a_truss_stands_and_has_reactions() {
     assert!(crate::mechanisms::largest(&residual(&m, &state)) < 1e-12);
     let run = run(&m, &state, &every(0.1, tolerances(0.5, 1e-8, 1e-10)));
     let last = run.trajectory.t.len() - 1;
-    let lam = &run.responses(&m).unwrap().lam[6 * last..];
+    let lam = &run.accelerations(&m).unwrap().lam[6 * last..];
     // each bar's weight half on its foot; the feet push the crown up against 10 N, at 45°: the force
     // on ground is λ
     close("foot", lam[1], -10.0, 1e-9);
@@ -113,9 +113,9 @@ value = "crank.x*crank.y + 0.5*t"
     let run = run(&m, &state, &tolerances(0.4, 1e-6, 1e-9));
     close("x", state.q[0], x, 1e-14);
     close("vx", state.v[0], dx, 1e-13);
-    close("ax", run.responses(&m).unwrap().a[0], ddx, 1e-12);
+    close("ax", run.accelerations(&m).unwrap().a[0], ddx, 1e-12);
     close("angle", state.q[2], x * y + 0.5 * t, 1e-14);
     close("omega", state.v[2], dx * y + x * dy + 0.5, 1e-13);
-    close("alpha", run.responses(&m).unwrap().a[2], ddx * y + 2.0 * dx * dy + x * ddy, 1e-12);
+    close("alpha", run.accelerations(&m).unwrap().a[2], ddx * y + 2.0 * dx * dy + x * ddy, 1e-12);
     assert_eq!(mobility(&m, 0.4, &state.q).degrees_of_freedom, 0);
 }

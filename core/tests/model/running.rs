@@ -1,7 +1,7 @@
 //! Forward dynamics at its edges.
 
 use crate::mechanisms::{close, every, four_bar, model, run, start, tolerances, worst, PENDULUM};
-use kempe::analyses::dynamics::{dynamics, Failure, Options, Output, Reason, Stabilization};
+use kempe::analyses::dynamics::{dynamics, Failure, Options, Reason, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::Gains;
 use kempe::integrate::Flow;
@@ -47,7 +47,7 @@ fn no_time_at_all_reports_the_start() {
         assert!(run.reached && run.statistics.steps == 0);
         assert_eq!(run.trajectory.t, [0.0]);
         assert_eq!(run.trajectory.q, state.q);
-        assert_eq!(run.responses(&m).unwrap().a.len(), 3);
+        assert_eq!(run.accelerations(&m).unwrap().a.len(), 3);
     }
 }
 
@@ -73,7 +73,7 @@ fn options_that_cannot_be() {
         stabilization: Stabilization::Baumgarte(Gains { alpha, beta }),
         ..tolerances(1.0, 1e-6, 1e-9)
     };
-    let output = |h| Options { output: Output::Every(h), ..tolerances(1.0, 1e-6, 1e-9) };
+    let output = |h| Options { output_step: Some(h), ..tolerances(1.0, 1e-6, 1e-9) };
     for (options, expected) in [
         (output(0.0), "output_step"),
         (output(-1.0), "output_step"),
@@ -110,7 +110,7 @@ fn a_force_that_ceases_to_exist_names_the_time() {
     assert!(message.contains("infinite or undefined at t = 0.5"), "{message}");
     assert!(failure.run.trajectory.t.len() > 3, "what came before is kept");
     let last = *failure.run.trajectory.t.last().unwrap();
-    assert!(last > 0.4 && failure.run.responses(&m).unwrap().lam.iter().all(|x| x.is_finite()));
+    assert!(last > 0.4 && failure.run.accelerations(&m).unwrap().lam.iter().all(|x| x.is_finite()));
 }
 
 #[test]
@@ -160,8 +160,8 @@ fn a_singular_start_is_named() {
     };
     let (a, b) = (end(&double, 3, &double.trajectory.q), end(&single, 3, &single.trajectory.q));
     assert!(worst(&a, &b) < 1e-7, "{a:?} {b:?}");
-    let both = double.responses(&allowed).unwrap().lam;
-    let alone = single.responses(&model(PENDULUM)).unwrap().lam;
+    let both = double.accelerations(&allowed).unwrap().lam;
+    let alone = single.accelerations(&model(PENDULUM)).unwrap().lam;
     let (two, one) = (end(&double, 4, &both), end(&single, 2, &alone));
     // how twins share is rounding (1e-16) over damping (1e-10); what they carry together is not
     let (first, only) = (&both[..4], &alone[..2]);

@@ -3,8 +3,8 @@
 mod matrix;
 
 use kempe::math::{Dual, Lanes, Real};
-use kempe::solve::{Dependent, Pattern, RowBlock, Saddle};
-use matrix::{chain, four_bar, hub, tangle, weight, Matrix, Random};
+use kempe::solve::{rank, Dependent, Group, InverseMass, Pattern, RowBlock, Saddle};
+use matrix::{chain, four_bar, hub, inverse_mass, tangle, Matrix, Random};
 
 /// Gaussian elimination with partial pivoting.
 fn dense_solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
@@ -60,6 +60,17 @@ fn right_side(m: &Matrix, random: &mut Random) -> Vec<f64> {
     (0..m.n()).map(|_| random.next()).collect()
 }
 
+/// Without what pads the last group.
+fn unpadded(m: &Matrix, pattern: &Pattern, x: &[f64]) -> Vec<f64> {
+    [&x[..m.unknowns()], &x[pattern.n_unknowns()..]].concat()
+}
+
+/// The other way round, with a number in the padding that must not matter.
+fn padded(m: &Matrix, pattern: &Pattern, x: &[f64]) -> Vec<f64> {
+    let padding = vec![1e3; pattern.n_unknowns() - m.unknowns()];
+    [&x[..m.unknowns()], &padding, &x[m.unknowns()..]].concat()
+}
+
 /// Solved with the factor at hand, to a relative residual; the same with the right side beside the blocks.
 fn solved(
     m: &Matrix,
@@ -67,11 +78,13 @@ fn solved(
     b: &[f64],
     bound: f64,
 ) -> Vec<f64> {
-    let [mut x, mut beside] = [b.to_vec(), b.to_vec()];
+    let [mut x, mut beside] = [0, 1].map(|_| padded(m, pattern, b));
     saddle.solve(pattern, &mut x);
+    let x = unpadded(m, pattern, &x);
     let residual = relative_residual(m, &x, b);
     assert!(residual < bound, "n = {}: {residual:e}", m.n());
     saddle.factor_and_solve(pattern, &mut beside).unwrap();
+    let beside = unpadded(m, pattern, &beside);
     let apart: Vec<f64> = x.iter().zip(&beside).map(|(a, b)| a - b).collect();
     assert!(norm(&apart) <= 1e-12 * norm(&x), "n = {}", m.n());
     x
@@ -93,25 +106,92 @@ fn random_mechanisms_are_solved_to_rounding() {
 }
 
 #[test]
-fn anchored_groups_are_solved_to_rounding() {
-    let mut random = Random(17);
-    for mut m in cases(&mut random) {
-        m.masses.iter_mut().for_each(|mass| mass[1] = mass[0]);
-        // more groups with an anchor, and one with a second that stays free
-        for group in [1, 0] {
-            m.push(2, &[(Some(group), -1.0)], &mut random);
+fn short_groups_are_solved_to_rounding() {
+    let mut random = Random(23);
+    let mut solvable = 0;
+    for k in 0..120 {
+        let bodies = 4 + k % 9;
+        let mut m = Matrix::mechanism(bodies, &[], &mut random);
+        for b in 1..bodies {
+            let size = 1 + usize::from(b % 4 == 3);
+            m.push(size, &[(Some(b - 1), -1.0), (Some(b), 1.0)], &mut random);
         }
-        let (pattern, mut saddle) = m.anchored();
-        assert_eq!(pattern.anchors().len(), m.anchors().len());
+        let three = [0, 2, 3].map(|b| (Some((k + b) % bodies), 1.0));
+        m.push(3, &three, &mut random);
+        let m = m.shortened(&mut random);
+        let pattern = m.pattern();
+        let mut saddle = m.saddle(&pattern);
+        let b = right_side(&m, &mut random);
+        // more rows than short groups have unknowns: damped
+        saddle.damping = vec![0.3; m.rows()];
+        let mut dense = m.dense();
+        (m.unknowns()..m.n()).for_each(|k| dense[k][k] = -0.3);
+        saddle.factor(&pattern).unwrap();
+        let mut x = padded(&m, &pattern, &b);
+        saddle.solve(&pattern, &mut x);
+        let mut beside = padded(&m, &pattern, &b);
+        saddle.factor_and_solve(&pattern, &mut beside).unwrap();
+        let reference = dense_solve(dense, b.clone());
+        for x in [x, beside] {
+            let x = unpadded(&m, &pattern, &x);
+            let apart: Vec<f64> = x.iter().zip(&reference).map(|(a, b)| a - b).collect();
+            assert!(norm(&apart) < 1e-11 * norm(&reference), "n = {}: {:e}", m.n(), norm(&apart));
+        }
+        // and without damping, where A has full rank
+        saddle.damping.clear();
+        if saddle.factor(&pattern).is_ok() {
+            solved(&m, (&pattern, &mut saddle), &b, 1e-11);
+            solvable += 1;
+        }
+    }
+    assert!(solvable >= 5, "{solvable}");
+}
+
+#[test]
+fn condensed_groups_are_solved_to_rounding() {
+    let mut random = Random(17);
+    let (mut pins, mut slides, mut solvable) = (0, 0, 0);
+    for (n, mut m) in cases(&mut random).into_iter().enumerate() {
+        m.masses.iter_mut().for_each(|mass| mass[1] = mass[0]);
+        // more condensed groups, by a pin or a slide, and one with a second pair that stays
+        match n % 3 {
+            0 => m.push_slide(1, &mut random),
+            _ => m.push(2, &[(Some(1), -1.0)], &mut random),
+        }
+        if n % 2 == 0 {
+            m.push(2, &[(Some(0), -1.0)], &mut random);
+        }
+        let (pattern, mut saddle) = m.condensed();
+        assert_eq!(pattern.condensed().len(), m.condensable().len());
         let b = right_side(&m, &mut random);
         if saddle.factor(&pattern).is_err() {
-            // two pins of one body, or a body too many: the matrix is singular without anchors as well
-            let pattern = m.pattern();
-            assert!(m.saddle(&pattern).factor(&pattern).is_err(), "n = {}", m.n());
+            // two pins of one body, or a body too many
+            let dense = m.dense();
+            let rows: Vec<f64> =
+                dense[m.unknowns()..].iter().flat_map(|row| row[..m.unknowns()].to_vec()).collect();
+            assert!(rank(&rows, m.unknowns(), 1e-6).rank < m.rows(), "n = {}", m.n());
             continue;
         }
+        solvable += 1;
+        let of_slides = pattern.condensed().iter().filter(|place| place.sign == 0.0).count();
+        slides += of_slides;
+        pins += pattern.condensed().len() - of_slides;
         solved(&m, (&pattern, &mut saddle), &b, 1e-12);
     }
+    assert!(pins > 20 && slides > 5 && solvable > 30, "{pins} {slides} {solvable}");
+}
+
+#[test]
+fn condensed_rows_that_depend_on_each_other_are_refused() {
+    let mut m = four_bar(&mut Random(29));
+    m.push_slide(1, &mut Random(31));
+    let n = m.entries.len();
+    m.entries[n - 1] = m.entries[n - 2];
+    m.masses.iter_mut().for_each(|mass| mass[1] = mass[0]);
+    let (pattern, mut saddle) = m.condensed();
+    assert_eq!(saddle.factor(&pattern), Err(Dependent::Row(m.rows() - 2)));
+    let mut x = vec![1.0; m.n()];
+    assert!(saddle.factor_and_solve(&pattern, &mut x).is_err());
 }
 
 #[test]
@@ -137,7 +217,7 @@ fn mass_ratios_of_a_million_million_keep_the_digits() {
 fn damping_stands_on_the_diagonal() {
     // W = I, A = (1 0 0): [1 1; 1 -μ] (x, λ) = (3, 1)
     let blocks = [RowBlock { size: 1, touches: vec![(0, 0)], signs: vec![] }];
-    let pattern = Pattern::new(vec![false], &blocks, &[]);
+    let pattern = Pattern::new(&[Group::body(false)], &blocks, &[]);
     let mut saddle = Saddle::new(&pattern);
     saddle.entries[0] = [1.0, 0.0, 0.0];
     saddle.damping.push(3.0);
@@ -171,7 +251,7 @@ fn near_dependence_shows_as_cancellation() {
     let apart = [0, 1].map(|r| RowBlock { size: 1, touches: vec![(0, 3 * r)], signs: vec![] });
     let together = [RowBlock { size: 2, touches: vec![(0, 0)], signs: vec![] }];
     for blocks in [&apart[..], &together[..]] {
-        let pattern = Pattern::new(vec![false], blocks, &[]);
+        let pattern = Pattern::new(&[Group::body(false)], blocks, &[]);
         let mut saddle = Saddle::new(&pattern);
         saddle.entries.copy_from_slice(&[[1.0, 0.0, 0.0], [1.0, 1e-4, 0.0]]);
         saddle.factor(&pattern).unwrap();
@@ -184,11 +264,13 @@ fn near_dependence_shows_as_cancellation() {
 #[test]
 fn unusable_masses_and_rows_are_refused() {
     let blocks = [RowBlock { size: 1, touches: vec![(1, 0)], signs: vec![] }];
-    let pattern = Pattern::new(vec![false; 2], &blocks, &[]);
+    let pattern = Pattern::new(&[Group::body(false); 2], &blocks, &[]);
     let good = [1.0, 2.0, 3.0];
     let refused = |group: usize, column: usize, inverse: f64, entries: [f64; 3]| {
         let mut saddle = Saddle::new(&pattern);
-        saddle.weights[group].inverse[column] = inverse;
+        let mut diagonal = [1.0; 3];
+        diagonal[column] = inverse;
+        saddle.masses[group] = InverseMass::diagonal(diagonal);
         saddle.entries[0] = entries;
         saddle.factor(&pattern).err()
     };
@@ -203,8 +285,7 @@ fn unusable_masses_and_rows_are_refused() {
     let mut lanes = Saddle::<Lanes>::new(&pattern);
     lanes.entries[0][0] = Lanes::new([1.0, 0.0, 1.0, 1.0]);
     assert_eq!(lanes.factor(&pattern), Err(Dependent::Row(0)));
-    let nothing =
-        Pattern::new(vec![], &[RowBlock { size: 2, touches: vec![], signs: vec![] }], &[]);
+    let nothing = Pattern::new(&[], &[RowBlock { size: 2, touches: vec![], signs: vec![] }], &[]);
     assert_eq!(Saddle::<f64>::new(&nothing).factor(&nothing), Err(Dependent::Row(0)));
 }
 
@@ -214,9 +295,9 @@ fn lanes_equal_scalars() {
     let designs: [Matrix; 4] = std::array::from_fn(|_| four_bar(&mut random));
     let pattern = designs[0].pattern();
     let mut saddle = Saddle::<Lanes>::new(&pattern);
-    for (k, mass) in saddle.weights.iter_mut().enumerate() {
+    for (k, mass) in saddle.masses.iter_mut().enumerate() {
         let lane = |c: usize| Lanes::new(std::array::from_fn(|w| designs[w].masses[k][c]));
-        *mass = weight(&std::array::from_fn(lane));
+        *mass = inverse_mass(&std::array::from_fn(lane));
     }
     for (k, row) in saddle.entries.iter_mut().enumerate() {
         *row =
@@ -254,8 +335,8 @@ fn dual_solutions_carry_the_derivative() {
     };
     let dual = |value: f64, slope: f64| Dual { value, slope: [slope] };
     let mut saddle = Saddle::<Dual<1>>::new(&pattern);
-    for ((weight_, d), s) in saddle.weights.iter_mut().zip(&m.masses).zip(&drift) {
-        *weight_ = weight(&std::array::from_fn(|c| dual(d[c], s[c])));
+    for ((mass, d), s) in saddle.masses.iter_mut().zip(&m.masses).zip(&drift) {
+        *mass = inverse_mass(&std::array::from_fn(|c| dual(d[c], s[c])));
     }
     for ((row, e), s) in saddle.entries.iter_mut().zip(&m.entries).zip(&slope) {
         *row = std::array::from_fn(|c| dual(e[c], s[c]));

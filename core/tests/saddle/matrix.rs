@@ -1,7 +1,7 @@
 //! Random mechanisms as matrices.
 
 use kempe::math::Real;
-use kempe::solve::{Anchor, Pattern, RowBlock, Saddle, Weight};
+use kempe::solve::{CondensedGroup, Group, InverseMass, Pattern, RowBlock, Saddle};
 
 /// xorshift64*: reproducible numbers in [-1, 1).
 pub struct Random(pub u64);
@@ -15,9 +15,11 @@ impl Random {
     }
 }
 
-/// [W Aᵀ; A -μI] as numbers: W by its five entries (d₀, d₁, d₂, b₀, b₁) for each group.
+/// [W Aᵀ; A -μI] as numbers: W by its five entries (d₀, d₁, d₂, b₀, b₁) for each group; those that a shorter group
+/// does not have are 1 and 0.
 #[derive(Clone)]
 pub struct Matrix {
+    pub sizes: Vec<usize>,
     pub masses: Vec<[f64; 5]>,
     pub blocks: Vec<RowBlock>,
     pub entries: Vec<[f64; 3]>,
@@ -32,13 +34,35 @@ impl Matrix {
             [d[0], d[1], d[2], 0.3 * random.next(), 0.3 * random.next()] // origin off the mass centre
         };
         let masses = (0..bodies).map(&mut mass).collect();
-        let mut m = Self { masses, blocks: vec![], entries: vec![] };
+        let mut m = Self { sizes: vec![3; bodies], masses, blocks: vec![], entries: vec![] };
         for (k, &(i, j)) in pins.iter().enumerate() {
             let size = if k % 5 == 4 { 1 } else { 2 };
             let bodies = [(Some(i), -1.0), (j, 1.0)];
             m.push(size, &bodies, random);
         }
         m
+    }
+
+    /// The same with groups of one to three unknowns.
+    pub fn shortened(mut self, random: &mut Random) -> Self {
+        for (size, mass) in self.sizes.iter_mut().zip(&mut self.masses) {
+            *size = 1 + ((random.next() + 1.0) * 1.5) as usize;
+            let unit = [1.0, 1.0, 1.0, 0.0, 0.0];
+            if *size < 3 {
+                *mass = std::array::from_fn(|c| if c < *size { mass[c] } else { unit[c] });
+            }
+        }
+        for block in &mut self.blocks {
+            for &(group, first) in &block.touches {
+                for row in &mut self.entries[first / 3..first / 3 + block.size] {
+                    row[self.sizes[group]..].fill(0.0);
+                }
+            }
+            if block.touches.iter().any(|&(group, _)| self.sizes[group] == 1) {
+                block.signs.clear(); // no room for a unit block
+            }
+        }
+        self
     }
 
     /// A joint: x and y of points, then a combination of all coordinates.
@@ -59,74 +83,93 @@ impl Matrix {
         self.blocks.push(RowBlock { size, touches, signs });
     }
 
+    /// Two rows at one group that do not begin with ±I, such as those of a slide.
+    pub fn push_slide(&mut self, group: usize, random: &mut Random) {
+        let touches = vec![(group, 3 * self.entries.len())];
+        let (c, s) = (random.next(), random.next());
+        self.entries.extend([[c, s, random.next()], [0.0, 0.0, 1.0]]);
+        self.blocks.push(RowBlock { size: 2, touches, signs: vec![] });
+    }
+
+    /// First unknown of each group.
+    pub fn starts(&self) -> Vec<usize> {
+        (0..self.sizes.len()).map(|k| self.sizes[..k].iter().sum()).collect()
+    }
+
+    pub fn unknowns(&self) -> usize {
+        self.sizes.iter().sum()
+    }
+
+    /// Unknowns and rows, without padding.
     pub fn n(&self) -> usize {
-        3 * self.masses.len() + self.rows()
+        self.unknowns() + self.rows()
     }
 
     pub fn rows(&self) -> usize {
         self.blocks.iter().map(|b| b.size).sum()
     }
 
-    pub fn pattern(&self) -> Pattern {
-        Pattern::new(vec![true; self.masses.len()], &self.blocks, &[])
+    fn groups(&self) -> Vec<Group> {
+        self.sizes.iter().map(|&size| Group { size, coupled: size == 3 }).collect()
     }
 
-    pub fn weights(&self) -> Vec<Weight> {
-        self.masses.iter().map(weight).collect()
+    pub fn pattern(&self) -> Pattern {
+        Pattern::new(&self.groups(), &self.blocks, &[])
     }
 
     pub fn saddle(&self, pattern: &Pattern) -> Saddle<f64> {
         let mut saddle = Saddle::new(pattern);
-        saddle.weights = self.weights();
+        saddle.masses = self.masses.iter().map(inverse_mass).collect();
         saddle.entries.clone_from(&self.entries);
         saddle
     }
 
-    /// Pairs of rows that hold one group alone, one for each group that has any.
-    pub fn anchors(&self) -> Vec<usize> {
-        let mut held = vec![false; self.masses.len()];
-        let holds = |b: &RowBlock| b.size == 2 && b.signs.len() == 1;
+    /// Pairs of rows at one group of three unknowns alone, one for each group that has any.
+    pub fn condensable(&self) -> Vec<usize> {
+        let mut held: Vec<bool> = self.sizes.iter().map(|size| *size < 3).collect();
+        let holds = |b: &RowBlock| b.size == 2 && b.touches.len() == 1;
         let first = |k: &usize| !std::mem::replace(&mut held[self.blocks[*k].touches[0].0], true);
         (0..self.blocks.len()).filter(|k| holds(&self.blocks[*k])).filter(first).collect()
     }
 
-    /// The same matrix with the anchors as such; d₀ = d₁.
-    pub fn anchored(&self) -> (Pattern, Saddle<f64>) {
-        let anchors = self.anchors();
-        let pattern = Pattern::new(vec![true; self.masses.len()], &self.blocks, &anchors);
+    /// The same matrix with these condensed; d₀ = d₁.
+    pub fn condensed(&self) -> (Pattern, Saddle<f64>) {
+        let condensed = self.condensable();
+        let pattern = Pattern::new(&self.groups(), &self.blocks, &condensed);
         let mut saddle = self.saddle(&pattern);
-        for (k, block) in anchors.iter().map(|k| &self.blocks[*k]).enumerate() {
+        for (k, block) in condensed.iter().map(|k| &self.blocks[*k]).enumerate() {
             let (group, entry) = (block.touches[0].0, block.touches[0].1 / 3);
             let [d, _, d2, b0, b1] = self.masses[group];
-            let shift = [0, 1].map(|i| block.signs[0] * self.entries[entry + i][2]);
-            let moment = [b0 - d * shift[0], b1 - d * shift[1]];
-            let about = d2 - shift[0] * (b0 + moment[0]) - shift[1] * (b1 + moment[1]);
-            saddle.anchors[k] = Anchor { mass: d, inverse: 1.0 / about, moment, shift };
-            let inverse = [0.0, 0.0, 1.0 / about];
-            saddle.weights[group] = Weight { inverse, shift, held: 1.0 / d };
+            saddle.condensed[k] = CondensedGroup::new(d, [b0, b1], d2);
+            let mass = &mut saddle.masses[group];
+            (mass.translation, mass.held) = ([0.0; 2], 1.0 / d);
+            if let [sign] = block.signs[..] {
+                let b = [self.entries[entry][2], self.entries[entry + 1][2]];
+                mass.along = 1.0 / saddle.condensed[k].about_pin(sign, b).1;
+            }
         }
         (pattern, saddle)
     }
 
     pub fn dense(&self) -> Vec<Vec<f64>> {
-        let (n, first) = (self.n(), 3 * self.masses.len());
+        let (n, first, starts) = (self.n(), self.unknowns(), self.starts());
         let mut a = vec![vec![0.0; n]; n];
-        for (k, d) in self.masses.iter().enumerate() {
-            for c in 0..3 {
-                a[3 * k + c][3 * k + c] = d[c];
+        for ((&at, &size), d) in starts.iter().zip(&self.sizes).zip(&self.masses) {
+            for c in 0..size {
+                a[at + c][at + c] = d[c];
             }
-            for c in 0..2 {
-                a[3 * k + c][3 * k + 2] = d[3 + c];
-                a[3 * k + 2][3 * k + c] = d[3 + c];
+            for c in 0..2 * usize::from(size == 3) {
+                a[at + c][at + 2] = d[3 + c];
+                a[at + 2][at + c] = d[3 + c];
             }
         }
         let mut start = first;
         for block in &self.blocks {
             for &(group, at) in &block.touches {
                 for (r, entries) in self.entries[at / 3..at / 3 + block.size].iter().enumerate() {
-                    for (c, &e) in entries.iter().enumerate() {
-                        a[start + r][3 * group + c] = e;
-                        a[3 * group + c][start + r] = e;
+                    for (c, &e) in entries.iter().enumerate().take(self.sizes[group]) {
+                        a[start + r][starts[group] + c] = e;
+                        a[starts[group] + c][start + r] = e;
                     }
                 }
             }
@@ -136,11 +179,12 @@ impl Matrix {
     }
 }
 
-pub fn weight<S: Real>(d: &[S; 5]) -> Weight<S> {
-    let shift = [d[3] / d[0], d[4] / d[1]];
-    let left = d[2] - shift[0] * d[3] - shift[1] * d[4];
+pub fn inverse_mass<S: Real>(d: &[S; 5]) -> InverseMass<S> {
     let one = S::one();
-    Weight { inverse: [one / d[0], one / d[1], one / left], shift, held: S::zero() }
+    let e = [-(d[3] / d[0]), -(d[4] / d[1])];
+    let left = d[2] + e[0] * d[3] + e[1] * d[4];
+    let diagonal = InverseMass::diagonal([d[0], d[1], left].map(|d| one / d));
+    InverseMass { direction: [e[0], e[1], one], ..diagonal }
 }
 
 pub fn four_bar(random: &mut Random) -> Matrix {

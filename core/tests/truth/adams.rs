@@ -2,7 +2,7 @@
 
 use crate::mechanisms::{close, model, run, start, tolerances, worst};
 use crate::{number, numbers, reference};
-use kempe::elements::Side;
+use kempe::elements::BodyId;
 use kempe::equations::kinematics;
 use kempe::equations::reactions::{reaction, Frame};
 
@@ -40,7 +40,7 @@ fn compare(case: &str, text: &str) {
         let run = run(&m, &state, &tolerances(t, 1e-10, 1e-13));
         let last = run.trajectory.t.len() - 1;
         let at = |table: &[f64], n: usize| table[last * n..][..n].to_vec();
-        let found = run.responses(&m).unwrap();
+        let found = run.accelerations(&m).unwrap();
         let (a, lam) = (at(&found.a, 3), at(&found.lam, 2));
         state.t = t;
         state.q = at(&run.trajectory.q, 3);
@@ -48,9 +48,8 @@ fn compare(case: &str, text: &str) {
         assert!(worst(&state.q, &numbers(&truth["q"])) < 1e-8, "{case} t = {t}: q");
         assert!(worst(&state.v, &numbers(&truth["v"])) < 1e-7, "{case} t = {t}: v");
         assert!(worst(&a, &numbers(&truth["a"])) < 2e-6, "{case} t = {t}: a {a:?}");
-        let mut motions = Vec::new();
-        kinematics::motions(&state.q, &state.v, &mut motions);
-        let on_ground = reaction(&m, 0, Side::I, Frame::Global, &motions, t, &lam);
+        let motions = kinematics::Motions::at(&m.layout, &state.q, &state.v);
+        let on_ground = reaction(&m, 0, BodyId::GROUND, Frame::Global, &motions, t, &lam).unwrap();
         let force = [on_ground.force.x, on_ground.force.y];
         assert!(worst(&force, &numbers(&truth["Rforce"])) < 2e-6, "{case} t = {t}: {force:?}");
         // what ADAMS printed, to its digits

@@ -56,7 +56,7 @@ fn gains_too_small_for_the_tolerance() {
 /// β h = 5 is beyond the stability of RK4: seen at the end of a step, long before the first report.
 #[test]
 fn gains_too_great_for_the_step() {
-    let options = Options { scheme: Scheme::Rk4(Rk4::new(0.005)), ..tolerances(15.0, 1e-3, 1e-6) };
+    let options = Options { method: Scheme::Rk4(Rk4::new(0.005)), ..tolerances(15.0, 1e-3, 1e-6) };
     let (failure, at) = failed(&every(5.0, with(options, 1.0, 1000.0)));
     assert_eq!(failure.run.trajectory.t, [0.0]);
     assert!(at < 5.0, "{at}");

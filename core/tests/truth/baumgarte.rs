@@ -1,10 +1,10 @@
 //! Baumgarte's stabilization with gains from the step: order, residual and energy against fixed gains.
 
 use crate::mechanisms::{every, four_bar, largest, model, residual, run, start, tolerances, worst};
-use kempe::analyses::dynamics::{Options, Output, Run, Scheme, Stabilization};
+use kempe::analyses::dynamics::{Options, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::Gains;
-use kempe::integrate::{Dop853, Rk4, Rk45};
+use kempe::integrate::{Dop853, Rk4, Rk45, StepControl};
 use kempe::model::Model;
 
 const FROM_STEP: Stabilization = Stabilization::BaumgarteFromStep;
@@ -100,8 +100,12 @@ fn end(m: &Model, from: &State, options: &Options) -> Vec<f64> {
 fn constant(order: i32, step: f64) -> Scheme {
     match order {
         4 => Scheme::Rk4(Rk4::new(step)),
-        5 => Scheme::Rk45(Rk45 { step: Some(step), ..Rk45::default() }),
-        _ => Scheme::Dop853(Dop853 { step: Some(step), ..Dop853::default() }),
+        5 => Scheme::Rk45(Rk45 {
+            control: StepControl { step: Some(step), ..StepControl::default() },
+        }),
+        _ => Scheme::Dop853(Dop853 {
+            control: StepControl { step: Some(step), ..StepControl::default() },
+        }),
     }
 }
 
@@ -114,7 +118,8 @@ fn the_order_is_kept() {
             let found: Vec<(f64, f64)> = (0..3)
                 .map(|halved| {
                     let scheme = constant(order, t_end / f64::from(steps << halved));
-                    let options = Options { scheme, ..with(Options::classical(t_end), FROM_STEP) };
+                    let options =
+                        Options { method: scheme, ..with(Options::classical(t_end), FROM_STEP) };
                     let gap = open(&m, &run(&m, &from, &options));
                     (worst(&end(&m, &from, &options), &exact), gap)
                 })
@@ -134,7 +139,7 @@ fn fewer_evaluations_leave_less_than_fixed_gains() {
     for ((m, from), rtol) in [(four_bar(), 1e-8), (slider_crank(), 1e-10)] {
         let fixed = run(&m, &from, &every(0.01, with(tolerances(3.0, 1e-6, 1e-9), FIXED)));
         let scheme = Scheme::Dop853(Dop853::new(rtol, 1e-3 * rtol));
-        let options = Options { scheme, ..with(Options::classical(3.0), FROM_STEP) };
+        let options = Options { method: scheme, ..with(Options::classical(3.0), FROM_STEP) };
         let found = run(&m, &from, &every(0.01, options));
         let (few, many) = (found.statistics.evaluations, fixed.statistics.evaluations);
         assert!(2 * few < many, "{few} and {many} evaluations");
@@ -165,7 +170,7 @@ fn constant_steps_leave_a_hundredth_of_what_fixed_gains_do() {
     for (m, from) in [four_bar(), slider_crank()] {
         let at = |stabilization| {
             let options = with(Options::classical(2.0), stabilization);
-            run(&m, &from, &Options { scheme: constant(4, 1e-3), ..options })
+            run(&m, &from, &Options { method: constant(4, 1e-3), ..options })
         };
         let (held, fixed) = (at(FROM_STEP), at(FIXED));
         assert!(open(&m, &held) < 1e-2 * open(&m, &fixed));
@@ -182,10 +187,11 @@ fn a_start_off_the_constraints_comes_back() {
         *q += 1e-5 * (1.0 + k as f64).sin();
     }
     let first = largest(&residual(&m, &from));
-    let method = Rk45 { first_step: Some(1e-9), ..Rk45::new(1e-8, 1e-11) };
+    let method =
+        Rk45 { control: StepControl { first_step: Some(1e-9), ..StepControl::new(1e-8, 1e-11) } };
     let options = Options {
-        scheme: Scheme::Rk45(method),
-        output: Output::Steps,
+        method: Scheme::Rk45(method),
+        output_step: None,
         ..with(Options::classical(0.2), FROM_STEP)
     };
     let run = run(&m, &from, &options);

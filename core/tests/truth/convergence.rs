@@ -18,7 +18,7 @@ fn end(m: &Model, state: &State, options: &Options) -> Vec<f64> {
 fn rk4(t_end: f64, step: f64) -> Options {
     let scheme = Scheme::Rk4(Rk4::new(step));
     Options {
-        scheme,
+        method: scheme,
         stabilization: Stabilization::None,
         dense_output: false,
         ..Options::classical(t_end)

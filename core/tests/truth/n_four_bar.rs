@@ -4,7 +4,7 @@ use crate::mechanisms::{close, largest, model, rate, residual, run, start, toler
 use crate::{number, reference};
 use kempe::analyses::dynamics::{dynamics, Options, Reason, Scheme, Singularity, Stabilization};
 use kempe::analyses::State;
-use kempe::integrate::{AlphaParameters, Atol, Dop853, Flow, GeneralizedAlpha, Radau};
+use kempe::integrate::{AlphaParameters, Dop853, Flow, GeneralizedAlpha, Radau};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 use std::fmt::Write;
@@ -60,7 +60,7 @@ fn compare(n: usize) {
             let energy = energies[0] + energies[1];
             close("energy", energy, number(&truth["initial_energy_J(V=0 at ground line)"]), 1e-9);
             // the joint force on ground is λ, so on the crank -λ: end cranks carry 13.715 N
-            let lam = &run.responses(&m).unwrap().lam[..m.layout.n_rows];
+            let lam = &run.accelerations(&m).unwrap().lam[..m.layout.n_rows];
             close("end pin", -lam[1], 13.715, 1e-9);
             close("end pin", lam[0], 0.0, 1e-9);
             if n > 1 {
@@ -96,7 +96,7 @@ fn by_implicit_methods() {
             (Scheme::GeneralizedAlpha(GeneralizedAlpha::new(parameters, 1e-6, 1e-9)), 1e-4),
         ] {
             let stabilization = Stabilization::Projection(Projection::default());
-            let options = Options { scheme, stabilization, ..Options::classical(0.5) };
+            let options = Options { method: scheme, stabilization, ..Options::classical(0.5) };
             let run = run(&m, &state, &options);
             let last = (run.trajectory.t.len() - 1) * m.layout.n_q;
             let (q, v) = (&run.trajectory.q[last..], &run.trajectory.v[last..]);
@@ -132,10 +132,9 @@ pub fn upright(n: usize) -> (Model, State) {
 }
 
 fn passing(t_end: f64, rtol: f64) -> Options {
-    let scheme =
-        Scheme::Dop853(Dop853 { rtol, atol: Atol::Scalar(1e-3 * rtol), ..Dop853::default() });
+    let scheme = Scheme::Dop853(Dop853::new(rtol, 1e-3 * rtol));
     let stabilization = Stabilization::Projection(Projection::default());
-    Options { scheme, stabilization, dense_output: false, ..Options::classical(t_end) }
+    Options { method: scheme, stabilization, dense_output: false, ..Options::classical(t_end) }
 }
 
 /// Every bar lies on one line about twice a turn, of which there are five in 10 s.

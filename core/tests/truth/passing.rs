@@ -3,9 +3,9 @@
 
 use crate::mechanisms::{close, run};
 use crate::n_four_bar::{upright, windows};
-use kempe::analyses::dynamics::{dynamics, Auto, Options, Output, Reason, Scheme, Stabilization};
+use kempe::analyses::dynamics::{dynamics, Auto, Options, Reason, Scheme, Stabilization};
 use kempe::analyses::State;
-use kempe::integrate::{Atol, Dop853, FirstOrder, Flow, Method, Step};
+use kempe::integrate::{Dop853, Flow, Method, Ode, Step};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 
@@ -21,7 +21,7 @@ impl Pendulum {
 
     /// (ψ, ψ′) at each of the times, from the first on.
     fn swing(&mut self, start: [f64; 2], times: &[f64]) -> Vec<[f64; 2]> {
-        let method = Dop853 { rtol: 1e-13, atol: Atol::Scalar(1e-14), ..Dop853::default() };
+        let method = Dop853::new(1e-13, 1e-14);
         let mut y = start;
         let mut all = vec![start];
         for ends in times.windows(2) {
@@ -33,7 +33,7 @@ impl Pendulum {
     }
 }
 
-impl FirstOrder for Pendulum {
+impl Ode for Pendulum {
     type Stop = ();
     fn len(&self) -> usize {
         2
@@ -46,12 +46,18 @@ impl FirstOrder for Pendulum {
 
 fn every_tenth(scheme: Scheme, t_end: f64) -> Options {
     let stabilization = Stabilization::Projection(Projection::default());
-    let output = Output::Every(0.1);
-    Options { scheme, stabilization, output, dense_output: false, ..Options::classical(t_end) }
+    let output_step = Some(0.1);
+    Options {
+        method: scheme,
+        stabilization,
+        output_step,
+        dense_output: false,
+        ..Options::classical(t_end)
+    }
 }
 
 fn at(rtol: f64) -> Scheme {
-    Scheme::Dop853(Dop853 { rtol, atol: Atol::Scalar(1e-3 * rtol), ..Dop853::default() })
+    Scheme::Dop853(Dop853::new(rtol, 1e-3 * rtol))
 }
 
 /// Largest error of B0; couplers have to stay level, or a window left its branch.

@@ -111,7 +111,7 @@ fn reaction_of_a_rod_released_from_horizontal() {
     let m = with(ROD, &[]);
     let weight = 2.5 * 9.81;
     let run = run(&m, &released(&m, 90.0), &every(0.01, tolerances(0.45, 1e-10, 1e-13)));
-    let lam = run.responses(&m).unwrap().lam;
+    let lam = run.accelerations(&m).unwrap().lam;
     for k in 0..run.trajectory.t.len() {
         let angle = run.trajectory.q[3 * k + 2]; // from 0 down to -π/2
         let below = -angle;
@@ -157,7 +157,7 @@ fn the_point_pendulum_on_a_rod_of_given_length() {
         close("y", q[1], number(&point["y"]), 1e-8);
         assert_eq!(q[2], 0.3);
         // the rod pulls with m (v² - gᵀ r) at r = 1: (3/2) of twice the height that was lost
-        let pull = run.responses(&m).unwrap().lam[last];
+        let pull = run.accelerations(&m).unwrap().lam[last];
         close("tension", pull, 3.0 * 9.81 * -q[1], 1e-6);
     }
 }

@@ -68,8 +68,8 @@ fn both_closures_with_first_and_second_derivatives() {
         close(name, state.q[8].to_degrees(), phi3, 1e-10);
         close(name, state.v[5], number(&values["dphi2/dth"]), 1e-12);
         close(name, state.v[8], number(&values["dphi3/dth"]), 1e-12);
-        close(name, run.responses(&m).unwrap().a[5], number(&values["d2phi2/dth2"]), 1e-11);
-        close(name, run.responses(&m).unwrap().a[8], number(&values["d2phi3/dth2"]), 1e-11);
+        close(name, run.accelerations(&m).unwrap().a[5], number(&values["d2phi2/dth2"]), 1e-11);
+        close(name, run.accelerations(&m).unwrap().a[8], number(&values["d2phi3/dth2"]), 1e-11);
         let side = |left: bool| if left { "open" } else { "crossed" };
         assert_eq!(report.modes.len(), 1);
         assert_eq!(side(report.modes[0].left), closure, "{name}");

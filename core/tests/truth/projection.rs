@@ -2,7 +2,7 @@
 
 use crate::mechanisms::{close, every, four_bar, largest, rate, residual, run, tolerances, worst};
 use crate::{number, numbers, reference};
-use kempe::analyses::dynamics::{Options, Responses, Run, Scheme, Stabilization};
+use kempe::analyses::dynamics::{Accelerations, Options, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::integrate::Dop853;
 use kempe::model::Model;
@@ -57,7 +57,7 @@ fn the_trajectory_at_all_states() {
 fn the_trajectory_at_all_states_by_dop853() {
     let (m, start) = four_bar();
     let scheme = Scheme::Dop853(Dop853::new(1e-9, 1e-12));
-    let options = Options { scheme, ..projected(every(0.01, Options::classical(15.0))) };
+    let options = Options { method: scheme, ..projected(every(0.01, Options::classical(15.0))) };
     let run = run(&m, &start, &options);
     compare(&m, &run);
     // Runge–Kutta 4(5) needs 2303 steps and twice the evaluations
@@ -70,7 +70,7 @@ fn the_trajectory_at_all_states_by_dop853() {
 fn compare(m: &Model, run: &Run) {
     let truth = reference("four_bar");
     let peak = |table: &[f64]| largest(table);
-    let Responses { a, lam } = run.responses(m).unwrap();
+    let Accelerations { a, lam } = run.accelerations(m).unwrap();
     let (peak_a, peak_lam) = (peak(&a), peak(&lam));
     for truth in truth["states"].as_array().unwrap() {
         let t = number(&truth["t"]);

@@ -108,7 +108,7 @@ def _put(text: str, output: Path | None) -> None:
 def _matrices(
     case: Case, wanted: list[str], form: str, *, assembly: bool, t: float | None
 ) -> Iterator[str]:
-    from kempe.labelled import show as labelled
+    from kempe.matrices import show as labelled
 
     state = _state(case, t)
     held = case.held if assembly else {}
@@ -138,7 +138,7 @@ def _state(case: Case, t: float | None) -> State:
 
 
 def _iterations(case: Case, form: str) -> str:
-    from kempe.labelled import iterations
+    from kempe.iterations import iterations
 
     course = iterations(case)
     if form == "csv":
@@ -147,7 +147,7 @@ def _iterations(case: Case, form: str) -> str:
 
 
 def _symbolic(case: Case, form: str) -> str:
-    from kempe.labelled import equations
+    from kempe.symbolic import equations
 
     if form == "csv":
         raise ModelError("--symbolic has no CSV", hint="use --format text or latex")

@@ -5,8 +5,9 @@
 //! size of the mechanism, so that metres and radians can be compared.
 
 use crate::equations::augmented::Augmented;
-use crate::equations::{constraints, kinematics};
-use crate::model::{row_scales, size, Model};
+use crate::equations::constraints;
+use crate::equations::kinematics::Motions;
+use crate::model::{column_scales, row_scales, size, Model};
 use crate::solve::newton::{Damping, Equations, Newton, Options, Outcome, Record};
 
 /// Largest scaled residual of a consistent position.
@@ -32,8 +33,7 @@ impl<'a> Closing<'a> {
     pub fn new(model: &'a Model, t: f64) -> Self {
         let size = size(model);
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
-        let inverse = 1.0 / (size * size);
-        let weights = (0..n).map(|k| if k % 3 == 2 { 1.0 } else { inverse }).collect();
+        let weights = column_scales(model).iter().map(|scale| 1.0 / (scale * scale)).collect();
         let matrix = Augmented::new(model);
         Self {
             model,
@@ -78,8 +78,12 @@ impl<'a> Closing<'a> {
     /// Φ at `q`, in m and rad.
     pub fn phi(&self, q: &[f64]) -> Vec<f64> {
         let mut phi = vec![0.0; self.model.layout.n_rows];
-        constraints::residual(self.model, &kinematics::at_rest(q), self.t, &mut phi);
+        constraints::residual(self.model, &self.at(q), self.t, &mut phi);
         phi
+    }
+
+    fn at(&self, q: &[f64]) -> Motions {
+        Motions::at_rest(&self.model.layout, q)
     }
 
     fn factor(&mut self, levenberg: f64) -> bool {
@@ -101,7 +105,7 @@ impl Equations for Closing<'_> {
     }
 
     fn residual(&mut self, q: &[f64], out: &mut [f64]) -> Result<(), Self::Stop> {
-        constraints::residual(self.model, &kinematics::at_rest(q), self.t, out);
+        constraints::residual(self.model, &self.at(q), self.t, out);
         for (r, s) in out.iter_mut().zip(&self.scales) {
             *r /= s;
         }
@@ -115,7 +119,7 @@ impl Equations for Closing<'_> {
         levenberg: f64,
         step: &mut [f64],
     ) -> Result<(), Self::Stop> {
-        let motions = kinematics::at_rest(q);
+        let motions = self.at(q);
         self.matrix.set_weights(&self.weights);
         constraints::jacobian(self.model, &motions, self.t, self.matrix.jacobian_mut());
         if !self.factor(levenberg) && !self.factor(levenberg.max(REDUNDANT.sqrt())) {
@@ -132,7 +136,7 @@ impl Equations for Closing<'_> {
         Ok(())
     }
 
-    /// Largest component: what the user reads as the gap.
+    /// Euclidean norm.
     fn residual_norm(&self, residual: &[f64]) -> f64 {
         residual.iter().map(|r| r * r).sum::<f64>().sqrt()
     }

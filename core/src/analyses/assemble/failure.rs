@@ -2,11 +2,12 @@
 
 use super::closing::Closing;
 use super::placement::Gap;
-use super::request::{Request, Wish};
+use super::request::{Request, Target};
 use crate::analyses::Mobility;
-use crate::elements::{Constraint, Group};
-use crate::equations::{constraints, kinematics};
-use crate::model::Model;
+use crate::elements::{Attachment, BodyId, Fixes, Group};
+use crate::equations::constraints;
+use crate::equations::kinematics::Motions;
+use crate::model::{ConstraintItem, Model};
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -64,15 +65,15 @@ pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
     if !q.iter().all(|q| q.is_finite()) {
         return None; // then the position is at fault, not a law
     }
-    let motions = kinematics::at_rest(q);
+    let motions = Motions::at_rest(&model.layout, q);
     let m = model.layout.n_rows;
     let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
     constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
     let mut slope = vec![0.0; m];
     let mut entries = vec![0.0; model.layout.n_entries];
     constraints::jacobian(model, &motions, t, &mut entries);
-    for ((row, _), entry) in model.layout.positions().zip(entries) {
-        slope[row] += entry.abs();
+    for (row, _, at) in model.layout.positions() {
+        slope[row] += entries[at].abs();
     }
     slope.iter_mut().zip(&rate).for_each(|(slope, rate)| *slope += rate.abs());
     let lacks = |values: &[f64], what| {
@@ -151,15 +152,15 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
 }
 
 /// "with crank.angle = 70° ", or nothing.
-fn asked(model: &Model, set: &[Wish]) -> String {
+fn asked(model: &Model, set: &[Target]) -> String {
     if set.is_empty() {
         return String::new();
     }
-    let one = |wish: &Wish| {
-        let name = format!("{}.{}", model.bodies[wish.body.0].name, wish.coordinate.name());
-        match wish.coordinate.unit() {
-            "rad" => format!("{name} = {}°", trimmed(wish.value.to_degrees())),
-            unit => format!("{name} = {} {unit}", trimmed(wish.value)),
+    let one = |target: &Target| {
+        let name = format!("{}.{}", model.bodies[target.body.0].name, target.coordinate.name());
+        match target.coordinate.unit() {
+            "rad" => format!("{name} = {}°", trimmed(target.value.to_degrees())),
+            unit => format!("{name} = {} {unit}", trimmed(target.value)),
         }
     };
     format!("with {} ", set.iter().map(one).collect::<Vec<_>>().join(", "))
@@ -173,13 +174,13 @@ fn trimmed(x: f64) -> String {
 
 /// Names of the joints around the shortest loop through a joint, from the first of the file.
 pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
-    let [from, to] = model.constraints[joint].element.ends().map(|b| b.0);
+    let [from, to] = ends(&model.constraints[joint]);
     let mut via: Vec<Option<(usize, usize)>> = vec![None; model.bodies.len()];
     let mut queue = VecDeque::from([to]);
     while let Some(body) = queue.pop_front() {
         for (k, item) in model.constraints.iter().enumerate() {
-            let [i, j] = item.element.ends().map(|b| b.0);
-            let held = matches!(item.element, Constraint::CoordinateDriver(_));
+            let [i, j] = ends(item);
+            let held = item.group == Group::Drivers;
             let next = if i == body { j } else { i };
             let joins = k != joint && !held && (i == body || j == body) && i != j;
             if joins && next != to && via[next].is_none() {
@@ -204,9 +205,15 @@ pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
     Some(names.join("-"))
 }
 
-/// The rates asked for cannot be had.
+/// Bodies i and j of a constraint.
+fn ends(item: &ConstraintItem) -> [usize; 2] {
+    let last = item.bodies.len().saturating_sub(1).min(1);
+    [item.bodies[0].0, item.bodies[last].0]
+}
+
+/// The rates that are set cannot be reached.
 pub(super) fn rates(model: &Model, request: &Request) -> Failure {
-    let set: Vec<Wish> = request.set.iter().filter(|w| w.coordinate.is_rate()).cloned().collect();
+    let set: Vec<Target> = request.set.iter().filter(|w| w.coordinate.is_rate()).cloned().collect();
     let name = set.first().map_or(String::new(), |w| model.bodies[w.body.0].name.clone());
     Failure {
         fault: Fault::Rates,
@@ -249,15 +256,17 @@ fn twin(model: &Model, group: &[usize]) -> Option<String> {
     let [a, b] = [*first, *second].map(|k| &model.constraints[k]);
     let (kind, other) = (a.group.singular(), b.group.singular());
     let mut message = format!("{other} {} repeats {kind} {}", b.name, a.name);
-    if let (Constraint::Revolute(p), Constraint::Revolute(q)) = (&a.element, &b.element) {
-        let name = |body: crate::elements::BodyId, s: &crate::math::Local| {
-            let body = &model.bodies[body.0];
-            let point = body.points.iter().find(|(_, at)| at == s);
-            point.map(|(point, _)| format!("{}.{point}", body.name))
+    if [a, b].iter().all(|item| item.element.fixes() == [Fixes::Points]) {
+        let end = |item: &ConstraintItem, k: usize| -> (BodyId, Attachment) {
+            (item.bodies[k], item.element.attachment(k))
         };
-        if let (true, Some(moving)) = (p.j == q.j || p.j == q.i, name(p.j.body, &p.j.s)) {
-            let held = &model.bodies[p.i.body.0].name;
-            message.push_str(&format!(": both fix point {moving} to {held}"));
+        let (body, at) = end(a, 1);
+        let same = |k| end(b, k).0 == body && end(b, k).1.s == at.s;
+        let moving = &model.bodies[body.0];
+        let point = moving.points.iter().find(|(_, s)| *s == at.s);
+        if let (true, Some((point, _))) = (same(0) || same(1), point) {
+            let held = &model.bodies[a.bodies[0].0].name;
+            message.push_str(&format!(": both fix point {}.{point} to {held}", moving.name));
         }
     }
     Some(message)

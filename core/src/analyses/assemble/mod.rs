@@ -4,28 +4,30 @@
 //! of drivers and of `set` ([`Closing`]), turned by whole turns to relax springs, and given the
 //! consistent velocities nearest to those asked for. What is consistent already is left alone.
 
+mod angle_winding;
 mod closing;
 mod dyad;
 mod failure;
-mod hanging;
+mod open_placement;
 mod placement;
 mod report;
 mod request;
-mod slides;
-mod turns;
+mod slider_placement;
+mod targets;
 mod velocities;
-mod wishes;
 
 pub use closing::Closing;
 pub use failure::{Failure, Fault};
-pub use hanging::hang;
+pub use open_placement::open_placement;
 pub use placement::{place, Dyad, Gap, Placement};
 pub use report::{Mode, Report};
-pub use request::{wishes, Request, Wish};
-pub use wishes::Wishes;
+pub use request::{targets, Request, Target};
+pub use targets::Targets;
 
 use super::{mobility, State};
 use crate::elements::CoordinateOf;
+use crate::equations::kinematics;
+use crate::math::Pose;
 use crate::model::Model;
 use crate::solve::newton::Record;
 use std::sync::Arc;
@@ -49,7 +51,7 @@ pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box
     let (mut q, iterations) = close(model, request, &asked, &mut closing)?;
     let mut report = Report { iterations, ..Report::default() };
     if request.state.is_none() {
-        report.warnings = turns::relax(model, &asked, &mut q);
+        report.warnings = angle_winding::relax(model, &asked, &mut q);
     }
     if let Some(failure) = failure::undefined(model, request.t, &q) {
         return Err(Box::new(failure));
@@ -72,21 +74,19 @@ pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box
 }
 
 /// Drivers and `set` are hard; drawn poses, `guess` and a given state are soft.
-fn asked(model: &Model, request: &Request) -> Wishes {
-    let mut asked = Wishes::of(model, request.t);
+fn asked(model: &Model, request: &Request) -> Targets {
+    let mut asked = Targets::of(model, request.t);
     if let Some(state) = &request.state {
-        for (k, q) in state.q.chunks_exact(3).enumerate() {
-            asked.soft[k + 1] = [Some(q[0]), Some(q[1]), Some(q[2])];
-            asked.turn[k + 1] = true;
-        }
+        asked.approach(model, &state.q);
+        asked.turn[1..].fill(true);
     }
-    for wish in request.guess.iter().filter(|w| !w.coordinate.is_rate()) {
-        asked.soft[wish.body.0][wish.coordinate.column()] = Some(wish.value);
-        asked.turn[wish.body.0] |= wish.coordinate.column() == 2;
+    for target in request.guess.iter().filter(|w| !w.coordinate.is_rate()) {
+        asked.soft[target.body.0][target.coordinate.column()] = Some(target.value);
+        asked.turn[target.body.0] |= target.coordinate.column() == 2;
     }
-    for wish in request.set.iter().filter(|w| !w.coordinate.is_rate()) {
-        asked.hard[wish.body.0][wish.coordinate.column()] = Some(wish.value);
-        asked.turn[wish.body.0] |= wish.coordinate.column() == 2;
+    for target in request.set.iter().filter(|w| !w.coordinate.is_rate()) {
+        asked.hard[target.body.0][target.coordinate.column()] = Some(target.value);
+        asked.turn[target.body.0] |= target.coordinate.column() == 2;
     }
     for (hard, turn) in asked.hard.iter().zip(&mut asked.turn) {
         *turn |= hard[2].is_some();
@@ -104,29 +104,34 @@ pub fn holding(model: &Model, request: &Request) -> Model {
 
 fn held(
     model: &Model,
-    wish: &Wish,
+    target: &Target,
     value: crate::expression::Tape,
 ) -> (String, CoordinateOf, crate::expression::Tape) {
-    let position = crate::elements::Coordinate::ALL[wish.coordinate.column()];
-    let name = format!("set {}", model.bodies[wish.body.0].name);
-    (name, CoordinateOf { body: wish.body, coordinate: position }, value)
+    let position = crate::elements::Coordinate::ALL[target.coordinate.column()];
+    let name = format!("set {}", model.bodies[target.body.0].name);
+    (name, CoordinateOf { body: target.body, coordinate: position }, value)
+}
+
+/// The column of a coordinate or of its rate.
+fn column(model: &Model, target: &Target) -> usize {
+    model.layout.bodies[target.body.0].first + target.coordinate.column()
 }
 
 /// The first position, in the order of preference, from which the mechanism closes.
 fn close(
     model: &Model,
     request: &Request,
-    asked: &Wishes,
+    asked: &Targets,
     closing: &mut Closing<'_>,
 ) -> Result<(Vec<f64>, Vec<Record>), Box<Failure>> {
     if request.from_guess {
-        let mut q = given(asked).unwrap_or_else(|| hang(model, asked));
+        let mut q = given(model, asked).unwrap_or_else(|| open_placement(model, asked));
         return match closing.close(&mut q) {
             (history, true) => Ok((q, history)),
             _ => Err(Box::new(failure::open(closing.model(), request, closing, &q, None))),
         };
     }
-    if let Some(mut q) = given(asked) {
+    if let Some(mut q) = given(model, asked) {
         let (history, closed) = closing.close(&mut q);
         if closed {
             return Ok((q, history));
@@ -147,19 +152,21 @@ fn close(
     Err(Box::new(failure::open(closing.model(), request, closing, &q, gap)))
 }
 
-/// The whole position, if every coordinate is asked for and what is hard lies near what is soft.
-fn given(asked: &Wishes) -> Option<Vec<f64>> {
+/// The whole position, if every coordinate has a target and hard targets lie near soft ones.
+fn given(model: &Model, asked: &Targets) -> Option<Vec<f64>> {
     let near = |b: usize| match (asked.hard[b][2], asked.soft[b][2]) {
         (Some(hard), Some(soft)) => (hard - soft).abs() < NEAR,
         _ => true,
     };
-    let poses: Option<Vec<[f64; 3]>> =
-        (1..asked.soft.len()).map(|b| asked.pose(b).filter(|_| near(b))).collect();
-    poses.map(|poses| poses.into_iter().flatten().collect())
+    let pose =
+        |b: usize| asked.pose(b).filter(|_| near(b)).map(|[x, y, angle]| Pose::new(x, y, angle));
+    let moving: Option<Vec<Pose>> = (1..asked.soft.len()).map(pose).collect();
+    let poses: Vec<Pose> = std::iter::once(Pose::identity()).chain(moving?).collect();
+    Some(kinematics::coordinates(model, &poses))
 }
 
 /// Placements through all undecided choices, those without gaps first.
-fn placements(model: &Model, asked: &Wishes) -> Vec<Placement> {
+fn placements(model: &Model, asked: &Targets) -> Vec<Placement> {
     let mut choices: Vec<usize> = Vec::new();
     let mut found = Vec::new();
     for _ in 0..MOST_PLACEMENTS {
@@ -190,13 +197,13 @@ fn velocities(model: &Model, request: &Request, q: &[f64]) -> Result<Vec<f64>, B
         None => vec![0.0; q.len()],
     };
     let mut drivers = Vec::new();
-    for wish in request.guess.iter().chain(&request.set).filter(|w| w.coordinate.is_rate()) {
-        v[3 * (wish.body.0 - 1) + wish.coordinate.column()] = wish.value;
+    for target in request.guess.iter().chain(&request.set).filter(|w| w.coordinate.is_rate()) {
+        v[column(model, target)] = target.value;
     }
-    for wish in request.set.iter().filter(|w| w.coordinate.is_rate()) {
-        let position = q[3 * (wish.body.0 - 1) + wish.coordinate.column()];
-        let law = crate::expression::Tape::line(position, wish.value, request.t);
-        drivers.push(held(model, wish, law));
+    for target in request.set.iter().filter(|w| w.coordinate.is_rate()) {
+        let position = q[column(model, target)];
+        let law = crate::expression::Tape::line(position, target.value, request.t);
+        drivers.push(held(model, target, law));
     }
     let extended = Model::new(&Arc::new(model.blueprint.holding(&drivers)), &model.parameters);
     let left = velocities::project(&extended, request.t, q, &mut v);
@@ -207,11 +214,9 @@ fn velocities(model: &Model, request: &Request, q: &[f64]) -> Result<Vec<f64>, B
 }
 
 /// Says which assembly mode was taken.
-fn describe(model: &Model, asked: &Wishes, q: &[f64], report: &mut Report) {
+fn describe(model: &Model, asked: &Targets, q: &[f64], report: &mut Report) {
     let mut taken = asked.clone();
-    for (k, q) in q.chunks_exact(3).enumerate() {
-        taken.soft[k + 1] = [Some(q[0]), Some(q[1]), Some(q[2])];
-    }
+    taken.approach(model, q);
     let placement = place(model, &taken, &[]);
     report.modes = report::modes(model, &placement.dyads, q);
     report.alternatives = 2_usize.saturating_pow(report.modes.len() as u32) - 1;

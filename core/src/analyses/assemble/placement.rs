@@ -8,27 +8,22 @@
 //! caller can go through all of them.
 
 use super::dyad::{close, Closure};
-use super::slides::{slides, Rail, Slide};
-use super::wishes::{nearest_turn, Wishes};
-use crate::elements::{BodyId, Side};
+use super::slider_placement::{slides, Rail, Slide};
+use super::targets::{nearest_turn, Targets};
+use crate::elements::Fixes;
+use crate::equations::kinematics;
 use crate::math::{Local, Pose, Vec2};
 use crate::model::Model;
 
-/// Two points that coincide.
-#[derive(Clone, Copy, Debug)]
-struct Pin {
-    constraint: usize,
-    ends: [BodyId; 2],
-    s: [Local; 2],
-}
-
-/// A pin seen from one of its bodies.
+/// Two points that coincide, seen from one of their bodies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leg {
     constraint: usize,
     pub own: Local,
     pub other: usize,
     pub at_other: Local,
+    /// The angle of the own body less that of the other, if the joint fixes it as well.
+    turned: Option<f64>,
 }
 
 /// Two bodies closed as a dyad.
@@ -75,7 +70,7 @@ const TRIED_DEG: [f64; 12] =
     [0.0, 90.0, 45.0, 135.0, -45.0, 180.0, -90.0, -135.0, 20.0, 110.0, -70.0, -160.0];
 
 struct Placer<'a> {
-    wishes: &'a Wishes,
+    targets: &'a Targets,
     legs: Vec<Vec<Leg>>,
     slides: Vec<Vec<Slide>>,
     poses: Vec<Option<Pose>>,
@@ -84,9 +79,9 @@ struct Placer<'a> {
 }
 
 /// Places all bodies; undecided choice k takes option `choices[k]`, or the first.
-pub fn place(model: &Model, wishes: &Wishes, choices: &[usize]) -> Placement {
+pub fn place(model: &Model, targets: &Targets, choices: &[usize]) -> Placement {
     let mut placer = Placer {
-        wishes,
+        targets,
         legs: legs(model),
         slides: slides(model),
         poses: vec![None; model.bodies.len()],
@@ -100,26 +95,27 @@ pub fn place(model: &Model, wishes: &Wishes, choices: &[usize]) -> Placement {
             placer.assume(first);
         }
     }
-    let poses = placer.poses.iter().skip(1).flatten();
-    placer.result.q = poses.flat_map(|p| [p.r.x, p.r.y, p.angle]).collect();
+    let poses: Vec<Pose> = placer.poses.iter().flatten().copied().collect();
+    placer.result.q = kinematics::coordinates(model, &poses);
     placer.result
 }
 
 pub(super) fn legs(model: &Model) -> Vec<Vec<Leg>> {
     let mut legs = vec![Vec::new(); model.bodies.len()];
     for (constraint, item) in model.constraints.iter().enumerate() {
-        let ends = item.element.ends();
-        if !item.element.pins() || ends[0] == ends[1] {
+        let fixes = item.element.fixes();
+        if !fixes.contains(&Fixes::Points) {
             continue;
         }
-        let s = [Side::I, Side::J].map(|side| item.element.attachment(side).s);
-        let pin = Pin { constraint, ends, s };
+        let at = [0, 1].map(|body| item.element.attachment(body));
+        let rigid = fixes.contains(&Fixes::Direction);
         for (own, other) in [(0, 1), (1, 0)] {
-            legs[pin.ends[own].0].push(Leg {
-                constraint: pin.constraint,
-                own: pin.s[own],
-                other: pin.ends[other].0,
-                at_other: pin.s[other],
+            legs[item.bodies[own].0].push(Leg {
+                constraint,
+                own: at[own].s,
+                other: item.bodies[other].0,
+                at_other: at[other].s,
+                turned: rigid.then(|| at[other].axis - at[own].axis),
             });
         }
     }
@@ -157,18 +153,28 @@ impl Placer<'_> {
         self.put(b, pose);
     }
 
+    /// As a joint holds it that also fixes the angle.
+    fn join(&mut self, b: usize, pins: &[(Leg, Vec2)]) {
+        for (leg, target) in pins {
+            if let (Some(turned), Some(other)) = (leg.turned, self.poses[leg.other]) {
+                return self.hang(b, leg, *target, other.angle + turned);
+            }
+        }
+    }
+
     /// Places a body of which enough is known; false if not, or if it stands already.
     fn follow(&mut self, b: usize) -> bool {
         if self.poses[b].is_some() {
             return false;
         }
-        let hard = self.wishes.hard[b];
+        let hard = self.targets.hard[b];
         let pins: Vec<(Leg, Vec2)> = self.carried(b).take(8).collect();
         let apart = |p: &&(Leg, Vec2)| (p.0.own - pins[0].0.own).norm() > 0.0;
         let rail = self.rail(b).map(|(_, rail)| rail);
         let decided = rail.and_then(|rail| (0..2).find_map(|c| rail.reaching(c, hard[c]?)));
         match (hard, pins.as_slice()) {
             ([Some(x), Some(y), Some(angle)], _) => self.put(b, Pose::new(x, y, angle)),
+            (_, pins) if pins.iter().any(|(leg, _)| leg.turned.is_some()) => self.join(b, pins),
             ([_, _, Some(angle)], [(leg, target), ..]) => self.hang(b, leg, *target, angle),
             (_, [(leg, target), ..]) if rail.is_some() => {
                 let angle = rail.map_or(0.0, |rail| rail.pose.angle);
@@ -179,7 +185,7 @@ impl Placer<'_> {
                 let Some((second, at)) = rest.iter().find(apart) else { return false };
                 let (own, global) = (second.own - leg.own, *at - *target);
                 let angle = direction((global.x, global.y)) - direction((own.x, own.y));
-                self.hang(b, leg, *target, self.wishes.nearest_turn(b, angle));
+                self.hang(b, leg, *target, self.targets.nearest_turn(b, angle));
             }
             _ => return false,
         }
@@ -304,7 +310,7 @@ impl Placer<'_> {
     fn decide_place(&mut self, bodies: [usize; 2], closures: [&[Pose; 2]; 2]) -> usize {
         let off = |poses: &[Pose; 2], c: usize| -> Option<f64> {
             let squares = bodies.iter().zip(poses).filter_map(|(b, pose)| {
-                let soft = self.wishes.soft[*b][c]?;
+                let soft = self.targets.soft[*b][c]?;
                 Some(([pose.r.x, pose.r.y][c] - soft).powi(2))
             });
             squares.reduce(|a, b| a + b)
@@ -319,17 +325,17 @@ impl Placer<'_> {
     /// Angle of a body whose arm must point along `global`.
     fn dyad_angle(&self, b: usize, global: Vec2, arm: Local) -> f64 {
         if arm.norm() == 0.0 {
-            return self.wishes.value(b, 2).unwrap_or(0.0);
+            return self.targets.value(b, 2).unwrap_or(0.0);
         }
         let angle = direction((global.x, global.y)) - direction((arm.x, arm.y));
-        self.wishes.nearest_turn(b, angle)
+        self.targets.nearest_turn(b, angle)
     }
 
     /// Which of two closures: the one nearer to the guess, else an undecided choice.
     fn decide(&mut self, bodies: [usize; 2], angles: &[[f64; 2]]) -> usize {
         let distance = |pair: &[f64; 2]| -> Option<f64> {
             let squares = bodies.iter().zip(pair).filter_map(|(b, angle)| {
-                let soft = self.wishes.soft[*b][2]?;
+                let soft = self.targets.soft[*b][2]?;
                 Some((nearest_turn(*angle, soft) - soft).powi(2))
             });
             squares.reduce(|a, b| a + b)
@@ -351,14 +357,14 @@ impl Placer<'_> {
         let open = |b: &usize| self.poses[*b].is_none();
         let all = first..self.poses.len();
         let pinned = |b: &usize| self.carried(*b).next().is_some();
-        let guessed = |b: &usize| self.wishes.value(*b, 2).is_some();
+        let guessed = |b: &usize| self.targets.value(*b, 2).is_some();
         let b = all.clone().filter(open).find(|b| pinned(b) && guessed(b));
-        let b = b.or_else(|| all.clone().filter(open).find(|b| self.wishes.pose(*b).is_some()));
+        let b = b.or_else(|| all.clone().filter(open).find(|b| self.targets.pose(*b).is_some()));
         let b = b.or_else(|| all.clone().filter(open).find(pinned)).unwrap_or(first);
         if let (false, Some((_, rail))) = (pinned(&b), self.rail(b)) {
-            return self.put(b, rail.towards(b, self.wishes));
+            return self.put(b, rail.towards(b, self.targets));
         }
-        let angle = match self.wishes.value(b, 2) {
+        let angle = match self.targets.value(b, 2) {
             Some(angle) => angle,
             None => TRIED_DEG[self.choose(TRIED_DEG.len())].to_radians(),
         };
@@ -366,7 +372,7 @@ impl Placer<'_> {
         match pin {
             Some((leg, target)) => self.hang(b, &leg, target, angle),
             None => {
-                let [x, y] = [0, 1].map(|c| self.wishes.value(b, c).unwrap_or(0.0));
+                let [x, y] = [0, 1].map(|c| self.targets.value(b, c).unwrap_or(0.0));
                 self.put(b, Pose::new(x, y, angle));
             }
         }

@@ -1,8 +1,7 @@
 //! What an assembly tells about itself.
 
 use super::placement::Dyad;
-use crate::elements::Side;
-use crate::equations::kinematics;
+use crate::equations::kinematics::Motions;
 use crate::math::{Local, Motion, Rotation, Vec2};
 use crate::model::Model;
 use crate::solve::newton::Record;
@@ -40,7 +39,7 @@ pub struct Report {
 
 /// The closures of dyads at a position.
 pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<Mode> {
-    let motions = kinematics::at_rest(q);
+    let motions = Motions::at_rest(&model.layout, q);
     let name = |k: usize| model.constraints[k].name.clone();
     let of = |dyad: &Dyad| {
         let [p1, p2] = dyad.anchors.map(|k| point(model, &motions, k));
@@ -62,15 +61,13 @@ pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<Mode> {
 }
 
 fn point(model: &Model, motions: &[Motion], constraint: usize) -> Vec2 {
-    let element = &model.constraints[constraint].element;
-    let [i, _] = element.ends();
-    motions[i.0].pose.point(element.attachment(Side::I).s)
+    let item = &model.constraints[constraint];
+    motions[item.bodies[0].0].pose.point(item.element.attachment(0).s)
 }
 
 /// The direction of a slide, of length 1.
 fn along(model: &Model, motions: &[Motion], constraint: usize) -> Vec2 {
-    let element = &model.constraints[constraint].element;
-    let [i, _] = element.ends();
-    let axis = Rotation::new(element.attachment(Side::I).axis);
-    motions[i.0].pose.global(Local::new(axis.cos, axis.sin))
+    let item = &model.constraints[constraint];
+    let axis = Rotation::new(item.element.attachment(0).axis);
+    motions[item.bodies[0].0].pose.global(Local::new(axis.cos, axis.sin))
 }

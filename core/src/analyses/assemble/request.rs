@@ -7,7 +7,7 @@ use crate::model::{did_you_mean, Model, Problem, Reach, Scope, Value};
 
 /// A value asked for a coordinate or a rate.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wish {
+pub struct Target {
     /// The moving body.
     pub body: BodyId,
     /// Coordinate or rate.
@@ -20,9 +20,9 @@ pub struct Wish {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
     /// Held exactly.
-    pub set: Vec<Wish>,
+    pub set: Vec<Target>,
     /// Approached.
-    pub guess: Vec<Wish>,
+    pub guess: Vec<Target>,
     /// A whole state as guess.
     pub state: Option<State>,
     /// Time, s.
@@ -32,30 +32,27 @@ pub struct Request {
     pub from_guess: bool,
 }
 
-/// Reads wishes such as ("crank.angle", "70*deg"); `section` is `set` or `guess`.
+/// Reads targets such as ("crank.angle", "70*deg"); `section` is `set` or `guess`.
 ///
 /// # Errors
-/// Every faulty wish, with its path in a file.
-pub fn wishes(
+/// Every faulty target, with its path in a file.
+pub fn targets(
     model: &Model,
     section: &str,
     written: &[(String, Value)],
-) -> Result<Vec<Wish>, Vec<Problem>> {
+) -> Result<Vec<Target>, Vec<Problem>> {
     let mut problems = Vec::new();
     let mut found = Vec::new();
     for (key, value) in written {
         let path = ["start".to_string(), section.to_string(), key.clone()];
         let Some((body, coordinate)) = named(model, key, &path, &mut problems) else { continue };
-        let scope = Scope {
-            parameters: model.blueprint.parameters.clone(),
-            bodies: vec!["ground".to_string()],
-        };
+        let scope = Scope::of_parameters(&model.blueprint.parameters);
         let unit = coordinate.unit();
         let tape = scope.formula(value, &path, unit, Reach::Parameters, &mut problems);
         let Some(tape) = tape else { continue };
-        let value = tape.evaluate(&at(&model.parameters, &[], 0.0));
+        let value = tape.evaluate(&at(&model.parameters, &[], &[], 0.0));
         if value.is_finite() {
-            found.push(Wish { body, coordinate, value });
+            found.push(Target { body, coordinate, value });
         } else {
             problems.push(Problem::at(&path, format!("becomes {value}; must be finite")));
         }

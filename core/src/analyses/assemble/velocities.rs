@@ -2,8 +2,8 @@
 //! energy of the difference.
 
 use crate::equations::augmented::Augmented;
-use crate::equations::{constraints, kinematics};
-use crate::math::Motion;
+use crate::equations::kinematics::Motions;
+use crate::equations::{constraints, Compiled};
 use crate::model::{size, Model};
 
 /// Largest velocity residual that is left alone, relative to what it is computed from.
@@ -20,15 +20,14 @@ const MOST: usize = 30;
 /// Makes `v` consistent at `q`; one that is consistent is left untouched. Gives the largest part of
 /// Φ_q q̇ - ν that remains, relative; not near zero if the rates asked for contradict each other.
 pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
-    let mut motions = Vec::new();
-    kinematics::motions(q, v, &mut motions);
+    let motions = Motions::at(&model.layout, q, v);
     let rate = velocity_residual(model, t, &motions);
     let scale = scale(model, v, &rate);
     if largest(&rate) / scale <= TOLERANCE {
         return 0.0;
     }
     let mut matrix = Augmented::new(model);
-    matrix.set_mass(model, &motions);
+    matrix.set_mass(&Compiled::new(model), &motions);
     constraints::jacobian(model, &motions, t, matrix.jacobian_mut());
     let lightest = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
     let left = correct(model, t, q, v, (&mut matrix, lightest, scale));
@@ -36,7 +35,9 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
         return left;
     }
     let turning = size(model).powi(2);
-    matrix.set_weights(&[1.0, 1.0, turning].repeat(model.bodies.len() - 1));
+    let lengths = model.layout.lengths().into_iter();
+    let alike: Vec<f64> = lengths.map(|length| if length { 1.0 } else { turning }).collect();
+    matrix.set_weights(&alike);
     correct(model, t, q, v, (&mut matrix, 1.0, scale))
 }
 
@@ -56,9 +57,9 @@ fn correct(
             return f64::INFINITY;
         }
     }
-    let (mut motions, mut last) = (Vec::new(), f64::INFINITY);
+    let mut last = f64::INFINITY;
     for correction in 0..=MOST {
-        kinematics::motions(q, v, &mut motions);
+        let motions = Motions::at(&model.layout, q, v);
         let rate = velocity_residual(model, t, &motions);
         let left = largest(&rate) / scale;
         let settled = left <= TOLERANCE || left > 0.5 * last;
@@ -79,7 +80,7 @@ fn largest(rate: &[f64]) -> f64 {
 }
 
 /// Φ_q q̇ + Φ_t.
-fn velocity_residual(model: &Model, t: f64, motions: &[Motion]) -> Vec<f64> {
+fn velocity_residual(model: &Model, t: f64, motions: &Motions) -> Vec<f64> {
     let m = model.layout.n_rows;
     let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
     constraints::velocity_terms(model, motions, t, &mut phi, &mut rate, &mut gamma);
@@ -88,10 +89,8 @@ fn velocity_residual(model: &Model, t: f64, motions: &[Motion]) -> Vec<f64> {
 
 fn scale(model: &Model, v: &[f64], rate: &[f64]) -> f64 {
     let size = size(model);
-    let fastest = v
-        .iter()
-        .enumerate()
-        .map(|(k, v)| if k % 3 == 2 { v.abs() * size } else { v.abs() })
-        .fold(0.0, f64::max);
+    let scaled = v.iter().zip(model.layout.lengths());
+    let scaled = scaled.map(|(v, length)| if length { v.abs() } else { v.abs() * size });
+    let fastest = scaled.fold(0.0, f64::max);
     fastest.max(largest(rate)).max(f64::MIN_POSITIVE)
 }

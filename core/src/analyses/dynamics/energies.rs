@@ -1,14 +1,15 @@
 //! Energies at the states of a run, worked out when they are asked for; several at once over lanes.
 
+use super::accelerations::{States, MANY};
 use super::failure::Reason;
-use super::prepared::Common;
-use super::report::Halt;
-use super::respond::{States, MANY};
-use super::system::WORKS;
+use super::model_cache::ModelCache;
+use super::motion_ode::WORKS;
+use super::report_projection::Halt;
 use super::Run;
-use crate::equations::{energy, kinematics};
+use crate::equations::energy;
+use crate::equations::kinematics::Motions;
 use crate::integrate::all_finite;
-use crate::math::{Lanes, Motion, Real};
+use crate::math::{Lanes, Real};
 use crate::model::Model;
 
 /// Number of columns of [`Run::energies`].
@@ -16,7 +17,7 @@ pub const ENERGIES: usize = 2 + WORKS;
 
 /// See [`Prepared::energies`](super::Prepared::energies).
 pub(super) fn energies(
-    (model, common): (&Model, &Common),
+    (model, cache): (&Model, &ModelCache),
     states: States<'_>,
     works: &[f64],
 ) -> Result<Vec<f64>, Reason> {
@@ -25,7 +26,7 @@ pub(super) fn energies(
     let lengths = [n, n, WORKS].map(|width| width * t.len());
     assert_eq!([q.len(), v.len(), works.len()], lengths, "a row for each time");
     let mut found = Vec::with_capacity(ENERGIES * t.len());
-    let rows = mechanical((model, common), states).into_iter().zip(works.chunks_exact(WORKS));
+    let rows = mechanical((model, cache), states).into_iter().zip(works.chunks_exact(WORKS));
     for (k, (energies, works)) in rows.enumerate() {
         if !all_finite(&energies) {
             return Err(Reason::halt(model, t[k], &q[k * n..(k + 1) * n], Halt::NotFinite));
@@ -37,24 +38,28 @@ pub(super) fn energies(
 }
 
 /// Kinetic and potential energy at each state.
-fn mechanical((model, common): (&Model, &Common), States { t, q, v }: States<'_>) -> Vec<[f64; 2]> {
+fn mechanical(
+    (model, cache): (&Model, &ModelCache),
+    States { t, q, v }: States<'_>,
+) -> Vec<[f64; 2]> {
     let (n, mut found) = (model.layout.n_q, Vec::with_capacity(t.len()));
     let mut done = 0;
     if t.len() >= MANY {
-        let (mut motions, none) = (Vec::new(), vec![Lanes::zero(); n]);
+        let wide = cache.wide(model);
+        let (mut motions, none) = (Motions::new(&wide.layout), vec![Lanes::zero(); n]);
         let (mut places, mut rates) = (none.clone(), none);
         for t in t.chunks_exact(Lanes::WIDTH) {
             let rows = done * n..(done + Lanes::WIDTH) * n;
             Lanes::from_rows(&q[rows.clone()], &mut places);
             Lanes::from_rows(&v[rows], &mut rates);
             let t = Lanes::new([t[0], t[1], t[2], t[3]]);
-            let [kinetic, potential] = at(common.wide(model), t, (&places, &rates), &mut motions);
+            let [kinetic, potential] = at(cache.wide(model), t, (&places, &rates), &mut motions);
             let both = kinetic.to_array().into_iter().zip(potential.to_array());
             found.extend(both.map(|(kinetic, potential)| [kinetic, potential]));
             done += Lanes::WIDTH;
         }
     }
-    let mut motions = Vec::new();
+    let mut motions = Motions::new(&model.layout);
     for (k, &t) in t.iter().enumerate().skip(done) {
         let row = k * n..(k + 1) * n;
         found.push(at(model, t, (&q[row.clone()], &v[row]), &mut motions));
@@ -62,14 +67,9 @@ fn mechanical((model, common): (&Model, &Common), States { t, q, v }: States<'_>
     found
 }
 
-fn at<S: Real>(
-    model: &Model<S>,
-    t: S,
-    (q, v): (&[S], &[S]),
-    motions: &mut Vec<Motion<S>>,
-) -> [S; 2] {
-    kinematics::motions(q, v, motions);
-    [energy::kinetic(model, motions), energy::potential(model, motions, t)]
+fn at<S: Real>(model: &Model<S>, t: S, (q, v): (&[S], &[S]), motions: &mut Motions<S>) -> [S; 2] {
+    motions.place(&model.layout, q, v);
+    [energy::kinetic(model, motions), energy::potential(model, motions, &[], t)]
 }
 
 impl Run {
@@ -79,6 +79,6 @@ impl Run {
     /// # Errors
     /// As [`Prepared::energies`](super::Prepared::energies).
     pub fn energies(&self, model: &Model) -> Result<Vec<f64>, Reason> {
-        energies((model, &Common::default()), self.trajectory.states(), &self.trajectory.works)
+        energies((model, &ModelCache::default()), self.trajectory.states(), &self.trajectory.works)
     }
 }

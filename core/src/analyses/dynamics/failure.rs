@@ -1,10 +1,10 @@
 //! How forward dynamics fails, in terms of the mechanism.
 
-use super::apart::Apart;
-use super::report::Halt;
+use super::constraint_violation::Violation;
+use super::report_projection::Halt;
 use super::Run;
 use crate::analyses::mobility::dependent;
-use crate::elements::Equation;
+use crate::elements::{BodyId, Equation};
 use crate::equations::augmented::Dependent;
 use crate::equations::Singular;
 use crate::integrate::{self, Cause};
@@ -66,7 +66,8 @@ impl Reason {
                 (item.name.clone(), message)
             }
             Dependent::Column(column) => {
-                let body = &model.bodies[column / 3 + 1];
+                let body = model.layout.body_of(column).map_or(BodyId::GROUND, |(body, _)| body);
+                let body = &model.bodies[body.0];
                 let (name, inertia) = (body.name.clone(), body.inertia);
                 let (has, remedy) = match inertia > 0.0 {
                     true => (format!("hardly any inertia ({inertia:.1e} kg·m²)"), "a larger"),
@@ -112,7 +113,7 @@ impl Reason {
     }
 
     /// Joints that nothing keeps together.
-    fn apart(model: &Model, t: f64, Apart { row, gap, most }: Apart) -> Self {
+    fn apart(model: &Model, t: f64, Violation { row, gap, most }: Violation) -> Self {
         let (k, equation) = model.layout.owner(row);
         let item = &model.constraints[k];
         let Equation { name, unit } = item.equations[equation];
@@ -129,7 +130,7 @@ impl Reason {
     pub(super) fn halt(model: &Model, t: f64, q: &[f64], halt: Halt) -> Self {
         match halt {
             Halt::Fault(fault) => Self::fault(model, t, q, fault),
-            Halt::Apart(apart) => Self::apart(model, t, apart),
+            Halt::Violation(apart) => Self::apart(model, t, apart),
             Halt::NotFinite => {
                 let (message, hint) = not_finite(t);
                 Self::Integration { t, message, hint }
@@ -191,7 +192,8 @@ const MOST_BODIES: usize = 4;
 fn place(model: &Model, t: f64, q: &[f64], row: usize) -> String {
     let joints = dependent(model, t, q, row);
     let joints: Vec<&str> = joints.iter().map(|k| model.constraints[*k].name.as_str()).collect();
-    let bodies = model.bodies[1..].iter().zip(q.chunks_exact(3)).take(MOST_BODIES);
+    let bodies = model.bodies.iter().zip(&model.layout.bodies).skip(1).take(MOST_BODIES);
+    let bodies = bodies.map(|(body, columns)| (body, columns.of(q)));
     let bodies: Vec<String> = bodies
         .map(|(b, q)| format!("{} x = {:.6} y = {:.6} angle = {:.6}", b.name, q[0], q[1], q[2]))
         .collect();

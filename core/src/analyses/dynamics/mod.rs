@@ -1,44 +1,48 @@
 //! Forward dynamics: the motion of a mechanism under forces, from a consistent state.
 
-mod apart;
-mod approach;
-mod around;
-mod automatic;
-mod batch;
-mod choice;
+mod accelerations;
+mod branch_averaging;
+mod constraint_violation;
 mod energies;
 mod failure;
-mod forecast;
-mod implicit;
+mod initial_stiffness;
+mod lane_batch;
+mod method_options;
+mod method_switching;
+mod methods;
+mod model_cache;
+mod motion_dae;
+mod motion_ode;
 mod options;
-mod output;
 mod prepared;
-mod read;
-mod report;
-mod respond;
-mod singularity;
-mod system;
+mod recorder;
+mod report_projection;
+mod singularity_forecast;
+mod singularity_passage;
+mod stabilizations;
+mod stiffness_detection;
 
-pub use choice::Choice;
+pub use accelerations::{Accelerations, States};
 pub use energies::ENERGIES;
 pub use failure::{Failure, Reason};
-pub use options::{most_steps, Auto, Options, Output, Scheme, Stabilization};
-pub use output::{Dense, Trajectory};
+pub use methods::{Auto, Scheme};
+pub use options::{most_steps, read, Options, Output};
 pub use prepared::Prepared;
-pub use read::read;
-pub use respond::{Responses, States};
-pub use singularity::Singularity;
+pub use recorder::{PiecewiseInterpolant, Trajectory};
+pub use singularity_passage::Singularity;
+pub use stabilizations::Stabilization;
+pub use stiffness_detection::MethodChoice;
 
 use super::State;
 use crate::integrate::{self, Cause, Ended, Flow, ImplicitMethod, Method, Observer, Step};
 use crate::model::Model;
 use crate::stabilize::Fault;
-use automatic::Automatic;
-use implicit::Implicit;
-use output::Recorder;
-use prepared::Common;
+use method_switching::MethodSwitching;
+use model_cache::ModelCache;
+use motion_dae::MotionDae;
+use motion_ode::{MotionOde, WORKS};
+use recorder::Recorder;
 use std::time::Instant;
-use system::{Equations, WORKS};
 
 /// What an integration took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -66,11 +70,11 @@ pub struct Run {
     /// Reported states.
     pub trajectory: Trajectory,
     /// Continuous extension, if it was asked for.
-    pub dense: Option<Dense>,
+    pub dense: Option<PiecewiseInterpolant>,
     /// What it took.
     pub statistics: Statistics,
     /// The method that was chosen, where none was named.
-    pub choice: Option<Choice>,
+    pub choice: Option<MethodChoice>,
     /// Whether t_end was reached; otherwise the observer stopped it.
     pub reached: bool,
     /// Whether it passes singular positions, as runs with projection do.
@@ -106,7 +110,7 @@ pub fn dynamics_by_steps(
 ) -> Result<Run, Box<Failure>> {
     let watch = |_| Flow::Continue;
     let eyes = Eyes { watch, look: Some(&mut look) };
-    simulate((model, &Common::default()), start, options, eyes)
+    simulate((model, &ModelCache::default()), start, options, eyes)
 }
 
 /// What the caller sees of a run.
@@ -118,16 +122,17 @@ struct Eyes<'l, W> {
 }
 
 fn simulate<W: FnMut(f64) -> Flow>(
-    (model, common): (&Model, &Common),
+    (model, cache): (&Model, &ModelCache),
     start: &State,
     options: &Options,
     eyes: Eyes<'_, W>,
 ) -> Result<Run, Box<Failure>> {
-    let clock = Instant::now();
+    // WebAssembly has no clock of its own
+    let clock = (!cfg!(target_family = "wasm")).then(Instant::now);
     options.check(model, start).map_err(|reason| Failure { reason, run: Run::default() })?;
-    let mut system = Equations::new(model, options, common.plan(model));
+    let mut system = MotionOde::new(model, options, cache.plan(model));
     let t0 = options.t_start.unwrap_or(start.t);
-    let wide = output::many(options.output, options.t_end - t0).then(|| common.wide(model));
+    let wide = recorder::many(options.output_step, options.t_end - t0).then(|| cache.wide(model));
     let mut recorder = Recorder::new(&system, wide, options, t0);
     let mut y: Vec<f64> = start.q.iter().chain(&start.v).copied().collect();
     y.resize(y.len() + WORKS, 0.0);
@@ -150,11 +155,11 @@ fn simulate<W: FnMut(f64) -> Flow>(
 }
 
 /// How the integration ended; factorisations beside those that it counts itself; what was chosen.
-type End = (Outcome, usize, Option<Choice>);
+type End = (Outcome, usize, Option<MethodChoice>);
 
 fn integrate_by<'a, O: Observer>(
     options: &'a Options,
-    system: &mut Equations<'a>,
+    system: &mut MotionOde<'a>,
     t0: f64,
     y: &mut [f64],
     observer: &mut O,
@@ -165,22 +170,22 @@ fn integrate_by<'a, O: Observer>(
         let evaluations = taken(&outcome).evaluations;
         (outcome, evaluations, None)
     };
-    match &options.scheme.bounded(model) {
+    match &options.bounded_method(model) {
         Scheme::Rk45(method) => explicit(method.integrate(system, t0, t_end, y, observer)),
         Scheme::Dop853(method) => explicit(method.integrate(system, t0, t_end, y, observer)),
         Scheme::Rk4(method) => explicit(method.integrate(system, t0, t_end, y, observer)),
         Scheme::GeneralizedAlpha(method) => {
-            let mut implicit = Implicit::new(model, options);
+            let mut implicit = MotionDae::new(model, options);
             let outcome = method.integrate(&mut implicit, t0, t_end, y, observer);
             (outcome.map_err(Box::new), implicit.factorisations(), None)
         }
         Scheme::Radau(method) => {
-            let mut implicit = Implicit::new(model, options);
+            let mut implicit = MotionDae::new(model, options);
             let outcome = method.integrate(&mut implicit, t0, t_end, y, observer);
             (outcome.map_err(Box::new), implicit.factorisations(), None)
         }
         Scheme::Auto(auto) => {
-            let mut automatic = Automatic::new(system, options, auto, t0);
+            let mut automatic = MethodSwitching::new(system, options, auto, t0);
             let outcome = automatic.run(system, t0, y, observer);
             (outcome, automatic.factorisations(), Some(automatic.choice))
         }
@@ -221,10 +226,10 @@ fn taken(outcome: &Outcome) -> integrate::Statistics {
 }
 
 fn finish(
-    system: Equations<'_>,
+    system: MotionOde<'_>,
     mut recorder: Recorder<'_>,
     (outcome, factorisations, choice): End,
-    (clock, start): (Instant, &State),
+    (clock, start): (Option<Instant>, &State),
 ) -> Result<Run, Box<Failure>> {
     recorder.flush();
     let reports = recorder.factorisations();
@@ -242,7 +247,7 @@ fn finish(
             + took.factorisations as usize
             + system.factorisations()
             + reports,
-        seconds: clock.elapsed().as_secs_f64(),
+        seconds: clock.map_or(0.0, |clock| clock.elapsed().as_secs_f64()),
     };
     let reached = outcome.as_ref().is_ok_and(|s| s.ended == Ended::Reached);
     let last = trajectory.q.rchunks(n.max(1)).next().unwrap_or(&start.q).to_vec();

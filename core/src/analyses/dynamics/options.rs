@@ -1,10 +1,15 @@
 //! Options of forward dynamics.
 
-use super::{Reason, Singularity};
+use super::failure::Reason;
+use super::methods::Scheme;
+use super::singularity_passage::Singularity;
+use super::stabilizations::Stabilization;
+use crate::analyses::options::{
+    count, flag, name, not_negative, number, options, positive, words, Bounded, Declared, Reader,
+};
 use crate::analyses::State;
 use crate::equations::Gains;
-use crate::integrate::{Atol, Dop853, GeneralizedAlpha, Radau, Rk4, Rk45};
-use crate::model::Model;
+use crate::model::{Model, Problem, Value};
 use crate::stabilize::Projection;
 
 /// Steps times moving bodies of a run that does not bound its steps: some seconds, and half a gigabyte
@@ -15,43 +20,56 @@ const LEAST_BOUND: usize = 50_000;
 /// Most reported states on a grid.
 const MOST_OUTPUTS: f64 = 1e6;
 
-/// The scheme of integration.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Scheme {
-    /// Dormand–Prince 5(4).
-    Rk45(Rk45),
-    /// Dormand–Prince 8(5,3).
-    Dop853(Dop853),
-    /// Classical, fixed step.
-    Rk4(Rk4),
-    /// Implicit, of order 2, at index 3; HHT is one of them.
-    GeneralizedAlpha(GeneralizedAlpha),
-    /// Implicit, of order 5, at index 2.
-    Radau(Radau),
-    /// DOP853, and Radau where the equations prove stiff.
-    Auto(Auto),
+/// Which states are reported without `output_step`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Output {
+    /// The solver's own steps.
+    Steps,
 }
 
-/// Options of the automatic choice of the method.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Auto {
-    /// Relative tolerance.
-    pub rtol: f64,
-    /// Absolute tolerance.
-    pub atol: Atol,
-    /// Longest step, s.
-    pub max_step: f64,
-    /// First step, s; chosen if none.
-    pub first_step: Option<f64>,
-    /// Largest number of steps.
-    pub max_steps: Option<usize>,
-}
+words!(Output { "steps" => Self::Steps });
+words!(Singularity { "stop" => Self::Stop, "pass" => Self::Pass });
 
-impl Scheme {
-    /// Whether it is explicit whatever the equations are, so that Baumgarte's stabilization serves.
-    pub fn is_explicit(&self) -> bool {
-        matches!(self, Self::Rk45(_) | Self::Dop853(_) | Self::Rk4(_))
+options! {
+    /// Motion under forces, by integration of the equations of motion.
+    Options, "dynamics", "Dynamics" (
+        /// Time at which the simulation ends.
+        t_end: number [s]
+    ) {
+        /// Time between the reported states; if absent, the steps of the solver are reported.
+        output_step: Option<positive> [s] = None,
+        /// Method of integration.
+        method: Scheme = Scheme::default(),
+        /// What keeps the constraints from drifting.
+        stabilization: Stabilization = Stabilization::default(),
+        /// Most steps before the solver gives up; if steps of bounded length cannot reach t_end with so many, at
+        /// once. If absent, 1 000 000 over the number of moving bodies, at least 50 000. Half as many rejected steps
+        /// end the run too, if they are over 10 000.
+        max_steps: Option<count> = None,
+        /// Whether the solution can be evaluated at any time.
+        dense_output: flag = true,
+        /// Time at which it starts; if absent, that of the state it starts from.
+        t_start: Option<number> [s] = None,
+        /// At a singular position where the motion does not decide its branch: "stop" with an error, or "pass".
+        singularity: Singularity = Singularity::Stop,
+        /// "steps" reports the steps of the solver, as without this option.
+        output: Option<Output> = None,
+        /// Where it starts: "start" or the name of an earlier analysis; if absent, where the analysis before it ended.
+        from: Option<name> = None,
     }
+    excludes { output_step: output; }
+}
+
+/// Reads the fields of an analysis of type `dynamics`; `path` is where it stands in the file.
+///
+/// # Errors
+/// Every faulty value, with its path.
+pub fn read(
+    model: &Model,
+    fields: &[(String, Value)],
+    path: &[String],
+) -> Result<Options, Vec<Problem>> {
+    Reader::read(model, fields, path, Options::read)
 }
 
 /// Most steps of a run that does not bound them: 1 000 000 over the number of moving bodies, and at
@@ -60,85 +78,22 @@ pub fn most_steps(model: &Model) -> usize {
     (MOST_WORK / (model.bodies.len() - 1).max(1)).max(LEAST_BOUND)
 }
 
-impl Scheme {
-    /// The scheme with a bound on its steps: its own, or [`most_steps`].
-    pub(super) fn bounded(&self, model: &Model) -> Self {
-        let mut bounded = self.clone();
-        let max_steps = match &mut bounded {
-            Self::Rk45(method) => &mut method.max_steps,
-            Self::Dop853(method) => &mut method.max_steps,
-            Self::Rk4(method) => &mut method.max_steps,
-            Self::GeneralizedAlpha(method) => &mut method.max_steps,
-            Self::Radau(method) => &mut method.max_steps,
-            Self::Auto(method) => &mut method.max_steps,
-        };
-        max_steps.get_or_insert(most_steps(model));
-        bounded
-    }
-}
-
-/// What keeps the constraints from drifting.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stabilization {
-    /// Nothing.
-    None,
-    /// Baumgarte's, with gains α and β.
-    Baumgarte(Gains),
-    /// Baumgarte's, with gains from the step, and the term held over it ([`Held`](crate::stabilize::Held)).
-    BaumgarteFromStep,
-    /// Projection of the start, of every accepted and of every reported state.
-    Projection(Projection),
-}
-
-/// Which states are reported.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Output {
-    /// At t₀ + k h up to t_end, and at t_end; h in s.
-    Every(f64),
-    /// The solver's own steps.
-    Steps,
-}
-
-/// All options of forward dynamics.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Options {
-    /// Time at which it ends, s.
-    pub t_end: f64,
-    /// Time at which it starts, s; that of the start if none.
-    pub t_start: Option<f64>,
-    /// Which states are reported.
-    pub output: Output,
-    /// The scheme; without a bound on its steps it is bounded by [`most_steps`].
-    pub scheme: Scheme,
-    /// What keeps the constraints from drifting.
-    pub stabilization: Stabilization,
-    /// What to do at a singular position where the motion does not decide the branch.
-    pub singularity: Singularity,
-    /// Whether the continuous extension of every step is kept.
-    pub dense_output: bool,
-}
-
 impl Options {
-    /// What a user gets who says nothing: the automatic choice of the method, and projection.
-    pub fn new(t_end: f64) -> Self {
-        Self {
-            t_end,
-            t_start: None,
-            output: Output::Steps,
-            scheme: Scheme::Auto(Auto::new()),
-            stabilization: Stabilization::Projection(Projection::default()),
-            singularity: Singularity::Stop,
-            dense_output: true,
-        }
-    }
-
-    /// The classical way: Dormand–Prince at rtol 1e-6, atol 1e-9 with Baumgarte's α = 10, β = 200.
+    /// The classical way: Dormand–Prince with Baumgarte's α = 10, β = 200.
     pub fn classical(t_end: f64) -> Self {
         Self {
-            scheme: Scheme::Rk45(Rk45::new(1e-6, 1e-9)),
-            stabilization: Stabilization::Baumgarte(Gains { alpha: 10.0, beta: 200.0 }),
+            method: Scheme::Rk45(Default::default()),
+            stabilization: Stabilization::classical(),
             ..Self::new(t_end)
         }
+    }
+
+    /// The method with a bound on its steps: its own, that of the run, or [`most_steps`].
+    pub(super) fn bounded_method(&self, model: &Model) -> Scheme {
+        let mut bounded = self.method.clone();
+        let most = self.max_steps.unwrap_or_else(|| most_steps(model));
+        bounded.control_mut().max_steps.get_or_insert(most);
+        bounded
     }
 
     /// The gains that the right side uses.
@@ -151,29 +106,36 @@ impl Options {
 
     /// Refuses what no integration can begin with. The method checks its own options.
     pub(super) fn check(&self, model: &Model, start: &State) -> Result<(), Reason> {
-        if let Output::Every(h) = self.output {
-            require("output_step", h, h > 0.0 && h.is_finite(), "> 0 and finite")?;
+        if let Some(h) = self.output_step {
+            bounded::<positive>("output_step", h)?;
             let interval = (self.t_end - self.t_start.unwrap_or(start.t)).abs();
             let few = h * MOST_OUTPUTS >= interval * (1.0 - 1e-9);
             require("output_step", h, few, "at least 1e-6 of the time that is simulated")?;
         }
         if let Stabilization::Baumgarte(Gains { alpha, beta }) = self.stabilization {
-            require("alpha", alpha, alpha >= 0.0 && alpha.is_finite(), ">= 0 and finite")?;
-            require("beta", beta, beta >= 0.0 && beta.is_finite(), ">= 0 and finite")?;
+            bounded::<not_negative>("alpha", alpha)?;
+            bounded::<not_negative>("beta", beta)?;
         }
         if let Stabilization::Projection(Projection { tolerance }) = self.stabilization {
-            let holds = tolerance > 0.0 && tolerance.is_finite();
-            require("tolerance", tolerance, holds, "> 0 and finite")?;
+            bounded::<positive>("tolerance", tolerance)?;
         }
         let baumgarte = matches!(
             self.stabilization,
             Stabilization::Baumgarte(_) | Stabilization::BaumgarteFromStep
         );
-        if !self.scheme.is_explicit() && baumgarte {
+        if !self.method.is_explicit() && baumgarte {
             let message = "stabilization: Baumgarte's changes the right side of explicit methods; an \
                            implicit one has the constraints among its equations: use projection or none, \
                            or method rk45, dop853 or rk4";
             return Err(Reason::Option { name: "stabilization", message: message.to_string() });
+        }
+        if let (Scheme::Auto(_), Some(step)) = (&self.method, self.method.control().step) {
+            require(
+                "step",
+                step,
+                false,
+                "absent: the automatic choice of the method controls its steps",
+            )?;
         }
         let n = model.layout.n_q;
         let must = format!("as long as the coordinates of the model, {n}");
@@ -182,6 +144,11 @@ impl Options {
         }
         Ok(())
     }
+}
+
+/// Refuses a number that is not finite or not within the bounds of its kind.
+fn bounded<B: Bounded>(name: &'static str, value: f64) -> Result<(), Reason> {
+    require(name, value, value.is_finite() && B::holds(value), &format!("{} and finite", B::MUST))
 }
 
 fn require(name: &'static str, value: f64, holds: bool, must: &str) -> Result<(), Reason> {

@@ -1,15 +1,13 @@
 //! A model made ready for many runs: what each would work out anew is worked out by the first.
 
+use super::accelerations::accelerations;
 use super::energies::energies;
-use super::respond::respond;
-use super::{simulate, Eyes, Failure, Options, Reason, Responses, Run, States};
+use super::model_cache::ModelCache;
+use super::{simulate, Accelerations, Eyes, Failure, Options, Reason, Run, States};
 use crate::analyses::State;
-use crate::equations::Plan;
 use crate::integrate::Flow;
-use crate::math::Lanes;
 use crate::model::Model;
 use std::ops::Deref;
-use std::sync::{Arc, OnceLock};
 
 /// A model and what its runs have in common: the plan of elimination, and the model over lanes once a run wants it.
 ///
@@ -29,33 +27,13 @@ use std::sync::{Arc, OnceLock};
 #[derive(Debug)]
 pub struct Prepared<M> {
     model: M,
-    common: Common,
-}
-
-/// What is worked out at first use.
-#[derive(Debug, Default)]
-pub(super) struct Common {
-    plan: OnceLock<Arc<Plan>>,
-    /// In a box: it is aligned as vector registers are, to more than allocators of other languages give.
-    wide: OnceLock<Box<Model<Lanes>>>,
-}
-
-impl Common {
-    /// The plan of elimination of the equations of motion.
-    pub fn plan(&self, model: &Model) -> Arc<Plan> {
-        Arc::clone(self.plan.get_or_init(|| Arc::new(Plan::of_motion(model))))
-    }
-
-    /// The model over lanes.
-    pub fn wide(&self, model: &Model) -> &Model<Lanes> {
-        self.wide.get_or_init(|| Box::new(model.lift()))
-    }
+    cache: ModelCache,
 }
 
 impl<M: Deref<Target = Model>> Prepared<M> {
     /// Works out nothing yet.
     pub fn new(model: M) -> Self {
-        Self { model, common: Common::default() }
+        Self { model, cache: ModelCache::default() }
     }
 
     /// The model.
@@ -73,7 +51,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         options: &Options,
         watch: impl FnMut(f64) -> Flow,
     ) -> Result<Run, Box<Failure>> {
-        simulate((&self.model, &self.common), start, options, Eyes { watch, look: None })
+        simulate((&self.model, &self.cache), start, options, Eyes { watch, look: None })
     }
 
     /// Solves the equations of motion at states. With `passing` also near singular positions, as runs with projection
@@ -84,13 +62,13 @@ impl<M: Deref<Target = Model>> Prepared<M> {
     ///
     /// # Panics
     /// If the rows do not fit the model or each other.
-    pub fn responses(
+    pub fn accelerations(
         &self,
         states: States<'_>,
         passing: bool,
         watch: impl FnMut(f64) -> Flow,
-    ) -> Result<Responses, Reason> {
-        respond((&self.model, &self.common), states, passing, watch)
+    ) -> Result<Accelerations, Reason> {
+        accelerations((&self.model, &self.cache), states, passing, watch)
     }
 
     /// Kinetic and potential energy at states, J, before what was dissipated and done up to them: `works`, rows of
@@ -102,6 +80,6 @@ impl<M: Deref<Target = Model>> Prepared<M> {
     /// # Panics
     /// If the rows do not fit the model or each other.
     pub fn energies(&self, states: States<'_>, works: &[f64]) -> Result<Vec<f64>, Reason> {
-        energies((&self.model, &self.common), states, works)
+        energies((&self.model, &self.cache), states, works)
     }
 }

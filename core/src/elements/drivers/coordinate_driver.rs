@@ -4,10 +4,9 @@
 //! stands on ground and presses against it. The law may use t and the positions of other bodies.
 
 use crate::elements::{
-    element, Attachment, BodyId, Coordinate, CoordinateOf, Equation, Formula, Joint, SceneSymbol,
-    Side,
+    element, At, Attachment, BodyId, Coordinate, Equation, Fixes, Joint, SceneSymbol,
 };
-use crate::math::{Local, Pose, Real};
+use crate::math::{Local, Real};
 
 element! {
     /// Coordinate driver: x, y or angle of a body is a given function of time, Φ = coordinate - value
@@ -20,55 +19,36 @@ element! {
     }
 }
 
-impl CoordinateDriver {
-    /// A driver that holds a coordinate where it is told: what `set` does during assembly.
-    pub fn hold(coordinate: CoordinateOf, value: f64) -> Self {
-        Self { coordinate, value }
-    }
-}
-
-impl Joint<1> for CoordinateDriver {
-    const FORMULAS: [Formula; 1] = [Formula {
-        residual: "j.coordinate - value",
-        jacobian: ["0", "0", "0", "is_x", "is_y", "is_angle"],
-        gamma: "ddt(value)",
-    }];
-
-    fn ends<S>(e: &CoordinateDriver<S>) -> [BodyId; 2] {
-        [BodyId::GROUND, e.coordinate.body]
+impl Joint for CoordinateDriver {
+    fn bodies<S>(e: &CoordinateDriver<S>) -> Vec<BodyId> {
+        vec![BodyId::GROUND, e.coordinate.body]
     }
 
-    fn equations<S>(e: &CoordinateDriver<S>) -> [Equation; 1] {
+    fn equations<S>(e: &CoordinateDriver<S>) -> Vec<Equation> {
         let coordinate = e.coordinate.coordinate;
-        [Equation { name: coordinate.name(), unit: coordinate.unit() }]
+        vec![Equation { name: coordinate.name(), unit: coordinate.unit() }]
     }
 
-    fn residual<S: Real>(e: &CoordinateDriver<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [S; 1] {
+    fn residual<S: Real>(e: &CoordinateDriver<S>, at: &At<'_, S>, phi: &mut [S]) {
+        let (i, j) = (at.i(), at.j());
         let from_ground = i.rotation.inverse(j.r - i.r);
         let measured = match e.coordinate.coordinate {
             Coordinate::X | Coordinate::Vx => from_ground.x,
             Coordinate::Y | Coordinate::Vy => from_ground.y,
             Coordinate::Angle | Coordinate::Omega => j.angle - i.angle,
         };
-        [measured - e.value]
+        phi[0] = measured - e.value;
     }
 
     fn symbols(e: &CoordinateDriver) -> Vec<SceneSymbol> {
         vec![SceneSymbol::drive(e.coordinate)]
     }
 
-    fn attachment<S: Real>(_: &CoordinateDriver<S>, _: Side) -> Attachment<S> {
+    fn attachment<S: Real>(_: &CoordinateDriver<S>, _: usize) -> Attachment<S> {
         Attachment { s: Local::zero(), axis: S::zero() }
     }
 
-    /// Closed form: a one in the driven column; against it, the ground's columns.
-    fn jacobian<S: Real>(e: &CoordinateDriver<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [[S; 6]; 1] {
-        let (zero, one) = (S::zero(), S::one());
-        let arm = j.r - i.r;
-        [match e.coordinate.coordinate {
-            Coordinate::X | Coordinate::Vx => [-one, zero, arm.y, one, zero, zero],
-            Coordinate::Y | Coordinate::Vy => [zero, -one, -arm.x, zero, one, zero],
-            Coordinate::Angle | Coordinate::Omega => [zero, zero, -one, zero, zero, one],
-        }]
+    fn fixes<S: Clone>(e: &CoordinateDriver<S>) -> Vec<Fixes<S>> {
+        vec![Fixes::Coordinate(e.coordinate, e.value.clone())]
     }
 }

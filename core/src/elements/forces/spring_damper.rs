@@ -8,10 +8,8 @@
 //! taken as zero, the mean of its directions; the damping is -c ḋ, its limit on both sides of a
 //! passage. All states are thus allowed, and the force is finite in all of them.
 
-use crate::elements::{
-    element, Action, BodyId, Force, Mark, Nature, Part, PointOn, SceneSymbol, Situation,
-};
-use crate::math::{Local, Motion, Real, Vec2, Wrench};
+use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
+use crate::math::{Local, Real, Vec2, Wrench};
 
 element! {
     /// Translational spring-damper between two points: with l their distance, the force on j is
@@ -33,20 +31,20 @@ element! {
 }
 
 /// d, l² and l, which is zero with zero slopes where the points meet.
-fn line<S: Real>(e: &SpringDamper<S>, at: &Situation<S>) -> (Vec2<S>, S, S) {
-    let d = at.j.pose.point(e.j.s) - at.i.pose.point(e.i.s);
+fn line<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>) -> (Vec2<S>, S, S) {
+    let d = at.j().pose.point(e.j.s) - at.i().pose.point(e.i.s);
     let squared = d.dot(d);
     (d, squared, S::select(squared, squared.sqrt(), S::zero()))
 }
 
-impl Force<2> for SpringDamper {
-    const PARTS: [Part; 2] = [
+impl Force for SpringDamper {
+    const PARTS: &'static [Part] = &[
         Part { name: "stiffness", nature: Nature::Conservative },
         Part { name: "damping", nature: Nature::Dissipative },
     ];
 
-    fn ends<S>(e: &SpringDamper<S>) -> [BodyId; 2] {
-        [e.i.body, e.j.body]
+    fn bodies<S>(e: &SpringDamper<S>) -> Vec<BodyId> {
+        vec![e.i.body, e.j.body]
     }
 
     fn symbols(e: &SpringDamper) -> Vec<SceneSymbol> {
@@ -57,26 +55,27 @@ impl Force<2> for SpringDamper {
             .collect()
     }
 
-    fn action<S: Real>(e: &SpringDamper<S>, at: &Situation<S>) -> [Action<S>; 2] {
+    fn action<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {
         let (d, squared, l) = line(e, at);
-        let apart = at.j.point_velocity(e.j.s) - at.i.point_velocity(e.i.s);
+        let apart = at.j().point_velocity(e.j.s) - at.i().point_velocity(e.i.s);
         let zero = S::zero();
         let u = Vec2::new(S::select(squared, d.x / l, zero), S::select(squared, d.y / l, zero));
         let rate = u.dot(apart);
         let along = |u: S, apart: S| S::select(squared, u * rate, apart);
         let damped = Vec2::new(along(u.x, apart.x), along(u.y, apart.y));
         let stretched = d - u.scale(e.free_length);
-        let arm = |m: &Motion<S>, p: &PointOn<S>| m.pose.global(p.s);
-        let (arm_i, arm_j) = (arm(&at.i, &e.i), arm(&at.j, &e.j));
-        [stretched.scale(e.stiffness), damped.scale(e.damping)]
-            .map(|pull| Action { on_i: Wrench::at(arm_i, pull), on_j: Wrench::at(arm_j, -pull) })
+        let (arm_i, arm_j) = (at.i().pose.global(e.i.s), at.j().pose.global(e.j.s));
+        let pulls = [stretched.scale(e.stiffness), damped.scale(e.damping)];
+        for (out, pull) in out.chunks_exact_mut(2).zip(pulls) {
+            out.copy_from_slice(&[Wrench::at(arm_i, pull), Wrench::at(arm_j, -pull)]);
+        }
     }
 
     fn points<S: Real>(e: &SpringDamper<S>) -> Option<[Local<S>; 2]> {
         Some([e.i.s, e.j.s])
     }
 
-    fn potential<S: Real>(e: &SpringDamper<S>, at: &Situation<S>) -> S {
+    fn potential<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>) -> S {
         let (_, _, l) = line(e, at);
         let stretch = l - e.free_length;
         S::constant(0.5) * e.stiffness * stretch * stretch

@@ -3,7 +3,7 @@
 //! T = law of time and state; positive turns body j counter-clockwise. Its work counts as applied. All
 //! states.
 
-use crate::elements::{element, Action, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
+use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
 use crate::math::{Real, Wrench};
 
 element! {
@@ -18,11 +18,11 @@ element! {
     }
 }
 
-impl Force<1> for Torque {
-    const PARTS: [Part; 1] = [Part { name: "applied", nature: Nature::Applied }];
+impl Force for Torque {
+    const PARTS: &'static [Part] = &[Part { name: "applied", nature: Nature::Applied }];
 
-    fn ends<S>(e: &Torque<S>) -> [BodyId; 2] {
-        [e.i, e.j]
+    fn bodies<S>(e: &Torque<S>) -> Vec<BodyId> {
+        vec![e.i, e.j]
     }
 
     fn symbols(e: &Torque) -> Vec<SceneSymbol> {
@@ -30,7 +30,7 @@ impl Force<1> for Torque {
         acts.then(|| SceneSymbol::between_bodies(Mark::TorqueArrow, e.i, e.j)).into_iter().collect()
     }
 
-    fn action<S: Real>(e: &Torque<S>, _: &Situation<S>) -> [Action<S>; 1] {
-        [Action { on_i: Wrench::torque(-e.torque), on_j: Wrench::torque(e.torque) }]
+    fn action<S: Real>(e: &Torque<S>, _: &Situation<'_, S>, out: &mut [Wrench<S>]) {
+        out.copy_from_slice(&[Wrench::torque(-e.torque), Wrench::torque(e.torque)]);
     }
 }

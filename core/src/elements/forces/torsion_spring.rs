@@ -3,7 +3,7 @@
 //! θ = φⱼ - φᵢ, continuous, never modulo 2π. Torque on j: -k (θ - θ₀) - c θ̇; opposite on i.
 //! V = ½ k (θ - θ₀)². All real θ.
 
-use crate::elements::{element, Action, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
+use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
 use crate::math::{Real, Wrench};
 
 element! {
@@ -23,14 +23,14 @@ element! {
     }
 }
 
-impl Force<2> for TorsionSpring {
-    const PARTS: [Part; 2] = [
+impl Force for TorsionSpring {
+    const PARTS: &'static [Part] = &[
         Part { name: "stiffness", nature: Nature::Conservative },
         Part { name: "damping", nature: Nature::Dissipative },
     ];
 
-    fn ends<S>(e: &TorsionSpring<S>) -> [BodyId; 2] {
-        [e.i, e.j]
+    fn bodies<S>(e: &TorsionSpring<S>) -> Vec<BodyId> {
+        vec![e.i, e.j]
     }
 
     fn symbols(e: &TorsionSpring) -> Vec<SceneSymbol> {
@@ -41,19 +41,19 @@ impl Force<2> for TorsionSpring {
             .collect()
     }
 
-    fn action<S: Real>(e: &TorsionSpring<S>, at: &Situation<S>) -> [Action<S>; 2] {
-        let stretch = at.j.pose.angle - at.i.pose.angle - e.free_angle;
-        let rate = at.j.twist.omega - at.i.twist.omega;
-        [-(e.stiffness * stretch), -(e.damping * rate)]
-            .map(|torque| Action { on_i: Wrench::torque(-torque), on_j: Wrench::torque(torque) })
+    fn action<S: Real>(e: &TorsionSpring<S>, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {
+        let stretch = at.j().pose.angle - at.i().pose.angle - e.free_angle;
+        let rate = at.j().twist.omega - at.i().twist.omega;
+        let [elastic, damping] = [-(e.stiffness * stretch), -(e.damping * rate)];
+        out.copy_from_slice(&[-elastic, elastic, -damping, damping].map(Wrench::torque));
     }
 
     fn free_angle<S: Real>(e: &TorsionSpring<S>) -> Option<S> {
         Some(e.free_angle)
     }
 
-    fn potential<S: Real>(e: &TorsionSpring<S>, at: &Situation<S>) -> S {
-        let stretch = at.j.pose.angle - at.i.pose.angle - e.free_angle;
+    fn potential<S: Real>(e: &TorsionSpring<S>, at: &Situation<'_, S>) -> S {
+        let stretch = at.j().pose.angle - at.i().pose.angle - e.free_angle;
         S::constant(0.5) * e.stiffness * stretch * stretch
     }
 }

@@ -7,9 +7,9 @@
 //! Φ_q is zero. l > 0.
 
 use crate::elements::{
-    element, Attachment, BodyId, Equation, Formula, Joint, Mark, SceneSymbol, Side, VelocityTerms,
+    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Moving, SceneSymbol,
 };
-use crate::math::{Motion, Pose, Real, Vec2};
+use crate::math::{Real, Vec2};
 
 element! {
     /// Distance: a massless rod between two points, Φ = (d² - length²) / (2 length) with d the
@@ -25,96 +25,51 @@ element! {
     }
 }
 
-impl Joint<1> for Distance {
-    const FORMULAS: [Formula; 1] = [Formula {
-        residual: "((j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-                   - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))^2 \
-                   + (j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-                   - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle))^2 - length^2)/(2*length)",
-        jacobian: [
-            "-(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-             - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))/length",
-            "-(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-             - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle))/length",
-            "((i.s.x*sin(i.angle) + i.s.y*cos(i.angle)) \
-             *(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) - i.x) \
-             - (i.s.x*cos(i.angle) - i.s.y*sin(i.angle)) \
-             *(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) - i.y))/length",
-            "(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-             - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))/length",
-            "(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-             - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle))/length",
-            "((j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-             *(j.y - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)) \
-             - (j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-             *(j.x - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle)))/length",
-        ],
-        gamma: "-((j.vx - j.omega*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-                - i.vx + i.omega*(i.s.x*sin(i.angle) + i.s.y*cos(i.angle)))^2 \
-                + (j.vy + j.omega*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-                - i.vy - i.omega*(i.s.x*cos(i.angle) - i.s.y*sin(i.angle)))^2)/length \
-                + ((j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-                - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle)) \
-                *(j.omega^2*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-                - i.omega^2*(i.s.x*cos(i.angle) - i.s.y*sin(i.angle))) \
-                + (j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-                - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)) \
-                *(j.omega^2*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-                - i.omega^2*(i.s.x*sin(i.angle) + i.s.y*cos(i.angle))))/length",
-    }];
-
-    fn ends<S>(e: &Distance<S>) -> [BodyId; 2] {
-        [e.i.body, e.j.body]
+impl Joint for Distance {
+    fn bodies<S>(e: &Distance<S>) -> Vec<BodyId> {
+        vec![e.i.body, e.j.body]
     }
 
-    fn equations<S>(_: &Distance<S>) -> [Equation; 1] {
-        [Equation { name: "length", unit: "m" }]
+    fn equations<S>(_: &Distance<S>) -> Vec<Equation> {
+        vec![Equation { name: "length", unit: "m" }]
     }
 
-    fn residual<S: Real>(e: &Distance<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [S; 1] {
-        [excess(e, j.point(e.j.s) - i.point(e.i.s))]
+    fn residual<S: Real>(e: &Distance<S>, at: &At<'_, S>, phi: &mut [S]) {
+        phi[0] = excess(e, at.j().point(e.j.s) - at.i().point(e.i.s));
     }
 
     fn symbols(e: &Distance) -> Vec<SceneSymbol> {
         vec![SceneSymbol::between_points(Mark::Rod, &e.i, &e.j)]
     }
 
-    fn attachment<S: Real>(e: &Distance<S>, side: Side) -> Attachment<S> {
-        let s = match side {
-            Side::I => e.i.s,
-            Side::J => e.j.s,
-        };
+    fn attachment<S: Real>(e: &Distance<S>, body: usize) -> Attachment<S> {
+        let s = [e.i.s, e.j.s][body];
         Attachment { s, axis: S::zero() }
+    }
+
+    fn fixes<S: Clone>(e: &Distance<S>) -> Vec<Fixes<S>> {
+        vec![Fixes::Distance(e.length.clone())]
     }
 
     fn fault(e: &Distance) -> Option<(&'static str, String)> {
         (e.length <= 0.0).then(|| ("length", format!("{} m; must be > 0", e.length)))
     }
 
-    /// Closed form: [-uᵀ, -uᵀ Bᵢ s′ᵢ, uᵀ, uᵀ Bⱼ s′ⱼ] with u = d/l (Haug 3.3.9, divided by 2 l).
-    fn jacobian<S: Real>(e: &Distance<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [[S; 6]; 1] {
-        let (a_i, a_j) = (i.global(e.i.s), j.global(e.j.s));
-        let u = (j.r + a_j - (i.r + a_i)).scale(S::one() / e.length);
-        [[-u.x, -u.y, -u.dot(a_i.perp()), u.x, u.y, u.dot(a_j.perp())]]
-    }
-
-    /// Closed form: γ = (dᵀ (Aⱼ s′ⱼ φ̇ⱼ² - Aᵢ s′ᵢ φ̇ᵢ²) - ḋᵀ ḋ) / l.
-    fn velocity_terms<S: Real>(
-        e: &Distance<S>,
-        i: &Motion<S>,
-        j: &Motion<S>,
-        _: S,
-    ) -> VelocityTerms<S, 1> {
+    /// Closed form, with u = d/l: Φ_q = [-uᵀ, -uᵀ Bᵢ s′ᵢ, uᵀ, uᵀ Bⱼ s′ⱼ] (Haug 3.3.9, divided by 2 l),
+    /// γ = (dᵀ (Aⱼ s′ⱼ φ̇ⱼ² - Aᵢ s′ᵢ φ̇ᵢ²) - ḋᵀ ḋ) / l.
+    fn linearize<S: Real>(e: &Distance<S>, at: &Moving<'_, S>, out: Linearized<'_, S>) {
+        let [i, j] = [&at.bodies[0], &at.bodies[1]];
         let (a_i, a_j) = (i.pose.global(e.i.s), j.pose.global(e.j.s));
         let (w_i, w_j) = (i.twist.omega, j.twist.omega);
         let d = j.pose.r + a_j - (i.pose.r + a_i);
+        let u = d.scale(S::one() / e.length);
         let apart = j.point_velocity(e.j.s) - i.point_velocity(e.i.s);
         let inward = a_j.scale(w_j * w_j) - a_i.scale(w_i * w_i);
-        VelocityTerms {
-            residual: [excess(e, d)],
-            rate: [d.dot(apart) / e.length],
-            gamma: [(d.dot(inward) - apart.dot(apart)) / e.length],
-        }
+        out.residual[0] = excess(e, d);
+        out.rate[0] = d.dot(apart) / e.length;
+        out.gamma[0] = (d.dot(inward) - apart.dot(apart)) / e.length;
+        out.columns[0] = [-u.x, -u.y, -u.dot(a_i.perp())];
+        out.columns[1] = [u.x, u.y, u.dot(a_j.perp())];
     }
 }
 

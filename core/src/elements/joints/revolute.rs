@@ -3,9 +3,9 @@
 //! Φ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ = 0. Two equations, no restriction of the domain.
 
 use crate::elements::{
-    element, Attachment, BodyId, Equation, Formula, Joint, Mark, SceneSymbol, Side, VelocityTerms,
+    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Moving, SceneSymbol,
 };
-use crate::math::{Motion, Pose, Real, Vec2};
+use crate::math::Real;
 
 element! {
     /// Revolute joint: two points coincide, Φ = point_j - point_i (Haug 3.3.10).
@@ -20,105 +20,57 @@ element! {
     }
 }
 
-impl Joint<2> for Revolute {
-    const PINS: bool = true;
+impl Joint for Revolute {
+    const CONSTANT_COLUMNS: bool = true;
 
-    const FORMULAS: [Formula; 2] = [
-        Formula {
-            residual: "j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-                       - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle)",
-            jacobian: [
-                "-1",
-                "0",
-                "i.s.x*sin(i.angle) + i.s.y*cos(i.angle)",
-                "1",
-                "0",
-                "-j.s.x*sin(j.angle) - j.s.y*cos(j.angle)",
-            ],
-            gamma: "j.omega^2*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)) \
-                    - i.omega^2*(i.s.x*cos(i.angle) - i.s.y*sin(i.angle))",
-        },
-        Formula {
-            residual: "j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-                       - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)",
-            jacobian: [
-                "0",
-                "-1",
-                "-i.s.x*cos(i.angle) + i.s.y*sin(i.angle)",
-                "0",
-                "1",
-                "j.s.x*cos(j.angle) - j.s.y*sin(j.angle)",
-            ],
-            gamma: "j.omega^2*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle)) \
-                    - i.omega^2*(i.s.x*sin(i.angle) + i.s.y*cos(i.angle))",
-        },
-    ];
-
-    fn ends<S>(e: &Revolute<S>) -> [BodyId; 2] {
-        [e.i.body, e.j.body]
+    fn bodies<S>(e: &Revolute<S>) -> Vec<BodyId> {
+        vec![e.i.body, e.j.body]
     }
 
-    fn equations<S>(_: &Revolute<S>) -> [Equation; 2] {
-        [Equation { name: "x", unit: "m" }, Equation { name: "y", unit: "m" }]
+    fn equations<S>(_: &Revolute<S>) -> Vec<Equation> {
+        vec![Equation { name: "x", unit: "m" }, Equation { name: "y", unit: "m" }]
     }
 
-    fn residual<S: Real>(e: &Revolute<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [S; 2] {
-        let gap = j.point(e.j.s) - i.point(e.i.s);
-        [gap.x, gap.y]
+    fn residual<S: Real>(e: &Revolute<S>, at: &At<'_, S>, phi: &mut [S]) {
+        let gap = at.j().point(e.j.s) - at.i().point(e.i.s);
+        phi.copy_from_slice(&[gap.x, gap.y]);
     }
 
     fn symbols(e: &Revolute) -> Vec<SceneSymbol> {
         vec![SceneSymbol::between_points(Mark::Pin, &e.i, &e.j)]
     }
 
-    fn attachment<S: Real>(e: &Revolute<S>, side: Side) -> Attachment<S> {
-        match side {
-            Side::I => Attachment { s: e.i.s, axis: e.axes[0] },
-            Side::J => Attachment { s: e.j.s, axis: e.axes[1] },
+    fn attachment<S: Real>(e: &Revolute<S>, body: usize) -> Attachment<S> {
+        match body {
+            0 => Attachment { s: e.i.s, axis: e.axes[0] },
+            _ => Attachment { s: e.j.s, axis: e.axes[1] },
         }
     }
 
-    /// Closed form: [-I, -Bᵢ s′ᵢ, I, Bⱼ s′ⱼ] (Haug 3.3.12).
-    fn jacobian<S: Real>(e: &Revolute<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [[S; 6]; 2] {
-        rows(i.global(e.i.s), j.global(e.j.s))
+    fn fixes<S: Clone>(_: &Revolute<S>) -> Vec<Fixes<S>> {
+        vec![Fixes::Points]
     }
 
-    /// Closed form: γ = Aⱼ s′ⱼ φ̇ⱼ² - Aᵢ s′ᵢ φ̇ᵢ² (Haug 3.6.13 with the sign of Φ here).
-    fn velocity_terms<S: Real>(
-        e: &Revolute<S>,
-        i: &Motion<S>,
-        j: &Motion<S>,
-        _: S,
-    ) -> VelocityTerms<S, 2> {
-        terms(i, i.pose.global(e.i.s), j, j.pose.global(e.j.s))
-    }
-
-    fn linearize<S: Real>(
-        e: &Revolute<S>,
-        i: &Motion<S>,
-        j: &Motion<S>,
-        _: S,
-    ) -> (VelocityTerms<S, 2>, [[S; 6]; 2]) {
+    /// Closed form: Φ_q = [-I, -Bᵢ s′ᵢ, I, Bⱼ s′ⱼ] (Haug 3.3.12), γ = Aⱼ s′ⱼ φ̇ⱼ² - Aᵢ s′ᵢ φ̇ᵢ² (Haug
+    /// 3.6.13 with the sign of Φ here).
+    #[inline(always)] // in the loop over all revolute joints
+    fn linearize<S: Real>(e: &Revolute<S>, at: &Moving<'_, S>, out: Linearized<'_, S>) {
+        let [i, j] = [&at.bodies[0], &at.bodies[1]];
         let (a_i, a_j) = (i.pose.global(e.i.s), j.pose.global(e.j.s));
-        (terms(i, a_i, j, a_j), rows(a_i, a_j))
+        let (b_i, b_j) = (a_i.perp(), a_j.perp());
+        let (w_i, w_j) = (i.twist.omega, j.twist.omega);
+        let gap = (j.pose.r + a_j) - (i.pose.r + a_i);
+        let rate = (j.twist.velocity + b_j.scale(w_j)) - (i.twist.velocity + b_i.scale(w_i));
+        let gamma = a_j.scale(w_j * w_j) - a_i.scale(w_i * w_i);
+        out.residual.copy_from_slice(&[gap.x, gap.y]);
+        out.rate.copy_from_slice(&[rate.x, rate.y]);
+        out.gamma.copy_from_slice(&[gamma.x, gamma.y]);
+        let (zero, one) = (S::zero(), S::one());
+        out.columns.copy_from_slice(&[
+            [-one, zero, -b_i.x],
+            [zero, -one, -b_i.y],
+            [one, zero, b_j.x],
+            [zero, one, b_j.y],
+        ]);
     }
-}
-
-/// Φ_q with the arms Aᵢ s′ᵢ and Aⱼ s′ⱼ.
-#[inline(always)]
-fn rows<S: Real>(a_i: Vec2<S>, a_j: Vec2<S>) -> [[S; 6]; 2] {
-    let (b_i, b_j) = (a_i.perp(), a_j.perp());
-    let (zero, one) = (S::zero(), S::one());
-    [[-one, zero, -b_i.x, one, zero, b_j.x], [zero, -one, -b_i.y, zero, one, b_j.y]]
-}
-
-/// Φ, Φ̇ and γ with the same arms.
-#[inline(always)]
-fn terms<S: Real>(i: &Motion<S>, a_i: Vec2<S>, j: &Motion<S>, a_j: Vec2<S>) -> VelocityTerms<S, 2> {
-    let (w_i, w_j) = (i.twist.omega, j.twist.omega);
-    let gap = (j.pose.r + a_j) - (i.pose.r + a_i);
-    let rate =
-        (j.twist.velocity + a_j.perp().scale(w_j)) - (i.twist.velocity + a_i.perp().scale(w_i));
-    let gamma = a_j.scale(w_j * w_j) - a_i.scale(w_i * w_i);
-    VelocityTerms { residual: [gap.x, gap.y], rate: [rate.x, rate.y], gamma: [gamma.x, gamma.y] }
 }

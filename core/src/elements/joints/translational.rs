@@ -8,10 +8,10 @@
 //! of φⱼ - φᵢ, which differ.
 
 use crate::elements::{
-    element, Attachment, BodyId, Equation, Formula, Joint, Mark, SceneSymbol, Side, SymbolEnd,
-    VelocityTerms,
+    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Moving, SceneSymbol,
+    SymbolEnd,
 };
-use crate::math::{Local, Motion, Pose, Real, Rotation, Vec2};
+use crate::math::{Local, Pose, Real, Rotation, Vec2};
 
 element! {
     /// Translational joint: point j stays on the line through point i along the slide, and the
@@ -35,53 +35,19 @@ fn directions<S: Real>(e: &Translational<S>, i: &Pose<S>) -> (Vec2<S>, Vec2<S>) 
     (u, u.perp())
 }
 
-impl Joint<2> for Translational {
-    const SLIDES: bool = true;
-
-    const FORMULAS: [Formula; 2] = [
-        Formula {
-            residual: "cos(i.angle + i.axis)*(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) \
-                       - i.y - i.s.x*sin(i.angle) - i.s.y*cos(i.angle)) \
-                       - sin(i.angle + i.axis)*(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) \
-                       - i.x - i.s.x*cos(i.angle) + i.s.y*sin(i.angle))",
-            jacobian: [
-                "sin(i.angle + i.axis)",
-                "-cos(i.angle + i.axis)",
-                "-cos(i.angle + i.axis)*(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) - i.x) \
-                 - sin(i.angle + i.axis)*(j.y + j.s.x*sin(j.angle) + j.s.y*cos(j.angle) - i.y)",
-                "-sin(i.angle + i.axis)",
-                "cos(i.angle + i.axis)",
-                "j.s.x*cos(i.angle + i.axis - j.angle) + j.s.y*sin(i.angle + i.axis - j.angle)",
-            ],
-            gamma: "j.omega^2*(j.s.y*cos(i.angle + i.axis - j.angle) \
-                    - j.s.x*sin(i.angle + i.axis - j.angle)) \
-                    + 2*i.omega*(cos(i.angle + i.axis)*(j.vx - i.vx \
-                    - j.omega*(j.s.x*sin(j.angle) + j.s.y*cos(j.angle))) \
-                    + sin(i.angle + i.axis)*(j.vy - i.vy \
-                    + j.omega*(j.s.x*cos(j.angle) - j.s.y*sin(j.angle)))) \
-                    + i.omega^2*(cos(i.angle + i.axis)*(j.y + j.s.x*sin(j.angle) \
-                    + j.s.y*cos(j.angle) - i.y) \
-                    - sin(i.angle + i.axis)*(j.x + j.s.x*cos(j.angle) - j.s.y*sin(j.angle) - i.x))",
-        },
-        Formula {
-            residual: "j.angle + j.axis - i.angle - i.axis",
-            jacobian: ["0", "0", "-1", "0", "0", "1"],
-            gamma: "0",
-        },
-    ];
-
-    fn ends<S>(e: &Translational<S>) -> [BodyId; 2] {
-        [e.i.body, e.j.body]
+impl Joint for Translational {
+    fn bodies<S>(e: &Translational<S>) -> Vec<BodyId> {
+        vec![e.i.body, e.j.body]
     }
 
-    fn equations<S>(_: &Translational<S>) -> [Equation; 2] {
-        [Equation { name: "normal", unit: "m" }, Equation { name: "angle", unit: "rad" }]
+    fn equations<S>(_: &Translational<S>) -> Vec<Equation> {
+        vec![Equation { name: "normal", unit: "m" }, Equation { name: "angle", unit: "rad" }]
     }
 
-    fn residual<S: Real>(e: &Translational<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [S; 2] {
-        let (_, n) = directions(e, i);
-        let apart = j.point(e.j.s) - i.point(e.i.s);
-        [n.dot(apart), (j.angle + e.axes[1]) - (i.angle + e.axes[0])]
+    fn residual<S: Real>(e: &Translational<S>, at: &At<'_, S>, phi: &mut [S]) {
+        let (_, n) = directions(e, at.i());
+        let apart = at.j().point(e.j.s) - at.i().point(e.i.s);
+        phi.copy_from_slice(&[n.dot(apart), turned(e, at.i(), at.j())]);
     }
 
     fn symbols(e: &Translational) -> Vec<SceneSymbol> {
@@ -89,40 +55,42 @@ impl Joint<2> for Translational {
         vec![SceneSymbol { mark: Mark::Slide, i, j }]
     }
 
-    fn attachment<S: Real>(e: &Translational<S>, side: Side) -> Attachment<S> {
-        match side {
-            Side::I => Attachment { s: e.i.s, axis: e.axes[0] },
-            Side::J => Attachment { s: e.j.s, axis: e.axes[1] },
+    fn attachment<S: Real>(e: &Translational<S>, body: usize) -> Attachment<S> {
+        match body {
+            0 => Attachment { s: e.i.s, axis: e.axes[0] },
+            _ => Attachment { s: e.j.s, axis: e.axes[1] },
         }
     }
 
-    /// Closed form: [-nᵢᵀ, -uᵢᵀ (rⱼ + Aⱼ s′ⱼ - rᵢ), nᵢᵀ, uᵢᵀ Aⱼ s′ⱼ], since nᵢᵀ Aᵢ s′ᵢ is constant.
-    fn jacobian<S: Real>(e: &Translational<S>, i: &Pose<S>, j: &Pose<S>, _: S) -> [[S; 6]; 2] {
-        let (u, n) = directions(e, i);
-        let arm = j.global(e.j.s);
-        let from_i = j.r + arm - i.r;
-        let (zero, one) = (S::zero(), S::one());
-        [[-n.x, -n.y, -u.dot(from_i), n.x, n.y, u.dot(arm)], [zero, zero, -one, zero, zero, one]]
+    fn fixes<S: Clone>(_: &Translational<S>) -> Vec<Fixes<S>> {
+        vec![Fixes::Line, Fixes::Direction]
     }
 
-    /// Closed form: γ₁ = φ̇ⱼ² nᵢᵀ Aⱼ s′ⱼ + 2 φ̇ᵢ uᵢᵀ ė + φ̇ᵢ² nᵢᵀ e with e = rⱼ + Aⱼ s′ⱼ - rᵢ.
-    fn velocity_terms<S: Real>(
-        e: &Translational<S>,
-        i: &Motion<S>,
-        j: &Motion<S>,
-        t: S,
-    ) -> VelocityTerms<S, 2> {
+    /// Closed form, with e = rⱼ + Aⱼ s′ⱼ - rᵢ: Φ_q = [-nᵢᵀ, -uᵢᵀ e, nᵢᵀ, uᵢᵀ Aⱼ s′ⱼ; 0 0 -1, 0 0 1], since
+    /// nᵢᵀ Aᵢ s′ᵢ is constant; γ₁ = φ̇ⱼ² nᵢᵀ Aⱼ s′ⱼ + 2 φ̇ᵢ uᵢᵀ ė + φ̇ᵢ² nᵢᵀ e.
+    fn linearize<S: Real>(e: &Translational<S>, at: &Moving<'_, S>, out: Linearized<'_, S>) {
+        let [i, j] = [&at.bodies[0], &at.bodies[1]];
         let (u, n) = directions(e, &i.pose);
         let (w_i, w_j) = (i.twist.omega, j.twist.omega);
         let arm = j.pose.global(e.j.s);
         let from_i = j.pose.r + arm - i.pose.r;
         let speed = j.twist.velocity + arm.perp().scale(w_j) - i.twist.velocity;
-        let two = S::constant(2.0);
+        let (two, zero, one) = (S::constant(2.0), S::zero(), S::one());
         let gamma = w_j * w_j * n.dot(arm) + two * w_i * u.dot(speed) + w_i * w_i * n.dot(from_i);
-        VelocityTerms {
-            residual: <Self as Joint<2>>::residual(e, &i.pose, &j.pose, t),
-            rate: [n.dot(speed) - w_i * u.dot(from_i), w_j - w_i],
-            gamma: [gamma, S::zero()],
-        }
+        let apart = j.pose.point(e.j.s) - i.pose.point(e.i.s);
+        out.residual.copy_from_slice(&[n.dot(apart), turned(e, &i.pose, &j.pose)]);
+        out.rate.copy_from_slice(&[n.dot(speed) - w_i * u.dot(from_i), w_j - w_i]);
+        out.gamma.copy_from_slice(&[gamma, zero]);
+        out.columns.copy_from_slice(&[
+            [-n.x, -n.y, -u.dot(from_i)],
+            [zero, zero, -one],
+            [n.x, n.y, u.dot(arm)],
+            [zero, zero, one],
+        ]);
     }
+}
+
+/// The angle between the slides as fixed in both bodies.
+fn turned<S: Real>(e: &Translational<S>, i: &Pose<S>, j: &Pose<S>) -> S {
+    (j.angle + e.axes[1]) - (i.angle + e.axes[0])
 }

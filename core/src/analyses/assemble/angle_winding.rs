@@ -1,0 +1,58 @@
+//! Whole turns: which of the angles that differ by 2π a body has after assembly.
+//!
+//! A guess or `set` fixes the turn of its body, and of all bodies that a slide keeps from turning
+//! against it. Of the others those are chosen for which each torsional spring, in the order of the
+//! file, is relaxed as far as whole turns can.
+
+use super::targets::{nearest_turn, Targets};
+use crate::elements::{BodyId, Fixes};
+use crate::model::{ConstraintItem, Model};
+use std::f64::consts::PI;
+
+/// Shifts free angles of `q` by whole turns; gives a warning for each spring still beyond half a turn.
+pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
+    let group = turning_together(model);
+    let mut fixed = vec![false; group.len()];
+    fixed[group[0]] = true;
+    for (b, turn) in targets.turn.iter().enumerate() {
+        fixed[group[b]] |= turn;
+    }
+    let mut warnings = Vec::new();
+    for item in &model.forces {
+        let Some(free_angle) = item.element.free_angle() else { continue };
+        let [i, j] = [item.bodies[0], item.bodies[1]];
+        let angle = |q: &[f64], b: BodyId| model.layout.bodies[b.0].of(q)[2];
+        let stretch = angle(q, j) - angle(q, i) - free_angle;
+        let shift = nearest_turn(stretch, 0.0) - stretch;
+        let [own, other] = [group[j.0], group[i.0]];
+        let (turned, shift) = if fixed[own] { (other, -shift) } else { (own, shift) };
+        if !fixed[turned] && own != other {
+            let members = group.iter().enumerate().skip(1).filter(|(_, g)| **g == turned);
+            let members = members.map(|(b, _)| model.layout.bodies[b]);
+            members.filter(|own| own.count == 3).for_each(|own| q[own.first + 2] += shift);
+        }
+        fixed[own] = true;
+        fixed[other] = true;
+        let stretch = angle(q, j) - angle(q, i) - free_angle;
+        if stretch.abs() > PI * (1.0 + 1e-9) {
+            warnings.push(format!(
+                "spring {} starts {:.4} rad from its free angle, more than half a turn; \
+                 the guess or set of its bodies fixes the turn",
+                item.name, stretch
+            ));
+        }
+    }
+    warnings
+}
+
+/// For each body the first of the bodies that slides keep from turning against it.
+fn turning_together(model: &Model) -> Vec<usize> {
+    let mut group: Vec<usize> = (0..model.bodies.len()).collect();
+    let turns_together = |item: &&ConstraintItem| item.element.fixes().contains(&Fixes::Direction);
+    for item in model.constraints.iter().filter(turns_together) {
+        let [a, b] = [group[item.bodies[0].0], group[item.bodies[1].0]];
+        let (kept, merged) = (a.min(b), a.max(b));
+        group.iter_mut().filter(|g| **g == merged).for_each(|g| *g = kept);
+    }
+    group
+}

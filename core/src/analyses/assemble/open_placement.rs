@@ -1,0 +1,43 @@
+//! A first position with open loops: bodies at the angles of the guess, hung by their joints.
+//!
+//! What one writes down for Newton–Raphson by hand (Haug 4.2): each body hangs at its first joint to
+//! a body that stands, in the order of the file, and the joint that would close the loop stays open.
+
+use super::placement::legs;
+use super::slider_placement::slides;
+use super::targets::Targets;
+use crate::equations::kinematics;
+use crate::math::Pose;
+use crate::model::Model;
+
+/// Coordinates of all bodies, shape (n_q); angles that nobody asked for are zero, and so are places
+/// of bodies that hang at nothing.
+pub fn open_placement(model: &Model, targets: &Targets) -> Vec<f64> {
+    let (legs, slides) = (legs(model), slides(model));
+    let mut poses: Vec<Option<Pose>> = vec![None; model.bodies.len()];
+    poses[0] = Some(Pose::identity());
+    while let Some(first) = poses.iter().position(Option::is_none) {
+        let hung = (first..poses.len()).filter(|b| poses[*b].is_none()).find_map(|b| {
+            if let Some([x, y, angle]) = targets.pose(b) {
+                return Some((b, Pose::new(x, y, angle)));
+            }
+            let placed = |k: usize| poses[k].as_ref();
+            let rail = slides[b].iter().find_map(|slide| slide.rail(placed(slide.other)?));
+            let angle = targets.value(b, 2).or(rail.as_ref().map(|r| r.pose.angle)).unwrap_or(0.0);
+            let pin = legs[b].iter().find_map(|leg| Some((leg, placed(leg.other)?)));
+            let Some((leg, other)) = pin else {
+                return rail.map(|rail| (b, rail.towards(b, targets)));
+            };
+            let mut pose = Pose::new(0.0, 0.0, angle);
+            pose.r = other.point(leg.at_other) - pose.global(leg.own);
+            Some((b, pose))
+        });
+        let (b, pose) = hung.unwrap_or_else(|| {
+            let [x, y, angle] = [0, 1, 2].map(|c| targets.value(first, c).unwrap_or(0.0));
+            (first, Pose::new(x, y, angle))
+        });
+        poses[b] = Some(pose);
+    }
+    let poses: Vec<Pose> = poses.into_iter().flatten().collect();
+    kinematics::coordinates(model, &poses)
+}

@@ -1,0 +1,92 @@
+//! Targets for coordinates before assembly: `set` (held exactly) and `guess` (approached).
+
+use crate::elements::{BodyId, Coordinate, CoordinateOf, Fixes};
+use crate::model::{Dependence, Model};
+
+/// Target values, by body (ground first) and coordinate x, y, angle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Targets {
+    /// Held exactly: by `set` or by a driver.
+    pub hard: Vec<[Option<f64>; 3]>,
+    /// Approached: by `guess`, a given state, or where the body was drawn.
+    pub soft: Vec<[Option<f64>; 3]>,
+    /// Whether the soft angle decides the whole turn.
+    pub turn: Vec<bool>,
+}
+
+impl Targets {
+    /// Drivers at time `t` are hard, drawn poses are soft.
+    pub fn of(model: &Model, t: f64) -> Self {
+        let n = model.bodies.len();
+        let mut targets =
+            Self { hard: vec![[None; 3]; n], soft: vec![[None; 3]; n], turn: vec![false; n] };
+        for (k, body) in model.bodies.iter().enumerate() {
+            if let Some(drawn) = body.drawn {
+                targets.soft[k] = drawn.map(Some);
+            }
+            if !body.turns {
+                targets.hard[k][2] = Some(0.0);
+            }
+        }
+        for item in &model.constraints {
+            if let Some((body, coordinate, value)) = driven(model, item, t) {
+                targets.hard[body.0][coordinate.column()] = Some(value);
+            }
+        }
+        targets
+    }
+
+    /// Makes the positions `q`, shape (n_q), soft.
+    pub fn approach(&mut self, model: &Model, q: &[f64]) {
+        for (soft, columns) in self.soft.iter_mut().zip(&model.layout.bodies).skip(1) {
+            *soft = columns.of(q).map(Some);
+        }
+    }
+
+    /// The target of a coordinate, hard before soft.
+    pub fn value(&self, body: usize, column: usize) -> Option<f64> {
+        self.hard[body][column].or(self.soft[body][column])
+    }
+
+    /// All three targets of a body, if it has all.
+    pub fn pose(&self, body: usize) -> Option<[f64; 3]> {
+        Some([self.value(body, 0)?, self.value(body, 1)?, self.value(body, 2)?])
+    }
+
+    /// The angle nearest to the soft one (or to zero) that differs by whole turns.
+    pub fn nearest_turn(&self, body: usize, angle: f64) -> f64 {
+        nearest_turn(angle, self.soft[body][2].unwrap_or(0.0))
+    }
+}
+
+/// `angle` plus whole turns, as near to `to` as can be.
+pub fn nearest_turn(angle: f64, to: f64) -> f64 {
+    let turn = std::f64::consts::TAU;
+    angle - turn * ((angle - to) / turn).round()
+}
+
+/// The value a coordinate driver prescribes at `t`, if that depends on time alone.
+fn driven(
+    model: &Model,
+    item: &crate::model::ConstraintItem,
+    t: f64,
+) -> Option<(BodyId, Coordinate, f64)> {
+    let element = match &item.law {
+        None => item.element.clone(),
+        Some(law) => {
+            let mut depends = Dependence::default();
+            law.map(&mut |tape| depends.add(tape));
+            if !depends.bodies.is_empty() {
+                return None;
+            }
+            let values = crate::equations::at(&model.parameters, &[], &[], t);
+            law.map(&mut |tape| tape.evaluate(&values))
+        }
+    };
+    element.fixes().into_iter().find_map(|fixed| match fixed {
+        Fixes::Coordinate(CoordinateOf { body, coordinate }, value) if value.is_finite() => {
+            Some((body, coordinate, value))
+        }
+        _ => None,
+    })
+}

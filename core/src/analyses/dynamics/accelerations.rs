@@ -1,0 +1,157 @@
+//! What follows from the states of a run: accelerations and multipliers, by γ and never γ̂.
+//!
+//! A run keeps states alone; what follows from them is worked out when it is asked for. States do not wait for each
+//! other, so several are solved at once: the same formulas over lanes. Where one of them is not regular (a position
+//! near a singular one, a number that is not finite), each is solved by itself.
+
+use super::failure::Reason;
+use super::lane_batch::are_finite;
+use super::model_cache::ModelCache;
+use super::report_projection::Halt;
+use super::Run;
+use crate::equations::augmented::NearSingular;
+use crate::equations::{Gains, Singular, Workspace};
+use crate::integrate::{all_finite, Flow};
+use crate::math::{Lanes, Real};
+use crate::model::Model;
+use crate::stabilize::Fault;
+
+/// States in rows, time first.
+#[derive(Clone, Copy, Debug)]
+pub struct States<'a> {
+    /// Times, s.
+    pub t: &'a [f64],
+    /// Coordinates, rows of n_q.
+    pub q: &'a [f64],
+    /// Velocities, rows of n_q.
+    pub v: &'a [f64],
+}
+
+/// What states answer to forces, a row for each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Accelerations {
+    /// Accelerations, rows of n_q.
+    pub a: Vec<f64>,
+    /// Multipliers, rows of n_rows.
+    pub lam: Vec<f64>,
+}
+
+/// So many states that solving several at once is worth a model over lanes.
+pub(super) const MANY: usize = 4 * Lanes::WIDTH;
+
+/// See [`Prepared::accelerations`](super::Prepared::accelerations).
+pub(super) fn accelerations(
+    (model, cache): (&Model, &ModelCache),
+    states: States<'_>,
+    passing: bool,
+    mut watch: impl FnMut(f64) -> Flow,
+) -> Result<Accelerations, Reason> {
+    let States { t, q, v } = states;
+    let (n, count) = (model.layout.n_q, t.len());
+    assert_eq!([q.len(), v.len()], [n * count; 2], "a row for each time");
+    let mut one = Workspace::on(model, cache.plan(model));
+    if passing {
+        one.matrix.set_near_singular(NearSingular::Regularise);
+    }
+    let mut many = (count >= MANY).then(|| Many::new(cache.wide(model), &one));
+    let mut found = Accelerations::with_room(model, count);
+    for first in (0..count).step_by(Lanes::WIDTH) {
+        let end = (first + Lanes::WIDTH).min(count);
+        if watch(t[first]) == Flow::Stop {
+            break;
+        }
+        let rows = first * n..end * n;
+        let four = (&t[first..end], &q[rows.clone()], &v[rows]);
+        if !many.as_mut().is_some_and(|many| many.solve(four, &mut found)) {
+            one_by_one(model, &mut one, four, &mut found)?;
+        }
+    }
+    Ok(found)
+}
+
+impl Accelerations {
+    fn with_room(model: &Model, count: usize) -> Self {
+        let room = |width: usize| Vec::with_capacity(count * width);
+        Self { a: room(model.layout.n_q), lam: room(model.layout.n_rows) }
+    }
+}
+
+/// Times and rows of some states.
+type Rows<'a> = (&'a [f64], &'a [f64], &'a [f64]);
+
+fn one_by_one(
+    model: &Model,
+    workspace: &mut Workspace,
+    (t, q, v): Rows<'_>,
+    found: &mut Accelerations,
+) -> Result<(), Reason> {
+    let n = model.layout.n_q;
+    for (k, &t) in t.iter().enumerate() {
+        let row = k * n..(k + 1) * n;
+        let (q, v) = (&q[row.clone()], &v[row]);
+        workspace
+            .accelerate(model, t, [q, v, &[]], Gains::default())
+            .map_err(|Singular(row)| Halt::Fault(Fault::Singular(Singular(row))))
+            .and_then(|()| match [workspace.a(), workspace.lam()].into_iter().all(all_finite) {
+                true => Ok(()),
+                false => Err(Halt::NotFinite),
+            })
+            .map_err(|halt| Reason::halt(model, t, q, halt))?;
+        found.a.extend_from_slice(workspace.a());
+        found.lam.extend_from_slice(workspace.lam());
+    }
+    Ok(())
+}
+
+/// Four states at once.
+struct Many<'a> {
+    model: &'a Model<Lanes>,
+    workspace: Workspace<Lanes>,
+    q: Vec<Lanes>,
+    v: Vec<Lanes>,
+}
+
+impl<'a> Many<'a> {
+    /// With the plan of elimination of `one`.
+    fn new(model: &'a Model<Lanes>, one: &Workspace) -> Self {
+        let mut workspace = Workspace::like(model, one);
+        workspace.matrix.set_near_singular(NearSingular::Refuse);
+        let none = vec![Lanes::zero(); model.layout.n_q];
+        Self { model, workspace, q: none.clone(), v: none }
+    }
+
+    /// Solves four states, if there are four and every one is regular.
+    fn solve(&mut self, (t, q, v): Rows<'_>, found: &mut Accelerations) -> bool {
+        let Ok(t) = t.try_into() else { return false };
+        Lanes::from_rows(q, &mut self.q);
+        Lanes::from_rows(v, &mut self.v);
+        let Self { model, workspace, q, v } = self;
+        let solved = workspace.accelerate(model, Lanes::new(t), [q, v, &[]], Gains::default());
+        let (a, lam) = (workspace.a(), workspace.lam());
+        if solved.is_err() || !are_finite([a, lam]) {
+            return false;
+        }
+        for (to, lanes) in [(&mut found.a, a), (&mut found.lam, lam)] {
+            let start = to.len();
+            to.resize(start + Lanes::WIDTH * lanes.len(), 0.0);
+            Lanes::rows(lanes, &mut to[start..]);
+        }
+        true
+    }
+}
+
+impl Run {
+    /// Accelerations and multipliers at the reported states, without stabilization.
+    ///
+    /// # Errors
+    /// As [`Prepared::accelerations`](super::Prepared::accelerations).
+    pub fn accelerations(&self, model: &Model) -> Result<Accelerations, Reason> {
+        let watch = |_| Flow::Continue;
+        accelerations(
+            (model, &ModelCache::default()),
+            self.trajectory.states(),
+            self.passing,
+            watch,
+        )
+    }
+}

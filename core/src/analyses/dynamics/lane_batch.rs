@@ -1,0 +1,114 @@
+//! Reported states of a grid side by side: placed and kept four at once.
+
+use super::branch_averaging;
+use super::motion_ode::WORKS;
+use super::options::Options;
+use super::recorder::Trajectory;
+use super::report_projection::ReportProjection;
+use crate::equations::augmented::NearSingular;
+use crate::equations::Workspace;
+use crate::integrate::Step;
+use crate::math::{Lanes, Real};
+use crate::model::Model;
+
+/// States of a grid that wait until there is one for each lane.
+pub(super) struct LaneBatch<'a> {
+    pub placer: ReportProjection<'a, Lanes>,
+    t: [f64; Lanes::WIDTH],
+    waiting: usize,
+    /// As they were put in, a row for each lane.
+    given: Vec<f64>,
+    /// Their rates.
+    rates: Vec<Lanes>,
+    /// Projected.
+    y: Vec<Lanes>,
+}
+
+impl<'a> LaneBatch<'a> {
+    /// With the workspace of the equations of motion of this run for its plan of elimination.
+    pub fn new(model: &'a Model<Lanes>, options: &Options, one: &Workspace) -> Self {
+        let (n, len) = (model.layout.n_q, 2 * model.layout.n_q + WORKS);
+        let mut workspace = Workspace::like(model, one);
+        workspace.matrix.set_near_singular(NearSingular::Refuse);
+        Self {
+            placer: ReportProjection::new(model, options, workspace),
+            t: [0.0; Lanes::WIDTH],
+            waiting: 0,
+            given: vec![0.0; Lanes::WIDTH * len],
+            rates: vec![Lanes::zero(); n],
+            y: vec![Lanes::zero(); len],
+        }
+    }
+
+    /// Puts in the state of a step at a time; there must be a lane without one.
+    pub fn add(&mut self, step: &Step<'_>, t: f64) {
+        let (lane, len) = (self.waiting, self.y.len());
+        self.t[lane] = t;
+        step.interpolate(t, &mut self.given[lane * len..(lane + 1) * len]);
+        self.waiting += 1;
+    }
+
+    /// Whether no state waits.
+    pub fn is_empty(&self) -> bool {
+        self.waiting == 0
+    }
+
+    /// Whether there is a state for each lane.
+    pub fn is_full(&self) -> bool {
+        self.waiting == Lanes::WIDTH
+    }
+
+    /// The times of the states that wait; then nothing waits.
+    pub fn take(&mut self) -> impl Iterator<Item = (usize, f64)> {
+        self.t.into_iter().enumerate().take(std::mem::take(&mut self.waiting))
+    }
+
+    /// Places all; whether every one is regular. Else the lanes are of no use.
+    pub fn place(&mut self) -> bool {
+        self.fill_up();
+        Lanes::from_rows(&self.given, &mut self.y);
+        let n = self.rates.len();
+        self.rates.copy_from_slice(&self.y[n..2 * n]);
+        self.placer.place(Lanes::new(self.t), &mut self.y).is_ok()
+            && are_finite([&self.y])
+            && self.placer.turn(&self.rates, &self.y[n..2 * n]) <= branch_averaging::TURNED
+    }
+
+    /// Lanes without a state of their own repeat the last.
+    fn fill_up(&mut self) {
+        let (last, len) = (self.waiting.max(1) - 1, self.y.len());
+        for lane in last + 1..Lanes::WIDTH {
+            self.t[lane] = self.t[last];
+            self.given.copy_within(last * len..(last + 1) * len, lane * len);
+        }
+    }
+
+    /// Keeps the states that wait, as they were placed; then nothing waits.
+    pub fn keep(&mut self, trajectory: &mut Trajectory) {
+        let count = std::mem::take(&mut self.waiting);
+        let (q, rest) = self.y.split_at(self.rates.len());
+        let (v, w) = rest.split_at(self.rates.len());
+        let Trajectory { t, q: to_q, v: to_v, works } = trajectory;
+        t.extend_from_slice(&self.t[..count]);
+        for (to, lanes) in [(to_q, q), (to_v, v), (works, w)] {
+            let (start, width) = (to.len(), lanes.len());
+            to.resize(start + Lanes::WIDTH * width, 0.0);
+            Lanes::rows(lanes, &mut to[start..]);
+            to.truncate(start + count * width);
+        }
+    }
+
+    /// A state as it was put in.
+    pub fn given(&self, lane: usize, y: &mut [f64]) {
+        y.copy_from_slice(&self.given[lane * y.len()..][..y.len()]);
+    }
+}
+
+/// Whether every number is finite, in every lane.
+#[inline]
+pub(super) fn are_finite<const N: usize>(parts: [&[Lanes]; N]) -> bool {
+    // 0 x is zero for finite x and NaN otherwise; sums of which none waits for another
+    let nothing = |sum: Lanes, x: &Lanes| sum.plus_product(Lanes::zero(), *x);
+    let sums = parts.map(|part| part.iter().fold(Lanes::zero(), nothing));
+    sums.into_iter().fold(Lanes::zero(), |all, sum| all + sum).is_finite()
+}

@@ -1,0 +1,26 @@
+//! Data derived from a model that its runs share; each is computed at first use.
+
+use crate::equations::Plan;
+use crate::math::Lanes;
+use crate::model::Model;
+use std::sync::{Arc, OnceLock};
+
+/// The symbolic factorisation and the model over lanes.
+#[derive(Debug, Default)]
+pub(super) struct ModelCache {
+    plan: OnceLock<Arc<Plan>>,
+    /// In a box: it is aligned as vector registers are, to more than allocators of other languages give.
+    wide: OnceLock<Box<Model<Lanes>>>,
+}
+
+impl ModelCache {
+    /// The plan of elimination of the equations of motion.
+    pub fn plan(&self, model: &Model) -> Arc<Plan> {
+        Arc::clone(self.plan.get_or_init(|| Arc::new(Plan::of_motion(model))))
+    }
+
+    /// The model over lanes.
+    pub fn wide(&self, model: &Model) -> &Model<Lanes> {
+        self.wide.get_or_init(|| Box::new(model.lift()))
+    }
+}

@@ -1,0 +1,179 @@
+//! The equations of motion as implicit methods want them: residuals, tangent, and the matrices of
+//! Newton's iteration by one plan of elimination.
+
+use super::motion_ode::WORKS;
+use super::options::Options;
+use super::stabilizations::Stabilization;
+use crate::equations::balance::Balance;
+use crate::equations::iteration::{assemble, Places};
+use crate::equations::tangent::Tangent;
+use crate::equations::{constraints, Gains, Workspace};
+use crate::integrate::{
+    ConstraintLevel, Dae, DaeResidual, Iterate, NewtonCoefficients, SingularMatrix,
+};
+use crate::math::Complex;
+use crate::model::Model;
+use crate::solve::BlockLu;
+use crate::stabilize::{Fault, Projector};
+
+/// The mechanism with the memory of implicit methods.
+pub(super) struct MotionDae<'a> {
+    model: &'a Model,
+    workspace: Workspace,
+    projector: Option<Projector<'a>>,
+    balance: Balance,
+    tangent: Tangent,
+    places: Places,
+    real: BlockLu<f64>,
+    /// Of the augmented matrix.
+    solution: Vec<f64>,
+    /// Made for the first complex matrix.
+    complex: Option<BlockLu<Complex>>,
+    /// Factorisations of the augmented matrix, for accelerations.
+    accelerations: usize,
+}
+
+impl<'a> MotionDae<'a> {
+    pub fn new(model: &'a Model, options: &Options) -> Self {
+        let projector = match options.stabilization {
+            Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
+            _ => None,
+        };
+        let tangent = Tangent::new(model);
+        let places = Places::new(model, &tangent);
+        Self {
+            model,
+            workspace: Workspace::new(model),
+            projector,
+            balance: Balance::new(model),
+            real: BlockLu::new(&places.plan),
+            solution: vec![0.0; model.layout.n_q + model.layout.n_rows],
+            complex: None,
+            tangent,
+            places,
+            accelerations: 0,
+        }
+    }
+
+    /// Factorisations of the augmented matrix.
+    pub fn factorisations(&self) -> usize {
+        self.accelerations + self.projector.as_ref().map_or(0, |p| p.factorisations)
+    }
+
+    fn coefficients<F>(coefficients: NewtonCoefficients<F>) -> [F; 4] {
+        [coefficients.mass, coefficients.damping, coefficients.stiffness, coefficients.rate]
+    }
+}
+
+impl Dae for MotionDae<'_> {
+    type Stop = (f64, Fault);
+
+    fn coordinates(&self) -> usize {
+        self.model.layout.n_q
+    }
+
+    fn multipliers(&self) -> usize {
+        self.model.layout.n_rows
+    }
+
+    fn quadratures(&self) -> usize {
+        WORKS
+    }
+
+    fn accelerate(
+        &mut self,
+        t: f64,
+        [q, v]: [&[f64]; 2],
+        a: &mut [f64],
+        lam: &mut [f64],
+        powers: &mut [f64],
+    ) -> Result<(), Self::Stop> {
+        self.accelerations += 1;
+        let outcome = self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default());
+        if let Err(singular) = outcome {
+            if q.iter().chain(v).all(|x| x.is_finite()) {
+                return Err((t, Fault::Singular(singular)));
+            }
+            a.fill(f64::NAN);
+            return Ok(());
+        }
+        a.copy_from_slice(self.workspace.a());
+        lam.copy_from_slice(self.workspace.lam());
+        let found = self.workspace.powers(self.model, v);
+        powers.copy_from_slice(&[found.dissipated, found.drivers, found.applied]);
+        Ok(())
+    }
+
+    fn residual(&mut self, t: f64, at: Iterate<'_>, level: ConstraintLevel, out: DaeResidual<'_>) {
+        self.balance.evaluate(self.model, t, [at.q, at.v, at.a, &[]], at.lam);
+        out.forces.copy_from_slice(&self.balance.forces);
+        out.rows.copy_from_slice(match level {
+            ConstraintLevel::Position => &self.balance.position,
+            ConstraintLevel::Velocity => &self.balance.rate,
+        });
+        let powers = self.balance.powers;
+        out.powers.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
+    }
+
+    fn linearize(&mut self, t: f64, at: Iterate<'_>) {
+        let motions = &mut self.balance.motions;
+        motions.place(&self.model.layout, at.q, at.v);
+        self.tangent.linearize(self.model, motions, t, [at.a, at.lam, &[]]);
+    }
+
+    fn factor(&mut self, coefficients: NewtonCoefficients) -> Result<(), SingularMatrix> {
+        assemble(&self.places, &self.tangent, Self::coefficients(coefficients), &mut self.real);
+        self.real.factor(&self.places.plan).map_err(|_| SingularMatrix)
+    }
+
+    fn factor_complex(
+        &mut self,
+        coefficients: NewtonCoefficients<Complex>,
+    ) -> Result<(), SingularMatrix> {
+        let plan = &self.places.plan;
+        let lu = self.complex.get_or_insert_with(|| BlockLu::new(plan));
+        assemble(&self.places, &self.tangent, Self::coefficients(coefficients), lu);
+        lu.factor(plan).map_err(|_| SingularMatrix)
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        self.real.solve(&self.places.plan, x);
+    }
+
+    fn solve_complex(&mut self, x: &mut [Complex]) {
+        if let Some(lu) = &mut self.complex {
+            lu.solve(&self.places.plan, x);
+        }
+    }
+
+    fn times(&self, x: &[f64], s: &[f64], out: &mut [f64]) {
+        self.tangent.times(self.model, x, s, out);
+    }
+
+    fn normal(&mut self, x: &mut [f64]) {
+        let n = self.model.layout.n_q;
+        let Self { solution, workspace, .. } = self;
+        solution[..n].fill(0.0);
+        for (k, slots) in self.model.layout.constraints.iter().enumerate() {
+            let rows = &mut solution[n..][slots.rows.clone()];
+            constraints::times(self.model, k, workspace.matrix.jacobian(), x, rows);
+        }
+        workspace.matrix.solve(solution);
+        x.copy_from_slice(&solution[..n]);
+    }
+
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<bool, Self::Stop> {
+        let Some(projector) = &mut self.projector else {
+            // `normal` wants the factors of a state nearby, which projection would leave
+            self.accelerations += 1;
+            let outcome = self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default());
+            return outcome.map(|()| false).map_err(|singular| (t, Fault::Singular(singular)));
+        };
+        projector.project(&mut self.workspace, t, (q, v), false).map_err(|fault| (t, fault))
+    }
+
+    fn singular(&mut self, t: f64, q: &[f64], v: &[f64]) -> Option<Self::Stop> {
+        let outcome = self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default());
+        outcome.err().map(|singular| (t, Fault::Singular(singular)))
+    }
+}

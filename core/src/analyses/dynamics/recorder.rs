@@ -1,0 +1,330 @@
+//! What forward dynamics reports: states at chosen times.
+
+use super::accelerations::{States, MANY};
+use super::lane_batch::LaneBatch;
+use super::methods::Scheme;
+use super::motion_ode::{MotionOde, WORKS};
+use super::options::Options;
+use super::report_projection::{Halt, ReportProjection};
+use crate::integrate::{all_finite, Flow, Step, HIGHEST};
+use crate::math::Lanes;
+use crate::model::Model;
+
+/// Reported states, time first; row k of each table belongs to `t[k]`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trajectory {
+    /// Times, s.
+    pub t: Vec<f64>,
+    /// Coordinates, rows of n_q.
+    pub q: Vec<f64>,
+    /// Velocities, rows of n_q.
+    pub v: Vec<f64>,
+    /// Dissipated energy, work of drivers, work of applied forces, from the start, J: rows of three.
+    pub works: Vec<f64>,
+}
+
+/// Whether a grid has so many states that solving several at once is worth a model over lanes.
+pub(super) fn many(output_step: Option<f64>, span: f64) -> bool {
+    output_step.is_some_and(|h| (span / h).abs() >= MANY as f64)
+}
+
+/// Most numbers that room is made for beforehand; what is longer grows.
+const MOST_ROOM: usize = 1 << 20;
+/// Reported states in a step, for room: what takes shorter steps grows.
+const IN_A_STEP: usize = 4;
+
+/// Steps without a reported state after which joints are looked at, where errors choose the steps: what opens joints
+/// then takes many steps, and each look two fifths of the instructions of an evaluation.
+const UNSEEN: usize = 4;
+
+/// The same for a scheme: a constant step beyond its stability opens joints within a few.
+fn unseen(scheme: &Scheme) -> usize {
+    let constant = match scheme {
+        Scheme::GeneralizedAlpha(_) | Scheme::Radau(_) | Scheme::Auto(_) => None,
+        explicit => explicit.control().step,
+    };
+    constant.map_or(UNSEEN, |_| 1)
+}
+
+/// How many states a grid asks for; none if the steps are to be reported.
+fn asked(output_step: Option<f64>, span: f64) -> usize {
+    output_step.map_or(0, |h| ((span / h).abs() + 2.0) as usize) // NaN gives none
+}
+
+impl Trajectory {
+    /// Empty, with room for the states that a grid asks for: growing would copy them again and again.
+    fn with_room(model: &Model, output_step: Option<f64>, span: f64) -> Self {
+        let n = model.layout.n_q;
+        let rows = asked(output_step, span).min(MOST_ROOM / (2 * n + 1 + WORKS));
+        let room = |width: usize| Vec::with_capacity(rows * width);
+        Self { t: room(1), q: room(n), v: room(n), works: room(WORKS) }
+    }
+
+    /// The reported states.
+    pub fn states(&self) -> States<'_> {
+        States { t: &self.t, q: &self.q, v: &self.v }
+    }
+
+    /// Adds y = (q, v, works).
+    fn add(&mut self, t: f64, y: &[f64]) {
+        let n = (y.len() - WORKS) / 2;
+        self.t.push(t);
+        self.q.extend_from_slice(&y[..n]);
+        self.v.extend_from_slice(&y[n..2 * n]);
+        self.works.extend_from_slice(&y[2 * n..]);
+    }
+}
+
+/// The continuous extension of every step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PiecewiseInterpolant {
+    /// Step boundaries, one more than steps.
+    pub t: Vec<f64>,
+    /// y at the start of each step, rows of n_y.
+    pub y: Vec<f64>,
+    /// Coefficients of θ … θᵈ, for each step n_y rows of d.
+    pub c: Vec<f64>,
+    /// d.
+    pub degree: usize,
+}
+
+/// Collects the output while the integrator runs.
+pub(super) struct Recorder<'a> {
+    output_step: Option<f64>,
+    t0: f64,
+    t_end: f64,
+    /// 1 forward, -1 backward.
+    direction: f64,
+    next: usize,
+    /// The next time of the grid, beyond t_end once it has been reached.
+    upcoming: f64,
+    /// Steps since the last look for joints apart, and after how many there is one.
+    unseen: [usize; 2],
+    /// The last time that was asked for.
+    latest: f64,
+    y: Vec<f64>,
+    pub trajectory: Trajectory,
+    pub dense: Option<PiecewiseInterpolant>,
+    /// Of the continuous extension of the last step.
+    coefficients: Vec<f64>,
+    /// Brings reported states onto the constraints.
+    one: ReportProjection<'a>,
+    /// The same for those of a grid, if they are many.
+    many: Option<LaneBatch<'a>>,
+    /// Why it cannot go on, and when.
+    pub halt: Option<(f64, Halt)>,
+}
+
+impl<'a> Recorder<'a> {
+    /// With the model over lanes, if there are to be many.
+    pub fn new(
+        system: &MotionOde<'a>,
+        wide: Option<&'a Model<Lanes>>,
+        options: &Options,
+        t0: f64,
+    ) -> Self {
+        let model = system.model;
+        let mut recorder = Self {
+            output_step: options.output_step,
+            t0,
+            t_end: options.t_end,
+            direction: (options.t_end - t0).signum(),
+            next: 0,
+            upcoming: t0,
+            unseen: [0, unseen(&options.method)],
+            latest: t0,
+            y: vec![0.0; 2 * model.layout.n_q + WORKS],
+            trajectory: Trajectory::with_room(model, options.output_step, options.t_end - t0),
+            dense: options
+                .dense_output
+                .then(|| PiecewiseInterpolant::with_room(model, options, t0)),
+            coefficients: Vec::new(),
+            one: ReportProjection::new(model, options, system.workspace.clone()),
+            many: wide.map(|wide| LaneBatch::new(wide, options, &system.workspace)),
+            halt: None,
+        };
+        recorder.go_on();
+        recorder
+    }
+
+    /// Factorisations, those of lanes one by one.
+    pub fn factorisations(&self) -> usize {
+        let many = self.many.as_ref().map_or(0, |batch| batch.placer.factorisations());
+        self.one.factorisations() + Lanes::WIDTH * many
+    }
+
+    /// Reports the start, from which there must be a way on: else the run stops before it begins.
+    pub fn begin(&mut self, t: f64, y: &[f64]) -> Flow {
+        let begun = self.one.begin(t, y);
+        self.keep(t, y, begun)
+    }
+
+    /// Reports a state given as (q, v, works), as it is.
+    pub fn report(&mut self, t: f64, y: &[f64]) -> Flow {
+        if self.flush() == Flow::Stop {
+            return Flow::Stop;
+        }
+        let apart = self.one.apart(t, y);
+        self.keep(t, y, apart.map_or(Ok(()), |apart| Err(Halt::Violation(apart))))
+    }
+
+    /// Reports the state of a step at a time between its ends; whether it can is known once it is placed.
+    fn report_between(&mut self, step: &Step<'_>, t: f64) -> Flow {
+        let Some(batch) = &mut self.many else {
+            step.interpolate(t, &mut self.y);
+            return self.report_alone(t);
+        };
+        batch.add(step, t);
+        match batch.is_full() {
+            true => self.flush(),
+            false => Flow::Continue,
+        }
+    }
+
+    /// Projects and reports the state in the scratch.
+    fn report_alone(&mut self, t: f64) -> Flow {
+        let mut y = std::mem::take(&mut self.y);
+        let placed = self.one.place_on_branch(t, &mut y);
+        let flow = self.keep(t, &y, placed);
+        self.y = y;
+        flow
+    }
+
+    /// Reports the states that wait for others.
+    pub fn flush(&mut self) -> Flow {
+        let Some(batch) = self.many.as_mut().filter(|batch| !batch.is_empty()) else {
+            return Flow::Continue;
+        };
+        if batch.place() {
+            batch.keep(&mut self.trajectory);
+            return Flow::Continue;
+        }
+        let Some(mut batch) = self.many.take() else { return Flow::Continue };
+        let mut flow = Flow::Continue;
+        for (lane, t) in batch.take() {
+            if flow == Flow::Continue {
+                batch.given(lane, &mut self.y);
+                flow = self.report_alone(t);
+            }
+        }
+        self.many = Some(batch);
+        flow
+    }
+
+    /// Keeps a state that was placed.
+    fn keep(&mut self, t: f64, y: &[f64], placed: Result<(), Halt>) -> Flow {
+        if let Err(halt) = placed {
+            return self.stop(t, halt);
+        }
+        if !all_finite(y) {
+            return self.stop(t, Halt::NotFinite);
+        }
+        self.trajectory.add(t, y);
+        Flow::Continue
+    }
+
+    fn stop(&mut self, t: f64, halt: Halt) -> Flow {
+        self.halt = Some((t, halt));
+        Flow::Stop
+    }
+
+    /// Reports whatever falls into a step; stops where `watch` says so, and where a state cannot be
+    /// projected.
+    pub fn step(&mut self, step: &Step<'_>, watch: &mut impl FnMut(f64) -> Flow) -> Flow {
+        if let Some(dense) = &mut self.dense {
+            if !dense.add(step, &mut self.coefficients) {
+                return self.stop(step.t, Halt::NotFinite);
+            }
+        }
+        if self.output_step.is_none() {
+            return self.report(step.t, step.y);
+        }
+        let mut flow = self.look_apart(step);
+        while let (Flow::Continue, Some(t)) = (flow, self.due(step.t)) {
+            self.latest = t;
+            self.go_on();
+            flow = self.report_between(step, t);
+            flow = if flow == Flow::Continue { watch(t) } else { flow };
+        }
+        if flow == Flow::Continue && step.t == self.t_end && self.latest != step.t {
+            flow = self.report(step.t, step.y);
+        }
+        flow
+    }
+
+    /// Looks for joints apart at the end of a step, where it is the last of so many without reported states.
+    fn look_apart(&mut self, step: &Step<'_>) -> Flow {
+        let due = self.due(step.t).is_some();
+        let [since, most] = &mut self.unseen;
+        *since = if due { 0 } else { *since + 1 };
+        if *since < *most {
+            return Flow::Continue;
+        }
+        *since = 0;
+        match self.one.apart(step.t, step.y) {
+            Some(apart) => self.stop(step.t, Halt::Violation(apart)),
+            None => Flow::Continue,
+        }
+    }
+
+    /// Whether a step that ends at `t` is needed between its ends.
+    pub fn looks_inside(&self, t: f64) -> bool {
+        self.dense.is_some() || self.output_step.is_some() && self.due(t).is_some()
+    }
+
+    /// The next time of the grid if it has been reached.
+    fn due(&self, reached: f64) -> Option<f64> {
+        let past = |a: f64, b: f64| self.direction * (a - b) > 0.0;
+        let t = self.upcoming;
+        (!past(t, reached) && !past(t, self.t_end)).then_some(t)
+    }
+
+    /// From one time of the grid to the next: t₀ + k h by multiplication, without drift.
+    fn go_on(&mut self) {
+        let Some(h) = self.output_step else { return };
+        self.next += 1;
+        self.upcoming = self.t0 + self.direction * self.next as f64 * h;
+        // a grid point that misses t_end by rounding only is t_end
+        if (self.upcoming - self.t_end).abs() <= 1e-9 * h {
+            self.upcoming = self.t_end;
+        }
+    }
+}
+
+impl PiecewiseInterpolant {
+    /// Empty, with room for the steps that a grid lets expect.
+    fn with_room(model: &Model, options: &Options, t0: f64) -> Self {
+        // of steps of several degrees all have the highest, from the start
+        let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
+        let degree = if several { HIGHEST } else { 0 };
+        let n = 2 * model.layout.n_q + WORKS;
+        let steps = asked(options.output_step, options.t_end - t0) / IN_A_STEP;
+        let room = |width: usize| Vec::with_capacity(steps.min(MOST_ROOM / (HIGHEST * n)) * width);
+        let mut dense = Self { t: room(1), y: room(n), c: room(HIGHEST * n), degree };
+        dense.t.push(t0);
+        dense
+    }
+
+    /// Whether all numbers of the step are finite; else nothing is kept of it.
+    fn add(&mut self, step: &Step<'_>, coefficients: &mut Vec<f64>) -> bool {
+        let own = step.interpolant.degree();
+        coefficients.resize(own * step.y.len(), 0.0);
+        step.coefficients(coefficients);
+        if !all_finite(coefficients) {
+            return false;
+        }
+        self.degree = self.degree.max(own);
+        if own == self.degree {
+            self.c.extend_from_slice(coefficients);
+        } else {
+            // rows of a lesser degree are spread
+            for row in coefficients.chunks_exact(own) {
+                self.c.extend_from_slice(row);
+                self.c.resize(self.c.len() + self.degree - own, 0.0);
+            }
+        }
+        self.t.push(step.t);
+        self.y.extend_from_slice(step.y_old);
+        true
+    }
+}

@@ -1,0 +1,132 @@
+//! Reported states: brought onto the constraints, or looked at whether they meet them.
+//!
+//! States of a grid lie between the ends of steps and do not wait for each other, so several are
+//! placed at once (`batch`): the same formulas over lanes. Where one of them is not regular (a position near a singular
+//! one, a gap that does not close, a number that is not finite), each is solved by itself.
+
+use super::branch_averaging;
+use super::constraint_violation::{Violation, ViolationCheck};
+use super::motion_ode::parts;
+use super::options::Options;
+use super::stabilizations::Stabilization;
+use crate::equations::{Gains, Workspace};
+use crate::integrate::all_finite;
+use crate::math::Real;
+use crate::model::Model;
+use crate::stabilize::{Fault, Projector};
+
+/// Why a state cannot be reported.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Halt {
+    /// It cannot be projected, or has no unique accelerations.
+    Fault(Fault),
+    /// Its joints are apart.
+    Violation(Violation),
+    /// A number of it is not finite.
+    NotFinite,
+}
+
+/// Places reported states, one at a time or one in each lane.
+pub(super) struct ReportProjection<'a, S = f64> {
+    pub model: &'a Model<S>,
+    workspace: Workspace<S>,
+    projector: Option<Projector<'a, S>>,
+    guard: Option<ViolationCheck<S>>,
+    /// Whether projection changed the last state.
+    changed: bool,
+}
+
+impl<'a, S: Real> ReportProjection<'a, S> {
+    /// With the workspace of the equations of motion of this run, or a copy of it.
+    pub fn new(model: &'a Model<S>, options: &Options, workspace: Workspace<S>) -> Self {
+        let projector = match options.stabilization {
+            Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
+            _ => None,
+        };
+        let projector = projector.map(Projector::for_reports);
+        let guard = ViolationCheck::new(model, options);
+        Self { model, workspace, projector, guard, changed: false }
+    }
+
+    /// The joint that is apart at y, if one is.
+    pub fn apart(&mut self, t: S, y: &[S]) -> Option<Violation> {
+        self.guard.as_ref()?;
+        self.set_motions(y);
+        self.guard.as_mut()?.look(self.model, t, &self.workspace.motions)
+    }
+
+    fn set_motions(&mut self, y: &[S]) {
+        let n = self.model.layout.n_q;
+        self.workspace.place(self.model, [&y[..n], &y[n..2 * n], &[]]);
+    }
+
+    /// Projects y = (q, v, works) if that was asked for; else sees whether joints are apart. The works stay: what
+    /// projection does to the energy shows in the balance.
+    ///
+    /// # Errors
+    /// [`Halt`]; of lanes, that of one of them.
+    pub fn place(&mut self, t: S, y: &mut [S]) -> Result<(), Halt> {
+        let Some(projector) = &mut self.projector else {
+            return self.apart(t, y).map_or(Ok(()), |apart| Err(Halt::Violation(apart)));
+        };
+        let (q, v, _) = parts(y, self.model.layout.n_q);
+        let changed = projector.project(&mut self.workspace, t, (q, v), false);
+        self.changed = changed.map_err(Halt::Fault)?;
+        Ok(())
+    }
+
+    /// By what part of the fastest rate projection has changed the rates that were `given`.
+    pub fn turn(&self, given: &[S], v: &[S]) -> f64 {
+        let projector = self.projector.as_ref().filter(|_| self.changed);
+        projector.map_or(0.0, |projector| branch_averaging::turn(projector, given, v))
+    }
+
+    /// Factorisations, of all lanes one.
+    pub fn factorisations(&self) -> usize {
+        self.projector.as_ref().map_or(0, |projector| projector.factorisations)
+    }
+}
+
+impl ReportProjection<'_> {
+    /// Whether joints are together at y, and the equations of motion have a solution there.
+    ///
+    /// # Errors
+    /// [`Halt`].
+    pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Halt> {
+        if let Some(apart) = self.apart(t, y) {
+            return Err(Halt::Violation(apart));
+        }
+        self.set_motions(y);
+        let solved = self.workspace.respond(self.model, t, Gains::default());
+        solved.map_err(|singular| Halt::Fault(Fault::Singular(singular)))?;
+        match [self.workspace.a(), self.workspace.lam()].into_iter().all(all_finite) {
+            true => Ok(()),
+            false => Err(Halt::NotFinite),
+        }
+    }
+
+    /// The same; where that ends on another branch, from states around if that changes rates less.
+    ///
+    /// # Errors
+    /// [`Halt`].
+    pub fn place_on_branch(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
+        let given = y.to_vec();
+        let n = self.model.layout.n_q;
+        let turned = |solver: &Self, y: &[f64]| solver.turn(&given[n..2 * n], &y[n..2 * n]);
+        self.place(t, y)?;
+        let turn = turned(self, y);
+        let Some(projector) = self.projector.as_mut().filter(|_| turn > branch_averaging::TURNED)
+        else {
+            return Ok(());
+        };
+        let mut other = given.clone();
+        let (q, v, _) = parts(&mut other, n);
+        let taken = branch_averaging::take(projector, &mut self.workspace, t, (q, v));
+        let placed = taken.is_ok() && self.place(t, &mut other).is_ok();
+        if placed && turned(self, &other) < turn {
+            y.copy_from_slice(&other);
+            return Ok(());
+        }
+        self.place(t, y)
+    }
+}

@@ -1,0 +1,154 @@
+//! When a mechanism will be at a singular position, from its least pivot on the way.
+//!
+//! Where Φ_q loses rank at t_s, a pivot of Φ_q M⁻¹ Φ_qᵀ goes to zero as (t - t_s)². So its root falls to
+//! zero along a line, and around t_s it is itself a parabola: by either t_s is found well before a step
+//! comes near.
+
+/// Part of the pivots beside it that the vertex of the parabola may keep: else it is no singular position.
+const DEEP: f64 = 0.05;
+/// Samples nearer to each other than this part of a step tell nothing new.
+const APART: f64 = 0.01;
+
+/// What an approach within two steps takes away from the pivot, at least: the square of one half.
+const NEARER: f64 = 4.0;
+
+/// Stages of a trial, at most: constant steps are not foreseen, and nobody asks for theirs.
+const MOST: usize = 64;
+
+/// A time, and the least ratio of a pivot to what it was cancelled from.
+type Sample = (f64, f64);
+
+/// What was seen on the way.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SingularityForecast {
+    /// At the start of the step under way.
+    start: Option<Sample>,
+    /// At stages of the trial under way.
+    stages: Vec<Sample>,
+    /// At, or near, the end of the last trial.
+    end: Option<Sample>,
+    /// The singular position within two steps from the start of the last trial.
+    position: Option<f64>,
+}
+
+impl SingularityForecast {
+    /// The start of the run.
+    pub fn begin(&mut self, start: Option<Sample>) {
+        *self = Self { start, ..Self::default() };
+    }
+
+    /// Whether a singular position is in reach, so that stages should be looked at.
+    pub fn in_reach(&self) -> bool {
+        self.position.is_some() || !self.stages.is_empty()
+    }
+
+    /// Takes a stage of the trial under way.
+    pub fn pass(&mut self, stage: Sample) {
+        if self.stages.len() == MOST {
+            self.stages.clear();
+        }
+        self.stages.push(stage);
+    }
+
+    /// Ends a trial; the time of a singular position within two steps from its start.
+    pub fn foresee(&mut self, end: Sample) -> Option<f64> {
+        let stages = std::mem::take(&mut self.stages);
+        self.end = Some(end);
+        let start = self.start?;
+        if stages.is_empty() && NEARER * end.1 > start.1 {
+            self.position = None; // further than two steps, or behind
+            return None;
+        }
+        let step = end.0 - start.0;
+        let mut way = vec![start];
+        way.extend(stages);
+        way.push(end);
+        way.sort_by(|a, b| ((a.0 - b.0) * step).total_cmp(&0.0));
+        way.dedup_by(|a, b| (a.0 - b.0).abs() < APART * step.abs());
+        let reached = |t: &f64| (0.0..2.0).contains(&((t - start.0) / step));
+        self.position = vanishing(&way).filter(reached);
+        self.position
+    }
+
+    /// The last trial is accepted, and ends so: the trial itself had told it from a state nearby.
+    pub fn accept(&mut self, end: Option<Sample>) {
+        self.end = end.or(self.end);
+        if let (Some((from, _)), Some((to, _))) = (self.start, self.end) {
+            self.position = self.position.filter(|t| (t - to) * (to - from) > 0.0);
+        }
+        self.start = self.end;
+    }
+}
+
+/// When the pivot vanishes; the samples are in the order of motion.
+fn vanishing(way: &[Sample]) -> Option<f64> {
+    let least = (1..way.len()).min_by(|a, b| way[*a].1.total_cmp(&way[*b].1))?;
+    let (t, kept) = way[least];
+    let (t_before, before) = way[least - 1];
+    if before <= kept {
+        return None;
+    }
+    let Some((t_after, after)) = way.get(least + 1) else {
+        let (root, root_before) = (kept.sqrt(), before.sqrt());
+        return Some(t + root * (t - t_before) / (root_before - root));
+    };
+    // Newton's form through three points
+    let (left, right) = ((before - kept) / (t_before - t), (after - kept) / (t_after - t));
+    let curvature = (right - left) / (t_after - t_before);
+    let slope = right - curvature * (t_after - t);
+    let bottom = kept - 0.25 * slope * slope / curvature;
+    (bottom <= DEEP * before.max(*after)).then(|| t - 0.5 * slope / curvature)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A pivot that vanishes at 0.3.
+    fn pivot(t: f64) -> Sample {
+        (t, 2.0 * (t - 0.3_f64).sin().powi(2))
+    }
+
+    fn foreseen(times: &[f64], from: f64, to: f64) -> Option<f64> {
+        let mut approach = SingularityForecast::default();
+        approach.begin(Some(pivot(from)));
+        times.iter().for_each(|t| approach.pass(pivot(*t)));
+        approach.foresee(pivot(to))
+    }
+
+    #[test]
+    fn it_is_found_before_within_and_backward() {
+        for (times, from, to, error) in [
+            (vec![], 0.0, 0.2, 5e-3),
+            (vec![0.12, 0.28], 0.0, 0.6, 5e-3),
+            (vec![0.5, 0.32, 0.33], 0.6, 0.0, 5e-3),
+            (vec![], 0.5, 0.38, 5e-3),
+        ] {
+            let t = foreseen(&times, from, to).expect("it lies ahead");
+            assert!((t - 0.3).abs() < error, "{times:?}: {t}");
+        }
+    }
+
+    #[test]
+    fn what_is_behind_far_or_shallow_is_none() {
+        assert_eq!(foreseen(&[0.5], 0.4, 0.6), None);
+        assert_eq!(foreseen(&[], -1.0, -0.9), None);
+        let mut approach = SingularityForecast::default();
+        approach.begin(Some((0.0, 0.5)));
+        approach.pass((0.1, 0.2));
+        assert_eq!(approach.foresee((0.2, 0.5)), None);
+    }
+
+    #[test]
+    fn it_stays_in_reach_until_it_is_passed() {
+        let mut approach = SingularityForecast::default();
+        approach.begin(Some(pivot(0.0)));
+        assert!(approach.foresee(pivot(0.2)).is_some());
+        approach.accept(Some(pivot(0.2)));
+        assert!(approach.in_reach());
+        approach.pass(pivot(0.29));
+        assert!(approach.foresee(pivot(0.4)).is_some());
+        approach.accept(Some(pivot(0.4)));
+        assert!(!approach.in_reach());
+    }
+}

@@ -1,0 +1,167 @@
+//! Passing singular positions: where Φ_q loses rank for an instant and branches of motion may meet.
+//!
+//! A motion that passes at speed stays on the branch that its velocity is tangent to; that is what the
+//! integration does, since it follows the smooth continuation of what came before. It is undecided
+//!
+//! * where the mechanism all but rests there: 2 T ≤ [`REST`] |M⁻¹Q| L, so that the loads turn it back or
+//!   aside within a part of its size in which the branches cannot be told apart;
+//! * where its velocity is tangent to no branch: Φ_q a = γ has no solution.
+
+use super::options::Options;
+use super::singularity_forecast::SingularityForecast;
+use crate::equations::augmented::Dependent;
+use crate::equations::forces::Acting;
+use crate::equations::{constraints, forces, mass, Singular, Workspace};
+use crate::model::{size, Model};
+use crate::stabilize::Fault;
+
+/// What to do at a singular position where the motion does not decide the branch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Singularity {
+    /// Stop with an error that names time, position and joints.
+    #[default]
+    Stop,
+    /// Go on; which branch is taken is left to rounding.
+    Pass,
+}
+
+/// Ratio of a pivot to what it was cancelled from below which branches are not told apart: a part of
+/// 1e-3 of the mechanism's size.
+const UNTOLD: f64 = 1e-6;
+/// The same part: how far from turning back a mechanism counts as at rest.
+const REST: f64 = 1e-3;
+/// Part of γ that may stay unmet: what the error of a trial state leaves is far less.
+const UNMET: f64 = 0.05;
+/// Part of the accelerations that rounding may make of a γ that is zero, over [`UNMET`].
+const ROUNDING: f64 = 1e-9;
+/// Part of what the joints carry that counts as balanced.
+const BALANCED: f64 = 1e-9;
+
+/// What a step came by.
+pub(super) struct SingularityPassage {
+    /// Whether a stage of the trial under way was near a singular position.
+    pub near: bool,
+    /// Why the last trial state that was refused was, and when.
+    pub undecided: Option<(f64, Fault)>,
+    singularity: Singularity,
+    /// Whether singular positions are passed at all.
+    passing: bool,
+    approach: SingularityForecast,
+    residual: Vec<f64>,
+    loads: Vec<f64>,
+}
+
+impl SingularityPassage {
+    pub fn new(options: &Options, passing: bool) -> Self {
+        Self {
+            near: false,
+            undecided: None,
+            singularity: options.singularity,
+            passing,
+            approach: SingularityForecast::default(),
+            residual: Vec::new(),
+            loads: Vec::new(),
+        }
+    }
+
+    /// Looks at the accelerations that were just computed; whether the motion decides how it goes on, or is to
+    /// go on all the same. If not, that is [`undecided`](Self::undecided): the state may be but a trial, and
+    /// counts where no shorter step avoids it.
+    #[inline(always)]
+    pub fn watch(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
+        if !(work.matrix.regularised() || self.approach.in_reach()) {
+            return true;
+        }
+        let looked = self.look(model, work, t, v);
+        self.undecided = looked.err().map(|fault| (t, fault)).or(self.undecided);
+        looked.is_ok()
+    }
+
+    /// The same beside a singular position.
+    #[cold]
+    fn look(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> Result<(), Fault> {
+        let ridged = work.matrix.regularised();
+        self.near = true;
+        let Some((row, kept)) = work.matrix.cancellation() else { return Ok(()) };
+        self.approach.pass((t, kept));
+        if !ridged || self.singularity == Singularity::Pass || kept > UNTOLD {
+            return Ok(());
+        }
+        let singular = Singular(Dependent::Row(row));
+        if self.unmet(model, work, t) {
+            return Err(Fault::Singular(singular));
+        }
+        if self.rests(model, work, t, v) {
+            return Err(Fault::AtRest(singular));
+        }
+        Ok(())
+    }
+
+    /// The start of a run.
+    pub fn begin(&mut self, t: f64, work: &Workspace) {
+        self.approach.begin(work.matrix.cancellation().map(|(_, kept)| (t, kept)));
+    }
+
+    /// The singular position ahead, if one is in reach of steps as long as that which was tried.
+    pub fn foresee(&mut self, t: f64, work: &Workspace) -> Option<f64> {
+        self.near = false;
+        if !self.passing {
+            return None;
+        }
+        let (_, kept) = work.matrix.cancellation()?;
+        self.approach.foresee((t, kept))
+    }
+
+    /// Whether the trial that was foreseen last is beside a singular position.
+    pub fn in_reach(&self) -> bool {
+        self.approach.in_reach()
+    }
+
+    /// The trial that was foreseen last is accepted; the workspace is that of its end.
+    pub fn accept(&mut self, t: f64, work: &Workspace) {
+        if self.passing {
+            self.approach.accept(work.matrix.cancellation().map(|(_, kept)| (t, kept)));
+        }
+    }
+
+    /// Whether the mechanism all but rests where loads would move it. Accelerations of a trial state are
+    /// noisy here, so loads are what rest is measured by, and accelerations tell balance only.
+    fn rests(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
+        self.loads.resize(v.len(), 0.0);
+        let acting = Acting { z: &work.z, lam: None, t };
+        forces::generalized(model, &work.compiled, &work.motions, acting, &mut self.loads);
+        let (mut twice, mut pull, mut applied, mut mass_all) = (0.0, 0.0, 0.0, 0.0);
+        let bodies = model.bodies.iter().zip(work.motions.iter()).zip(&model.layout.bodies).skip(1);
+        for ((body, motion), columns) in bodies {
+            let [v, a, load] = [v, work.a(), &self.loads].map(|x| columns.of(x));
+            let block = mass::block(body, motion);
+            let square = |x: [f64; 3]| -> f64 {
+                let m = block.times(x);
+                x.iter().zip(m).map(|(x, m)| x * m).sum()
+            };
+            twice += square(v);
+            pull += square(a);
+            applied += (load[0] * load[0] + load[1] * load[1]) / body.mass;
+            if block.inertia > 0.0 {
+                applied += load[2] * load[2] / block.inertia;
+            }
+            mass_all += body.mass;
+        }
+        let [pull, applied, root] = [pull, applied, mass_all].map(f64::sqrt);
+        pull > BALANCED * applied && twice <= REST * applied * size(model) * root
+    }
+
+    /// Whether Φ_q a = γ is missed.
+    fn unmet(&mut self, model: &Model, work: &Workspace, t: f64) -> bool {
+        self.residual.resize(model.layout.n_rows, 0.0);
+        let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![0.0; model.layout.n_rows]);
+        constraints::velocity_terms(model, &work.motions, t, &mut phi, &mut rate, &mut gamma);
+        constraints::times_all(model, work.matrix.jacobian(), work.a(), &mut self.residual);
+        let lengths = work.a().iter().zip(model.layout.lengths()).filter(|(_, length)| *length);
+        let fastest = lengths.fold(0.0, |m: f64, (a, _)| m.max(a.abs()));
+        let largest = gamma.iter().fold(ROUNDING * fastest, |m: f64, g| m.max(g.abs()));
+        let missed =
+            self.residual.iter().zip(&gamma).fold(0.0, |m: f64, (r, g)| m.max((r - g).abs()));
+        missed > UNMET * largest
+    }
+}

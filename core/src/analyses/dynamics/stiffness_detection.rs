@@ -1,0 +1,228 @@
+//! Which method integrates when none is named: DOP853, or Radau where the equations prove stiff.
+//!
+//! The model is judged at the start (`forecast`), and the steps are on the way, here.
+//!
+//! No number of a model alone tells its stiffness: a damper of 1e7 N·m·s/rad is soft on a heavy rocker, and what
+//! is stiff for a second is not for a microsecond. So the steps of the explicit method are looked at
+//! now and then: where a damped motion of the linearised equations holds them at the limit
+//! of stability, h |λ| ≈ 6.1 for DOP853 (the number of its authors), accuracy would allow longer ones, and
+//! Radau goes on. Undamped vibrations do not count: an implicit method has to follow them as well, in
+//! steps as short. A start costs the explicit method few steps, however stiff: it makes them short.
+//!
+//! Radau is of lower order, so that it is not the cheaper one by being stable alone: if it does not make
+//! steps longer by [`WORTH`], DOP853 takes over again, and the next look waits.
+//!
+//! |λ| by power iteration on differences of the accelerations (as in the code RKC of Sommeijer, Shampine
+//! and Verwer, *RKC: an explicit solver for parabolic PDEs*, J. Comput. Appl. Math. 88 (1998) 315), with the
+//! vector of the last look; whether it is damped, from the quadratic that its last images satisfy.
+
+use crate::equations::{Gains, Workspace};
+use crate::integrate::Step;
+use crate::model::Model;
+
+/// Extent of the stability of DOP853 along the negative real axis.
+pub(super) const LIMIT: f64 = 6.1;
+/// Part of it at which steps count as held by stability.
+const NEAR: f64 = 0.6;
+/// -Re λ / |λ| from which a motion counts as damped.
+const DAMPED: f64 = 0.3;
+/// Steps before the first look, and least between looks.
+const FIRST_LOOK: usize = 15;
+/// Steps until the next look, over those so far.
+const NEXT_LOOK: f64 = 0.25;
+/// Fewer steps than this still to go are not worth a change.
+pub(super) const TO_GO: f64 = 100.0;
+/// Steps of Radau after which it is judged, again and again.
+pub(super) const TRIAL: usize = 20;
+/// By which its steps must be longer: what one of them costs, in steps of DOP853.
+pub(super) const WORTH: f64 = 2.0;
+/// Double applications of the Jacobian in a look.
+const ITERATIONS: usize = 3;
+/// Relative size of the differences.
+const DIFFERENCE: f64 = 1e-7;
+
+/// What was chosen, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MethodChoice {
+    /// The method at the end: its `type` in a file.
+    pub method: &'static str,
+    /// In words.
+    pub why: String,
+}
+
+/// The fastest motion of the linearised equations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Fastest {
+    /// |λ|, 1/s.
+    pub rate: f64,
+    pub damped: bool,
+}
+
+/// Watches the steps of the explicit method.
+pub(super) struct StiffnessDetector<'a> {
+    model: &'a Model,
+    workspace: Workspace,
+    /// The vector of the power iteration: (q part, v part), and its two images.
+    x: [Vec<f64>; 3],
+    steps: usize,
+    next: usize,
+    since: (usize, f64),
+    /// The rate of a damped motion that the start foretells to hold the steps.
+    pub foretold: Option<f64>,
+    /// The last look: the fastest motion, and the mean step.
+    pub seen: Option<(Fastest, f64)>,
+}
+
+impl<'a> StiffnessDetector<'a> {
+    /// With the workspace of the equations of motion of this run for its plan of elimination.
+    pub fn new(model: &'a Model, one: &Workspace, t0: f64) -> Self {
+        let n = 2 * model.layout.n_q;
+        // a vector without pattern has a share of every motion
+        let start = (0..n).map(|k| (1.0 + 0.7 * k as f64).sin()).collect();
+        Self {
+            model,
+            workspace: Workspace::like(model, one),
+            x: [start, vec![0.0; n], vec![0.0; n]],
+            steps: 0,
+            next: FIRST_LOOK,
+            since: (0, t0),
+            foretold: None,
+            seen: None,
+        }
+    }
+
+    /// Whether the explicit method should stop after this step.
+    pub fn stiff(&mut self, step: &Step<'_>, t_end: f64) -> bool {
+        self.steps += 1;
+        if self.foretold.is_some_and(|rate| (step.t - step.t_old) * rate > NEAR * LIMIT) {
+            self.foretold = None;
+            self.since = (self.steps - 1, step.t_old);
+        } else if self.steps < self.next {
+            return false;
+        }
+        let h = (step.t - self.since.1) / (self.steps - self.since.0) as f64;
+        self.wait(1.0);
+        self.since = (self.steps, step.t);
+        let Some(fastest) = self.fastest(step.t, step.y) else { return false };
+        self.seen = Some((fastest, h));
+        // backward in time what is damped grows, and an implicit method is no better
+        let to_go = (t_end - step.t) / h;
+        h > 0.0 && to_go > TO_GO && fastest.damped && h * fastest.rate > NEAR * LIMIT
+    }
+
+    /// The next look, `times` later than usual.
+    pub fn wait(&mut self, times: f64) {
+        let steps = (times * NEXT_LOOK * self.steps as f64) as usize;
+        self.next = self.steps + steps.max((times * FIRST_LOOK as f64) as usize);
+    }
+
+    /// The explicit method goes on from `t`.
+    pub fn resume(&mut self, t: f64) {
+        self.since = (self.steps, t);
+        self.wait(4.0);
+    }
+
+    /// Accelerations at a state, and their rate along the motion from a difference over `probe`, s; None
+    /// where the equations are singular.
+    pub fn rates(&mut self, t: f64, [q, v]: [&[f64]; 2], probe: f64) -> Option<[Vec<f64>; 2]> {
+        let gains = Gains::default();
+        self.workspace.accelerate(self.model, t, [q, v, &[]], gains).ok()?;
+        let a = self.workspace.a().to_vec();
+        let moved = |x: &[f64], rate: &[f64]| -> Vec<f64> {
+            x.iter().zip(rate).map(|(x, rate)| x + probe * rate).collect()
+        };
+        let (q, v) = (moved(q, v), moved(v, &a));
+        self.workspace.accelerate(self.model, t + probe, [&q, &v, &[]], gains).ok()?;
+        let jerk = self.workspace.a().iter().zip(&a).map(|(new, a)| (new - a) / probe).collect();
+        Some([a, jerk])
+    }
+
+    /// The fastest motion of the equations linearised at a state; None where they are singular.
+    pub fn fastest(&mut self, t: f64, y: &[f64]) -> Option<Fastest> {
+        let n = self.model.layout.n_q;
+        let (q, v) = (&y[..n], &y[n..2 * n]);
+        self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default()).ok()?;
+        let a = self.workspace.a().to_vec();
+        let reach = largest(q).max(1e-3);
+        for _ in 0..ITERATIONS {
+            for k in 0..2 {
+                let size = largest(&self.x[k][..n]) / reach
+                    + largest(&self.x[k][n..]) / largest(v).max(reach);
+                let epsilon = DIFFERENCE / size;
+                if !(epsilon.is_finite() && epsilon > 0.0) {
+                    return None;
+                }
+                let moved = |y: &[f64], x: &[f64]| -> Vec<f64> {
+                    y.iter().zip(x).map(|(y, x)| y + epsilon * x).collect()
+                };
+                let (near_q, near_v) = (moved(q, &self.x[k][..n]), moved(v, &self.x[k][n..]));
+                let gains = Gains::default();
+                self.workspace.accelerate(self.model, t, [&near_q, &near_v, &[]], gains).ok()?;
+                let (from, to) = self.x.split_at_mut(k + 1);
+                to[0][..n].copy_from_slice(&from[k][n..]);
+                let images =
+                    self.workspace.a().iter().zip(&a).map(|(near, a)| (near - a) / epsilon);
+                to[0][n..].iter_mut().zip(images).for_each(|(to, image)| *to = image);
+            }
+            self.x.rotate_left(2);
+            let scale = 1.0 / largest(&self.x[0]).max(f64::MIN_POSITIVE);
+            // the others follow, so that the quadratic may be read off all three
+            for x in &mut self.x {
+                x.iter_mut().for_each(|x| *x *= scale);
+            }
+        }
+        // after the rotation: J² x, x, J x
+        let [last, first, second] = &self.x;
+        dominant(n, first, second, last)
+    }
+}
+
+/// The dominant λ from x, J x and J² x, each (q part of length n, v part): J² x = s J x - p x holds for one
+/// pair of eigenvalues. Velocities count over |λ|, so that both parts weigh alike.
+fn dominant(n: usize, x: &[f64], jx: &[f64], jjx: &[f64]) -> Option<Fastest> {
+    let plain = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let weight = (plain(&x[n..], &x[n..]) / plain(&jjx[n..], &jjx[n..])).sqrt();
+    let dot = |a: &[f64], b: &[f64]| plain(&a[..n], &b[..n]) + weight * plain(&a[n..], &b[n..]);
+    let (xx, xj, jj) = (dot(x, x), dot(x, jx), dot(jx, jx));
+    let determinant = xx * jj - xj * xj;
+    let (re, size) = if determinant <= 1e-6 * xx * jj {
+        (xj / xx, (xj / xx).abs())
+    } else {
+        let (bx, bj) = (dot(jjx, x), dot(jjx, jx));
+        let s = (bj * xx - bx * xj) / determinant;
+        let p = (bj * xj - bx * jj) / determinant;
+        let discriminant = 0.25 * s * s - p;
+        if discriminant < 0.0 {
+            (0.5 * s, p.sqrt())
+        } else {
+            let root = 0.5 * s + discriminant.sqrt().copysign(s);
+            (root, root.abs())
+        }
+    };
+    size.is_finite().then_some(Fastest { rate: size, damped: -re > DAMPED * size })
+}
+
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn damped_and_undamped_pairs_are_told_apart() {
+        let pair = |re: f64, im: f64| {
+            // one coordinate: q̈ = 2 re q̇ - (re² + im²) q
+            let times = |[q, v]: [f64; 2]| [v, 2.0 * re * v - (re * re + im * im) * q];
+            // a real pair is met as the power iteration leaves it
+            let x = if im == 0.0 { [1.0, re] } else { [1.0, 0.3 * im] };
+            dominant(1, &x, &times(x), &times(times(x))).expect("finite")
+        };
+        let close = |found: f64, expected: f64| (found - expected).abs() < 1e-9 * expected;
+        assert!(close(pair(0.0, 50.0).rate, 50.0) && !pair(0.0, 50.0).damped);
+        assert!(close(pair(-3.0, 4.0).rate, 5.0) && pair(-3.0, 4.0).damped);
+        assert!(close(pair(-1e4, 0.0).rate, 1e4) && pair(-1e4, 0.0).damped);
+        assert!(!pair(20.0, 0.0).damped);
+    }
+}

@@ -1,0 +1,168 @@
+//! The declaration of a set of options: one macro emits the struct with its defaults, its table and its reader.
+
+use super::reader::Reader;
+use crate::elements::Table;
+
+/// A set of options as data.
+#[derive(Clone, Debug)]
+pub struct Declaration {
+    /// Name of the class in Python.
+    pub class: &'static str,
+    /// The `type` in the file, and the options.
+    pub table: Table,
+    /// Options that exclude others: each with those that may not be given with it.
+    pub excludes: &'static [(&'static str, &'static [&'static str])],
+}
+
+impl Declaration {
+    /// With the exclusions in the docs of the options that exclude others.
+    pub fn new(
+        class: &'static str,
+        mut table: Table,
+        excludes: &'static [(&'static str, &'static [&'static str])],
+    ) -> Self {
+        for (one, others) in excludes {
+            for field in table.fields.iter_mut().filter(|field| field.name == *one) {
+                field.doc += &format!(" Not together with {}.", others.join(" and "));
+            }
+        }
+        Self { class, table, excludes }
+    }
+}
+
+/// Sets of options of which an analysis takes one, such as the methods of integration.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// The name by which [`Shape::Options`](crate::elements::Shape::Options) refers to it.
+    pub name: &'static str,
+    /// The sets to choose from.
+    pub options: Vec<Declaration>,
+}
+
+/// A struct of options with its declaration.
+pub trait Declared: Sized {
+    /// The `type` in the file.
+    const NAME: &'static str;
+    /// The declaration as data.
+    fn declaration() -> Declaration;
+    /// Reads all options; None if one was faulty (the reader keeps the reports).
+    fn read(reader: &mut Reader<'_>) -> Option<Self>;
+}
+
+/// A value that is chosen from a family by its `type`.
+pub trait Member {
+    /// The sets to choose from.
+    fn family() -> Family;
+}
+
+/// Declares options: required ones in parentheses, then those with defaults, then those that exclude others.
+macro_rules! options {
+    ($(#[doc = $doc:literal])* $Name:ident, $name:literal, $class:literal
+        ($($(#[doc = $what:literal])* $required:ident : $must:ty $([$($in:tt)*])?),*)
+        {$($(#[doc = $about:literal])* $field:ident : $kind:ty $([$($unit:tt)*])? = $default:expr),* $(,)?}
+        $(excludes { $($one:ident: $($other:ident),+;)+ })?
+    ) => {
+        $(#[doc = $doc])*
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct $Name {
+            $($(#[doc = $what])* pub $required: <$must as $crate::analyses::options::Kind>::Value,)*
+            $($(#[doc = $about])* pub $field: <$kind as $crate::analyses::options::Kind>::Value,)*
+        }
+
+        impl $Name {
+            /// With the defaults of all other options.
+            #[allow(clippy::new_without_default)] // where nothing is required
+            pub fn new($($required: <$must as $crate::analyses::options::Kind>::Value),*) -> Self {
+                Self { $($required,)* $($field: $default),* }
+            }
+        }
+
+        impl $crate::analyses::options::Declared for $Name {
+            const NAME: &'static str = $name;
+
+            fn declaration() -> $crate::analyses::options::Declaration {
+                #[allow(unused_imports)] // where there are no options
+                use $crate::analyses::options::Kind;
+                let doc = |lines: &[&str]| lines.concat().trim().to_string();
+                let fields = vec![
+                    $($crate::elements::Field {
+                        name: stringify!($required),
+                        shape: <$must as Kind>::shape(),
+                        unit: concat!($($(stringify!($in)),*)?).to_string(),
+                        default: None,
+                        doc: doc(&[$($what),*]),
+                    },)*
+                    $($crate::elements::Field {
+                        name: stringify!($field),
+                        shape: <$kind as Kind>::shape(),
+                        unit: concat!($($(stringify!($unit)),*)?).to_string(),
+                        default: Some(<$kind as Kind>::data(&$default)),
+                        doc: doc(&[$($about),*]),
+                    },)*
+                ];
+                $crate::analyses::options::Declaration::new(
+                    $class,
+                    $crate::elements::Table { name: $name, doc: doc(&[$($doc),*]), fields },
+                    &[$($((stringify!($one), &[$(stringify!($other)),+]),)+)?],
+                )
+            }
+
+            #[allow(unused_variables)] // where there are no options
+            fn read(reader: &mut $crate::analyses::options::Reader<'_>) -> Option<Self> {
+                // every option is read before any failure counts: all problems at once
+                $(let $required = reader.required::<$must>(
+                    stringify!($required), concat!($($(stringify!($in)),*)?));)*
+                $(let $field = reader.optional::<$kind>(
+                    stringify!($field), concat!($($(stringify!($unit)),*)?), $default);)*
+                Some(Self { $($required: $required?,)* $($field: $field?),* })
+            }
+        }
+    };
+}
+pub(in crate::analyses) use options;
+
+/// Declares the members of a family; each becomes the value by `From`. The first is the default.
+macro_rules! family {
+    ($Value:ident, $name:literal, [$Default:ident $(, $Other:ident)* $(,)?]) => {
+        impl Default for $Value {
+            fn default() -> Self {
+                $Default::new().into()
+            }
+        }
+
+        impl $crate::analyses::options::Member for $Value {
+            fn family() -> $crate::analyses::options::Family {
+                use $crate::analyses::options::Declared;
+                let options = vec![$Default::declaration() $(, $Other::declaration())*];
+                $crate::analyses::options::Family { name: $name, options }
+            }
+        }
+
+        impl $crate::analyses::options::Kind for $Value {
+            type Value = Self;
+
+            fn shape() -> $crate::elements::Shape {
+                $crate::elements::Shape::Options($name)
+            }
+
+            fn data(_: &Self) -> $crate::elements::Default {
+                use $crate::analyses::options::Declared;
+                $crate::elements::Default::Type($Default::NAME)
+            }
+
+            fn read(
+                reader: &mut $crate::analyses::options::Reader<'_>,
+                key: &'static str,
+                _: &'static str,
+            ) -> Option<Self> {
+                use $crate::analyses::options::Declared;
+                reader.chosen(key, |reader, kind| match kind {
+                    $Default::NAME => Some($Default::read(reader)?.into()),
+                    $($Other::NAME => Some($Other::read(reader)?.into()),)*
+                    _ => reader.refuse("type", format!("unknown {} '{kind}'", $name)),
+                })
+            }
+        }
+    };
+}
+pub(in crate::analyses) use family;

@@ -1,0 +1,179 @@
+//! Kinds of options: what each holds, and how it is read and checked.
+
+use super::reader::Reader;
+use crate::elements::{Default, Shape};
+use crate::model::Value as Written;
+
+/// A kind of option.
+pub trait Kind {
+    /// What the struct of options holds.
+    type Value;
+    /// What may stand in the file.
+    fn shape() -> Shape;
+    /// A default value as data.
+    fn data(value: &Self::Value) -> Default;
+    /// Reads a value that is given; None if it is faulty (the reader keeps the report).
+    fn read(reader: &mut Reader<'_>, key: &'static str, unit: &'static str) -> Option<Self::Value>;
+}
+
+/// An option that may be left out, with no value then.
+impl<K: Kind> Kind for Option<K> {
+    type Value = Option<K::Value>;
+
+    fn shape() -> Shape {
+        K::shape()
+    }
+    fn data(value: &Self::Value) -> Default {
+        value.as_ref().map_or(Default::Absent, K::data)
+    }
+    fn read(reader: &mut Reader<'_>, key: &'static str, unit: &'static str) -> Option<Self::Value> {
+        K::read(reader, key, unit).map(Some)
+    }
+}
+
+/// Bounds of a number.
+pub trait Bounded {
+    /// What a number must be.
+    const MUST: &'static str;
+    /// Whether a finite number is within the bounds.
+    fn holds(x: f64) -> bool;
+}
+
+/// Kinds of numbers within bounds; the words follow "must be".
+macro_rules! numbers {
+    ($($(#[doc = $doc:literal])* $kind:ident: |$x:ident| $holds:expr, $must:literal;)+) => {$(
+        $(#[doc = $doc])*
+        #[allow(non_camel_case_types)] // stands for a type in `options!`, written like a word
+        pub enum $kind {}
+        impl Bounded for $kind {
+            const MUST: &'static str = $must;
+
+            fn holds($x: f64) -> bool {
+                $holds
+            }
+        }
+        impl Kind for $kind {
+            type Value = f64;
+
+            fn shape() -> Shape {
+                Shape::Number
+            }
+            fn data(value: &f64) -> Default {
+                Default::Number(*value)
+            }
+            fn read(reader: &mut Reader<'_>, key: &'static str, unit: &'static str) -> Option<f64> {
+                reader.number::<Self>(key, unit)
+            }
+        }
+    )+};
+}
+
+numbers! {
+    /// Any number.
+    number: |_x| true, "finite";
+    /// A number above zero.
+    positive: |x| x > 0.0, "> 0";
+    /// A number from zero.
+    not_negative: |x| x >= 0.0, ">= 0";
+    /// The spectral radius of a method that damps.
+    spectral_radius: |x| (0.0..1.0).contains(&x), "in [0, 1)";
+    /// The parameter of Hilber, Hughes and Taylor.
+    hht_alpha: |x| (-1.0 / 3.0..0.0).contains(&x), "in [-1/3, 0)";
+}
+
+/// Kinds that are read from a value as it is written.
+macro_rules! plain {
+    ($($(#[doc = $doc:literal])* $kind:ident: $Value:ty, $Shape:ident, $data:expr, $pattern:pat => $value:expr, $must:literal;)+) => {$(
+        $(#[doc = $doc])*
+        #[allow(non_camel_case_types)] // stands for a type in `options!`, written like a word
+        pub enum $kind {}
+        impl Kind for $kind {
+            type Value = $Value;
+
+            fn shape() -> Shape {
+                Shape::$Shape
+            }
+            fn data(value: &$Value) -> Default {
+                let data: fn(&$Value) -> Default = $data;
+                data(value)
+            }
+            fn read(reader: &mut Reader<'_>, key: &'static str, _: &'static str) -> Option<$Value> {
+                match reader.get(key)? {
+                    $pattern => Some($value),
+                    _ => reader.refuse(key, concat!("must be ", $must)),
+                }
+            }
+        }
+    )+};
+}
+
+plain! {
+    /// true or false.
+    flag: bool, Flag, |value| Default::Flag(*value), Written::Flag(value) => *value, "true or false";
+    /// A name.
+    name: String, Name, |_| Default::Absent, Written::Text(value) => value.clone(), "a name";
+}
+
+/// A whole number from 1.
+#[allow(non_camel_case_types)] // stands for a type in `options!`, written like a word
+pub enum count {}
+impl Bounded for count {
+    const MUST: &'static str = "a whole number from 1";
+
+    fn holds(x: f64) -> bool {
+        x >= 1.0 && x.fract() == 0.0
+    }
+}
+impl Kind for count {
+    type Value = usize;
+
+    fn shape() -> Shape {
+        Shape::Count
+    }
+    fn data(value: &usize) -> Default {
+        Default::Number(*value as f64)
+    }
+    fn read(reader: &mut Reader<'_>, key: &'static str, unit: &'static str) -> Option<usize> {
+        reader.number::<Self>(key, unit).map(|x| x as usize)
+    }
+}
+
+/// A choice among words.
+pub trait Words: Copy + PartialEq + 'static {
+    /// The words.
+    const WORDS: &'static [&'static str];
+    /// What they mean, in their order.
+    const VALUES: &'static [Self];
+}
+
+impl<W: Words> Kind for W {
+    type Value = W;
+
+    fn shape() -> Shape {
+        Shape::Word(W::WORDS)
+    }
+    fn data(value: &W) -> Default {
+        let word = W::VALUES.iter().position(|known| known == value).map(|k| W::WORDS[k]);
+        word.map_or(Default::Absent, Default::Body)
+    }
+    fn read(reader: &mut Reader<'_>, key: &'static str, _: &'static str) -> Option<W> {
+        let Written::Text(word) = reader.get(key)? else {
+            return reader.refuse(key, "must be a word");
+        };
+        match W::WORDS.iter().position(|known| known == word) {
+            Some(k) => Some(W::VALUES[k]),
+            None => reader.refuse(key, format!("unknown word '{word}'")),
+        }
+    }
+}
+
+/// Says which words stand for the values of an enum.
+macro_rules! words {
+    ($Value:ident { $($word:literal => $value:expr),+ $(,)? }) => {
+        impl $crate::analyses::options::Words for $Value {
+            const WORDS: &'static [&'static str] = &[$($word),+];
+            const VALUES: &'static [Self] = &[$($value),+];
+        }
+    };
+}
+pub(in crate::analyses) use words;

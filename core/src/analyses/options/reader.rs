@@ -1,0 +1,105 @@
+//! Options from a file or from Python. Their structure has been checked by the tables; here values are computed.
+
+use super::kinds::{Bounded, Kind};
+use crate::equations::at;
+use crate::model::{Model, Problem, Reach, Scope, Value};
+
+/// Reads the fields of one table of options and keeps what is wrong with them.
+pub struct Reader<'a> {
+    model: &'a Model,
+    scope: &'a Scope,
+    fields: &'a [(String, Value)],
+    path: Vec<String>,
+    problems: &'a mut Vec<Problem>,
+}
+
+impl<'a> Reader<'a> {
+    /// Reads fields by `read`; `path` is where they stand in the file. Numbers may be formulas in the parameters of
+    /// the model.
+    ///
+    /// # Errors
+    /// Every faulty value, with its path.
+    pub fn read<T>(
+        model: &Model,
+        fields: &[(String, Value)],
+        path: &[String],
+        read: impl FnOnce(&mut Reader<'_>) -> Option<T>,
+    ) -> Result<T, Vec<Problem>> {
+        let scope = &Scope::of_parameters(&model.blueprint.parameters);
+        let mut problems = Vec::new();
+        let path = path.to_vec();
+        let found = read(&mut Reader { model, scope, fields, path, problems: &mut problems });
+        match found {
+            Some(found) if problems.is_empty() => Ok(found),
+            _ => Err(problems),
+        }
+    }
+
+    /// A value as it is written.
+    pub fn get(&self, key: &str) -> Option<&'a Value> {
+        self.fields.iter().find(|(k, _)| k == key).map(|(_, value)| value)
+    }
+
+    /// Reports what is wrong with a value.
+    pub fn refuse<T>(&mut self, key: &str, message: impl Into<String>) -> Option<T> {
+        self.problems.push(Problem::at(&self.path_of(key), message));
+        None
+    }
+
+    /// An option that must be given.
+    pub fn required<K: Kind>(&mut self, key: &'static str, unit: &'static str) -> Option<K::Value> {
+        match self.get(key) {
+            Some(_) => K::read(self, key, unit),
+            None => self.refuse(key, "missing"),
+        }
+    }
+
+    /// An option with a default.
+    pub fn optional<K: Kind>(
+        &mut self,
+        key: &'static str,
+        unit: &'static str,
+        default: K::Value,
+    ) -> Option<K::Value> {
+        match self.get(key) {
+            Some(_) => K::read(self, key, unit),
+            None => Some(default),
+        }
+    }
+
+    /// A finite number within bounds.
+    pub fn number<B: Bounded>(&mut self, key: &str, unit: &str) -> Option<f64> {
+        let (value, path) = (self.get(key)?, self.path_of(key));
+        let tape = self.scope.formula(value, &path, unit, Reach::Parameters, self.problems)?;
+        let x = tape.evaluate(&at(&self.model.parameters, &[], &[], 0.0));
+        if !x.is_finite() {
+            return self.refuse(key, format!("becomes {x}; must be finite"));
+        }
+        if !B::holds(x) {
+            let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+            return self.refuse(key, format!("{x}{unit}; must be {}", B::MUST));
+        }
+        Some(x)
+    }
+
+    /// A table of options, whose `type` is given to `read`.
+    pub fn chosen<T>(
+        &mut self,
+        key: &str,
+        read: impl FnOnce(&mut Reader<'_>, &str) -> Option<T>,
+    ) -> Option<T> {
+        let Some(Value::Table(fields)) = self.get(key) else {
+            return self.refuse(key, "must be a table of options");
+        };
+        let (model, scope, path) = (self.model, self.scope, self.path_of(key));
+        let mut inner = Reader { model, scope, fields, path, problems: &mut *self.problems };
+        match inner.get("type") {
+            Some(Value::Text(kind)) => read(&mut inner, kind),
+            _ => inner.refuse("type", "missing"),
+        }
+    }
+
+    fn path_of(&self, key: &str) -> Vec<String> {
+        self.path.iter().cloned().chain([key.to_string()]).collect()
+    }
+}

@@ -1,0 +1,84 @@
+//! Named results of a run: coordinates and rates of bodies, reactions of joints.
+
+use super::dynamics::{Reason, Run};
+use crate::elements::Coordinate;
+use crate::equations::kinematics::Motions;
+use crate::equations::reactions::{reaction, Frame};
+use crate::math::Wrench;
+use crate::model::Model;
+use std::fmt;
+
+/// Why a result cannot be given.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoResult {
+    /// The model has nothing of this name, or the joint does not touch this body.
+    Unknown(String),
+    /// Accelerations and multipliers cannot be computed at a reported state.
+    Unsolved(Reason),
+}
+
+impl fmt::Display for NoResult {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown(message) => write!(f, "{message}"),
+            Self::Unsolved(reason) => write!(f, "{reason}"),
+        }
+    }
+}
+
+impl std::error::Error for NoResult {}
+
+impl Run {
+    /// A coordinate or rate at the reported times, such as `rocker.angle` or `crank.omega`: m, rad, m/s
+    /// or rad/s.
+    ///
+    /// # Errors
+    /// [`NoResult::Unknown`] if the model has no such moving body, or a body no such coordinate.
+    pub fn coordinate(&self, model: &Model, name: &str) -> Result<Vec<f64>, NoResult> {
+        let (body, coordinate) = name
+            .rsplit_once('.')
+            .and_then(|(body, coordinate)| {
+                let body = model.body(body).filter(|body| !body.is_ground())?;
+                Some((body, Coordinate::named(coordinate)?))
+            })
+            .ok_or_else(|| {
+                let form = "a moving body and one of x, y, angle, vx, vy, omega";
+                NoResult::Unknown(format!("'{name}' does not name {form}, such as crank.angle"))
+            })?;
+        let table = if coordinate.is_rate() { &self.trajectory.v } else { &self.trajectory.q };
+        let rows = table.chunks_exact(model.layout.n_q.max(1));
+        let columns = model.layout.bodies[body.0];
+        Ok(rows.map(|row| columns.of(row)[coordinate.column()]).collect())
+    }
+
+    /// Force, and torque about the joint point, of a joint or driver on a body at the reported times.
+    ///
+    /// The multipliers are those of the equations without stabilization.
+    ///
+    /// # Errors
+    /// [`NoResult`] if a name is unknown, or if multipliers cannot be computed.
+    pub fn reactions(
+        &self,
+        model: &Model,
+        joint: &str,
+        on: &str,
+        frame: Frame,
+    ) -> Result<Vec<Wrench>, NoResult> {
+        let k = model
+            .constraint(joint)
+            .ok_or_else(|| NoResult::Unknown(format!("there is no joint or driver '{joint}'")))?;
+        let apart = || NoResult::Unknown(format!("'{on}' is not a body of '{joint}'"));
+        let body = model.body(on).ok_or_else(apart)?;
+        let lam = self.accelerations(model).map_err(NoResult::Unsolved)?.lam;
+        let (n, rows) = (model.layout.n_q, model.layout.constraints[k].rows.clone());
+        let mut motions = Motions::new(&model.layout);
+        let at = |(state, &t): (usize, &f64)| {
+            let coordinates = state * n..(state + 1) * n;
+            let [q, v] = [&self.trajectory.q, &self.trajectory.v].map(|x| &x[coordinates.clone()]);
+            motions.place(&model.layout, q, v);
+            let own = &lam[state * model.layout.n_rows..][rows.clone()];
+            reaction(model, k, body, frame, &motions, t, own).ok_or_else(apart)
+        };
+        self.trajectory.t.iter().enumerate().map(at).collect()
+    }
+}

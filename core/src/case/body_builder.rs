@@ -1,0 +1,94 @@
+//! Bodies of a model that is written in Rust.
+
+use crate::elements::{Number, Pair, Value};
+use crate::model::Entry;
+use std::marker::PhantomData;
+
+/// Ground: points alone.
+#[derive(Clone, Copy, Debug)]
+pub enum Ground {}
+/// A uniform slender bar.
+#[derive(Clone, Copy, Debug)]
+pub enum Bar {}
+/// A rigid body of any form.
+#[derive(Clone, Copy, Debug)]
+pub enum General {}
+
+/// A body of a [`ModelBuilder`](super::ModelBuilder); each type of body has the methods of its fields.
+#[derive(Debug)]
+pub struct BodyBuilder<'m, Type> {
+    entry: &'m mut Entry,
+    kind: PhantomData<Type>,
+}
+
+impl<'m, Type> BodyBuilder<'m, Type> {
+    pub(super) fn new(entry: &'m mut Entry) -> Self {
+        Self { entry, kind: PhantomData }
+    }
+
+    /// A named point in the frame of the body, m.
+    pub fn point(self, name: &str, x: impl Into<Number>, y: impl Into<Number>) -> Self {
+        self.place("points", name, Pair::from((x, y)))
+    }
+
+    fn with(self, field: &str, value: impl Into<Value>) -> Self {
+        let fields = &mut self.entry.fields;
+        fields.retain(|(name, _)| name != field);
+        fields.push((field.to_string(), value.into()));
+        self
+    }
+
+    /// Adds to a table of points.
+    fn place(self, field: &str, name: &str, point: Pair) -> Self {
+        let point = (name.to_string(), Value::from(point));
+        let table = self.entry.fields.iter_mut().find(|(key, _)| key == field);
+        match table {
+            Some((_, Value::Table(points))) => points.push(point),
+            _ => self.entry.fields.push((field.to_string(), Value::Table(vec![point]))),
+        }
+        self
+    }
+}
+
+/// Methods of all bodies that move.
+macro_rules! moving {
+    ($($Type:ident),+) => {
+        $(impl BodyBuilder<'_, $Type> {
+            /// Mass, kg.
+            pub fn mass(self, mass: impl Into<Number>) -> Self {
+                self.with("mass", mass.into())
+            }
+
+            /// Where a named point of the body is in the global frame when assembly starts, m. Two such
+            /// points place the body; a bar with two of them needs no length and no ends.
+            pub fn through(self, name: &str, x: impl Into<Number>, y: impl Into<Number>) -> Self {
+                self.place("through", name, Pair::from((x, y)))
+            }
+        })+
+    };
+}
+moving!(Bar, General);
+
+impl BodyBuilder<'_, Bar> {
+    /// Length, m.
+    pub fn length(self, length: impl Into<Number>) -> Self {
+        self.with("length", length.into())
+    }
+
+    /// Names of the points at (-length/2, 0) and (length/2, 0).
+    pub fn ends(self, first: &str, last: &str) -> Self {
+        self.with("ends", Value::List(vec![first.into(), last.into()]))
+    }
+}
+
+impl BodyBuilder<'_, General> {
+    /// Moment of inertia about the mass centre, kg·m²; 0 for a point mass.
+    pub fn inertia(self, inertia: impl Into<Number>) -> Self {
+        self.with("inertia", inertia.into())
+    }
+
+    /// Mass centre in the frame of the body, m; its origin if it is not given.
+    pub fn center(self, x: impl Into<Number>, y: impl Into<Number>) -> Self {
+        self.with("center", Pair::from((x, y)))
+    }
+}

@@ -1,0 +1,92 @@
+//! Values of the file against what may stand in their place.
+
+use super::names;
+use super::report::{among, Report};
+use super::tree::{Data, Node};
+use crate::expression::suggest::did_you_mean;
+
+/// Reports that something else must stand here.
+pub(super) fn wrong(report: &mut Report, node: &Node, wanted: &str) {
+    if !matches!(node.data, Data::Refused(_)) {
+        report.say(format!("{}; must be {wanted}", node.noun()));
+    }
+}
+
+/// A number or a formula.
+pub(super) fn number(report: &mut Report, node: &Node) {
+    if !matches!(node.data, Data::Number(_) | Data::Text(_)) {
+        wrong(report, node, "a number or a formula");
+    }
+}
+
+/// Two numbers.
+pub(super) fn pair(report: &mut Report, node: &Node) {
+    match &node.data {
+        Data::List(items) if items.len() == 2 => {
+            for (k, item) in items.iter().enumerate() {
+                report.within(&k.to_string(), |report| number(report, item));
+            }
+        }
+        Data::List(items) => {
+            report.say(format!("a list of {}; must be a list of two numbers [x, y]", items.len()));
+        }
+        _ => wrong(report, node, "a list of two numbers [x, y]"),
+    }
+}
+
+/// Named points.
+pub(super) fn points(report: &mut Report, node: &Node) {
+    let Data::Table(table) = &node.data else {
+        return wrong(report, node, "a table of points { P = [x, y] }");
+    };
+    for (name, point) in &table.entries {
+        report.within(name, |report| {
+            names::key(report, name);
+            pair(report, point);
+        });
+    }
+}
+
+/// Two different names.
+pub(super) fn two_names(report: &mut Report, node: &Node) {
+    let Data::List(items) = &node.data else {
+        return wrong(report, node, "a list of two names [\"A\", \"B\"]");
+    };
+    if items.len() != 2 {
+        return report.say(format!("a list of {}; must be a list of two names", items.len()));
+    }
+    for (k, item) in items.iter().enumerate() {
+        report.within(&k.to_string(), |report| match &item.data {
+            Data::Text(name) => names::value(report, name),
+            _ => wrong(report, item, "a name"),
+        });
+    }
+    if let (Data::Text(a), Data::Text(b)) = (&items[0].data, &items[1].data) {
+        if a == b {
+            report.say(format!("both are '{}'; must be two different names", super::shown(a)));
+        }
+    }
+}
+
+/// A whole number from 1, or a formula.
+pub(super) fn count(report: &mut Report, node: &Node) {
+    match &node.data {
+        Data::Number(x) if x.fract() != 0.0 || *x < 1.0 => {
+            report.say(format!("{x}; must be a whole number from 1"));
+        }
+        _ => number(report, node),
+    }
+}
+
+/// One of some words.
+pub(super) fn word(report: &mut Report, node: &Node, words: &[&str]) {
+    match &node.data {
+        Data::Text(text) if words.contains(&text.as_str()) => {}
+        Data::Text(text) => {
+            let problem = report.here(format!("unknown word '{}'", super::shown(text)));
+            let hint = did_you_mean(text, words).unwrap_or_else(|| among("it may be", words));
+            report.add(problem.hint(hint));
+        }
+        _ => wrong(report, node, &among("the word", words)),
+    }
+}

@@ -1,0 +1,42 @@
+//! Values on one line, which TOML and JSON write alike but for the keys of tables.
+
+use crate::model::Value;
+
+/// A value on one line; `key` writes a key of a table with the sign behind it.
+pub(super) fn one_line(value: &Value, key: fn(&str) -> String) -> String {
+    let join = |parts: Vec<String>| parts.join(", ");
+    match value {
+        Value::Number(x) => digits(*x),
+        Value::Text(text) => quoted(text),
+        Value::Flag(flag) => flag.to_string(),
+        Value::List(items) => {
+            format!("[{}]", join(items.iter().map(|item| one_line(item, key)).collect()))
+        }
+        Value::Table(entries) if entries.is_empty() => "{}".to_string(),
+        Value::Table(entries) => {
+            let entry = |(name, value): &(String, Value)| key(name) + &one_line(value, key);
+            format!("{{ {} }}", join(entries.iter().map(entry).collect()))
+        }
+    }
+}
+
+/// A text in double quotes. All escapes of `serde_json` are escapes of TOML too; TOML escapes DEL as well.
+pub(super) fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007f")
+}
+
+/// A number with the fewest digits that give the same bits, with an exponent if that is shorter for
+/// a large or small number, or if the digits alone would read as an integer beyond 2^53.
+fn digits(x: f64) -> String {
+    let plain = format!("{x}");
+    let size = x.abs();
+    if !x.is_finite() || size == 0.0 || (1e-3..1e4).contains(&size) {
+        return plain;
+    }
+    let exponent = format!("{x:e}");
+    if exponent.len() < plain.len() || size > 9.0e15 {
+        exponent
+    } else {
+        plain
+    }
+}

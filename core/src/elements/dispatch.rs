@@ -1,0 +1,349 @@
+//! Dispatch from an entry of a model to the physics of its type: enums over all types, and pools of
+//! elements by type. The macros are called once, in `list.rs`.
+
+use super::declare::Table;
+use super::force_trait::Force;
+use super::joint_trait::Joint;
+
+/// Where an element stands in a model file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// `[joints.…]`
+    Joints,
+    /// `[drivers.…]`
+    Drivers,
+    /// `[forces.…]`
+    Forces,
+}
+
+impl Group {
+    /// The section's name in the file.
+    pub fn section(self) -> &'static str {
+        ["joints", "drivers", "forces"][self as usize]
+    }
+    /// The name of one entry of it.
+    pub fn singular(self) -> &'static str {
+        ["joint", "driver", "force"][self as usize]
+    }
+}
+
+/// An element of a pool, with all that its loop reads.
+#[derive(Clone, Debug)]
+pub struct Pooled<E> {
+    /// The element.
+    pub element: E,
+    /// Where it belongs in the model.
+    pub place: Place,
+}
+
+/// Where an element of a pool belongs.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Its place among the constraints or forces.
+    pub item: u32,
+    /// Bodies i and j; ground where there are fewer.
+    pub bodies: [u32; 2],
+    /// The first of its rows of Φ; 0 for a force.
+    pub row: u32,
+    /// Its place in a list of the room that uses the pool.
+    pub slot: u32,
+}
+
+impl Place {
+    /// From the place among the constraints or forces, the bodies, and the first row.
+    ///
+    /// # Panics
+    /// If a number exceeds 32 bits.
+    pub fn new(item: usize, bodies: &[super::kinds::BodyId], row: usize) -> Self {
+        let index = |i: usize| u32::try_from(i).expect("fewer than 2^32 items");
+        let body = |k: usize| bodies.get(k).map_or(0, |body| index(body.0));
+        Self { item: index(item), bodies: [body(0), body(1)], row: index(row), slot: 0 }
+    }
+
+    /// The same with a place in a list of the room that uses the pool.
+    pub fn with_slot(self, slot: usize) -> Self {
+        Self { slot: u32::try_from(slot).expect("fewer than 2^32 items"), ..self }
+    }
+}
+
+/// Visits the joints and drivers of a model, type by type.
+pub trait VisitJoints<S> {
+    /// Takes all elements of one type.
+    fn visit<E: Joint>(&mut self, pool: &[Pooled<E::Over<S>>]);
+}
+
+/// Visits the forces of a model, type by type.
+pub trait VisitForces<S> {
+    /// Takes all elements of one type.
+    fn visit<E: Force>(&mut self, pool: &[Pooled<E::Over<S>>]);
+}
+
+/// A declaration with the section it belongs to.
+pub(super) fn declared<E: super::declare::Element>(group: Group) -> (Group, Table) {
+    (group, E::table())
+}
+
+macro_rules! constraints {
+    ($($Group:ident { $($(#[$on:meta])* $Name:ident),+ $(,)? })+) => {
+        /// A joint or a driver of any type.
+        #[derive(Clone, Debug)]
+        #[allow(missing_docs)] // each variant is documented at its element
+        pub enum Constraint<S = f64> {
+            $($($(#[$on])* $Name($Name<S>),)+)+
+        }
+
+        impl Constraint<Tape> {
+            /// Reads an element by the name of its type; the outer None if there is no such type.
+            pub fn read(group: Group, kind: &str, source: &mut dyn Source) -> Option<Option<Self>> {
+                $($($(#[$on])* {
+                    if group == Group::$Group && kind == <$Name>::NAME {
+                        return Some(<$Name>::read(source).map(Self::$Name));
+                    }
+                })+)+
+                None
+            }
+        }
+
+        impl<S> Constraint<S> {
+            /// The same constraint over another scalar.
+            pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Constraint<T> {
+                match self { $($($(#[$on])* Self::$Name(e) => Constraint::$Name(<$Name>::map(e, f)),)+)+ }
+            }
+            /// Name of the type.
+            pub fn kind(&self) -> &'static str {
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name>::NAME,)+)+ }
+            }
+            /// The bodies whose poses enter Φ: i and j first.
+            pub fn bodies(&self) -> Vec<BodyId> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+)+ }
+            }
+            /// Number of internal coordinates.
+            pub fn own(&self) -> usize {
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::OWN,)+)+ }
+            }
+            /// Whether the columns of translation are -I for body i and +I for body j.
+            pub fn constant_columns(&self) -> bool {
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::CONSTANT_COLUMNS,)+)+ }
+            }
+            /// Names and units of the equations.
+            pub fn equations(&self) -> Vec<Equation> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name>::equations(e),)+)+ }
+            }
+        }
+
+        impl<S: Clone> Constraint<S> {
+            /// What the constraint fixes, for assembly.
+            pub fn fixes(&self) -> Vec<Fixes<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::fixes(e),)+)+ }
+            }
+        }
+
+        impl Constraint {
+            /// The symbols that a drawing shows for it.
+            pub fn symbols(&self) -> Vec<SceneSymbol> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::symbols(e),)+)+ }
+            }
+            /// First values of the internal coordinates for bodies at given poses.
+            pub fn own_start(&self, bodies: &[Pose]) -> Vec<f64> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::own_start(e, bodies),)+)+ }
+            }
+            /// A field with an impossible value, and the reason.
+            pub fn fault(&self) -> Option<(&'static str, String)> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::fault(e),)+)+ }
+            }
+        }
+
+        impl<S: Real> Constraint<S> {
+            /// Φ, one entry for each equation.
+            pub fn residual(&self, at: &At<'_, S>, phi: &mut [S]) {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::residual(e, at, phi),)+)+ }
+            }
+            /// Φ, Φ̇, γ and Φ_q for fields that do not vary with time or state.
+            pub fn linearize(&self, at: &Moving<'_, S>, out: Linearized<'_, S>) {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::linearize(e, at, out),)+)+ }
+            }
+            /// The joint frame on a body, given by its place in [`bodies`](Self::bodies).
+            pub fn attachment(&self, body: usize) -> Attachment<S> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::attachment(e, body),)+)+ }
+            }
+            /// The same constraint over a scalar that contains this one.
+            pub fn lift<T: Lift<S>>(&self) -> Constraint<T> {
+                self.map(&mut |s| T::lift(*s))
+            }
+        }
+
+        /// Joints and drivers, stored together by type.
+        #[derive(Clone, Debug)]
+        #[allow(non_snake_case)] // one list for each type
+        pub struct JointPools<S = f64> {
+            $($($(#[$on])* $Name: Vec<Pooled<$Name<S>>>,)+)+
+        }
+
+        impl<S> Default for JointPools<S> {
+            fn default() -> Self {
+                Self { $($($(#[$on])* $Name: Vec::new(),)+)+ }
+            }
+        }
+
+        impl<S: Real> JointPools<S> {
+            /// Adds a constraint.
+            pub fn push(&mut self, constraint: &Constraint<S>, place: Place) {
+                match constraint { $($($(#[$on])* Constraint::$Name(e) => {
+                    self.$Name.push(Pooled { element: e.clone(), place });
+                })+)+ }
+            }
+            /// Shows every type that occurs to the visitor.
+            #[inline(always)]
+            pub fn visit(&self, visitor: &mut impl VisitJoints<S>) {
+                $($($(#[$on])* {
+                    if !self.$Name.is_empty() {
+                        visitor.visit::<$Name>(&self.$Name);
+                    }
+                })+)+
+            }
+        }
+
+        fn constraint_tables() -> Vec<(Group, Table)> {
+            let mut all = Vec::new();
+            $($($(#[$on])* all.push(declared::<$Name>(Group::$Group));)+)+
+            all
+        }
+    };
+}
+
+macro_rules! forces {
+    ($($(#[$on:meta])* $Name:ident),+ $(,)?) => {
+        /// A force of any type.
+        #[derive(Clone, Debug)]
+        #[allow(missing_docs)] // each variant is documented at its element
+        pub enum ForceElement<S = f64> {
+            $($(#[$on])* $Name($Name<S>),)+
+        }
+
+        impl ForceElement<Tape> {
+            /// Reads an element by the name of its type; the outer None if there is no such type.
+            pub fn read(kind: &str, source: &mut dyn Source) -> Option<Option<Self>> {
+                $($(#[$on])* {
+                    if kind == <$Name>::NAME {
+                        return Some(<$Name>::read(source).map(Self::$Name));
+                    }
+                })+
+                None
+            }
+        }
+
+        /// The first-order states of a force of a type for which the named fields are `given`.
+        pub fn states_of(kind: &str, given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
+            $($(#[$on])* {
+                if kind == <$Name>::NAME {
+                    return <$Name as Force>::states(given);
+                }
+            })+
+            &[]
+        }
+
+        impl<S> ForceElement<S> {
+            /// The same force over another scalar.
+            pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> ForceElement<T> {
+                match self { $($(#[$on])* Self::$Name(e) => ForceElement::$Name(<$Name>::map(e, f)),)+ }
+            }
+            /// Name of the type.
+            pub fn kind(&self) -> &'static str {
+                match self { $($(#[$on])* Self::$Name(_) => <$Name>::NAME,)+ }
+            }
+            /// The bodies on which the force acts: i and j first.
+            pub fn bodies(&self) -> Vec<BodyId> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+ }
+            }
+            /// The named parts, in the order of [`ForceElement::action`].
+            pub fn parts(&self) -> &'static [Part] {
+                match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::PARTS,)+ }
+            }
+            /// The joint whose reaction enters the force.
+            pub fn reaction(&self) -> Option<JointId> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::reaction(e),)+ }
+            }
+        }
+
+        impl ForceElement {
+            /// The symbols that a drawing shows for it.
+            pub fn symbols(&self) -> Vec<SceneSymbol> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::symbols(e),)+ }
+            }
+            /// A field with an impossible value, and the reason.
+            pub fn fault(&self) -> Option<(&'static str, String)> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::fault(e),)+ }
+            }
+        }
+
+        impl<S: Real> ForceElement<S> {
+            /// The wrench of each part on each body, see [`Force::action`].
+            pub fn action(&self, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::action(e, at, out),)+ }
+            }
+            /// ż of the element.
+            pub fn state_rates(&self, at: &Situation<'_, S>, out: &mut [S]) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::state_rates(e, at, out),)+ }
+            }
+            /// Powers beside those of the wrenches.
+            pub fn own_powers(&self, at: &Situation<'_, S>) -> OwnPowers<S> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::own_powers(e, at),)+ }
+            }
+            /// The relative angle at which a rotational spring is relaxed.
+            pub fn free_angle(&self) -> Option<S> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::free_angle(e),)+ }
+            }
+            /// The points of body i and body j between which the force acts along their line.
+            pub fn points(&self) -> Option<[Local<S>; 2]> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::points(e),)+ }
+            }
+            /// Energy stored in the states, J.
+            pub fn own_energy(&self, at: &Situation<'_, S>) -> S {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::own_energy(e, at),)+ }
+            }
+            /// Potential energy of the conservative parts, J.
+            pub fn potential(&self, at: &Situation<'_, S>) -> S {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::potential(e, at),)+ }
+            }
+        }
+
+        /// Forces, stored together by type.
+        #[derive(Clone, Debug)]
+        #[allow(non_snake_case)] // one list for each type
+        pub struct ForcePools<S = f64> {
+            $($(#[$on])* $Name: Vec<Pooled<$Name<S>>>,)+
+        }
+
+        impl<S> Default for ForcePools<S> {
+            fn default() -> Self {
+                Self { $($(#[$on])* $Name: Vec::new(),)+ }
+            }
+        }
+
+        impl<S: Real> ForcePools<S> {
+            /// Adds a force.
+            pub fn push(&mut self, force: &ForceElement<S>, place: Place) {
+                match force { $($(#[$on])* ForceElement::$Name(e) => {
+                    self.$Name.push(Pooled { element: e.clone(), place });
+                })+ }
+            }
+            /// Shows every type that occurs to the visitor.
+            #[inline(always)]
+            pub fn visit(&self, visitor: &mut impl VisitForces<S>) {
+                $($(#[$on])* {
+                    if !self.$Name.is_empty() {
+                        visitor.visit::<$Name>(&self.$Name);
+                    }
+                })+
+            }
+        }
+
+        fn force_tables() -> Vec<(Group, Table)> {
+            let mut all = Vec::new();
+            $($(#[$on])* all.push(declared::<$Name>(Group::Forces));)+
+            all
+        }
+    };
+}
+
+pub(super) use {constraints, forces};

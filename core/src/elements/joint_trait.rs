@@ -1,0 +1,144 @@
+//! The physics of a joint or driver, stated once.
+
+use super::declare::Element;
+use super::derive;
+use super::kinds::{BodyId, CoordinateOf};
+use super::symbols::SceneSymbol;
+use crate::math::{Local, Motion, Pose, Real};
+
+/// A scalar constraint equation of a joint: its name in labels and its unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Equation {
+    /// Name within the joint, such as `x`.
+    pub name: &'static str,
+    /// Unit of the residual: `m` or `rad`.
+    pub unit: &'static str,
+}
+
+/// The joint frame on one body: its origin s′ and the angle of its x″ axis in the body frame; C of
+/// (6.6.8) is the rotation by that angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attachment<S = f64> {
+    /// Origin, m.
+    pub s: Local<S>,
+    /// Angle of x″ from the body's x axis, rad.
+    pub axis: S,
+}
+
+/// Positions of the participants of a joint, and the time.
+#[derive(Clone, Copy, Debug)]
+pub struct At<'a, S> {
+    /// Pose of each body, in the order of [`Joint::bodies`].
+    pub bodies: &'a [Pose<S>],
+    /// Internal coordinates of the joint, such as the parameter of a curve.
+    pub own: &'a [S],
+    /// Time, s.
+    pub t: S,
+}
+
+impl<S> At<'_, S> {
+    /// Pose of body i, the first one.
+    #[inline(always)]
+    pub fn i(&self) -> &Pose<S> {
+        &self.bodies[0]
+    }
+    /// Pose of body j, the second one.
+    #[inline(always)]
+    pub fn j(&self) -> &Pose<S> {
+        &self.bodies[1]
+    }
+}
+
+/// Positions and velocities of the participants of a joint, and the time.
+#[derive(Clone, Copy, Debug)]
+pub struct Moving<'a, S> {
+    /// Motion of each body, in the order of [`Joint::bodies`].
+    pub bodies: &'a [Motion<S>],
+    /// Internal coordinates of the joint.
+    pub own: &'a [S],
+    /// Rates of the internal coordinates.
+    pub own_rates: &'a [S],
+    /// Time, s.
+    pub t: S,
+}
+
+/// Φ, Φ̇, γ and Φ_q of one joint: one entry for each of its `m` equations.
+#[derive(Debug)]
+pub struct Linearized<'a, S> {
+    /// Φ(q, t).
+    pub residual: &'a mut [S],
+    /// Φ_q q̇ + Φ_t.
+    pub rate: &'a mut [S],
+    /// γ = -d²Φ/dt² at q̈ = 0 (Haug 3.6.11).
+    pub gamma: &'a mut [S],
+    /// Row r of participant p at `p m + r`: ∂Φ_r/∂(x, y, φ) of a body; the internal coordinates are
+    /// the last participant, padded with zeros to three.
+    pub columns: &'a mut [[S; 3]],
+}
+
+/// What a joint fixes between its bodies i and j: assembly places bodies by it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fixes<S> {
+    /// The origins of both joint frames coincide.
+    Points,
+    /// The origin of the joint frame on body j lies on the x″ axis of the joint frame on body i.
+    Line,
+    /// The x″ axes of both joint frames point the same way.
+    Direction,
+    /// The distance of the origins of both joint frames, m.
+    Distance(S),
+    /// A coordinate of body j, measured from ground.
+    Coordinate(CoordinateOf, S),
+}
+
+/// A joint or driver: equations Φ(q, t) = 0 between any number of bodies and internal coordinates.
+pub trait Joint: Element {
+    /// Whether there are two equations whose columns of translation never change: -I for body i, +I for
+    /// body j, as in Φ = point_j - point_i (Haug 3.3.12).
+    const CONSTANT_COLUMNS: bool = false;
+
+    /// Number of internal coordinates, 0 to 3.
+    const OWN: usize = 0;
+
+    /// The bodies whose poses enter Φ: i and j first.
+    fn bodies<S>(e: &Self::Over<S>) -> Vec<BodyId>;
+
+    /// Names and units of the equations.
+    fn equations<S>(e: &Self::Over<S>) -> Vec<Equation>;
+
+    /// Φ, one entry for each equation.
+    fn residual<S: Real>(e: &Self::Over<S>, at: &At<'_, S>, phi: &mut [S]);
+
+    /// The joint frame on a body, given by its place in [`Joint::bodies`].
+    fn attachment<S: Real>(e: &Self::Over<S>, body: usize) -> Attachment<S>;
+
+    /// What the joint fixes, for assembly.
+    fn fixes<S: Clone>(e: &Self::Over<S>) -> Vec<Fixes<S>> {
+        let _ = e;
+        Vec::new()
+    }
+
+    /// First values of the internal coordinates for bodies at given poses.
+    fn own_start(e: &Self::Over<f64>, bodies: &[Pose]) -> Vec<f64> {
+        let _ = (e, bodies);
+        vec![0.0; Self::OWN]
+    }
+
+    /// The symbols that a drawing shows for the element; a law that varies is NaN here.
+    fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {
+        let _ = e;
+        Vec::new()
+    }
+
+    /// A field with an impossible value, and the reason; values that are not finite are refused anyway.
+    fn fault(e: &Self::Over<f64>) -> Option<(&'static str, String)> {
+        let _ = e;
+        None
+    }
+
+    /// Φ, Φ̇, γ and Φ_q for fields that do not vary with time or state; derived from
+    /// [`Joint::residual`] unless a closed form is given.
+    fn linearize<S: Real>(e: &Self::Over<S>, at: &Moving<'_, S>, out: Linearized<'_, S>) {
+        derive::linearize::<Self, S>(e, at, out);
+    }
+}

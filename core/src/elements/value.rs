@@ -1,0 +1,95 @@
+//! A value as it stands in a file, and the arguments of typed methods that become one.
+
+/// A value as it stands in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A name or a formula.
+    Text(String),
+    /// true or false.
+    Flag(bool),
+    /// A list.
+    List(Vec<Value>),
+    /// Keys with values, in order.
+    Table(Vec<(String, Value)>),
+}
+
+impl Value {
+    /// What a reader of the file would call it.
+    pub fn noun(&self) -> &'static str {
+        match self {
+            Self::Number(_) => "a number",
+            Self::Text(_) => "a text",
+            Self::Flag(_) => "true or false",
+            Self::List(_) => "a list",
+            Self::Table(_) => "a table",
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(x: f64) -> Self {
+        Self::Number(x)
+    }
+}
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_string())
+    }
+}
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+impl From<Number> for Value {
+    fn from(number: Number) -> Self {
+        number.0
+    }
+}
+impl From<Pair> for Value {
+    fn from(pair: Pair) -> Self {
+        Self::List(pair.0.map(Self::from).into())
+    }
+}
+
+/// A number, or the text of a formula such as `"m*L^2/12"` or of a quantity such as `"30 deg"`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number(Value);
+
+impl From<f64> for Number {
+    fn from(x: f64) -> Self {
+        Self(Value::Number(x))
+    }
+}
+impl From<i32> for Number {
+    fn from(x: i32) -> Self {
+        Self(Value::Number(f64::from(x)))
+    }
+}
+impl From<&str> for Number {
+    fn from(formula: &str) -> Self {
+        Self(formula.into())
+    }
+}
+impl From<String> for Number {
+    fn from(formula: String) -> Self {
+        Self(formula.into())
+    }
+}
+
+/// Two numbers or formulas, as an array or as a tuple: `[0.0, 1.0]`, `("L/2", 0.0)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pair([Number; 2]);
+
+impl<N: Into<Number>> From<[N; 2]> for Pair {
+    fn from(pair: [N; 2]) -> Self {
+        Self(pair.map(Into::into))
+    }
+}
+impl<X: Into<Number>, Y: Into<Number>> From<(X, Y)> for Pair {
+    fn from((x, y): (X, Y)) -> Self {
+        Self([x.into(), y.into()])
+    }
+}

@@ -1,0 +1,98 @@
+//! Elements as written in a model: fields by name, before names are linked and formulas read.
+//!
+//! The declaration of an element yields its methods here, one for each field.
+
+use super::value::Value;
+use std::marker::PhantomData;
+
+/// An element of type `E` as written in a model, for
+/// [`ModelBuilder::add`](crate::ModelBuilder::add).
+///
+/// `E::written()` starts one. Each field of the element has a method of its name; fields with a default
+/// may be left out.
+///
+/// ```
+/// use kempe::forces::TorsionSpring;
+/// let spring = TorsionSpring::written().i("ground").j("rocker").stiffness("k").free_angle("270*deg");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Written<E> {
+    fields: Vec<(&'static str, Value)>,
+    element: PhantomData<E>,
+}
+
+impl<E> Default for Written<E> {
+    fn default() -> Self {
+        Self { fields: Vec::new(), element: PhantomData }
+    }
+}
+
+impl<E> Written<E> {
+    /// Sets a field; a second value of the same field replaces the first.
+    pub(crate) fn with(mut self, field: &'static str, value: Value) -> Self {
+        self.fields.retain(|(name, _)| *name != field);
+        self.fields.push((field, value));
+        self
+    }
+
+    /// The fields that were set.
+    pub(crate) fn into_fields(self) -> Vec<(&'static str, Value)> {
+        self.fields
+    }
+}
+
+/// Rust type of the argument for a kind of field: a number, two numbers, or else a name.
+macro_rules! argument {
+    (number) => {
+        $crate::elements::Number
+    };
+    (law) => {
+        $crate::elements::Number
+    };
+    (pair) => {
+        $crate::elements::Pair
+    };
+    ($name:ident) => {
+        String
+    };
+}
+pub(crate) use argument;
+
+/// Declares an element by [`element!`](crate::element) and the methods of its [`Written`] form.
+///
+/// Elements of this crate are declared by this macro, others by [`element!`](crate::element): only this
+/// crate can add methods to [`Written`].
+macro_rules! declare {
+    ($(#[doc = $doc:literal])* $Name:ident, $name:literal {
+        $($(#[doc = $about:literal])* $field:ident : $kind:ident $([$($unit:tt)*])? $(= $default:expr)?),+ $(,)?
+    }) => {
+        $crate::element! {
+            $(#[doc = $doc])* $Name, $name {
+                $($(#[doc = $about])* $field : $kind $([$($unit)*])? $(= $default)?),+
+            }
+        }
+
+        impl $Name {
+            #[doc = concat!("A `", $name, "` as written in a model, without fields so far.")]
+            pub fn written() -> $crate::elements::Written<Self> {
+                $crate::elements::Written::default()
+            }
+        }
+
+        impl $crate::elements::Written<$Name> {
+            $(
+                $(#[doc = $about])*
+                $(#[doc = concat!("\n\nUnit: ", stringify!($($unit)*), ".")])?
+                $(#[doc = concat!("\n\nDefault: `", stringify!($default), "`.")])?
+                pub fn $field(
+                    self,
+                    $field: impl Into<$crate::elements::argument!($kind)>,
+                ) -> Self {
+                    let value: $crate::elements::argument!($kind) = $field.into();
+                    self.with(stringify!($field), value.into())
+                }
+            )+
+        }
+    };
+}
+pub(crate) use declare;

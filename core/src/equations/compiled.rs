@@ -1,0 +1,69 @@
+//! Data derived from a model: all that evaluations need and no state changes.
+//!
+//! A [`Model`] holds no caches. [`Compiled`] is built from it once, and shared by everything that evaluates the same
+//! model over the same scalar.
+
+use super::added_inertia;
+use super::grounded::{grounded, Grounded};
+use super::inertia::{inertias, Inertia};
+use crate::elements::{ForcePools, JointPools, Place};
+use crate::math::Real;
+use crate::model::Model;
+
+/// Data derived from a [`Model`]; immutable.
+#[derive(Clone, Debug)]
+pub struct Compiled<S = f64> {
+    /// Inertia of the moving bodies, without ground.
+    pub inertias: Vec<Inertia<S>>,
+    /// Moments of inertia that are added to bodies without their own while the equations are solved, and are taken
+    /// back by `refine`, kg·m²; one for each moving body, zero for most.
+    pub added_inertia: Vec<S>,
+    /// Mass that is added to the internal coordinates of elements in the same way, kg.
+    pub own_mass: S,
+    /// Whether anything is added.
+    pub adds_mass: bool,
+    /// Moving bodies that a joint of two rows holds to ground.
+    pub grounded: Vec<Grounded<S>>,
+    /// Joints and drivers with constant fields, by type.
+    pub joints: JointPools<S>,
+    /// The places of the joints and drivers with laws of time or state.
+    pub joints_with_laws: Vec<usize>,
+    /// Forces with constant fields, by type.
+    pub forces: ForcePools<S>,
+    /// The places of the forces with laws of time or state.
+    pub forces_with_laws: Vec<usize>,
+}
+
+impl<S: Real> Compiled<S> {
+    /// Of a model.
+    pub fn new(model: &Model<S>) -> Self {
+        let added_inertia = added_inertia::added(&model.bodies, &model.constraints);
+        let (mut joints, mut forces) = (JointPools::default(), ForcePools::default());
+        let (mut joints_with_laws, mut forces_with_laws) = (Vec::new(), Vec::new());
+        for (k, item) in model.constraints.iter().enumerate() {
+            let row = model.layout.constraints[k].rows.start;
+            match item.law {
+                None => joints.push(&item.element, Place::new(k, &item.bodies, row)),
+                Some(_) => joints_with_laws.push(k),
+            }
+        }
+        for (k, item) in model.forces.iter().enumerate() {
+            match item.law {
+                None => forces.push(&item.element, Place::new(k, &item.bodies, 0)),
+                Some(_) => forces_with_laws.push(k),
+            }
+        }
+        Self {
+            joints,
+            joints_with_laws,
+            forces,
+            forces_with_laws,
+            inertias: inertias(&model.blueprint.bodies, &model.bodies, &added_inertia),
+            grounded: grounded(model, &added_inertia),
+            own_mass: added_inertia::own_mass(&model.bodies),
+            adds_mass: model.layout.owners.len() >= model.bodies.len()
+                || added_inertia.iter().any(|added| added.least_magnitude() > 0.0),
+            added_inertia: added_inertia[1..].to_vec(),
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Which owners of coordinates the constraints and forces of a model couple: the pattern of the tangent.
+
+use super::constraints::{linearize_one, store};
+use super::kinematics::Motions;
+use crate::elements::derive::{seeded, ByThree};
+use crate::elements::BodyId;
+use crate::math::{Dual, Lift, Pose, Real, Twist, Vec2};
+use crate::model::{Block, Dependence, Model};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+type D = ByThree<f64>;
+
+/// For each block of a constraint, the pair with each of its blocks; none if they are not coupled.
+pub(super) type ByConstraint = Vec<Vec<Option<usize>>>;
+
+/// What a force depends on.
+#[derive(Clone, Debug)]
+pub(super) struct Participants {
+    /// The moving bodies on which it depends: its own, those of its laws, and those of the joint whose
+    /// reaction it uses.
+    pub bodies: Vec<BodyId>,
+    /// The places in z of the states on which it depends.
+    pub states: Vec<usize>,
+    /// The rows of the multipliers on which it depends.
+    pub rows: Range<usize>,
+    /// For each of the bodies, the pair with each body on which the force acts.
+    pairs: Vec<Vec<(BodyId, usize)>>,
+}
+
+impl Participants {
+    /// The pair (body on which the force acts, body `b` on which it depends).
+    pub fn pair(&self, b: usize, acted: BodyId) -> Option<usize> {
+        self.pairs[b].iter().find(|(body, _)| *body == acted).map(|(_, pair)| *pair)
+    }
+}
+
+/// The pairs found so far.
+pub(super) struct Pairs(BTreeMap<(usize, usize), usize>);
+
+impl Pairs {
+    /// Each owner with itself.
+    pub fn diagonal(owners: usize) -> Self {
+        Self((0..owners).map(|owner| ((owner, owner), owner)).collect())
+    }
+
+    /// The pair (row owner, column owner); a pattern is symmetric, so its mirror comes with it.
+    fn index(&mut self, row: usize, column: usize) -> usize {
+        let next = self.0.len();
+        let found = *self.0.entry((row, column)).or_insert(next);
+        let next = self.0.len();
+        self.0.entry((column, row)).or_insert(next);
+        found
+    }
+
+    /// All pairs in the order of their indices.
+    pub fn listed(self) -> Vec<(usize, usize)> {
+        let mut listed: Vec<_> = self.0.into_iter().collect();
+        listed.sort_by_key(|(_, index)| *index);
+        listed.into_iter().map(|(pair, _)| pair).collect()
+    }
+}
+
+/// What every force depends on.
+pub(super) fn by_force(model: &Model, pairs: &mut Pairs) -> Vec<Participants> {
+    let one = |k: usize, pairs: &mut Pairs| {
+        let item = &model.forces[k];
+        let mut depends = Dependence::default();
+        if let Some(law) = &item.law {
+            law.map(&mut |tape| depends.add(tape));
+        }
+        let joint = item.reaction.map(|joint| joint.0);
+        let of_joint = joint.map_or(&[][..], |k| &model.constraints[k].bodies);
+        let mut bodies: Vec<BodyId> =
+            item.bodies.iter().chain(&depends.bodies).chain(of_joint).copied().collect();
+        bodies.retain(|body| !body.is_ground());
+        bodies.sort_unstable();
+        bodies.dedup();
+        let mut states: Vec<usize> =
+            model.layout.states[k].clone().chain(depends.states.iter().copied()).collect();
+        states.sort_unstable();
+        states.dedup();
+        let acted = || item.bodies.iter().filter(|body| !body.is_ground());
+        let with = |body: &BodyId, pairs: &mut Pairs| {
+            let pair = |acted: &BodyId| (*acted, pairs.index(acted.0 - 1, body.0 - 1));
+            acted().map(pair).collect()
+        };
+        let pairs = bodies.iter().map(|body| with(body, pairs)).collect();
+        let rows = joint.map_or(0..0, |k| model.layout.constraints[k].rows.clone());
+        Participants { bodies, states, rows, pairs }
+    };
+    (0..model.forces.len()).map(|k| one(k, pairs)).collect()
+}
+
+/// Which blocks each constraint couples. Without laws two poses without pattern show it: where Φ_q of
+/// one owner does not change with the other, no pair is needed, as with every revolute joint.
+pub(super) fn by_constraint(lifted: &Model<D>, pairs: &mut Pairs) -> Vec<ByConstraint> {
+    let trials = [0, 1].map(|trial| without_pattern(lifted, trial));
+    let mut columns = vec![D::zero(); lifted.layout.n_entries];
+    let constraint = |k: usize| {
+        let blocks = &lifted.layout.constraints[k].blocks;
+        let mut found = Vec::with_capacity(blocks.len());
+        for seed in blocks {
+            let mut coupled = vec![lifted.constraints[k].law.is_some(); blocks.len()];
+            for motions in &trials {
+                changes(lifted, k, seed, motions, &mut columns, &mut coupled);
+            }
+            let pair =
+                |(to, coupled): (&Block, bool)| coupled.then(|| pairs.index(to.owner, seed.owner));
+            found.push(blocks.iter().zip(coupled).map(pair).collect());
+        }
+        found
+    };
+    (0..lifted.constraints.len()).map(constraint).collect()
+}
+
+/// Marks the blocks of constraint `k` whose columns of Φ_q change with the coordinates of `seed`.
+fn changes(
+    lifted: &Model<D>,
+    k: usize,
+    seed: &Block,
+    motions: &Motions<D>,
+    columns: &mut [D],
+    coupled: &mut [bool],
+) {
+    let slots = &lifted.layout.constraints[k];
+    let mut motions = motions.clone();
+    match seed.body {
+        Some(body) => {
+            let Pose { r, angle, .. } = motions[body.0].pose;
+            let pose = Pose::new(r.x.value, r.y.value, angle.value);
+            motions.body_mut(body.0).pose = seeded(&pose);
+        }
+        None => {
+            let (own, _) = motions.own_mut(slots.own);
+            own.iter_mut().enumerate().for_each(|(c, u)| *u = Dual::variable(u.value, c));
+        }
+    }
+    linearize_one(lifted, k, &motions, D::lift(0.7), |_, rows| store(rows, slots, columns));
+    for (to, coupled) in slots.blocks.iter().zip(coupled) {
+        let entries = &columns[to.first..][..3 * slots.rows.len()];
+        *coupled |= entries.iter().any(|e| e.slope != [0.0; 3]);
+    }
+}
+
+/// A state of all bodies without pattern; ground stays in the origin.
+fn without_pattern(lifted: &Model<D>, trial: usize) -> Motions<D> {
+    let mut motions = Motions::new(&lifted.layout);
+    let x = |b: usize, k: usize| D::lift((1.0 + (7 * b + 3 * trial + k) as f64 * 0.618_034).sin());
+    for b in 1..lifted.bodies.len() {
+        let angle = if lifted.bodies[b].turns { x(b, 2) } else { D::zero() };
+        let motion = motions.body_mut(b);
+        motion.pose = Pose::new(x(b, 0), x(b, 1), angle);
+        motion.twist = Twist { velocity: Vec2::new(x(b, 3), x(b, 4)), omega: x(b, 5) };
+    }
+    for (k, slots) in lifted.layout.constraints.iter().enumerate() {
+        let (own, rates) = motions.own_mut(slots.own);
+        own.iter_mut().chain(rates).enumerate().for_each(|(c, u)| *u = x(k, c));
+    }
+    motions
+}

@@ -1,0 +1,108 @@
+//! The equations of a type of element, with the names of its fields.
+
+use super::names::{function, internal, point, BodyName, Coordinates};
+use super::scalars::{scalars, Scalar};
+use super::{print, residual, Formulas};
+use crate::elements::{
+    BodyId, Constraint, Coordinate, CoordinateOf, Field, Group, JointId, PointOn, Source,
+};
+use crate::expression::Tape;
+use crate::math::{Local, Pose};
+use crate::symbolic::{record, upright, Form, Kind, Name, Record, Symbolic};
+
+/// The equations of a type of joint or driver; None if there is no such type. Bodies are i, j …, a
+/// point is s′ in its body, and a driven coordinate is the angle.
+pub fn of_type(group: Group, kind: &str, form: Form) -> Option<Formulas> {
+    let element = Constraint::read(group, kind, &mut Sample { bodies: 0 })??;
+    Some(of_element(&element, form))
+}
+
+/// The equations of an element with the names of its fields in place of their values.
+pub fn of_element<T>(element: &Constraint<T>, form: Form) -> Formulas {
+    record(|record| {
+        let t = record.time();
+        let mut fields = symbols(record, element.kind()).into_iter();
+        let element = element.map(&mut |_| fields.next().unwrap_or(t));
+        let bodies: Vec<(BodyId, Coordinates)> = element
+            .bodies()
+            .into_iter()
+            .enumerate()
+            .filter(|(_, body)| !body.is_ground())
+            .map(|(k, body)| (body, Coordinates::new(record, &BodyName::letter(k), k)))
+            .collect();
+        let pose = |body: BodyId| match bodies.iter().find(|(id, _)| *id == body) {
+            Some((_, coordinates)) => coordinates.pose(),
+            None => Pose::identity(),
+        };
+        let own = internal(record, element.own());
+        let phi = residual(&element, pose, &own, t);
+        let columns: Vec<&Coordinates> = bodies.iter().map(|(_, body)| body).collect();
+        print(record, &phi, (&columns, &own), form)
+    })
+}
+
+/// A symbol for each scalar of an element.
+fn symbols(record: &Record, kind: &str) -> Vec<Symbolic> {
+    let mut all = Vec::new();
+    for (owner, field) in scalars(kind).into_iter().enumerate() {
+        match field {
+            Scalar::Point(field) => {
+                let s = point(record, &field, None, owner, [false; 2]);
+                all.extend([s.x, s.y]);
+            }
+            Scalar::Pair(field) => all.extend([0, 1].map(|k| side(record, &field, k))),
+            Scalar::Number(field) => all.push(record.symbol(Name::field(&field))),
+            Scalar::Law(field) => all.push(function(record, &field)),
+        }
+    }
+    all
+}
+
+/// One of two numbers, for body i and for body j.
+fn side(record: &Record, field: &str, k: usize) -> Symbolic {
+    let body = BodyName::letter(k);
+    let name = Name::new(
+        &format!("{field}_{}", body.text),
+        &format!("{field}{}", body.unicode),
+        &format!("{}_{{{}}}", upright(field), body.latex),
+        Kind::Field,
+    );
+    record.symbol(Name { owner: Some(k), ..name })
+}
+
+/// An element of a type, each of its bodies another one, all numbers zero.
+struct Sample {
+    bodies: usize,
+}
+
+impl Sample {
+    fn next_body(&mut self) -> BodyId {
+        self.bodies += 1;
+        BodyId(self.bodies)
+    }
+}
+
+impl Source for Sample {
+    fn body(&mut self, _: &Field) -> Option<BodyId> {
+        Some(self.next_body())
+    }
+    fn point(&mut self, _: &Field) -> Option<PointOn<Tape>> {
+        let s = Local { x: Tape::from(0.0), y: Tape::from(0.0) };
+        Some(PointOn { body: self.next_body(), s })
+    }
+    fn coordinate(&mut self, _: &Field) -> Option<CoordinateOf> {
+        Some(CoordinateOf { body: self.next_body(), coordinate: Coordinate::Angle })
+    }
+    fn joint(&mut self, _: &Field) -> Option<JointId> {
+        Some(JointId(0))
+    }
+    fn number(&mut self, _: &Field) -> Option<Tape> {
+        Some(Tape::from(0.0))
+    }
+    fn law(&mut self, _: &Field) -> Option<Tape> {
+        Some(Tape::from(0.0))
+    }
+    fn pair(&mut self, _: &Field) -> Option<[Tape; 2]> {
+        Some([0.0, 0.0].map(Tape::from))
+    }
+}

@@ -1,0 +1,167 @@
+//! Names of bodies, their coordinates and their points.
+
+use crate::elements::Coordinate;
+use crate::expression::is_identifier;
+use crate::math::{Local, Pose, Real};
+use crate::symbolic::{upright, Axis, Kind, Name, Record, Symbolic};
+
+/// Letters of the bodies of an element, and as indices in Unicode.
+const LETTERS: [(&str, &str); 6] =
+    [("i", "ᵢ"), ("j", "ⱼ"), ("k", "ₖ"), ("l", "ₗ"), ("m", "ₘ"), ("n", "ₙ")];
+
+/// A body's name in the three forms: for `i.x`, xᵢ and x_{i}.
+pub(super) struct BodyName {
+    pub text: String,
+    pub unicode: String,
+    pub latex: String,
+}
+
+impl BodyName {
+    /// A body of a model.
+    pub fn given(name: &str) -> Self {
+        Self { text: quoted(name), unicode: format!("_{name}"), latex: upright(name) }
+    }
+
+    /// The body at a position among those of an element.
+    pub fn letter(position: usize) -> Self {
+        let (letter, index) = LETTERS[position % LETTERS.len()];
+        Self { text: letter.into(), unicode: index.into(), latex: letter.into() }
+    }
+
+    /// Of the field of an element that a point is named by: `i` as an index, others in full.
+    pub fn field(name: &str) -> Self {
+        match LETTERS.iter().position(|(letter, _)| *letter == name) {
+            Some(position) => Self::letter(position),
+            None => Self::given(name),
+        }
+    }
+}
+
+/// The coordinates of a body and its rates.
+pub(super) struct Coordinates {
+    pub position: [Symbolic; 3],
+    rates: [Symbolic; 3],
+}
+
+impl Coordinates {
+    /// With names.
+    pub fn new(record: &Record, body: &BodyName, owner: usize) -> Self {
+        let symbol = |k: usize, rate: Symbolic| {
+            let name = coordinate(Coordinate::ALL[k], body, owner);
+            record.changing(name, rate)
+        };
+        let rates = [3, 4, 5].map(|k| symbol(k, Symbolic::zero()));
+        Self { position: [0, 1, 2].map(|k| symbol(k, rates[k])), rates }
+    }
+
+    /// Where the body is.
+    pub fn pose(&self) -> Pose<Symbolic> {
+        let [x, y, angle] = self.position;
+        Pose::new(x, y, angle)
+    }
+
+    /// A coordinate or rate.
+    pub fn of(&self, coordinate: Coordinate) -> Symbolic {
+        let from = if coordinate.is_rate() { self.rates } else { self.position };
+        from[coordinate.column()]
+    }
+}
+
+fn coordinate(coordinate: Coordinate, body: &BodyName, owner: usize) -> Name {
+    let (unicode, latex, axis) = match coordinate {
+        Coordinate::X => ("x", "x", Some(Axis::X)),
+        Coordinate::Y => ("y", "y", Some(Axis::Y)),
+        Coordinate::Angle => ("φ", "\\varphi", None),
+        Coordinate::Vx => ("ẋ", "\\dot{x}", Some(Axis::X)),
+        Coordinate::Vy => ("ẏ", "\\dot{y}", Some(Axis::Y)),
+        Coordinate::Omega => ("φ̇", "\\dot{\\varphi}", None),
+    };
+    let kind = if coordinate.is_rate() { Kind::Rate } else { Kind::Coordinate };
+    Name {
+        text: format!("{}.{}", body.text, coordinate.name()),
+        unicode: format!("{unicode}{}", body.unicode),
+        latex: format!("{latex}_{{{}}}", body.latex),
+        kind,
+        axis,
+        owner: Some(owner),
+    }
+}
+
+/// The components of a body-fixed point, zero where `zero` says so. In the global frame the vector
+/// to the point is written a with the field as index: aᵢ = Aᵢ s′ᵢ.
+pub(super) fn point(
+    record: &Record,
+    field: &str,
+    label: Option<&str>,
+    owner: usize,
+    zero: [bool; 2],
+) -> Local<Symbolic> {
+    let index = BodyName::field(field);
+    let component = |axis: Axis, zero: bool| {
+        if zero {
+            return Symbolic::zero();
+        }
+        let c = ["x", "y"][axis as usize];
+        let [text, unicode, latex] = match label {
+            Some(label) => {
+                let quoted: Vec<String> = label.split('.').map(quoted).collect();
+                let text = format!("{}.{c}", quoted.join("."));
+                [text.clone(), text, format!("{c}'_{{{}}}", upright(label))]
+            }
+            None => [
+                format!("{}.s.{c}", index.text),
+                format!("s′{}.{c}", index.unicode),
+                format!("s'_{{{},{c}}}", index.latex),
+            ],
+        };
+        let name = Name::new(&text, &unicode, &latex, Kind::Field);
+        record.symbol(Name { axis: Some(axis), owner: Some(owner), ..name })
+    };
+    let s = Local { x: component(Axis::X, zero[0]), y: component(Axis::Y, zero[1]) };
+    let turned = [format!("a_{}", index.text), format!("a{}", index.unicode), index.latex];
+    record.vector(s.x, s.y, turned, Some(owner));
+    s
+}
+
+/// A given function of time.
+pub(super) fn function(record: &Record, name: &str) -> Symbolic {
+    let latex = upright(name);
+    let derivative = |order: &str, dots: &str, rate: Symbolic| {
+        let unicode = match order {
+            "" => name.to_string(),
+            "t" => format!("d{name}/dt"),
+            _ => format!("d²{name}/dt²"),
+        };
+        let text = if order.is_empty() { name.to_string() } else { format!("{name}_{order}") };
+        let latex = if dots.is_empty() { latex.clone() } else { format!("\\{dots}{{{latex}}}") };
+        record.changing(Name::new(&text, &unicode, &latex, Kind::Field), rate)
+    };
+    let second = derivative("tt", "ddot", Symbolic::zero());
+    let first = derivative("t", "dot", second);
+    derivative("", "", first)
+}
+
+/// The internal coordinates of an element: u, or u1, u2 and so on.
+pub(super) fn internal(record: &Record, count: usize) -> Vec<Symbolic> {
+    let one = |k: usize| {
+        let (text, index) = match count {
+            1 => ("u".to_string(), String::new()),
+            _ => (format!("u{}", k + 1), format!("_{{{}}}", k + 1)),
+        };
+        let latex = [format!("u{index}"), format!("\\dot{{u}}{index}")];
+        let rate_name =
+            Name::new(&format!("{text}_rate"), &format!("d{text}/dt"), &latex[1], Kind::Rate);
+        let rate = record.changing(rate_name, Symbolic::zero());
+        record.changing(Name::new(&text, &text, &latex[0], Kind::Coordinate), rate)
+    };
+    (0..count).map(one).collect()
+}
+
+/// A part of a name in the language of expressions.
+fn quoted(name: &str) -> String {
+    if is_identifier(name) {
+        name.to_string()
+    } else {
+        format!("`{name}`")
+    }
+}

@@ -1,0 +1,96 @@
+//! The equations of a joint or driver of a model, with the names and numbers of the model.
+
+use super::names::{internal, point, BodyName, Coordinates};
+use super::scalars::{scalars, Scalar};
+use super::{print, residual, Formulas};
+use crate::elements::{BodyId, Constraint, Coordinate};
+use crate::equations::laws::Laws;
+use crate::expression::Tape;
+use crate::math::{Pose, Real};
+use crate::model::{Dependence, Model};
+use crate::symbolic::{record, Form, Name, Record, Symbolic};
+
+/// The equations of constraint `k`. Numbers and laws are put in as they are written; a point has
+/// the name that `written` gives for its field, such as `crank.B`.
+///
+/// A law may depend on the coordinates of other bodies: these have columns too.
+pub fn of_constraint(
+    model: &Model,
+    k: usize,
+    written: &dyn Fn(&str) -> Option<String>,
+    form: Form,
+) -> Formulas {
+    record(|record| {
+        let element = &model.blueprint.constraints[k].2;
+        let t = record.time();
+        let names = model.blueprint.parameters.iter();
+        let parameters: Vec<Symbolic> = names.map(|p| record.symbol(Name::field(p))).collect();
+        let bodies: Vec<(BodyId, Coordinates)> = touched(element)
+            .into_iter()
+            .map(|id| {
+                let name = BodyName::given(&model.bodies[id.0].name);
+                (id, Coordinates::new(record, &name, id.0))
+            })
+            .collect();
+        let find = |id: BodyId| bodies.iter().find(|(known, _)| *known == id);
+        let coordinate = |body: BodyId, c: Coordinate| {
+            find(body).map_or(Symbolic::zero(), |(_, coordinates)| coordinates.of(c))
+        };
+        let values = Laws { parameters: &parameters, t, coordinate, z: &[] };
+        let mut points = points(record, model, element, written).into_iter();
+        let over = element.map(&mut |tape| match points.next().flatten() {
+            Some(component) => component,
+            None => tape.evaluate(&values),
+        });
+        let pose = |body: BodyId| {
+            find(body).map_or(Pose::identity(), |(_, coordinates)| coordinates.pose())
+        };
+        let own = internal(record, element.own());
+        let phi = residual(&over, pose, &own, t);
+        let columns: Vec<&Coordinates> = bodies.iter().map(|(_, body)| body).collect();
+        print(record, &phi, (&columns, &own), form)
+    })
+}
+
+/// The moving bodies that a constraint and its laws depend on, each once.
+fn touched(element: &Constraint<Tape>) -> Vec<BodyId> {
+    let mut depends = Dependence::default();
+    element.map(&mut |tape| depends.add(tape));
+    let all = element.bodies().into_iter().chain(depends.bodies);
+    let mut once = Vec::new();
+    for body in all {
+        if !body.is_ground() && !once.contains(&body) {
+            once.push(body);
+        }
+    }
+    once
+}
+
+/// The components of an element's points, in the order in which its scalars are visited; None for
+/// each scalar that belongs to no point.
+fn points(
+    record: &Record,
+    model: &Model,
+    element: &Constraint<Tape>,
+    written: &dyn Fn(&str) -> Option<String>,
+) -> Vec<Option<Symbolic>> {
+    let coordinate = |_: BodyId, _: Coordinate| 0.0;
+    let reference = Laws { parameters: &model.parameters, t: 0.0, coordinate, z: &[] };
+    let mut values = Vec::new();
+    element.map(&mut |tape| values.push(tape.evaluate(&reference)));
+    let mut all = Vec::new();
+    for scalar in scalars(element.kind()) {
+        match scalar {
+            Scalar::Point(field) => {
+                let label = written(&field).unwrap_or_else(|| field.clone());
+                let body = label.rsplit_once('.').and_then(|(body, _)| model.body(body));
+                let zero = [0, 1].map(|k| values[all.len() + k] == 0.0);
+                let s = point(record, &field, Some(&label), body.map_or(0, |body| body.0), zero);
+                all.extend([Some(s.x), Some(s.y)]);
+            }
+            Scalar::Pair(_) => all.extend([None, None]),
+            Scalar::Number(_) | Scalar::Law(_) => all.push(None),
+        }
+    }
+    all
+}

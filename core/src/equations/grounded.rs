@@ -1,0 +1,92 @@
+//! Bodies that a joint of two rows holds to ground. Such a body has one freedom: it is condensed to it before
+//! everything else is eliminated (`solve/condensed.rs`).
+
+use super::inertia::Inertia;
+use super::kinematics::Motions;
+use super::{constraints, mass};
+use crate::elements::BodyId;
+use crate::math::{Motion, Real};
+use crate::model::{ConstraintItem, Model, Slots};
+use crate::solve::{CondensedGroup, Saddle};
+
+/// A moving body that a joint of two rows holds to ground.
+#[derive(Clone, Copy, Debug)]
+pub struct Grounded<S = f64> {
+    /// The joint's place among the constraints.
+    pub constraint: usize,
+    /// The body.
+    pub body: BodyId,
+    /// W of the body in its own frame.
+    mass: CondensedGroup<S>,
+    /// For a pin, the inverse of the moment of inertia about it, 1/(kg·m²), whatever the state.
+    about_pin: Option<S>,
+}
+
+/// The bodies that joints to ground hold: by the first joint with constant columns of each, else by the first other
+/// one. Bodies without an inertia of their own, and point masses, stay free.
+pub(super) fn grounded<S: Real>(model: &Model<S>, added: &[S]) -> Vec<Grounded<S>> {
+    let mut holds: Vec<Option<(usize, bool)>> = vec![None; model.bodies.len()];
+    for (k, (item, slots)) in model.constraints.iter().zip(&model.layout.constraints).enumerate() {
+        let Some(body) = held(item, slots) else { continue };
+        let pin = slots.blocks[0].sign != 0.0;
+        let better = holds[body.0].is_none_or(|(_, held_by_pin)| pin && !held_by_pin);
+        let own_inertia = added[body.0].largest_magnitude() == 0.0 && model.bodies[body.0].turns;
+        if better && own_inertia {
+            holds[body.0] = Some((k, pin));
+        }
+    }
+    let bodies = holds.into_iter().enumerate();
+    bodies.filter_map(|(body, hold)| Some(Grounded::new(model, BodyId(body), hold?))).collect()
+}
+
+/// The body that a joint of two rows with constant fields holds to ground.
+fn held<S>(item: &ConstraintItem<S>, slots: &Slots) -> Option<BodyId> {
+    let to_ground = item.bodies.len() == 2 && item.bodies.iter().any(|body| body.is_ground());
+    match slots.blocks.as_slice() {
+        [one] if to_ground && item.law.is_none() && slots.rows.len() == 2 => one.body,
+        _ => None,
+    }
+}
+
+impl<S: Real> Grounded<S> {
+    fn new(model: &Model<S>, body: BodyId, (constraint, pin): (usize, bool)) -> Self {
+        let motions = Motions::at_rest(&model.layout, &vec![S::zero(); model.layout.n_q]);
+        let block = mass::block(&model.bodies[body.0], &motions[body.0]);
+        let moment = [block.coupling.x, block.coupling.y];
+        let mass = CondensedGroup::new(block.mass, moment, block.inertia);
+        let about_pin = pin.then(|| {
+            let mut rows = [[S::zero(); 3]; 2];
+            constraints::columns_by_body(model, constraint, &motions, S::zero(), body, &mut rows);
+            let sign = model.layout.constraints[constraint].blocks[0].sign;
+            S::one() / mass.about_pin(sign, rows.map(|row| row[2])).1
+        });
+        Self { constraint, body, mass, about_pin }
+    }
+
+    /// Puts the numbers that do not depend on the state into the matrix.
+    pub(super) fn set(&self, k: usize, saddle: &mut Saddle<S>) {
+        let mass = &mut saddle.masses[self.body.0 - 1];
+        mass.translation = [S::zero(); 2];
+        mass.held = S::one() / self.mass.mass;
+        if let Some(inverse) = self.about_pin {
+            mass.along = inverse;
+        }
+        saddle.condensed[k] = self.mass;
+    }
+
+    /// Turns W of the body with the body.
+    #[inline(always)]
+    pub(super) fn turn(
+        &self,
+        inertias: &[Inertia<S>],
+        motions: &[Motion<S>],
+        group: &mut CondensedGroup<S>,
+    ) {
+        let inertia = &inertias[self.body.0 - 1];
+        if inertia.coupled {
+            let arm = motions[self.body.0].pose.global(inertia.center);
+            let b = arm.perp().scale(inertia.mass);
+            group.moment = [b.x, b.y];
+        }
+    }
+}

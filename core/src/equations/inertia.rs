@@ -1,0 +1,40 @@
+//! Masses and moments of inertia of the moving bodies, inverted once.
+
+use crate::expression::Tape;
+use crate::math::{Local, Real};
+use crate::model::Body;
+
+/// Inertia of a moving body.
+#[derive(Clone, Copy, Debug)]
+pub struct Inertia<S = f64> {
+    /// 1/m and 1/J about the mass centre, added inertia included: 1/kg, 1/(kg·m²).
+    pub inverse: [S; 2],
+    /// Mass, kg.
+    pub mass: S,
+    /// Mass centre in the body frame, m.
+    pub center: Local<S>,
+    /// Whether the mass centre can be off the origin of the frame: only then are rotation and translation
+    /// coupled. Decided by the formulas, whatever the parameters.
+    pub coupled: bool,
+}
+
+/// Of all moving bodies, given as formulas and as numbers, ground first.
+pub(super) fn inertias<S: Real>(
+    formulas: &[Body<Tape>],
+    bodies: &[Body<S>],
+    added: &[S],
+) -> Vec<Inertia<S>> {
+    let zero = |tape: &Tape| tape.constant() == Some(0.0);
+    let moving = formulas.iter().zip(bodies).zip(added).skip(1);
+    let inertia = |((formula, body), added): ((&Body<Tape>, &Body<S>), &S)| {
+        let turning = if body.turns { body.inertia + *added } else { S::one() };
+        let (m, j) = (S::one() / body.mass, S::one() / turning);
+        Inertia {
+            inverse: [m, j],
+            mass: body.mass,
+            center: body.center,
+            coupled: !(zero(&formula.center.x) && zero(&formula.center.y)),
+        }
+    };
+    moving.map(inertia).collect()
+}

@@ -1,0 +1,379 @@
+//! The continuous extension of a step where y = (q, v, w), q′ = v and w are quadratures: one evaluation.
+//!
+//! Of q, its first and its second derivative are known at both ends of a step and at the beginning of the
+//! one before: a polynomial of degree 8 after Hermite. It is as good as the step in q, but not in v. So the
+//! second derivative is evaluated once more inside, where that polynomial leads, and the one of degree 9 that
+//! has it there is taken, with its derivative for v: an interpolation of Hermite and Birkhoff, of order 9
+//! in q and 8 in v (Enright, Jackson, Nørsett and Thomsen, *Interpolants for Runge–Kutta formulas*, ACM
+//! Trans. Math. Software 12 (1986) 193, build theirs up in this way, from both ends). Quadratures are
+//! treated as v, with ∫ w dt in the place of q, which the stages give to the order of the step.
+//!
+//! With θ = (t - t_old) / h, of both ends' own terms less, what is left is θ³ times a polynomial in Newton's form,
+//!
+//! ```text
+//! s₀ + s₁ x + s₂ x² + x³ (u₀ + u₁ z + u₂ z² + g z³) ,   x = θ - 1 ,   z = θ + r ,   r = h_before / h
+//! ```
+//!
+//! An error e of the node before enters by some e / r⁵: steps much longer than that before do without.
+
+use super::interpolant::{Interpolant, HIGHEST as DEGREE};
+use super::stages;
+use crate::math::{Lanes, Real};
+
+/// Where the second derivative is evaluated, part of the step. For equal steps the error of v is
+/// least between 0.55 and 0.6, and DOP853 has a stage here already, so that its gap stays.
+pub(super) const INSIDE: f64 = 0.6;
+/// Length of the step before, in steps, between which its beginning serves.
+const BEFORE: std::ops::RangeInclusive<f64> = 0.5..=2.5;
+
+/// A step that is accepted.
+#[derive(Clone, Copy)]
+pub(super) struct Ends<'a> {
+    pub h: f64,
+    pub y_old: &'a [f64],
+    pub y: &'a [f64],
+    pub dy_old: &'a [f64],
+    pub dy: &'a [f64],
+}
+
+impl<'a> Ends<'a> {
+    /// Of `n` components, from states and derivatives at the beginning and at the end.
+    pub fn new(
+        h: f64,
+        y: [&'a [stages::Block]; 2],
+        dy: [&'a [stages::Block]; 2],
+        n: usize,
+    ) -> Self {
+        let [y_old, y] = y.map(|y| &y.as_flattened()[..n]);
+        let [dy_old, dy] = dy.map(|dy| &dy.as_flattened()[..n]);
+        Self { h, y_old, y, dy_old, dy }
+    }
+}
+
+/// Four of the polynomials in the making.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    /// (v, w) and its derivative at the beginning.
+    begin: [Lanes; 2],
+    /// Coefficients of θ³ … θ⁹, over h².
+    c: [Lanes; DEGREE - 2],
+    /// The second derivative inside without the last of them.
+    inside: Lanes,
+}
+
+/// Values of four components at the beginning, and coefficients of θ … θ⁹, over h.
+type Four = [Lanes; DEGREE + 1];
+
+/// The extension, and what it takes from the step before.
+pub(super) struct HermiteBirkhoff {
+    /// Number of components of q.
+    positions: usize,
+    /// Length of the step before; 0 where it does not serve.
+    h_before: f64,
+    /// (v, w) and its derivative at the beginning of the step before.
+    rates: Vec<f64>,
+    slopes: Vec<f64>,
+    /// What the integrals of (v, w) gain over the step before, and over this one.
+    gained: Vec<f64>,
+    gain: Vec<f64>,
+    blocks: Vec<Block>,
+    /// What became of them: those of q, then those of (v, w).
+    polynomials: Vec<Four>,
+}
+
+impl HermiteBirkhoff {
+    /// For y of `len` components, of which the first `positions` are q.
+    pub fn new(len: usize, positions: usize) -> Self {
+        let m = len - positions;
+        let zero = Lanes::zero();
+        let none = Block { begin: [zero; 2], c: [zero; DEGREE - 2], inside: zero };
+        Self {
+            positions,
+            h_before: 0.0,
+            rates: vec![0.0; m],
+            slopes: vec![0.0; m],
+            gained: vec![0.0; m],
+            gain: vec![0.0; m],
+            blocks: vec![none; m.div_ceil(Lanes::WIDTH)],
+            polynomials: vec![
+                [zero; DEGREE + 1];
+                positions.div_ceil(Lanes::WIDTH) + m.div_ceil(Lanes::WIDTH)
+            ],
+        }
+    }
+
+    /// The step before does not serve: the equations have changed.
+    pub fn forget(&mut self) {
+        self.h_before = 0.0;
+    }
+
+    /// Whether the step before serves for one of length `h`.
+    pub fn serves(&self, h: f64) -> bool {
+        BEFORE.contains(&(self.h_before / h))
+    }
+
+    /// Takes what the integrals gain over a step: for q its ends tell, for w the weights `mean` of the
+    /// stages in the first rows of `k`, by which ∫ w dt = h w_old + h² Σ meanᵢ kᵢ.
+    pub fn measure(&mut self, ends: Ends<'_>, mean: &[f64], k: &[stages::Block]) {
+        let Ends { h, y_old, y, .. } = ends;
+        let (n, p) = (y.len(), self.positions);
+        for (gain, (y, y_old)) in self.gain.iter_mut().zip(y[..p].iter().zip(y_old)) {
+            *gain = y - y_old;
+        }
+        let (each, rows) = (Lanes::constant(h), k.chunks_exact(stages::width(n)));
+        for first in (2 * p..n).step_by(Lanes::WIDTH) {
+            let terms = mean.iter().zip(rows.clone().map(<[stages::Block]>::as_flattened));
+            let sum = terms.fold(Lanes::zero(), |sum, (weight, k)| {
+                sum.plus_product(Lanes::constant(*weight), lanes(&k[first..]))
+            });
+            let gain = each * lanes(&y_old[first..]).plus_product(each, sum);
+            self.gain[first - p..].iter_mut().zip(gain.to_array()).for_each(|(to, x)| *to = x);
+        }
+    }
+
+    /// Goes on to the next step.
+    pub fn remember(&mut self, ends: Ends<'_>) {
+        self.h_before = ends.h;
+        self.rates.copy_from_slice(&ends.y_old[self.positions..]);
+        self.slopes.copy_from_slice(&ends.dy_old[self.positions..]);
+        std::mem::swap(&mut self.gained, &mut self.gain);
+    }
+
+    /// The state at [`INSIDE`] by the polynomial of degree 8; of w nothing is said.
+    pub fn predict(&mut self, ends: Ends<'_>, out: &mut [f64]) {
+        let Ends { h, y_old, y, dy_old, dy } = ends;
+        let (p, r) = (self.positions, self.h_before / h);
+        let nodes = Nodes::new(r);
+        let [half, behind, per_h, per_square] =
+            [0.5, -0.5 * r, 1.0 / h, 1.0 / (h * h)].map(Lanes::constant);
+        let [ahead, bend, all, square] =
+            [INSIDE * h, 0.5 * INSIDE * h, h, h * h].map(Lanes::constant);
+        for (b, block) in self.blocks.iter_mut().enumerate().rev() {
+            let of = |x: &[f64]| lanes(&x[b * Lanes::WIDTH..]);
+            let (v, a) = (of(&y_old[p..]), of(&dy_old[p..]));
+            let steep = v * per_h;
+            // the ends less the terms of the beginning, over h²
+            let end = [
+                (of(&self.gain) * per_square - steep).minus_product(half, a),
+                (of(&y[p..]) - v) * per_h - a,
+                of(&dy[p..]) - a,
+            ];
+            let before = [
+                (nodes.r * steep.plus_product(behind, a))
+                    .minus_product(of(&self.gained), per_square),
+                (nodes.r * a).plus_product(of(&self.rates) - v, per_h),
+                of(&self.slopes) - a,
+            ];
+            let c = nodes.through(end, before);
+            let [position, rate, slope] = at_inside(&c);
+            block.begin = [v, a];
+            block.c[..6].copy_from_slice(&c);
+            block.inside = a + slope;
+            // the last four of q run into the rates, which are stored later
+            if b * Lanes::WIDTH < p {
+                let q = of(y_old).plus_product(ahead, v.plus_product(bend, a));
+                store(q.plus_product(square, position), &mut out[b * Lanes::WIDTH..]);
+                let v = v.plus_product(ahead, a).plus_product(all, rate);
+                store(v, &mut out[p + b * Lanes::WIDTH..]);
+            }
+        }
+    }
+
+    /// Takes the derivative at the state that was predicted.
+    pub fn complete(&mut self, ends: Ends<'_>, inside: &[f64]) {
+        let (p, h) = (self.positions, Lanes::constant(ends.h));
+        let last = last_term(self.h_before / ends.h);
+        let per_slope = Lanes::constant(1.0 / at_inside(&last)[2]);
+        let last = last.map(Lanes::constant);
+        let half = Lanes::constant(0.5) * h;
+        let (of_q, of_rates) = self.polynomials.split_at_mut(p.div_ceil(Lanes::WIDTH));
+        for (b, (block, rates)) in self.blocks.iter_mut().zip(of_rates).enumerate() {
+            let first = b * Lanes::WIDTH;
+            let ([rate, slope], c) = (block.begin, &mut block.c);
+            let g = (lanes(&inside[p + first..]) - block.inside) * per_slope;
+            c[6] = Lanes::zero();
+            for (c, last) in c.iter_mut().zip(last) {
+                *c = c.plus_product(g, last);
+            }
+            (rates[0], rates[1], rates[DEGREE]) = (rate, slope, Lanes::zero());
+            for (k, (to, c)) in (3..).map(f64::from).zip(rates[2..].iter_mut().zip(&*c)) {
+                *to = Lanes::constant(k) * *c;
+            }
+            if let Some(q) = of_q.get_mut(b) {
+                (q[0], q[1], q[2]) = (lanes(&ends.y_old[first..]), rate, half * slope);
+                q[3..].iter_mut().zip(&*c).for_each(|(to, c)| *to = h * *c);
+            }
+        }
+    }
+
+    /// The extension that was completed.
+    pub fn interpolant(&self) -> Interpolant<'_> {
+        let (q, rates) = self.polynomials.split_at(self.positions.div_ceil(Lanes::WIDTH));
+        Interpolant::polynomials(Polynomials { q, rates, positions: self.positions })
+    }
+}
+
+/// The extension of a step, component by component.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Polynomials<'a> {
+    q: &'a [Four],
+    rates: &'a [Four],
+    positions: usize,
+}
+
+impl Polynomials<'_> {
+    /// The state at θ, by a time of `ahead` = h θ after the beginning.
+    pub fn evaluate(&self, ahead: f64, theta: f64, out: &mut [f64]) {
+        let (ahead, theta) = (Lanes::constant(ahead), Lanes::constant(theta));
+        let at = |[begin, c @ .., last]: &Four| {
+            let sum = c.iter().rev().fold(*last, |sum, c| c.plus_product(sum, theta));
+            begin.plus_product(ahead, sum)
+        };
+        // the last four of q run into the rates, which follow
+        for (first, all) in [(0, self.q), (self.positions, self.rates)] {
+            let (mut blocks, mut all) = (out[first..].chunks_exact_mut(Lanes::WIDTH), all.iter());
+            for (out, four) in (&mut blocks).zip(&mut all) {
+                out.copy_from_slice(&at(four).to_array());
+            }
+            if let Some(four) = all.next() {
+                store(at(four), blocks.into_remainder());
+            }
+        }
+    }
+
+    /// Coefficients of θ … θ⁹ of each component, over h: row-major (len of y) × 9.
+    pub fn coefficients(&self, out: &mut [f64]) {
+        let (of_q, of_rates) = out.split_at_mut(self.positions * DEGREE);
+        for (all, out) in [(self.q, of_q), (self.rates, of_rates)] {
+            for (four, rows) in all.iter().zip(out.chunks_mut(Lanes::WIDTH * DEGREE)) {
+                for (lane, row) in rows.chunks_exact_mut(DEGREE).enumerate() {
+                    row.iter_mut().zip(&four[1..]).for_each(|(out, c)| *out = c.to_array()[lane]);
+                }
+            }
+        }
+    }
+}
+
+const _: () = assert!(DEGREE == 9, "ten numbers of q");
+
+/// The first numbers, zeros behind the last.
+#[inline(always)]
+fn lanes(x: &[f64]) -> Lanes {
+    match x.first_chunk() {
+        Some(block) => Lanes::new(*block),
+        None => Lanes::new(std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0))),
+    }
+}
+
+/// Puts as many numbers as there is room for.
+#[inline(always)]
+fn store(x: Lanes, out: &mut [f64]) {
+    match out.first_chunk_mut() {
+        Some(four) => *four = x.to_array(),
+        None => store_part(x, out),
+    }
+}
+
+#[inline(never)]
+fn store_part(x: Lanes, out: &mut [f64]) {
+    out.iter_mut().zip(x.to_array()).for_each(|(out, x)| *out = x);
+}
+
+/// 1 / x³, 3 / x, 6 / x and 12 / x².
+#[derive(Clone, Copy)]
+struct Cube([Lanes; 4]);
+
+impl Cube {
+    #[inline(always)]
+    fn new(x: f64) -> Self {
+        let over = 1.0 / x;
+        let square = over * over;
+        Self([square * over, 3.0 * over, 6.0 * over, 12.0 * square].map(Lanes::constant))
+    }
+
+    /// Value, first and second derivative over the cube of the argument.
+    #[inline(always)]
+    fn under(&self, [f, df, ddf]: [Lanes; 3]) -> [Lanes; 3] {
+        let [cube, three, six, twelve] = self.0;
+        let second = ddf.minus_product(six, df).plus_product(twelve, f);
+        [f * cube, df.minus_product(three, f) * cube, second * cube]
+    }
+}
+
+/// Where a polynomial is known: at 1 and at -r.
+#[derive(Clone, Copy)]
+struct Nodes {
+    end: Cube,
+    before: Cube,
+    /// From the one to the other.
+    between: Cube,
+    x: Lanes,
+    r: Lanes,
+}
+
+impl Nodes {
+    #[inline(always)]
+    fn new(r: f64) -> Self {
+        let [end, before, between] = [1.0, -r, -r - 1.0].map(Cube::new);
+        Self { end, before, between, x: Lanes::constant(-r - 1.0), r: Lanes::constant(r) }
+    }
+
+    /// Coefficients of θ³ … θ⁸ of the polynomial that has these values and derivatives there.
+    #[inline(always)]
+    fn through(&self, end: [Lanes; 3], before: [Lanes; 3]) -> [Lanes; 6] {
+        let half = Lanes::constant(0.5);
+        let [s0, s1, twice] = self.end.under(end);
+        let [f, df, ddf] = self.before.under(before);
+        let s2 = half * twice;
+        let left = [
+            (f - s0).minus_product(self.x, s1.plus_product(self.x, s2)),
+            (df - s1).minus_product(self.x, twice),
+            ddf - twice,
+        ];
+        let [u0, u1, u2] = self.between.under(left);
+        let mut c = [Lanes::zero(); 6];
+        c[0] = half * u2;
+        // times θ - node, plus the next number of Newton's form
+        let (r, one) = (-self.r, Lanes::one());
+        let next = [(r, u1), (r, u0), (one, s2), (one, s1), (one, s0)];
+        for (degree, (node, number)) in (1..).zip(next) {
+            for k in (1..=degree).rev() {
+                c[k] = c[k - 1].minus_product(node, c[k]);
+            }
+            c[0] = number.minus_product(node, c[0]);
+        }
+        c
+    }
+}
+
+/// Coefficients of θ³ … θ⁹ of θ³ (θ - 1)³ (θ + r)³.
+fn last_term(r: f64) -> [f64; 7] {
+    // (θ² + b θ - r)³
+    let b = r - 1.0;
+    let (square, cube) = (b * b, b * b * b);
+    [
+        -r * r * r,
+        3.0 * b * r * r,
+        3.0 * r * (r - square),
+        cube - 6.0 * b * r,
+        3.0 * (square - r),
+        3.0 * b,
+        1.0,
+    ]
+}
+
+/// Value, first and second derivative at [`INSIDE`] of a polynomial by its coefficients of θ³, θ⁴, ….
+#[inline(always)]
+fn at_inside<R: Real>(c: &[R]) -> [R; 3] {
+    let (theta, mut power) = (INSIDE, 1.0);
+    let mut sums = [R::zero(); 3];
+    for (k, c) in (3..).map(f64::from).zip(c) {
+        // power is θ^(k - 3)
+        let weights = [theta * theta * theta, k * theta * theta, k * (k - 1.0) * theta];
+        for (sum, weight) in sums.iter_mut().zip(weights) {
+            *sum = sum.plus_product(R::constant(weight * power), *c);
+        }
+        power *= theta;
+    }
+    sums
+}

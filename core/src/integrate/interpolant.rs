@@ -1,0 +1,230 @@
+//! The continuous extension of a step, 0 ≤ θ ≤ 1: by the stages, y(θ) = y_old + h Σₛ wₛ(θ) kₛ, or by one
+//! polynomial for each component.
+//!
+//! kₛ are the stages of a Runge–Kutta step and wₛ polynomials without constant term, so that nothing is
+//! computed for a step nobody looks into. Hairer, Nørsett and Wanner, *Solving Ordinary Differential
+//! Equations I*, II.6.
+
+use super::hermite_birkhoff::Polynomials;
+use crate::math::{Lanes, Real};
+
+/// Most stages of a method, with those of its extension and the jump of a projection.
+const MOST: usize = 17;
+
+/// Blocks of components that are summed side by side.
+const TOGETHER: usize = 3;
+
+/// Highest degree that a method has.
+pub(crate) const HIGHEST: usize = 9;
+
+/// The cubic polynomial of Hermite, of order 3: coefficients of θ … θ⁴ of the derivative at the beginning,
+/// at the end, and the chord (y - y_old) / h.
+pub(super) const HERMITE: [f64; 12] =
+    [1.0, -2.0, 1.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0];
+
+/// What a step is like between its ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Interpolant<'a> {
+    form: Form<'a>,
+    degree: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Form<'a> {
+    Stages(Stages<'a>),
+    Polynomials(Polynomials<'a>),
+}
+
+/// Stages of a step with the polynomials that join them.
+#[derive(Clone, Copy, Debug)]
+struct Stages<'a> {
+    /// Row-major (number of stages) × (len of y, or more).
+    stages: &'a [f64],
+    /// Coefficients of θ, θ², … of each stage, row-major (number of stages or more) × degree.
+    table: &'static [f64],
+    len: usize,
+}
+
+/// The sum of bₖ θᵏ⁻¹, k = 1….
+#[inline(always)]
+fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, b| b.plus_product(sum, theta))
+}
+
+impl<'a> Interpolant<'a> {
+    /// `stages` in rows of `len`, of which the components are the first, as many as the caller wants of those in `table`.
+    pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
+        assert!(degree <= HIGHEST, "a method of a higher degree");
+        assert!(table.len() <= MOST * degree, "a method of more stages");
+        Self { form: Form::Stages(Stages { stages, table, len }), degree }
+    }
+
+    /// One polynomial of the highest degree for each component.
+    pub(super) fn polynomials(polynomials: Polynomials<'a>) -> Self {
+        Self { form: Form::Polynomials(polynomials), degree: HIGHEST }
+    }
+
+    /// Degree of the polynomial.
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// The state at θ, by a time of `ahead` = h θ after the beginning.
+    pub(super) fn evaluate(&self, y_old: &[f64], ahead: f64, theta: f64, out: &mut [f64]) {
+        assert_eq!(out.len(), y_old.len(), "a state");
+        match self.form {
+            Form::Polynomials(polynomials) => polynomials.evaluate(ahead, theta, out),
+            Form::Stages(stages) => stages.evaluate(self.degree, y_old, (ahead, theta), out),
+        }
+    }
+
+    pub(super) fn coefficients(&self, out: &mut [f64]) {
+        match (self.form, self.degree) {
+            (Form::Polynomials(polynomials), _) => polynomials.coefficients(out),
+            (Form::Stages(stages), 4) => stages.add_coefficients(4, out),
+            (Form::Stages(stages), 7) => stages.add_coefficients(7, out),
+            (Form::Stages(stages), degree) => stages.add_coefficients(degree, out),
+        }
+    }
+}
+
+impl<'a> Stages<'a> {
+    /// Each stage with its row of the table, as long as the degree.
+    #[inline(always)]
+    fn terms(&self, degree: usize) -> impl Iterator<Item = (&'a [f64], &'static [f64])> {
+        let rows = self.table.chunks_exact(degree).map(move |row| &row[..degree]);
+        self.stages.chunks_exact(self.len.max(1)).zip(rows)
+    }
+
+    /// out = y_old + ahead Σₛ wₛ(θ) / θ kₛ. Not inlined, since polynomials of components need none of its registers.
+    #[inline(never)]
+    fn evaluate(&self, degree: usize, y_old: &[f64], at: (f64, f64), out: &mut [f64]) {
+        // with a degree that the compiler knows, inner loops unroll: here and for the coefficients
+        let mut weights = [0.0; MOST];
+        match degree {
+            4 => self.weigh(4, at, &mut weights),
+            7 => self.weigh(7, at, &mut weights),
+            degree => self.weigh(degree, at, &mut weights),
+        }
+        let terms = || self.stages.chunks_exact(self.len.max(1)).zip(&weights);
+        match out.len() {
+            0..Lanes::WIDTH => {
+                for (i, (out, y)) in out.iter_mut().zip(y_old).enumerate() {
+                    *out = terms().fold(*y, |sum, (k, weight)| sum.plus_product(*weight, k[i]));
+                }
+            }
+            n if n < TOGETHER * Lanes::WIDTH => blocks_of_sums::<1, _>(y_old, terms, out),
+            _ => blocks_of_sums::<TOGETHER, _>(y_old, terms, out),
+        }
+    }
+
+    /// ahead wₛ(θ) / θ of each stage.
+    #[inline(always)]
+    fn weigh(&self, degree: usize, (ahead, theta): (f64, f64), weights: &mut [f64; MOST]) {
+        for (weight, (_, row)) in weights.iter_mut().zip(self.terms(degree)) {
+            *weight = ahead * polynomial(row, theta);
+        }
+    }
+
+    #[inline(always)]
+    fn add_coefficients(&self, degree: usize, out: &mut [f64]) {
+        assert!(out.len() <= self.len * degree, "len of y x degree");
+        let mut first = 0;
+        let mut blocks = out.chunks_exact_mut(Lanes::WIDTH * degree);
+        for out in &mut blocks {
+            let sums = self.sums(degree, |stage| {
+                let block: &[f64; Lanes::WIDTH] = stage[first..].first_chunk().expect("a block");
+                Lanes::new(*block)
+            });
+            for (d, sum) in sums[..degree].iter().enumerate() {
+                let components = out[d..].iter_mut().step_by(degree);
+                components.zip(sum.to_array()).for_each(|(out, sum)| *out = sum);
+            }
+            first += Lanes::WIDTH;
+        }
+        for out in blocks.into_remainder().chunks_exact_mut(degree) {
+            out.copy_from_slice(&self.sums(degree, |stage| stage[first])[..degree]);
+            first += 1;
+        }
+    }
+
+    /// The coefficients of θ, θ², … of what `component` takes from the stages.
+    #[inline(always)]
+    fn sums<R: Real>(&self, degree: usize, component: impl Fn(&[f64]) -> R) -> [R; HIGHEST] {
+        let mut sums = [R::zero(); HIGHEST];
+        for (stage, row) in self.terms(degree) {
+            let k = component(stage);
+            for (sum, b) in sums.iter_mut().zip(row) {
+                *sum += R::constant(*b) * k;
+            }
+        }
+        sums
+    }
+}
+
+/// out = y + Σ weight stage, in passes over so many blocks of components, of which the last pass may run over the
+/// one before. There must be enough components for one.
+#[inline(always)]
+fn blocks_of_sums<'a, const BLOCKS: usize, T>(y: &[f64], terms: impl Fn() -> T, out: &mut [f64])
+where
+    T: Iterator<Item = (&'a [f64], &'a f64)>,
+{
+    let pass = BLOCKS * Lanes::WIDTH;
+    let last = out.len() - pass;
+    let mut first = 0;
+    loop {
+        let mut sums: [Lanes; BLOCKS] = lanes(&y[first..]);
+        for (stage, weight) in terms() {
+            let weight = Lanes::constant(*weight);
+            for (sum, k) in sums.iter_mut().zip(lanes::<BLOCKS>(&stage[first..])) {
+                *sum = sum.plus_product(weight, k);
+            }
+        }
+        for (out, sum) in out[first..].chunks_exact_mut(Lanes::WIDTH).zip(sums) {
+            out.copy_from_slice(&sum.to_array());
+        }
+        if first == last {
+            return;
+        }
+        first = (first + pass).min(last);
+    }
+}
+
+/// The first blocks of x.
+#[inline(always)]
+fn lanes<const BLOCKS: usize>(x: &[f64]) -> [Lanes; BLOCKS] {
+    let x = &x[..BLOCKS * Lanes::WIDTH];
+    std::array::from_fn(|b| {
+        let block = &x[b * Lanes::WIDTH..];
+        Lanes::new([block[0], block[1], block[2], block[3]])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows as long as the state and longer, in as many components as blocks, passes and what they leave behind take.
+    #[test]
+    fn states_are_the_sums_that_the_table_says() {
+        let (ahead, theta) = (0.2, 0.4);
+        let weights = HERMITE
+            .chunks_exact(4)
+            .map(|b| ahead * (b[0] + theta * (b[1] + theta * (b[2] + theta * b[3]))));
+        let weights: Vec<f64> = weights.collect();
+        for n in [0, 1, 3, 4, 5, 8, 11, 12, 13, 21, 24, 33] {
+            for len in [n, n + 3] {
+                let stages: Vec<f64> = (0..3 * len).map(|k| (k as f64).sin()).collect();
+                let y_old: Vec<f64> = (0..n).map(|k| (k as f64).cos()).collect();
+                let mut out = vec![f64::NAN; n];
+                let interpolant = Interpolant::new(&stages, len, &HERMITE, 4);
+                interpolant.evaluate(&y_old, ahead, theta, &mut out);
+                for (i, (out, y)) in out.iter().zip(&y_old).enumerate() {
+                    let sum: f64 =
+                        weights.iter().zip(0..).map(|(w, s)| w * stages[s * len + i]).sum();
+                    assert!((out - (y + sum)).abs() < 1e-15, "{i} of {n} in rows of {len}");
+                }
+            }
+        }
+    }
+}

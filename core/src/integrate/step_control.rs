@@ -1,0 +1,143 @@
+//! Tolerances and steps, which all methods share, with their defaults.
+
+use super::arguments::{check_problem, not_negative, positive, refusal, Refused};
+use super::failure::Cause;
+use super::fixed_step::{affordable, Grid};
+
+/// Absolute tolerance: one for all components, or one each (for the controlled ones at least).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Atol {
+    /// The same for every component.
+    Scalar(f64),
+    /// One for each controlled component.
+    Each(Vec<f64>),
+}
+
+/// Tolerances and steps of a method.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepControl {
+    /// Relative tolerance of a step; with a constant step, of Newton's iteration alone. Most methods raise it
+    /// to 100 ε ≈ 2.2e-14.
+    pub rtol: f64,
+    /// Absolute tolerance of a step, in the units of y; a component that stays zero needs one above 0. With a
+    /// constant step, of Newton's iteration alone.
+    pub atol: Atol,
+    /// Constant step, > 0 also backward in time, whatever its error; excludes `first_step` and `max_step`. Steps end
+    /// at t0 + k `step`, computed by multiplication; the last is shortened to end at t_end.
+    pub step: Option<f64>,
+    /// First step; chosen if `None`.
+    pub first_step: Option<f64>,
+    /// Largest step.
+    pub max_step: f64,
+    /// Largest number of accepted steps. Where bounded steps need more, the run is refused before the first.
+    pub max_steps: Option<usize>,
+}
+
+/// Default tolerances (rtol, atol).
+impl StepControl {
+    /// Of RK45, DOP853 and Radau.
+    pub const USUAL: (f64, f64) = (1e-6, 1e-9);
+    /// Of generalized-α, whose order is 2.
+    pub const LOW_ORDER: (f64, f64) = (1e-4, 1e-7);
+    /// Of the automatic choice of the method.
+    pub const AUTO: (f64, f64) = (1e-8, 1e-11);
+    /// Of Newton's iteration with a constant step.
+    pub const NEWTON: (f64, f64) = (1e-10, 1e-12);
+}
+
+impl Default for StepControl {
+    /// [`USUAL`](Self::USUAL) tolerances, no bounds.
+    fn default() -> Self {
+        Self::with(Self::USUAL)
+    }
+}
+
+impl StepControl {
+    /// With the given tolerances and no bounds.
+    pub fn new(rtol: f64, atol: f64) -> Self {
+        Self {
+            rtol,
+            atol: Atol::Scalar(atol),
+            step: None,
+            first_step: None,
+            max_step: f64::INFINITY,
+            max_steps: None,
+        }
+    }
+
+    /// With a pair of default tolerances.
+    pub fn with((rtol, atol): (f64, f64)) -> Self {
+        Self::new(rtol, atol)
+    }
+
+    /// With a constant step.
+    pub fn constant(step: f64) -> Self {
+        Self { step: Some(step), ..Self::with(Self::NEWTON) }
+    }
+
+    /// The same with a relative tolerance of at least 100 ε, below which an estimated error is rounding. A
+    /// tolerance that is not a positive number stays, to be refused.
+    pub fn usable(&self) -> Self {
+        let rtol = if (0.0..MIN_RTOL).contains(&self.rtol) { MIN_RTOL } else { self.rtol };
+        Self { rtol, ..self.clone() }
+    }
+
+    /// Refuses invalid options, times, and a `y` that is not `len` long. Returns the ends of constant steps, if the
+    /// step is constant.
+    pub(super) fn begin<E>(
+        &self,
+        (t0, t_end): (f64, f64),
+        (y, len): (&[f64], usize),
+        controlled: usize,
+    ) -> Result<Option<Grid>, Cause<E>> {
+        check_problem(t0, t_end, y, len)
+            .and_then(|()| self.check(controlled, (t_end - t0).abs()))
+            .map_err(refusal)?;
+        self.grid(t0, t_end)
+    }
+
+    fn check(&self, controlled: usize, interval: f64) -> Result<(), Refused> {
+        not_negative("rtol", self.rtol)?;
+        match &self.atol {
+            Atol::Scalar(atol) => not_negative("atol", *atol)?,
+            Atol::Each(atol) => {
+                if atol.len() != controlled {
+                    return Err(("atol", atol.len() as f64, "one for each controlled component"));
+                }
+                atol.iter().try_for_each(|&a| not_negative("atol", a))?;
+            }
+        }
+        positive("max_step", self.max_step)?;
+        if self.step.is_some() {
+            return self.check_constant();
+        }
+        if let Some(h) = self.first_step {
+            positive("first_step", h)?;
+            if h > interval && interval > 0.0 {
+                return Err(("first_step", h, "at most |t_end - t0|"));
+            }
+        }
+        Ok(())
+    }
+
+    /// A constant step leaves nothing to choose.
+    fn check_constant(&self) -> Result<(), Refused> {
+        const ABSENT: &str = "absent beside a constant step";
+        match self.first_step {
+            Some(h) => Err(("first_step", h, ABSENT)),
+            None if self.max_step < f64::INFINITY => Err(("max_step", self.max_step, ABSENT)),
+            None => Ok(()),
+        }
+    }
+
+    /// Refused where the end cannot be reached in `max_steps`.
+    fn grid<E>(&self, t0: f64, t_end: f64) -> Result<Option<Grid>, Cause<E>> {
+        match self.step {
+            Some(step) => Grid::new(t0, t_end, step, self.max_steps).map(Some),
+            None => affordable((t_end - t0).abs(), self.max_step, self.max_steps).map(|()| None),
+        }
+    }
+}
+
+/// Smallest relative tolerance in use: below it, rounding is all that is estimated.
+const MIN_RTOL: f64 = 100.0 * f64::EPSILON;

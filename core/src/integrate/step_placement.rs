@@ -1,0 +1,194 @@
+//! Steps that keep clear of a time near which rates are little but noise.
+//!
+//! Such an obstacle is passed by a step that has it in the middle of its widest part without a stage.
+//! Where it lies too far ahead for that, a shorter step comes first: it ends where the one that passes
+//! has to begin.
+//!
+//! The nearer the stages of a step that passes are to the obstacle, the more noise there is in them; the further, the
+//! more a deviation from the constraints counts. So there is a length at which such a step is best, and where its
+//! error is still too large, shorter ones only creep into the noise: then it is taken as it is.
+
+use super::step_size::Control;
+
+/// Part of the half-width that an obstacle may lie off the middle.
+const OFF: f64 = 0.8;
+/// A step that ends before an obstacle by more than this part of where the middle is, is let be.
+const BEFORE: f64 = 0.7;
+/// By how much a step may grow to pass an obstacle.
+const LONGER: f64 = 1.1;
+/// An obstacle within this part of a step from its start is left behind best by the step as it is.
+const BEHIND: f64 = 0.04;
+/// Least part of a step that is worth a step.
+const LEAST: f64 = 0.05;
+/// Most times that a step is placed.
+const MOST: usize = 3;
+/// What errors count once an obstacle was met: beside it they are judged by the part that the system would not
+/// take away, and that is told by one state for all stages.
+const STRICT: f64 = 2.5;
+
+/// A step that passes has to be better than the one before it by this factor, to try for a shorter one.
+const BETTER: f64 = 4.0;
+/// Most error, relative, of a step that is taken because no shorter one is better.
+const AT_BEST: f64 = 1e-6;
+
+/// The widest part of a step without a stage of scheme or extension; in parts of the step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gap {
+    pub middle: f64,
+    pub half: f64,
+}
+
+/// Obstacles of a run, and how the step under way has been placed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct StepPlacement {
+    met: bool,
+    tried: usize,
+    /// The step to go on with; 0 if the step was not placed.
+    wanted: f64,
+    /// Whether the try under way was placed so as to pass.
+    passing: bool,
+    /// Least error norm of the tries to pass that were rejected; none where no step was placed.
+    least: Option<f64>,
+}
+
+impl StepPlacement {
+    /// Before the first trial of a step.
+    pub fn begin(&mut self) {
+        let least = self.least.filter(|_| self.tried > 0);
+        *self = Self { met: self.met, least, ..Self::default() };
+    }
+
+    /// Whether the try under way, with this error norm at a relative tolerance, is to be taken though it is too
+    /// large: it passes, and its like did not get better.
+    pub fn at_best(&mut self, norm: f64, rtol: f64) -> bool {
+        if !std::mem::take(&mut self.passing) || !norm.is_finite() {
+            return false;
+        }
+        let best = self.least.is_some_and(|least| BETTER * norm > least);
+        self.least = Some(self.least.map_or(norm, |least| least.min(norm)));
+        best && norm * rtol < AT_BEST
+    }
+
+    /// The step to try instead of one of magnitude `h` with an obstacle `ahead` of its start (negative if
+    /// it lies behind) and `left` to go to the end of the run.
+    pub fn instead(&mut self, gap: Gap, h: f64, ahead: f64, left: f64) -> Option<f64> {
+        self.met |= ahead > 0.0 && ahead < h;
+        let Gap { middle, half } = gap;
+        let free = ahead <= BEHIND * h
+            || (ahead - middle * h).abs() <= OFF * half * h
+            || ahead >= (1.0 + BEFORE * middle) * h;
+        if free || self.tried == MOST {
+            return None;
+        }
+        let passing = h.min((left - ahead) / (1.0 - middle));
+        let passes = ahead < LONGER * middle * h;
+        let placed = match passes {
+            true => (ahead / middle).min(left),
+            false => ahead - middle * passing,
+        };
+        if passing < LEAST * h || placed < LEAST * h || (placed - h).abs() < LEAST * LEAST * h {
+            return None;
+        }
+        self.tried += 1;
+        self.passing = passes;
+        self.wanted = self.wanted.max(passing);
+        Some(placed)
+    }
+
+    /// How steps are chosen: elementarily once an obstacle was met, since what a low safety factor gains
+    /// there is lost to noise.
+    pub fn control(&self, otherwise: Control) -> Control {
+        if self.met {
+            Control::ELEMENTARY
+        } else {
+            otherwise
+        }
+    }
+
+    /// By what error norms are to be multiplied.
+    pub fn strictness(&self) -> f64 {
+        if self.met {
+            STRICT
+        } else {
+            1.0
+        }
+    }
+
+    /// The step to go on with after one that was accepted, where its error allows `next`.
+    pub fn resume(&self, next: f64) -> f64 {
+        next.max(self.wanted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GAP: Gap = Gap { middle: 0.5, half: 0.1 };
+
+    #[test]
+    fn what_lies_in_the_gap_or_out_of_reach_is_passed_as_it_is() {
+        for ahead in [-1.0, 0.01, 0.43, 0.5, 0.57, 1.4, 9.0] {
+            assert_eq!(StepPlacement::default().instead(GAP, 1.0, ahead, 10.0), None, "{ahead}");
+        }
+    }
+
+    #[test]
+    fn a_shorter_step_passes_what_lies_near() {
+        let mut placement = StepPlacement::default();
+        assert_eq!(placement.instead(GAP, 1.0, 0.25, 10.0), Some(0.5));
+        assert_eq!(placement.resume(0.6), 1.0);
+    }
+
+    #[test]
+    fn a_step_before_is_as_long_as_leaves_room_for_the_one_that_passes() {
+        for ahead in [0.8, 1.0, 1.2] {
+            let placed = StepPlacement::default().instead(GAP, 1.0, ahead, 10.0).expect("placed");
+            assert!((ahead - placed - 0.5).abs() < 1e-15, "{ahead}");
+        }
+    }
+
+    #[test]
+    fn at_the_end_of_the_run_the_step_that_passes_fits() {
+        let mut placement = StepPlacement::default();
+        let placed = placement.instead(GAP, 1.0, 0.8, 1.0).expect("placed");
+        assert!((placed + placement.resume(0.0) - 1.0).abs() < 1e-15);
+        assert_eq!(StepPlacement::default().instead(GAP, 1.0, 1.0, 1.0), None);
+    }
+
+    #[test]
+    fn a_step_that_passes_is_taken_once_its_like_does_not_get_better() {
+        let mut placement = StepPlacement::default();
+        let mut at_best = |norm: f64| {
+            placement.begin();
+            placement.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
+            placement.at_best(norm, 1e-10)
+        };
+        assert!(!at_best(900.0)); // the first
+        assert!(!at_best(90.0)); // better by ten
+        assert!(!at_best(f64::NAN));
+        assert!(at_best(30.0));
+        assert!(!at_best(1e5)); // no better, but too bad
+    }
+
+    #[test]
+    fn of_other_steps_none_is_taken_with_too_large_an_error() {
+        let mut placement = StepPlacement::default();
+        placement.instead(GAP, 1.0, 1.0, 10.0).expect("a step before");
+        assert!(!placement.at_best(9.0, 1e-10) && !placement.at_best(9.0, 1e-10));
+        // nor where what was tried before was of another obstacle
+        placement.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
+        assert!(!placement.at_best(9.0, 1e-10));
+        placement.begin();
+        placement.begin();
+        placement.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
+        assert!(!placement.at_best(9.0, 1e-10));
+    }
+
+    #[test]
+    fn it_ends_after_a_few_trials() {
+        let mut placement = StepPlacement::default();
+        let trials = (0..10).filter(|_| placement.instead(GAP, 1.0, 1.0, 10.0).is_some());
+        assert_eq!(trials.count(), MOST);
+    }
+}

@@ -1,0 +1,80 @@
+//! What the variables of a formula stand for.
+
+use crate::elements::{BodyId, Coordinate};
+use crate::expression::{Symbol, Tape};
+
+/// What the variable with an index stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variable {
+    /// A coordinate of a body, or its rate.
+    Coordinate(BodyId, Coordinate),
+    /// A first-order state of an element, by its place in z.
+    State(usize),
+}
+
+impl Variable {
+    /// The index in a formula: even for coordinates, six to a body; odd for states.
+    pub fn index(self) -> usize {
+        match self {
+            Self::Coordinate(body, coordinate) => 2 * (6 * body.0 + coordinate as usize),
+            Self::State(k) => 2 * k + 1,
+        }
+    }
+
+    /// From the index in a formula.
+    pub fn at(index: usize) -> Self {
+        match index % 2 {
+            0 => Self::Coordinate(BodyId(index / 12), Coordinate::ALL[index / 2 % 6]),
+            _ => Self::State(index / 2),
+        }
+    }
+}
+
+/// Time and state dependence of the formulas of an element.
+#[derive(Clone, Debug, Default)]
+pub struct Dependence {
+    /// On t.
+    pub time: bool,
+    /// On coordinates or rates of these bodies.
+    pub bodies: Vec<BodyId>,
+    /// On these first-order states, by their places in z.
+    pub states: Vec<usize>,
+}
+
+impl Dependence {
+    /// Adds what a formula depends on.
+    pub fn add(&mut self, tape: &Tape) {
+        for symbol in tape.symbols() {
+            match symbol {
+                Symbol::Parameter(_) => {}
+                Symbol::Time => self.time = true,
+                Symbol::Variable(k) => match Variable::at(*k) {
+                    Variable::Coordinate(body, _) => self.bodies.push(body),
+                    Variable::State(k) => self.states.push(k),
+                },
+            }
+        }
+    }
+
+    /// Whether anything varies.
+    pub fn any(&self) -> bool {
+        self.time || !self.bodies.is_empty() || !self.states.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_variable_has_an_index_of_its_own() {
+        let mut seen = std::collections::BTreeSet::new();
+        for k in 0..20 {
+            let coordinates = Coordinate::ALL.map(|c| Variable::Coordinate(BodyId(k), c));
+            for variable in coordinates.into_iter().chain([Variable::State(k)]) {
+                assert_eq!(Variable::at(variable.index()), variable);
+                assert!(seen.insert(variable.index()), "{variable:?}");
+            }
+        }
+    }
+}

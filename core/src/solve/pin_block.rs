@@ -1,0 +1,83 @@
+//! Pairs of rows [±I b] of A in one group, such as those of a revolute joint: products with W⁻¹ need few numbers.
+//!
+//! With W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ, the product with another such pair is ±diag(d₀⁻¹, d₁⁻¹) + d₂⁻¹ ρ ρ′ᵀ,
+//! where ρ = [±I b] e. The functions are generic in the size of blocks for the sake of their callers; they are
+//! meant for two rows.
+
+use super::mass_block::InverseMass;
+use crate::math::Real;
+
+/// Such a pair with the mass of its group.
+#[derive(Clone, Copy, Debug)]
+pub struct PinBlock<S> {
+    /// ρ.
+    pub(super) along: [S; 2],
+    /// ρ/d₂.
+    scaled: [S; 2],
+    /// 1/d₀ and 1/d₁.
+    translation: [S; 2],
+}
+
+impl<S: Real> PinBlock<S> {
+    /// All zero.
+    pub(super) fn zero() -> Self {
+        let zero = [S::zero(); 2];
+        Self { along: zero, scaled: zero, translation: zero }
+    }
+
+    /// Of [±I b] in a group.
+    #[inline(always)]
+    pub(super) fn new(sign: f64, b: &[S; 2], mass: &InverseMass<S>) -> Self {
+        let e = &mass.direction;
+        let along = [0, 1].map(|i| (b[i] * e[2]).plus_product(S::constant(sign), e[i]));
+        Self { along, scaled: along.map(|r| r * mass.along), translation: mass.translation }
+    }
+
+    /// target += U W⁻¹ Uᵀ, the lower triangle.
+    #[inline(always)]
+    pub(super) fn add_square<const N: usize>(&self, target: &mut [[S; N]; N]) {
+        for (i, target) in target.iter_mut().enumerate() {
+            for (j, target) in target.iter_mut().enumerate().take(i + 1) {
+                *target = target.plus_product(self.along[i], self.scaled[j]);
+            }
+            target[i] += self.translation[i];
+        }
+    }
+
+    /// target += U W⁻¹ U′ᵀ with ρ′ of another pair; `sign` is the product of both signs.
+    #[inline(always)]
+    pub(super) fn add_product<const M: usize, const N: usize>(
+        &self,
+        other: &[S; 2],
+        sign: f64,
+        target: &mut [[S; N]; M],
+    ) {
+        let signed = self.translation.map(|inverse| S::constant(sign) * inverse);
+        for i in 0..2 {
+            for j in 0..2 {
+                target[i][j] = target[i][j].plus_product(self.scaled[i], other[j]);
+            }
+            target[i][i] += signed[i];
+        }
+    }
+
+    /// x -= W⁻¹ Uᵀ λ, with e of the group.
+    #[inline(always)]
+    pub(super) fn subtract_transposed<const N: usize>(
+        &self,
+        sign: f64,
+        e: &[S; 3],
+        lambda: &[S; N],
+        x: &mut [S; 3],
+    ) {
+        let along = (self.scaled[0] * lambda[0]).plus_product(self.scaled[1], lambda[1]);
+        let mut found = *x;
+        for i in 0..2 {
+            found[i] = found[i].minus_product(S::constant(sign) * self.translation[i], lambda[i]);
+        }
+        for (x, e) in found.iter_mut().zip(e) {
+            *x = x.minus_product(*e, along);
+        }
+        *x = found;
+    }
+}

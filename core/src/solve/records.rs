@@ -1,0 +1,189 @@
+//! The elimination program: records in the order in which they are used.
+//!
+//! Each kind of record has one list. The elimination reads it from its first record to its last, the substitution
+//! backwards; a record has the number of records of the next list that belong to it. Nothing is looked up, so that
+//! long lists stream from memory.
+
+/// All records.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Program {
+    /// Row blocks with their diagonal blocks, but for those in [`PinRows`].
+    pub starts: Vec<Start>,
+    pub touches: Vec<Touch>,
+    /// Rows of blocks of L, in elimination order.
+    pub rows: Vec<Row>,
+    pub left: Vec<Left>,
+    pub pairs: Vec<Pair>,
+    pub updates: Vec<Update>,
+    /// The blocks of `left` once more, column by column.
+    pub below: Vec<Below>,
+}
+
+/// A row block with nothing but pin blocks: rows [±I b] at one or two groups.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PinRows {
+    /// Its place among the row blocks.
+    pub block: u32,
+    /// The first of its rows.
+    pub row: u32,
+    /// Where its diagonal block is stored among the factors.
+    pub(super) diagonal: u32,
+    /// Number of groups.
+    count: u32,
+    ends: [PinEnd; 2],
+}
+
+impl PinRows {
+    /// With its place among all row blocks, and its first row.
+    pub(super) fn new(touches: &[Touch], block: u32, row: &Row) -> Self {
+        let mut ends = [PinEnd::default(); 2];
+        ends.iter_mut().zip(touches).for_each(|(end, touch)| *end = PinEnd::new(touch));
+        let &Row { row, diagonal, .. } = row;
+        Self { block, row, diagonal, count: touches.len() as u32, ends }
+    }
+
+    /// The pin blocks.
+    #[inline(always)]
+    pub fn ends(&self) -> &[PinEnd] {
+        &self.ends[..(self.count as usize).min(2)]
+    }
+}
+
+/// A pin block.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PinEnd {
+    /// Its place among the pin blocks.
+    pub(super) pin: u32,
+    /// The first of its two rows of three entries.
+    pub(super) entry: u32,
+    /// Its group, and the first unknown of that.
+    pub(super) group: u32,
+    pub(super) at: u32,
+    /// Of the unit block.
+    pub sign: f64,
+}
+
+impl PinEnd {
+    pub(super) fn new(touch: &Touch) -> Self {
+        let Touch { first: pin, entry, group, at, sign } = *touch;
+        Self { pin, entry, group, at, sign: sign.into() }
+    }
+}
+
+/// A row block, and its diagonal block of S.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    /// The first of its rows.
+    pub row: u32,
+    /// Where the diagonal block is stored among the factors.
+    pub diagonal: u32,
+    /// Number of groups touched.
+    pub touches: u32,
+    pub size: u32,
+}
+
+/// One row of blocks of L, and the column that begins with its diagonal block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    /// First of the rows of its row block.
+    pub row: u32,
+    /// Where the diagonal block is stored among the factors.
+    pub diagonal: u32,
+    /// Number of blocks left of its diagonal block.
+    pub left: u32,
+    /// Number of blocks below it.
+    pub below: u32,
+    /// Rows of its row block.
+    pub size: u8,
+    /// Whether it has nothing but pin blocks, and the blocks left of it and below have two rows and columns.
+    pub pins: bool,
+}
+
+/// A group that a row block touches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touch {
+    /// First row of U, or the pin block.
+    pub first: u32,
+    /// The first row of three entries.
+    pub entry: u32,
+    pub group: u32,
+    /// The first unknown of the group.
+    pub at: u32,
+    /// Of the unit block of a pin block; 0 for rows of U.
+    pub sign: f32,
+}
+
+/// A block of L left of a diagonal block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Left {
+    /// Where it begins among the factors, and the diagonal block of its column.
+    pub block: u32,
+    pub diagonal: u32,
+    /// First row, and size, of the row block eliminated there.
+    pub row: u32,
+    pub size: u32,
+    /// Number of groups shared with it.
+    pub pairs: u32,
+    /// Number of products subtracted from the block.
+    pub updates: u32,
+}
+
+/// A block of L below the diagonal.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Below {
+    /// Where it begins among the factors.
+    pub block: u32,
+    /// First row and size of its row block.
+    pub row: u32,
+    pub size: u32,
+}
+
+/// Two row blocks in a group that they share.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    /// First rows of U, or pin blocks: of the row's row block, of the column's.
+    pub first: [u32; 2],
+    /// Product of the signs of two pin blocks; 0 for rows of U.
+    pub sign: f64,
+}
+
+/// Two blocks of an earlier column whose product is subtracted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Update {
+    /// In the row of the block that is computed, and in the row of that block's column.
+    pub blocks: [u32; 2],
+    /// The diagonal block of the earlier column, and its size.
+    pub diagonal: u32,
+    pub size: u32,
+}
+
+/// The records of blocks left of the diagonal that are still to be read.
+#[derive(Clone, Debug)]
+pub(super) struct Ahead<'a> {
+    pub left: &'a [Left],
+    pub pairs: &'a [Pair],
+    pub updates: &'a [Update],
+}
+
+impl Program {
+    /// All records of blocks left of the diagonal.
+    pub fn ahead(&self) -> Ahead<'_> {
+        Ahead { left: &self.left, pairs: &self.pairs, updates: &self.updates }
+    }
+}
+
+/// Takes the next `count` records.
+#[inline(always)]
+pub(super) fn next<'a, T>(ahead: &mut &'a [T], count: u32) -> &'a [T] {
+    let (own, rest) = ahead.split_at(count as usize);
+    *ahead = rest;
+    own
+}
+
+/// Takes the last `count` records.
+#[inline(always)]
+pub(super) fn last<'a, T>(ahead: &mut &'a [T], count: u32) -> &'a [T] {
+    let (rest, own) = ahead.split_at(ahead.len() - count as usize);
+    *ahead = rest;
+    own
+}

@@ -1,0 +1,69 @@
+//! The storage map: where the rows U of a [`Pattern`](super::Pattern) are stored, and the entries they come from.
+//!
+//! At groups where all row blocks are pairs [±I b], each of them is a pin block. At other groups rows are stored one
+//! by one. Both are stored in the order of elimination.
+
+use super::records::{PinEnd, Touch};
+use super::structure::{index, RowBlock};
+
+/// The storage map.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Storage {
+    /// The source of each row of U.
+    pub rows: Vec<Source>,
+    /// The pin blocks of row blocks that have rows in U as well, or more than two groups.
+    pub mixed: Vec<PinEnd>,
+    /// Number of pin blocks.
+    pub n_pins: usize,
+}
+
+/// The row of three entries that a row of U comes from, and its group.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Source {
+    pub entry: u32,
+    pub group: u32,
+}
+
+impl Storage {
+    /// For the `blocks` to be eliminated at groups with these first unknowns; with what each of them touches.
+    pub fn new(starts: &[usize], blocks: &[RowBlock], order: &[usize]) -> (Self, Vec<Vec<Touch>>) {
+        let mut with_pins = vec![true; starts.len()];
+        for block in blocks.iter().filter(|block| block.signs.is_empty()) {
+            block.touches.iter().for_each(|&(group, _)| with_pins[group] = false);
+        }
+        let mut storage = Self::default();
+        let mut touches = vec![Vec::new(); blocks.len()];
+        for &k in order {
+            touches[k] = storage.push(&blocks[k], starts, &with_pins);
+            if !is_pin_only(&touches[k]) {
+                let pins = touches[k].iter().filter(|touch| touch.sign != 0.0);
+                storage.mixed.extend(pins.map(PinEnd::new));
+            }
+        }
+        (storage, touches)
+    }
+
+    /// The rows of one block.
+    fn push(&mut self, block: &RowBlock, starts: &[usize], with_pins: &[bool]) -> Vec<Touch> {
+        let touch = |(k, &(group, first)): (usize, &(usize, usize))| {
+            let (entry, sign) =
+                (index(first / 3), if with_pins[group] { block.signs[k] } else { 0.0 });
+            let stored = if with_pins[group] {
+                self.n_pins += 1;
+                self.n_pins - 1
+            } else {
+                let sources = (0..index(block.size)).map(|r| (entry + r, index(group)));
+                self.rows.extend(sources.map(|(entry, group)| Source { entry, group }));
+                self.rows.len() - block.size
+            };
+            let (first, at) = (index(stored), index(starts[group]));
+            Touch { first, entry, group: index(group), at, sign: sign as f32 }
+        };
+        block.touches.iter().enumerate().map(touch).collect()
+    }
+}
+
+/// Whether a row block has nothing but pin blocks, at one or two groups.
+pub(super) fn is_pin_only(touches: &[Touch]) -> bool {
+    (1..=2).contains(&touches.len()) && touches.iter().all(|touch| touch.sign != 0.0)
+}

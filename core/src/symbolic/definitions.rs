@@ -1,0 +1,75 @@
+//! Definitions of the named parts that expressions are written with.
+
+use super::arena::{Arena, Id, Node, Pair, Rate};
+use super::function::Function;
+use super::name::{Axis, Kind};
+use super::style::Form;
+
+impl Arena {
+    /// Parts with a name in an expression, each after those in its own definition.
+    pub fn needed(&self, id: Id, order: &mut Vec<Id>) {
+        if order.contains(&id) {
+            return;
+        }
+        let definition = self.symbol_of(id).and_then(|symbol| symbol.definition);
+        for part in definition.into_iter().chain(self.parts(id)) {
+            self.needed(part, order);
+        }
+        if definition.is_some() || matches!(self.node(id), Node::Turned { .. }) {
+            order.push(id);
+        }
+    }
+
+    /// Parts that are made of no other part first, and the components of a vector side by side.
+    pub fn definition_key(&mut self, id: Id) -> (usize, bool, String) {
+        let rate = self.symbol_of(id).is_some_and(|symbol| {
+            symbol.name.kind == Kind::Part && matches!(symbol.rate, Rate::Inline)
+        });
+        (self.depth(id), rate, self.write(id, Form::Expression))
+    }
+
+    /// How many named parts stand on each other in an expression.
+    fn depth(&self, id: Id) -> usize {
+        let definition = self.symbol_of(id).and_then(|symbol| symbol.definition);
+        let named = definition.is_some() || matches!(self.node(id), Node::Turned { .. });
+        let inner = definition.into_iter().chain(self.parts(id)).map(|part| self.depth(part));
+        inner.max().unwrap_or(0) + usize::from(named)
+    }
+
+    /// What the name of a part stands for.
+    pub fn meaning(&mut self, id: Id, form: Form) -> String {
+        if let Node::Turned { pair, angle, axis } = *self.node(id) {
+            let Pair { x, y, .. } = self.pairs[pair];
+            let [cos, sin] = [Function::Cos, Function::Sin]
+                .map(|function| self.add(Node::Call(function, vec![angle])));
+            let (first, sign, second) = match axis {
+                Axis::X => ([x, cos], form.minus(), [y, sin]),
+                Axis::Y => ([x, sin], "+", [y, cos]),
+            };
+            let [first, second] = [first, second].map(|[component, turn]| {
+                let product = self.product(1.0, vec![(component, 1.0), (turn, 1.0)]);
+                self.write(product, form)
+            });
+            return format!("{first} {sign} {second}");
+        }
+        match self.symbol_of(id).and_then(|symbol| symbol.definition) {
+            Some(definition) => self.write(definition, form),
+            None => self.write(id, form),
+        }
+    }
+
+    pub fn collect_names(&self, id: Id, names: &mut Vec<String>) {
+        if let Node::Turned { pair, .. } = self.node(id) {
+            let Pair { x, y, .. } = self.pairs[*pair];
+            [x, y].into_iter().for_each(|id| self.collect_names(id, names));
+        }
+        if let Some(symbol) = self.symbol_of(id) {
+            match symbol.definition {
+                Some(definition) => self.collect_names(definition, names),
+                None if !names.contains(&symbol.name.text) => names.push(symbol.name.text.clone()),
+                None => {}
+            }
+        }
+        self.parts(id).into_iter().for_each(|part| self.collect_names(part, names));
+    }
+}

@@ -1,0 +1,96 @@
+//! Names of the unknowns and constants of an expression, in every form of print.
+
+/// What a name stands for: decides where it is written in a product and what is factored out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// A velocity.
+    Rate,
+    /// A constant or a given function of time.
+    Field,
+    /// Time.
+    Time,
+    /// A component of a unit vector.
+    Direction,
+    /// A component of a named vector, or another named part of an expression.
+    Part,
+    /// A coordinate.
+    Coordinate,
+}
+
+/// Which component of a vector a name is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Axis {
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+}
+
+impl Axis {
+    pub(super) fn text(self) -> &'static str {
+        ["x", "y"][self as usize]
+    }
+    pub(super) fn other(self) -> Self {
+        [Self::Y, Self::X][self as usize]
+    }
+}
+
+/// A name.
+#[derive(Clone, Debug)]
+pub struct Name {
+    /// In the language of expressions, such as `crank.omega`.
+    pub text: String,
+    /// In plain Unicode, such as `φ̇ᵢ`.
+    pub unicode: String,
+    /// In LaTeX.
+    pub latex: String,
+    /// What it stands for.
+    pub kind: Kind,
+    /// The component, if it is one of a vector.
+    pub axis: Option<Axis>,
+    /// The body that it belongs to, by position; terms of one body are written side by side.
+    pub owner: Option<usize>,
+}
+
+impl Name {
+    /// A constant, written in the same way in every form.
+    pub fn field(text: &str) -> Self {
+        Self::new(text, text, &upright(text), Kind::Field)
+    }
+
+    /// Time.
+    pub fn time() -> Self {
+        Self::new("t", "t", "t", Kind::Time)
+    }
+
+    /// A name that is no component and belongs to no body.
+    pub fn new(text: &str, unicode: &str, latex: &str, kind: Kind) -> Self {
+        Self {
+            text: text.to_string(),
+            unicode: unicode.to_string(),
+            latex: latex.to_string(),
+            kind,
+            axis: None,
+            owner: None,
+        }
+    }
+}
+
+/// A name as upright text in a LaTeX formula.
+pub(crate) fn upright(name: &str) -> String {
+    let mut text = String::from("\\text{");
+    for sign in name.chars() {
+        match sign {
+            '\\' => text.push_str("\\textbackslash{}"),
+            '~' => text.push_str("\\textasciitilde{}"),
+            '^' => text.push_str("\\textasciicircum{}"),
+            '&' | '%' | '$' | '#' | '_' | '{' | '}' => {
+                text.push('\\');
+                text.push(sign);
+            }
+            _ => text.push(sign),
+        }
+    }
+    text.push('}');
+    text
+}

@@ -1,0 +1,140 @@
+//! Printed equations of every sample, evaluated by the language of expressions, and their text.
+
+use crate::mechanisms::{close, Random};
+use crate::samples::{constraints, motion, of_end, random};
+use kempe::elements::{catalogue, Constraint, Field, Group, Rows};
+use kempe::equations::formulas::{of_element, of_type, Formulas};
+use kempe::expression::{Expression, Scope};
+use kempe::symbolic::Form;
+
+/// Names with their values; definitions may use those before them.
+struct Table {
+    names: Vec<String>,
+    values: Vec<f64>,
+}
+
+impl Table {
+    fn value(&self, text: &str) -> f64 {
+        let expression = Expression::parse(text).unwrap_or_else(|e| panic!("{text}: {e:?}"));
+        let tape = expression.compile(self.names.as_slice());
+        let tape = tape.unwrap_or_else(|e| panic!("{text}: {e:?}"));
+        tape.evaluate(&Scope { parameters: &self.values, time: f64::NAN, variables: &[] })
+    }
+
+    fn put(&mut self, name: &str, value: f64) {
+        self.names.push(name.to_string());
+        self.values.push(value);
+    }
+}
+
+/// The names that the formulas of a sample may use: fields, coordinates and rates.
+fn table(c: &Constraint, states: [[f64; 6]; 2], formulas: &Formulas) -> Table {
+    let mut table = Table { names: Vec::new(), values: Vec::new() };
+    for (side, state) in ["i", "j"].into_iter().zip(states) {
+        for (name, value) in ["x", "y", "angle", "vx", "vy", "omega"].into_iter().zip(state) {
+            table.put(&format!("{side}.{name}"), value);
+        }
+    }
+    let fields = catalogue().into_iter().find(|(_, t)| t.name == c.kind()).unwrap().1.fields;
+    let law = |field: &&Field| format!("{:?}", field.shape) == "Law";
+    let laws: Vec<&str> = fields.iter().filter(law).map(|field| field.name).collect();
+    let mut names = fields.iter().flat_map(|field| {
+        let name = field.name;
+        match format!("{:?}", field.shape).as_str() {
+            "Point" => vec![format!("{name}.s.x"), format!("{name}.s.y")],
+            "Pair" => vec![format!("{name}_i"), format!("{name}_j")],
+            "Number" | "Law" => vec![name.to_string()],
+            _ => vec![],
+        }
+    });
+    c.map(&mut |x| table.put(&names.next().unwrap(), *x));
+    for law in laws {
+        table.put(&format!("{law}_t"), 0.0);
+        table.put(&format!("{law}_tt"), 0.0);
+    }
+    for (name, text) in &formulas.definitions {
+        let value = table.value(text);
+        table.put(name, value);
+    }
+    table
+}
+
+/// The worst differences of Φ, Φ_q and γ from the printed equations.
+fn compare(c: &Constraint, formulas: &Formulas, mut check: impl FnMut(&str, f64, f64)) {
+    let mut numbers = Random::new(11);
+    let m = c.equations().len();
+    for _ in 0..10 {
+        let [i, j] = c.ends().map(|body| of_end(body, random(&mut numbers)));
+        let table = table(c, [i, j], formulas);
+        let mut rows = vec![[0.0; 6]; m];
+        c.jacobian(&motion(i).pose, &motion(j).pose, 0.0, &mut rows);
+        let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+        let out = Rows { residual: &mut phi, rate: &mut rate, gamma: &mut gamma };
+        c.velocity_terms(&motion(i), &motion(j), 0.0, out);
+        assert_eq!(formulas.rows.len(), m);
+        for (k, row) in formulas.rows.iter().enumerate() {
+            check("Φ", table.value(&row.residual), phi[k]);
+            check("γ", table.value(&row.gamma), gamma[k]);
+            let first = 6 - formulas.columns.len(); // ground has no columns
+            for (entry, number) in row.jacobian.iter().zip(&rows[k][first..]) {
+                check("Φ_q", table.value(entry), *number);
+            }
+        }
+    }
+}
+
+#[test]
+fn printed_equations_give_the_numbers_of_the_element() {
+    for c in constraints() {
+        let formulas = of_element(&c, Form::Expression);
+        compare(&c, &formulas, |what, printed, number| {
+            close(&format!("{what} of {}", c.kind()), printed, number, 1e-12);
+        });
+    }
+}
+
+#[test]
+fn a_wrong_equation_is_seen() {
+    for c in constraints().into_iter().take(3) {
+        let mut formulas = of_element(&c, Form::Expression);
+        formulas.rows[0].gamma.insert_str(0, "1e-9 + ");
+        let mut worst = 0.0_f64;
+        compare(&c, &formulas, |_, printed, number| worst = worst.max((printed - number).abs()));
+        assert!(worst > 5e-10, "{}", c.kind());
+    }
+}
+
+/// The equations of a type as lines.
+fn lines(group: Group, kind: &str, form: Form) -> String {
+    let formulas = of_type(group, kind, form).unwrap();
+    let mut lines = vec![format!("# {kind}, {form:?}")];
+    lines.extend(formulas.definitions.iter().map(|(name, text)| format!("{name} = {text}")));
+    for row in &formulas.rows {
+        lines.push(format!("Φ = {}", row.residual));
+        let entries = formulas.columns.iter().zip(&row.jacobian).filter(|(_, entry)| *entry != "0");
+        lines.extend(entries.map(|(column, entry)| format!("∂Φ/∂{column} = {entry}")));
+        lines.push(format!("γ = {}", row.gamma));
+    }
+    lines.join("\n") + "\n\n"
+}
+
+/// `KEMPE_WRITE=1` writes the file; read it as you would read a blackboard.
+#[test]
+fn printed_equations_are_those_of_the_file() {
+    let mut text = String::new();
+    for (group, table) in catalogue().iter().filter(|(group, _)| *group != Group::Forces) {
+        for form in [Form::Expression, Form::Unicode, Form::Latex] {
+            text += &lines(*group, table.name, form);
+        }
+    }
+    if std::env::var_os("KEMPE_WRITE").is_some() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/formulas.txt");
+        std::fs::write(file, &text).unwrap();
+        return;
+    }
+    let known = include_str!("formulas.txt");
+    for (line, known) in text.lines().zip(known.lines()) {
+        assert_eq!(line, known);
+    }
+    assert_eq!(text, known, "all:\n{text}");
+}

@@ -1,0 +1,16 @@
+//! Elements for tests alone: each uses an ability that few or no elements of the list use. They belong
+//! to the core where the feature `test-elements` is on, as in its tests.
+
+mod bead;
+mod lag;
+mod levels;
+mod pulley;
+mod rubbing;
+mod turned_pin;
+
+pub use bead::Bead;
+pub use lag::Lag;
+pub use levels::Levels;
+pub use pulley::Pulley;
+pub use rubbing::Rubbing;
+pub use turned_pin::TurnedPin;

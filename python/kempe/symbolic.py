@@ -1,0 +1,138 @@
+"""The equations of joints and drivers as formulas with the names of a model.
+
+The core evaluates the residual of each joint over symbolic numbers, simplifies and differentiates
+it, and prints the result. This module lays out the texts.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from kempe import _core
+from kempe.matrices.writing import named
+
+if TYPE_CHECKING:
+    from kempe.compiled import CompiledModel, ConstraintInfo
+    from kempe.model import Model
+
+
+@dataclass(frozen=True)
+class Texts:
+    """The equations of a joint or driver in one form of print.
+
+    Attributes:
+        columns: the coordinates by which Φ is differentiated.
+        definitions: names of parts of the equations, each with its formula.
+        residual: Φ of each equation.
+        jacobian: ∂Φ/∂q of each equation by column.
+        gamma: γ of each equation.
+    """
+
+    columns: tuple[str, ...]
+    definitions: tuple[tuple[str, str], ...]
+    residual: tuple[str, ...]
+    jacobian: tuple[tuple[str, ...], ...]
+    gamma: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Equations:
+    """The equations of a joint or driver.
+
+    Attributes:
+        name: of the joint or driver.
+        type: such as "revolute".
+        rows: names of the equations, such as ``C.x``.
+        expressions: the equations in the language of expressions, which can be evaluated.
+        symbols: the same in LaTeX.
+        points: the joint's points that occur, as ``coupler.C``, in the frames of their bodies, m.
+    """
+
+    name: str
+    type: str
+    rows: tuple[str, ...]
+    expressions: Texts
+    symbols: Texts
+    points: Mapping[str, tuple[float, float]]
+
+    def text(self) -> str:
+        """Lines of text, in the language of expressions."""
+        told = self.expressions
+        lines = [f"{self.name} ({self.type})"]
+        lines += [f"  {name} = {formula}" for name, formula in told.definitions]
+        for k, row in enumerate(self.rows):
+            lines.append(f"  Φ[{row}] = {told.residual[k]}")
+            lines += [
+                f"    ∂Φ[{row}]/∂({column}) = {entry}"
+                for column, entry in zip(told.columns, told.jacobian[k], strict=True)
+                if entry != "0"
+            ]
+            lines.append(f"    γ[{row}] = {told.gamma[k]}")
+        if self.points:
+            places = (f"{name} = ({x:.6g}, {y:.6g}) m" for name, (x, y) in self.points.items())
+            lines.append(f"  with {', '.join(places)} in the frame of its body")
+        return "\n".join(lines)
+
+    def latex(self) -> str:
+        """Displayed formulas for amsmath."""
+        told = self.symbols
+        lines = [f"{name} &= {formula}" for name, formula in told.definitions]
+        for k, row in enumerate(self.rows):
+            label = named(row)
+            lines.append(rf"\Phi_{{{label}}} &= {told.residual[k]}")
+            lines += [
+                rf"\frac{{\partial \Phi_{{{label}}}}}{{\partial {column}}} &= {entry}"
+                for column, entry in zip(told.columns, told.jacobian[k], strict=True)
+                if entry != "0"
+            ]
+            lines.append(rf"\gamma_{{{label}}} &= {told.gamma[k]}")
+        body = " \\\\\n".join(f"  {line}" for line in lines)
+        return f"% {self.name} ({self.type})\n\\begin{{align*}}\n{body}\n\\end{{align*}}\n"
+
+
+def equations(model: Model | CompiledModel) -> list[Equations]:
+    """The equations of all joints and drivers of a model, in the order of Φ.
+
+    Args:
+        model: the mechanism.
+    """
+    from kempe.analyses import compiled_model
+
+    compiled = compiled_model(model)
+    tree = json.loads(compiled.case)
+    infos = compiled.constraints.values()
+    return [_of(compiled, info, tree[info.group][info.name]) for info in infos]
+
+
+def _of(compiled: CompiledModel, info: ConstraintInfo, entry: Mapping[str, Any]) -> Equations:
+    written = {field: value for field, value in entry.items() if isinstance(value, str)}
+
+    def printed(form: str) -> dict[str, Any]:
+        told: dict[str, Any] = json.loads(_core.formulas(compiled.core, info.name, written, form))
+        return told
+
+    expressions = printed("expression")
+    points = {written.get("i", ""): info.point_i, written.get("j", ""): info.point_j}
+    used = {name.rpartition(".")[0] for name in expressions["names"]}
+    return Equations(
+        name=info.name,
+        type=info.type,
+        rows=tuple(f"{info.name}.{name}" for name, _ in info.equations),
+        expressions=_texts(expressions),
+        symbols=_texts(printed("latex")),
+        points={name: at for name, at in points.items() if name in used},
+    )
+
+
+def _texts(told: Mapping[str, Any]) -> Texts:
+    rows = told["rows"]
+    return Texts(
+        columns=tuple(told["columns"]),
+        definitions=tuple((name, formula) for name, formula in told["definitions"]),
+        residual=tuple(row["residual"] for row in rows),
+        jacobian=tuple(tuple(row["jacobian"]) for row in rows),
+        gamma=tuple(row["gamma"] for row in rows),
+    )

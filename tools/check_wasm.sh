@@ -1,0 +1,113 @@
+#!/bin/sh
+# Checks that the core compiles to WebAssembly and computes there what it computes here.
+#
+#     tools/check_wasm.sh            all of the following
+#     tools/check_wasm.sh install    gets a toolchain, if there is none
+#     tools/check_wasm.sh check      the core compiles for wasm32-unknown-unknown
+#     tools/check_wasm.sh run        the four-bar linkage runs in Node and agrees with the reference
+#
+# The toolchain is that of rustup if it has the target (`rustup target add wasm32-unknown-unknown`).
+# Otherwise `install` unpacks Debian's packages into target/wasm, about 1 GB; it changes nothing
+# outside and needs no root. Their standard library is built from its source.
+# Exit code: 0 when all is well, 1 when something fails, 5 when there is no toolchain.
+set -u
+
+ROOT=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P) || exit 5
+HOME_OF_WASM=$ROOT/target/wasm
+DEBIAN=$HOME_OF_WASM/debian
+TARGET=wasm32-unknown-unknown
+PACKAGES="rustc-web cargo-web rust-web-src lld-19"
+MODULE=$HOME_OF_WASM/build/$TARGET/wasm/kempe_wasm.wasm
+
+say() { printf 'wasm: %s\n' "$*" >&2; }
+
+no_toolchain() {
+    say "$*"
+    exit 5
+}
+
+has_rustup_target() { [ -d "$(rustc --print sysroot 2>/dev/null)/lib/rustlib/$TARGET" ]; }
+has_debian() { [ -f "$DEBIAN/complete" ]; }
+
+# --- install --------------------------------------------------------------------------------------
+
+install() {
+    has_rustup_target && return
+    has_debian && return
+    command -v apt-get >/dev/null 2>&1 && command -v dpkg-deb >/dev/null 2>&1 ||
+        no_toolchain "no Rust for $TARGET, and no apt to get one: run 'rustup target add $TARGET'"
+    say "unpacking $PACKAGES into $DEBIAN"
+    rm -rf "$DEBIAN"
+    mkdir -p "$DEBIAN/packages" || no_toolchain "cannot write to $HOME_OF_WASM"
+    names=$(missing_packages)
+    # on a new machine the lists of packages may be absent or old
+    if [ -z "$names" ] && [ "$(id -u)" = 0 ]; then
+        apt-get update -qq && names=$(missing_packages)
+    fi
+    [ -n "$names" ] || no_toolchain "apt does not offer $PACKAGES: run 'apt-get update', or use rustup"
+    # shellcheck disable=SC2086 # a list of words
+    (cd "$DEBIAN/packages" && apt-get download -qq $names 2>"$DEBIAN/log") || {
+        cat "$DEBIAN/log" >&2
+        no_toolchain "the packages could not be downloaded"
+    }
+    for package in "$DEBIAN"/packages/*.deb; do
+        dpkg-deb -x "$package" "$DEBIAN" || no_toolchain "$package could not be unpacked"
+    done
+    rm -rf "$DEBIAN/packages"
+    : >"$DEBIAN/complete"
+}
+
+# The packages with all they depend on that this machine does not have; installed ones of the four
+# themselves are unpacked again, so that all of them are in one place.
+missing_packages() {
+    # shellcheck disable=SC2086 # a list of words
+    apt-get install -s --reinstall --no-install-recommends $PACKAGES 2>/dev/null |
+        sed -n 's/^Inst \([^ ]*\).*/\1/p'
+}
+
+# --- build ----------------------------------------------------------------------------------------
+
+# wasm_cargo COMMAND…: cargo for the target, with whichever toolchain there is.
+wasm_cargo() {
+    command=$1
+    shift
+    if has_rustup_target; then
+        cargo "$command" --target "$TARGET" --target-dir "$HOME_OF_WASM/build" "$@"
+        return
+    fi
+    has_debian || no_toolchain "no Rust for $TARGET: run 'tools/check_wasm.sh install'"
+    libraries=$(dirname "$(find "$DEBIAN/usr/lib" -name 'librustc_driver-*.so' | head -n 1)")
+    LD_LIBRARY_PATH=$libraries \
+        RUSTC=$DEBIAN/usr/bin/rustc RUSTC_BOOTSTRAP=1 \
+        CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$DEBIAN/usr/bin/wasm-ld-19 \
+        "$DEBIAN/usr/bin/cargo" "$command" -Zbuild-std=std,panic_abort \
+        --target "$TARGET" --target-dir "$HOME_OF_WASM/build" "$@"
+}
+
+check() {
+    wasm_cargo check --quiet --locked -p kempe-wasm || exit 1
+    say "the core compiles for $TARGET"
+}
+
+run() {
+    command -v node >/dev/null 2>&1 || no_toolchain "no node found: install Node 18 or later"
+    wasm_cargo build --quiet --locked --profile wasm -p kempe-wasm || exit 1
+    node "$ROOT/tools/wasm_four_bar.mjs" "$MODULE" || exit 1
+}
+
+cd "$ROOT" || exit 5
+unset RUSTFLAGS # those of this machine are not for WebAssembly
+case ${1:-all} in
+install) install ;;
+check) check ;;
+run) run ;;
+all)
+    install
+    check
+    run
+    ;;
+*)
+    say "unknown command '$1'; it may be install, check or run"
+    exit 2
+    ;;
+esac
