@@ -245,7 +245,7 @@ def test_names_do_not_lie_on_each_other(example: kp.State) -> None:
     scene = kp.scene(example)
     frame = Frame(scene)
     frame.pixels(0)
-    boxes = [(a.get_text(), a.get_window_extent()) for _, a in frame._painting.texts]
+    boxes = [(a.get_text(), a.get_window_extent()) for _, a in frame.painting.texts]
     for k, (one, a) in enumerate(boxes):
         for other, b in boxes[:k]:
             across = min(a.x1, b.x1) - max(a.x0, b.x0)
@@ -260,7 +260,7 @@ def test_frame_and_page_paint_the_same_items(example: kp.State, tmp_path: Any) -
     scene = kp.scene(example)
     text = kp.player(example, tmp_path / "a.html").read_text(encoding="utf-8")
     told = json.loads(re.findall(r'id="scene">(.*?)</script>', text)[0])["display"]
-    painted = Frame(scene)._painting.items
+    painted = Frame(scene).painting.items
     assert len(told) == len(painted)
     for one, other in zip(told, painted, strict=True):
         assert one["of"] == other["of"]

@@ -70,7 +70,7 @@ class Frame:
         self.axes.set_xlim(left, right)
         self.axes.set_ylim(bottom, top)
         self._draw_still()
-        self._painting = Painting(self.axes, frame_items(scene), self._poses[0])
+        self.painting = Painting(self.axes, frame_items(scene), self._poses[0])
         self._clock = self.axes.text(
             0.985, 0.975, "", transform=self.axes.transAxes, ha="right", va="top", fontsize=9
         )
@@ -104,7 +104,7 @@ class Frame:
 
     def put(self, k: int) -> None:
         """Move everything to where it is at frame k."""
-        self._painting.poses = self._poses[k]
+        self.painting.poses = self._poses[k]
         self._clock.set_text(f"t = {self._scene['frames']['t'][k]:.3f} s")
 
     def save(self, k: int, path: Path | str) -> None:
@@ -128,8 +128,8 @@ class Frame:
 
         self.put(k)
         moving: Sequence[Artist] = [
-            self._painting,
-            *(artist for _, artist in self._painting.texts),
+            self.painting,
+            *(artist for _, artist in self.painting.texts),
             self._clock,
         ]
         with any_character():
