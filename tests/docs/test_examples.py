@@ -1,4 +1,4 @@
-"""Every example loads, goes together and runs, and can be trusted."""
+"""Every example loads, assembles and runs, with a small error."""
 
 from pathlib import Path
 
