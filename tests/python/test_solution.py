@@ -147,7 +147,7 @@ def test_a_simulation_without_a_step_is_its_start(model: kp.Model, start: kp.Sta
 
 @pytest.mark.parametrize("t", [-0.1, 1.1, float("nan"), [0.5, 2.0]])
 def test_outside_of_the_solution_is_refused(solution: kp.Solution, t: object) -> None:
-    with pytest.raises(kp.ModelError, match="outside of the solution"):
+    with pytest.raises(kp.ModelError, match="outside the solution"):
         solution(t)  # type: ignore[arg-type]
 
 
@@ -208,7 +208,7 @@ def test_a_state_serves_as_guess(model: kp.Model, start: kp.State) -> None:
 def test_a_state_of_another_mechanism_is_refused(start: kp.State) -> None:
     other = kp.Model()
     other.bar("rod", mass=1, length=1, ends=("A", "B"))
-    with pytest.raises(kp.ModelError, match="the state is of bodies"):
+    with pytest.raises(kp.ModelError, match="the state has the bodies"):
         kp.dynamics(other, start, t_end=1)
 
 

@@ -1,4 +1,4 @@
-"""Prints the summary of a solution."""
+"""Printing of the summary of a solution."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from kempe.cli.console import figure, heading, table
 
 
 def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
-    """Peaks, energy balance, settling and cost of one analysis."""
+    """Print peaks, energy balance, settling times and cost of one analysis."""
     span = summary["time"]
     told = f"{name}: {figure(span['start'])} to {figure(span['end'])} s"
     heading(console, f"{told}, {span['outputs']} outputs")
@@ -47,7 +47,7 @@ def _show_peaks(console: Console, peaks: dict[str, Any]) -> None:
 
 
 def _columns(peaks: list[dict[str, Any]]) -> tuple[list[str], list[list[str]]]:
-    """Header and cells of forces and of torques, each only where there are any."""
+    """Header and cells of forces and torques; a column of zeros is omitted."""
     quantities = [("force", "force / N"), ("torque", "torque / N m")]
     told = [pair for pair in quantities if any(peak[pair[0]] for peak in peaks)]
     header = [word for _, title in told for word in (title, "at / s")]
