@@ -55,7 +55,7 @@ def test_who_gives_states_alone_is_compared_with_states_alone(results: dict[str,
 def test_crossings_are_told(results: dict[str, Any]) -> None:
     exact, cheap = crossings(records(results), "flagship")
     assert exact.startswith("scipy RK45, Baumgarte, 1e-06 has an error of 1.0e-08 in 6e+03 ms")
-    assert "does not come down to that error" in exact
+    assert "does not reach that error" in exact
     assert cheap.startswith("MuJoCo RK4, 0.001 has an error of 1.0e-05 in 0.5 ms")
     assert "takes 2 ms, 4.00 × of it" in cheap
 
