@@ -80,8 +80,8 @@ def shown(found: dict[str, Any], records: list[Record]) -> str:
     """Targets with verdicts."""
     rows = [(t.what, t.asked, t.measured, t.verdict) for t in targets(found, records)]
     return (
-        "## Targets\n\nEach other tool is compared at its cheapest setting whose error does not exceed"
-        " that of kempe.\n\n" + table(("", "target", "measured", ""), rows)
+        "## Targets\n\nEach other tool is compared at its cheapest setting whose error does not"
+        " exceed that of kempe.\n\n" + table(("", "target", "measured", ""), rows)
     )
 
 
@@ -128,12 +128,11 @@ def results(records: list[Record], name: str) -> str:
     head = ("", "rtol or step", "CPU time, ms", "error", "gap, m")
     image = f"![Error against CPU time: {measured.title}](images/benchmarks/{name}.png)"
     crossed = crossings(records, name)
-    ahead = (
-        "\n".join(f"- {text}" for text in crossed) or "None."
-    )
+    ahead = "\n".join(f"- {text}" for text in crossed) or "None."
     return (
         f"## {measured.title}\n\nError: {measured.error_of}.\n\n{image}\n\nSettings of other tools"
-        f" that are faster than kempe's default method at equal error:\n\n{ahead}\n\n{table(head, rows)}"
+        " that are faster than kempe's default method at equal error:\n\n"
+        f"{ahead}\n\n{table(head, rows)}"
     )
 
 

@@ -117,8 +117,12 @@ def main() -> None:
     parser.add_argument("--no-floor", action="store_true", help="skip the floor program")
     parser.add_argument("--json", type=Path, default=RESULTS, help="file for the results")
     parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="folder for the page")
-    parser.add_argument("--keep", action="store_true", help="keep the results of other problems in the file")
-    parser.add_argument("--page", action="store_true", help="write page and figures from stored results")
+    parser.add_argument(
+        "--keep", action="store_true", help="keep the results of other problems in the file"
+    )
+    parser.add_argument(
+        "--page", action="store_true", help="write page and figures from stored results"
+    )
     asked = parser.parse_args()
     if not asked.page:
         measure(asked)

@@ -61,8 +61,8 @@ def against(mine: Record | None, peers: list[Record], asked: float, name: str) -
         ratio = peer.seconds / mine.seconds
         told = f"{ratio:.3g} × ({label(peer)}: {1e3 * peer.seconds:.3g} ms, error {peer.error:.1e})"
         return Target(name, wanted, told, ratio >= asked)
-    # The tool never reaches the error of kempe. Its most accurate run is a lower bound of the ratio;
-    # a bound below the target does not meet it.
+    # The tool never reaches the error of kempe. Its most accurate run gives a lower bound of the
+    # ratio. A bound below the target does not meet it.
     best = min(good, key=lambda r: r.error)
     ratio = best.seconds / mine.seconds
     told = f"> {ratio:.3g} × (it reaches {best.error:.1e} at best, {label(best)})"

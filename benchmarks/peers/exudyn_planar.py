@@ -151,7 +151,7 @@ def prepare(problem: Problem, setting: Setting) -> Callable[[], Any]:
             raise RuntimeError("SolveDynamic did not succeed")
         return [np.array(mbs.GetSensorStoredData(sensor)) for sensor in sensors]
 
-    # each run starts from the container's own start, which must stay alive as long as the run
+    # a run uses the initial state of the container, which must not be deleted before
     run.container = container  # type: ignore[attr-defined]
     return run
 

@@ -31,7 +31,7 @@ FEW = (1e-3, 1e-6)
 
 
 def missing() -> str | None:
-    """kempe can always be used."""
+    """None: it can always be used."""
     return None
 
 

@@ -41,5 +41,7 @@ def not_installed(*modules: str) -> str | None:
         try:
             import_module(module)
         except ImportError as error:
-            return f"{module} is not installed here ({error}); pip install 'kempe[bench]' installs it"
+            return (
+                f"{module} is not installed here ({error}); pip install 'kempe[bench]' installs it"
+            )
     return None

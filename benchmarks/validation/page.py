@@ -31,10 +31,10 @@ CONVERGENCE = """
 ## Observed orders
 
 The tables show errors of all integrators with constant steps and projection, for the coarsest step
-and three halvings. The error is the largest error over the common times of all runs, relative to the
-largest value. The reference is DOP853 at rtol 1e-14. The observed order is the slope of log error
-over log step by least squares. It must agree with theory within {tolerance}. The multipliers in the
-output are computed from the state, so they converge with the order of the coordinates.
+and three halvings. The error is the largest error over the common times of all runs, relative to
+the largest value. The reference is DOP853 at rtol 1e-14. The observed order is the slope of log
+error over log step by least squares. It must agree with theory within {tolerance}. The multipliers
+in the output are computed from the state, so they converge with the order of the coordinates.
 """
 
 CONSERVATION = """\
@@ -45,7 +45,8 @@ CONSERVATION = """\
 The flagship without its spring-damper is released from rest with the crank at -60° and swings
 through 83° without damping. The constant step is 1/{steps} of the period of {period:.6f} s. The
 states are projected onto the constraints. The residual is the largest |Φ|; it must not exceed
-{closed:.0e} m. The drift is the largest change of the energy relative to the largest kinetic energy.
+{closed:.0e} m. The drift is the largest change of the energy relative to the largest kinetic
+energy.
 """
 
 

@@ -62,7 +62,7 @@ def positions(table: dict[str, Any]) -> list[Comparison]:
 
 
 def period(sol: kp.Solution, swing: np.ndarray, rate: np.ndarray) -> float:
-    """Four times the time to the lowest point, the zero of `swing`, by cubic Hermite interpolation."""
+    """Four times the time to the lowest point, the zero of `swing`, by cubic interpolation."""
     k = int(np.argmax(swing <= 0)) - 1
     h = sol.t[k + 1] - sol.t[k]
     a, b, da, db = swing[k], swing[k + 1], rate[k] * h, rate[k + 1] * h

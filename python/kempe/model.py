@@ -155,7 +155,10 @@ class Model(ElementMethods):
         known = bodies.get("ground", {}).get("points", {})
         for name in given:
             if name in known:
-                refuse(f"bodies.ground.points.{name}", "the name is taken by another point; choose another")
+                refuse(
+                    f"bodies.ground.points.{name}",
+                    "the name is taken by another point; choose another",
+                )
         checked = points(given, "bodies.ground.points")
         self._tree["bodies"] = {"ground": {"points": {**known, **checked}}} | {
             name: body for name, body in bodies.items() if name != "ground"

@@ -1,4 +1,4 @@
-"""A law that is undefined at a reported time alone: what is before it is written."""
+"""A law that is undefined at one output time: the solution before it is written."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ import kempe as kp
 import pytest
 from kempe.cli import main
 
-#: Steps of 40 ms look at the law at multiples of 20 ms, outputs at multiples of 50 ms.
+#: Steps of 40 ms evaluate the law at multiples of 20 ms, outputs at multiples of 50 ms.
 CASE = """\
 kempe = 1
 gravity = [0, -9.81]

@@ -8,7 +8,7 @@ from pathlib import Path
 #: Comments and strings of Rust and JavaScript; the other alternatives are skipped.
 _RUST = re.compile(
     r"""
-      (?P<text>//[^\n]*|/\*.*?\*/|\bb?r(?P<hashes>\#*)".*?"(?P=hashes)|\bb?"(?:\\.|[^"\\])*")
+      (?P<text>//[^\n]*|/\*.*?\*/|\bb?r(?P<hashes>\#*)".*?"(?P=hashes)|"(?:\\.|[^"\\])*")
     | b?'(?:\\(?:u\{\w+\}|x\w\w|.)|[^'\\])'
     """,
     re.VERBOSE | re.DOTALL,

@@ -11,6 +11,8 @@ from house.prose import prose
 EMPTY_WORDS = {"util", "utils", "helper", "helpers", "common", "misc", "stuff", "tools"}
 GRAND_NAMES = re.compile(r"\b(?:struct|enum|trait|class)\s+\w*(?:Manager|System|Context|Engine)\b")
 
+#: Words after "is no" in plain sentences.
+PLAIN_AFTER_NO = r"longer|more\b|other|such|need|larger|worse|better|reason|excuse"
 #: Stilted expressions and a plain alternative. A blank matches any white space.
 STILTED = {
     r"(?:is|are|was|were|be|been|being) told": "is reported",
@@ -31,10 +33,10 @@ STILTED = {
     r"should (?:one|it|there) not": "a condition with if",
     r"(?:goes?|went|put) together": "assemble",
     r"worked out": "computed",
-    r"alike": "in the same way",
+    r"(?<!more.)alike": "in the same way",
     r"but for": "except",
     r"for good": "permanently",
-    r"(?<!here.)(?<!that.)(?:is|are) no (?!longer|more\b|other|such|need|larger|worse|better|reason|excuse)\w+": "is not a",
+    rf"(?<!here.)(?<!that.)(?:is|are) no (?!{PLAIN_AFTER_NO})\w+": "is not a",
     r"is right(?=[;.:\n])": "is valid, is correct",
 }
 
@@ -146,7 +148,8 @@ def test_a_stilted_expression_is_found(text: str, line: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["The point lies to the right.", "There is no such body.", "The list is no longer used."]
+    "text",
+    ["The point lies to the right.", "There is no such body.", "The list is no longer used."],
 )
 def test_a_plain_expression_is_accepted(text: str) -> None:
     assert not stilted(text)

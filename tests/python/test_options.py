@@ -1,4 +1,4 @@
-"""Options and bodies written by hand hold what the catalogue of the core says."""
+"""The options and bodies in Python agree with the catalogue of the core."""
 
 import json
 from dataclasses import MISSING, fields
@@ -27,14 +27,14 @@ def declared(table: dict) -> dict[str, object]:
         if value is None:
             return MISSING
         if isinstance(value, dict):
-            return None  # may be absent
+            return None  # optional
         return tuple(value) if isinstance(value, list) else value
 
     return {field["name"]: default(field) for field in table["fields"]}
 
 
 @pytest.mark.parametrize("table", FAMILIES, ids=lambda table: table["name"])
-def test_options_are_those_of_the_core(table: dict) -> None:
+def test_options_match_the_core(table: dict) -> None:
     kind = getattr(kp, table["class"])
     assert issubclass(kind, Option)
     assert kind.kind == table["name"]
@@ -42,16 +42,16 @@ def test_options_are_those_of_the_core(table: dict) -> None:
 
 
 @pytest.mark.parametrize("kind", [Bar, Body])
-def test_bodies_are_those_of_the_core(kind: type) -> None:
+def test_bodies_match_the_core(kind: type) -> None:
     (table,) = (table for table in CATALOGUE["bodies"] if table["name"] == kind.kind)
     assert defaults(kind) == declared(table)
     assert kind.shapes == {field["name"]: field["shape"] for field in table["fields"]}
 
 
-def test_a_simulation_has_the_fields_of_the_core() -> None:
+def test_the_fields_of_a_simulation_match_the_core() -> None:
     (table,) = (table for table in CATALOGUE["analyses"] if table["name"] == "dynamics")
     names = {"after" if name == "from" else name for name in declared(table)}
-    # output = "steps" is what output_step=None means
+    # output_step=None corresponds to output = "steps"
     assert set(defaults(kp.Dynamics)) == names - {"output"}
 
 
@@ -95,7 +95,7 @@ def test_a_constant_step_is_kept(
 @pytest.mark.parametrize(
     "method", [kp.RK4(step=1e-12), kp.DOP853(step=1e-12), kp.RK45(max_step=1e-12)], ids=str
 )
-def test_steps_without_end_are_refused_at_once(
+def test_too_many_constant_steps_are_refused_before_the_run(
     model: kp.Model, start: kp.State, method: kp.RK4 | kp.RK45 | kp.DOP853
 ) -> None:
     with pytest.raises(kp.IntegrationError, match=r"1e12 steps of 1e-12 s .* = 333333; take") as e:
@@ -103,7 +103,7 @@ def test_steps_without_end_are_refused_at_once(
     np.testing.assert_array_equal(e.value.solution.t, [0.0])
 
 
-def test_outputs_without_end_are_refused(model: kp.Model, start: kp.State) -> None:
+def test_too_many_outputs_are_refused(model: kp.Model, start: kp.State) -> None:
     with pytest.raises(kp.ModelError, match=r"output_step: .* must be at least 1e-6 of the time"):
         kp.dynamics(model, start, t_end=1, output_step=1e-12)
 
@@ -164,7 +164,7 @@ def test_a_simulation_may_start_at_another_time(model: kp.Model) -> None:
     ],
     ids=str,
 )
-def test_options_that_cannot_be_are_refused(model: kp.Model, start: kp.State, wrong: dict) -> None:
+def test_invalid_options_are_refused(model: kp.Model, start: kp.State, wrong: dict) -> None:
     with pytest.raises(kp.ModelError):
         kp.dynamics(model, start, **wrong)
 
@@ -172,13 +172,13 @@ def test_options_that_cannot_be_are_refused(model: kp.Model, start: kp.State, wr
 @pytest.mark.parametrize(
     ("field", "remedy"), [("method", "kp.RK45"), ("stabilization", "kp.Projection")]
 )
-def test_a_word_is_no_option(model: kp.Model, start: kp.State, field: str, remedy: str) -> None:
+def test_a_text_is_not_an_option(model: kp.Model, start: kp.State, field: str, remedy: str) -> None:
     words: dict = {field: "auto"}
     with pytest.raises(kp.ModelError, match=rf"{field}: 'auto'; pass an object such as {remedy}"):
         kp.dynamics(model, start, t_end=1, **words)
 
 
-def test_gains_from_the_step_go_without_numbers(model: kp.Model) -> None:
+def test_gains_from_the_step_exclude_numbers(model: kp.Model) -> None:
     start = {"set": {"crank.angle": "70*deg"}, "guess": {"rocker.angle": "240*deg"}}
 
     def run(stabilization: kp.Baumgarte) -> kp.Solution:

@@ -1,4 +1,4 @@
-"""Calls that ask for what was asked for before: what is kept changes no result and no error."""
+"""Repeated calls: cached requests change neither results nor errors."""
 
 import json
 from collections.abc import Iterator
@@ -29,7 +29,7 @@ def numbers(sol: Solution) -> tuple[bytes, ...]:
 
 
 def anew(model: Model, start: State, **wanted: Any) -> Solution:
-    """The same asked of a model that nothing was asked of, with nothing kept."""
+    """The same call with a new model and an empty cache."""
     entries._kept.clear()
     fresh = Model.from_tree(model.tree())
     return kp.dynamics(fresh, start, **wanted)
@@ -42,14 +42,14 @@ def message(model: Model, start: State, **wanted: Any) -> str:
 
 
 @pytest.mark.parametrize("method", [kp.DOP853(rtol=1e-5), kp.Radau(), kp.Auto(), kp.RK4(1e-3)])
-def test_the_same_asked_again_gives_the_same_bits(model: Model, start: State, method: Any) -> None:
+def test_a_repeated_call_gives_the_same_bits(model: Model, start: State, method: Any) -> None:
     first, again = (kp.dynamics(model, start, method=method, **GRID) for _ in range(2))
     assert len(entries._kept) == 1
     assert numbers(first) == numbers(again)
     assert numbers(again) == numbers(anew(model, start, method=method, **GRID))
 
 
-def test_what_differs_is_not_taken_for_the_same(model: Model, start: State) -> None:
+def test_different_requests_are_distinguished(model: Model, start: State) -> None:
     ways: list[dict[str, Any]] = [
         {"method": kp.DOP853()},
         {"method": kp.RK45()},
@@ -73,7 +73,7 @@ def test_what_differs_is_not_taken_for_the_same(model: Model, start: State) -> N
             assert sol.model.case == fresh.model.case
 
 
-def test_the_end_is_that_of_the_call(model: Model, start: State) -> None:
+def test_the_end_time_of_the_call_is_used(model: Model, start: State) -> None:
     for t_end in (0.1, 0.05, 1, np.float64(0.07), np.array(0.03), "0.02*2"):
         sol = kp.dynamics(model, start, t_end=t_end, output_step=0.01)
         fresh = anew(model, start, t_end=t_end, output_step=0.01)
@@ -87,7 +87,7 @@ def test_the_end_is_that_of_the_call(model: Model, start: State) -> None:
         kp.dynamics(model, start, t_end=0.1, output_step=0.01)
 
 
-def test_options_changed_after_use_count_as_they_are(model: Model, start: State) -> None:
+def test_changed_options_are_used(model: Model, start: State) -> None:
     method = kp.RK45(rtol=1e-8)
     kp.dynamics(model, start, method=method, **GRID)
     object.__setattr__(method, "rtol", 1e-3)
@@ -101,7 +101,7 @@ def test_options_changed_after_use_count_as_they_are(model: Model, start: State)
     assert numbers(kp.dynamics(model, start, method=method, **GRID)) == numbers(sol)
 
 
-def test_numbers_that_are_equal_are_not_all_the_same(model: Model, start: State) -> None:
+def test_equal_numbers_of_different_types_are_distinguished(model: Model, start: State) -> None:
     kp.dynamics(model, start, method=kp.RK45(max_step=1.0), **GRID)
     for wrong in (True, Decimal(1)):
         told = message(model, start, method=kp.RK45(max_step=wrong), **GRID)  # type: ignore[arg-type]
@@ -123,7 +123,7 @@ def test_a_wrong_option_is_refused_each_time(model: Model, start: State) -> None
         assert message(model, start, method=wrong, **GRID) == first
 
 
-def test_formulas_are_of_the_model_that_is_asked(model: Model, start: State) -> None:
+def test_formulas_use_the_parameters_of_the_model(model: Model, start: State) -> None:
     other = model.with_parameters({"k": 5e6})
     method = kp.RK45(rtol=1e-3, max_step="k*2e-10")
     runs = [kp.dynamics(m, start, method=method, **GRID) for m in (model, other, model)]
@@ -132,13 +132,13 @@ def test_formulas_are_of_the_model_that_is_asked(model: Model, start: State) -> 
     assert numbers(runs[1]) == numbers(anew(other, start, method=method, **GRID))
 
 
-def test_no_more_are_kept_than_few(model: Model, start: State) -> None:
+def test_the_cache_is_small(model: Model, start: State) -> None:
     for k in range(entries._MOST + 3):
         kp.dynamics(model, start, t_end=0.001, method=kp.RK45(rtol=1e-3 * (k + 1)))
     assert len(entries._kept) <= entries._MOST
 
 
-def test_threads_get_what_they_ask_for(model: Model, start: State) -> None:
+def test_threads_get_their_own_results(model: Model, start: State) -> None:
     rtols = [10.0 ** -(3 + k % 6) for k in range(48)]
 
     def run(rtol: float) -> tuple[bytes, ...]:

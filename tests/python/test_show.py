@@ -1,4 +1,4 @@
-"""Matrices with names, and the equations as formulas, held against the numbers of the core."""
+"""Matrices with names, and equations as formulas, compared with the numbers of the core."""
 
 import csv
 import io
@@ -22,7 +22,7 @@ REFERENCE = json.loads(
 )
 
 
-def test_the_jacobian_of_the_assembly_is_the_published_one(start: kp.State) -> None:
+def test_the_jacobian_of_the_assembly_agrees_with_the_published_one(start: kp.State) -> None:
     shown = kp.show(start.model, start, "Phi_q", assembly={"crank.angle": "70*deg"})
     assert shown.values.shape == (9, 9)
     assert shown.rows == (*(f"{j}.{c}" for j in "ABCD" for c in "xy"), "set.crank.angle")
@@ -40,7 +40,7 @@ def test_multipliers_carry_the_names_of_their_equations(start: kp.State) -> None
 
 
 @pytest.mark.parametrize("what", ["M", "Phi", "Phi_q", "nu", "gamma", "Q", "kkt", "rhs", "a"])
-def test_every_matrix_is_written_in_three_ways(start: kp.State, what: str) -> None:
+def test_every_matrix_is_written_in_three_formats(start: kp.State, what: str) -> None:
     shown = kp.show(start.model, start, what)
     full = shown.values.reshape(len(shown.rows), -1)
     header, *lines = csv.reader(io.StringIO(shown.csv()))
@@ -65,7 +65,7 @@ def test_the_augmented_matrix_solves_for_accelerations_and_multipliers(start: kp
     assert_allclose(np.linalg.solve(kkt, rhs), np.concatenate([a, lam]), rtol=1e-9, atol=1e-6)
 
 
-def test_zeros_are_dots_and_rounding_is_shown_in_residuals_only(start: kp.State) -> None:
+def test_zeros_are_dots_and_rounding_errors_appear_in_residuals_only(start: kp.State) -> None:
     model = start.model
     upright = kp.assemble(model, set={"crank.angle": "90*deg"}, guess=start)
     jacobian = kp.show(model, upright, "Phi_q").text()
@@ -74,7 +74,7 @@ def test_zeros_are_dots_and_rounding_is_shown_in_residuals_only(start: kp.State)
     assert "e-1" in kp.show(model, upright, "Phi").text()
 
 
-def test_what_does_not_exist_is_refused(start: kp.State, model: kp.Model) -> None:
+def test_unknown_matrices_are_refused(start: kp.State, model: kp.Model) -> None:
     with pytest.raises(kp.ModelError, match="did you mean 'Phi_q'"):
         kp.show(model, start, "Phi_p")
     with pytest.raises(kp.ModelError, match="not of the assembly"):
@@ -110,7 +110,7 @@ def test_newton_from_the_guess_finds_the_position_of_the_placement(
     assert_allclose(found.q, REFERENCE["start"]["q"], atol=1e-11)
 
 
-def test_newton_from_a_bad_guess_fails_in_words(model: kp.Model) -> None:
+def test_newton_from_a_bad_guess_gives_a_clear_error(model: kp.Model) -> None:
     short = model.with_parameters({"L2": 1})
     with pytest.raises(kp.AssemblyError, match="cannot close"):
         kp.assemble(short, {"crank.angle": "70*deg"}, from_guess=True)
@@ -120,7 +120,7 @@ def test_newton_from_a_bad_guess_fails_in_words(model: kp.Model) -> None:
 
 
 def mechanism() -> kp.Model:
-    """Every type of joint and driver, with arms and axes of which none is zero."""
+    """Every type of joint and driver, with nonzero points and axes."""
     m = kp.Model("all", parameters={"w": 0.7})
     m.ground.points(O=(0.3, -0.4))
     m.body("a", mass=1, inertia=1, points={"P": (0.2, -0.5), "R": (-0.7, 0.6)})
@@ -145,7 +145,7 @@ def somewhere() -> kp.State:
 
 
 def numbers(state: kp.State) -> dict[str, float]:
-    """Every name that a formula with the names of the model may hold."""
+    """All names that may occur in a formula of the model."""
     values = {**state.coordinates(), **state.model.parameters, "t": float(state.t)}
     for body in state.model.all_bodies.values():
         for point, place in body.points.items():
@@ -154,7 +154,7 @@ def numbers(state: kp.State) -> dict[str, float]:
 
 
 def evaluated(text: str, values: dict[str, float]) -> float:
-    """The value of a formula by sympy, which knows nothing of how it was written."""
+    """The value of a formula, computed by sympy from its text."""
     plain = text.replace("^", "**").replace("d²/dt²", "ddt")
     for name in sorted(values, key=len, reverse=True):
         plain = plain.replace(name, name.replace(".", "__")) if "." in name else plain
@@ -165,7 +165,7 @@ def evaluated(text: str, values: dict[str, float]) -> float:
     return float(found.subs(given))
 
 
-def test_every_formula_gives_the_number_of_the_core(somewhere: kp.State) -> None:
+def test_every_formula_agrees_with_the_core(somewhere: kp.State) -> None:
     values, found = numbers(somewhere), somewhere.matrices()
     seen = set()
     for equations in kp.equations(somewhere.model):
@@ -182,10 +182,10 @@ def test_every_formula_gives_the_number_of_the_core(somewhere: kp.State) -> None
             assert_allclose(jacobian, found.Phi_q[at], atol=1e-12, err_msg=row)
     tables: dict[str, Any] = json.loads(_core.catalogue())
     every = {(group, t["name"]) for group in ("joints", "drivers") for t in tables[group]}
-    assert seen == every  # a new element must stand in the mechanism above
+    assert seen == every  # add a new element to the mechanism above
 
 
-def test_a_wrong_formula_would_be_seen(somewhere: kp.State) -> None:
+def test_a_wrong_formula_is_detected(somewhere: kp.State) -> None:
     values, found = numbers(somewhere), somewhere.matrices()
     pin = next(e for e in kp.equations(somewhere.model) if e.name == "hinge")
     wrong = terms.write(pin.residual[0], TEXT).replace("cos", "sin", 1)
@@ -193,7 +193,7 @@ def test_a_wrong_formula_would_be_seen(somewhere: kp.State) -> None:
 
 
 def test_the_declared_jacobian_and_gamma_follow_from_the_declared_residual() -> None:
-    """By symbolic differentiation, for all values at once."""
+    """By symbolic differentiation, for all values."""
     t = sympy.Symbol("t")
     names = [f"{side}.{c}" for side in "ij" for c in ("x", "y", "angle")]
     moving = {name: sympy.Function(name.replace(".", "_"))(t) for name in names}
@@ -223,12 +223,12 @@ def test_the_declared_jacobian_and_gamma_follow_from_the_declared_residual() -> 
 def test_formulas_have_the_names_of_the_model(start: kp.State) -> None:
     told = {e.name: e for e in kp.equations(start.model)}
     first = told["A"].text().splitlines()[1].strip()
-    assert first == "Φ[A.x] = crank.x + crank.A.x*cos(crank.angle)"  # ground falls away
+    assert first == "Φ[A.x] = crank.x + crank.A.x*cos(crank.angle)"  # terms of ground vanish
     assert "coupler.C = (13, 0) m" in told["C"].text()
     assert r"\varphi_{\text{rocker}}" in told["C"].latex()
 
 
-def test_latex_formulas_can_be_set(somewhere: kp.State) -> None:
+def test_latex_formulas_can_be_typeset(somewhere: kp.State) -> None:
     from matplotlib.mathtext import MathTextParser
 
     parser = MathTextParser("agg")
@@ -251,7 +251,7 @@ def test_a_law_of_the_state_is_noted() -> None:
 
 
 @pytest.mark.parametrize("text", ["a +", "a if b else c", "f(a, b)", "a[0]", "lambda: 1", "'x'"])
-def test_what_is_no_formula_is_refused(text: str) -> None:
+def test_an_invalid_formula_is_refused(text: str) -> None:
     with pytest.raises(ValueError, match="formula"):
         terms.parse(text)
 
@@ -313,7 +313,7 @@ def test_the_command_shows_iterations_and_formulas(
     ],
     ids=str,
 )
-def test_the_command_refuses_in_words(
+def test_the_command_gives_clear_errors(
     four_bar_file: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],

@@ -41,7 +41,9 @@ def new(
             metavar="[PATH]", help="File or folder; default NAME.toml.", show_default=False
         ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", "-f", help="Overwrite an existing file.")] = False,
+    force: Annotated[
+        bool, typer.Option("--force", "-f", help="Overwrite an existing file.")
+    ] = False,
 ) -> None:
     """Write a commented example case to start from."""
     from kempe import files

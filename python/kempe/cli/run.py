@@ -35,7 +35,7 @@ EXAMPLES = """Examples:
 """
 
 
-def run(  # noqa: PLR0917 - typer tells options from arguments by their annotations
+def run(  # noqa: PLR0917 - typer uses the annotations of options and arguments
     file: File,
     output: Annotated[
         Path | None,
@@ -151,4 +151,6 @@ def _keep_partial(finished: _Finished, error: BaseException, names: list[str]) -
         return
     finished.finish(name, partial)
     reached = f"{float(partial.t[-1]):g} s"
-    console.print(Text(f"the solution up to {reached} is in {finished.summaries[name]['files'][0]}"))
+    console.print(
+        Text(f"the solution up to {reached} is in {finished.summaries[name]['files'][0]}")
+    )
