@@ -44,8 +44,12 @@ def test_links_have_targets(page: Path) -> None:
 def test_every_page_is_in_the_index() -> None:
     index = set(links((ROOT / "docs" / "README.md").read_text("utf-8")))
     docs = ROOT / "docs"
-    pages = {page.relative_to(docs).as_posix() for page in docs.rglob("*.md")} - {"README.md"}
-    assert pages <= index
+    pages = {page.relative_to(docs) for page in docs.rglob("*.md")} - {Path("README.md")}
+    assert not [  # a page of a folder whose own index is listed counts as listed
+        page
+        for page in pages
+        if page.as_posix() not in index and (page.parent / "README.md").as_posix() not in index
+    ]
 
 
 def test_the_reference_matches_the_catalogue() -> None:
