@@ -114,8 +114,8 @@ def dynamics(
     """
     inherited = start.model.redundancy if isinstance(start, State) else None
     compiled = _allowing(compiled_model(model), redundancy or inherited)
-    asked = (t_end, output_step, method, stabilization, max_steps)
-    wanted = request(asked, dense_output, singularity)
+    fields = (t_end, output_step, method, stabilization, max_steps)
+    wanted = request(fields, dense_output, singularity)
     return _simulate(compiled.with_analyses({Dynamics.name: wanted.entry}), start, wanted, progress)
 
 

@@ -52,8 +52,8 @@ _CODES: tuple[tuple[type[errors.KempeError], int], ...] = (
 )
 
 
-def _print_version(asked: bool) -> None:
-    if asked:
+def _print_version(requested: bool) -> None:
+    if requested:
         print(f"kempe {__version__}")
         raise typer.Exit(exit_codes.OK)
 
