@@ -67,6 +67,12 @@ pub trait Linear<S> {
     );
 }
 
+/// A loop over constraints of one type, see [`Constraint::run_typed`].
+pub trait TypedLoop<S: Real> {
+    /// Runs for type `E` of `M` equations; `get` finds an element of this type in a constraint.
+    fn run<const M: usize, E: Joint<M>>(self, get: fn(&Constraint<S>) -> Option<&E::Over<S>>);
+}
+
 macro_rules! constraints {
     ($($Group:ident { $($Name:ident),+ $(,)? })+) => {
         /// A joint or a driver of any type.
@@ -158,6 +164,16 @@ macro_rules! constraints {
                     let (terms, rows) = <$Name>::linearize(e, i, j, t);
                     target.take(ends, &terms, &rows);
                 })+)+ }
+            }
+            /// Runs a loop over constraints of the type of this one: the type is found once, not for each of them.
+            pub fn run_typed(&self, work: impl TypedLoop<S>) {
+                match self { $($(Self::$Name(_) => work.run::<_, $Name>(|constraint| {
+                    match constraint {
+                        Self::$Name(e) => Some(e),
+                        #[allow(unreachable_patterns)]
+                        _ => None,
+                    }
+                }),)+)+ }
             }
             /// The joint frame on a body.
             pub fn attachment(&self, side: Side) -> Attachment<S> {

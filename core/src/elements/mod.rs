@@ -19,7 +19,8 @@ mod catalogue;
 
 pub(crate) use catalogue::jets;
 pub use catalogue::{
-    catalogue, formulas, Acting, Constraint, ForceElement, Group, Linear, Rows, MOST_EQUATIONS,
+    catalogue, formulas, Acting, Constraint, ForceElement, Group, Linear, Rows, TypedLoop,
+    MOST_EQUATIONS,
 };
 use declare::join;
 pub use declare::{element, Default, Element, Field, Table};

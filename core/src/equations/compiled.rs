@@ -5,9 +5,10 @@
 
 use super::added_inertia;
 use super::inertia::{inertias, Inertia};
-use super::pins::{grounded, pairs, Grounded, Pair};
+use super::pins::{grounded, pairs, runs, Grounded, Pair};
 use crate::math::Real;
 use crate::model::Model;
+use std::ops::Range;
 
 /// Data derived from a [`Model`]; immutable.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub struct Compiled<S = f64> {
     pub pairs: Vec<Pair<S>>,
     /// Moving bodies that one of these joints holds to ground.
     pub grounded: Vec<Grounded<S>>,
+    /// Ranges of these whose joints have one type.
+    pub(super) grounded_runs: Vec<Range<usize>>,
 }
 
 impl<S: Real> Compiled<S> {
@@ -28,9 +31,12 @@ impl<S: Real> Compiled<S> {
     pub fn new(model: &Model<S>) -> Self {
         let added_inertia = added_inertia::added(&model.bodies, &model.constraints);
         let pairs = pairs(model);
+        let grounded = grounded(model, &pairs, &added_inertia);
+        let kind = |grounded: &Grounded<S>| pairs[grounded.pair as usize].element.kind();
         Self {
             inertias: inertias(&model.blueprint.bodies, &model.bodies, &added_inertia),
-            grounded: grounded(model, &pairs, &added_inertia),
+            grounded_runs: runs(&grounded, kind),
+            grounded,
             added_inertia: added_inertia[1..].to_vec(),
             pairs,
         }

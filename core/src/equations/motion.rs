@@ -151,7 +151,7 @@ impl<S: Real> Workspace<S> {
         right.iter_mut().zip(&*offset).for_each(|(right, offset)| *right -= *offset);
         pins::condense(compiled, at, (pattern, saddle), (x, right));
         saddle.divide_by_masses(pattern, x);
-        pins::put(compiled, &plan.pins, at, saddle, (x, right));
+        pins::put(compiled, (&plan.pins, &plan.pin_runs), at, saddle, (x, right));
         saddle.finish(pattern, solution)
     }
 

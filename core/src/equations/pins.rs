@@ -9,10 +9,11 @@ use super::constraints::Stabilized;
 use super::inertia::Inertia;
 use super::plan::PinJoint;
 use super::{kinematics, mass, Compiled};
-use crate::elements::{BodyId, Constraint, Linear, VelocityTerms};
+use crate::elements::{BodyId, Constraint, Joint, TypedLoop, VelocityTerms};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 use crate::solve::{CondensedGroup, Pattern, PinSum, Saddle};
+use std::ops::Range;
 
 /// A joint of two rows with constant fields.
 #[derive(Clone, Debug)]
@@ -58,8 +59,8 @@ pub(super) fn pairs<S: Real>(model: &Model<S>) -> Vec<Pair<S>> {
         .collect()
 }
 
-/// The bodies that joints to ground hold: by the first pin of each, else by the first other joint. Bodies without an
-/// inertia of their own stay free.
+/// The bodies that joints to ground hold: by the first pin of each, else by the first other joint; sorted by types.
+/// Bodies without an inertia of their own stay free.
 pub(super) fn grounded<S: Real>(
     model: &Model<S>,
     pairs: &[Pair<S>],
@@ -77,7 +78,10 @@ pub(super) fn grounded<S: Real>(
         }
     }
     let bodies = holds.into_iter().enumerate();
-    bodies.filter_map(|(body, hold)| Some(Grounded::new(model, pairs, body, hold?))).collect()
+    let found = bodies.filter_map(|(body, hold)| Some(Grounded::new(model, pairs, body, hold?)));
+    let mut found: Vec<_> = found.collect();
+    found.sort_by_key(|grounded| pairs[grounded.pair as usize].element.kind());
+    found
 }
 
 impl<S: Real> Grounded<S> {
@@ -152,6 +156,16 @@ impl<S: Real> At<'_, S> {
     }
 }
 
+/// Ranges of `items` whose elements have one type each.
+pub(super) fn runs<T>(items: &[T], kind: impl Fn(&T) -> &'static str) -> Vec<Range<usize>> {
+    let chunks = items.chunk_by(|a, b| kind(a) == kind(b));
+    let range = |next: &mut usize, chunk: &[T]| {
+        *next += chunk.len();
+        Some(*next - chunk.len()..*next)
+    };
+    chunks.scan(0, range).collect()
+}
+
 /// Condenses the grounded bodies. `forces` and `right`, shapes (n_q) and (n_rows), become what
 /// [`Saddle::condense`] leaves there.
 #[inline(always)] // once in an evaluation: a call would spill registers
@@ -161,39 +175,47 @@ pub(super) fn condense<S: Real>(
     (pattern, saddle): (&Pattern, &mut Saddle<S>),
     (forces, right): (&mut [S], &mut [S]),
 ) {
-    for (k, grounded) in compiled.grounded[..pattern.condensed().len()].iter().enumerate() {
-        grounded.turn(&compiled.inertias, at.motions, &mut saddle.condensed[k]);
-        let Pair { element, row, .. } = &compiled.pairs[grounded.pair as usize];
-        let (row, is_j) = (*row, grounded.is_j);
-        let (forces, right) = (&mut *forces, &mut right[row as usize..row as usize + 2]);
-        let target = Condense { at, k, row, is_j, pattern, saddle, forces, right };
-        element.linearize(at.motions, at.t, target);
+    if pattern.condensed().is_empty() {
+        return;
+    }
+    for run in &compiled.grounded_runs {
+        let pair = compiled.grounded[run.start].pair as usize;
+        let (saddle, forces, right) = (&mut *saddle, &mut *forces, &mut *right);
+        let work = Condense { compiled, run: run.clone(), at, pattern, saddle, forces, right };
+        compiled.pairs[pair].element.run_typed(work);
     }
 }
 
-/// Where the rows of a joint to ground go.
+/// Grounded bodies whose joints have one type, and where their rows go.
 struct Condense<'a, S> {
+    compiled: &'a Compiled<S>,
+    run: Range<usize>,
     at: At<'a, S>,
-    k: usize,
-    row: u32,
-    is_j: bool,
     pattern: &'a Pattern,
     saddle: &'a mut Saddle<S>,
     forces: &'a mut [S],
     right: &'a mut [S],
 }
 
-impl<S: Real> Linear<S> for Condense<'_, S> {
-    #[inline(always)]
-    fn take<const M: usize>(self, _: [BodyId; 2], terms: &VelocityTerms<S, M>, rows: &[[S; 6]; M]) {
-        let Some([first, second]) = rows.first_chunk() else { return };
-        let own = [first, second].map(|row| match self.is_j {
-            true => [row[3], row[4], row[5]],
-            false => [row[0], row[1], row[2]],
-        });
-        let gamma = self.at.gamma(terms, self.row);
-        let right = self.saddle.condense(self.pattern, self.k, &own, self.forces, gamma);
-        self.right.copy_from_slice(&right);
+impl<S: Real> TypedLoop<S> for Condense<'_, S> {
+    #[inline(never)] // one loop for each type, so that no type costs another registers
+    fn run<const M: usize, E: Joint<M>>(self, get: fn(&Constraint<S>) -> Option<&E::Over<S>>) {
+        let Self { compiled, run, at, pattern, saddle, forces, right } = self;
+        for (k, grounded) in run.clone().zip(&compiled.grounded[run]) {
+            grounded.turn(&compiled.inertias, at.motions, &mut saddle.condensed[k]);
+            let Pair { element, row, .. } = &compiled.pairs[grounded.pair as usize];
+            let Some(element) = get(element) else { continue };
+            let [i, j] = E::ends(element).map(|body| &at.motions[body.0]);
+            let (terms, rows) = E::linearize(element, i, j, at.t);
+            let Some([first, second]) = rows.first_chunk() else { continue };
+            let own = [first, second].map(|row| match grounded.is_j {
+                true => [row[3], row[4], row[5]],
+                false => [row[0], row[1], row[2]],
+            });
+            let gamma = at.gamma(&terms, *row);
+            let found = saddle.condense(pattern, k, &own, forces, gamma);
+            right[*row as usize..][..2].copy_from_slice(&found);
+        }
     }
 }
 
@@ -201,38 +223,45 @@ impl<S: Real> Linear<S> for Condense<'_, S> {
 #[inline(always)] // as above
 pub(super) fn put<S: Real>(
     compiled: &Compiled<S>,
-    pins: &[PinJoint],
+    (pins, runs): (&[PinJoint], &[Range<usize>]),
     at: At<'_, S>,
     saddle: &mut Saddle<S>,
     (x, right): (&[S], &mut [S]),
 ) {
-    for pin in pins {
-        let Pair { element, .. } = &compiled.pairs[pin.pair as usize];
-        let right = &mut right[pin.rows.row as usize..][..2];
-        element.linearize(at.motions, at.t, PutPin { at, pin, saddle, x, right });
+    for run in runs {
+        let pins = &pins[run.clone()];
+        let (saddle, right) = (&mut *saddle, &mut *right);
+        let work = PutPins { compiled, pins, at, saddle, x, right };
+        compiled.pairs[pins[0].pair as usize].element.run_typed(work);
     }
 }
 
-/// Where the rows of a pin among bodies go.
-struct PutPin<'a, S> {
+/// Pins of one type among bodies, and where their rows go.
+struct PutPins<'a, S> {
+    compiled: &'a Compiled<S>,
+    pins: &'a [PinJoint],
     at: At<'a, S>,
-    pin: &'a PinJoint,
     saddle: &'a mut Saddle<S>,
     x: &'a [S],
     right: &'a mut [S],
 }
 
-impl<S: Real> Linear<S> for PutPin<'_, S> {
-    #[inline(always)]
-    fn take<const M: usize>(self, _: [BodyId; 2], terms: &VelocityTerms<S, M>, rows: &[[S; 6]; M]) {
-        let Some([first, second]) = rows.first_chunk() else { return };
-        let Self { at, pin, saddle, x, right } = self;
-        let mut sum = PinSum::new(at.gamma(terms, pin.rows.row));
-        for end in pin.rows.ends() {
-            let column = if end.sign > 0.0 { 5 } else { 2 };
-            saddle.add_pin(end, [first[column], second[column]], x, &mut sum);
+impl<S: Real> TypedLoop<S> for PutPins<'_, S> {
+    #[inline(never)] // one loop for each type, so that no type costs another registers
+    fn run<const M: usize, E: Joint<M>>(self, get: fn(&Constraint<S>) -> Option<&E::Over<S>>) {
+        let Self { compiled, pins, at, saddle, x, right } = self;
+        for PinJoint { pair, rows: pin } in pins {
+            let Some(element) = get(&compiled.pairs[*pair as usize].element) else { continue };
+            let [i, j] = E::ends(element).map(|body| &at.motions[body.0]);
+            let (terms, rows) = E::linearize(element, i, j, at.t);
+            let Some([first, second]) = rows.first_chunk() else { continue };
+            let mut sum = PinSum::new(at.gamma(&terms, pin.row));
+            for end in pin.ends() {
+                let column = if end.sign > 0.0 { 5 } else { 2 };
+                saddle.add_pin(end, [first[column], second[column]], x, &mut sum);
+            }
+            right[pin.row as usize..][..2].copy_from_slice(&sum.right);
+            saddle.put_pin_rows(pin, &sum);
         }
-        right.copy_from_slice(&sum.right);
-        saddle.put_pin_rows(&pin.rows, &sum);
     }
 }

@@ -1,9 +1,11 @@
 //! The structure of the augmented matrix of a model, whatever its numbers: pattern and program of elimination.
 
+use super::pins::runs;
 use super::Compiled;
 use crate::math::Real;
 use crate::model::{Layout, Model, Slots};
 use crate::solve::{Group, Pattern, PinRows, RowBlock};
+use std::ops::Range;
 
 /// Most rows of a block of the solver: an element of more rows has several blocks.
 const ROWS: usize = 3;
@@ -12,8 +14,10 @@ const ROWS: usize = 3;
 #[derive(Debug)]
 pub struct Plan {
     pub(super) pattern: Pattern,
-    /// The pins whose rows an evaluation puts into the matrix one by one.
+    /// The pins whose rows an evaluation puts into the matrix one by one, sorted by types.
     pub(super) pins: Vec<PinJoint>,
+    /// Ranges of these of one type.
+    pub(super) pin_runs: Vec<Range<usize>>,
     /// The constraints that are neither among these nor condensed.
     pub(super) others: Vec<u32>,
     /// Whether grounded bodies are condensed.
@@ -46,9 +50,7 @@ impl Plan {
         let (blocks, firsts) = row_blocks(&model.layout);
         let grounded = compiled.grounded.iter().filter(|_| condenses);
         let condensed: Vec<usize> = grounded.map(|g| firsts[g.constraint as usize]).collect();
-        let groups: Vec<Group> =
-            compiled.inertias.iter().map(|inertia| Group::body(inertia.coupled)).collect();
-        let pattern = Pattern::new(&groups, &blocks, &condensed);
+        let pattern = Pattern::new(&groups(&compiled), &blocks, &condensed);
         let mut pair_of = vec![None; blocks.len()];
         for (k, pair) in (0..).zip(&compiled.pairs) {
             pair_of[firsts[pair.constraint as usize]] = Some(k);
@@ -61,8 +63,11 @@ impl Plan {
             pins.push(PinJoint { pair: pair_of[block].expect("pins are pairs of rows"), rows });
             others[block] = false;
         }
+        let kind = |pin: &PinJoint| compiled.pairs[pin.pair as usize].element.kind();
+        pins.sort_by_key(kind);
+        let pin_runs = runs(&pins, kind);
         let others = (0..).zip(&firsts).filter(|(_, block)| others[**block]).map(|(k, _)| k);
-        Self { others: others.collect(), pattern, pins, condenses }
+        Self { others: others.collect(), pattern, pins, pin_runs, condenses }
     }
 
     /// Number of products of blocks in one elimination.
@@ -71,8 +76,13 @@ impl Plan {
     }
 }
 
+/// The groups of unknowns: one for each moving body.
+pub(super) fn groups<S>(compiled: &Compiled<S>) -> Vec<Group> {
+    compiled.inertias.iter().map(|inertia| Group::body(inertia.coupled)).collect()
+}
+
 /// The constraints as blocks of at most three rows, and the first block of each.
-fn row_blocks(layout: &Layout) -> (Vec<RowBlock>, Vec<usize>) {
+pub(super) fn row_blocks(layout: &Layout) -> (Vec<RowBlock>, Vec<usize>) {
     let (mut blocks, mut firsts) = (Vec::new(), Vec::new());
     for Slots { rows, blocks: touched } in &layout.constraints {
         firsts.push(blocks.len());
