@@ -5,7 +5,7 @@
 
 use super::added_inertia;
 use super::inertia::{inertias, Inertia};
-use super::pins::{grounded, pairs, runs, Grounded, Pair};
+use super::pairs::{grounded, pairs, runs, Grounded, Pair};
 use crate::math::Real;
 use crate::model::Model;
 use std::ops::Range;

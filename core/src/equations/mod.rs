@@ -16,7 +16,7 @@ pub mod kinematics;
 mod laws;
 pub mod mass;
 pub mod motion;
-mod pins;
+mod pairs;
 mod plan;
 pub mod reactions;
 mod refine;

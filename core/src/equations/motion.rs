@@ -11,7 +11,7 @@ use super::augmented::{Augmented, Dependent, NearSingular};
 use super::constraints::{self, Stabilized};
 use super::energy::Powers;
 use super::plan::Plan;
-use super::{forces, kinematics, mass, pins, refine, Compiled};
+use super::{forces, kinematics, mass, pairs, refine, Compiled};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 use std::sync::Arc;
@@ -138,7 +138,7 @@ impl<S: Real> Workspace<S> {
     fn solve_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
         let Self { motions, compiled, matrix, solution, powers, offset, n_q, .. } = self;
         let (plan, pattern, saddle) = matrix.parts_mut();
-        let at = pins::At { motions, t, stabilized: Stabilized::new(gains), offset };
+        let at = pairs::At { motions, t, stabilized: Stabilized::new(gains), offset };
         for &k in pattern.coupled() {
             let k = k as usize;
             mass::turn(&compiled.inertias[k], &motions[k + 1], &mut saddle.masses[k]);
@@ -149,9 +149,9 @@ impl<S: Real> Workspace<S> {
         let entries = saddle.entries.as_flattened_mut();
         constraints::linearize_some(model, others, motions, t, at.stabilized, right, entries);
         right.iter_mut().zip(&*offset).for_each(|(right, offset)| *right -= *offset);
-        pins::condense(compiled, at, (pattern, saddle), (x, right));
+        pairs::condense(compiled, at, (pattern, saddle), (x, right));
         saddle.divide_by_masses(pattern, x);
-        pins::put(compiled, (&plan.pins, &plan.pin_runs), at, saddle, (x, right));
+        pairs::put(compiled, (&plan.pins, &plan.pin_runs), at, saddle, (x, right));
         saddle.finish(pattern, solution)
     }
 

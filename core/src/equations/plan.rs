@@ -1,6 +1,6 @@
 //! The structure of the augmented matrix of a model, whatever its numbers: pattern and program of elimination.
 
-use super::pins::runs;
+use super::pairs::runs;
 use super::Compiled;
 use crate::math::Real;
 use crate::model::{Layout, Model, Slots};
@@ -27,7 +27,7 @@ pub struct Plan {
 /// A pin among bodies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PinJoint {
-    /// Its place among the [`Pair`](super::pins::Pair)s.
+    /// Its place among the [`Pair`](super::pairs::Pair)s.
     pub pair: u32,
     /// Its place in the matrix.
     pub rows: PinRows,

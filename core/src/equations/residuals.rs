@@ -1,6 +1,6 @@
 //! How far a state is from its constraints: Φ and Φ̇ of all of them and the largest of each, in one pass.
 
-use super::pins::Pair;
+use super::pairs::Pair;
 use super::{constraints, Compiled};
 use crate::elements::{Rows, MOST_EQUATIONS};
 use crate::math::{Largest, Motion, Real};
