@@ -4,9 +4,7 @@
 
 use kempe::forces::TorsionSpring;
 use kempe::joints::Revolute;
-use kempe::{
-    assemble, dynamics, Flow, Frame, Model, ModelBuilder, Options, Problems, Start,
-};
+use kempe::{assemble, dynamics, Flow, Frame, Model, ModelBuilder, Options, Problems, Start};
 use std::error::Error;
 
 fn four_bar() -> Result<Model, Problems> {
