@@ -1,4 +1,4 @@
-"""Where a peer beats kempe's default method: at equal error or less, it takes less time."""
+"""Settings of other tools that need less time than kempe's default at equal or smaller error."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from shows import DEFAULT, cheapest, label
 
 
 def crossings(records: list[Record], problem: str) -> list[str]:
-    """One sentence for each curve of a peer that is somewhere below kempe's default method."""
+    """One sentence for each curve of another tool that beats kempe's default method somewhere."""
     here = [r for r in records if r.problem == problem and r.good]
     mine = [r for r in here if r.curve in DEFAULT]
     sentences = []
@@ -19,8 +19,8 @@ def crossings(records: list[Record], problem: str) -> list[str]:
 
 
 def beats(peer: Record, mine: list[Record]) -> bool:
-    """Whether kempe's default method needs more time for that error, or does not reach it."""
-    # an error as large as the motion itself is no result that could be beaten
+    """Whether kempe's default method needs more time for this error, or does not reach it."""
+    # an error as large as the motion itself does not count
     if peer.error > 0.1:
         return False
     equal = cheapest(mine, lambda r: r.error <= peer.error)
@@ -28,10 +28,10 @@ def beats(peer: Record, mine: list[Record]) -> bool:
 
 
 def sentence(peer: Record, mine: Record | None) -> str:
-    """What crosses, with its numbers."""
+    """The sentence for one curve, with numbers."""
     theirs = f"{label(peer)} has an error of {peer.error:.1e} in {1e3 * peer.seconds:.3g} ms"
     if mine is None:
-        return f"{theirs}; kempe's default method does not come down to that error."
+        return f"{theirs}; kempe's default method does not reach that error."
     ratio = mine.seconds / peer.seconds
     return (
         f"{theirs}; kempe's default method takes {1e3 * mine.seconds:.3g} ms, {ratio:.2f} × of it."

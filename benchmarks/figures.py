@@ -1,4 +1,4 @@
-"""Error against CPU time, and cost against N, from records."""
+"""Figures of error against CPU time, and of cost against N."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from record import Record
 
 mpl.use("Agg")
 
-#: Colours that stay apart for most eyes (Okabe and Ito), and markers that do in print.
+#: Colours for colour-blind readers (Okabe and Ito), and markers for print.
 STYLE = {
     "kempe": ("#000000", "o"),
     "mujoco": ("#0072B2", "s"),
@@ -29,12 +29,12 @@ TITLES = {
     "numba": "Numba",
     "scipy": "SciPy",
 }
-#: Errors above this are no solution of anything.
+#: Larger errors are not plotted.
 WORST = 1.0
 
 
 def front(records: list[Record]) -> list[Record]:
-    """Those that no other beats in both time and error, by time."""
+    """The records that no other record beats in both time and error, ordered by time."""
     found: list[Record] = []
     for r in sorted(records, key=lambda r: (r.seconds, r.error)):
         if not found or r.error < found[-1].error:
@@ -73,7 +73,7 @@ def work_precision(records: list[Record], title: str, error_of: str, path: Path)
                 color="#F0E442",
                 markeredgecolor="black",
                 markersize=13,
-                label="kempe, nothing said",
+                label="kempe, defaults",
                 zorder=5,
             )
     axes.set(
@@ -85,7 +85,7 @@ def work_precision(records: list[Record], title: str, error_of: str, path: Path)
 
 
 def cost(records: list[Record], path: Path, accepted: float) -> None:
-    """CPU seconds for each simulated second against N, at the cheapest setting that is accepted."""
+    """CPU seconds per simulated second against N, at the cheapest accepted setting."""
     figure, axes = plt.subplots(figsize=(8.6, 4.4), layout="constrained")
     for tool, (colour, marker) in STYLE.items():
         points = []
@@ -116,7 +116,7 @@ def windows(record: Record) -> int:
 
 
 def save(figure: plt.Figure, path: Path) -> None:
-    """Writes it without a date, so that equal numbers give equal files."""
+    """Write the figure without a date, so that equal numbers give equal files."""
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=130, metadata={"Software": None})
     plt.close(figure)

@@ -1,4 +1,4 @@
-"""Builds and runs the floor: the flagship by hand, in Rust, and kempe's evaluation beside it."""
+"""Builds and runs the floor program: the flagship by hand, compared with kempe's evaluation."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ RUNS = 5
 
 
 def build(native: bool = False) -> Path:
-    """The program, with kempe's own compiler flags, or for this very processor."""
+    """The program, built with kempe's compiler flags or for the present processor."""
     if shutil.which("cargo") is None:
         raise RuntimeError(
             "cargo was not found: the floor is a Rust program; see https://rustup.rs"
@@ -34,13 +34,13 @@ def build(native: bool = False) -> Path:
 
 
 def told(program: Path, *words: object) -> Any:
-    """What it prints."""
+    """The output of the program."""
     command = [str(program), *map(str, words)]
     return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
 
 
 def measure(repeat: int) -> dict[str, Any]:
-    """Evaluations, windows and runs of the floor, and kempe's run from Python in turn with them."""
+    """Evaluations, windows and runs of the floor, in alternation with kempe's run from Python."""
     program = build()
     flagship = problem("flagship")
     alpha, beta = flagship.gains

@@ -1,11 +1,11 @@
-"""kempe against the plain NumPy/SciPy program of the same equations, in turn, on the flagship.
+"""kempe compared with a plain NumPy/SciPy program of the same equations, on the flagship.
 
     python benchmarks/four_bar.py [--repeat 5] [--rtol 1e-6]
 
-Both integrate the 18 first-order equations of the Cartesian formulation with Baumgarte(10, 200) by
-Dormand-Prince 5(4) over 15 s, atol = rtol / 1000, and report 1501 states with accelerations and
-multipliers. Times are CPU times of one process, medians of repetitions taken in turn; the ratio is
-what counts. `run.py` compares all tools at all settings; this is its shortest question.
+Both programs integrate the 18 first-order equations of the Cartesian formulation with
+Baumgarte(10, 200) and Dormand-Prince 5(4) over 15 s, atol = rtol / 1000. They compute 1501 outputs
+with accelerations and multipliers. Times are medians of CPU times of alternating runs in one
+process. Compare the ratio. `run.py` compares all tools at all settings.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from peers import kempe_itself, numpy_scipy
 from problems import problem
 from turns import first, timed
 
-#: Runs of kempe in each turn: one of a few milliseconds says little about the next.
+#: Runs of kempe per turn, because a single run of a few milliseconds is not representative.
 RUNS = 20
 PROGRAMS = ((numpy_scipy, "scipy RK45, Baumgarte", 1), (kempe_itself, kempe_itself.BAUMGARTE, RUNS))
 

@@ -1,4 +1,4 @@
-"""What one setting of one tool gave on one problem."""
+"""The result of one setting of one tool on one problem."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from typing import Any
 class Record:
     """Median CPU seconds, error (in the unit of the problem), largest gap of a joint (m).
 
-    `failure` tells why there are no numbers; `more` has further measures by name; `took` is what
-    the first run took, whatever became of it.
+    `failure` is the reason for missing numbers. `more` contains further measures by name. `took` is
+    the time of the first run, even if it failed.
     """
 
     problem: str

@@ -3,16 +3,16 @@
     python benchmarks/run.py [--quick] [--problems a,b] [--tools a,b] [--repeat 5] [--no-floor]
                              [--json FILE] [--docs FOLDER] [--keep] [--page]
 
-`--quick` takes kempe and SciPy on the flagship, coarse settings, without the floor; `--page`
-measures nothing and writes the page and the figures again from the JSON file; `--keep` leaves what
-the file holds of problems that are not asked for, and its floor if that is not measured.
+`--quick` measures kempe and SciPy on the flagship at coarse settings, without the floor. `--page`
+measures nothing and writes the page and the figures from the JSON file. `--keep` keeps the results
+in the file for problems that are not measured, and those of the floor if it is not measured.
 """
 
 from __future__ import annotations
 
 import os
 
-# one thread for everything, before any library starts more
+# one thread for all libraries; must be set before they are imported
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[name] = "1"
 
@@ -45,7 +45,7 @@ def processor() -> str:
 
 
 def measure(asked: argparse.Namespace) -> dict[str, Any]:
-    """All numbers; they are stored after every problem."""
+    """Measure everything; the results are stored after every problem."""
     chosen = tools(["kempe", "scipy"] if asked.quick and not asked.tools else asked.tools)
     missing = {tool.NAME: why for tool in chosen if (why := tool.missing())}
     present = [tool for tool in chosen if tool.NAME not in missing]
@@ -78,7 +78,7 @@ def measure(asked: argparse.Namespace) -> dict[str, Any]:
 
 
 def keep(found: dict[str, Any], before: dict[str, Any], again: list[str]) -> None:
-    """Puts what was measured before, and is not measured again, into the numbers."""
+    """Add previous results that are not measured again."""
     found["floor"] = found["floor"] or before["floor"]
     found["repeat"] = max(found["repeat"], before["repeat"])
     found["records"] = [r for r in before["records"] if r["problem"] not in again]
@@ -87,19 +87,19 @@ def keep(found: dict[str, Any], before: dict[str, Any], again: list[str]) -> Non
 
 
 def write(found: dict[str, Any], docs: Path) -> None:
-    """Page and figures."""
+    """Write page and figures."""
     records = [Record(**record) for record in found["records"]]
     images = docs / "images" / "benchmarks"
     for name in dict.fromkeys(r.problem for r in records):
         if name not in COST:
-            told = problem(name)
+            of = problem(name)
             mine = [r for r in records if r.problem == name]
-            figures.work_precision(mine, told.title, told.error_of, images / f"{name}.png")
+            figures.work_precision(mine, of.title, of.error_of, images / f"{name}.png")
     if against := [r for r in records if r.problem in COST]:
         figures.cost(against, images / "cost.png", ACCEPTED)
     (docs / "benchmarks.md").write_text(page(found, records), "utf-8")
     for target in targets(found, records):
-        print(f"{target.verdict:<12} {target.what}: {target.measured} (asked: {target.asked})")
+        print(f"{target.verdict:<12} {target.what}: {target.measured} (target: {target.asked})")
 
 
 def words(text: str) -> list[str]:
@@ -108,17 +108,21 @@ def words(text: str) -> list[str]:
 
 
 def main() -> None:
-    """Measure, write, tell."""
+    """Measure, write and print."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--quick", action="store_true", help="kempe and SciPy, coarse, flagship")
     parser.add_argument("--problems", type=words, help=f"of {', '.join((*NAMES, *COST))}")
     parser.add_argument("--tools", type=words, help="by name; all when absent")
-    parser.add_argument("--repeat", type=int, default=5, help="turns; medians are told")
-    parser.add_argument("--no-floor", action="store_true", help="without the Rust program")
-    parser.add_argument("--json", type=Path, default=RESULTS, help="where the numbers go")
-    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where the page goes")
-    parser.add_argument("--keep", action="store_true", help="keep the file's other problems")
-    parser.add_argument("--page", action="store_true", help="page and figures from the numbers")
+    parser.add_argument("--repeat", type=int, default=5, help="number of runs; the median counts")
+    parser.add_argument("--no-floor", action="store_true", help="skip the floor program")
+    parser.add_argument("--json", type=Path, default=RESULTS, help="file for the results")
+    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="folder for the page")
+    parser.add_argument(
+        "--keep", action="store_true", help="keep the results of other problems in the file"
+    )
+    parser.add_argument(
+        "--page", action="store_true", help="write page and figures from stored results"
+    )
     asked = parser.parse_args()
     if not asked.page:
         measure(asked)

@@ -1,4 +1,4 @@
-"""The targets, and whether they are met: each from the records of one run."""
+"""The targets, judged by the records of one run."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from typing import Any
 from peers import kempe_itself
 from record import Record
 
-#: Curves of kempe that count for its default method: what a user gets, with its tolerance varied.
+#: Curves of kempe with its default method at various tolerances.
 DEFAULT = (kempe_itself.DEFAULT, kempe_itself.DEFAULT_METHOD)
-#: Tools that give positions and velocities alone.
+#: Tools that compute positions and velocities only.
 STATES_ALONE = ("mujoco", "exudyn", "casadi")
-#: Asked for by nobody, and told beside what is.
+#: Not a target, but reported as well.
 INFORMATION = "for information"
 
 
 @dataclass(frozen=True)
 class Target:
-    """What was asked, what came out (text), and whether that is enough; None: not measured."""
+    """A target, the measured value (text), and whether it is met; None: not measured."""
 
     what: str
     asked: str
@@ -28,14 +28,14 @@ class Target:
 
     @property
     def verdict(self) -> str:
-        """As in the table."""
+        """The verdict as in the table."""
         if self.asked == INFORMATION:
             return ""
         return {True: "met", False: "not met", None: "not measured"}[self.met]
 
 
 def cheapest(records: list[Record], enough: Callable[[Record], bool]) -> Record | None:
-    """The record with the least time among those that are good enough."""
+    """The record with the least time among those with a sufficiently small error."""
     return min((r for r in records if r.good and enough(r)), key=lambda r: r.seconds, default=None)
 
 
@@ -50,19 +50,19 @@ def label(record: Record) -> str:
 
 
 def against(mine: Record | None, peers: list[Record], asked: float, name: str) -> Target:
-    """How many times cheaper kempe is than a peer's cheapest setting of no larger error."""
+    """Ratio of the time of another tool, at no larger error, to that of kempe."""
     wanted = f"≥ {asked:g} ×"
     good = [r for r in peers if r.good]
     if mine is None or not good:
-        why = "kempe has no setting that counts" if mine is None else "no run of it"
+        why = "no setting of kempe meets the error" if mine is None else "no run of it"
         return Target(name, wanted, why, False if mine is None else None)
     peer = cheapest(good, lambda r: r.error <= mine.error)
     if peer:
         ratio = peer.seconds / mine.seconds
         told = f"{ratio:.3g} × ({label(peer)}: {1e3 * peer.seconds:.3g} ms, error {peer.error:.1e})"
         return Target(name, wanted, told, ratio >= asked)
-    # never as exact as kempe: its most exact run bounds the ratio from below; a bound that is too
-    # low shows nothing, so the target is not met
+    # The tool never reaches the error of kempe. Its most accurate run gives a lower bound of the
+    # ratio. A bound below the target does not meet it.
     best = min(good, key=lambda r: r.error)
     ratio = best.seconds / mine.seconds
     told = f"> {ratio:.3g} × (it reaches {best.error:.1e} at best, {label(best)})"
@@ -70,7 +70,7 @@ def against(mine: Record | None, peers: list[Record], asked: float, name: str) -
 
 
 def evaluation(floor: dict[str, Any]) -> list[Target]:
-    """Show 1."""
+    """Targets for evaluations."""
     at = floor["evaluation"]
     ratio, straight, other, centred = (
         at[name]
@@ -105,7 +105,7 @@ def evaluation(floor: dict[str, Any]) -> list[Target]:
 
 
 def flagship(records: list[Record], floor: dict[str, Any]) -> list[Target]:
-    """Show 2."""
+    """Targets for runs of the flagship."""
     python = floor["python"]
     mine, by_hand = python["kempe_seconds"], python["chain_seconds"]
     ratio, straight = mine / by_hand, mine / python["straight_seconds"]
@@ -134,9 +134,9 @@ def flagship(records: list[Record], floor: dict[str, Any]) -> list[Target]:
 def exact_run(
     records: list[Record], pool: list[Record], name: str, hands: tuple[float, float]
 ) -> list[Target]:
-    """The cheapest run of a pool that is exact at all listed states, against floor and peers.
+    """The cheapest run that is exact at all listed states, against floor and other tools.
 
-    ``hands`` are the seconds of the floor's run, and of that without its closed forms.
+    ``hands`` are the times of the floor's run with and without closed forms, s.
     """
     by_hand, straight = hands
 
@@ -146,7 +146,7 @@ def exact_run(
     chosen = cheapest(pool, exact)
     what = f"flagship, {name}, angles within 1e-6 rad, gap within 1e-10 m, over the floor's run"
     if chosen is None:
-        return [Target(what, "≤ 0.5", "no setting is as exact", False)]
+        return [Target(what, "≤ 0.5", "no setting is accurate enough", False)]
     share = chosen.seconds / by_hand
     told = f"{share:.2f} ({label(chosen)}: {1e3 * chosen.seconds:.2f} ms, error {chosen.error:.1e})"
     found = [Target(what, "≤ 0.5", told, share <= 0.5)]
@@ -167,7 +167,7 @@ def exact_run(
 
 
 def states_alone(records: list[Record], chosen: Record) -> Record | None:
-    """The same run of kempe without accelerations and multipliers; none if it was not measured."""
+    """The same run of kempe without accelerations and multipliers, if it was measured."""
     curve = kempe_itself.STATES.get(chosen.curve)
     mine = of(records, chosen.problem, chosen.tool)
     alike = (r for r in mine if r.curve == curve and r.tolerance == chosen.tolerance)
@@ -175,19 +175,19 @@ def states_alone(records: list[Record], chosen: Record) -> Record | None:
 
 
 def n_four_bar(records: list[Record], floor: dict[str, Any]) -> list[Target]:
-    """Show 3."""
+    """Targets for the N-four-bar."""
     found = []
     chosen = {}
     for n, asked in ((1, 1e-7), (2, 1e-7), (40, 1e-7), (1000, 1e-5)):
         mine = [r for r in of(records, f"n_four_bar_{n}", "kempe") if r.curve in DEFAULT]
         best = min((r for r in mine if r.good), key=lambda r: r.error, default=None)
         chosen[n] = cheapest(mine, lambda r, asked=asked: r.error <= asked)
-        told = "no run came to its end" if best is None else f"{best.error:.1e} ({label(best)})"
+        told = "no run reached the end" if best is None else f"{best.error:.1e} ({label(best)})"
         name = f"N-four-bar, N = {n}, 10 s: error on B0, m"
         met = chosen[n] is not None if mine else None
         found.append(Target(name, f"≤ {asked:g}", told if mine else "no run", met))
     one = chosen[1]
-    told = f"{1e3 * one.seconds:.2f} ms ({label(one)})" if one else "no setting is exact enough"
+    told = f"{1e3 * one.seconds:.2f} ms ({label(one)})" if one else "no setting is accurate enough"
     found.append(Target("N = 1 at that error", "≤ 3 ms", told, bool(one and one.seconds <= 3e-3)))
     at = {int(n): ns for n, ns in floor["windows"].items()}
     for n in (100, 4000):
@@ -205,7 +205,7 @@ def n_four_bar(records: list[Record], floor: dict[str, Any]) -> list[Target]:
 
 
 def andrews(records: list[Record]) -> list[Target]:
-    """Show 4, as far as a time is asked for."""
+    """The target for the time of the squeezer."""
     kempe = of(records, "andrews", "kempe")
     chosen = cheapest(kempe, lambda r: r.error <= 1e-10)
     told = (
@@ -216,7 +216,7 @@ def andrews(records: list[Record]) -> list[Target]:
 
 
 def targets(found: dict[str, Any], records: list[Record]) -> list[Target]:
-    """All that can be judged by what was measured."""
+    """All targets that the measurements can judge."""
     floor, measured = found.get("floor"), {r.problem for r in records}
     judged = evaluation(floor) if floor else []
     if floor and "flagship" in measured:

@@ -1,9 +1,9 @@
-"""Andrews' squeezing mechanism to t = 0.03 s, as called from Python.
+"""Andrews' squeezing mechanism to t = 0.03 s, called from Python.
 
     python -m benchmarks.squeezer [--repeat 25]
 
-Prints, for each tolerance, the largest error of the seven angles against tests/reference, steps,
-evaluations, and the median CPU time of a call; the time in the core alone beside it.
+For each tolerance, the program prints the largest error of the seven angles against
+tests/reference, the steps, the evaluations, and the median CPU times of a call and of the core.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""All tools on one problem, in turn, within one process.
+"""All tools on one problem, in alternation, within one process.
 
-Whatever else the machine does hits every tool alike: ratios count, and medians.
+Other load on the machine then affects all tools equally. Compare medians and ratios.
 """
 
 from __future__ import annotations
@@ -18,21 +18,21 @@ from peers.setting import Setting
 from problems import Problem
 from record import Record
 
-#: CPU seconds of one run above which it is not repeated, and above which it is repeated thrice.
+#: CPU seconds of a run above which it is not repeated, or repeated three times.
 LONG, THRICE = 2.0, 0.2
-#: CPU seconds of one run below which each timed run follows one that is not timed.
+#: CPU seconds of a run below which each timed run follows a run that is not timed.
 BRIEF = 0.05
-#: CPU seconds after which a run that can be interrupted is given up.
+#: CPU seconds after which a run is interrupted.
 PATIENCE = 20
 
 
 class TooLongError(Exception):
-    """A run was given up."""
+    """A run was interrupted."""
 
 
 @contextmanager
 def patience(seconds: int = PATIENCE) -> Iterator[None]:
-    """Interrupts what runs in Python, or looks for signals, after so many seconds."""
+    """Interrupt Python code, or code that checks signals, after a number of seconds."""
 
     def stop(*_: object) -> None:
         raise TooLongError(f"no end within {seconds} s")
@@ -47,14 +47,14 @@ def patience(seconds: int = PATIENCE) -> Iterator[None]:
 
 
 def timed(run: Callable[[], Any]) -> tuple[float, Any]:
-    """CPU seconds of a call, and what it gave."""
+    """CPU seconds of a call, and its result."""
     begin = time.process_time()
     found = run()
     return time.process_time() - begin, found
 
 
 def first(tool: ModuleType, problem: Problem, setting: Setting) -> tuple[Record, Any]:
-    """Prepares and runs a setting once; the record without its median, and the run."""
+    """Prepare and run a setting once; return the record without its median, and the run."""
     record = Record(problem.name, tool.NAME, setting.curve, setting.tolerance)
     begin = time.process_time()
     try:
@@ -63,11 +63,11 @@ def first(tool: ModuleType, problem: Problem, setting: Setting) -> tuple[Record,
             seconds, found = timed(run)
         motion = tool.motion(problem, found)
         if len(motion.t) != len(problem.grid) or not np.isfinite(motion.q).all():
-            raise RuntimeError("it stopped early, or what it found is not finite")
+            raise RuntimeError("it stopped early, or its result is not finite")
         record.seconds, record.runs, record.took = seconds, 1, seconds
         record.error, record.gap = problem.error(motion), problem.gap(motion)
         record.more = {name: measure(motion) for name, measure in problem.also.items()}
-    except Exception as error:  # whatever a tool says is its result here
+    except Exception as error:  # any error of a tool is its result
         record.took = time.process_time() - begin
         record.failure = " ".join(str(error).split())[:200] or type(error).__name__
         return record, None
@@ -95,7 +95,7 @@ def measure(problem: Problem, tools: list[ModuleType], repeat: int, quick: bool)
 
 
 def repeated(found: list[tuple[Record, Any]], repeat: int) -> None:
-    """Further runs, turn by turn; medians into the records."""
+    """Further alternating runs; the medians go into the records."""
     short = [(r, run) for r, run in found if run is not None and (r.seconds or 0) < LONG]
     times: dict[int, list[float]] = {id(record): [] for record, _ in short}
     for turn in range(repeat):
@@ -103,7 +103,7 @@ def repeated(found: list[tuple[Record, Any]], repeat: int) -> None:
             if turn >= 3 and (record.seconds or 0) > THRICE:
                 continue
             if (record.seconds or 0) < BRIEF:
-                run()  # what the run of another tool left in the caches is not this one's fault
+                run()  # fills the caches, which another tool has used
             times[id(record)].append(timed(run)[0])
     for record, _ in short:
         if values := times[id(record)]:

@@ -1,11 +1,12 @@
-"""N parallelograms side by side, the N-four-bar of the IFToMM benchmarks (A02).
+"""N parallelograms in a row, the N-four-bar of the IFToMM benchmarks (A02).
 
     python examples/n_four_bar.py 40
 
-N + 1 cranks on ground, joined by N couplers: uniform rods of 1 m and 1 kg. They start upright,
-every crank turning at -1 rad/s. Each time all bars lie on one line, the mechanism has N + 1 ways to
-go on instead of one; the motion decides, and all windows stay parallelograms. So it moves as one
-crank does that carries the mass of all, and its energy says how fast it turns at every angle.
+N + 1 cranks on ground are connected by N couplers. All of them are uniform rods of 1 m and 1 kg.
+The cranks start upright and turn at -1 rad/s. Whenever all bars lie on one line, the mechanism has
+N + 1 degrees of freedom instead of one. The velocity determines the branch, and all windows remain
+parallelograms. The mechanism therefore moves like a single crank with the mass of all bars, and the
+energy gives its rate at every angle.
 """
 
 from __future__ import annotations
@@ -41,14 +42,14 @@ def upright(model: kp.Model, n: int) -> kp.State:
 
 
 def rate(angle: np.ndarray, n: int) -> np.ndarray:
-    """How fast cranks turn by the energy of the start, rad/s: J ω² / 2 + W sin φ stays as it is."""
+    """Rate of the cranks from the conserved energy J ω² / 2 + W sin φ, rad/s."""
     inertia = (n + 1) / 3 + n
     weight = GRAVITY * ((n + 1) / 2 + n)
     return np.sqrt(1 + 2 * weight * (1 - np.sin(angle)) / inertia)
 
 
 def main() -> None:
-    """Ten seconds of motion, and how far rates are off."""
+    """Simulate ten seconds and print the error of the rates."""
     n = int(sys.argv[1]) if len(sys.argv) > 1 else 1
     model = windows(n)
     sol = kp.dynamics(model, upright(model, n), t_end=10, output_step=0.01, dense_output=False)
@@ -59,7 +60,7 @@ def main() -> None:
     steps, ms = sol.statistics["steps"], 1e3 * sol.statistics["seconds"]
     print(f"{n} windows, {sol.q.shape[1]} coordinates: {steps} steps, {ms:.1f} ms")
     print(f"turns at t = 10 s: {(np.pi / 2 - sol['crank0'].angle[-1]) / (2 * np.pi):.6f}")
-    print(f"rates of all cranks off those of the energy by {off:.1e} rad/s")
+    print(f"largest error of the rates by the energy: {off:.1e} rad/s")
 
 
 if __name__ == "__main__":

@@ -1,10 +1,10 @@
 # shellcheck shell=sh
-# The set-up that ./kempe and ./test share; sourced by both, with ROOT set to the repository root.
+# Set-up for ./kempe and ./test, which source this file with ROOT set to the repository root.
 #
 # After `set_up run` or `set_up test`, $VENV/bin/python runs kempe from the sources in place. The
-# work is done only when what it depends on has changed: a stamp holds a checksum of the inputs, and
-# is written last, so that an interrupted set-up is taken up again at the next start.
-# Exit code 5: the set-up could not be done; one line on stderr tells what is missing.
+# set-up runs only if its inputs have changed. A stamp contains a checksum of the inputs. It is
+# written last, so that an interrupted set-up is repeated on the next start.
+# Exit code 5: the set-up failed; one line on stderr gives the reason.
 
 SETUP_FAILED=5
 RUST_MINOR=85 # rust-version = "1.85" in Cargo.toml
@@ -24,7 +24,7 @@ give_up() {
 set_up() {
     is_set_up "$1" && return
     take_lock
-    # Another start may have done the work while this one waited for the lock.
+    # Another process may have finished the set-up while this one waited for the lock.
     is_set_up "$1" || do_set_up "$1"
     release_lock
 }
@@ -43,10 +43,10 @@ do_set_up() {
 
 stamp() { cat "$VENV/stamp-$1" 2>/dev/null; }
 
-# Written under another name first, so that no half-written stamp is ever read.
+# Written under another name first, so that an incomplete stamp is never read.
 write_stamp() { printf '%s\n' "$2" >"$VENV/stamp-$1.new" && mv -f "$VENV/stamp-$1.new" "$VENV/stamp-$1"; }
 
-# A venv does not survive being moved, hence ROOT; another $PYTHON asks for another one.
+# A venv cannot be moved, hence ROOT. Another $PYTHON needs another venv.
 has_venv() {
     case $(stamp venv) in
     "$ROOT|${PYTHON:+$PYTHON|}"*) [ -x "$VENV/bin/python" ] ;;
@@ -54,7 +54,7 @@ has_venv() {
     esac
 }
 
-# The packages for the tests contain those for a run.
+# The packages for the tests include those for a run.
 has_packages() {
     case "$1 $(stamp packages)" in
     "run run $(packages_sum)" | "run test $(packages_sum)" | "test test $(packages_sum)") ;;
@@ -73,14 +73,14 @@ has_extension() {
     return 1
 }
 
-# The core is built for processors with AVX2 (.cargo/config.toml); on one without, for any x86-64.
+# The core is built for AVX2 (.cargo/config.toml), or for any x86-64 on processors without AVX2.
 choose_instructions() {
     if grep -qs '^flags' /proc/cpuinfo && ! grep -qw avx2 /proc/cpuinfo; then
         export RUSTFLAGS="${RUSTFLAGS:--C target-cpu=x86-64}"
     fi
 }
 
-# Contents, not times: a file that was only touched, or went and came back, needs no build.
+# Contents instead of times: a file with a new time but the same content needs no build.
 sources_sum() {
     (
         cd "$ROOT" && choose_instructions && {
@@ -94,15 +94,15 @@ sources_sum() {
 
 # --- one set-up at a time -------------------------------------------------------------------------
 
-# The lock is a folder, because making one either succeeds or fails as a whole. It holds the
-# process id of its owner; a lock whose owner has died is moved aside.
+# The lock is a folder, because the creation of a folder is atomic. It contains the process id of
+# its owner. If the owner has died, the lock is moved away.
 take_lock() {
     told=
     nameless=0
     until mkdir "$LOCK" 2>/dev/null; do
         [ -w "$ROOT" ] || give_up "cannot write to $ROOT: make it writable, or clone kempe elsewhere"
         owner=$(cat "$LOCK/pid" 2>/dev/null) || owner=
-        # Between making the folder and naming the owner there is a moment without a name.
+        # For a moment, the folder exists without the process id of its owner.
         if [ -z "$owner" ]; then nameless=$((nameless + 1)); else nameless=0; fi
         if [ "$nameless" -gt 10 ] || { [ -n "$owner" ] && ! is_alive "$owner"; }; then
             break_lock "$owner"
@@ -119,7 +119,7 @@ take_lock() {
     printf '%s\n' "$$" >"$LOCK/pid"
 }
 
-# Two may see the same dead owner: after the move, the one that took a living lock puts it back.
+# Two processes may find the same dead owner. The one that moved a valid lock puts it back.
 break_lock() {
     mv "$LOCK" "$LOCK.$$" 2>/dev/null || return 0
     if [ "$(cat "$LOCK.$$/pid" 2>/dev/null)" = "$1" ]; then
@@ -134,10 +134,10 @@ release_lock() {
     trap - EXIT HUP INT TERM
 }
 
-# `kill -0` also fails for a living process of somebody else; /proc knows better where it exists.
+# `kill -0` also fails for processes of other users; /proc is more reliable where it exists.
 is_alive() { kill -0 "$1" 2>/dev/null || [ -d "/proc/$1" ]; }
 
-# --- what the machine must have -------------------------------------------------------------------
+# --- requirements ---------------------------------------------------------------------------------
 
 check_tools() {
     command -v cc >/dev/null 2>&1 || give_up "no C linker (cc) found: install one (Debian, Ubuntu: apt install build-essential; macOS: xcode-select --install)"
@@ -146,7 +146,7 @@ check_tools() {
     minor=${rust#cargo 1.}
     minor=${minor%%.*}
     case $minor in
-    '' | *[!0-9]*) ;; # a version this script cannot read is left for cargo to judge
+    '' | *[!0-9]*) ;; # cargo checks a version that this script cannot parse
     *) [ "$minor" -ge "$RUST_MINOR" ] || give_up "Rust 1.$RUST_MINOR or later is needed, found $rust: run 'rustup update'" ;;
     esac
     find_python
@@ -154,7 +154,7 @@ check_tools() {
 
 is_recent() { "$1" -c 'import sys; sys.exit(sys.version_info < (3, 10))' >/dev/null 2>&1; }
 
-# Sets BASE to the Python that the virtual environment is made from; $PYTHON is taken at its word.
+# Sets BASE to the Python for the virtual environment; $PYTHON is used without a search.
 find_python() {
     BASE=
     if [ -n "${PYTHON:-}" ]; then
@@ -172,9 +172,9 @@ find_python() {
     "$BASE" -c 'import ensurepip, venv' 2>/dev/null || give_up "$BASE has no venv module: install it (Debian, Ubuntu: apt install python3-venv)"
 }
 
-# --- the work -------------------------------------------------------------------------------------
+# --- set-up ---------------------------------------------------------------------------------------
 
-# logged WHAT COMMAND…: runs it silently, and shows the end of its output when it fails.
+# logged WHAT COMMAND…: runs a command silently and prints the end of its output if it fails.
 logged() {
     what=$1
     shift
@@ -184,7 +184,7 @@ logged() {
     give_up "$what failed; all of its output is in $LOG"
 }
 
-# `--clear` takes the stamps away too: a venv without them is half-made, and is made anew.
+# `--clear` also removes the stamps; a venv without stamps is incomplete and is created again.
 make_venv() {
     has_venv && "$VENV/bin/python" -c '' 2>/dev/null && return
     say "making .venv with $("$BASE" --version 2>&1)"
@@ -205,14 +205,14 @@ install_packages() {
     write_stamp packages "$1 $sum"
 }
 
-# The checksum is taken before the build: a source that changes during it is seen at the next start.
+# The checksum is computed before the build, so that a change during the build is noticed later.
 build_extension() {
     has_extension && return
     say "building the core"
     sum=$(sources_sum)
     (
         cd "$ROOT" || exit "$SETUP_FAILED"
-        # maturin takes the venv from here, and refuses to choose between it and conda's.
+        # for maturin, which fails if conda's variable is set as well
         unset CONDA_PREFIX
         export VIRTUAL_ENV="$VENV"
         choose_instructions

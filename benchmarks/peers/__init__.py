@@ -1,8 +1,8 @@
 """One adapter for each tool.
 
-An adapter is a module with NAME, TRIED (what was tried to find its best settings), `missing()`,
-`version()`, `settings(problem, quick)`, `prepare(problem, setting)`, which builds everything and
-returns the run that is timed, and `motion(problem, found)`, which reads what the run returned.
+An adapter is a module with NAME, TRIED (the settings that were tried), `missing()`, `version()`,
+`settings(problem, quick)`, `prepare(problem, setting)` and `motion(problem, found)`. `prepare`
+builds everything and returns the function to be timed. `motion` reads the result of this function.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ TOOLS = (
 
 
 def tools(names: list[str] | None = None) -> list[ModuleType]:
-    """The adapters with these NAMEs, all when None."""
+    """The adapters with these NAMEs; all for None."""
     found = [import_module(f"peers.{name}") for name in TOOLS]
     known = {tool.NAME for tool in found}
     if unknown := set(names or ()) - known:

@@ -1,7 +1,8 @@
 """CasADi: the equations written by hand as expressions, CVODES, and IDAS on the DAE of index 1.
 
-S = Phi_q M^-1 Phi_q' is factorised symbolically, so that CVODES sees y' = f(y) in sparse straight
-code with exact Jacobians; IDAS gets M a + Phi_q' lam = Q and Phi_q a = gamma, a and lam algebraic.
+S = Phi_q M^-1 Phi_q' is factorised symbolically. CVODES integrates y' = f(y) in sparse code without
+branches, with exact Jacobians. IDAS solves M a + Phi_q' lam = Q and Phi_q a = gamma with the
+algebraic variables a and lam.
 """
 
 from __future__ import annotations
@@ -45,12 +46,12 @@ LARGEST = 25
 
 
 def missing() -> str | None:
-    """Why it cannot be used here."""
+    """The reason if CasADi cannot be used."""
     return not_installed("casadi")
 
 
 def version() -> str:
-    """Of CasADi."""
+    """Version of CasADi."""
     import casadi
 
     return str(casadi.__version__)
@@ -112,7 +113,7 @@ class Expressions:
 
 
 def problem_of(e: Expressions, plugin: str) -> dict[str, Any]:
-    """What the integrator is given."""
+    """The problem for the integrator."""
     import casadi as ca
 
     y = ca.vertcat(e.q, e.v)
@@ -145,7 +146,7 @@ def scratch() -> TemporaryDirectory[str]:
 
 @contextmanager
 def compiling() -> Iterator[None]:
-    """Lets the compiler work in a folder of its own: it leaves its files where it stands."""
+    """Run the compiler in its own folder, because it writes files to the current one."""
     before = Path.cwd()
     os.chdir(scratch().name)
     try:
@@ -182,6 +183,6 @@ def prepare(problem: Problem, setting: Setting) -> Callable[[], Any]:
 
 
 def motion(problem: Problem, y: np.ndarray) -> Motion:
-    """What a run found."""
+    """The motion of a run."""
     n = 3 * len(problem.bodies)
     return Motion(problem.grid, y[:n].T.reshape(-1, n // 3, 3))

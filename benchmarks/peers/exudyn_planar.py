@@ -30,12 +30,12 @@ FULL_NEWTON = 5
 
 
 def missing() -> str | None:
-    """Why it cannot be used here."""
+    """The reason if Exudyn cannot be used."""
     return not_installed("exudyn")
 
 
 def version() -> str:
-    """Of Exudyn."""
+    """Version of Exudyn."""
     import exudyn
 
     return str(exudyn.__version__)
@@ -48,7 +48,7 @@ def settings(problem: Problem, quick: bool = False) -> list[Setting]:
 
 
 def build(problem: Problem, mbs: Any) -> list[int]:
-    """The mechanism; returns its sensors, one a body."""
+    """Build the mechanism; return one sensor per body."""
     import exudyn as exu
     from exudyn import itemInterface
 
@@ -105,7 +105,7 @@ def add_torques(problem: Problem, mbs: Any, nodes: list[Any]) -> None:
     for t in problem.torsion_springs:
         still = mbs.AddNode(itemInterface.NodePointGround())
         ends = [angle(still, 0), angle(nodes[t.j])]
-        # its coordinates are displacements from the reference
+        # coordinates of Exudyn are displacements from the reference
         offset = float(t.free_angle - problem.bodies[t.j].q[2])
         numbers = {"stiffness": t.stiffness, "damping": t.damping, "offset": offset}
         spring = itemInterface.ObjectConnectorCoordinateSpringDamper(markerNumbers=ends, **numbers)
@@ -116,7 +116,7 @@ def add_torques(problem: Problem, mbs: Any, nodes: list[Any]) -> None:
 
 
 def simulation(problem: Problem, setting: Setting) -> Any:
-    """Exudyn's own settings."""
+    """Simulation settings of Exudyn."""
     import exudyn as exu
 
     asked = exu.SimulationSettings()
@@ -151,13 +151,13 @@ def prepare(problem: Problem, setting: Setting) -> Callable[[], Any]:
             raise RuntimeError("SolveDynamic did not succeed")
         return [np.array(mbs.GetSensorStoredData(sensor)) for sensor in sensors]
 
-    # each run starts from the container's own start, which must stay alive as long as the run
+    # a run uses the initial state of the container, which must not be deleted before
     run.container = container  # type: ignore[attr-defined]
     return run
 
 
 def motion(problem: Problem, found: list[np.ndarray]) -> Motion:
-    """What a run found; rows are (t, x, y, angle), displacements from the start."""
+    """The motion of a run; rows are (t, x, y, angle), displacements from the start."""
     t = found[0][:, 0]
     start = problem.q0.reshape(-1, 3)
     q = np.stack([rows[:, 1:4] + start[k] for k, rows in enumerate(found)], axis=1)

@@ -1,4 +1,4 @@
-"""kempe, called from Python. The one list of its settings that are compared."""
+"""kempe, called from Python, with the list of its settings."""
 
 from __future__ import annotations
 
@@ -15,28 +15,28 @@ from peers.setting import Setting
 NAME = "kempe"
 TRIED = (
     "RK45 with Baumgarte (the gains of the problem) and DOP853 with projection, rtol 1e-3 … 1e-11,"
-    " atol a thousandth of rtol; and what a user gets who says nothing; asked for accelerations and"
-    " multipliers, but where it says states"
+    " atol a thousandth of rtol; and the defaults; with accelerations and multipliers, except where"
+    " marked states"
 )
-#: The curve of what a user gets who says nothing: one point, marked in the plots.
+#: The curve of the defaults: one point, marked in the plots.
 DEFAULT = "kempe default"
 BAUMGARTE = "kempe RK45, Baumgarte"
 PROJECTION = "kempe DOP853, projection"
-#: The curve of the default method and stabilization, its tolerance varied.
+#: The curve of the default method and stabilization at various tolerances.
 DEFAULT_METHOD = PROJECTION
-#: The same where positions and velocities alone are asked for, as other tools give them.
+#: The same with positions and velocities only, as in other tools.
 STATES = {DEFAULT: f"{DEFAULT}, states", PROJECTION: f"{PROJECTION}, states"}
 TOLERANCES = (1e-3, 1e-4, 5e-5, 2e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
 FEW = (1e-3, 1e-6)
 
 
 def missing() -> str | None:
-    """It is here."""
+    """None: it can always be used."""
     return None
 
 
 def version() -> str:
-    """Of kempe."""
+    """Version of kempe."""
     return kp.__version__
 
 
@@ -112,7 +112,7 @@ def prepare(problem: Problem, setting: Setting) -> Callable[[], Any]:
             dense_output=False,
             **setting.options,
         )
-        if not states:  # they are worked out when they are asked for
+        if not states:  # computed on first access
             _ = solution.a, solution.lam
         return solution
 
@@ -120,5 +120,5 @@ def prepare(problem: Problem, setting: Setting) -> Callable[[], Any]:
 
 
 def motion(problem: Problem, solution: kp.Solution) -> Motion:
-    """What a run found."""
+    """The motion of a run."""
     return Motion(np.asarray(solution.t), solution.q.reshape(-1, len(problem.bodies), 3))

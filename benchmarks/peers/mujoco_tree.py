@@ -24,12 +24,12 @@ CURVE = "MuJoCo RK4"
 
 
 def missing() -> str | None:
-    """Why it cannot be used here."""
+    """The reason if MuJoCo cannot be used."""
     return not_installed("mujoco")
 
 
 def version() -> str:
-    """Of MuJoCo."""
+    """Version of MuJoCo."""
     import mujoco
 
     return str(mujoco.__version__)
@@ -42,14 +42,14 @@ def settings(problem: Problem, quick: bool = False) -> list[Setting]:
 
 
 class Tree:
-    """Which joints hang a body on its parent, and which close a loop."""
+    """The joints of the tree, and the joints that close loops."""
 
     def __init__(self, problem: Problem) -> None:
         self.parent: dict[int, tuple[int, Pair]] = {}
         self.order: list[int] = []
         waiting = list(problem.joints)
         depth = {GROUND: 0}
-        # nearest to ground first, so that trees stay shallow and springs to ground lie in hinges
+        # nearest to ground first: the trees stay shallow, and springs to ground act on hinges
         while hung := [e for e in waiting if (e.i in depth) != (e.j in depth)]:
             e = min(hung, key=lambda e: depth.get(e.i, depth.get(e.j, 0)))
             parent, child, s = (e.i, e.j, e.s_j) if e.i in depth else (e.j, e.i, e.s_i)
@@ -65,7 +65,7 @@ class Tree:
 
 
 def seen_from(problem: Problem, body: int, parent: int) -> tuple[float, float, float]:
-    """Place and angle of a body at the start in the frame of its parent."""
+    """Initial position and angle of a body in the frame of its parent."""
     x, y, angle = problem.bodies[body].q
     if parent == GROUND:
         return x, y, angle
@@ -82,7 +82,7 @@ def rates(problem: Problem, tree: Tree) -> list[float]:
 
 
 def xml(problem: Problem, tree: Tree, step: float, options: Any) -> str:
-    """The mechanism in MuJoCo's language; every number to its last digit."""
+    """The mechanism in MuJoCo's XML format, with all digits."""
     children: dict[int, list[int]] = {}
     for child in tree.order:
         children.setdefault(tree.parent[child][0], []).append(child)
@@ -174,7 +174,7 @@ def motion(problem: Problem, angles: np.ndarray) -> Motion:
         parent, s = tree.parent[k]
         x, y, turn = seen_from(problem, k, parent)
         base = np.zeros((len(angles), 3)) if parent == GROUND else q[:, parent]
-        # the hinge stays where it is on the parent; the body turns about it
+        # the hinge is fixed on the parent; the body rotates about it
         c, si = np.cos(turn), np.sin(turn)
         hinge = (x + c * s[0] - si * s[1], y + si * s[0] + c * s[1])
         angle = base[:, 2] + turn + angles[:, column]

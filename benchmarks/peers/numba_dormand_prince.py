@@ -1,4 +1,4 @@
-"""Numba: the equations and Dormand-Prince 5(4) in loops over arrays, compiled before the clock.
+"""Numba: the equations and Dormand-Prince 5(4) in loops over arrays, compiled before timing.
 
 The augmented matrix is condensed to S = Phi_q M^-1 Phi_q' in plain loops, factorised by Cholesky.
 """
@@ -21,17 +21,17 @@ TRIED = (
 CURVE = "Numba RK45, Baumgarte"
 TOLERANCES = (1e-3, 1e-6, 1e-9)
 LARGEST = 25
-#: Steps after which a run that creeps is given up.
+#: Largest number of steps.
 MOST_STEPS = 200_000
 
 
 def missing() -> str | None:
-    """Why it cannot be used here."""
+    """The reason if Numba cannot be used."""
     return not_installed("numba", "scipy")
 
 
 def version() -> str:
-    """Of Numba."""
+    """Version of Numba."""
     import numba
 
     return str(numba.__version__)
@@ -73,7 +73,7 @@ def prepare(problem: Problem, setting: Setting) -> Callable[[], Any]:
         gains, limits = problem.gains, (rtol, 1e-3 * rtol, MOST_STEPS)
         out, rows = integrate(model, y0, gains, work, grid, *limits)
         if rows < len(grid):
-            raise RuntimeError(f"no end after {MOST_STEPS} tries of a step")
+            raise RuntimeError(f"end not reached after {MOST_STEPS} steps")
         return np.asarray(out)
 
     run(grid[:2])
@@ -81,6 +81,6 @@ def prepare(problem: Problem, setting: Setting) -> Callable[[], Any]:
 
 
 def motion(problem: Problem, y: np.ndarray) -> Motion:
-    """What a run found."""
+    """The motion of a run."""
     n = 3 * len(problem.bodies)
     return Motion(problem.grid, y[:, :n].reshape(-1, n // 3, 3))

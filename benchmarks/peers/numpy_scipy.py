@@ -1,8 +1,8 @@
-"""A plain NumPy/SciPy program of the same equations, written as such programs are.
+"""A plain NumPy/SciPy program of the same equations, in the usual style.
 
-Functions for A, B, M, Phi, Phi_q, gamma and Q in NumPy arrays, the augmented equations (Haug
-6.3.18) with Baumgarte's right side (7.3.8) by a dense solve, integrated by `solve_ivp`. It reports
-accelerations and multipliers too.
+It has functions for A, B, M, Phi, Phi_q, gamma and Q with NumPy arrays. A dense solver solves the
+augmented equations (Haug 6.3.18) with Baumgarte's right-hand side (7.3.8), and `solve_ivp`
+integrates them. The results include accelerations and multipliers.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ LARGEST = 25
 
 
 def missing() -> str | None:
-    """Why it cannot be used here."""
+    """The reason if SciPy cannot be used."""
     return not_installed("scipy")
 
 
 def version() -> str:
-    """Of SciPy."""
+    """Versions of SciPy and NumPy."""
     import scipy
 
     return f"{scipy.__version__}, NumPy {np.__version__}"
@@ -163,6 +163,6 @@ def prepare(problem: Problem, setting: Setting) -> Callable[[], Any]:
 
 
 def motion(problem: Problem, found: Any) -> Motion:
-    """What a run found."""
+    """The motion of a run."""
     n = 3 * len(problem.bodies)
     return Motion(found.t, found.y[:n].T.reshape(-1, n // 3, 3))

@@ -1,4 +1,4 @@
-"""The mechanisms that are measured, by name."""
+"""The measured mechanisms, by name."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ WINDOWS = (1, 2, 10, 40, 100, 1000)
 NAMES = ("flagship", "andrews", *(f"n_four_bar_{n}" for n in WINDOWS))
 #: The same over one second, for the cost against N.
 COST = tuple(f"windows_{n}" for n in WINDOWS)
-#: A setting counts there when the error of B0 stays below this, m: all tools come down to it.
+#: A setting counts if the error of B0 is below this limit, m; all tools reach it.
 ACCEPTED = 1e-4
 
 

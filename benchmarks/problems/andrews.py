@@ -11,12 +11,12 @@ NAMES = tuple(f"K{k}" for k in range(1, 8))
 
 
 def andrews() -> Problem:
-    """The problem; its error is that of the seven angles at 0.03 s."""
+    """The problem; the error is the error of the seven angles at 0.03 s."""
     truth = reference("andrews")
     numbers, points = truth["parameters_SI"], truth["local_points_from_mass_centre"]
     q0 = truth["q0_cartesian"]
     at_end = {name: float(value) for name, value in truth["angles_at_0.03"].items()}
-    # K2 stands at beta + Theta, and so on
+    # the angle of K2 is beta + Theta, and so on
     exact = np.array([sum(at_end[x] for x in truth["frame_angles"][n].split("+")) for n in NAMES])
 
     def place(text: str) -> tuple[int, tuple[float, float]]:
@@ -37,7 +37,7 @@ def andrews() -> Problem:
             for k, name in enumerate(NAMES)
         ),
         joints=tuple(
-            # ground is body i, as a person would write it
+            # ground is body i, as is common
             Revolute(*min(map(place, pair.split())), *max(map(place, pair.split())))
             for pair in truth["joints"]
         ),

@@ -13,7 +13,7 @@ NAMES = ("crank", "coupler", "rocker")
 
 
 def flagship() -> Problem:
-    """The problem; its error is that of the rocker's angle over the first second."""
+    """The problem; the error is the error of the rocker angle over the first second."""
     truth = reference("four_bar")
     q0 = truth["start"]["q"]
     angle = np.array(truth["first_second"]["rocker_angle"])

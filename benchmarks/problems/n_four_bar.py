@@ -1,4 +1,4 @@
-"""N windows side by side (IFToMM benchmark A02): one degree of freedom, in passing N + 1."""
+"""N windows in a row (IFToMM benchmark A02): one degree of freedom, temporarily N + 1."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ ROD = 1.0 / 12.0
 
 @cache
 def exact(windows: int, t_end: float, step: float) -> np.ndarray:
-    """The lean psi of every crank on a grid: psi'' = w2 sin psi, psi(0) = 0, psi'(0) = 1/s."""
+    """Angle psi of every crank on a grid: psi'' = w2 sin psi, psi(0) = 0, psi'(0) = 1/s."""
     from scipy.integrate import solve_ivp
 
     w2 = 3 * GRAVITY * (3 * windows + 1) / (2 * (4 * windows + 1))
@@ -32,7 +32,7 @@ def exact(windows: int, t_end: float, step: float) -> np.ndarray:
 
 
 def n_four_bar(windows: int, t_end: float = 10.0) -> Problem:
-    """The problem for some N; its error is that of B0, the top of the first crank."""
+    """The problem for one N; the error is the error of B0, the top of the first crank."""
 
     def error(motion: Motion) -> float:
         # the branch on which all cranks stay parallel has a closed form for every N

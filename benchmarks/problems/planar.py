@@ -1,4 +1,4 @@
-"""A planar mechanism as plain numbers, for every tool to build in its own way.
+"""A planar mechanism as plain numbers, from which every tool builds its model.
 
 Frames lie at the mass centres; q = (x, y, angle) of each body; body -1 is ground.
 """
@@ -67,7 +67,7 @@ class Torque:
 
 @dataclass(frozen=True)
 class Motion:
-    """What a tool found: t (n_t) and q (n_t, n_bodies, 3)."""
+    """The result of a tool: t (n_t) and q (n_t, n_bodies, 3)."""
 
     t: np.ndarray
     q: np.ndarray
@@ -75,9 +75,9 @@ class Motion:
 
 @dataclass(frozen=True)
 class Problem:
-    """A mechanism, how long it runs, and the truth.
+    """A mechanism, its end time and the reference solution.
 
-    `error` gives the error of a motion as `error_of` says.
+    `error` computes the error of a motion; `error_of` describes it.
     """
 
     name: str
@@ -96,12 +96,12 @@ class Problem:
     also: Mapping[str, Callable[[Motion], float]] = field(default_factory=dict)
     #: Baumgarte's alpha and beta (1/s), for the tools that need them.
     gains: Pair = (10.0, 200.0)
-    #: Fixed steps to be tried, s; each divides the output step.
+    #: Fixed steps, s; each divides the output step.
     steps: tuple[float, ...] = (1e-2, 1e-3, 2e-4)
 
     @property
     def grid(self) -> np.ndarray:
-        """Times of output, s."""
+        """Output times, s."""
         return np.arange(round(self.t_end / self.output_step) + 1) * self.output_step
 
     @property
@@ -126,7 +126,7 @@ class Problem:
 
 
 def point(q: np.ndarray, body: int, s: Pair) -> np.ndarray:
-    """Global place of a point of a body along a motion, (2, n_t)."""
+    """Global position of a point of a body during a motion, (2, n_t)."""
     if body == GROUND:
         return np.array(s)[:, None] * np.ones(len(q))
     x, y, angle = q[:, body].T

@@ -1,4 +1,4 @@
-"""The reference values that the tests use, too."""
+"""The reference values, which the tests use as well."""
 
 from __future__ import annotations
 

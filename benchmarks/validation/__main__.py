@@ -11,7 +11,7 @@ from benchmarks.validation.results import FILE, computed, written
 
 
 def main() -> int:
-    """Compute, write, and tell what is off."""
+    """Compute, write, and print the numbers outside their tolerance."""
     results = computed()
     FILE.write_text(written(results), "utf-8")
     PAGE.write_text(page(results), "utf-8")

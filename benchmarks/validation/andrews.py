@@ -14,12 +14,12 @@ METHOD = kp.DOP853(rtol=1e-11, atol=1e-12)
 
 
 def case() -> kp.Case:
-    """The mechanism as the example has it."""
+    """The mechanism from the example."""
     return kp.load(ROOT / "examples" / "squeezer.toml")
 
 
 def run(model: kp.Model | CompiledModel, start: kp.State, method: Option = METHOD) -> kp.Solution:
-    """To the time of the reference."""
+    """The motion up to the time of the reference."""
     return kp.dynamics(
         model,
         start,

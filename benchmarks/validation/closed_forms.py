@@ -27,13 +27,13 @@ def four_bar(degrees: str) -> kp.Model:
 
 
 def four_bar_comparisons(table: dict[str, Any]) -> list[Comparison]:
-    """Both closures at all angles of the crank."""
+    """Both assembly modes at all angles of the crank."""
     published, found = defaultdict(list), defaultdict(list)
     for name, values in table.items():
         if "deg " not in name:
             continue
         truth = {key: float(x) for key, x in values.items()}
-        guess = {  # nine degrees off: it tells the closures apart
+        guess = {  # nine degrees off; selects the assembly mode
             "coupler.angle": f"{truth['phi2_deg'] + 9}*deg",
             "rocker.angle": f"{truth['phi3_deg'] - 9}*deg",
         }

@@ -1,4 +1,4 @@
-"""A published number beside kempe's."""
+"""Comparison of published numbers with those of kempe."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ ROOT = Path(__file__).parents[2]
 
 @dataclass(frozen=True)
 class Comparison:
-    """Numbers of one kind; of many, the pair that differs most.
+    """Numbers of one kind, represented by the pair with the largest difference.
 
     Attributes:
-        quantity: what they are.
-        unit: their unit.
-        count: how many were compared.
-        published: the published one.
-        kempe: kempe's.
+        quantity: name of the quantity.
+        unit: unit of the numbers.
+        count: number of compared values.
+        published: the published value.
+        kempe: the value of kempe.
         tolerance: largest difference allowed.
     """
 
@@ -39,17 +39,17 @@ class Comparison:
 
     @property
     def holds(self) -> bool:
-        """Whether it is within the tolerance."""
+        """Whether the difference is within the tolerance."""
         return self.difference <= self.tolerance
 
 
 @dataclass(frozen=True)
 class Missing:
-    """An entry of a reference that kempe does not give yet.
+    """An entry of a reference that kempe does not reproduce yet.
 
     Attributes:
         what: the entry.
-        reason: why not.
+        reason: the reason.
     """
 
     what: str
@@ -58,15 +58,15 @@ class Missing:
 
 @dataclass(frozen=True)
 class Benchmark:
-    """A benchmark with what was compared.
+    """A benchmark with its comparisons.
 
     Attributes:
-        title: what it is.
+        title: title of the benchmark.
         reference: file in tests/reference.
-        source: where its numbers are from.
-        settings: how kempe computed its own.
-        comparisons: number by number.
-        missing: what is in the file and not compared.
+        source: source of the published numbers.
+        settings: settings of the computation with kempe.
+        comparisons: the comparisons.
+        missing: entries of the file that are not compared.
     """
 
     title: str
@@ -84,7 +84,7 @@ def reference(name: str) -> dict[str, Any]:
 
 
 def compared(quantity: str, unit: str, published: Any, kempe: Any, tolerance: float) -> Comparison:
-    """Equally many numbers of each, in any shape, also as text."""
+    """Both sets as flat arrays of equal size; entries may be texts."""
     truth = np.asarray(published, dtype=np.float64).ravel()
     found = np.asarray(kempe, dtype=np.float64).ravel()
     if truth.shape != found.shape:

@@ -1,13 +1,13 @@
-"""Energy and closed joints over very many steps: the four-bar linkage without its spring.
+"""Energy and constraint violation over very many steps: the four-bar linkage without its spring.
 
     python -m benchmarks.validation.conservation [--method DOP853] [--steps 1000000] [--angle -60]
 
-The linkage is released from rest with the crank at -60° and swings through 83° for ever. The period
-is twice the time to the other turning point, where the crank stands still again: the zero of its
-rate in a run of DOP853 at rtol 1e-13. The step is a hundredth of it, constant; states are put back
-onto the constraints after every step. Reported are the largest |Φ| and the largest change of the
-energy, relative to the largest kinetic energy, at two thousand times that do not fall on the same
-phase of the motion.
+The linkage is released from rest with the crank at -60° and swings through 83° without damping. The
+period is twice the time to the other turning point, where the rate of the crank is zero in a run of
+DOP853 at rtol 1e-13. The step is constant, a hundredth of the period. The states are projected onto
+the constraints after every step. The results are the largest |Φ| and the largest change of the
+energy relative to the largest kinetic energy, at two thousand times in different phases of the
+motion.
 """
 
 from __future__ import annotations
@@ -23,24 +23,24 @@ import numpy as np
 
 from benchmarks.validation.convergence import METHODS, Integrator, free_four_bar
 
-#: Steps in a period.
+#: Steps per period.
 STEPS = 100
 #: Reported states.
 STATES = 2000
 #: Largest |Φ| allowed, m.
 CLOSED = 1e-10
-#: Largest drift allowed, of methods for which that is asked.
+#: Largest drift allowed, for the methods with a limit.
 KEPT = {"DOP853": 1e-9}
 
 
 @dataclass(frozen=True)
 class Conserved:
-    """What a run kept.
+    """Conservation in one run.
 
     Attributes:
-        method: its name.
-        period: of the motion, s.
-        steps: taken.
+        method: name of the method.
+        period: period of the motion, s.
+        steps: number of steps.
         residual: largest |Φ|, m.
         drift: largest change of the energy over the largest kinetic energy.
         seconds: wall time.
@@ -55,18 +55,18 @@ class Conserved:
 
     @property
     def holds(self) -> bool:
-        """Whether joints and energy were kept as they must be."""
+        """Whether constraint violation and energy drift are within their limits."""
         return self.residual <= CLOSED and self.drift <= KEPT.get(self.method, np.inf)
 
 
 def released(degrees: float = -60) -> kp.State:
-    """At rest, with the crank at this angle."""
+    """The state at rest with the crank at this angle."""
     guess = {"coupler.angle": "14*deg", "rocker.angle": "240*deg"}
     return kp.assemble(free_four_bar(), set={"crank.angle": f"{degrees}*deg"}, guess=guess)
 
 
 def period(start: kp.State) -> float:
-    """Twice the time until the crank stands still again, by bisection of the interpolant."""
+    """Twice the time until the crank is at rest again, by bisection of the interpolant."""
     method = kp.DOP853(rtol=1e-13, atol=1e-13)
     sol = kp.dynamics(start.model, start, t_end=30, output_step=0.01, method=method)
     rate = np.asarray(sol["crank"].omega)
@@ -83,7 +83,7 @@ def period(start: kp.State) -> float:
 
 
 def conserve(integrator: Integrator, start: kp.State, steps: int) -> Conserved:
-    """A run of that many steps."""
+    """Conservation in a run with this number of steps."""
     turn = period(start)
     h = turn / STEPS
     begin = time.perf_counter()

@@ -1,9 +1,9 @@
 """Observed orders of the integrators on index-3 problems, for q and for λ.
 
-The error of a run with a constant step is the largest over times that all runs share, relative to
-the largest value, against DOP853 at rtol 1e-14. The observed order is the slope of log error over
-log step by least squares over three halvings. The steps are such that the smallest errors are above
-the level of rounding, about 1e-14.
+The error of a run with a constant step is the largest error over the common times of all runs,
+relative to the largest value, with DOP853 at rtol 1e-14 as reference. The observed order is the
+slope of log error over log step by least squares over three halvings. The steps are chosen such
+that the smallest errors are above the level of rounding, about 1e-14.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import kempe as kp
 import numpy as np
 from kempe.options import Option
 
-#: Halvings of the step.
+#: Number of halvings of the step.
 HALVINGS = 3
 #: Largest difference of an observed order from theory.
 TOLERANCE = 0.15
@@ -29,7 +29,7 @@ class Integrator:
     """A method with a constant step.
 
     Attributes:
-        name: as people know it.
+        name: common name of the method.
         order_q, order_lam: of theory, for coordinates and for multipliers.
         method: the method with a step, s.
         steps: number of the coarsest steps on each problem, by name.
@@ -42,8 +42,8 @@ class Integrator:
     steps: dict[str, int]
 
 
-#: The list of methods, in one place. The multipliers that are reported belong to the state, so that
-#: λ converges as q does.
+#: The methods. The multipliers in the output are computed from the state, so λ converges with the
+#: order of q.
 METHODS = (
     Integrator("RK4", 4, 4, lambda h: kp.RK4(step=h), {"pendulum": 32, "four-bar": 128}),
     Integrator("RK45", 5, 5, lambda h: kp.RK45(step=h), {"pendulum": 32, "four-bar": 24}),
@@ -72,8 +72,8 @@ class Problem:
 
     Attributes:
         name: its name.
-        told: the start, in words.
-        t_end: time at which it ends, s.
+        told: description of the start.
+        t_end: end time, s.
         start: the mechanism at its start.
     """
 
@@ -145,7 +145,7 @@ class Convergence:
 
     @property
     def holds(self) -> bool:
-        """Whether both are what theory says."""
+        """Whether both orders agree with theory."""
         pairs = zip(self.orders, self.theory, strict=True)
         return all(abs(observed - theory) <= TOLERANCE for observed, theory in pairs)
 
@@ -156,7 +156,7 @@ def slope(steps: tuple[float, ...], errors: tuple[float, ...]) -> float:
 
 
 def run(problem: Problem, method: Option, output_step: float) -> tuple[np.ndarray, np.ndarray]:
-    """Q and λ at the times that all runs share."""
+    """Q and λ at the common times of all runs."""
     start = problem.start()
     sol = kp.dynamics(
         start.model,

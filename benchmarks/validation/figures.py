@@ -1,4 +1,4 @@
-"""The figures of the page: error over step, one for each problem."""
+"""The figures of the page: error over step for each problem."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def convergence(found: list[Convergence], path: Path) -> None:
 
 
 def draw(ax: Axes, one: Convergence, key: str, number: int) -> None:
-    """One method: its errors, and the line of theory through the last."""
+    """Plot the errors of one method, and the theoretical slope through the last one."""
     at = 0 if key == "q" else 1
     steps, errors = np.array(one.steps), np.array(getattr(one, key))
     label = f"{one.method}: {one.orders[at]:.2f}, theory {one.theory[at]:g}"

@@ -16,22 +16,25 @@ FIGURES = {p.name: f"images/convergence_{p.name.replace('-', '_')}.png" for p in
 HEAD = """\
 # Validation
 
+This page compares results of kempe with published results. The published numbers are in
+`tests/reference/` and are independent of kempe. Each row of a table represents several numbers of
+one kind and shows the pair with the largest difference. The tests repeat all computations. The
+command
+
     python -m benchmarks.validation
 
-writes this page, its figures and `benchmarks/validation/results.json`, from runs through the public
-Python interface; it ends with exit code 1 if a number is off. The published numbers are in
-`tests/reference/`; nothing of kempe took part in them. Of many numbers of one kind the pair that
-differs most is shown. The tests compute everything anew.
+generates this page, its figures and `benchmarks/validation/results.json` with the public Python
+interface. Its exit code is 1 if a difference exceeds the tolerance.
 """
 
 CONVERGENCE = """
 ## Observed orders
 
-Index-3 problems with constant steps and projection: the largest error over times that all runs
-share, relative to the largest value, against DOP853 at rtol 1e-14, for the coarsest step and three
-halvings. The observed order is the slope of log error over log step by least squares; it must be
-within {tolerance} of theory. The multipliers of explicit methods belong to the reported state, so
-they converge as the coordinates do.
+The tables show errors of all integrators with constant steps and projection, for the coarsest step
+and three halvings. The error is the largest error over the common times of all runs, relative to
+the largest value. The reference is DOP853 at rtol 1e-14. The observed order is the slope of log
+error over log step by least squares. It must agree with theory within {tolerance}. The multipliers
+in the output are computed from the state, so they converge with the order of the coordinates.
 """
 
 CONSERVATION = """\
@@ -39,10 +42,11 @@ CONSERVATION = """\
 
     python -m benchmarks.validation.conservation --method DOP853
 
-The flagship without its spring-damper, released from rest with the crank at -60°, so that it swings
-through 83° for ever; constant steps of 1/{steps} of the period of {period:.6f} s, with projection.
-The period is twice the time until the crank stands still again. Residual: largest |Φ|, at most
-{closed:.0e} m; drift: largest change of the energy, relative to the largest kinetic energy.
+The flagship without its spring-damper is released from rest with the crank at -60° and swings
+through 83° without damping. The constant step is 1/{steps} of the period of {period:.6f} s. The
+states are projected onto the constraints. The residual is the largest |Φ|; it must not exceed
+{closed:.0e} m. The drift is the largest change of the energy relative to the largest kinetic
+energy.
 """
 
 
@@ -54,7 +58,7 @@ def page(results: Results) -> str:
 
 
 def section(benchmark: Benchmark) -> str:
-    """One benchmark: source, settings, table, what is missing."""
+    """One benchmark: source, settings, table and missing entries."""
     return "\n".join(_section(benchmark))
 
 
@@ -83,7 +87,7 @@ def row(c: Comparison) -> str:
 
 
 def digits(x: float, tolerance: float) -> str:
-    """As many digits as the tolerance speaks of, and one more."""
+    """The number with the digits of the tolerance and one more."""
     places = max(1, 1 - int(f"{tolerance:e}".split("e")[1]))
     return f"{x:.{min(places, 15)}f}"
 

@@ -1,4 +1,4 @@
-"""Pendulums against elliptic integrals."""
+"""Pendulums, compared with elliptic integrals."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def uniform_rod() -> kp.Model:
 
 
 def simulated(model: kp.Model, start: kp.State, t_end: float, step: float) -> kp.Solution:
-    """At tight tolerances."""
+    """Simulate with tight tolerances."""
     return kp.dynamics(
         model,
         start,
@@ -62,7 +62,7 @@ def positions(table: dict[str, Any]) -> list[Comparison]:
 
 
 def period(sol: kp.Solution, swing: np.ndarray, rate: np.ndarray) -> float:
-    """Four times the time to the lowest point, which `swing` counts from; cubic Hermite between."""
+    """Four times the time to the lowest point, the zero of `swing`, by cubic interpolation."""
     k = int(np.argmax(swing <= 0)) - 1
     h = sol.t[k + 1] - sol.t[k]
     a, b, da, db = swing[k], swing[k + 1], rate[k] * h, rate[k + 1] * h
@@ -85,7 +85,7 @@ def periods_of_rod(table: dict[str, Any]) -> Comparison:
 
 
 def periods_of_point(table: dict[str, Any]) -> Comparison:
-    """The point mass released at the amplitude; its swing is its x, zero at the lowest point."""
+    """The point mass released at the amplitude; x is zero at the lowest point."""
     m, found = point(), []
     for degrees, expected in table.items():
         x, y = np.sin(np.radians(float(degrees))), -np.cos(np.radians(float(degrees)))

@@ -1,4 +1,4 @@
-"""All that the page shows, as data: computed, written and read again."""
+"""All data of the page: computed, written and read."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ BENCHMARKS: tuple[Callable[[], Benchmark], ...] = (
 
 @dataclass(frozen=True)
 class Results:
-    """Everything.
+    """All results.
 
     Attributes:
-        benchmarks: numbers beside published ones.
+        benchmarks: comparisons with published results.
         convergence: observed orders.
-        conservation: what a million steps kept.
+        conservation: conservation over a million steps.
     """
 
     benchmarks: tuple[Benchmark, ...]
@@ -52,7 +52,7 @@ class Results:
 
     @property
     def holds(self) -> bool:
-        """Whether every number is within its tolerance, and every order is that of theory."""
+        """Whether every number and every order is within its tolerance."""
         numbers = [c.holds for b in self.benchmarks for c in b.comparisons]
         observed = [*self.convergence, *self.conservation]
         return all(numbers) and all(one.holds for one in observed)

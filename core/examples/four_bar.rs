@@ -4,9 +4,7 @@
 
 use kempe::forces::TorsionSpring;
 use kempe::joints::Revolute;
-use kempe::{
-    assemble, dynamics, Flow, Frame, Model, ModelBuilder, Options, Output, Problems, Start,
-};
+use kempe::{assemble, dynamics, Flow, Frame, Model, ModelBuilder, Options, Problems, Start};
 use std::error::Error;
 
 fn four_bar() -> Result<Model, Problems> {
@@ -40,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (state, report) = assemble(&model, &start.request(&model)?)?;
     println!("degrees of freedom: {}", report.degrees_of_freedom);
 
-    let options = Options { output: Output::Every(0.01), ..Options::new(15.0) };
+    let options = Options { output_step: Some(0.01), ..Options::new(15.0) };
     let run = dynamics(&model, &state, &options, |_| Flow::Continue)?;
     println!("{} steps in {:.1} ms", run.statistics.steps, 1e3 * run.statistics.seconds);
 

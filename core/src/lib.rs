@@ -7,7 +7,7 @@
 //! - [`Start`] and [`assemble()`] close the loops of a mechanism. [`mobility()`] counts its degrees of freedom and
 //!   names redundant joints.
 //! - [`dynamics()`] integrates the motion. [`Options`] choose the method ([`methods`]), the [`Stabilization`] of
-//!   the constraints and the [`Output`].
+//!   the constraints and the [output step](Options::output_step).
 //! - [`Run`] holds the reported states. From them follow coordinates ([`Run::coordinate`]), reactions
 //!   ([`Run::reactions`]), accelerations and multipliers ([`Run::responses`]) and energies ([`Run::energies`]).
 //! - [`Problems`] and [`failures`] explain in words what is wrong with a model, or why a mechanism cannot be

@@ -5,7 +5,7 @@ use kempe::drivers::CoordinateDriver;
 use kempe::forces::{SpringDamper, Torque, TorsionSpring};
 use kempe::joints::{Distance, Revolute, Translational};
 use kempe::model::body_tables;
-use kempe::{assemble, dynamics, Case, Flow, Frame, ModelBuilder, Options, Output, Start, Value};
+use kempe::{assemble, dynamics, Case, Flow, Frame, ModelBuilder, Options, Start, Value};
 
 const FOUR_BAR: &str = include_str!("../../examples/four_bar.toml");
 
@@ -46,14 +46,14 @@ fn the_same_definition_as_the_file() {
 fn reactions_and_coordinates_by_name() {
     let model = four_bar().build().unwrap();
     let (state, _) = assemble(&model, &start().request(&model).unwrap()).unwrap();
-    let options = Options { output: Output::Every(0.1), ..Options::new(0.5) };
+    let options = Options { output_step: Some(0.1), ..Options::new(0.5) };
     let run = dynamics(&model, &state, &options, |_| Flow::Continue).unwrap();
     let rocker = run.coordinate(&model, "rocker.angle").unwrap();
     assert_eq!(rocker.len(), 6);
     assert_eq!(rocker[0], state.q[8]);
     assert_eq!(run.coordinate(&model, "rocker.vy").unwrap()[5], run.trajectory.v[5 * 9 + 7]);
     // Φ = point_j - point_i: the force on body i is +λ, that on body j -λ
-    let lam = run.responses(&model).unwrap().lam;
+    let lam = run.accelerations(&model).unwrap().lam;
     let on_i = run.reactions(&model, "C", "coupler", Frame::Global).unwrap();
     let on_j = run.reactions(&model, "C", "rocker", Frame::Global).unwrap();
     for (k, (i, j)) in on_i.iter().zip(&on_j).enumerate() {

@@ -1,7 +1,7 @@
 """kempe: planar multibody mechanics.
 
-``import kempe as kp`` loads almost nothing: each name below is fetched when it is first used.
-A new public name is one line in ``_HOME`` and one in the block for type checkers under it.
+``import kempe as kp`` is fast, because each public name is imported on first use. A new public name
+needs one line in ``_HOME`` and one in the block for type checkers.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ if TYPE_CHECKING:
     from kempe.studies import study as study
     from kempe.symbolic import equations as equations
 
-#: Public name → the module of kempe that holds it; "" means that the name is a module itself.
+#: Public name → module of kempe that defines it; "" if the name itself is a module.
 _HOME = {
     "AssemblyError": "errors",
     "AssemblyReport": "state",
@@ -113,7 +113,7 @@ __all__ = ["__version__", *_HOME]  # noqa: PLE0604
 
 
 def __getattr__(name: str) -> Any:
-    """Fetch a public name from its module and keep it (PEP 562)."""
+    """Import a public name from its module on first use (PEP 562)."""
     if name not in _HOME:
         raise AttributeError(f"module 'kempe' has no attribute {name!r}")
     home = _HOME[name]

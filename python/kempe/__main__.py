@@ -1,4 +1,4 @@
-"""``python -m kempe`` is the command line."""
+"""``python -m kempe`` runs the command line."""
 
 import sys
 

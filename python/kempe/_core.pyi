@@ -1,7 +1,7 @@
-"""The compiled core, as Python sees it.
+"""Python interface of the compiled core.
 
-Bulk data are NumPy arrays (float64, C order), time first; structured data are JSON texts. Bodies
-are numbered with ground as 0; moving body k owns the columns 3 (k - 1) to 3 k of q.
+Bulk data are NumPy arrays (float64, C order) with time as first axis. Structured data are JSON
+texts. Ground has the number 0; moving body k has the columns 3 (k - 1) to 3 k of q.
 """
 
 from collections.abc import Callable
@@ -15,14 +15,14 @@ def version() -> str:
     """Version of the compiled core."""
 
 def catalogue() -> str:
-    """What may stand in a case, as JSON.
+    """All types of a case with their fields, as JSON.
 
     ``{"bodies": [table], "joints": …, "drivers": …, "forces": …, "methods": …,
     "stabilizations": …, "analyses": …}`` with ``table = {"name", "doc", "fields": [{"name",
     "shape", "unit", "default", "doc"}]}``; joints and drivers have
-    ``"formulas"`` as ``formulas`` gives them, in Unicode; shapes are body, point,
-    coordinate, number, law, pair and others. Then the language of formulas: ``"functions":
-    [{"name", "arguments", "doc"}]`` and ``"units": [{"name", "si", "dimension"}]``, with ``si`` the
+    ``"formulas"`` as ``formulas`` gives them, in Unicode. Shapes are body, point,
+    coordinate, number, law, pair and others. ``"functions": [{"name", "arguments", "doc"}]`` and
+    ``"units": [{"name", "si", "dimension"}]`` describe the language of formulas; ``si`` is the
     factor to the SI unit.
     """
 
@@ -30,26 +30,26 @@ def schema() -> str:
     """JSON Schema of a case."""
 
 def is_reserved(name: str) -> bool:
-    """Whether a name belongs to the language of expressions (``t pi deg ground``)."""
+    """Whether a name is reserved, such as ``t``, ``pi``, ``deg``, ``ground`` and functions."""
 
 class Case:
-    """Text of a case, checked for its structure."""
+    """A parsed case with a valid structure."""
 
     def __init__(self, text: str, format: str, origin: str | None) -> None:  # noqa: A002
-        """Read a text.
+        """Parse a text.
 
         Args:
             text: the case.
             format: "toml" or "json".
-            origin: name of the file for messages; None for a case built in Python, whose messages
-                give paths without line and column.
+            origin: name of the file for messages. None for a case built in Python; its messages
+                contain paths without line and column.
 
         Raises:
-            FileError: with all ``problems``.
+            FileError: the structure is invalid; ``problems`` lists all problems.
         """
 
     def tree(self) -> str:
-        """JSON of the case, structured as the file, order kept."""
+        """JSON of the case with the structure and the order of the file."""
 
     def write(self, format: str) -> str:  # noqa: A002
         """The case as "toml" or "json" text."""
@@ -58,24 +58,24 @@ class Case:
         """Compile the model with other parameters, ``{"k": 2e6, "c": "k/100"}``.
 
         Raises:
-            ModelError: with all ``problems``.
+            ModelError: the model is invalid; ``problems`` lists all problems.
         """
 
     def check(self, model: Model) -> None:
-        """Look at start and analyses.
+        """Check start and analyses.
 
         Raises:
-            ModelError: with all ``problems``.
+            ModelError: an entry is invalid; ``problems`` lists all problems.
         """
 
     def analyses(self) -> str:
         """``[{"name", "type", "from": null | "start" | name}, …]`` in order."""
 
 class Model:
-    """A compiled model: immutable."""
+    """A compiled, immutable model."""
 
     def describe(self) -> str:
-        """What the model holds, in numbers, as JSON.
+        """Contents of the model with numerical values, as JSON.
 
         ``{"title", "gravity": [x, y], "parameters": {…}, "n_q", "n_rows",
         "bodies": [{"name", "type", "mass", "inertia", "center": [x, y], "points": {"B": [x, y]}}],
@@ -97,7 +97,7 @@ class Model:
         """The same model with redundant constraints accepted."""
 
 class Run:
-    """What an integration gave."""
+    """Result of an integration."""
 
     t: _F
     """(n_t,), s."""
@@ -116,10 +116,10 @@ class Run:
     message: str
     statistics: str
     """JSON: ``{"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations",
-    "seconds"}``, with ``"method"`` and ``"why"`` where the method was chosen."""
+    "seconds"}``, with ``"method"`` and ``"why"`` for the automatic choice."""
 
     def responses(self, rows: int | None = None) -> tuple[_F, _F]:
-        """Accelerations (n_t, n_q) and multipliers (n_t, n_rows), at all or the first rows."""
+        """Accelerations (n_t, n_q) and multipliers (n_t, n_rows), at all or the first times."""
 
     def energies(self, rows: int | None = None) -> _F:
         """(n_t, 5), J: kinetic, potential, dissipated, work of drivers, work of applied forces."""
@@ -133,16 +133,16 @@ def assemble(
     v: _F | None,
     from_guess: bool = False,
 ) -> tuple[float, _F, _F, str]:
-    """Put a mechanism together.
+    """Assemble a mechanism.
 
     Args:
         model: the mechanism.
-        set: coordinates and rates that are to hold, JSON ``{"crank.angle": "70*deg"}``.
-        guess: the same for those that may move.
+        set: prescribed coordinates and rates, JSON ``{"crank.angle": "70*deg"}``.
+        guess: starting values of coordinates and rates, in the same form.
         t: time, s.
-        q: a whole configuration as guess, (n_q,).
-        v: the velocities that go with it, (n_q,).
-        from_guess: whether Newton starts from the guess as it stands, with open loops.
+        q: guess of all coordinates, (n_q,).
+        v: guess of all velocities, (n_q,).
+        from_guess: whether the Newton iteration starts from the guess with open loops.
 
     Returns:
         t, q, v and a report as JSON: ``{"iterations": [{"residual", "step", "damping"}],
@@ -171,12 +171,13 @@ def dynamics(
         q: (n_q,).
         v: (n_q,).
         options: JSON, an entry of ``analyses`` as in a file.
-        progress: called now and then with the time reached, s.
-        t_end: time at which it ends, s, instead of that in the options, so that the same text
-            serves for others; it is read once for each model.
+        progress: function that is called repeatedly with the time reached, s.
+        t_end: end time, s; replaces the one in the options. The options are parsed once for each
+            model and text.
 
     Raises:
-        IntegrationError: with ``run``, what was computed before. ``KeyboardInterrupt`` has it too.
+        IntegrationError: the integrator cannot continue; ``run`` holds the run up to that time,
+            as for ``KeyboardInterrupt``.
     """
 
 def evaluate(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
@@ -191,7 +192,7 @@ def reaction(model: Model, joint: str, on: str, frame: str, t: _F, q: _F, lam: _
 def force(
     model: Model, name: str, on: str, part: str | None, frame: str, t: _F, q: _F, v: _F
 ) -> _F:
-    """Force and torque about the body's origin of a force element on a body: (n_t, 3)."""
+    """Force and torque of a force element on a body about its origin: (n_t, 3)."""
 
 def matrices(model: Model, t: float, q: _F, v: _F, set: str) -> dict[str, _F]:  # noqa: A002
     """``M``, ``Phi``, ``Phi_q``, ``nu``, ``gamma``, ``Q`` and ``kkt`` at a state.

@@ -1,4 +1,4 @@
-"""What a user asks for: functions of a model, a state and options."""
+"""The analyses: assembly and dynamics as functions of a model, a state and options."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Coordinates: TypeAlias = "Mapping[str, float | str]"
 
 
 class AssemblyWarning(UserWarning):
-    """A mechanism went together, but not as one would expect."""
+    """The mechanism can be assembled, but the result may be unexpected."""
 
 
 def assemble(
@@ -37,26 +37,25 @@ def assemble(
     redundancy: str | None = None,
     from_guess: bool = False,
 ) -> State:
-    """Put a mechanism together.
+    """Assemble a mechanism.
 
     Args:
         model: the mechanism.
-        set: coordinates and rates that are to hold: ``{"crank.angle": "70*deg"}``, m, rad, per s.
-        guess: the same for those that may move; may be partial, absent, or a whole state.
+        set: prescribed coordinates and rates, m, rad, per s: ``{"crank.angle": "70*deg"}``.
+        guess: starting values of coordinates and rates, or a state; can be incomplete.
         t: time, s.
-        redundancy: "allow" accepts constraints that repeat others, here and in what starts from
-            the state; as the model says when None.
-        from_guess: whether Newton–Raphson starts from the guess as it stands, bodies hung by their
-            joints and loops open: the classical iteration, for ``state.report.iterations`` to be
-            looked at. By default bodies are placed so that loops close before it starts.
+        redundancy: "allow" accepts redundant constraints in the assembly and in simulations that
+            start from the state; None uses the setting of the model.
+        from_guess: start the Newton iteration from the guess with open loops, without closing
+            dyads first. This is the classical iteration; see ``state.report.iterations``.
 
     Returns:
         The state, with ``report``.
 
     Raises:
-        AssemblyError: the mechanism does not close; the message tells where it stays open.
-        RedundancyError: a joint repeats another.
-        ModelError: the model is wrong, or ``set`` or ``guess`` names what it does not have.
+        AssemblyError: the mechanism does not close; the message names the open joint.
+        RedundancyError: constraints are redundant.
+        ModelError: the model is invalid, or ``set`` or ``guess`` contains an unknown name.
     """
     compiled = _allowing(compiled_model(model), redundancy)
     held = encode(numbers(set or {}, "set"))
@@ -66,12 +65,12 @@ def assemble(
         q, v, hint = np.array(guess.q), np.array(guess.v), "{}"
     else:
         hint = encode(numbers(guess or {}, "guess"))
-    t_found, q_found, v_found, told = _core.assemble(
+    t_found, q_found, v_found, text = _core.assemble(
         compiled.core, held, hint, _time(t), q, v, from_guess
     )
-    report = AssemblyReport.from_json(told)
-    for text in report.warnings:
-        warnings.warn(text, AssemblyWarning, stacklevel=2)
+    report = AssemblyReport.from_json(text)
+    for warning in report.warnings:
+        warnings.warn(warning, AssemblyWarning, stacklevel=2)
     return State(compiled, t_found, q_found, v_found, report)
 
 
@@ -93,37 +92,38 @@ def dynamics(
 
     Args:
         model: the mechanism.
-        start: where it starts; ``assemble`` gives one.
-        t_end: time at which it ends, s.
-        output_step: time between outputs, s; every step when None.
+        start: the initial state, for example from ``assemble``.
+        t_end: end time, s.
+        output_step: time between outputs, s; None makes every step an output.
         method: the integrator.
-        stabilization: of the constraints; none at all when None.
-        max_steps: it gives up after that many steps; 1 000 000 over the number
-            of moving bodies when None, at least 50 000. So it does after half as many
-            rejected ones, if they are over 10 000.
-        dense_output: whether to keep the interpolant between the steps, for ``sol(t)``.
-        redundancy: "allow" accepts constraints that repeat others; as the start was assembled
-            when None.
-        singularity: at a singular position where the motion does not decide how it goes on: "stop"
-            with a SingularityError, or "pass" on.
-        progress: called now and then with the time reached, s; what it raises ends the simulation.
+        stabilization: stabilization of the constraints; None for no stabilization.
+        max_steps: largest number of steps. None means 1 000 000 divided by the number of moving
+            bodies, but at least 50 000. A run also ends after half as many rejected steps, if
+            there are more than 10 000.
+        dense_output: keep the interpolant for ``sol(t)``.
+        redundancy: "allow" accepts redundant constraints; None uses the setting of ``start``.
+        singularity: behaviour at a singular position where the velocity does not determine the
+            branch of the motion: "stop" with a SingularityError, or "pass".
+        progress: function that is called repeatedly with the time reached, s; an exception in it
+            ends the simulation.
 
     Raises:
-        IntegrationError: it cannot go on; ``solution`` holds what was computed before. So it is
-            with a SingularityError, and with an interruption (``KeyboardInterrupt``).
-        ModelError: an option is wrong.
+        IntegrationError: the integrator cannot continue. ``solution`` holds the solution up to that
+            time, as it does for a SingularityError and an interruption (``KeyboardInterrupt``).
+        SingularityError: the motion is not unique in a singular position.
+        ModelError: an option is invalid.
     """
     inherited = start.model.redundancy if isinstance(start, State) else None
     compiled = _allowing(compiled_model(model), redundancy or inherited)
-    asked = (t_end, output_step, method, stabilization, max_steps)
-    wanted = request(asked, dense_output, singularity)
+    fields = (t_end, output_step, method, stabilization, max_steps)
+    wanted = request(fields, dense_output, singularity)
     return _simulate(compiled.with_analyses({Dynamics.name: wanted.entry}), start, wanted, progress)
 
 
 def simulate(
     model: CompiledModel, start: State, entry: Mapping[str, Any], progress: Progress | None
 ) -> Solution:
-    """Simulate by an entry of a case, as ``dynamics`` does by arguments."""
+    """Simulate with the options of an entry of a case; see ``dynamics``."""
     wanted = Request(entry, encode(core_options(entry)))
     return _simulate(model, start, wanted, progress)
 
@@ -132,12 +132,12 @@ def _simulate(
     model: CompiledModel, start: State, wanted: Request, progress: Progress | None
 ) -> Solution:
     if not isinstance(start, State):
-        raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) gives one")
+        raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
     _refuse_foreign(model, start)
     t, text = float(start.t), wanted.text
     try:
         run = _core.dynamics(model.core, t, start.q, start.v, text, progress, wanted.t_end)
-    except BaseException as error:  # an interruption, and what progress raises, keep it too
+    except BaseException as error:  # including interruptions and exceptions of progress
         partial = getattr(error, "run", None)
         if partial is not None and len(partial.t):
             error.solution = Solution(model, partial)  # type: ignore[attr-defined]
@@ -146,12 +146,12 @@ def _simulate(
 
 
 def compiled_model(model: Model | CompiledModel) -> CompiledModel:
-    """The model in numbers."""
+    """The compiled model."""
     if isinstance(model, CompiledModel):
         return model
     if isinstance(model, Model):
         return model.compile()
-    raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) makes one")
+    raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) creates one")
 
 
 def _allowing(model: CompiledModel, redundancy: str | None) -> CompiledModel:
@@ -168,10 +168,10 @@ def _time(t: float) -> float:
 
 
 def _refuse_foreign(model: CompiledModel, state: State) -> None:
-    """A state of the same bodies serves, whatever the numbers in the model."""
+    """Refuse a state with other bodies. Other numbers in the model are allowed."""
     if list(state.model.bodies) != list(model.bodies):
         raise ModelError(
-            f"the state is of bodies {', '.join(state.model.bodies)}; "
-            f"the model has {', '.join(model.bodies)}",
+            f"the state has the bodies {', '.join(state.model.bodies)}; "
+            f"the model has the bodies {', '.join(model.bodies)}",
             hint="assemble this model",
         )

@@ -1,4 +1,4 @@
-"""A solution in a file: NumPy arrays and one JSON text, the case among it; no pickle."""
+"""Files of solutions: NumPy arrays and one JSON text that contains the case, without pickle."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from kempe.errors import FileError, KempeError
 from kempe.solution import REACHED, Solution
 
 KIND = "kempe solution"
-#: Version of this layout.
+#: Version of the file layout.
 LAYOUT = 1
 
-#: What numpy raises for what is no archive of arrays; the last two for a file of a single array.
+#: Errors of numpy for a file that is not an archive; the last two for a file with a single array.
 _UNREADABLE = (
     zipfile.BadZipFile,
     zlib.error,
@@ -36,7 +36,7 @@ _UNREADABLE = (
 
 @dataclass(frozen=True)
 class _Stored:
-    """What ``_core.Run`` holds, read from a file."""
+    """The attributes of ``_core.Run``, read from a file."""
 
     t: Floats
     q: Floats
@@ -59,7 +59,7 @@ class _Stored:
 
 
 def save(solution: Solution, path: Path | str) -> None:
-    """Write a solution, whole or not at all; see ``Solution.save``."""
+    """Write a solution completely or not at all; see ``Solution.save``."""
     arrays = {name: getattr(solution, name) for name in ("t", "q", "v", "a", "lam")}
     energy = solution.energy
     arrays["energy"] = np.column_stack(
@@ -97,11 +97,11 @@ def load_solution(path: Path | str) -> Solution:
     """Read a solution that ``Solution.save`` wrote.
 
     Raises:
-        FileError: it cannot be read, is torn, is something else, or is of a newer kempe.
+        FileError: the file cannot be read, is damaged, is not a solution, or needs a newer kempe.
     """
     about, arrays = _read(path)
     if about.get("kind") != KIND:
-        raise _foreign(path, "it holds something else")
+        raise _foreign(path, "it has other content")
     if about.get("layout") != LAYOUT:
         raise FileError(
             f"cannot read {path}: written by kempe {about.get('kempe')}", hint="update kempe"
@@ -109,7 +109,7 @@ def load_solution(path: Path | str) -> Solution:
     try:
         model = CompiledModel.from_case(json.dumps(about["case"]))
         solution = Solution(model, _stored(about, arrays, model))  # type: ignore[arg-type]
-        for part in ("energy", "statistics", "dense"):  # what is wrong with them shows here
+        for part in ("energy", "statistics", "dense"):  # raises the errors of these parts
             getattr(solution, part)
         return solution
     except (KeyError, ValueError, IndexError, TypeError) as error:
@@ -126,9 +126,9 @@ def _read(path: Path | str) -> tuple[dict[str, Any], dict[str, Floats]]:
     except OSError as error:
         raise files.trouble(path, "read", error) from error
     except _UNREADABLE as error:
-        raise _foreign(path, "torn, or no solution of kempe") from error
+        raise _foreign(path, "the file is damaged or is not a solution of kempe") from error
     if not isinstance(about, dict):
-        raise _foreign(path, "it holds something else")
+        raise _foreign(path, "it has other content")
     return about, arrays
 
 

@@ -1,4 +1,4 @@
-"""Arrays that cannot be written to: a result is what was computed."""
+"""Read-only arrays for results."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _FLOAT = np.dtype(np.float64)
 
 
 def fixed(values: Any) -> Floats:
-    """The values as a read-only float64 array in C order; shares memory where it can."""
+    """The values as a read-only float64 array in C order, without a copy if possible."""
     if type(values) is np.ndarray and values.dtype is _FLOAT:
         flags = values.flags
         if flags.c_contiguous and not flags.writeable:

@@ -1,4 +1,4 @@
-"""Bodies as they are written: the slender bar and the general body."""
+"""Entries for bodies: the slender bar and the general body."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from kempe.values import Number, Pair, Points
 
 @dataclass(frozen=True)
 class Bar(Element):
-    """Uniform slender bar: its frame at its centre, x along it, inertia mass·length²/12.
+    """Uniform slender bar: frame at its centre, x along it, inertia mass·length²/12.
 
     Attributes:
         mass: kg.
-        length: m; may be left out where ``through`` gives both ends.
+        length: m; optional if ``through`` gives both ends.
         ends: names of the points at (-length/2, 0) and (length/2, 0).
-        through: two named points where they stand, global, m; places the bar for the assembly.
+        through: global coordinates of two named points, m; initial placement of the bar.
         points: further named points in the frame of the bar, m.
     """
 
@@ -47,7 +47,7 @@ class Body(Element):
         inertia: about the mass centre, kg·m².
         center: mass centre in the body's frame, m.
         points: named points in the body's frame, m.
-        through: two named points where they stand, global, m; places the body for the assembly.
+        through: global coordinates of two named points, m; initial placement of the body.
     """
 
     mass: Number

@@ -1,4 +1,4 @@
-"""A model in numbers: what the core made of it, immutable, with what it holds by name."""
+"""The compiled model: immutable, with numerical values and access by name."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ Vector = tuple[float, float]
 
 @dataclass(frozen=True)
 class BodyInfo:
-    """A body in numbers.
+    """A body with numerical values.
 
     Attributes:
-        name: its name.
-        type: how it was written.
+        name: name of the body.
+        type: such as "bar"; empty for ground.
         number: 0 for ground; moving bodies count from 1.
         mass: kg.
         inertia: about the mass centre, kg·m².
@@ -43,22 +43,22 @@ class BodyInfo:
 
     @property
     def columns(self) -> slice:
-        """Where its coordinates are in q; empty for ground."""
+        """Slice of its coordinates in q; empty for ground."""
         return slice(max(0, 3 * self.number - 3), 3 * self.number)
 
 
 @dataclass(frozen=True)
 class ConstraintInfo:
-    """A joint or a driver in numbers.
+    """A joint or a driver with numerical values.
 
     Attributes:
-        name: its name.
+        name: name of the joint or driver.
         group: "joints" or "drivers".
         type: such as "revolute".
-        i, j: the bodies that it joins.
-        point_i, point_j: the joint's point in the frame of each body, m.
+        i, j: the connected bodies.
+        point_i, point_j: the joint point in the frame of each body, m.
         axis_i, axis_j: angle of the joint's x axis in the frame of each body, rad.
-        rows: where its equations are in Φ and λ.
+        rows: slice of its equations in Φ and λ.
         equations: names and units of the equations.
     """
 
@@ -77,15 +77,15 @@ class ConstraintInfo:
 
 @dataclass(frozen=True)
 class ForceInfo:
-    """A force element.
+    """A force element with numerical values.
 
     Attributes:
-        name: its name.
+        name: name of the element.
         type: such as "torsion_spring".
-        i, j: the bodies it acts on.
+        i, j: the bodies on which it acts.
         parts: names of its parts, such as "stiffness" and "damping".
-        points: where it acts along the line between two points, these in the frames of bodies i
-            and j, m; None for others.
+        points: the two points of a force along a line, in the frames of bodies i and j, m; None for
+            other forces.
     """
 
     name: str
@@ -97,10 +97,10 @@ class ForceInfo:
 
 
 class CompiledModel:
-    """A model in numbers; made by ``Model.compile()``.
+    """A model with numerical values, created by ``Model.compile()``.
 
     Attributes:
-        core: the model in the core.
+        core: the compiled model of the core.
     """
 
     def __init__(self, core: _core.Model, case: str) -> None:
@@ -116,15 +116,15 @@ class CompiledModel:
 
     @property
     def case(self) -> str:
-        """JSON of the case that it can be compiled from again."""
+        """JSON of a case from which the model can be compiled again."""
         if self._analyses is None:
             return self._case
         return json.dumps({**json.loads(self._case), "analyses": self._analyses})
 
     def with_analyses(self, analyses: Mapping[str, Any]) -> CompiledModel:
-        """The same model in a case with these analyses, by name, instead of its own."""
+        """The same model with other analyses in its case."""
         other = CompiledModel.__new__(CompiledModel)
-        other.__dict__.update(self.__dict__)  # as copy.copy does, in a fifth of the time
+        other.__dict__.update(self.__dict__)  # five times faster than copy.copy
         other._analyses = analyses
         return other
 
@@ -140,7 +140,7 @@ class CompiledModel:
 
     @property
     def title(self) -> str:
-        """What it is."""
+        """Title of the model."""
         return self._about["title"] or ""
 
     @property
@@ -207,7 +207,7 @@ class CompiledModel:
         return tuple(json.loads(self.core.symbols()))
 
     def body(self, name: str) -> BodyInfo:
-        """A body by name, ground among them.
+        """A body by name, including ground.
 
         Raises:
             ModelError: there is no such body.
@@ -229,7 +229,7 @@ class CompiledModel:
         return [unit for c in self.constraints.values() for _, unit in c.equations]
 
     def names(self) -> Iterator[str]:
-        """Everything that a result can be asked for by name."""
+        """Names of all bodies, joints, drivers and forces."""
         yield from self.all_bodies
         yield from self.constraints
         yield from self.forces

@@ -1,4 +1,4 @@
-"""The motion between the steps: the integrator's own interpolant."""
+"""The interpolant of the integrator."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ class DenseOutput:
 
     @classmethod
     def of_an_instant(cls, t: float, y: Floats) -> DenseOutput:
-        """The one of a simulation without a step."""
+        """The interpolant of a simulation without steps."""
         return cls(np.array([t, t]), y[None], np.zeros((1, len(y), 1)))
 
     def __call__(self, t: Floats) -> Floats:
         """State y at times of any shape, (…, n_y).
 
         Raises:
-            ModelError: a time lies outside of the simulated interval, or is NaN.
+            ModelError: a time is outside the simulated interval, or is NaN.
         """
         self._refuse_outside(t)
         onward = 1.0 if self.t[-1] >= self.t[0] else -1.0  # time may run backwards
@@ -53,6 +53,6 @@ class DenseOutput:
         if not np.all(inside):
             wrong = float(np.extract(~inside, t)[0])
             raise ModelError(
-                f"t = {wrong:g} s is outside of the solution, {self.t[0]:g} to {self.t[-1]:g} s",
+                f"t = {wrong:g} s is outside the solution, {self.t[0]:g} to {self.t[-1]:g} s",
                 t=wrong,
             )

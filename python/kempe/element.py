@@ -1,4 +1,4 @@
-"""What all entries of a model have in common: a name, a section of the file, checked fields."""
+"""Base class of all entries of a model: a name, a section of the file, checked fields."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from kempe.values import CHECKS, reference
 
 @dataclass(frozen=True)
 class Element:
-    """An entry of a model as it is written; its fields are checked when it is made.
+    """An entry of a model. The constructor checks the fields.
 
     Attributes:
-        name: its name in the model.
+        name: name in the model.
         section: the section of the file, such as ``joints``.
         kind: the ``type`` in the file, such as ``revolute``.
-        shapes: what may stand in each field.
+        shapes: kind of value of each field.
 
     Raises:
-        ModelError: a field holds what it cannot hold; the message names it.
+        ModelError: the value of a field is invalid; the message names the field.
     """
 
     name: str
@@ -29,7 +29,7 @@ class Element:
     shapes: ClassVar[Mapping[str, str]]
 
     def __post_init__(self) -> None:
-        """Reduce every given field to what a file can hold."""
+        """Check every given field and convert it to JSON data."""
         reference(self.name, f"name of a {self.kind}")
         for field, shape in self.shapes.items():
             value = getattr(self, field)
@@ -38,7 +38,7 @@ class Element:
                 object.__setattr__(self, field, checked)
 
     def tree(self) -> dict[str, Any]:
-        """The entry as in a file: the type and the fields that differ from their defaults."""
+        """The entry for a case file: the type and the fields that differ from their defaults."""
         entry: dict[str, Any] = {"type": self.kind}
         for field in fields(self):
             value = getattr(self, field.name)

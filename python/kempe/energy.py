@@ -1,4 +1,4 @@
-"""Where the energy of a simulation went, and how well it is kept."""
+"""Energies of a simulation and the energy balance."""
 
 from __future__ import annotations
 
@@ -15,32 +15,32 @@ class Energy:
 
     @cached_property
     def kinetic(self) -> Floats:
-        """T."""
+        """Kinetic energy T."""
         return fixed(self._columns[:, 0])
 
     @cached_property
     def potential(self) -> Floats:
-        """V of gravity and of conservative forces."""
+        """Potential energy V of gravity and of conservative forces."""
         return fixed(self._columns[:, 1])
 
     @cached_property
     def dissipated(self) -> Floats:
-        """Lost in dampers, from the start."""
+        """Energy dissipated since the start."""
         return fixed(self._columns[:, 2])
 
     @cached_property
     def work_of_drivers(self) -> Floats:
-        """Done by drivers, from the start."""
+        """Work of the drivers since the start."""
         return fixed(self._columns[:, 3])
 
     @cached_property
     def work_of_forces(self) -> Floats:
-        """Done by applied forces, from the start."""
+        """Work of the applied forces since the start."""
         return fixed(self._columns[:, 4])
 
     @property
     def work(self) -> Floats:
-        """Done from outside, by drivers and applied forces."""
+        """Work of drivers and applied forces since the start."""
         return fixed(self.work_of_drivers + self.work_of_forces)
 
     @property
@@ -50,6 +50,6 @@ class Energy:
 
     @property
     def balance(self) -> Floats:
-        """Change of the total, relative to the largest kinetic energy (to 1 J at rest)."""
+        """Change of the total relative to the largest kinetic energy (relative to 1 J at rest)."""
         largest = float(self.kinetic.max(initial=0.0)) or 1.0
         return fixed((self.total - self.total[0]) / largest)

@@ -1,4 +1,4 @@
-"""The model as it is written in Python: bodies, joints, drivers and forces, by name."""
+"""Models built in Python from named bodies, joints, drivers and forces."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from kempe.element import Element
 from kempe.elements import E, ElementMethods
 from kempe.values import Number, Pair, Points, numbers, pair, points, refuse
 
-#: Version of the format of a case.
+#: Version of the case format.
 FORMAT = 1
 SECTIONS = ("bodies", "joints", "drivers", "forces")
 
 
 class Ground:
-    """The body that does not move; its frame is the global one."""
+    """The fixed body; its frame is the global frame."""
 
     def __init__(self, model: Model) -> None:
         self._model = model
 
     def points(self, **points: Pair) -> None:
-        """Name points of ground: ``m.ground.points(A=(0, 0), D=("G", 0))``, m.
+        """Add named points to ground, m: ``m.ground.points(A=(0, 0), D=("G", 0))``.
 
         Raises:
-            ModelError: a point has that name already, or is not two numbers or formulas.
+            ModelError: the name is taken, or the point does not consist of two numbers or formulas.
         """
         self._model._ground_points(points)
 
@@ -38,7 +38,7 @@ class Ground:
 
 
 class Model(ElementMethods):
-    """A planar mechanism, built step by step.
+    """A planar mechanism that is built step by step.
 
     ::
 
@@ -47,19 +47,19 @@ class Model(ElementMethods):
         m.bar("rod", mass=2, length="L", ends=("A", "B"))
         m.revolute("A", "ground.A", "rod.A")
 
-    Numbers are in SI units, angles in rad, and may be formulas in the parameters as text. The order
-    of the calls is the order in q and Φ. Joints, drivers and forces are added by the method named
-    as their type, which ``kempe.elements`` lists.
+    Numbers are in SI units and angles in rad. A text is a formula in the parameters. The order of
+    the calls determines the order in q and Φ. Every type of joint, driver and force has a method
+    of the same name; see ``kempe.elements``.
 
     Args:
-        title: what it is.
-        gravity: acceleration of free fall, m/s²; none by default.
+        title: title of the model.
+        gravity: acceleration of free fall, m/s²; zero by default.
         parameters: named numbers, or formulas in other parameters.
-        redundancy: "allow" accepts constraints that repeat others; their multipliers are then the
-            smallest that carry the loads. Refused by default.
+        redundancy: "allow" accepts redundant constraints and computes the smallest multipliers that
+            carry the loads. By default, redundant constraints are an error.
 
     Raises:
-        ModelError: a value cannot stand where it stands; the message names the field.
+        ModelError: a value is invalid; the message names the field.
     """
 
     def __init__(
@@ -89,7 +89,7 @@ class Model(ElementMethods):
 
     @property
     def ground(self) -> Ground:
-        """The body that does not move."""
+        """The fixed body."""
         return Ground(self)
 
     def bar(
@@ -105,11 +105,11 @@ class Model(ElementMethods):
         """Add a uniform slender bar: frame at its centre, x along it, inertia mass·length²/12.
 
         Args:
-            name: its name.
+            name: name of the bar.
             mass: kg.
-            length: m; may be left out where ``through`` gives both ends.
+            length: m; optional if ``through`` gives both ends.
             ends: names of the points at (-length/2, 0) and (length/2, 0).
-            through: two named points where they stand, global, m: ``{"B": (3.4, 9.4), …}``.
+            through: global coordinates of two named points, m: ``{"B": (3.4, 9.4), …}``.
             points: further named points in the frame of the bar, m.
         """
         return self._add(Bar(name, mass, length, ends, through, points))
@@ -124,15 +124,15 @@ class Model(ElementMethods):
         points: Points | None = None,
         through: Points | None = None,
     ) -> Body:
-        """Add a rigid body.
+        """Add a general rigid body.
 
         Args:
-            name: its name.
+            name: name of the body.
             mass: kg.
             inertia: about the mass centre, kg·m².
             center: mass centre in the body's frame, m.
             points: named points in the body's frame, m.
-            through: two named points where they stand, global, m.
+            through: global coordinates of two named points, m.
         """
         return self._add(Body(name, mass, inertia, center, points, through))
 
@@ -155,7 +155,10 @@ class Model(ElementMethods):
         known = bodies.get("ground", {}).get("points", {})
         for name in given:
             if name in known:
-                refuse(f"bodies.ground.points.{name}", "the point is there already")
+                refuse(
+                    f"bodies.ground.points.{name}",
+                    "the name is taken by another point; choose another",
+                )
         checked = points(given, "bodies.ground.points")
         self._tree["bodies"] = {"ground": {"points": {**known, **checked}}} | {
             name: body for name, body in bodies.items() if name != "ground"
@@ -174,7 +177,7 @@ class Model(ElementMethods):
 
         Args:
             tree: the case as nested mappings, structured as the file.
-            source: the case in the core that the tree was taken from, whose errors tell lines.
+            source: the case in the core with the same tree; its errors contain line numbers.
         """
         model = cls()
         kept = {key: tree[key] for key in model._tree if key in tree}
@@ -183,11 +186,11 @@ class Model(ElementMethods):
         return model
 
     def with_parameters(self, parameters: Mapping[str, Number]) -> Model:
-        """The same model with other values of some parameters; this one is left as it is.
+        """A copy of the model with other values of some parameters.
 
         Raises:
-            ModelError: a value is not a number or a formula. That a name is not a parameter of the
-                model is told when the model is compiled.
+            ModelError: a value is not a number or a formula. An unknown parameter raises the error
+                when the model is compiled.
         """
         changed = numbers(parameters, "parameters")
         model = Model.from_tree(self._tree)
@@ -197,15 +200,15 @@ class Model(ElementMethods):
         return model
 
     def tree(self) -> dict[str, Any]:
-        """The model as nested mappings, structured as a file; a copy."""
+        """A copy of the model as nested mappings with the structure of a case file."""
         kept = {key: value for key, value in self._tree.items() if value not in ({}, "")}
         return copy.deepcopy(kept)
 
     def compile(self) -> CompiledModel:
-        """The model in numbers; kept until the model is changed.
+        """The compiled model; it is kept until the model changes.
 
         Raises:
-            ModelError: with all that is wrong, in ``problems``.
+            ModelError: the model is invalid; ``problems`` lists all problems.
         """
         if self._compiled is None:
             source, overrides = self._source or (_core.Case(self._json(), "json", None), {})
@@ -218,7 +221,7 @@ class Model(ElementMethods):
 
     @property
     def title(self) -> str:
-        """What it is."""
+        """Title of the model."""
         return str(self._tree["title"])
 
     @property
@@ -243,26 +246,26 @@ class Model(ElementMethods):
 
     @property
     def bodies(self) -> Mapping[str, BodyInfo]:
-        """The moving bodies in numbers, in the order of q."""
+        """The moving bodies with numerical values, in the order of q."""
         return self.compile().bodies
 
     @property
     def joints(self) -> Mapping[str, ConstraintInfo]:
-        """The joints in numbers, in the order of Φ."""
+        """The joints with numerical values, in the order of Φ."""
         return self.compile().joints
 
     @property
     def drivers(self) -> Mapping[str, ConstraintInfo]:
-        """The drivers in numbers, in the order of Φ."""
+        """The drivers with numerical values, in the order of Φ."""
         return self.compile().drivers
 
     @property
     def forces(self) -> Mapping[str, ForceInfo]:
-        """The force elements in numbers."""
+        """The force elements with numerical values."""
         return self.compile().forces
 
     def __repr__(self) -> str:
         moving = {section: dict(self._tree[section]) for section in SECTIONS}
         moving["bodies"].pop("ground", None)
-        told = [f"{section} {', '.join(names)}" for section, names in moving.items() if names]
-        return f"<Model {self.title!r}: {'; '.join(told) or 'empty'}>"
+        parts = [f"{section} {', '.join(names)}" for section, names in moving.items() if names]
+        return f"<Model {self.title!r}: {'; '.join(parts) or 'empty'}>"

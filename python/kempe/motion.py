@@ -1,4 +1,4 @@
-"""Positions and velocities of a model at one instant or at many, and what follows from them."""
+"""Motion at one time or many: positions, velocities and the quantities derived from them."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from kempe.views import BodyView, ConstraintView, ForceView
 
 
 class Motion:
-    """Positions and velocities at instants; accelerations and multipliers follow when asked for.
+    """Positions and velocities; accelerations and multipliers are computed on first access.
 
     ``motion["rocker"]`` is a body, ``motion["C"]`` a joint or driver, ``motion["spring"]`` a force.
-    All arrays are read-only and time-first; at a single instant the time axis is absent.
+    All arrays are read-only and have time as first axis. At a single time there is no time axis.
 
     Attributes:
-        model: the model in numbers.
+        model: the compiled model.
         t: (n_t,) or (), s.
         q: (n_t, n_q) or (n_q,): x, y, angle of each moving body in order, m and rad.
         v: their rates, m/s and rad/s.
@@ -35,11 +35,11 @@ class Motion:
 
     @property
     def a(self) -> Floats:
-        """Accelerations, shaped as ``q``, m/s² and rad/s²: with γ, free of stabilization.
+        """Accelerations, same shape as ``q``, m/s² and rad/s²; with γ, without stabilization.
 
         Raises:
-            SingularityError: they are not unique at one of the instants.
-            IntegrationError: one of them is not finite.
+            SingularityError: the accelerations are not unique at one of the times.
+            IntegrationError: an acceleration is not finite.
         """
         return self._dynamics[0]
 
@@ -48,8 +48,8 @@ class Motion:
         """Multipliers λ, (n_t, n_rows) or (n_rows,): M a + Φ_qᵀ λ = Q (Haug 6.3.18).
 
         Raises:
-            SingularityError: they are not unique at one of the instants.
-            IntegrationError: one of them is not finite.
+            SingularityError: the multipliers are not unique at one of the times.
+            IntegrationError: a multiplier is not finite.
         """
         return self._dynamics[1]
 
@@ -76,47 +76,47 @@ class Motion:
         return self._as_given(_core.force(self.model.core, name, on, part, frame, *rows))
 
     def _rows(self) -> tuple[Floats, Floats, Floats]:
-        """t, q, v with a time axis, as the core wants them."""
+        """t, q, v with a time axis, as required by the core."""
         return np.atleast_1d(self.t), np.atleast_2d(self.q), np.atleast_2d(self.v)
 
     def _as_given(self, values: Floats) -> Floats:
         return fixed(values[0] if self.t.ndim == 0 else values)
 
     def body(self, name: str) -> BodyView:
-        """A body, ground among them.
+        """A body by name, including ground.
 
         Raises:
-            ModelError: there is no body of that name; it is a ``KeyError`` too.
+            ModelError: there is no such body; the error is also a ``KeyError``.
         """
         return BodyView(self, self.model.body(name))
 
     def constraint(self, name: str) -> ConstraintView:
-        """A joint or driver.
+        """A joint or driver by name.
 
         Raises:
-            ModelError: there is none of that name; it is a ``KeyError`` too.
+            ModelError: there is no such joint or driver; the error is also a ``KeyError``.
         """
         if name not in self.model.constraints:
             raise unknown("joint or driver", name, self.model.constraints)
         return ConstraintView(self, self.model.constraints[name])
 
     def force(self, name: str) -> ForceView:
-        """A force element.
+        """A force element by name.
 
         Raises:
-            ModelError: there is none of that name; it is a ``KeyError`` too.
+            ModelError: there is no such force element; the error is also a ``KeyError``.
         """
         if name not in self.model.forces:
             raise unknown("force", name, self.model.forces)
         return ForceView(self, self.model.forces[name])
 
-    # The name alone tells its kind, which a type checker cannot see: hence Any, and the three
-    # methods above for code that is checked.
+    # The type of the result depends on the name, which a type checker cannot follow. Checked code
+    # uses the three methods above.
     def __getitem__(self, name: str) -> Any:
         """A body, joint, driver or force by name.
 
         Raises:
-            ModelError: there is none of that name; it is a ``KeyError`` too.
+            ModelError: the name is unknown; the error is also a ``KeyError``.
         """
         if name in self.model.all_bodies:
             return self.body(name)

@@ -1,4 +1,4 @@
-"""Names that somebody may have mistyped, and the suggestion that goes with the refusal."""
+"""Errors for unknown names, with a suggestion."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from kempe.errors import ModelError
 
 
 class UnknownNameError(ModelError, KeyError):
-    """A name that the model does not have; also a ``KeyError``, as for any mapping."""
+    """The model has no such name. This is also a ``KeyError``, as for any mapping."""
 
 
 def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
-    """The error for a name that is not among the known ones.
+    """The error for an unknown name.
 
     Args:
-        what: what was looked for, such as "body or joint".
-        name: what was written.
-        known: the names there are, in the order in which they are to be listed.
+        what: kind of object, such as "body or joint".
+        name: the unknown name.
+        known: the existing names, in the order of the message.
     """
     names = list(known)
     near = get_close_matches(str(name), names, n=1)
@@ -33,10 +33,10 @@ def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
 
 
 def one_of(what: str, value: str, known: Iterable[str]) -> str:
-    """The value itself if it is among the known ones.
+    """The value, if it is one of the known names.
 
     Raises:
-        ModelError: it is not.
+        ModelError: the value is unknown.
     """
     names = list(known)
     if value not in names:

@@ -27,13 +27,13 @@ if TYPE_CHECKING:
 
     from kempe import _core
 
-#: As scipy's ``solve_ivp`` counts.
+#: Values of ``status``, as in scipy's ``solve_ivp``.
 REACHED, STOPPED = 0, -1
 
 
 @dataclass(frozen=True)
 class Drift:
-    """How far the constraints are from being met.
+    """Constraint violation over time.
 
     Attributes:
         position: largest |Φ| at each time, (n_t,), m or rad.
@@ -47,16 +47,17 @@ class Drift:
 class Solution(Motion):
     """The solution of a simulation: arrays with time first, read-only, SI units.
 
-    ``sol["rocker"].angle``, ``sol["C"].force(on="coupler")``, ``sol["spring"].torque(on="rocker")``
-    and ``sol(0.123)`` between the outputs. The names ``t``, ``nfev``, ``njev``, ``nlu``,
-    ``status``, ``message`` and ``success`` mean what they mean in scipy.
+    Examples: ``sol["rocker"].angle``, ``sol["C"].force(on="coupler")``,
+    ``sol["spring"].torque(on="rocker")``, and ``sol(0.123)`` between the outputs. The names ``t``,
+    ``nfev``, ``njev``, ``nlu``, ``status``, ``message`` and ``success`` have the meaning they have
+    in scipy.
 
     Attributes:
-        model: the model in numbers.
+        model: the compiled model.
         t: (n_t,), s.
         q, v: (n_t, n_q), m, rad and per s.
-        status: 0 when the end was reached, -1 when it was not.
-        message: why it ended.
+        status: 0 if the end was reached, -1 otherwise.
+        message: reason for the end of the run.
     """
 
     def __init__(self, model: CompiledModel, run: _core.Run) -> None:
@@ -67,7 +68,7 @@ class Solution(Motion):
 
     @cached_property
     def energy(self) -> Energy:
-        """Where the energy went.
+        """Energies over time.
 
         Raises:
             IntegrationError: an energy is not finite.
@@ -77,20 +78,20 @@ class Solution(Motion):
 
     @cached_property
     def statistics(self) -> Mapping[str, Any]:
-        """What it took.
+        """Cost of the run.
 
-        ``steps``, ``rejected``, ``evaluations``, ``jacobians``, ``iterations`` (of Newton),
-        ``factorisations``, ``seconds``; with ``kp.Auto``, ``method`` and ``why``.
+        ``steps``, ``rejected``, ``evaluations``, ``jacobians``, ``iterations`` (Newton),
+        ``factorisations``, ``seconds``; with ``kp.Auto`` also ``method`` and ``why``.
         """
         return MappingProxyType(json.loads(self._run.statistics))
 
     @cached_property
     def dense(self) -> DenseOutput | None:
-        """The interpolant between the steps; None if it was not kept."""
+        """The interpolant; None if it was not kept."""
         run = self._run
         if run.dense_t is None or run.dense_y is None or run.dense_c is None:
             return None
-        if not len(self.t):  # it failed before the first output
+        if not len(self.t):  # the run failed before the first output
             return None
         if not len(run.dense_y):
             return DenseOutput.of_an_instant(self.t[0], np.concatenate([self.q[0], self.v[0]]))
@@ -104,7 +105,7 @@ class Solution(Motion):
 
     @contextmanager
     def _keeping_what_is_before(self) -> Iterator[None]:
-        """An error of one of the states keeps the solution before it, as an error of a run does."""
+        """Attach the solution before the failing state to an error, as for an error of a run."""
         try:
             yield
         except (IntegrationError, SingularityError) as error:
@@ -116,7 +117,7 @@ class Solution(Motion):
 
     @property
     def success(self) -> bool:
-        """Whether the end was reached."""
+        """True if the end was reached."""
         return self.status >= REACHED
 
     @property
@@ -136,7 +137,7 @@ class Solution(Motion):
 
     @cached_property
     def drift(self) -> Drift:
-        """How far the constraints are from being met."""
+        """Constraint violation over time."""
         position, velocity = (np.abs(r).max(axis=1, initial=0.0) for r in self.residuals)
         return Drift(fixed(position), fixed(velocity))
 
@@ -151,16 +152,16 @@ class Solution(Motion):
         return State(self.model, float(self.t[-1]), self.q[-1], self.v[-1])
 
     def __call__(self, t: float | Floats) -> Motion:
-        """The motion at any time within the solution, by the integrator's own interpolant.
+        """The motion at any time within the solution, from the interpolant of the integrator.
 
         Args:
-            t: one time, which gives a ``State``, or an array (n,), which gives a ``Motion``, s.
+            t: s; one time gives a ``State``, an array (n,) gives a ``Motion``.
 
         Raises:
-            ModelError: outside of the solution, or the interpolant was not kept.
+            ModelError: the time is outside the solution, or the interpolant was not kept.
         """
         if self.dense is None:
-            raise ModelError("the solution keeps no dense output", hint="use dense_output=True")
+            raise ModelError("the solution has no interpolant", hint="use dense_output=True")
         at = np.asarray(t, dtype=np.float64)
         if at.ndim > 1:
             raise ModelError(f"t has {at.ndim} dimensions; must be one time or an array of times")
@@ -171,7 +172,7 @@ class Solution(Motion):
         return Motion(self.model, at, q, v)
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """A pandas table with a column for each quantity, such as ``rocker.angle``.
+        """A pandas data frame with a column for each quantity, such as ``rocker.angle``.
 
         Units are in ``attrs["units"]``.
 
@@ -183,20 +184,20 @@ class Solution(Motion):
         return dataframe(self)
 
     def to_csv(self, path: Path | str) -> None:
-        """Write all quantities as text, one line for each time, with units in the header.
+        """Write all quantities as CSV, one line per time, with units in the header.
 
         Raises:
-            FileError: the file cannot be written; an old one is then left as it was.
+            FileError: the file cannot be written; an existing file is not changed.
         """
         from kempe.table import write_csv
 
         write_csv(self, path)
 
     def save(self, path: Path | str) -> None:
-        """Write the solution to a file of NumPy arrays (``.npz``), the case inside.
+        """Write the solution and its case to a file of NumPy arrays (``.npz``).
 
         Raises:
-            FileError: the file cannot be written; an old one is then left as it was.
+            FileError: the file cannot be written; an existing file is not changed.
         """
         from kempe.archive import save
 

@@ -1,4 +1,4 @@
-"""One instant of a mechanism, and how it was put together."""
+"""The state of a mechanism at one time, and the report of its assembly."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ class Iteration:
     """One iteration of an assembly.
 
     Attributes:
-        residual: norm of Φ after it, lengths relative to the size of the mechanism; the first is
-            that of the start.
-        step: norm of the full step, lengths relative to the same; 0 for the start.
-        damping: part of the step that was taken, 1 for Newton's own.
+        residual: norm of Φ after the iteration, with lengths relative to the size of the mechanism;
+            the first entry is the residual of the start.
+        step: norm of the full Newton step, with lengths relative to the same size; 0 for the start.
+        damping: applied fraction of the full Newton step.
     """
 
     residual: float
@@ -34,15 +34,15 @@ class Iteration:
 
 @dataclass(frozen=True)
 class Mode:
-    """On which side a dyad was closed.
+    """The side on which a dyad was closed.
 
     Attributes:
         bodies: the bodies of the dyad.
         joint: the joint between them.
-        anchors: its outer joints.
-        side: where the joint lies, seen along the line from the first anchor to the second:
-            "left" or "right"; where the second anchor is a slide, whether the joint lies "ahead"
-            of the first along the slide or "behind".
+        anchors: the outer joints of the dyad.
+        side: side of the line from the first to the second anchor on which the joint lies, "left"
+            or "right". If the second anchor is a slide: "ahead" of the first anchor along the
+            slide, or "behind" it.
     """
 
     bodies: tuple[str, ...]
@@ -53,14 +53,14 @@ class Mode:
 
 @dataclass(frozen=True)
 class AssemblyReport:
-    """How a mechanism was put together.
+    """Report of an assembly.
 
     Attributes:
-        iterations: of Newton's method.
-        degrees_of_freedom: that the constraints leave.
-        modes: the side taken for every dyad.
-        alternatives: how many other assemblies there are.
-        warnings: what to look at.
+        iterations: the Newton iterations.
+        degrees_of_freedom: number of degrees of freedom.
+        modes: the side of every dyad.
+        alternatives: number of other assembly modes.
+        warnings: texts of the warnings.
     """
 
     iterations: tuple[Iteration, ...]
@@ -71,19 +71,19 @@ class AssemblyReport:
 
     @classmethod
     def from_json(cls, text: str) -> AssemblyReport:
-        """The report as the core gives it."""
-        told: dict[str, Any] = json.loads(text)
+        """The report from the JSON text of the core."""
+        report: dict[str, Any] = json.loads(text)
         return cls(
             iterations=tuple(
-                Iteration(i["residual"], i["step"], i["damping"]) for i in told["iterations"]
+                Iteration(i["residual"], i["step"], i["damping"]) for i in report["iterations"]
             ),
-            degrees_of_freedom=told["degrees_of_freedom"],
+            degrees_of_freedom=report["degrees_of_freedom"],
             modes=tuple(
                 Mode(tuple(m["bodies"]), m["joint"], tuple(m["anchors"]), m["side"])
-                for m in told["modes"]
+                for m in report["modes"]
             ),
-            alternatives=told["alternatives"],
-            warnings=tuple(told["warnings"]),
+            alternatives=report["alternatives"],
+            warnings=tuple(report["warnings"]),
         )
 
     def __str__(self) -> str:
@@ -105,15 +105,15 @@ def _place(mode: Mode) -> str:
 
 
 class State(Motion):
-    """One instant of a mechanism: ``state["crank"].angle``, ``state["C"].residual``.
+    """A mechanism at one time: ``state["crank"].angle``, ``state["C"].residual``.
 
     Attributes:
-        model: the model in numbers.
+        model: the compiled model.
         t: time, s.
         q: (n_q,): x, y, angle of each moving body, m and rad; read-only.
         v: (n_q,): their rates, m/s and rad/s; read-only.
-        z: first-order states that elements own; empty for most models.
-        report: how it was assembled; None for a state that was not.
+        z: first-order states of elements; empty for most models.
+        report: report of the assembly; None if the state is not the result of an assembly.
     """
 
     def __init__(
@@ -129,10 +129,10 @@ class State(Motion):
         self.report = report
 
     def matrices(self, set: Mapping[str, Number] | None = None) -> Matrices:  # noqa: A002
-        """The matrices of the equations of motion here.
+        """The matrices of the equations of motion in this state.
 
         Args:
-            set: coordinates that are held, as in an assembly; each adds a row.
+            set: prescribed coordinates, as in an assembly; each adds a row.
         """
         return matrices(self, set or {})
 
@@ -152,8 +152,8 @@ class State(Motion):
             numbers = [body.x, body.y, np.degrees(body.angle), body.vx, body.vy, body.omega]
             row = "".join(f"{float(number) + 0.0:15.6g}" for number in numbers)
             lines.append(f"{name:<{width}}{row}")
-        told = [] if self.report is None else [str(self.report)]
-        return "\n".join([f"t = {float(self.t):g} s", *lines, *told])
+        report = [] if self.report is None else [str(self.report)]
+        return "\n".join([f"t = {float(self.t):g} s", *lines, *report])
 
     def __repr__(self) -> str:
         return f"<State of {self.model.title!r} at t = {float(self.t):g} s>\n{self}"

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _UNITS = ("m", "m", "rad", "m/s", "m/s", "rad/s", "m/s^2", "m/s^2", "rad/s^2")
 _ENERGIES = ("kinetic", "potential", "dissipated", "work", "total")
-#: A multiplier does work on its residual: its unit is J over that of the residual.
+#: A multiplier times its residual is an energy, so its unit is J per unit of the residual.
 _MULTIPLIER_UNITS = {"m": "N", "rad": "N*m"}
 
 
@@ -41,7 +41,7 @@ class Column:
 
 
 def columns(solution: Solution) -> list[Column]:
-    """Time; position, velocity and acceleration of each body; multipliers; torques; energies."""
+    """Time, motion of each body, multipliers, torques and energies."""
     table = [Column("t", "s", solution.t)]
     for name in solution.model.bodies:
         body = solution.body(name)
@@ -61,7 +61,7 @@ def columns(solution: Solution) -> list[Column]:
 
 
 def dataframe(solution: Solution) -> pandas.DataFrame:
-    """The columns as a pandas table; units in ``attrs["units"]``."""
+    """The columns as a pandas data frame; units in ``attrs["units"]``."""
     try:
         import pandas
     except ImportError as error:
@@ -75,7 +75,7 @@ def dataframe(solution: Solution) -> pandas.DataFrame:
 
 
 def write_csv(solution: Solution, path: Path | str) -> None:
-    """Write the columns as text; 17 digits, so that every number is read back as it was."""
+    """Write the columns as CSV with 17 digits, which preserves every number."""
     table = columns(solution)
     text = io.StringIO()
     text.write(",".join(_quoted(f"{column.name} [{column.unit}]") for column in table) + "\n")

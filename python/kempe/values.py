@@ -1,6 +1,6 @@
-"""What may be written as a value in a model, checked and reduced to what JSON can hold.
+"""Checks of the values in a model, and their conversion to JSON data.
 
-Every check takes the path of the field, such as ``joints.A.axes``, and names it when it refuses.
+Every check takes the path of the field, such as ``joints.A.axes``, and includes it in the error.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from kempe.errors import ModelError, Problem
 
 #: A number in SI units, or a formula in the parameters of the model as text.
 Number: TypeAlias = "float | str"
-#: Two of them, such as a point or a vector.
+#: Two numbers or formulas, such as a point or a vector.
 Pair: TypeAlias = "Sequence[float | str]"
 #: Named points of a body, in its frame, m.
 Points: TypeAlias = "Mapping[str, Sequence[float | str]]"
 
-#: Beyond it a float no longer holds every integer.
+#: A float represents every integer up to this limit exactly.
 _LARGEST_EXACT_INTEGER = 2**53
 
 
@@ -31,7 +31,7 @@ def refuse(path: str, message: str) -> NoReturn:
 def number(value: object, path: str) -> float | str:
     """A finite real number, or the text of a formula.
 
-    NumPy scalars and arrays without dimension count as the number they hold.
+    NumPy scalars and arrays without dimensions are accepted as numbers.
     """
     if type(value) is float and math.isfinite(value):
         return value
@@ -40,7 +40,7 @@ def number(value: object, path: str) -> float | str:
     if isinstance(value, str):
         return value if value.strip() else refuse(path, "empty text; must be a number or a formula")
     if callable(value):
-        refuse(path, "a Python function cannot stand in a model; write the formula as text")
+        refuse(path, "a Python function is not allowed; write the formula as text")
     if isinstance(value, bool) or not isinstance(value, Real):
         refuse(path, f"{value!r} is not a real number or the text of a formula")
     if isinstance(value, Integral) and abs(int(value)) <= _LARGEST_EXACT_INTEGER:
@@ -57,13 +57,13 @@ def _finite(value: Real, path: str) -> float:
 
 
 def pair(value: object, path: str) -> tuple[float | str, float | str]:
-    """Two numbers or formulas, from any sequence of two."""
+    """Two numbers or formulas from any sequence of two."""
     first, second = _two(value, path, "two numbers or formulas")
     return number(first, f"{path}[0]"), number(second, f"{path}[1]")
 
 
 def reference(value: object, path: str) -> str:
-    """A name such as ``crank``, ``crank.B`` or ``crank.angle``; whether it exists is told later."""
+    """A name such as ``crank``, ``crank.B`` or ``crank.angle``; its existence is checked later."""
     if not isinstance(value, str):
         refuse(path, f"{value!r} is not a name")
     return value if value.strip() else refuse(path, "empty name")
@@ -93,7 +93,7 @@ def numbers(value: object, path: str) -> dict[str, float | str]:
 
 def _two(value: object, path: str, what: str) -> tuple[object, object]:
     if callable(value):
-        refuse(path, "a Python function cannot stand in a model; write the formulas as text")
+        refuse(path, "a Python function is not allowed; write the formulas as text")
     if isinstance(value, str | bytes | Mapping) or not hasattr(value, "__iter__"):
         refuse(path, f"{value!r}; must be {what}")
     entries = list(value)
@@ -108,7 +108,7 @@ def _items(value: object, path: str, form: str) -> list[tuple[object, object]]:
     return list(value.items())
 
 
-#: The check for each shape of a field.
+#: The check for each kind of field.
 CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "body": reference,
     "point": reference,

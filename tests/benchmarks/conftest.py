@@ -1,4 +1,4 @@
-"""A small set of numbers as a run of the benchmarks writes it."""
+"""A small set of results in the format of the benchmarks."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Page, figures and verdicts come from the numbers alone, and say what is not met."""
+"""Page, figures and verdicts follow from the numbers; missed targets are marked."""
 
 import json
 import subprocess
@@ -25,23 +25,25 @@ def judged(results: dict[str, Any], what: str) -> Target:
     return found
 
 
-def test_what_is_not_met_is_called_so(results: dict[str, Any]) -> None:
+def test_a_missed_target_is_marked(results: dict[str, Any]) -> None:
     assert judged(results, "evaluation of the flagship").verdict == "met"
     assert judged(results, "a linkage nothing").verdict == "not met"
     assert judged(results, "flagship, RK45").measured.startswith("2.00 ")
 
 
-def test_a_peer_counts_at_the_cheapest_setting_of_no_larger_error(results: dict[str, Any]) -> None:
-    # kempe's 1e-7 rad in 2 ms: of SciPy's runs only the one with 1e-8 is as exact
+def test_other_tools_count_at_the_cheapest_setting_of_no_larger_error(
+    results: dict[str, Any],
+) -> None:
+    # kempe: 1e-7 rad in 2 ms; only one run of SciPy, with 1e-8, is as accurate
     run = "that run (default method) against"
     assert judged(results, f"{run} scipy").measured.startswith("3e+03 ×")
-    # MuJoCo comes down to 1e-5 only, in half the time: nothing is shown by that
+    # MuJoCo reaches only 1e-5, in half the time, so the target is not met
     assert judged(results, f"{run} mujoco, states alone").measured.startswith("> 0.5 ×")
     assert judged(results, f"{run} mujoco, states alone").verdict == "not met"
     assert judged(results, f"{run} exudyn, states alone").verdict == "not measured"
 
 
-def test_who_gives_states_alone_is_compared_with_states_alone(results: dict[str, Any]) -> None:
+def test_tools_without_accelerations_are_compared_with_states_only(results: dict[str, Any]) -> None:
     name = "that run (default method) against casadi, states alone"
     assert judged(results, name).measured.startswith("50 ×")
     assert judged(results, name).verdict == "met"
@@ -52,22 +54,22 @@ def test_who_gives_states_alone_is_compared_with_states_alone(results: dict[str,
     assert judged(results, name).verdict == "not met"
 
 
-def test_crossings_are_told(results: dict[str, Any]) -> None:
+def test_crossings_are_listed(results: dict[str, Any]) -> None:
     exact, cheap = crossings(records(results), "flagship")
     assert exact.startswith("scipy RK45, Baumgarte, 1e-06 has an error of 1.0e-08 in 6e+03 ms")
-    assert "does not come down to that error" in exact
+    assert "does not reach that error" in exact
     assert cheap.startswith("MuJoCo RK4, 0.001 has an error of 1.0e-05 in 0.5 ms")
     assert "takes 2 ms, 4.00 × of it" in cheap
 
 
-def test_the_page_has_every_record_and_what_is_missing(results: dict[str, Any]) -> None:
+def test_the_page_contains_every_record_and_the_missing_tools(results: dict[str, Any]) -> None:
     text = page(results, records(results))
     assert "Missing: numba: numba is not installed here." in text
     assert "| Exudyn generalized-alpha | 0.001 |  | it stopped |  |" in text
     assert "| scipy RK45, Baumgarte | 1e-06 | 6e+03 | 1.0e-08 | 1.0e-12 |" in text
 
 
-def test_the_page_in_the_docs_is_that_of_the_numbers() -> None:
+def test_the_page_in_the_docs_matches_the_numbers() -> None:
     found = json.loads(RESULTS.read_text("utf-8"))
     written = (ROOT / "docs" / "benchmarks.md").read_text("utf-8")
     assert page(found, records(found)) == written, "run python benchmarks/run.py --page"

@@ -1,4 +1,4 @@
-"""Every adapter that can be used here gives the motion of the problem; the others say why not."""
+"""Every available adapter computes the motion of the problem; the others give a reason."""
 
 from dataclasses import replace
 from types import ModuleType

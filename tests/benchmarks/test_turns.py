@@ -1,4 +1,4 @@
-"""What a tool says, or does not say in time, becomes its record."""
+"""The result of a tool, or its failure, becomes its record."""
 
 import time
 from types import SimpleNamespace
@@ -24,7 +24,7 @@ def tool(run: Any) -> Any:
     )
 
 
-def test_a_motion_that_stands_still_has_its_error_and_no_gap() -> None:
+def test_a_motion_at_rest_has_its_error_and_no_gap() -> None:
     records = turns.measure(problem("flagship"), [tool(lambda: None)], repeat=3, quick=False)
     assert [record.runs for record in records] == [3, 3]
     angle = np.array(reference("four_bar")["first_second"]["rocker_angle"])
@@ -32,7 +32,7 @@ def test_a_motion_that_stands_still_has_its_error_and_no_gap() -> None:
     assert records[0].gap < 1e-14
 
 
-def test_what_a_tool_raises_is_its_result() -> None:
+def test_an_exception_of_a_tool_is_its_result() -> None:
     def fails() -> None:
         raise ArithmeticError("lost at\n 0.7 s")
 
@@ -41,7 +41,7 @@ def test_what_a_tool_raises_is_its_result() -> None:
     assert record.seconds is None
 
 
-def test_patience_ends() -> None:
+def test_a_long_run_is_interrupted() -> None:
     with pytest.raises(turns.TooLongError, match="no end within 1 s"), turns.patience(1):
         while True:
             time.process_time()

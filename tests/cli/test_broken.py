@@ -1,6 +1,6 @@
-"""Broken files, options and places: each is told in words, with the right exit code.
+"""Broken files, options and targets: clear messages with the correct exit code.
 
-Nothing is half-written, and no traceback is seen.
+No file is incomplete, and no traceback is printed.
 """
 
 import errno
@@ -25,7 +25,7 @@ def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def tree() -> dict[str, bytes]:
-    """Every file below the folder and what is in it."""
+    """All files below the folder with their contents."""
     found = (path for path in Path().rglob("*") if path.is_file() and not path.is_fifo())
     return {str(path): path.read_bytes() for path in found}
 
@@ -40,7 +40,7 @@ def refused(capsys: pytest.CaptureFixture[str], words: list[str], code: int, tol
     assert tree() == before
 
 
-# --- what stands in a file ------------------------------------------------------------------------
+# --- contents of files ----------------------------------------------------------------------------
 
 
 def with_(old: str, new: str) -> Callable[[], bytes]:
@@ -86,7 +86,7 @@ CONTENTS: dict[str, tuple[Callable[[], bytes], int, str]] = {
 
 
 @pytest.mark.parametrize("name", CONTENTS)
-def test_a_broken_file_is_told(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_broken_file_is_reported(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     content, code, told = CONTENTS[name]
     Path("case.toml").write_bytes(content())
     for command in ("check", "run"):
@@ -94,7 +94,7 @@ def test_a_broken_file_is_told(name: str, capsys: pytest.CaptureFixture[str]) ->
     refused(capsys, ["show", "case.toml"], code, told)
 
 
-# --- what stands on the command line --------------------------------------------------------------
+# --- command lines --------------------------------------------------------------------------------
 
 WORDS: dict[str, tuple[list[str], int, str]] = {
     "no file": (["run", "none.toml"], FILE, "does not exist"),
@@ -140,7 +140,7 @@ WORDS: dict[str, tuple[list[str], int, str]] = {
 
 
 @pytest.mark.parametrize("name", WORDS)
-def test_a_broken_command_line_is_told(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_wrong_command_line_is_reported(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     refused(capsys, *WORDS[name])
 
 
@@ -148,7 +148,7 @@ def test_there_are_enough_of_them() -> None:
     assert len(CONTENTS) + len(WORDS) >= 60
 
 
-# --- what the system refuses ----------------------------------------------------------------------
+# --- errors of the system -------------------------------------------------------------------------
 
 
 def failing(number: int) -> Callable[..., None]:
@@ -170,7 +170,7 @@ def failing(number: int) -> Callable[..., None]:
     ids=str,
 )
 @pytest.mark.parametrize("step", ["fsync", "replace", "mkdir"])
-def test_a_disk_that_refuses_leaves_old_results_whole(
+def test_a_failing_disk_leaves_old_results_complete(
     number: int,
     told: str,
     step: str,
@@ -194,7 +194,7 @@ def test_a_disk_that_refuses_leaves_old_results_whole(
 
 
 @pytest.mark.parametrize("command", ["run", "check", "show"])
-def test_a_file_without_permission_is_told(
+def test_a_file_without_permission_is_reported(
     command: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     real = Path.open
@@ -210,7 +210,7 @@ def test_a_file_without_permission_is_told(
 
 
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may do everything")
-def test_real_permissions_are_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_permissions_are_reported(capsys: pytest.CaptureFixture[str]) -> None:
     Path("good.toml").chmod(0)
     refused_before = main(["run", "good.toml"])
     Path("good.toml").chmod(0o600)
@@ -221,7 +221,7 @@ def test_real_permissions_are_told(capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes as POSIX has them")
 @pytest.mark.parametrize("link", [False, True], ids=["itself", "by a link"])
 def test_a_pipe_is_not_replaced_by_a_file(link: bool, capsys: pytest.CaptureFixture[str]) -> None:
-    """Nor is a device, for which the pipe stands: with a real one a failure would do harm."""
+    """The pipe also represents devices; a test with a real device could do harm."""
     pipe = Path("pipe.csv")
     os.mkfifo(pipe)
     target = Path("link.csv") if link else pipe

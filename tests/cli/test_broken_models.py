@@ -1,4 +1,4 @@
-"""Broken model files: each is told with its place, and ends with the right exit code."""
+"""Broken model files: messages with positions, and the correct exit code."""
 
 import re
 from pathlib import Path
@@ -8,7 +8,7 @@ from kempe.cli import exit_codes, main
 
 FLAGSHIP = (Path(__file__).parents[2] / "examples/four_bar.toml").read_text("utf-8")
 
-#: What is replaced by what; what the message must hold; line, column.
+#: Replaced text, new text, expected part of the message, line, column.
 BROKEN: list[tuple[str, str, str, int, int]] = [
     ("mass = 3", "mass = -1", "-1 kg; must be > 0", 18, 8),
     ("mass = 3", "mass = 0", "0 kg; must be > 0", 18, 8),
@@ -48,7 +48,7 @@ BROKEN: list[tuple[str, str, str, int, int]] = [
 
 
 @pytest.mark.parametrize(("old", "new", "message", "line", "column"), BROKEN)
-def test_a_broken_model_is_told_with_its_place(
+def test_a_broken_model_is_reported_with_its_position(
     old: str,
     new: str,
     message: str,
@@ -68,7 +68,9 @@ def test_a_broken_model_is_told_with_its_place(
     assert "Traceback" not in told
 
 
-def test_all_faults_are_told_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_all_problems_are_reported_together(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     text = FLAGSHIP.replace("mass = 3", "mass = -3").replace('i = "coupler.C"', 'i = "cuopler.C"')
     path = tmp_path / "broken.toml"
     path.write_text(text, "utf-8")

@@ -1,6 +1,6 @@
-"""The reader under mutations: every field of the flagship broken in a dozen ways.
+"""Mutations of a case file: every field of the flagship is broken in a dozen ways.
 
-Whatever is written, there is an answer: no panic, no hang, and a refusal says line, column and key.
+There is no panic and no hang, and every error gives line, column and key.
 """
 
 import time
@@ -14,7 +14,7 @@ import pytest
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "four_bar.toml"
 
-#: What is written in place of a value.
+#: Replacements of a value.
 VALUES = {
     "wrong type": "true",
     "negative": "-1",
@@ -31,13 +31,13 @@ VALUES = {
 }
 WAYS = ["deleted", "renamed", "twice", *VALUES]
 
-#: Longest time that one mutant may take from the text to the end of its simulation, s.
+#: Time limit for one mutant from reading to the end of the simulation, s.
 PATIENCE = 5.0
 
 
 @dataclass(frozen=True)
 class Raw:
-    """A value as it is to stand in the file."""
+    """The text of a value in the file."""
 
     text: str
 
@@ -66,7 +66,7 @@ def quoted(text: str) -> str:
 
 
 def toml(tree: dict[str, Any]) -> str:
-    """The tree as people write it: a section for each entry, one line for each field."""
+    """The tree as TOML text: a section for each entry, a line for each field."""
     plain = [(k, v) for k, v in tree.items() if not isinstance(v, dict)]
     lines = [f"{key} = {value_text(value)}" for key, value in plain]
     for section, fields in ((k, v) for k, v in tree.items() if isinstance(v, dict)):
@@ -84,7 +84,7 @@ def toml(tree: dict[str, Any]) -> str:
 
 
 def mutant(path: tuple[str | int, ...], way: str) -> str | None:
-    """The text of the flagship with one field broken; None where the way makes no sense."""
+    """The text of the flagship with one broken field; None if the mutation does not apply."""
     tree = kp.load(EXAMPLE).tree()
     holder: Any = tree
     for key in path[:-1]:
@@ -118,7 +118,7 @@ ALL = list(paths(kp.load(EXAMPLE).tree()))
 
 
 def answered(text: str, folder: Path) -> kp.KempeError | None:
-    """What reading, assembling and some steps of simulating end with."""
+    """The result of reading, assembling and simulating some steps."""
     file = folder / "mutant.toml"
     file.write_text(text, encoding="utf-8")
     begin = time.perf_counter()
@@ -140,7 +140,7 @@ def test_the_text_that_is_mutated_is_the_flagship(tmp_path: Path) -> None:
 
 
 @pytest.mark.filterwarnings("ignore::kempe.analyses.AssemblyWarning")
-def test_every_mutant_is_answered(tmp_path: Path) -> None:
+def test_every_mutant_runs_or_is_refused(tmp_path: Path) -> None:
     refused, placed, unplaced = 0, 0, []
     for path in ALL:
         for way in WAYS:
@@ -150,7 +150,7 @@ def test_every_mutant_is_answered(tmp_path: Path) -> None:
             error = answered(text, tmp_path)
             assert not isinstance(error, kp.InternalError), (path, way, error)
             if error is None or not isinstance(error, kp.FileError | kp.ModelError):
-                continue  # valid, or a matter of mechanics
+                continue  # valid, or an error of mechanics
             for problem in error.problems or (None,):
                 refused += 1
                 if problem is not None and problem.line and problem.column and key_told(problem):
@@ -162,13 +162,13 @@ def test_every_mutant_is_answered(tmp_path: Path) -> None:
 
 
 def key_told(problem: kp.errors.Problem) -> bool:
-    """Whether the message names the place in the model, or the key that cannot be read."""
+    """Whether the message gives the position in the model, or the unreadable key."""
     keys = [key for key in problem.path.split(".") if key]
     return any(key in problem.message for key in keys) or problem.message.startswith("key '")
 
 
 @pytest.mark.parametrize("way", ["deleted", "renamed", "nan", "unknown", "list", "table"])
-def test_a_broken_mass_is_refused_where_it_stands(way: str, tmp_path: Path) -> None:
+def test_a_broken_mass_is_refused_at_its_position(way: str, tmp_path: Path) -> None:
     text = mutant(("bodies", "coupler", "mass"), way)
     assert text is not None
     error = answered(text, tmp_path)

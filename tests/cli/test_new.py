@@ -26,7 +26,7 @@ def test_a_new_case_runs(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", name]) == 0
     assert capsys.readouterr().out == f"{name}.toml written; next: kempe run {name}.toml\n"
     text = Path(f"{name}.toml").read_text(encoding="utf-8")
-    assert text.count("#") > 5  # it is commented
+    assert text.count("#") > 5  # it has comments
     case = kp.load(f"{name}.toml")
     results = case.run()
     assert all(solution.success for solution in results.values())
@@ -34,12 +34,12 @@ def test_a_new_case_runs(name: str, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize("name", ["four_bar", "slider_crank"])
-def test_a_new_case_is_the_example(name: str) -> None:
+def test_a_new_case_equals_the_example(name: str) -> None:
     example = ROOT / "examples" / f"{name}.toml"
     assert template(name) == example.read_text(encoding="utf-8")
 
 
-def test_the_place_may_be_named(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_target_may_be_given(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", "pendulum", "deep/down/mine.toml"]) == 0
     Path("folder").mkdir()
     assert main(["new", "pendulum", "folder"]) == 0
@@ -58,7 +58,7 @@ def test_an_old_file_is_overwritten_only_by_force(capsys: pytest.CaptureFixture[
     assert mine.read_text(encoding="utf-8") == template("pendulum")
 
 
-def test_a_link_to_nowhere_is_not_followed(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_broken_link_is_not_followed(capsys: pytest.CaptureFixture[str]) -> None:
     Path("pendulum.toml").symlink_to("nowhere.toml")
     assert main(["new", "pendulum"]) == 4
     assert not Path("nowhere.toml").exists()
@@ -90,7 +90,7 @@ def test_a_failed_write_leaves_the_old_file(
         ([], 2, "Missing argument"),
     ],
 )
-def test_what_cannot_be_written_is_refused(
+def test_invalid_targets_are_refused(
     words: list[str], code: int, told: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["new", *words]) == code
@@ -98,7 +98,7 @@ def test_what_cannot_be_written_is_refused(
     assert list(Path().iterdir()) == []
 
 
-def test_the_schema_is_json_and_knows_every_element(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_schema_is_json_and_contains_every_element(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["schema"]) == 0
     text = capsys.readouterr().out
     assert json.loads(text)["$schema"].endswith("2020-12/schema")
@@ -113,7 +113,7 @@ def test_every_command_has_help_with_an_example(
     assert main([command, "--help"]) == 0
     out = capsys.readouterr().out
     assert f"kempe {command} " in out.partition("Examples:")[2]
-    assert "\x1b" not in out  # no colours where there is no terminal
+    assert "\x1b" not in out  # no colours without a terminal
 
 
 def kempe(*words: str, **environment: str) -> subprocess.CompletedProcess[str]:
@@ -129,7 +129,7 @@ def kempe(*words: str, **environment: str) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_the_shells_are_told_how_to_complete(shell: str) -> None:
+def test_the_shells_get_completion_scripts(shell: str) -> None:
     done = kempe("--show-completion", shell, _TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION="1")
     assert done.returncode == 0, done.stderr
     assert "_KEMPE_COMPLETE" in done.stdout

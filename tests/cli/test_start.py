@@ -1,4 +1,4 @@
-"""The command line before any command: version, help, wrong words, errors and exit codes."""
+"""The command line without a command: version, help, wrong arguments, errors and exit codes."""
 
 import kempe
 import pytest
@@ -7,18 +7,20 @@ from kempe.cli import app, exit_codes, main
 
 
 @pytest.mark.parametrize("words", [["--version"], ["-V"], ["-V", "--version"]])
-def test_the_version_is_told(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_version_is_printed(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(words) == exit_codes.OK
     assert capsys.readouterr() == (f"kempe {kempe.__version__}\n", "")
 
 
-def test_help_tells_what_kempe_is(capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_describes_kempe(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--help"]) == exit_codes.OK
     assert "Planar multibody mechanics" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("words", [["--nonsense"], ["nonsense"]])
-def test_wrong_words_are_bad_input(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_arguments_are_bad_input(
+    words: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(words) == exit_codes.BAD_INPUT
     output = capsys.readouterr()
     assert output.out == ""
@@ -33,11 +35,11 @@ def test_wrong_words_are_bad_input(words: list[str], capsys: pytest.CaptureFixtu
         (errors.RedundancyError, exit_codes.MECHANICS),
         (errors.SingularityError, exit_codes.MECHANICS),
         (errors.IntegrationError, exit_codes.MECHANICS),
-        (errors.FileError, exit_codes.BAD_INPUT),  # it could be read, but it has problems
+        (errors.FileError, exit_codes.BAD_INPUT),  # it can be read, but it has problems
         (errors.InternalError, exit_codes.INTERNAL),
     ],
 )
-def test_an_error_is_told_in_words(
+def test_an_error_is_printed_without_a_traceback(
     kind: type[errors.KempeError],
     code: int,
     monkeypatch: pytest.MonkeyPatch,
@@ -56,5 +58,5 @@ def test_an_error_is_told_in_words(
     )
 
 
-def test_trouble_with_a_file_has_its_own_code() -> None:
+def test_a_file_error_has_its_own_code() -> None:
     assert app.exit_code(errors.FileError("no such file")) == exit_codes.FILE

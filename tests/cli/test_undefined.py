@@ -1,4 +1,4 @@
-"""A law that is undefined at a reported time alone: what is before it is written."""
+"""A law that is undefined at one output time: the solution before it is written."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ import kempe as kp
 import pytest
 from kempe.cli import main
 
-#: Steps of 40 ms look at the law at multiples of 20 ms, outputs at multiples of 50 ms.
+#: Steps of 40 ms evaluate the law at multiples of 20 ms, outputs at multiples of 50 ms.
 CASE = """\
 kempe = 1
 gravity = [0, -9.81]
@@ -35,7 +35,7 @@ def test_the_solution_before_is_written(
     Path("swing.toml").write_text(CASE, "utf-8")
     assert main(["run", "swing.toml", "--no-figures"]) == 3
     told = " ".join(capsys.readouterr().err.split())
-    assert "the solution until 0.2 s is in" in told
+    assert "the solution up to 0.2 s is in" in told
     assert "undefined at t = 0.250000 s; check forces and laws at this state" in told
     kept = kp.load_solution(next(Path("out").rglob("solution.npz")))
     assert len(kept.t) == len(kept.a) == 5

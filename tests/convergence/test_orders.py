@@ -1,4 +1,4 @@
-"""Every integrator converges with the order of theory, in coordinates and in multipliers."""
+"""Every integrator converges with its theoretical order, in coordinates and multipliers."""
 
 import pytest
 from kempe import _core
@@ -18,12 +18,12 @@ from benchmarks.validation.convergence import (
 
 @pytest.mark.parametrize("integrator", METHODS, ids=lambda integrator: integrator.name)
 @pytest.mark.parametrize("problem", PROBLEMS, ids=lambda problem: problem.name)
-def test_the_observed_order_is_that_of_theory(problem: Problem, integrator: Integrator) -> None:
+def test_the_observed_order_agrees_with_theory(problem: Problem, integrator: Integrator) -> None:
     found = converge(problem, integrator)
     assert len(found.steps) == HALVINGS + 1 >= 4
     for observed, theory in zip(found.orders, found.theory, strict=True):
         assert abs(observed - theory) <= TOLERANCE, (observed, found)
-    # above the level of rounding, or the slope says nothing
+    # above the level of rounding, where the slope is meaningful
     assert min(*found.q, *found.lam) > 2e-14, found
 
 
@@ -32,7 +32,7 @@ def test_every_method_is_studied() -> None:
 
     known = {table["name"] for table in json.loads(_core.catalogue())["methods"]}
     studied: set[str] = {_kind(integrator.method(0.1)) for integrator in METHODS}
-    assert studied == known - {"auto"}  # it is one of the others
+    assert studied == known - {"auto"}  # it is a choice among the others
 
 
 def _kind(method: Option) -> str:

@@ -1,14 +1,15 @@
-"""Whether a program said what a page shows.
+"""Comparison of the output of a program with the output that a page shows.
 
-Numbers are compared with a tolerance, runs of blanks are alike, `…` within a line stands for
-any text, and a line of `…` alone for any lines. A number behind `≈` may differ more: counts of
-steps depend on the last digits of everything.
+Runs of blanks are equivalent. `…` within a line matches any text, and a line with `…` alone
+matches any lines. Integers must be equal. Other numbers may differ by one unit of the last digit
+shown. After `≈`, a number may differ by 2 %, because numbers of steps depend on rounding.
 """
 
 import re
 
-#: Relative: pages show six digits, and the last ones depend on the platform.
+#: Largest relative difference. A number with few digits must also be right in its last digit.
 TOLERANCE = 1e-3
+#: Relative tolerance of a number after `≈`.
 ABOUT = 2e-2
 
 _TOKEN = re.compile(
@@ -21,26 +22,36 @@ _PATTERN = {"lines": r"(?:.*\n)*?", "any": ".*?", "blank": " +", "end": "\n", "n
 
 
 def pattern(shown: str) -> tuple[re.Pattern[str], list[tuple[float, float]]]:
-    """A pattern for what is shown, and the numbers in it, each with its tolerance."""
+    """A pattern for the text shown, and its numbers, each with its absolute tolerance."""
     tokens = [(m.lastgroup or "", m[0]) for m in _TOKEN.finditer(shown)]
     parts = [_PATTERN.get(kind, re.escape(text)) for kind, text in tokens]
     numbers = [
-        (float(text), ABOUT if before == "≈" else TOLERANCE)
+        (float(text), ABOUT * abs(float(text)) if before == "≈" else tolerance(text))
         for (_, before), (kind, text) in zip([("", ""), *tokens], tokens, strict=False)
         if kind == "number"
     ]
     return re.compile("".join(parts)), numbers
 
 
-def agrees(shown: str, said: str) -> bool:
-    """Whether what was said is what is shown."""
-    wanted, numbers = pattern(_trimmed(shown))
-    match = wanted.fullmatch(_trimmed(said))
+def tolerance(number: str) -> float:
+    """One unit of the last digit of a number, but at most ``TOLERANCE``; 0 for an integer."""
+    digits, _, exponent = number.lower().partition("e")
+    _, point, decimals = digits.partition(".")
+    if not point and not exponent:
+        return 0.0
+    unit = 10.0 ** (int(exponent or 0) - len(decimals))
+    return min(1.000001 * unit, TOLERANCE * abs(float(number)))
+
+
+def agrees(shown: str, output: str) -> bool:
+    """Whether the output of a program agrees with the output shown on a page."""
+    expression, numbers = pattern(_trimmed(shown))
+    match = expression.fullmatch(_trimmed(output))
     if match is None:
         return False
     return all(
-        abs(float(found) - number) <= tolerance * abs(number)
-        for found, (number, tolerance) in zip(match.groups(), numbers, strict=True)
+        abs(float(found) - number) <= allowed
+        for found, (number, allowed) in zip(match.groups(), numbers, strict=True)
     )
 
 

@@ -1,4 +1,4 @@
-"""The pages of the documentation, cut into prose and blocks."""
+"""The pages of the documentation, split into prose and blocks."""
 
 import re
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from pathlib import Path
 
 from house.places import ROOT
 
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 _FENCE = re.compile(r"^```(\w*)\s*$")
 _FILE = re.compile(r"`([\w/]+\.(?:toml|json))`[^`]*:$")
@@ -18,9 +18,9 @@ class Block:
 
     Attributes:
         language: the word behind the fence.
-        text: what is in it.
+        text: its content.
         line: number of its first line in the page.
-        lead: the last line with text before it; empty right behind another block.
+        lead: the last line of text before the block; empty if the block directly follows another.
     """
 
     language: str
@@ -30,13 +30,13 @@ class Block:
 
     @property
     def file(self) -> str | None:
-        """The file it is to be written to: "Write this as `pendulum.toml`:" stands before it."""
+        """The file for the content; the lead is "Write this as `pendulum.toml`:"."""
         named = _FILE.search(self.lead)
         return named[1] if named else None
 
 
 def blocks(text: str) -> list[Block]:
-    """The fenced blocks of a page, in order."""
+    """The fenced blocks of a page in order."""
     found: list[Block] = []
     lead, language, inside = "", None, []
     for number, line in enumerate(text.splitlines(), 1):
@@ -61,13 +61,13 @@ def prose(text: str) -> str:
 
 
 def links(text: str) -> list[str]:
-    """Targets of the links of a page that stay in this repository."""
+    """Targets of the links of a page that are in this repository."""
     targets = re.findall(r"\]\(([^)\s]+)\)", prose(text))
     return [target for target in targets if not target.startswith(("http:", "https:"))]
 
 
 def anchors(page: Path) -> set[str]:
-    """Names of the headings of a page, as GitHub makes them."""
+    """Anchors of the headings of a page, in the form that GitHub generates."""
     text = re.sub(r"^```.*?^```", "", page.read_text("utf-8"), flags=re.S | re.M)
     headings = re.findall(r"^#+ +(.*)$", text, flags=re.M)
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in headings}

@@ -1,4 +1,4 @@
-"""A reader who does what a page says: files, commands and Python, in one folder."""
+"""A reader that executes a page: it writes files and runs commands and Python in one folder."""
 
 import io
 import shlex
@@ -13,7 +13,7 @@ from kempe.cli import main
 
 
 class Reader:
-    """What one page does; its folder is the current one.
+    """Execution of one page in the current folder.
 
     Attributes:
         page: the page, for messages.
@@ -22,16 +22,16 @@ class Reader:
     def __init__(self, page: Path) -> None:
         self.page = page
         self._names: dict[str, Any] = {"__name__": "__main__"}
-        self._said = ""
+        self._output = ""
         self._code = 0
 
     def follow(self, block: Block) -> None:
-        """Do what a block says, and compare what it shows."""
+        """Execute a block and compare its output with the output shown."""
         if block.language == "python":
             self._run(block)
         elif block.language == "text":
             assert not block.lead, f"{self._at(block)}: text must follow a block of Python"
-            self._expect(block.text, self._said, self._at(block))
+            self._expect(block.text, self._output, self._at(block))
         elif block.language == "console":
             self._converse(block)
         elif block.language in ("toml", "json"):
@@ -40,20 +40,20 @@ class Reader:
     def _at(self, block: Block) -> str:
         return f"{self.page.name}, line {block.line}"
 
-    def _expect(self, shown: str, said: str, at: str) -> None:
-        assert agrees(shown, said), f"{at}\n--- shown\n{shown}\n--- said\n{said}"
+    def _expect(self, shown: str, output: str, at: str) -> None:
+        assert agrees(shown, output), f"{at}\n--- shown\n{shown}\n--- output\n{output}"
 
     def _run(self, block: Block) -> None:
         code = compile("\n" * (block.line - 1) + block.text, self.page, "exec")
         out = io.StringIO()
         with redirect_stdout(out):
             exec(code, self._names)
-        self._said = out.getvalue()
+        self._output = out.getvalue()
 
     def _keep(self, block: Block) -> None:
-        """Write a whole case to its file, or to any; it must load and assemble.
+        """Write a complete case to its file, or to any file, and assemble it.
 
-        But for one that is called faulty: a command that follows tells what is wrong with it.
+        A case with the name `faulty` is not assembled; a later command shows its errors.
         """
         whole = block.text.startswith(("kempe = 1", '{\n  "kempe": 1'))
         if block.file is None and not whole:
@@ -64,9 +64,9 @@ class Reader:
             kp.load(path).start()
 
     def _converse(self, block: Block) -> None:
-        """A transcript: `$ command`, and below what it says; without that, anything.
+        """Run a transcript: `$ command`, followed by its output or by nothing.
 
-        A command must end well unless `$ echo $?` follows.
+        A command must succeed unless `$ echo $?` follows.
         """
         turns = [turn.partition("\n") for turn in f"\n{block.text}".split("\n$ ")[1:]]
         assert turns, f"{self._at(block)}: no command"
@@ -75,11 +75,11 @@ class Reader:
             if command == "echo $?":
                 self._expect(shown, f"{self._code}\n", at)
                 continue
-            said = self._command(command, at)
+            output = self._command(command, at)
             if shown.strip():
-                self._expect(shown, said, at)
-            told = k + 1 < len(turns) and turns[k + 1][0] == "echo $?"
-            assert told or self._code == 0, f"{at}\nexit code {self._code}\n{said}"
+                self._expect(shown, output, at)
+            checked = k + 1 < len(turns) and turns[k + 1][0] == "echo $?"
+            assert checked or self._code == 0, f"{at}\nexit code {self._code}\n{output}"
 
     def _command(self, command: str, at: str) -> str:
         program, *words = shlex.split(command, comments=True)

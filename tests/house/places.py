@@ -1,4 +1,4 @@
-"""Where the sources are."""
+"""Locations of the sources."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ ROOT = Path(__file__).parents[2]
 CORE = ROOT / "core" / "src"
 PACKAGE = ROOT / "python" / "kempe"
 
-#: Folders with code written by hand, for the tests that read all of it.
+#: Folders with sources, for tests that read all of them.
 CODE = [
     ROOT / name
     for name in ("core", "bindings", "python", "tests", "tools", "benchmarks", "examples")

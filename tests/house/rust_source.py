@@ -1,4 +1,4 @@
-"""What the house tests need to know of a Rust file: its functions and the modules it names."""
+"""A small parser for Rust files: functions and used modules."""
 
 import re
 from dataclasses import dataclass
@@ -20,19 +20,19 @@ _GROUP_ITEM = re.compile(r"\s*((?:\w+\s*::\s*)*\w+|\*)")
 
 @dataclass(frozen=True)
 class Function:
-    """A function with a body, by name and number of lines from `fn` to the closing brace."""
+    """A function with a body: name and number of lines from `fn` to the closing brace."""
 
     name: str
     lines: int
 
 
 def code_only(text: str) -> str:
-    """The text with comments, strings and characters blanked out, lines kept in place."""
+    """The text with blanks instead of comments, strings and characters."""
     return _NOT_CODE.sub(lambda match: re.sub(r"[^\n]", " ", match.group()), text)
 
 
 def functions(text: str) -> list[Function]:
-    """Every function that has a body, nested ones and those of traits included."""
+    """All functions with a body, including nested functions and those of traits."""
     code = code_only(text)
     found = []
     for match in re.finditer(r"\bfn\s+(\w+)", code):
@@ -45,7 +45,7 @@ def functions(text: str) -> list[Function]:
 
 
 def _without_brackets(code: str, begin: int) -> str:
-    """The rest of the code with `[f64; N]` blanked, whose semicolon does not end a signature."""
+    """The rest of the code without `[f64; N]`, whose semicolon does not end a signature."""
     head = code[begin : begin + 4000]
     return re.sub(r"\[[^\[\]{}]*\]", lambda match: " " * len(match.group()), head)
 
@@ -80,7 +80,7 @@ def modules_named(text: str, module: tuple[str, ...]) -> set[str]:
 def _resolve(
     here: tuple[str, ...], word: str, after: int, code: str
 ) -> tuple[tuple[str, ...], int]:
-    """The module that the leading `crate`, `self` or `super`s mean, and where they end."""
+    """The module of leading `crate`, `self` and `super`, and the index of their end."""
     if word == "crate":
         return (), after
     base = here[:-1] if word == "super" else here
@@ -90,7 +90,7 @@ def _resolve(
 
 
 def _heads(code: str, at: int) -> set[str]:
-    """First names of `a::b`, or of each item of `{a::b, c}`, that stand at the crate root."""
+    """First names of `a::b`, or of each item of `{a::b, c}`, at the crate root."""
     if code[at] != "{":
         match = _GROUP_ITEM.match(code, at)
         is_macro = match and code[match.end() : match.end() + 1] == "!"

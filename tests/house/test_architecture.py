@@ -1,4 +1,4 @@
-"""ARCHITECTURE.md tells the truth: what it names exists."""
+"""All paths in ARCHITECTURE.md exist."""
 
 import re
 from pathlib import Path
@@ -17,7 +17,7 @@ def paths_in(text: str) -> list[str]:
 
 
 def missing(text: str, root: Path) -> list[str]:
-    """Paths that are not there; `core/src/integrate/*.rs` must match something."""
+    """Paths that do not exist; `core/src/integrate/*.rs` must match a file."""
     return [
         path for path in paths_in(text) if not any(root.glob(path.rstrip("/").removeprefix("./")))
     ]
@@ -25,7 +25,7 @@ def missing(text: str, root: Path) -> list[str]:
 
 def test_every_path_in_the_architecture_exists() -> None:
     text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
-    assert paths_in(text), "ARCHITECTURE.md names no path at all"
+    assert paths_in(text), "ARCHITECTURE.md contains no path"
     assert missing(text, ROOT) == []
 
 
@@ -35,13 +35,13 @@ def test_every_path_in_the_architecture_exists() -> None:
         ("`a/here.rs` and `./here.md`, in `a/`", []),
         ("`a/gone.rs`, `a/*.rs`, `a/*.py`", ["a/gone.rs", "a/*.py"]),
         (
-            "`gone.md`, but `kempe --version`, `Model` and `https://kempe.example/x` are no paths",
+            "`gone.md`, but `kempe --version`, `Model` and `https://kempe.example/x` are not paths",
             ["gone.md"],
         ),
         ("```\n`a/gone.rs`\n```\n", []),
     ],
 )
-def test_a_missing_path_is_seen(text: str, gone: list[str], tmp_path: Path) -> None:
+def test_a_missing_path_is_found(text: str, gone: list[str], tmp_path: Path) -> None:
     (tmp_path / "a").mkdir()
     (tmp_path / "a" / "here.rs").touch()
     (tmp_path / "here.md").touch()

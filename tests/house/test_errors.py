@@ -1,4 +1,4 @@
-"""Errors of the core arrive in Python whole, and a panic arrives as InternalError."""
+"""Errors of the core keep their attributes in Python, and a panic raises InternalError."""
 
 import pickle
 import re
@@ -21,8 +21,8 @@ CLASSES = [
     "InternalError",
 ]
 
-#: How to call each guarded entry point. It panics before it looks at its arguments, so that they
-#: need only be of the right type.
+#: A call of each guarded entry point. The panic occurs before the arguments are used, so only their
+#: types matter.
 CASE = _core.Case((ROOT / "examples/four_bar.toml").read_text("utf-8"), "toml", None)
 MODEL = CASE.model("{}")
 T, Q, V, _ = _core.assemble(MODEL, '{"crank.angle": "70*deg"}', "{}", 0.0, None, None)
@@ -63,7 +63,7 @@ def test_the_set_of_errors_is_closed() -> None:
 
 
 @pytest.mark.parametrize("name", CLASSES)
-def test_an_error_of_the_core_keeps_all_it_knows(name: str) -> None:
+def test_an_error_of_the_core_keeps_its_attributes(name: str) -> None:
     with pytest.raises(getattr(kempe, name)) as caught:
         _core._raise(name, "what is wrong")
     error = caught.value
@@ -91,7 +91,7 @@ def test_an_error_survives_pickling() -> None:
         (Problem("not TOML", line=7, column=8), "not TOML (line 7, column 8)"),
     ],
 )
-def test_a_problem_tells_where_it_is(problem: Problem, text: str) -> None:
+def test_a_problem_gives_its_position(problem: Problem, text: str) -> None:
     assert str(problem) == text
 
 
@@ -122,7 +122,7 @@ def test_a_panic_is_an_internal_error(entry: str, capfd: pytest.CaptureFixture[s
     assert capfd.readouterr() == ("", "")
 
 
-def test_a_panic_harms_only_the_call_it_is_meant_for() -> None:
+def test_a_panic_affects_one_call_only() -> None:
     _core._inject_panic("version")
     with pytest.raises(ModelError):
         CALLS["_raise"]()
@@ -131,7 +131,7 @@ def test_a_panic_harms_only_the_call_it_is_meant_for() -> None:
     assert _core.version() == kempe.__version__
 
 
-def test_an_injected_panic_can_be_taken_back() -> None:
+def test_an_injected_panic_can_be_cancelled() -> None:
     _core._inject_panic("version")
     _core._inject_panic(None)
     assert _core.version() == kempe.__version__

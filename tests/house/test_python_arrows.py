@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from house.places import PACKAGE
 
-#: These see a Solution and nothing under it; the command line sees only what users see.
+#: Parts that use the interface of Solution only; the command line uses the public interface only.
 NO_CORE = {"plot", "draw", "report", "cli", "errors", "_version", "__init__", "__main__"}
 
-#: Parts that may be imported by themselves and by nobody else, but for the module named.
+#: Parts that only they themselves and the given module may import.
 PRIVATE = {"cli": {"cli", "__main__"}}
 
 
@@ -41,7 +41,7 @@ def wrong_arrows(part: str, named: set[str]) -> set[str]:
 @pytest.mark.parametrize(
     "path", sorted(PACKAGE.rglob("*.py")), ids=lambda path: str(path.relative_to(PACKAGE))
 )
-def test_a_file_of_the_package_imports_only_what_it_may(path: Path) -> None:
+def test_a_file_of_the_package_imports_only_permitted_modules(path: Path) -> None:
     package = path.relative_to(PACKAGE.parent).parts[:-1]
     part = path.relative_to(PACKAGE).with_suffix("").parts[0]
     assert not wrong_arrows(part, parts_named(path.read_text(encoding="utf-8"), package))
@@ -61,7 +61,7 @@ def test_a_file_of_the_package_imports_only_what_it_may(path: Path) -> None:
         ("plot", "from . import style\nfrom ..errors import KempeError\nimport numpy", set()),
     ],
 )
-def test_a_wrong_arrow_is_seen(part: str, text: str, wrong: set[str]) -> None:
+def test_a_wrong_dependency_is_found(part: str, text: str, wrong: set[str]) -> None:
     assert wrong_arrows(part, parts_named(text, ("kempe", part))) == wrong
 
 

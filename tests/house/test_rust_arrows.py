@@ -18,7 +18,7 @@ LAYERS = [
     "case",
 ]
 
-#: Module → the modules it may name. Numerical methods know no mechanics.
+#: Module → modules that it may use. Numerical methods are independent of mechanics.
 MAY_USE = {name: set(LAYERS[: at + 1]) for at, name in enumerate(LAYERS)}
 MAY_USE |= {"solve": {"math", "solve"}, "integrate": {"math", "integrate"}}
 for _mechanics in ("equations", "stabilize", "analyses", "case"):
@@ -41,7 +41,7 @@ def wrong_arrows(module: tuple[str, ...], text: str) -> set[str]:
     [path for path in sorted(CORE.rglob("*.rs")) if path.name != "lib.rs"],
     ids=lambda path: str(path.relative_to(CORE)),
 )
-def test_a_file_of_the_core_names_only_what_is_below_it(path: Path) -> None:
+def test_a_file_of_the_core_uses_only_lower_modules(path: Path) -> None:
     module = module_of(path)
     assert module[0] in MAY_USE, "a new module of the core needs its place in MAY_USE"
     assert not wrong_arrows(module, path.read_text(encoding="utf-8"))
@@ -75,5 +75,5 @@ def test_a_file_of_the_core_names_only_what_is_below_it(path: Path) -> None:
         (("case", "read"), "use crate::model::Model; use crate::solve::Ldlt;", set()),
     ],
 )
-def test_a_wrong_arrow_is_seen(module: tuple[str, ...], text: str, wrong: set[str]) -> None:
+def test_a_wrong_dependency_is_found(module: tuple[str, ...], text: str, wrong: set[str]) -> None:
     assert wrong_arrows(module, text) == wrong

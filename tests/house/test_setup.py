@@ -1,4 +1,4 @@
-"""`./kempe` and `./test`: quick when there is nothing to do, clear when something is missing."""
+"""`./kempe` and `./test`: fast if nothing has changed, with clear messages if a tool is missing."""
 
 import os
 import shutil
@@ -31,7 +31,7 @@ def seconds(command: Sequence[str | Path], cwd: Path) -> float:
     return time.perf_counter() - begin
 
 
-def test_the_version_comes_at_once(tmp_path: Path) -> None:
+def test_the_version_is_printed_quickly(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "kempe", "--version"]
     assert run(command, cwd=tmp_path).stdout == f"kempe {kempe.__version__}\n"
     assert median(seconds(command, tmp_path) for _ in range(5)) < 0.2
@@ -46,8 +46,8 @@ def test_a_second_start_has_nothing_to_do(tmp_path: Path) -> None:
     assert median(seconds(command, tmp_path) for _ in range(5)) < 1.0
 
 
-@pytest.mark.skipif(sys.version_info < (3, 11), reason="Python 3.10 cannot be told so")
-def test_no_module_is_taken_from_where_the_user_stands(tmp_path: Path) -> None:
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="Python 3.10 has no such option")
+def test_no_module_is_imported_from_the_current_folder(tmp_path: Path) -> None:
     (tmp_path / "dataclasses.py").write_text("raise SystemExit('this is not the right one')")
     plain = run([sys.executable, "-m", "kempe", "--help"], cwd=tmp_path)
     assert "this is not the right one" in plain.stderr
@@ -56,7 +56,7 @@ def test_no_module_is_taken_from_where_the_user_stands(tmp_path: Path) -> None:
 
 @pytest.fixture
 def bare(tmp_path: Path) -> Path:
-    """A copy of the scripts in a folder with a space, beside a `bin` with what every system has."""
+    """A copy of the scripts in a folder with a space, and a `bin` with standard programs."""
     root = tmp_path / "my kempe"
     (root / "tools").mkdir(parents=True)
     for name in (
@@ -120,7 +120,7 @@ NO_VENV = "case $2 in *venv*) exit 1 ;; esac"
         ),
     ],
 )
-def test_what_is_missing_is_told_in_one_line(
+def test_a_missing_requirement_is_reported_in_one_line(
     bare: Path, programs: dict[str, str], environment: dict[str, str], told: str
 ) -> None:
     for name, body in programs.items():
@@ -133,7 +133,7 @@ def test_what_is_missing_is_told_in_one_line(
     assert not (bare / ".venv.lock").exists()
 
 
-def test_the_lock_of_a_dead_process_is_taken_over(bare: Path) -> None:
+def test_the_lock_of_a_dead_process_is_replaced(bare: Path) -> None:
     dead = subprocess.Popen([sys.executable, "-c", ""])
     dead.wait()
     (bare / ".venv.lock").mkdir()
@@ -144,7 +144,7 @@ def test_the_lock_of_a_dead_process_is_taken_over(bare: Path) -> None:
     assert not list(bare.glob(".venv.lock*"))
 
 
-def test_one_waits_while_another_sets_up(bare: Path) -> None:
+def test_a_process_waits_for_the_set_up_of_another(bare: Path) -> None:
     (bare / ".venv.lock").mkdir()
     (bare / ".venv.lock" / "pid").write_text(f"{os.getpid()}\n")
     command = [str(bare / "kempe"), "--version"]
@@ -158,7 +158,7 @@ def test_one_waits_while_another_sets_up(bare: Path) -> None:
     assert waiting.returncode == SETUP_FAILED
 
 
-def test_only_one_holds_the_lock_at_a_time(bare: Path) -> None:
+def test_only_one_process_holds_the_lock(bare: Path) -> None:
     script = """
         ROOT=$1; . "$ROOT/tools/setup.sh"
         for turn in 1 2 3; do
@@ -173,7 +173,7 @@ def test_only_one_holds_the_lock_at_a_time(bare: Path) -> None:
     assert [process.wait(timeout=60) for process in racing] == [0] * 4
 
 
-def test_a_failing_step_shows_why_and_leaves_no_stamp(bare: Path) -> None:
+def test_a_failing_step_prints_its_output_and_leaves_no_stamp(bare: Path) -> None:
     folder = bare.parent / "bin"
     program(folder, "cc", "")
     program(folder, "cargo", "echo cargo 1.99.0")

@@ -1,4 +1,4 @@
-"""Small rooms: no file above 400 lines, no function above 60, unless a program wrote it."""
+"""No file has more than 400 lines and no function more than 60, except generated ones."""
 
 import ast
 from pathlib import Path
@@ -9,7 +9,7 @@ from house.rust_source import Function, functions
 
 FILE_LIMIT = 400
 FUNCTION_LIMIT = 60
-GENERATED = "@generated"  # to stand in the first line of a file that a program wrote
+GENERATED = "@generated"  # in the first line of generated files
 
 FILES = [
     path
@@ -47,19 +47,19 @@ def test_rust_functions_are_small(path: Path) -> None:
     assert not too_long(functions(path.read_text(encoding="utf-8")))
 
 
-def test_a_long_python_function_is_seen() -> None:
+def test_a_long_python_function_is_found() -> None:
     text = "def short():\n    pass\n\nclass C:\n    def long(self):\n" + "        x = 1\n" * 60
     assert too_long(python_functions(text)) == [Function("long", 61)]
 
 
-def test_a_long_rust_function_is_seen() -> None:
+def test_a_long_rust_function_is_found() -> None:
     body = "    let brace = '{'; // }\n" * 58
     text = f"fn short<'a>(x: [f64; 3]) -> &'a str {{ \"}}\" }}\nfn long() {{\n{body}    x();\n}}\n"
     assert functions(text) == [Function("short", 1), Function("long", 61)]
     assert too_long(functions(text)) == [Function("long", 61)]
 
 
-def test_a_declaration_without_a_body_is_no_function() -> None:
+def test_a_declaration_without_a_body_is_ignored() -> None:
     text = (
         "trait T {\n    fn norm(x: [f64; 3]) -> f64;\n    fn zero() -> f64 {\n        0.0\n    }\n}"
     )

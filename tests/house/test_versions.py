@@ -1,4 +1,4 @@
-"""The version, the Rust version and the public names are each told in two places that agree."""
+"""The version, the Rust version and the public names agree where they occur twice."""
 
 import ast
 import re
@@ -20,12 +20,12 @@ def test_there_is_one_version() -> None:
     assert f"version: {kempe.__version__}\n" in citation
 
 
-def test_the_set_up_asks_for_the_rust_that_cargo_asks_for() -> None:
+def test_set_up_and_cargo_require_the_same_rust() -> None:
     script = (ROOT / "tools" / "setup.sh").read_text(encoding="utf-8")
     assert f"RUST_MINOR={cargo('rust-version').split('.')[1]} " in script
 
 
-def test_type_checkers_see_the_public_names() -> None:
+def test_public_names_are_declared_for_type_checkers() -> None:
     tree = ast.parse((PACKAGE / "__init__.py").read_text(encoding="utf-8"))
     block = next(node for node in tree.body if isinstance(node, ast.If))
     seen = {
@@ -37,6 +37,6 @@ def test_type_checkers_see_the_public_names() -> None:
     assert seen == set(kempe._HOME)
 
 
-def test_every_public_name_can_be_fetched() -> None:
+def test_every_public_name_can_be_imported() -> None:
     assert all(getattr(kempe, name) is not None for name in kempe.__all__)
     assert set(kempe.__all__) <= set(dir(kempe))

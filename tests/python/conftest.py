@@ -1,4 +1,4 @@
-"""The flagship as the design states it, once as text and once as Python, and its solution."""
+"""The flagship as a file and in Python, and its solution."""
 
 import signal
 from collections.abc import Iterator
@@ -46,7 +46,7 @@ def solution(start: kp.State) -> kp.Solution:
 
 @pytest.fixture
 def four_bar_file(tmp_path: Path) -> Path:
-    """A copy of the case of the design, which ends after half a second."""
+    """A copy of the flagship case that ends after half a second."""
     text = FOUR_BAR.read_text(encoding="utf-8").replace("t_end = 15", "t_end = 0.5")
     path = tmp_path / "four_bar.toml"
     path.write_text(text, encoding="utf-8")
@@ -55,7 +55,7 @@ def four_bar_file(tmp_path: Path) -> Path:
 
 @pytest.fixture(autouse=True, scope="session")
 def _interruptible() -> Iterator[None]:
-    """A shell starts what runs in the background deaf to interruptions; these tests send them."""
+    """Enable interruptions, which a shell disables for background processes."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)

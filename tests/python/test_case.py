@@ -1,4 +1,4 @@
-"""Cases: reading, running, saving, and files that are no cases."""
+"""Cases: reading, running, saving, and invalid files."""
 
 import json
 import os
@@ -16,7 +16,7 @@ def test_a_file_is_read(four_bar_file: Path) -> None:
     assert case.start()["crank"].angle == pytest.approx(np.deg2rad(70), abs=1e-12)
 
 
-def test_results_by_name_and_by_position(four_bar_file: Path) -> None:
+def test_results_by_name_and_by_index(four_bar_file: Path) -> None:
     results = kp.load(four_bar_file).run()
     assert list(results) == ["release"]
     assert results[0] is results["release"]
@@ -25,7 +25,7 @@ def test_results_by_name_and_by_position(four_bar_file: Path) -> None:
         results["relaese"]
 
 
-def test_an_analysis_starts_where_the_one_before_it_ended(model: kp.Model) -> None:
+def test_an_analysis_starts_at_the_end_of_the_previous_one(model: kp.Model) -> None:
     start = kp.Start(set={"crank.angle": "70*deg"}, guess={"rocker.angle": "240*deg"})
     analyses = [
         kp.Dynamics(0.1, name="first"),
@@ -40,7 +40,7 @@ def test_an_analysis_starts_where_the_one_before_it_ended(model: kp.Model) -> No
 
 
 @pytest.mark.parametrize("suffix", [".toml", ".json"])
-def test_a_case_survives_saving(four_bar_file: Path, tmp_path: Path, suffix: str) -> None:
+def test_a_saved_case_is_loaded_unchanged(four_bar_file: Path, tmp_path: Path, suffix: str) -> None:
     case = kp.load(four_bar_file)
     saved = tmp_path / f"again{suffix}"
     case.save(saved)
@@ -49,7 +49,7 @@ def test_a_case_survives_saving(four_bar_file: Path, tmp_path: Path, suffix: str
     np.testing.assert_array_equal(first.q, second.q)
 
 
-def test_a_case_built_in_python_is_the_case_in_the_file(
+def test_a_case_built_in_python_equals_the_case_in_the_file(
     model: kp.Model, four_bar_file: Path, tmp_path: Path
 ) -> None:
     start = {
@@ -64,7 +64,7 @@ def test_a_case_built_in_python_is_the_case_in_the_file(
     np.testing.assert_array_equal(built.q, written.q)
 
 
-def test_parameters_are_overridden_and_saved_so(four_bar_file: Path, tmp_path: Path) -> None:
+def test_overridden_parameters_are_saved(four_bar_file: Path, tmp_path: Path) -> None:
     case = kp.load(four_bar_file, parameters={"k": 2e6, "c": "k/50"})
     assert case.model.parameters["k"] == 2e6
     assert case.model.parameters["c"] == pytest.approx(4e4)
@@ -72,13 +72,13 @@ def test_parameters_are_overridden_and_saved_so(four_bar_file: Path, tmp_path: P
     assert kp.load(tmp_path / "stiff.toml").model.parameters["c"] == pytest.approx(4e4)
 
 
-def test_nested_keys_of_start_mean_the_same(four_bar_file: Path) -> None:
+def test_nested_keys_of_start_are_equivalent(four_bar_file: Path) -> None:
     text = four_bar_file.read_text(encoding="utf-8")
     four_bar_file.write_text(text.replace('"crank.angle" =', "crank.angle ="), encoding="utf-8")
     assert kp.load(four_bar_file).held == {"crank.angle": "70*deg"}
 
 
-def test_what_is_wrong_in_a_file_is_told_with_its_line(four_bar_file: Path) -> None:
+def test_an_error_in_a_file_has_its_line(four_bar_file: Path) -> None:
     text = four_bar_file.read_text(encoding="utf-8").replace("mass = 3", "mass = -3")
     four_bar_file.write_text(text, encoding="utf-8")
     with pytest.raises(kp.ModelError) as caught:
@@ -115,7 +115,7 @@ def broken(folder: Path, kind: str) -> Path:
         ("syntax", "syntax"),
     ],
 )
-def test_a_file_that_is_no_case_is_refused_by_name(tmp_path: Path, kind: str, words: str) -> None:
+def test_an_invalid_file_is_refused_with_its_name(tmp_path: Path, kind: str, words: str) -> None:
     path = broken(tmp_path, kind)
     with pytest.raises(kp.FileError, match=words) as caught:
         kp.load(path)
@@ -123,13 +123,13 @@ def test_a_file_that_is_no_case_is_refused_by_name(tmp_path: Path, kind: str, wo
 
 
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may read everything")
-def test_a_file_without_permission_is_told(four_bar_file: Path) -> None:
+def test_a_file_without_permission_is_reported(four_bar_file: Path) -> None:
     four_bar_file.chmod(0)
     with pytest.raises(kp.FileError, match="not permitted"):
         kp.load(four_bar_file)
 
 
-def test_a_failed_save_leaves_the_old_file_and_no_other(
+def test_a_failed_save_keeps_the_old_file_and_leaves_no_other(
     four_bar_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     case = kp.load(four_bar_file)
@@ -146,7 +146,7 @@ def test_a_failed_save_leaves_the_old_file_and_no_other(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["four_bar.toml", "kept.json"]
 
 
-def test_saving_makes_folders_keeps_links_and_permissions(
+def test_saving_creates_folders_and_keeps_links_and_permissions(
     four_bar_file: Path, tmp_path: Path
 ) -> None:
     case = kp.load(four_bar_file)

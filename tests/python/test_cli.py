@@ -1,4 +1,4 @@
-"""The command line: what it prints, what it writes and how it ends."""
+"""The command line: output, files and exit codes."""
 
 import json
 import os
@@ -32,10 +32,10 @@ def kempe(
     )
 
 
-def test_run_tells_and_writes_everything(four_bar_file: Path, tmp_path: Path) -> None:
+def test_run_prints_and_writes_everything(four_bar_file: Path, tmp_path: Path) -> None:
     done = kempe("run", four_bar_file, cwd=tmp_path, figures=True)
     assert done.returncode == 0, done.stderr
-    assert done.stderr == ""  # no progress bar where there is no terminal
+    assert done.stderr == ""  # no progress bar without a terminal
     order = [
         "Four-bar linkage",
         "Bodies",
@@ -66,7 +66,7 @@ def test_the_jacobian_is_aligned_and_labelled(four_bar_file: Path, tmp_path: Pat
     assert (tmp_path / "r" / "solution.npz").exists()
 
 
-def test_json_is_the_only_thing_on_stdout(four_bar_file: Path, tmp_path: Path) -> None:
+def test_only_json_is_printed_on_stdout(four_bar_file: Path, tmp_path: Path) -> None:
     done = kempe("run", four_bar_file, "--json", "--set", "k=2e6", "--t-end", "0.1", cwd=tmp_path)
     told = json.loads(done.stdout)["analyses"]["release"]
     assert told["success"] is True
@@ -80,13 +80,13 @@ def test_json_is_the_only_thing_on_stdout(four_bar_file: Path, tmp_path: Path) -
     assert stored.model.parameters["k"] == 2e6
 
 
-def test_quiet_writes_and_prints_nothing(four_bar_file: Path, tmp_path: Path) -> None:
+def test_quiet_writes_files_without_printing(four_bar_file: Path, tmp_path: Path) -> None:
     done = kempe("run", four_bar_file, "-q", cwd=tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     assert (tmp_path / "out/four_bar/solution.npz").exists()
 
 
-def test_check_simulates_nothing(four_bar_file: Path, tmp_path: Path) -> None:
+def test_check_runs_no_simulation(four_bar_file: Path, tmp_path: Path) -> None:
     done = kempe("check", four_bar_file, cwd=tmp_path)
     assert done.returncode == 0
     assert "Initial configuration" in done.stdout
@@ -103,7 +103,7 @@ def test_names_are_shown_verbatim(four_bar_file: Path, tmp_path: Path) -> None:
     assert "[red]$C$[/red]" in done.stdout
 
 
-def test_several_analyses_have_folders_of_their_own(four_bar_file: Path, tmp_path: Path) -> None:
+def test_several_analyses_have_separate_folders(four_bar_file: Path, tmp_path: Path) -> None:
     with four_bar_file.open("a", encoding="utf-8") as file:
         file.write('\n[analyses.on]\ntype = "dynamics"\nt_end = 0.6\n')
         file.write('stabilization = { type = "baumgarte" }\nmethod = { type = "rk45" }\n')
@@ -132,13 +132,13 @@ def replaced(path: Path, old: str, new: str) -> Path:
         ("[start]", "[strat]", "strat"),
     ],
 )
-def test_bad_input_ends_with_2(
+def test_bad_input_gives_exit_code_2(
     four_bar_file: Path, tmp_path: Path, old: str, new: str, words: str
 ) -> None:
     done = kempe("run", replaced(four_bar_file, old, new), cwd=tmp_path)
     assert done.returncode == 2
     assert words in done.stderr
-    assert done.stderr.count("(line") <= 1  # each problem is told once
+    assert done.stderr.count("(line") <= 1  # each problem is printed once
     assert "Traceback" not in done.stderr
     assert done.stdout == ""
 
@@ -146,20 +146,22 @@ def test_bad_input_ends_with_2(
 @pytest.mark.parametrize(
     "words", [["--set", "k"], ["--set", "stiff=1"], ["--t-end", "soon"], ["--colour"]], ids=str
 )
-def test_bad_arguments_end_with_2(four_bar_file: Path, tmp_path: Path, words: list[str]) -> None:
+def test_bad_arguments_give_exit_code_2(
+    four_bar_file: Path, tmp_path: Path, words: list[str]
+) -> None:
     done = kempe("run", four_bar_file, *words, cwd=tmp_path)
     assert done.returncode == 2
     assert "Traceback" not in done.stderr
 
 
-def test_a_linkage_that_cannot_close_ends_with_3(four_bar_file: Path, tmp_path: Path) -> None:
+def test_a_linkage_that_cannot_close_gives_exit_code_3(four_bar_file: Path, tmp_path: Path) -> None:
     done = kempe("run", four_bar_file, "--set", "L2=1", cwd=tmp_path)
     assert done.returncode == 3
     assert "error:" in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_a_failure_keeps_what_was_computed_and_says_so(four_bar_file: Path, tmp_path: Path) -> None:
+def test_a_failure_writes_the_partial_solution(four_bar_file: Path, tmp_path: Path) -> None:
     replaced(four_bar_file, "t_end = 0.5", "t_end = 0.5\nmax_steps = 5")
     done = kempe("run", four_bar_file, cwd=tmp_path)
     assert done.returncode == 3
@@ -171,7 +173,7 @@ def test_a_failure_keeps_what_was_computed_and_says_so(four_bar_file: Path, tmp_
 
 
 @pytest.mark.parametrize("words", [["missing.toml"], ["."], ["four_bar.toml", "-o", "file"]])
-def test_trouble_with_files_ends_with_4(
+def test_a_file_error_gives_exit_code_4(
     four_bar_file: Path, tmp_path: Path, words: list[str]
 ) -> None:
     assert four_bar_file.parent == tmp_path
@@ -183,9 +185,7 @@ def test_trouble_with_files_ends_with_4(
 
 
 @pytest.mark.skipif(os.name != "posix", reason="terminals as POSIX has them")
-def test_the_simulated_time_is_shown_where_there_is_a_terminal(
-    four_bar_file: Path, tmp_path: Path
-) -> None:
+def test_the_simulated_time_is_displayed_on_a_terminal(four_bar_file: Path, tmp_path: Path) -> None:
     replaced(
         four_bar_file,
         "t_end = 0.5\noutput_step = 0.01",
@@ -204,7 +204,7 @@ def test_the_simulated_time_is_shown_where_there_is_a_terminal(
         try:
             while chunk := os.read(terminal, 4096):
                 shown += chunk
-        except OSError:  # how Linux says that the other end is closed
+        except OSError:  # Linux: the other end is closed
             pass
     os.close(terminal)
     assert process.returncode == 0
@@ -214,7 +214,7 @@ def test_the_simulated_time_is_shown_where_there_is_a_terminal(
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
-def test_an_interruption_ends_with_130_and_keeps_what_there_is(
+def test_an_interruption_gives_exit_code_130_and_keeps_the_solution(
     four_bar_file: Path, tmp_path: Path
 ) -> None:
     endless = "t_end = 1e7\nmax_steps = 1000000000\ndense_output = false"
@@ -230,7 +230,9 @@ def test_an_interruption_ends_with_130_and_keeps_what_there_is(
         encoding="utf-8",
     ) as process:
         assert process.stdout is not None
-        assert any("set.crank.angle" in line for line in process.stdout)  # the last before it runs
+        assert any(
+            "set.crank.angle" in line for line in process.stdout
+        )  # the last line before the run
         time.sleep(1.0)
         process.send_signal(signal.SIGINT)
         _, stderr = process.communicate(timeout=60)
@@ -240,7 +242,7 @@ def test_an_interruption_ends_with_130_and_keeps_what_there_is(
     assert not kp.load_solution(tmp_path / "out/four_bar/solution.npz").success
 
 
-def test_settling_is_told_apart_from_motion_without_end() -> None:
+def test_settling_differs_from_endless_motion() -> None:
     from kempe.report.settling import settling
 
     t = np.linspace(0.0, 10.0, 1001)

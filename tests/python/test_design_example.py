@@ -1,4 +1,4 @@
-"""The example of the design, as it stands there: in Python and as a file."""
+"""The example of the design, in Python and as a file."""
 
 from pathlib import Path
 
@@ -39,19 +39,19 @@ def sol() -> kp.Solution:
     return run_the_python_example()
 
 
-def test_it_starts_where_the_reference_does(sol: kp.Solution) -> None:
+def test_the_start_agrees_with_the_reference(sol: kp.Solution) -> None:
     np.testing.assert_allclose(sol.q[0], Q_START, atol=1e-6)
     assert np.linalg.norm(sol["C"].force(on="coupler")[0]) == pytest.approx(24932.0, rel=1e-3)
 
 
-def test_it_settles_within_the_time_that_is_known(sol: kp.Solution) -> None:
+def test_it_settles_within_the_known_time(sol: kp.Solution) -> None:
     from kempe.report import summary
 
     times = {body["body"]: body["time"] for body in summary(sol)["settling"]}
     assert all(2.0 < time < 2.5 for time in times.values())
 
 
-def test_what_the_example_asks_for_is_there(sol: kp.Solution) -> None:
+def test_the_quantities_of_the_example_exist(sol: kp.Solution) -> None:
     n = len(sol.t)
     assert n == 1501
     assert sol["rocker"].angle.shape == (n,)
@@ -61,7 +61,7 @@ def test_what_the_example_asks_for_is_there(sol: kp.Solution) -> None:
     np.testing.assert_allclose(spring.torque(on="rocker"), parts, atol=1e-6)
 
 
-def test_the_file_says_the_same(sol: kp.Solution) -> None:
+def test_the_file_gives_the_same_solution(sol: kp.Solution) -> None:
     case = kp.load(Path(__file__).with_name("four_bar.toml"))
     np.testing.assert_array_equal(case.run()["release"].q, sol.q)
 

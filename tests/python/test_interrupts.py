@@ -1,4 +1,4 @@
-"""A long run stops at once, and a kill never leaves a torn file."""
+"""An interruption stops a long run quickly, and a kill never leaves an incomplete file."""
 
 import os
 import signal
@@ -21,7 +21,7 @@ def four_bar() -> kp.State:
 
 
 def hanging_chain() -> kp.State:
-    """Of 300 bars: a step takes a thousand times as long as a reported state of the four-bar."""
+    """A chain of 300 bars; a step takes a thousand times as long as an output of the four-bar."""
     m = kp.Model("chain", gravity=(0, -9.81))
     m.ground.points(P0=(0, 0))
     for k in range(300):
@@ -59,7 +59,7 @@ def test_an_interruption_arrives_within_a_fifth_of_a_second(
             start,
             t_end=t_end,
             output_step=output_step,
-            method=kp.Auto(rtol=1e-12, atol=1e-15),  # steps so short that it lasts
+            method=kp.Auto(rtol=1e-12, atol=1e-15),  # short steps for a long run
             dense_output=False,
         )
     took = time.monotonic() - sent[0]
@@ -84,7 +84,7 @@ while True:
 
 
 @pytest.mark.parametrize("delay", [0.01, 0.05, 0.13, 0.29])
-def test_a_kill_during_a_save_leaves_no_torn_file(delay: float, tmp_path: Path) -> None:
+def test_a_kill_during_a_save_leaves_no_incomplete_file(delay: float, tmp_path: Path) -> None:
     npz, csv, toml = (tmp_path / name for name in ("s.npz", "s.csv", "c.toml"))
     words = [str(ROOT / "examples/four_bar.toml"), str(npz), str(csv), str(toml)]
     with subprocess.Popen(
@@ -103,7 +103,7 @@ def test_a_kill_during_a_save_leaves_no_torn_file(delay: float, tmp_path: Path) 
 
 
 @pytest.mark.parametrize("bad", [float("nan"), float("inf"), -float("inf")])
-def test_what_is_not_finite_is_refused_by_name(bad: float) -> None:
+def test_numbers_that_are_not_finite_are_refused_by_name(bad: float) -> None:
     m = kp.Model("rod", gravity=(0, -9.81))
     m.ground.points(A=(0, 0))
     with pytest.raises(kp.ModelError, match=r"rod\.mass"):

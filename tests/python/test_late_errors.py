@@ -1,4 +1,4 @@
-"""What does not follow from a state is told when it is asked for."""
+"""Errors of quantities that are computed on first access."""
 
 import kempe as kp
 import numpy as np
@@ -6,7 +6,7 @@ import pytest
 
 
 def swinging(stiffness: str) -> kp.Solution:
-    """A rod on a spring whose law no step looks at where t is a multiple of 50 ms and odd."""
+    """A rod on a spring; its law is undefined at a time that outputs use but steps do not."""
     model = kp.Model("law", gravity=(0, -9.81))
     model.ground.points(O=(0, 0))
     model.bar("rod", mass=1.0, length=1.0, ends=("A", "B"))
@@ -16,7 +16,7 @@ def swinging(stiffness: str) -> kp.Solution:
     return kp.dynamics(model, start, t_end=1.0, output_step=0.05, method=kp.RK4(step=0.04))
 
 
-def test_what_is_not_there_is_told_when_it_is_asked_for() -> None:
+def test_an_error_of_a_derived_quantity_is_raised_on_access() -> None:
     defined, undefined = swinging("2"), swinging("2 + (t - 0.25) / (t - 0.25)")
     assert defined.success
     assert undefined.success

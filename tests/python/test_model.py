@@ -1,4 +1,4 @@
-"""Building a model in Python: what is taken, what is refused, and in which words."""
+"""Building a model in Python: accepted values, refused values and their messages."""
 
 from pathlib import Path
 
@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from kempe import _core, _generate, elements
 
 
-def test_the_numbers_of_the_flagship(model: kp.Model) -> None:
+def test_the_dimensions_of_the_flagship(model: kp.Model) -> None:
     assert (model.n_q, model.n_rows) == (9, 8)
     assert list(model.bodies) == ["crank", "coupler", "rocker"]
     assert list(model.joints) == ["A", "B", "C", "D"]
@@ -23,7 +23,7 @@ def test_the_numbers_of_the_flagship(model: kp.Model) -> None:
     assert model.parameters["k"] == 1e6
 
 
-def test_a_model_tells_what_it_holds(model: kp.Model) -> None:
+def test_the_repr_lists_the_elements(model: kp.Model) -> None:
     assert "crank, coupler, rocker" in repr(model)
     assert "spring" in repr(model)
 
@@ -37,7 +37,7 @@ def test_the_compiled_model_is_kept_until_a_change(model: kp.Model) -> None:
     assert second.all_bodies["ground"].points["E"] == (1.0, 2.0)
 
 
-def test_other_parameters_leave_the_model_as_it_was(model: kp.Model) -> None:
+def test_other_parameters_do_not_change_the_model(model: kp.Model) -> None:
     longer = model.with_parameters({"L1": 11})
     assert longer.bodies["crank"].points["B"][0] == pytest.approx(5.5)
     assert model.bodies["crank"].points["B"][0] == pytest.approx(5.0)
@@ -51,7 +51,7 @@ def test_an_unknown_parameter_is_refused(model: kp.Model) -> None:
 @pytest.mark.parametrize(
     "value", [np.float64(3), np.float32(3), np.int64(3), np.array(3.0), 3, 3.0, "1 + 2"]
 )
-def test_every_kind_of_number_is_taken(value: object) -> None:
+def test_every_kind_of_number_is_accepted(value: object) -> None:
     m = kp.Model()
     m.bar("rod", mass=value, length=2, ends=("A", "B"))  # type: ignore[arg-type]
     assert m.bodies["rod"].mass == 3.0
@@ -62,19 +62,19 @@ def test_every_kind_of_number_is_taken(value: object) -> None:
     [True, np.bool_(True), float("nan"), float("inf"), 1j, np.complex128(1), None, [], "", 10**400],
     ids=repr,
 )
-def test_what_is_no_number_is_refused_with_its_place(value: object) -> None:
+def test_a_wrong_number_is_refused_with_its_path(value: object) -> None:
     with pytest.raises(kp.ModelError, match=r"joints\.A\.axes\[1\]") as caught:
         kp.Model().revolute("A", "ground.A", "crank.A", axes=(0.0, value))  # type: ignore[arg-type]
     assert caught.value.problems[0].path == "joints.A.axes[1]"
 
 
 @pytest.mark.parametrize("value", [1.0, "ab", (1,), (1, 2, 3), {"x": 1, "y": 2}], ids=repr)
-def test_what_is_no_pair_is_refused_with_its_place(value: object) -> None:
+def test_a_wrong_pair_is_refused_with_its_path(value: object) -> None:
     with pytest.raises(kp.ModelError, match=r"joints\.A\.axes"):
         kp.Model().revolute("A", "ground.A", "crank.A", axes=value)  # type: ignore[arg-type]
 
 
-def test_a_function_as_a_value_is_refused_by_the_name_of_its_field() -> None:
+def test_a_function_as_a_value_is_refused_with_its_field() -> None:
     with pytest.raises(kp.ModelError, match=r"forces\.s\.stiffness: a Python function"):
         kp.Model().torsion_spring("s", "ground", "rod", stiffness=abs)  # type: ignore[arg-type]
 
@@ -86,7 +86,7 @@ def test_numbers_reach_the_core_unchanged(mass: float) -> None:
     assert m.bodies["b"].mass == mass
 
 
-def test_a_name_is_taken_once_over_all_sections(model: kp.Model) -> None:
+def test_a_name_is_unique_over_all_sections(model: kp.Model) -> None:
     with pytest.raises(kp.ModelError, match=r"taken by bodies\.crank"):
         model.torsion_spring("crank", "ground", "rocker")
     with pytest.raises(kp.ModelError, match=r"taken by joints\.A"):
@@ -102,7 +102,7 @@ def test_a_reserved_name_is_refused(name: str) -> None:
         kp.Model().bar(name, mass=1, length=1)
 
 
-def test_an_unknown_body_is_refused_with_its_place(model: kp.Model) -> None:
+def test_an_unknown_body_is_refused_with_its_path(model: kp.Model) -> None:
     model.revolute("E", "cuopler.B", "rocker.C")
     with pytest.raises(kp.ModelError) as caught:
         model.compile()
@@ -111,25 +111,25 @@ def test_an_unknown_body_is_refused_with_its_place(model: kp.Model) -> None:
     assert "joints.E.i" in told
 
 
-def test_a_structure_that_cannot_be_is_a_model_error_not_a_file_error() -> None:
+def test_an_invalid_structure_is_a_model_error_not_a_file_error() -> None:
     m = kp.Model()
     m.bar("a.b", mass=1, length=1)
     with pytest.raises(kp.ModelError):
         m.compile()
 
 
-def test_a_body_may_be_given_where_it_stands() -> None:
+def test_a_body_may_be_given_by_global_points() -> None:
     m = kp.Model()
     m.bar("rod", mass=1, through={"A": (1, 1), "B": (4, 5)})
     assert m.bodies["rod"].inertia == pytest.approx(25 / 12)
 
 
-def test_the_elements_are_what_the_catalogue_says() -> None:
+def test_the_elements_match_the_catalogue() -> None:
     written = Path(elements.__file__).read_text(encoding="utf-8")
     assert _generate.source(_core.catalogue()) == written
 
 
-def test_an_element_keeps_what_was_written() -> None:
+def test_an_element_keeps_its_fields() -> None:
     spring = kp.Model().torsion_spring("s", "ground", "rod", stiffness="2*k")
     assert (spring.stiffness, spring.damping, spring.section) == ("2*k", 0.0, "forces")
     assert spring.tree() == {

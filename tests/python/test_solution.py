@@ -1,4 +1,4 @@
-"""What a solution says, between the outputs too, and how it is kept in files."""
+"""Solutions: values at and between the outputs, and files."""
 
 import csv
 import os
@@ -14,7 +14,7 @@ def derivative(values: np.ndarray, t: np.ndarray) -> np.ndarray:
     return np.gradient(values, t, axis=0, edge_order=2)
 
 
-def test_shapes_are_time_first_and_nothing_can_be_written(solution: kp.Solution) -> None:
+def test_arrays_are_time_first_and_read_only(solution: kp.Solution) -> None:
     n = len(solution.t)
     assert n == 101
     for array, shape in (
@@ -40,7 +40,7 @@ def test_the_columns_of_a_body(solution: kp.Solution) -> None:
     np.testing.assert_array_equal(coupler.alpha, solution.a[:, 5])
 
 
-def test_a_point_moves_as_its_derivatives_say(solution: kp.Solution) -> None:
+def test_the_motion_of_a_point_agrees_with_its_derivatives(solution: kp.Solution) -> None:
     t = np.linspace(0.2, 0.4, 2001)
     dense = solution(t)
     point = dense["coupler"].point("C")
@@ -51,12 +51,12 @@ def test_a_point_moves_as_its_derivatives_say(solution: kp.Solution) -> None:
     )
 
 
-def test_both_bodies_of_a_joint_have_its_point(solution: kp.Solution) -> None:
+def test_both_bodies_of_a_joint_share_its_point(solution: kp.Solution) -> None:
     gap = solution["rocker"].point("C").position - solution["coupler"].point("C").position
     np.testing.assert_allclose(gap, solution["C"].residual, atol=1e-12)
 
 
-def test_ground_stands_still(solution: kp.Solution) -> None:
+def test_ground_does_not_move(solution: kp.Solution) -> None:
     d = solution["ground"].point("D")
     np.testing.assert_array_equal(d.position, np.tile([20.0, 0.0], (101, 1)))
     assert not d.velocity.any()
@@ -69,7 +69,7 @@ def test_reactions_are_opposite_in_the_global_frame(solution: kp.Solution) -> No
     np.testing.assert_allclose(on_coupler, solution["C"].lam)
 
 
-def test_frames_turn_a_reaction_and_keep_its_length(solution: kp.Solution) -> None:
+def test_frames_rotate_a_reaction_and_keep_its_length(solution: kp.Solution) -> None:
     whole, body = (solution["C"].force(on="rocker", frame=frame) for frame in ("global", "body"))
     angle = solution["rocker"].angle
     x = np.cos(angle) * whole[:, 0] + np.sin(angle) * whole[:, 1]
@@ -95,7 +95,7 @@ def test_the_spring_is_the_sum_of_its_parts(solution: kp.Solution) -> None:
     assert "damping_torque" in dir(spring)
 
 
-def test_energy_is_kept(solution: kp.Solution) -> None:
+def test_energy_is_conserved(solution: kp.Solution) -> None:
     energy = solution.energy
     assert np.abs(energy.balance).max() < 1e-4
     assert energy.dissipated[-1] > 0.0
@@ -146,12 +146,12 @@ def test_a_simulation_without_a_step_is_its_start(model: kp.Model, start: kp.Sta
 
 
 @pytest.mark.parametrize("t", [-0.1, 1.1, float("nan"), [0.5, 2.0]])
-def test_outside_of_the_solution_is_refused(solution: kp.Solution, t: object) -> None:
-    with pytest.raises(kp.ModelError, match="outside of the solution"):
+def test_times_outside_the_solution_are_refused(solution: kp.Solution, t: object) -> None:
+    with pytest.raises(kp.ModelError, match="outside the solution"):
         solution(t)  # type: ignore[arg-type]
 
 
-def test_without_dense_output_it_is_said_how_to_get_it(model: kp.Model, start: kp.State) -> None:
+def test_without_dense_output_the_error_has_a_remedy(model: kp.Model, start: kp.State) -> None:
     sol = kp.dynamics(model, start, t_end=0.01, dense_output=False)
     with pytest.raises(kp.ModelError, match="dense_output=True"):
         sol(0.005)
@@ -167,7 +167,7 @@ def test_unknown_names_are_key_errors_with_a_suggestion(solution: kp.Solution) -
     assert "cuopler" not in solution
 
 
-def test_wrong_questions_are_refused(solution: kp.Solution) -> None:
+def test_wrong_arguments_are_refused(solution: kp.Solution) -> None:
     with pytest.raises(kp.ModelError, match="coupler, rocker"):
         solution["C"].force(on="crank")
     with pytest.raises(kp.ModelError, match="did you mean 'global'"):
@@ -180,7 +180,7 @@ def test_wrong_questions_are_refused(solution: kp.Solution) -> None:
         solution["C"].force("rocker")
 
 
-def test_a_state_is_told_in_full(start: kp.State) -> None:
+def test_a_state_is_printed_in_full(start: kp.State) -> None:
     text = repr(start)
     assert "crank" in text
     assert "iteration" in text
@@ -208,7 +208,7 @@ def test_a_state_serves_as_guess(model: kp.Model, start: kp.State) -> None:
 def test_a_state_of_another_mechanism_is_refused(start: kp.State) -> None:
     other = kp.Model()
     other.bar("rod", mass=1, length=1, ends=("A", "B"))
-    with pytest.raises(kp.ModelError, match="the state is of bodies"):
+    with pytest.raises(kp.ModelError, match="the state has the bodies"):
         kp.dynamics(other, start, t_end=1)
 
 
@@ -222,7 +222,7 @@ def test_a_failure_has_the_solution_until_then(model: kp.Model, start: kp.State)
     assert 0.0 < partial.t[-1] < 1.0
 
 
-def test_progress_is_told(model: kp.Model, start: kp.State) -> None:
+def test_progress_is_called(model: kp.Model, start: kp.State) -> None:
     seen: list[float] = []
     slow = {"method": kp.RK4(step=1e-3), "output_step": 1, "dense_output": False}
     kp.dynamics(model, start, t_end=200, **slow, progress=seen.append)
@@ -231,7 +231,7 @@ def test_progress_is_told(model: kp.Model, start: kp.State) -> None:
     assert 0.0 < seen[0] <= seen[-1] <= 200.0
 
 
-def test_what_progress_raises_ends_the_simulation_and_has_the_solution(
+def test_an_exception_in_progress_ends_the_simulation_and_has_the_solution(
     model: kp.Model, start: kp.State
 ) -> None:
     def enough(_: float) -> None:
@@ -323,7 +323,7 @@ def spoiled(folder: Path, solution: kp.Solution, kind: str) -> Path:
     "kind",
     ["torn", "bytes", "empty", "other arrays", "pickled", "one array", "wrong shape", "missing"],
 )
-def test_what_is_no_solution_is_refused_by_name(
+def test_an_invalid_solution_file_is_refused_with_its_name(
     solution: kp.Solution, tmp_path: Path, kind: str
 ) -> None:
     path = spoiled(tmp_path, solution, kind)
@@ -363,7 +363,7 @@ def test_the_data_frame_has_units(solution: kp.Solution) -> None:
     assert frame.attrs["units"]["rocker.alpha"] == "rad/s^2"
 
 
-def test_without_pandas_it_is_said_what_to_install(
+def test_without_pandas_the_error_has_a_remedy(
     solution: kp.Solution, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "pandas", None)

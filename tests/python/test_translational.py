@@ -1,4 +1,4 @@
-"""The translational joint: the slider-crank against its closed form, and the force of the guide."""
+"""The translational joint: the closed form of a slider-crank, and the force of the guide."""
 
 import json
 import math
@@ -40,7 +40,7 @@ def test_a_driven_slider_crank_follows_the_closed_form(degrees: str) -> None:
     assert_allclose(np.abs([*state.q[7:], *state.v[7:], *state.a[7:]]), 0.0, atol=1e-12)
 
 
-def test_the_guide_carries_what_is_normal_to_it() -> None:
+def test_the_force_of_the_guide_is_normal_to_it() -> None:
     axes = (math.radians(25), math.radians(-40))
     m = slider_crank(axes=axes)
     state = kp.assemble(m, set={"crank.angle": "60*deg", "crank.omega": 20})
@@ -64,11 +64,11 @@ def test_a_slider_crank_keeps_its_energy() -> None:
     solution = kp.dynamics(m, start, t_end=1, output_step=0.01, method=method)
     assert np.abs(solution.energy.balance).max() < 1e-7
     assert solution.drift.position.max() < 1e-8
-    assert solution["crank"].angle[-1] > 20  # it turned several times
+    assert solution["crank"].angle[-1] > 20  # it made several turns
 
 
 def test_springs_turn_bodies_on_slides_together() -> None:
-    """Whole turns that relax a spring must not turn a slider against its guide."""
+    """Angle winding that relaxes a spring must not turn a slider relative to its guide."""
     m = slider_crank()
     m.torsion_spring("spring", "ground", "slider", stiffness=1, free_angle="300*deg")
     with pytest.warns(AssemblyWarning, match="spring"):
@@ -83,7 +83,7 @@ def test_two_guides_of_one_direction_repeat_each_other() -> None:
         kp.assemble(m, set={"crank.angle": "60*deg"})
 
 
-def test_a_block_on_an_incline_slides_as_galilei_found() -> None:
+def test_a_block_slides_on_an_incline_with_constant_acceleration() -> None:
     m = kp.Model("incline", gravity=(0, -9.81))
     m.ground.points(O=(0, 0))
     m.body("block", mass=2, inertia=1, points={"P": (0.1, 0.2)})

@@ -1,4 +1,4 @@
-"""Linkages with change points and dead points: models, and the branches that they move on."""
+"""Linkages with change points and dead points: models and branches of their motion."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Linkage:
     Attributes:
         model: the linkage.
         branch: its closed form.
-        s0, rate: where it starts and how fast, rad and rad/s.
+        s0, rate: initial coordinate and rate, rad and rad/s.
     """
 
     model: kp.Model
@@ -26,7 +26,7 @@ class Linkage:
     rate: float
 
     def start(self, s0: float | None = None, rate: float | None = None) -> kp.State:
-        """Assembled on the branch; another crank angle and rate if they are given."""
+        """The assembled state on the branch, optionally with another crank angle and rate."""
         s0, rate = (self.s0 if s0 is None else s0), (self.rate if rate is None else rate)
         names = [body.name for body in self.branch.bodies]
         places = dict(zip(names, self.branch.places(np.array([s0]))[0], strict=True))
@@ -46,7 +46,7 @@ def rod(name: str, mass: float, length: float, tail: tuple, tip: tuple) -> Place
 
 
 def root(gap: float, product: float, half: sp.Expr) -> sp.Expr:
-    """sqrt(gap + 4 product half^2); where gap = 0 with the sign of half, which is smooth there."""
+    """sqrt(gap + 4 product half^2), with the sign of half if gap = 0, which is smooth."""
     whole = gap + 4 * product * half**2
     return 2 * sp.sqrt(product) * half if gap == 0 else sp.sqrt(whole)
 
@@ -58,11 +58,11 @@ def four_bar(
     rate: float,
     masses: tuple[float, float, float] = (1.0, 1.0, 1.0),
 ) -> Linkage:
-    """Crank a, coupler b, rocker c, ground d, the crank able to turn round.
+    """Crank a, coupler b, rocker c and ground d, with a rotating crank.
 
     With the diagonal f = |BD|, (4 area)^2 = ((b + c)^2 - f^2) (f^2 - (b - c)^2) of BCD.
-    Where links fold onto one line one of the factors has a double zero, and the root of it goes
-    through zero with another sign: that is the smooth continuation. `side` is +1 or -1.
+    If links fold onto one line, one of the factors has a double zero. Its root changes sign there,
+    which is the smooth continuation. `side` is +1 or -1.
     """
     a, b, c, d = map(sp.nsimplify, lengths)
     ax, ay = a * sp.cos(S), a * sp.sin(S)
@@ -98,9 +98,9 @@ def slider_crank(
     stiffness: float = 0.0,
     damping: float = 0.0,
 ) -> Linkage:
-    """Crank r and rod b, the slider on the x axis, loaded by a spring-damper along it.
+    """Crank r and rod b; the slider on the x axis is loaded by a spring-damper along the axis.
 
-    With r = b the slider reaches the pivot, where it may stay while the others turn on: `at_pivot`.
+    With r = b the slider reaches the pivot and may stay there while the others turn: `at_pivot`.
     """
     r, b = map(sp.nsimplify, lengths)
     bx, by = r * sp.cos(S), r * sp.sin(S)
@@ -125,7 +125,7 @@ def slider_crank(
     m.revolute("C", "rod.C", "slider.C")
     m.translational("slide", "ground.O", "slider.C")
     if stiffness or damping:
-        # from far behind the pivot, so that its length is x + 10 and never zero
+        # attached far behind the pivot, so that its length x + 10 is never zero
         m.spring_damper(
             "load",
             "ground.W",

@@ -1,11 +1,11 @@
-"""Mechanisms with one degree of freedom by one coordinate s that is smooth along their branch.
+"""Mechanisms with one degree of freedom, described by one coordinate s along their branch.
 
 With T = m(s) s'^2 / 2, V(s) and a resistance d(s) s':
 
     m s'' + m_s s'^2 / 2 + V_s + d s' = 0,
 
-with positions as closed forms in s, derived by SymPy and integrated by SciPy: no constraint, no
-singular position, and nothing in common with what is tested.
+with positions as closed forms in s, derived by SymPy and integrated by SciPy. This formulation has
+no constraints and no singular positions, and it is independent of kempe.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Placed:
     """A body as a function of s.
 
     Attributes:
-        name: the body's.
+        name: name of the body.
         mass, inertia: kg, and kg m^2 about the mass centre, where its frame is.
         x, y: of the mass centre, m.
         along: cosine and sine of its angle.
@@ -40,7 +40,7 @@ class Placed:
 
     @property
     def heaviness(self) -> sp.Expr:
-        """Its part of m(s)."""
+        """Contribution of the body to m(s)."""
         c, s = self.along
         turning = c * sp.diff(s, S) - s * sp.diff(c, S)
         moving = sp.diff(self.x, S) ** 2 + sp.diff(self.y, S) ** 2
@@ -49,11 +49,11 @@ class Placed:
 
 @dataclass(frozen=True)
 class Branch:
-    """One branch of a mechanism's motion.
+    """One branch of the motion of a mechanism.
 
     Attributes:
         bodies: the moving bodies, in the order of the model.
-        potential: of what acts beside gravity, J.
+        potential: potential of the forces other than gravity, J.
         resistance: d(s), N s/m times m^2.
     """
 
@@ -85,6 +85,6 @@ class Branch:
 
 
 def places(q: np.ndarray) -> np.ndarray:
-    """The same of coordinates (n_t, 3 n_bodies)."""
+    """The same for coordinates (n_t, 3 n_bodies)."""
     x, y, angle = np.moveaxis(q.reshape(len(q), -1, 3), 2, 0)
     return np.stack([x, y, np.cos(angle), np.sin(angle)], axis=2)

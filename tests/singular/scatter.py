@@ -1,4 +1,4 @@
-"""How runs past change points scatter: every linkage by DOP853 at 16 tolerances around one."""
+"""Scatter of runs past change points: every linkage by DOP853 at 16 similar tolerances."""
 
 import argparse
 
@@ -8,7 +8,7 @@ from singular.test_change_points import LINKAGES, off, solved
 
 
 def main() -> None:
-    """Prints a line for each linkage, and one for all."""
+    """Print a line for each linkage, and one for all."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("rtol", type=float, nargs="?", default=1e-10)
     parser.add_argument("--method", choices=["dop853", "rk45", "auto"], default="dop853")

@@ -1,4 +1,4 @@
-"""All linkages with change points, at every tolerance by every method: a line for each run."""
+"""All linkages with change points, by every method at every tolerance: a line for each run."""
 
 import kempe as kp
 import numpy as np
@@ -7,7 +7,7 @@ from singular.test_change_points import LINKAGES, off, solved
 
 
 def line(name: str, by: str, digits: int) -> str:
-    """Distance from the branch, error, and imbalance of energy, or why there is none."""
+    """Distance from the branch, error and energy imbalance, or the reason of a failure."""
     run = f"{name:24} {by:7} 1e-{digits:<3}"
     try:
         sol = solved(name, by, 10.0**-digits)
@@ -20,7 +20,7 @@ def line(name: str, by: str, digits: int) -> str:
 
 
 def main() -> None:
-    """Prints them."""
+    """Print all runs."""
     for name in LINKAGES:
         for by in ("dop853", "rk45", "auto"):
             for digits in range(3, 11):

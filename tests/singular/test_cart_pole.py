@@ -1,4 +1,4 @@
-"""The light cart-pole: a bob falls from the level and turns at 4429 rad/s for a microsecond."""
+"""A bob on a light cart falls from the horizontal and turns at 4429 rad/s for a microsecond."""
 
 from itertools import pairwise
 
@@ -11,7 +11,7 @@ G, CART = 9.81, 1e-6
 
 
 def cart_pole() -> tuple[kp.Model, kp.State]:
-    """A bob of 1 kg, without inertia, 1 m from a cart of 1e-6 kg; released level and at rest."""
+    """A point mass of 1 kg, 1 m from a cart of 1e-6 kg; released horizontally, at rest."""
     m = kp.Model("light cart-pole", gravity=(0, -G))
     m.ground.points(O=(0, 0))
     m.body("cart", mass=CART, inertia=1e-9, points={"P": (0, 0)})
@@ -22,24 +22,24 @@ def cart_pole() -> tuple[kp.Model, kp.State]:
 
 
 def fall(angle: float) -> float:
-    """Time from the level to an angle below, s: momentum and energy give the rate.
+    """Time from the horizontal to an angle below, s; momentum and energy give the rate.
 
-    With the angle a below the level (cos² a + mu sin² a) a'² / 2 = G sin a.
+    With the angle a below the horizontal: (cos² a + mu sin² a) a'² / 2 = G sin a.
     """
     mu = CART / (1 + CART)
 
-    def slowness(root: float) -> float:  # with a = root², so that the start is no pole
+    def slowness(root: float) -> float:  # a = root² removes the singularity at the start
         a = root * root
         heavy = np.cos(a) ** 2 + mu * np.sin(a) ** 2
         return 2 * root * np.sqrt(heavy / (2 * G * np.sin(a))) if a > 0 else np.sqrt(2 / G)
 
-    # the turn is sharp: where cos² ~ mu
+    # the fast turn, at cos² ~ mu
     ends = [0, np.sqrt(np.pi / 2 - 0.1), np.sqrt(np.pi / 2 - 0.003), np.sqrt(angle)]
     return sum(quad(slowness, *pair, epsabs=1e-14)[0] for pair in pairwise(ends))
 
 
 @pytest.mark.parametrize("rtol", [1e-6, 1e-8, 1e-10])
-def test_it_turns(rtol: float) -> None:
+def test_the_motion_agrees_with_the_closed_form(rtol: float) -> None:
     model, start = cart_pole()
     quarter = fall(np.pi / 2)
     sol = kp.dynamics(
@@ -51,12 +51,12 @@ def test_it_turns(rtol: float) -> None:
     )
     assert sol.statistics["steps"] < 5000
     assert np.abs(sol.energy.balance).max() < 1e3 * rtol
-    # at every even quarter it is level again, left and right in turn
+    # horizontal again at every even quarter, left and right alternately
     assert sol["pole"].angle[2::4] == pytest.approx(-np.pi, abs=1e4 * rtol)
     assert sol["pole"].angle[4::4] == pytest.approx(0, abs=1e4 * rtol)
 
 
-def test_it_turns_as_fast_as_energy_says() -> None:
+def test_the_rate_agrees_with_the_energy() -> None:
     model, start = cart_pole()
     sol = kp.dynamics(model, start, t_end=fall(np.pi / 2) * 1.01)
     fastest = np.abs(sol["pole"].omega).max()

@@ -1,4 +1,4 @@
-"""Linkages that fold onto one line: the motion goes on along its own branch, at every tolerance."""
+"""Linkages that fold onto one line: the motion stays on its branch, at every tolerance."""
 
 from collections.abc import Callable
 from functools import cache
@@ -9,7 +9,7 @@ import pytest
 from singular.linkages import Linkage, four_bar, slider_crank
 from singular.one_coordinate import places
 
-#: Every one passes ten to twenty change points in 5 s.
+#: Each passes ten to twenty change points in 5 s.
 LINKAGES: dict[str, Callable[[], Linkage]] = {
     "parallelogram": lambda: four_bar((1, 2, 1, 2), 1, 1.0, 9.0),
     "antiparallelogram": lambda: four_bar((1, 2, 1, 2), -1, 1.0, 9.0),
@@ -27,12 +27,12 @@ LINKAGES: dict[str, Callable[[], Linkage]] = {
 }
 T_END = 5.0
 GRID = np.arange(501) * 0.01
-#: At digits of rtol, the largest error of any x, y, cosine or sine, and of the energy, relative.
-#: Each two to five times what was measured; at 1e-10 that is of one run by RK45: most are a
-#: thousand times better.
+#: Digits of rtol → largest error of any x, y, cosine or sine, and relative error of the energy. The
+#: limits are two to five times the measured values. At 1e-10 one run by RK45 determines them; most
+#: others are a thousand times better.
 ALLOWED = {4: (0.2, 5e-3), 6: (2e-3, 5e-4), 8: (1e-4, 2e-5), 10: (5e-3, 5e-4)}
-#: Tolerances around 1e-10. What rounding does next to the line differs from one to the next, so
-#: that some runs creep through a change point and lose energy: the median counts, and how many do.
+#: Tolerances around 1e-10. Rounding errors near the line differ from run to run, and some runs lose
+#: energy at a change point. The median counts, and the number of such runs.
 NARROW = 1e-10 * 2.0 ** np.linspace(-0.5, 0.5, 8)
 #: Largest distance from the branch at the same crank angle; on another it is 0.1 and more.
 ASTRAY = 1e-5
@@ -63,7 +63,7 @@ def test_the_branch_is_kept(name: str, by: str, digits: int) -> None:
 
 
 @pytest.mark.parametrize("name", LINKAGES)
-def test_a_narrow_tolerance_is_worth_its_steps(name: str) -> None:
+def test_a_tight_tolerance_reduces_the_error(name: str) -> None:
     errors = []
     for rtol in NARROW:
         sol = solved(name, "dop853", rtol)
@@ -75,16 +75,16 @@ def test_a_narrow_tolerance_is_worth_its_steps(name: str) -> None:
 
 @pytest.mark.parametrize("digits", ALLOWED)
 @pytest.mark.parametrize("name", ["antiparallelogram", "equal slider-crank"])
-def test_the_automatic_choice_keeps_it(name: str, digits: int) -> None:
+def test_the_automatic_choice_keeps_the_branch(name: str, digits: int) -> None:
     check(name, solved(name, "auto", 10.0**-digits), *ALLOWED[digits])
 
 
 def kept(name: str, sol: kp.Solution) -> None:
-    """On its branch, and closed."""
-    # by the crank alone: an error in time does not count as one of the branch
+    """Check that a run stays on its branch with closed joints."""
+    # compared at equal crank angle, so that an error in time does not count
     there = LINKAGES[name]().branch.places(sol["crank"].angle)
     assert np.abs(places(sol.q) - there).max() < ASTRAY
-    # projection next to the line leaves 1e-9 of the size, which is 10 m at most
+    # near the line, projection leaves 1e-9 of the size, which is at most 10 m
     assert sol.drift.position.max() < 1e-8
 
 
@@ -99,7 +99,7 @@ def check(name: str, sol: kp.Solution, error: float, imbalance: float) -> None:
     assert np.abs(sol.energy.balance).max() < imbalance
 
 
-def test_at_rest_in_line_it_stops_or_is_told_to_go_on() -> None:
+def test_at_rest_in_line_it_stops_unless_it_shall_pass() -> None:
     linkage = LINKAGES["1, 2, 3, 4"]()
     with pytest.warns(kp.AssemblyWarning, match="singular position"):
         flat = linkage.start(s0=np.pi, rate=0.0)

@@ -1,4 +1,4 @@
-"""Dead points: the slider turns back where crank and rod are in line, and the crank goes on."""
+"""Dead points: crank and rod are in line, the slider reverses and the crank continues."""
 
 import kempe as kp
 import numpy as np
@@ -25,7 +25,7 @@ def test_dead_points_are_passed(name: str) -> None:
 
 
 def test_a_crank_that_the_slider_stops_swings_about_its_dead_point() -> None:
-    """Released at rest close to the dead point, which the spring pushes it away from."""
+    """Released at rest close to the dead point, from which the spring pushes the crank away."""
     linkage: Linkage = slider_crank((1, 3), 0.02, 0.0, stiffness=200.0)
     sol = kp.dynamics(linkage.model, linkage.start(), t_end=3, output_step=0.01)
     s = linkage.branch.motion(0.02, 0.0, GRID[:301])

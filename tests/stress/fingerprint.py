@@ -1,4 +1,4 @@
-"""Hashes of everything that runs give, to be compared bit by bit between processes.
+"""Hashes of all results of runs, for a bitwise comparison between processes.
 
 PYTHONPATH=tests python -m stress.fingerprint
 """
@@ -14,7 +14,7 @@ from stress.trial import options
 
 METHODS = (kp.RK45(rtol=1e-8), kp.DOP853(rtol=1e-9), kp.RK4(step=1e-3))
 STABILIZATIONS = (kp.Projection(), kp.Baumgarte(), None)
-#: Random runs beside the examples.
+#: Random runs in addition to the examples.
 DRAWN = 40
 
 
@@ -46,7 +46,7 @@ def example(name: str, t_end: float) -> str:
 
 
 def drawn(number: int) -> str:
-    """A random run, or how it failed."""
+    """A random run, or its error."""
     random = np.random.default_rng([7, number])
     kind = str(random.choice(list(KINDS)))
     mechanism, chosen = KINDS[kind](random), options(random)

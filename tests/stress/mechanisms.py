@@ -1,4 +1,4 @@
-"""Random mechanisms: chains, linkages, sliders, rods; from ordinary to absurd numbers."""
+"""Random mechanisms: chains, linkages, sliders and rods, with ordinary and extreme numbers."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -11,12 +11,12 @@ Random = np.random.Generator
 
 @dataclass(frozen=True)
 class Drawn:
-    """A mechanism with what assembly is to hold.
+    """A mechanism with the arguments of its assembly.
 
     Attributes:
         model: the mechanism.
-        set: coordinates and rates to hold.
-        guess: coordinates that may move.
+        set: prescribed coordinates and rates.
+        guess: starting values.
     """
 
     model: kp.Model
@@ -25,7 +25,7 @@ class Drawn:
 
 
 def power(random: Random, low: float, high: float) -> float:
-    """A number between 10^low and 10^high, its logarithm evenly spread."""
+    """A number between 10^low and 10^high with a uniformly distributed logarithm."""
     return float(10 ** random.uniform(low, high))
 
 
@@ -34,7 +34,7 @@ def chance(random: Random, probability: float) -> bool:
 
 
 def wide(random: Random) -> float:
-    """Mostly near 1; else anything within a ratio of 1e12."""
+    """A number that is mostly near 1, otherwise within a ratio of 1e12."""
     return power(random, -6, 6) if chance(random, 0.4) else power(random, -0.5, 0.5)
 
 
@@ -44,13 +44,13 @@ def empty(random: Random) -> kp.Model:
 
 
 def inertia(random: Random, mass: float, length: float) -> float:
-    """That of a uniform bar, none at all, or any."""
+    """The inertia of a uniform bar, zero, or any number."""
     bar = mass * length**2 / 12
     return float(random.choice([bar, bar, 0.0, bar * power(random, -12, 6)]))
 
 
 def link(random: Random, m: kp.Model, name: str, length: float) -> None:
-    """A body with points P and Q at its ends, its frame in between."""
+    """A body with points P and Q at its ends and its frame in between."""
     at = length * float(random.choice([0.5, random.uniform(0, 1)]))
     mass = wide(random)
     m.body(
@@ -86,7 +86,7 @@ def pin(m: kp.Model, name: str, i: str, j: str) -> None:
 
 
 def chain(random: Random) -> Drawn:
-    """A pendulum of 1 to 6 links, straight or not, now and then with a driven first link."""
+    """A pendulum of 1 to 6 links, straight or not, sometimes with a driven first link."""
     m, count = empty(random), int(random.integers(1, 7))
     m.ground.points(O=(0, 0), S=(1, 1))
     bodies, end, held = [], "ground.O", {}
@@ -107,20 +107,20 @@ def chain(random: Random) -> Drawn:
 
 
 def lengths(random: Random) -> tuple[float, float, float, float]:
-    """Crank, coupler, rocker, ground: ordinary, or with change points or dead points."""
+    """Lengths of crank, coupler, rocker and ground, some with change points or dead points."""
     a, b = float(random.uniform(0.2, 1)), float(random.uniform(1, 3))
     kind = random.integers(0, 4)
     if kind == 0:  # parallelogram
         return a, b, a, b
     if kind == 1:  # kite
         return a, a, b, b
-    if kind == 2:  # folds flat to within a hair
+    if kind == 2:  # almost folds onto a line
         return a, b, b + power(random, -12, -1), a
     return a, b, float(random.uniform(1, 3)), float(random.uniform(1, 3))
 
 
 def crank_angle(random: Random) -> float:
-    """Anywhere, or near the positions in line, where singular positions are."""
+    """Any angle, or an angle near a singular position with links in line."""
     if chance(random, 0.5):
         return float(random.uniform(-3.1, 3.1))
     side = float(random.choice([0.0, np.pi]))
@@ -156,7 +156,7 @@ def slider_crank(random: Random) -> Drawn:
 
 
 def turned(random: Random, m: kp.Model, crank: str) -> Drawn:
-    """With a crank that is released, or driven."""
+    """A linkage with a released or a driven crank."""
     angle, rate = crank_angle(random), wide(random) * float(random.integers(-1, 2))
     if chance(random, 0.2):
         m.coordinate_driver("motor", f"{crank}.angle", value=f"{angle!r} + {rate!r}*t")
@@ -185,7 +185,7 @@ def rods(random: Random) -> Drawn:
 
 
 def free(random: Random) -> Drawn:
-    """Bodies that only springs hold."""
+    """Bodies connected by springs only."""
     m, held = empty(random), {}
     m.ground.points(S=(0, 0))
     bodies = [f"body{number}" for number in range(int(random.integers(1, 4)))]

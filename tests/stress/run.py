@@ -1,9 +1,9 @@
-"""Random runs, many of them, and what came of them.
+"""Many random runs and their outcomes.
 
     PYTHONPATH=tests python -m stress.run --runs 100000 --processes 2
 
-prints how they ended, the longest, the largest gaps, and every fault with the number that repeats
-it: ``--only 4711``. Exit code 1 if there is a fault.
+prints the outcomes, the longest run, the largest gaps, and every fault with its number. ``--only
+4711`` repeats the run with this number. The exit code is 1 if there is a fault.
 """
 
 import argparse
@@ -36,7 +36,7 @@ def gaps(outcomes: list[Outcome]) -> None:
 
 
 def report(outcomes: list[Outcome]) -> int:
-    """Prints what was found; the number of faults."""
+    """Print the results and return the number of faults."""
     for kind in sorted({o.kind for o in outcomes}):
         ended = Counter(o.ended for o in outcomes if o.kind == kind)
         say(f"{kind:<14} " + ", ".join(f"{name} {n}" for name, n in ended.most_common()))

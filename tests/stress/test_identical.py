@@ -1,4 +1,4 @@
-"""The same build and the same input give the same bits: again, in another process, in threads."""
+"""The same build and input give the same bits: in repeated runs, other processes and threads."""
 
 import os
 import subprocess
@@ -9,7 +9,7 @@ import pytest
 from house.places import ROOT
 from stress.fingerprint import DRAWN, fingerprints
 
-# of random mechanisms assembled on the way; to be set here, for all threads at once
+# warnings of random mechanisms; set here for all threads
 pytestmark = pytest.mark.filterwarnings("ignore")
 
 
@@ -20,7 +20,7 @@ def first() -> list[str]:
 
 def test_run_after_run(first: list[str]) -> None:
     assert fingerprints() == first
-    # not all of them fail, and no two are the same
+    # not all runs fail, and no two are equal
     assert len(set(first)) > DRAWN // 2
 
 

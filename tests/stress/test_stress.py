@@ -1,6 +1,6 @@
-"""Random runs: whatever is asked for, no success is wrong, no run is endless, nothing panics.
+"""Random runs: no success is wrong, no run is endless, and nothing panics.
 
-`PYTHONPATH=tests python -m stress.run` does a hundred thousand.
+`PYTHONPATH=tests python -m stress.run` runs a hundred thousand.
 """
 
 import multiprocessing
@@ -14,7 +14,7 @@ from stress.mechanisms import KINDS
 from stress.trial import CLOSED, Outcome, gap, judge, judge_error, run
 
 RUNS = 3000
-#: Runs of the hundred thousand in which faults were found, and mended.
+#: Runs that had faults, which have been corrected.
 FOUND = {
     435: "success with numbers that are not finite",
     134: "consistent rates were refused",
@@ -33,7 +33,7 @@ def outcomes() -> list[Outcome]:
         return pool.map(partial(run, 4), range(RUNS), chunksize=50)
 
 
-def test_nothing_is_at_fault(outcomes: list[Outcome]) -> None:
+def test_no_run_has_a_fault(outcomes: list[Outcome]) -> None:
     faulty = [(o.number, o.faults, o.options) for o in outcomes if o.faults]
     assert not faulty
 
@@ -48,7 +48,7 @@ def test_the_runs_are_of_all_kinds(outcomes: list[Outcome]) -> None:
 
 
 @pytest.mark.parametrize("number", FOUND)
-def test_what_was_found_stays_mended(number: int) -> None:
+def test_earlier_faults_do_not_return(number: int) -> None:
     found = run(4, number)
     assert not found.faults
     assert found.ended != "AssemblyError", FOUND[number]
@@ -72,7 +72,7 @@ def solution(stabilization: kp.Projection | None, step: float) -> kp.Solution:
     return kp.dynamics(m, start, t_end=1, method=kp.RK4(step=step), stabilization=stabilization)
 
 
-def test_an_open_joint_is_seen() -> None:
+def test_an_open_joint_is_detected() -> None:
     sol = solution(None, 0.25)
     assert gap(sol) > CLOSED
     told = Outcome(0, "pendulum", "stabilization=Projection(…)")
@@ -80,7 +80,7 @@ def test_an_open_joint_is_seen() -> None:
     assert any("gap" in fault for fault in told.faults)
 
 
-def test_numbers_that_are_not_finite_are_seen() -> None:
+def test_numbers_that_are_not_finite_are_detected() -> None:
     sol = solution(kp.Projection(), 0.01)
     judge(fine := Outcome(0, "pendulum", "stabilization=Projection(…)"), sol)
     assert not fine.faults
@@ -89,6 +89,6 @@ def test_numbers_that_are_not_finite_are_seen() -> None:
     assert "success with numbers that are not finite" in told.faults
 
 
-def test_an_error_that_is_none_of_kempe_is_a_fault() -> None:
+def test_a_foreign_error_is_a_fault() -> None:
     judge_error(told := Outcome(0, "pendulum"), kp.InternalError("a panic"))
     assert told.faults == ["InternalError: a panic"]

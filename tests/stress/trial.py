@@ -1,7 +1,7 @@
-"""One random run through the public interface, and whether what came of it may come of it.
+"""One random run through the public interface, and the check of its outcome.
 
-A run may fail, with an error of kempe's own that names what is wrong. A success must hold finite
-numbers alone and, with projection, closed joints.
+A run may fail with an error of kempe that names the cause. A successful run must contain only
+finite numbers and, with projection, closed joints.
 """
 
 import time
@@ -20,7 +20,7 @@ PATIENCE = 10.0
 CLOSED = 1e-8
 #: The same with Baumgarte's stabilization.
 APART = 1e-2
-#: Steps of most runs; the others do with what kempe finds enough.
+#: Largest number of steps of most runs; the others use the default.
 STEPS = 2000
 
 #: Errors with which a run may end.
@@ -33,22 +33,22 @@ EXPECTED = (
 
 
 class TooLongError(Exception):
-    """A run took longer than anybody waits."""
+    """A run took too long."""
 
 
 @dataclass
 class Outcome:
-    """What came of a run.
+    """The outcome of a run.
 
     Attributes:
-        number: its number.
-        kind: of mechanism.
-        options: how it was integrated, in words.
+        number: number of the run.
+        kind: kind of mechanism.
+        options: description of the options.
         ended: "success", or the class of the error.
-        message: of the error.
-        seconds: CPU time it took.
-        gap: largest gap, relative to the size of the mechanism; of a success.
-        faults: what must not be.
+        message: message of the error.
+        seconds: CPU time.
+        gap: largest gap of a successful run, relative to the size of the mechanism.
+        faults: violations of the requirements.
     """
 
     number: int
@@ -125,7 +125,7 @@ def gap(sol: kp.Solution) -> float:
 
 
 def following(sol: kp.Solution) -> tuple[np.ndarray, ...]:
-    """What follows from the states; nothing where an error tells of a state that has none of it."""
+    """Derived quantities; empty if an error reports that a state has none."""
     try:
         return sol.a, sol.lam, sol.energy.balance
     except (kp.IntegrationError, kp.SingularityError):
@@ -164,7 +164,7 @@ def judge_error(outcome: Outcome, error: BaseException) -> None:
 
 
 def run(seed: int, number: int) -> Outcome:
-    """The run of this number, the same each time."""
+    """The reproducible run with this number."""
     random = np.random.default_rng([seed, number])
     kind = str(random.choice(list(KINDS)))
     drawn, chosen = KINDS[kind](random), options(random)
@@ -190,5 +190,5 @@ def run(seed: int, number: int) -> Outcome:
 
 
 def tally(outcomes: list[Outcome]) -> Counter[str]:
-    """How many runs ended how."""
+    """Number of runs for each outcome."""
     return Counter(outcome.ended for outcome in outcomes)

@@ -1,4 +1,4 @@
-"""The flagship through the public interface, and the numbers that nobody here wrote."""
+"""The flagship, simulated with the public interface, and the independent reference."""
 
 import json
 from pathlib import Path

@@ -1,7 +1,7 @@
-"""The flagship against an independent formulation in one minimal coordinate.
+"""The flagship, compared with an independent formulation in one minimal coordinate.
 
-``tests/reference/four_bar.json`` was computed by loop closure and DOP853 at rtol 3e-14; nothing of
-kempe took part in it.
+``tests/reference/four_bar.json`` was computed without kempe, by loop closure and DOP853 at rtol
+3e-14.
 """
 
 from typing import Any
@@ -28,7 +28,7 @@ def test_the_start_needs_no_guess(case: kp.Case, reference: dict[str, Any]) -> N
 
 def test_the_jacobian_as_printed(start: kp.State, reference: dict[str, Any]) -> None:
     printed = np.array(reference["Phi_q_at_start_rounded"])
-    # printed with two significant digits behind what is exact: 1.71, 4.7, 12.6
+    # printed with few digits: 1.71, 4.7, 12.6
     np.testing.assert_allclose(start.matrices().Phi_q, printed, rtol=0, atol=0.05)
     signs = np.sign(start.matrices().Phi_q) == np.sign(printed)
     assert signs.all()
@@ -49,7 +49,7 @@ def test_the_reaction_at_c(start: kp.State, reference: dict[str, Any]) -> None:
     on_rocker = start["C"].force(on="rocker", frame="global")
     np.testing.assert_allclose(on_coupler, reference["start"]["lam"][4:6], rtol=1e-9)
     np.testing.assert_allclose(on_rocker, -on_coupler, rtol=1e-12)
-    # in the joint frame each body turns the force by its own angle (Haug 6.6.8)
+    # in the joint frame, each body rotates the force by its own angle (Haug 6.6.8)
     angle = start["rocker"].angle
     turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
     expected = turn @ on_rocker
@@ -148,9 +148,7 @@ def test_without_stabilization_the_joints_open_by_metres(case: kp.Case, start: k
     assert 1.0 < sol.drift.position[-1] < 20.0
 
 
-def test_what_a_user_gets_who_says_nothing(
-    case: kp.Case, start: kp.State, reference: dict[str, Any]
-) -> None:
+def test_the_defaults(case: kp.Case, start: kp.State, reference: dict[str, Any]) -> None:
     sol = kp.dynamics(case.model, start, t_end=15, output_step=0.01)
     assert sol.statistics["method"] == "dop853"
     assert sol.drift.position.max() < 1e-10

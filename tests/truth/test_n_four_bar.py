@@ -1,4 +1,4 @@
-"""The N-four-bar (IFToMM benchmark A02) past positions with all bars on one line."""
+"""The N-four-bar (IFToMM benchmark A02), which passes positions with all bars on one line."""
 
 import json
 from pathlib import Path
@@ -25,7 +25,7 @@ def test_singular_positions_are_passed(n: int) -> None:
             assert 2 * crank.y[k] == pytest.approx(float(truth["y"]), abs=1e-7)
 
 
-def test_at_rest_on_one_line_it_stops_or_is_told_to_go_on() -> None:
+def test_at_rest_on_one_line_it_stops_unless_it_shall_pass() -> None:
     model = windows(1)
     with pytest.warns(kp.AssemblyWarning, match="singular position"):
         flat = kp.assemble(

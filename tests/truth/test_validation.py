@@ -1,4 +1,4 @@
-"""The page of validation says what kempe computes."""
+"""The validation page agrees with the results of kempe."""
 
 import json
 
@@ -13,7 +13,7 @@ COMMITTED = read()
 AGAIN = "run python -m benchmarks.validation"
 
 
-def test_the_page_is_that_of_the_numbers() -> None:
+def test_the_page_matches_the_numbers() -> None:
     assert page(COMMITTED) == PAGE.read_text("utf-8"), AGAIN
     assert json.loads(written(COMMITTED)) == json.loads(written(read()))
     assert all((PAGE.parent / FIGURES[problem.name]).exists() for problem in PROBLEMS), AGAIN
@@ -30,18 +30,18 @@ def test_every_reference_has_its_benchmark() -> None:
 
 
 @pytest.mark.parametrize("number", range(len(BENCHMARKS)))
-def test_the_numbers_are_computed_again(number: int) -> None:
+def test_the_numbers_are_reproduced(number: int) -> None:
     committed, found = COMMITTED.benchmarks[number], BENCHMARKS[number]()
     assert all(c.holds for c in found.comparisons), [c for c in found.comparisons if not c.holds]
     assert _asked(found) == _asked(committed), AGAIN
 
 
 def _asked(b: Benchmark) -> list[tuple[str, int, float]]:
-    """What is compared; which pair differs most is left to rounding."""
+    """The comparison without the pair of numbers, which depends on rounding."""
     return [(c.quantity, c.count, c.tolerance) for c in b.comparisons]
 
 
-def test_a_number_that_is_off_is_told() -> None:
+def test_a_wrong_number_is_reported() -> None:
     off = compared("x", "m", [1.0, 2.0], [1.0, 2.1], 1e-3)
     assert off == Comparison("x", "m", 2, 2.0, 2.1, 1e-3)
     assert not off.holds

@@ -2,13 +2,13 @@
 
 use std::f64::consts::FRAC_2_PI;
 
-/// π/2 in three parts; the first two have 33 bits, so that their products with a quadrant are exact.
+/// π/2 in three parts. The first two have 33 bits, so their products with a quadrant are exact.
 const HALF_PI: [f64; 3] = [
     f64::from_bits(0x3FF9_21FB_5440_0000),
     f64::from_bits(0x3DD0_B461_1A60_0000),
     2.022_266_248_795_950_6e-21,
 ];
-/// 1.5 × 2⁵²: added and taken away again it rounds; added alone it leaves the integer in the low bits.
+/// 1.5 × 2⁵². Adding and subtracting it rounds; adding it alone leaves the integer in the low bits.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
 /// Cosines and sines; within 1.5 ulp for |angle| below 1e5.
@@ -23,7 +23,7 @@ pub fn cosines_and_sines(angle: [f64; 3]) -> ([f64; 4], [f64; 4]) {
         let quadrant = shifted.to_bits();
         let r = ((x[i] - k * HALF_PI[0]) - k * HALF_PI[1]) - k * HALF_PI[2];
         let (s, c) = kernel(r);
-        // odd quadrants exchange the two; sine changes its sign in 2 and 3, cosine in 1 and 2
+        // odd quadrants exchange sine and cosine; sine changes its sign in 2 and 3, cosine in 1 and 2
         let odd = 0u64.wrapping_sub(quadrant & 1);
         let swap = (s.to_bits() ^ c.to_bits()) & odd;
         let sine_sign = (quadrant & 2) << 62;

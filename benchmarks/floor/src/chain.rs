@@ -1,8 +1,8 @@
-//! The equations as fast as we know how: the pinned bars are eliminated in closed form.
+//! The fastest known program for the equations: the pinned bars are eliminated in closed form.
 //!
 //! With t and n the unit vectors along and across a bar, its mobility S = Φ_q M⁻¹ Φ_qᵀ at its ends is
-//! (t tᵀ + 4 n nᵀ)/m at one end and (∓t tᵀ ± 2 n nᵀ)/m between the ends: eigenvectors and eigenvalues are
-//! known, so A and D cost no division. What is left is 4 × 4, for B and C at the coupler, with two.
+//! (t tᵀ + 4 n nᵀ)/m at one end and (∓t tᵀ ± 2 n nᵀ)/m between the ends. Eigenvectors and eigenvalues are
+//! known, so A and D need no division. A 4 × 4 system for B and C remains, with two divisions.
 
 use super::angles::cosines_and_sines;
 use super::linkage::{torque, Equations, Gains, Solution, D, GRAVITY, HALF, INERTIA, MASS, N_Y};
@@ -21,7 +21,7 @@ impl Equations for Chain {
         let t = [Vec2(c[0], s[0]), Vec2(c[1], s[1]), Vec2(c[2], s[2])];
         let n = t.map(Vec2::turned);
         let turn = torque(y) / INERTIA[2];
-        // what body k brings to -γ̂: of its centre, and of its ends
+        // contributions of body k to -γ̂: of its centre, and of its ends
         let centre = |k: usize| {
             let (r, v) = (Vec2(y[3 * k], y[3 * k + 1]), Vec2(y[3 * k + 9], y[3 * k + 10]));
             gains.stiffness * r + gains.damping * v
@@ -53,7 +53,7 @@ impl Equations for Chain {
     }
 }
 
-/// λ of B and C, where the crank and the rocker have left (3/m) n nᵀ each.
+/// λ of B and C; crank and rocker contribute (3/m) n nᵀ each after their elimination.
 #[inline(always)]
 fn at_the_coupler(n: &[Vec2; 3], b: Vec2, c: Vec2) -> (Vec2, Vec2) {
     const M: f64 = 1.0 / MASS[1];
@@ -61,7 +61,7 @@ fn at_the_coupler(n: &[Vec2; 3], b: Vec2, c: Vec2) -> (Vec2, Vec2) {
     let beside = Sym2::dyad(-M, 3.0 * M, n[1]);
     let at_b = own + Sym2::dyad(0.0, 3.0 / MASS[0], n[0]);
     let at_c = own + Sym2::dyad(0.0, 3.0 / MASS[2], n[2]);
-    // all of C's block times det, so that the two divisions do not wait for each other
+    // the block of C multiplied by det, so that the two divisions are independent
     let (adjugate, det) = (at_b.adjugate(), at_b.det());
     let left = at_c.scaled(det) - adjugate.between(beside);
     let right = det * c - beside.times(adjugate.times(b));

@@ -8,7 +8,7 @@ use super::recorded::Recorded;
 
 type Y = [f64; N_Y];
 
-/// What a run took.
+/// Cost of a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Effort {
     /// Accepted steps.
@@ -136,7 +136,7 @@ fn first_step<Q: Equations>(y: &Y, f0: &Y, t_end: f64, tolerances: (f64, f64)) -
     (100.0 * h0).min(h1).min(t_end)
 }
 
-/// Keeps the states of the grid that a step from `t` to `t_new` has reached.
+/// Stores the grid states between `t` and `t_new`.
 #[inline(always)]
 fn keep<Q: Equations>(
     kept: &mut Recorded,
@@ -160,7 +160,7 @@ fn keep<Q: Equations>(
     }
 }
 
-/// Integrates from y at t = 0 and keeps a state every `grid` seconds.
+/// Integrates from y at t = 0 and stores a state every `grid` seconds.
 pub fn integrate<Q: Equations>(
     start: &Y,
     t_end: f64,
@@ -188,7 +188,7 @@ pub fn integrate<Q: Equations>(
             effort.steps += 1;
             rejected = false;
         } else {
-            // a norm that is no number shortens most
+            // a norm that is not a number gives the largest reduction
             size = h * wanted.max(0.2);
             effort.rejected += 1;
             rejected = true;

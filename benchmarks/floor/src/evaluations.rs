@@ -1,7 +1,7 @@
-//! The right side alone: nanoseconds for q̈ and λ at a state.
+//! The right-hand side alone: nanoseconds for q̈ and λ at a state.
 //!
-//! Each call takes its state from a list of a run and something of the result before it, as a stage of
-//! an integrator does: calls that do not wait for each other would overlap in the processor.
+//! Each call takes its state from a recorded run and depends on the previous result, as in a stage of an
+//! integrator. Independent calls would overlap in the processor.
 
 use crate::turns::medians;
 use cpu_time::ThreadTime;
@@ -19,19 +19,19 @@ use std::hint::black_box;
 mod mechanisms;
 pub use mechanisms::{assembled, FLAGSHIP};
 
-/// Calls between two looks at the clock, for three bodies.
+/// Calls between two readings of the clock, for three bodies.
 const CALLS: usize = 5_000;
 const GAINS: Gains = Gains { alpha: 10.0, beta: 200.0 };
-/// Small enough to leave every number as it is, and yet a number to be waited for.
+/// Too small to change any number, but creates a dependency on the previous result.
 const NOTHING: f64 = 1e-200;
 
-/// States of the flagship while it moves.
+/// States of the flagship during its motion.
 fn states(start: &State) -> Vec<[f64; N_Y]> {
     let y = [start.q.as_slice(), &start.v].concat().try_into().expect("three bodies");
     integrate::<Chain>(&y, 2.0, 0.01, (1e-6, 1e-9)).0.y
 }
 
-/// ns for each call of `solve`, which gets a state and gives an acceleration.
+/// Nanoseconds per call of `solve`, which computes an acceleration from a state.
 fn time<S: AsRef<[f64]>>(states: &[S], calls: usize, mut solve: impl FnMut(&S, f64) -> f64) -> f64 {
     let clock = ThreadTime::now();
     let mut before = 0.0;
@@ -65,7 +65,7 @@ fn general<S: AsRef<[f64]>>(model: &Model, states: &[S], calls: usize) -> f64 {
     })
 }
 
-/// Floor and kempe on the flagship, and kempe on another linkage with frames off the mass centres and in them.
+/// Floor and kempe on the flagship, and kempe on another linkage with frames at and off the mass centres.
 pub fn measure(repeat: usize) -> Value {
     let (flagship, start) = assembled(FLAGSHIP);
     let states = states(&start);
@@ -97,7 +97,7 @@ pub fn measure(repeat: usize) -> Value {
     })
 }
 
-/// kempe on N parallelograms side by side: ns for an evaluation, for each window.
+/// kempe on N parallelograms in a row: nanoseconds per evaluation and window.
 pub fn windows(repeat: usize) -> Value {
     const SIZES: [usize; 4] = [10, 100, 1000, 4000];
     let chains = SIZES.map(|n| {

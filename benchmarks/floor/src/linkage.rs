@@ -1,4 +1,4 @@
-//! The numbers of the flagship, and what a solution of its equations of motion is.
+//! The numbers of the flagship, and the solution of its equations of motion.
 
 /// Coordinates: x, y, angle of crank, coupler and rocker.
 pub const N_Q: usize = 9;
@@ -28,7 +28,7 @@ pub const DAMPING: f64 = 1e4;
 /// See [`STIFFNESS`].
 pub const FREE_ANGLE: f64 = 1.5 * std::f64::consts::PI;
 
-/// Baumgarte's gains as the right side needs them: 2α and β².
+/// Baumgarte's gains for the right-hand side: 2α and β².
 #[derive(Clone, Copy, Debug)]
 pub struct Gains {
     /// 2α, 1/s.
@@ -39,7 +39,7 @@ pub struct Gains {
 
 /// α = 10, β = 200.
 pub const BAUMGARTE: Gains = Gains { damping: 20.0, stiffness: 4e4 };
-/// γ as it is.
+/// γ without stabilization.
 pub const NONE: Gains = Gains { damping: 0.0, stiffness: 0.0 };
 
 /// Accelerations and multipliers.
@@ -51,7 +51,7 @@ pub struct Solution {
     pub lam: [f64; N_ROWS],
 }
 
-/// One way to solve the augmented equations of the flagship.
+/// A solver of the augmented equations of the flagship.
 pub trait Equations {
     /// q̈ and λ at y = (q, v).
     fn solve(y: &[f64; N_Y], gains: Gains) -> Solution;

@@ -1,4 +1,4 @@
-//! Times of the floor and of kempe, in turn, as JSON.
+//! Times of the floor and of kempe, measured in alternation, as JSON.
 //!
 //! ```text
 //! cargo run --release            evaluations, windows and runs, 21 of each
@@ -6,9 +6,9 @@
 //! cargo run --release -- 5 runs  one part: evaluation, windows or runs
 //! ```
 //!
-//! Medians of CPU times of the thread. "chain" is the floor: by hand, as fast as we know how; "straight" is
-//! what a careful programmer writes at first; "kempe" the general program, called from Rust; "other" is
-//! kempe on a linkage of the same size that nothing was tuned on.
+//! The times are medians of CPU times of the thread. "chain" is the floor program, written by hand for
+//! speed. "straight" is a plain block elimination. "kempe" is the general program, called from Rust.
+//! "other" is kempe on another linkage of the same size, which was not used for tuning.
 
 mod evaluations;
 mod runs;
@@ -19,7 +19,7 @@ use serde_json::{json, Value};
 /// One part of the measurements, given the number of repetitions.
 type Measure = fn(usize) -> Value;
 
-/// Repetitions unless told otherwise.
+/// Default number of repetitions.
 const REPEAT: usize = 21;
 
 fn main() {

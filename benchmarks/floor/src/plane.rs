@@ -12,7 +12,7 @@ impl Vec2 {
     pub fn dot(self, o: Self) -> f64 {
         self.0 * o.0 + self.1 * o.1
     }
-    /// Turned by a right angle, counter-clockwise.
+    /// Rotated by a right angle, counter-clockwise.
     #[inline(always)]
     pub fn turned(self) -> Self {
         Self(-self.1, self.0)
@@ -52,7 +52,7 @@ impl Mul<Vec2> for f64 {
 pub struct Sym2 {
     /// First diagonal entry.
     pub xx: f64,
-    /// Entry beside the diagonal.
+    /// Off-diagonal entry.
     pub xy: f64,
     /// Second diagonal entry.
     pub yy: f64,

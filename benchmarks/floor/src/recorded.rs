@@ -1,8 +1,8 @@
-//! What is kept of a run: every 10 ms positions, velocities, accelerations and multipliers.
+//! The record of a run: positions, velocities, accelerations and multipliers every 10 ms.
 
 use super::linkage::{Equations, NONE, N_Q, N_ROWS, N_Y};
 
-/// Trajectory on a grid; accelerations and multipliers by γ, never γ̂.
+/// Trajectory on a grid; accelerations and multipliers with γ, not with γ̂.
 #[derive(Clone, Debug, Default)]
 pub struct Recorded {
     /// s.
@@ -16,7 +16,7 @@ pub struct Recorded {
 }
 
 impl Recorded {
-    /// Room for so many states.
+    /// An empty record with capacity for a number of states.
     pub fn with_capacity(states: usize) -> Self {
         Self {
             t: Vec::with_capacity(states),
@@ -26,7 +26,7 @@ impl Recorded {
         }
     }
 
-    /// Keeps a state with its accelerations and multipliers.
+    /// Stores a state with its accelerations and multipliers.
     #[inline]
     pub fn keep<E: Equations>(&mut self, t: f64, y: &[f64; N_Y]) {
         let found = E::solve(y, NONE);

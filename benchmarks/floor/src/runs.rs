@@ -1,4 +1,4 @@
-//! The flagship over 15 s: by hand and by kempe, called from Rust, in turn.
+//! The flagship over 15 s: by hand and by kempe, called from Rust, in alternation.
 
 use crate::evaluations::{assembled, FLAGSHIP};
 use crate::turns::medians;
@@ -15,7 +15,7 @@ use serde_json::{json, Value};
 const T_END: f64 = 15.0;
 const GRID: f64 = 0.01;
 
-/// CPU time of a call, s, and what it gave.
+/// CPU time of a call, s, and its result.
 fn timed<R>(run: impl FnOnce() -> R) -> (f64, R) {
     let clock = ThreadTime::now();
     let result = run();
@@ -79,7 +79,7 @@ fn by_hand<E: Equations>(y: &[f64; N_Y], tolerances: (f64, f64), seconds: f64) -
     })
 }
 
-/// Largest error of the rocker's angle over the first second.
+/// Largest error of the rocker angle over the first second.
 fn error(kept: &Recorded) -> f64 {
     let text = include_str!("../../../tests/reference/four_bar.json");
     let reference: Value = serde_json::from_str(text).expect("sound JSON");
@@ -88,7 +88,7 @@ fn error(kept: &Recorded) -> f64 {
     pairs.map(|(a, y)| (a.as_f64().expect("a number") - y[8]).abs()).fold(0.0, f64::max)
 }
 
-/// Largest distance that a joint has opened.
+/// Largest opening of a joint.
 fn gap(kept: &Recorded) -> f64 {
     let end = |y: &[f64; N_Y], k: usize, side: f64| {
         let (s, c) = y[3 * k + 2].sin_cos();

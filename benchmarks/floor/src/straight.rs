@@ -1,6 +1,5 @@
-//! The equations as a careful programmer writes them for one linkage: S = Φ_q M⁻¹ Φ_qᵀ as four blocks
-//! of 2 × 2 on the diagonal and three beside it, eliminated from A to D, sine and cosine of the
-//! library.
+//! A plain program for one linkage: S = Φ_q M⁻¹ Φ_qᵀ with four 2 × 2 blocks on the diagonal and three
+//! off-diagonal blocks, eliminated from A to D, with sine and cosine of the library.
 
 use super::linkage::{
     torque, Equations, Gains, Solution, D, GRAVITY, HALF, INERTIA, MASS, N_ROWS, N_Y,
@@ -86,7 +85,7 @@ impl Equations for Straight {
     }
 }
 
-/// q̈ = M⁻¹ (Q - Φ_qᵀ λ), and λ as it is stored.
+/// q̈ = M⁻¹ (Q - Φ_qᵀ λ), and λ in its storage order.
 #[inline(always)]
 pub(crate) fn motion(w: &[Vec2; 3], turn: f64, lam: [Vec2; 4]) -> Solution {
     let [a, b, c, d] = lam;

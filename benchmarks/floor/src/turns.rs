@@ -1,6 +1,6 @@
-//! Medians of programs that take turns, so that whatever else the machine does hits all of them.
+//! Medians of alternating programs, so that other load on the machine affects all of them equally.
 
-/// Calls each program once in every turn; gives the median of what each reports.
+/// Calls each program once per turn; returns the median of the results of each.
 pub fn medians(turns: usize, programs: &mut [&mut dyn FnMut() -> f64]) -> Vec<f64> {
     let mut found = vec![Vec::with_capacity(turns); programs.len()];
     for _ in 0..turns {

@@ -1,4 +1,4 @@
-//! The floor's answers against the independent ones of the flagship.
+//! Results of the floor program, compared with the independent reference of the flagship.
 
 use kempe_floor::chain::Chain;
 use kempe_floor::dormand_prince::integrate;

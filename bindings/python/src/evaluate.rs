@@ -7,10 +7,12 @@ use crate::model::PyModel;
 use crate::respond::{responses, Table};
 use kempe::analyses::assemble::{holding, Request};
 use kempe::analyses::dynamics as core;
-use kempe::elements::{BodyId, Side};
+use kempe::elements::BodyId;
+use kempe::equations::constraints;
+use kempe::equations::forces::{self, Acting};
+use kempe::equations::kinematics::Motions;
 use kempe::equations::reactions::{self, Frame};
-use kempe::equations::{constraints, forces, kinematics};
-use kempe::math::{Motion, Wrench};
+use kempe::math::Wrench;
 use kempe::model::Model;
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
@@ -37,12 +39,12 @@ impl States {
     }
 
     /// Gives the motion of all bodies at each state.
-    fn each(&self, model: &Model, mut visit: impl FnMut(usize, f64, &[Motion])) {
+    fn each(&self, model: &Model, mut visit: impl FnMut(usize, f64, &Motions)) {
         let n = model.layout.n_q;
-        let mut motions = Vec::new();
+        let mut motions = Motions::new(&model.layout);
         for (k, &t) in self.t.iter().enumerate() {
             let row = k * n..(k + 1) * n;
-            kinematics::motions(&self.q[row.clone()], &self.v[row], &mut motions);
+            motions.place(&model.layout, &self.q[row.clone()], &self.v[row]);
             visit(k, t, &motions);
         }
     }
@@ -99,15 +101,21 @@ fn frame_named(py: Python<'_>, name: &str) -> PyResult<Frame> {
     }
 }
 
-fn side(py: Python<'_>, model: &Model, ends: [BodyId; 2], owner: &str, on: &str) -> PyResult<Side> {
-    let [i, j] = ends.map(|b| model.bodies[b.0].name.as_str());
-    if on == j {
-        Ok(Side::J)
-    } else if on == i {
-        Ok(Side::I)
-    } else {
-        Err(refuse(py, "on", format!("'{on}' is not a body of {owner}; it joins {i} and {j}")))
+/// The body `on`, which must be one of those of `owner`.
+fn one_of(
+    py: Python<'_>,
+    model: &Model,
+    bodies: &[BodyId],
+    owner: &str,
+    on: &str,
+) -> PyResult<BodyId> {
+    let name = |body: &BodyId| model.bodies[body.0].name.as_str();
+    if let Some(body) = bodies.iter().rev().find(|body| name(body) == on) {
+        return Ok(*body);
     }
+    let names: Vec<&str> = bodies.iter().map(name).collect();
+    let joined = names.join(" and ");
+    Err(refuse(py, "on", format!("'{on}' is not a body of {owner}; it joins {joined}")))
 }
 
 fn unknown(py: Python<'_>, what: &str, name: &str) -> PyErr {
@@ -132,7 +140,7 @@ pub fn reaction<'py>(
         let model = &*model.model;
         let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
         let frame = frame_named(py, frame)?;
-        let side = side(py, model, model.constraints[k].element.ends(), joint, on)?;
+        let body = one_of(py, model, &model.constraints[k].bodies, joint, on)?;
         let states = States::read(py, model, &t, &q, &q)?;
         let m = model.layout.n_rows;
         let lam = rows(py, "lam", &lam, (states.t.len(), m))?;
@@ -140,7 +148,8 @@ pub fn reaction<'py>(
         let mut out = Vec::with_capacity(3 * states.t.len());
         states.each(model, |at, t, motions| {
             let lam = &lam[at * m..][own.clone()];
-            let w = reactions::reaction(model, k, side, frame, motions, t, lam);
+            let found = reactions::reaction(model, k, body, frame, motions, t, lam);
+            let w = found.unwrap_or_else(Wrench::zero);
             out.extend([w.force.x, w.force.y, w.torque]);
         });
         table(py, out, (states.t.len(), 3))
@@ -167,7 +176,7 @@ pub fn force<'py>(
         let k = model.force(name).ok_or_else(|| unknown(py, "force", name))?;
         let item = &model.forces[k];
         let in_body = frame_named(py, frame)? != Frame::Global;
-        let side = side(py, model, item.element.ends(), name, on)?;
+        let body = one_of(py, model, &item.bodies, name, on)?;
         let wanted = match part {
             None => None,
             Some(part) => {
@@ -179,14 +188,9 @@ pub fn force<'py>(
         let mut out = Vec::with_capacity(3 * states.t.len());
         states.each(model, |_, t, motions| {
             let mut sum = Wrench::zero();
-            let mut body = BodyId::GROUND;
-            forces::each_action(model, item, motions, t, |part, [i, j], action| {
-                let (at, wrench) = match side {
-                    Side::I => (i, action.on_i),
-                    Side::J => (j, action.on_j),
-                };
-                body = at;
-                if wanted.is_none_or(|wanted| wanted == part) {
+            let acting = Acting { z: &[], lam: None, t };
+            forces::each_wrench(model, k, motions, acting, |part, at, wrench| {
+                if at == body && wanted.is_none_or(|wanted| wanted == part) {
                     sum = sum + wrench;
                 }
             });
@@ -213,7 +217,7 @@ pub fn matrices<'py>(
         let state = state(py, &model.model, t, &q, &v)?;
         let set = targets(py, model, "set", set)?;
         let extended = holding(&model.model, &Request { set, t, ..Request::default() });
-        let all = kempe::equations::dense::matrices(&extended, t, &state.q, &state.v);
+        let all = kempe::equations::dense::matrices(&extended, t, [&state.q, &state.v, &state.z]);
         let (n, m) = (extended.layout.n_q, extended.layout.n_rows);
         let out = PyDict::new(py);
         out.set_item("M", table(py, all.mass, (n, n))?)?;

@@ -3,7 +3,7 @@
 use crate::guard::guard;
 use crate::recent_options::RecentOptions;
 use kempe::analyses::dynamics::Prepared;
-use kempe::elements::{SceneSymbol, Side, SymbolEnd};
+use kempe::elements::{SceneSymbol, SymbolEnd};
 use kempe::math::Local;
 use kempe::model::{Body, ConstraintItem, ForceItem, Model};
 use pyo3::prelude::*;
@@ -103,7 +103,7 @@ fn body(body: &Body) -> Value {
 }
 
 fn constraint(model: &Model, item: &ConstraintItem, rows: &std::ops::Range<usize>) -> Value {
-    let [i, j] = item.element.ends().map(|b| model.bodies[b.0].name.as_str());
+    let [i, j] = [0, 1].map(|k| model.bodies[item.bodies[k].0].name.as_str());
     let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.unit });
     json!({
         "name": item.name,
@@ -111,17 +111,17 @@ fn constraint(model: &Model, item: &ConstraintItem, rows: &std::ops::Range<usize
         "type": item.element.kind(),
         "i": i,
         "j": j,
-        "point_i": pair(&item.element.attachment(Side::I).s),
-        "point_j": pair(&item.element.attachment(Side::J).s),
-        "axis_i": item.element.attachment(Side::I).axis,
-        "axis_j": item.element.attachment(Side::J).axis,
+        "point_i": pair(&item.element.attachment(0).s),
+        "point_j": pair(&item.element.attachment(1).s),
+        "axis_i": item.element.attachment(0).axis,
+        "axis_j": item.element.attachment(1).axis,
         "rows": [rows.start, rows.end],
         "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
     })
 }
 
 fn force(model: &Model, item: &ForceItem) -> Value {
-    let [i, j] = item.element.ends().map(|b| model.bodies[b.0].name.as_str());
+    let [i, j] = [0, 1].map(|k| model.bodies[item.bodies[k].0].name.as_str());
     let parts: Vec<&str> = item.element.parts().iter().map(|p| p.name).collect();
     let points = item.element.points();
     json!({

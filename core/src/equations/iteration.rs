@@ -9,10 +9,11 @@
 //! the model adds to them: the residual stays that of the true equations, so the iteration converges to
 //! their solution. Redundant rows are damped with μ, for the same reason without harm.
 
+use super::plan::{groups, row_blocks};
 use super::tangent::Tangent;
 use super::Compiled;
 use crate::math::Field;
-use crate::model::{Model, StateLayout};
+use crate::model::Model;
 use crate::solve::{BlockLu, LuPlan};
 
 /// Damping of redundant rows, relative to the compliance of the bodies.
@@ -24,52 +25,46 @@ pub struct Places {
     /// Pattern, order and plan.
     pub plan: LuPlan,
     pairs: Vec<usize>,
+    /// Number of unknowns of each group.
+    groups: Vec<usize>,
     /// For each block of Φ_q: the first entry, its rows, and the slots of Φ_q and Φ_qᵀ.
     jacobian: Vec<(usize, usize, usize, usize)>,
-    /// Slot of the diagonal block of each constraint, and its rows.
+    /// Slot of the diagonal block of each block of rows, and its rows.
     diagonal: Vec<(usize, usize)>,
     damping: f64,
     /// Inertia added to the bodies, kg·m².
     added_inertia: Vec<f64>,
+    /// Mass added to the internal coordinates of elements, kg.
+    own_mass: f64,
 }
 
 impl Places {
     /// For a model and the pattern of its tangent.
     pub fn new(model: &Model, tangent: &Tangent) -> Self {
-        let layout = &model.layout;
-        let bodies = layout.owners.len();
-        let rows = layout.constraints.iter().map(|slots| slots.rows.len());
-        let sizes: Vec<usize> = layout.owners.iter().map(|owner| owner.count).chain(rows).collect();
+        let compiled = Compiled::new(model);
+        let groups: Vec<usize> = groups(model, &compiled).iter().map(|group| group.size).collect();
+        let (blocks, _) = row_blocks(&model.layout);
+        let n = groups.len();
+        let sizes = groups.iter().copied().chain(blocks.iter().map(|block| block.size)).collect();
+        let touches = || {
+            let blocks = blocks.iter().enumerate();
+            blocks.flat_map(|(k, b)| b.touches.iter().map(move |touch| (n + k, b.size, *touch)))
+        };
         let mut entries = tangent.pairs().to_vec();
-        entries.extend(blocks(layout).map(|(k, body, _)| (bodies + k, body)));
-        let plan = LuPlan::new(sizes, bodies, &entries);
+        entries.extend(touches().map(|(row, _, (group, _))| (row, group)));
+        let plan = LuPlan::new(sizes, n, &entries);
         let pairs = tangent.pairs().iter().map(|&(row, column)| plan.slot(row, column)).collect();
-        let jacobian = blocks(layout)
-            .map(|(k, body, first)| {
-                let m = layout.constraints[k].rows.len();
-                (first, m, plan.slot(bodies + k, body), plan.slot(body, bodies + k))
-            })
-            .collect();
-        let diagonal = layout
-            .constraints
-            .iter()
-            .enumerate()
-            .map(|(k, slots)| (plan.slot(bodies + k, bodies + k), slots.rows.len()))
-            .collect();
+        let slots = |(row, size, (group, first)): (usize, usize, (usize, usize))| {
+            (first, size, plan.slot(row, group), plan.slot(group, row))
+        };
+        let jacobian = touches().map(slots).collect();
+        let diagonal = blocks.iter().enumerate();
+        let diagonal = diagonal.map(|(k, b)| (plan.slot(n + k, n + k), b.size)).collect();
         let compliance = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
         let damping = if model.allow_redundancy { REDUNDANT * compliance } else { 0.0 };
-        let added_inertia = Compiled::new(model).added_inertia;
-        Self { plan, pairs, jacobian, diagonal, damping, added_inertia }
+        let Compiled { added_inertia, own_mass, .. } = compiled;
+        Self { plan, pairs, groups, jacobian, diagonal, damping, added_inertia, own_mass }
     }
-}
-
-/// Each block of Φ_q: constraint, body (from 0 without ground), first entry.
-fn blocks(layout: &StateLayout) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
-    layout
-        .constraints
-        .iter()
-        .enumerate()
-        .flat_map(|(k, slots)| slots.blocks.iter().map(move |block| (k, block.owner, block.first)))
 }
 
 /// Puts the matrix together, with the factors [c_a, c_v, c_q, c_b] of M, D, K and B.
@@ -81,24 +76,29 @@ pub fn assemble<F: Field>(
 ) {
     let real = F::from_real;
     lu.clear(&places.plan);
+    // rows that a short group does not have keep the identity
     for (pair, &slot) in places.pairs.iter().enumerate() {
         let (stiffness, damping) = (&tangent.stiffness[pair], &tangent.damping[pair]);
         let block = lu.block_mut(slot);
         for r in 0..3 {
             for c in 0..3 {
-                block[r][c] = c_q * real(stiffness[r][c]) + c_v * real(damping[r][c]);
+                block[r][c] += c_q * real(stiffness[r][c]) + c_v * real(damping[r][c]);
             }
         }
     }
     // the diagonal blocks are the first pairs
-    for ((mass, added), &slot) in tangent.mass.iter().zip(&places.added_inertia).zip(&places.pairs)
-    {
+    let masses = tangent.mass.iter().zip(&places.added_inertia).zip(&places.groups);
+    for (((mass, added), &size), &slot) in masses.zip(&places.pairs) {
         let block = lu.block_mut(slot);
         let (m, b) = (mass.mass, mass.coupling);
         let full = [[m, 0.0, b.x], [0.0, m, b.y], [b.x, b.y, mass.inertia + added]];
-        for (row, full) in block.iter_mut().zip(full) {
-            row.iter_mut().zip(full).for_each(|(e, full)| *e += c_a * real(full));
+        for (row, full) in block.iter_mut().zip(full).take(size) {
+            row.iter_mut().zip(full).take(size).for_each(|(e, full)| *e += c_a * real(full));
         }
+    }
+    let own = places.groups.iter().zip(&places.pairs).skip(tangent.mass.len());
+    for (&size, &slot) in own {
+        (0..size).for_each(|d| lu.block_mut(slot)[d][d] += c_a * real(places.own_mass));
     }
     for &(first, m, lower, upper) in &places.jacobian {
         let (plain, rate) = (&tangent.jacobian[first..], &tangent.rate[first..]);

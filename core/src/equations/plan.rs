@@ -59,7 +59,7 @@ impl Plan {
 }
 
 /// The owners of coordinates as groups of unknowns.
-fn groups<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> Vec<Group> {
+pub(super) fn groups<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> Vec<Group> {
     let bodies = compiled.inertias.iter().map(|inertia| inertia.coupled);
     let coupled = bodies.chain(std::iter::repeat(false));
     let owners = model.layout.owners.iter().zip(coupled);
@@ -67,7 +67,7 @@ fn groups<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> Vec<Group> {
 }
 
 /// The constraints as blocks of at most three rows, and the constraint of each block.
-fn row_blocks(layout: &StateLayout) -> (Vec<RowBlock>, Vec<usize>) {
+pub(super) fn row_blocks(layout: &StateLayout) -> (Vec<RowBlock>, Vec<usize>) {
     let (mut row_blocks, mut owners) = (Vec::new(), Vec::new());
     for (k, Slots { rows, blocks, .. }) in layout.constraints.iter().enumerate() {
         for skipped in (0..rows.len()).step_by(ROWS) {

@@ -1,8 +1,8 @@
 //! Printed equations of every sample, evaluated by the language of expressions, and their text.
 
 use crate::mechanisms::{close, Random};
-use crate::samples::{constraints, motion, of_end, random};
-use kempe::elements::{catalogue, Constraint, Field, Group, Rows};
+use crate::samples::{constraints, terms, Participants};
+use kempe::elements::{catalogue, Constraint, Field, Group};
 use kempe::equations::formulas::{of_element, of_type, Formulas};
 use kempe::expression::{Expression, Scope};
 use kempe::symbolic::Form;
@@ -28,12 +28,16 @@ impl Table {
 }
 
 /// The names that the formulas of a sample may use: fields, coordinates and rates.
-fn table(c: &Constraint, states: [[f64; 6]; 2], formulas: &Formulas) -> Table {
+fn table(c: &Constraint, at: &Participants, formulas: &Formulas) -> Table {
     let mut table = Table { names: Vec::new(), values: Vec::new() };
-    for (side, state) in ["i", "j"].into_iter().zip(states) {
+    for (side, state) in ["i", "j", "k"].into_iter().zip(&at.bodies) {
         for (name, value) in ["x", "y", "angle", "vx", "vy", "omega"].into_iter().zip(state) {
-            table.put(&format!("{side}.{name}"), value);
+            table.put(&format!("{side}.{name}"), *value);
         }
+    }
+    for [u, rate] in &at.own {
+        table.put("u", *u);
+        table.put("u_rate", *rate);
     }
     let fields = catalogue().into_iter().find(|(_, t)| t.name == c.kind()).unwrap().1.fields;
     let law = |field: &&Field| format!("{:?}", field.shape) == "Law";
@@ -64,20 +68,19 @@ fn compare(c: &Constraint, formulas: &Formulas, mut check: impl FnMut(&str, f64,
     let mut numbers = Random::new(11);
     let m = c.equations().len();
     for _ in 0..10 {
-        let [i, j] = c.ends().map(|body| of_end(body, random(&mut numbers)));
-        let table = table(c, [i, j], formulas);
-        let mut rows = vec![[0.0; 6]; m];
-        c.jacobian(&motion(i).pose, &motion(j).pose, 0.0, &mut rows);
-        let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
-        let out = Rows { residual: &mut phi, rate: &mut rate, gamma: &mut gamma };
-        c.velocity_terms(&motion(i), &motion(j), 0.0, out);
+        let at = Participants::random(c, &mut numbers);
+        let table = table(c, &at, formulas);
+        let ([phi, _, gamma], columns) = terms(c, &at, 0.0);
         assert_eq!(formulas.rows.len(), m);
         for (k, row) in formulas.rows.iter().enumerate() {
             check("Φ", table.value(&row.residual), phi[k]);
             check("γ", table.value(&row.gamma), gamma[k]);
-            let first = 6 - formulas.columns.len(); // ground has no columns
-            for (entry, number) in row.jacobian.iter().zip(&rows[k][first..]) {
-                check("Φ_q", table.value(entry), *number);
+            let moving = c.bodies().iter().map(|body| !body.is_ground()).collect::<Vec<_>>();
+            let participants = columns.chunks_exact(m).enumerate();
+            let known = participants.filter(|(p, _)| moving.get(*p).copied().unwrap_or(true));
+            let numbers: Vec<f64> = known.flat_map(|(_, rows)| rows[k]).collect();
+            for (entry, number) in row.jacobian.iter().zip(numbers) {
+                check("Φ_q", table.value(entry), number);
             }
         }
     }
@@ -122,7 +125,11 @@ fn lines(group: Group, kind: &str, form: Form) -> String {
 #[test]
 fn printed_equations_are_those_of_the_file() {
     let mut text = String::new();
+    let for_tests = ["turned_pin", "bead", "levels", "pulley"];
     for (group, table) in catalogue().iter().filter(|(group, _)| *group != Group::Forces) {
+        if for_tests.contains(&table.name) {
+            continue;
+        }
         for form in [Form::Expression, Form::Unicode, Form::Latex] {
             text += &lines(*group, table.name, form);
         }

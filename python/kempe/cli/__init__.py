@@ -1,4 +1,4 @@
-"""The command line. This file answers ``--version`` at once; the rest is in ``app``."""
+"""The command line. This file handles ``--version`` quickly; ``app`` handles everything else."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code (see ``exit_codes``).
 
     Args:
-        arguments: words after the program's name; those of the process by default.
+        arguments: words after the program name; by default those of the process.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
     if words in (["--version"], ["-V"]):
         print(f"kempe {__version__}")
         return OK
-    # Only now: typer and rich take longer to load than the answer above may take.
+    # Imported here because typer and rich are slow to import.
     from kempe.cli.app import run
 
     return run(words)

@@ -1,4 +1,4 @@
-"""The commands, and the way from an error to a message and an exit code."""
+"""The commands, and the conversion of errors to messages and exit codes."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ app.command("study", epilog=STUDY_EXAMPLES)(study_command)
 app.command("new", epilog=NEW_EXAMPLES)(new_command)
 app.command("schema", epilog=SCHEMA_EXAMPLES)(schema_command)
 
-#: First match wins, so a class stands before its base.
+#: The first match counts, so a class comes before its base class.
 _CODES: tuple[tuple[type[errors.KempeError], int], ...] = (
     (errors.ModelError, exit_codes.BAD_INPUT),
     (errors.FileError, exit_codes.FILE),
@@ -52,8 +52,8 @@ _CODES: tuple[tuple[type[errors.KempeError], int], ...] = (
 )
 
 
-def _print_version(asked: bool) -> None:
-    if asked:
+def _print_version(requested: bool) -> None:
+    if requested:
         print(f"kempe {__version__}")
         raise typer.Exit(exit_codes.OK)
 
@@ -64,35 +64,35 @@ def _options(
         False, "--version", "-V", callback=_print_version, is_eager=True, help="Show the version."
     ),
 ) -> None:
-    """Options that stand before the command."""
+    """Options before the command."""
 
 
 def run(words: Sequence[str]) -> int:
-    """Run one command line; an error of kempe is told on stderr, in words, not as a traceback."""
+    """Run one command line; an error of kempe is printed on stderr without a traceback."""
     try:
         app(args=list(words), prog_name="kempe")
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else exit_codes.OK
     except errors.KempeError as error:
-        _tell(error)
+        _print_error(error)
         return exit_code(error)
     return exit_codes.OK
 
 
 def exit_code(error: errors.KempeError) -> int:
-    """The exit code that belongs to an error.
+    """The exit code of an error.
 
-    A file that could be read but holds something wrong is bad input: it has ``problems``.
+    A file that can be read but is invalid is bad input: its error has ``problems``.
     """
     if isinstance(error, errors.FileError) and error.problems:
         return exit_codes.BAD_INPUT
     return next(code for kind, code in _CODES if isinstance(error, kind))
 
 
-def _tell(error: errors.KempeError) -> None:
+def _print_error(error: errors.KempeError) -> None:
     console = Console(stderr=True, highlight=False, soft_wrap=True)
-    told = str(error)
-    console.print(Text.assemble(("error: ", "bold red"), told))
+    message = str(error)
+    console.print(Text.assemble(("error: ", "bold red"), message))
     for problem in error.problems:
-        if problem.message not in told:  # the core tells them in its message, with the lines
+        if problem.message not in message:  # messages of the core contain them, with lines
             console.print(Text(f"  {problem}"))

@@ -1,4 +1,4 @@
-"""What the commands have in common: the file, and other values for its parameters."""
+"""Arguments that the commands share: the case file and the values of its parameters."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ if TYPE_CHECKING:
     from kempe.case import Case
     from kempe.state import State
 
-File = Annotated[Path, typer.Argument(metavar="FILE", help="A case: TOML or JSON.")]
+File = Annotated[Path, typer.Argument(metavar="FILE", help="Case file (TOML or JSON).")]
 Settings = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="NAME=VALUE", help="Another value for a parameter; repeatable."),
+    typer.Option("--set", metavar="NAME=VALUE", help="Set a parameter; can be repeated."),
 ]
 
 
 def read_case(file: Path, settings: list[str] | None) -> Case:
-    """The case in a file, with the parameters set on the command line."""
+    """The case from a file, with the parameters from the command line."""
     from kempe.case import load
 
     return load(file, parameters=dict(map(setting, settings or [])))
 
 
 def setting(text: str) -> tuple[str, float | str]:
-    """``k=2e6`` → ("k", 2e6); what is not a number is a formula.
+    """``k=2e6`` → ("k", 2e6); a value that is not a number is a formula.
 
     Raises:
-        ModelError: there is no name or no value.
+        ModelError: the name or the value is missing.
     """
     name, _, value = (part.strip() for part in text.partition("="))
     if not name or not value:
@@ -40,7 +40,7 @@ def setting(text: str) -> tuple[str, float | str]:
 
 
 def number_or_formula(text: str) -> float | str:
-    """The number that a word of the command line means, or the word."""
+    """The number in a word of the command line, or the word if it is not a number."""
     try:
         return float(text)
     except ValueError:
@@ -48,7 +48,7 @@ def number_or_formula(text: str) -> float | str:
 
 
 def assembled(case: Case) -> State:
-    """The assembled mechanism; its warnings are in the report, which is printed."""
+    """The assembled mechanism; its warnings are printed with the report."""
     import warnings
 
     from kempe.analyses import AssemblyWarning

@@ -1,4 +1,4 @@
-"""``kempe check`` tells whether a case is right and its mechanism goes together."""
+"""``kempe check``: read a case and assemble its mechanism."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ EXAMPLES = """Examples:
 
 
 def check(file: File, settings: Settings = None) -> None:
-    """Read a case, put its mechanism together and show it; simulate nothing."""
+    """Read a case, assemble its mechanism and show the configuration, without a simulation."""
     from kempe.cli.mechanism import show_configuration, show_mechanism
 
     case = read_case(file, settings)
@@ -24,4 +24,4 @@ def check(file: File, settings: Settings = None) -> None:
     show_configuration(console, state)
     analyses = ", ".join(f"{name} ({entry['type']})" for name, entry in case.analyses.items())
     console.print()
-    console.print(Text(f"{file} is right; analyses: {analyses or 'none'}"))
+    console.print(Text(f"{file}: OK; analyses: {analyses or 'none'}"))

@@ -1,4 +1,4 @@
-"""The progress of a simulation: simulated time on stderr, where that is a terminal."""
+"""Progress of a simulation: the simulated time on stderr, if that is a terminal."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from kempe.cli.console import remarks
 
 
 class Clock:
-    """Shows the simulated time while it runs; called with the time reached, s."""
+    """Displays the simulated time; called with the time reached, s."""
 
     def __init__(self, *, silent: bool) -> None:
         console = remarks()
@@ -27,18 +27,18 @@ class Clock:
         self._begin = 0.0
 
     def __call__(self, t: float) -> None:
-        """Show the time reached."""
+        """Display the time reached."""
         for task in self._progress.task_ids[-1:]:
             self._progress.update(task, completed=t - self._begin, reached=f"t = {t:.3f} s")
 
     @contextmanager
     def running(self, name: str, begin: float, end: object) -> Iterator[None]:
-        """Show an analysis while the block runs.
+        """Display the progress of an analysis while the block runs.
 
         Args:
-            name: its name.
-            begin: time at which it starts, s.
-            end: time at which it ends, s; a formula, whose value is not known here, shows no share.
+            name: name of the analysis.
+            begin: start time, s.
+            end: end time, s; for a formula no percentage is displayed.
         """
         self._begin = begin
         total = end - begin if isinstance(end, int | float) else None
@@ -52,13 +52,13 @@ class Clock:
 
 @contextmanager
 def drawing(name: str) -> Iterator[Callable[[int, int], None]]:
-    """Show how many pictures of a video have been drawn while the block runs.
+    """Display the number of finished frames of a video while the block runs.
 
     Args:
-        name: of the video.
+        name: name of the video.
 
     Yields:
-        What is to be called with the number of pictures drawn and of all.
+        A function to call with the number of finished frames and the total number.
     """
     console = remarks()
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())

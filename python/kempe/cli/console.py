@@ -1,8 +1,8 @@
-"""Where the command line writes: answers on stdout, everything else on stderr.
+"""Consoles of the command line: results on stdout, everything else on stderr.
 
-Colours only on a terminal and without NO_COLOR (rich sees to both); names are shown verbatim, since
-only ``Text`` is printed, in which brackets mean nothing; lines are never broken, so that a pipe
-gets what a wide window shows.
+Colours appear only on a terminal and without NO_COLOR, which rich checks. Names are printed
+verbatim, because ``Text`` does not interpret brackets. Lines are never wrapped, so a pipe receives
+the same text as a wide terminal.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ from rich.text import Text
 
 
 def answers(*, silent: bool = False) -> Console:
-    """The console for what was asked for."""
+    """The console for results."""
     return Console(highlight=False, markup=False, soft_wrap=True, quiet=silent)
 
 
 def remarks() -> Console:
-    """The console for progress and troubles."""
+    """The console for progress, warnings and errors."""
     return Console(stderr=True, highlight=False, markup=False, soft_wrap=True)
 
 
 def heading(console: Console, text: str) -> None:
-    """An empty line and a title."""
+    """Print an empty line and a title."""
     console.print()
     console.print(Text(text, style="bold"))
 
@@ -32,7 +32,7 @@ def heading(console: Console, text: str) -> None:
 def table(
     console: Console, header: Sequence[str], rows: Iterable[Sequence[str]], *, left: int = 1
 ) -> None:
-    """Columns under a header, aligned: the first ``left`` to the left, the others to the right."""
+    """Print aligned columns: the first ``left`` columns to the left, the others to the right."""
     body = [list(row) for row in rows]
     widths = [max(map(len, column)) for column in zip(header, *body, strict=True)]
     console.print(Text(_line(header, widths, left), style="dim"))
@@ -49,5 +49,5 @@ def _line(cells: Sequence[str], widths: Sequence[int], left: int) -> str:
 
 
 def figure(value: float) -> str:
-    """A number with six digits, and no minus before zero."""
+    """A number with six digits, without a minus sign before zero."""
     return f"{value + 0.0:.6g}"

@@ -1,13 +1,13 @@
-"""What the exit code of the command line means.
+"""Exit codes of the command line.
 
-``./kempe`` adds one of its own: 5, the set-up could not be done.
+``./kempe`` adds the code 5: its environment cannot be set up.
 """
 
 from __future__ import annotations
 
 OK = 0
-INTERNAL = 1  # a fault in kempe; Python's own code for an uncaught exception
-BAD_INPUT = 2  # wrong arguments, or a wrong model; the shell's habit for wrong usage
-MECHANICS = 3  # the model is right, but the mechanism cannot do this
+INTERNAL = 1  # internal error; Python's code for an uncaught exception
+BAD_INPUT = 2  # wrong arguments or an invalid model; the shell's convention for wrong usage
+MECHANICS = 3  # the model is valid, but it cannot be assembled or simulated
 FILE = 4  # a file cannot be read or written
-INTERRUPTED = 130  # Ctrl-C, as shells count it: 128 + SIGINT
+INTERRUPTED = 130  # Ctrl-C; the shell's convention: 128 + SIGINT

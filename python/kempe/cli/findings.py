@@ -1,4 +1,4 @@
-"""Prints the summary of a solution."""
+"""Printing of the summary of a solution."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from kempe.cli.console import figure, heading, table
 
 
 def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
-    """Peaks, energy balance, settling and cost of one analysis."""
+    """Print peaks, energy balance, settling times and cost of one analysis."""
     span = summary["time"]
-    told = f"{name}: {figure(span['start'])} to {figure(span['end'])} s"
-    heading(console, f"{told}, {span['outputs']} outputs")
+    span_text = f"{name}: {figure(span['start'])} to {figure(span['end'])} s"
+    heading(console, f"{span_text}, {span['outputs']} outputs")
     console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
     _show_peaks(console, summary["peaks"])
     _show_accuracy(console, summary)
@@ -47,12 +47,12 @@ def _show_peaks(console: Console, peaks: dict[str, Any]) -> None:
 
 
 def _columns(peaks: list[dict[str, Any]]) -> tuple[list[str], list[list[str]]]:
-    """Header and cells of forces and of torques, each only where there are any."""
+    """Header and cells of forces and torques; a column of zeros is omitted."""
     quantities = [("force", "force / N"), ("torque", "torque / N m")]
-    told = [pair for pair in quantities if any(peak[pair[0]] for peak in peaks)]
-    header = [word for _, title in told for word in (title, "at / s")]
+    shown = [pair for pair in quantities if any(peak[pair[0]] for peak in peaks)]
+    header = [word for _, title in shown for word in (title, "at / s")]
     cells = [
-        [figure(peak[key]) for quantity, _ in told for key in (quantity, f"{quantity}_at")]
+        [figure(peak[key]) for quantity, _ in shown for key in (quantity, f"{quantity}_at")]
         for peak in peaks
     ]
     return header, cells
@@ -67,8 +67,8 @@ def _show_accuracy(console: Console, summary: dict[str, Any]) -> None:
     worst, energy = summary["peaks"]["residual"], summary["energy"]
     if worst is not None:
         value = f"{worst['value']:.3g} {worst['unit']}"
-        told = f"largest residual {value} in {worst['equation']} at {figure(worst['at'])} s"
-        console.print(Text(f"  {told}"))
+        text = f"largest residual {value} in {worst['equation']} at {figure(worst['at'])} s"
+        console.print(Text(f"  {text}"))
     kinetic = f"largest kinetic energy {figure(energy['largest_kinetic'])} J"
     console.print(
         Text(f"  energy balance within {energy['largest_imbalance']:.2g} of the {kinetic}")
@@ -80,10 +80,10 @@ def _show_settling(console: Console, settling: list[dict[str, Any]]) -> None:
     rows = []
     for body in settling:
         if not body["moves"]:
-            told = "does not turn"
+            settled = "does not turn"
         elif body["time"] is None:
-            told = "does not settle"
+            settled = "does not settle"
         else:
-            told = f"{figure(body['time'])} s"
-        rows.append((body["body"], told, f"{figure(math.degrees(body['angle']))}°"))
+            settled = f"{figure(body['time'])} s"
+        rows.append((body["body"], settled, f"{figure(math.degrees(body['angle']))}°"))
     table(console, ("body", "settled at", "last angle"), rows)

@@ -1,4 +1,4 @@
-"""Prints the mechanism, its initial configuration and the Jacobian there."""
+"""Printing of the mechanism, its initial configuration and its Jacobian."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from kempe.state import State
     from kempe.values import Number
 
-#: A wider Jacobian is not read by anyone.
+#: Largest number of columns of a printed Jacobian.
 WIDEST = 30
 
 
 def show_mechanism(console: Console, state: State) -> None:
-    """Bodies, joints, drivers, forces and degrees of freedom."""
+    """Print bodies, joints, drivers, forces and degrees of freedom."""
     model = state.model
     console.print(Text(model.title or "untitled", style="bold"))
     heading(console, "Bodies")
@@ -46,7 +46,7 @@ def show_mechanism(console: Console, state: State) -> None:
 
 
 def show_configuration(console: Console, state: State) -> None:
-    """Where the bodies are at the start, and how they were put there."""
+    """Print the initial configuration and the assembly report."""
     heading(console, f"Initial configuration, t = {figure(float(state.t))} s")
     rows = []
     for name in state.model.bodies:
@@ -61,9 +61,9 @@ def show_configuration(console: Console, state: State) -> None:
 
 
 def show_jacobian(console: Console, state: State, held: Mapping[str, Number]) -> None:
-    """Φ_q at the start with rows joint.equation and columns body.coordinate.
+    """Print Φ_q at the start with rows joint.equation and columns body.coordinate.
 
-    The coordinates that are held for the assembly have a row each.
+    Each prescribed coordinate of the assembly has a row.
     """
     positions = {name: value for name, value in held.items() if name in state.model.column_names()}
     found = state.matrices(positions)
@@ -83,5 +83,5 @@ def _cells(found: Matrices) -> list[tuple[str, ...]]:
 
 
 def _entry(value: float) -> str:
-    """Entries that are zero for good are dots, so that the pattern is seen."""
+    """Print structural zeros as dots to show the sparsity pattern."""
     return "·" if value == 0.0 else f"{value:.4f}".rstrip("0").rstrip(".")

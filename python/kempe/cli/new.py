@@ -1,4 +1,4 @@
-"""``kempe new`` writes a commented case to start from."""
+"""``kempe new``: write a commented case to start from."""
 
 from __future__ import annotations
 
@@ -38,10 +38,12 @@ def new(
     path: Annotated[
         Path | None,
         typer.Argument(
-            metavar="[PATH]", help="File or folder; NAME.toml if absent.", show_default=False
+            metavar="[PATH]", help="File or folder; default NAME.toml.", show_default=False
         ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", "-f", help="Overwrite an old file.")] = False,
+    force: Annotated[
+        bool, typer.Option("--force", "-f", help="Overwrite an existing file.")
+    ] = False,
 ) -> None:
     """Write a commented example case to start from."""
     from kempe import files

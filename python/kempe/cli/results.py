@@ -1,4 +1,4 @@
-"""Writes what an analysis gave into a folder."""
+"""Writing of the results of an analysis to a folder."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
 
 FILES = ("solution.npz", "solution.csv", "summary.json")
-#: Of one kind, such as those of the joints; ``kempe plot`` draws all.
+#: Largest number of figures of one kind, such as joints; ``kempe plot`` draws all.
 MOST_FIGURES = 12
 
 
@@ -24,17 +24,17 @@ def write_results(
     with_figures: bool = True,
     video: Form | None = None,
 ) -> list[Path]:
-    """Solution, table, drawings, figures and summary, which lists them all; returns the files.
+    """Write solution, table, drawings, figures and summary; return the list of files.
 
-    The summary comes last, as it tells of what is there.
+    The summary is written last, because it lists all files.
 
     Args:
-        solution: what was computed.
-        summary: of the solution.
-        folder: where to.
+        solution: the solution.
+        summary: its summary.
+        folder: the folder for the files.
         index_base: number of the first body in figures.
         with_figures: whether to draw figures.
-        video: a video to make besides the page that plays the motion.
+        video: format of an additional video; None for no video.
 
     Raises:
         FileError: a file cannot be written.
@@ -42,10 +42,10 @@ def write_results(
     from kempe import files
     from kempe.cli.drawings import write_drawings
 
-    data, text, told = (folder / name for name in FILES)
+    data, text, overview = (folder / name for name in FILES)
     solution.save(data)
     solution.to_csv(text)
-    written = [data, text, told]
+    written = [data, text, overview]
     if with_figures or video is not None:
         written += write_drawings(solution, folder, video)
     if with_figures:
@@ -54,5 +54,5 @@ def write_results(
         written += save(pages(solution, index_base, MOST_FIGURES), folder / "figures")
     names = [path.relative_to(folder).as_posix() for path in written]
     content = json.dumps({**summary, "files": names}, indent=2, ensure_ascii=False)
-    files.write_text(told, content + "\n")
+    files.write_text(overview, content + "\n")
     return written

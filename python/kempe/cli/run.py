@@ -1,4 +1,4 @@
-"""``kempe run``: everything that a case asks for, told in the order in which one wants to know."""
+"""``kempe run``: run all analyses of a case, print summaries and write the results."""
 
 from __future__ import annotations
 
@@ -35,62 +35,62 @@ EXAMPLES = """Examples:
 """
 
 
-def run(  # noqa: PLR0917 - typer tells options from arguments by their annotations
+def run(  # noqa: PLR0917 - typer uses the annotations of options and arguments
     file: File,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="Folder for results; out/<FILE> if absent."),
+        typer.Option("--output", "-o", help="Folder for results; default out/<FILE>."),
     ] = None,
     settings: Settings = None,
     t_end: Annotated[
-        str | None, typer.Option("--t-end", help="Another end of the last analysis, s.")
+        str | None, typer.Option("--t-end", help="End time of the last analysis, s.")
     ] = None,
     quiet: Annotated[
-        bool, typer.Option("--quiet", "-q", help="Write files, print nothing.")
+        bool, typer.Option("--quiet", "-q", help="Write the files but print nothing.")
     ] = False,
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print the summary as JSON and nothing else.")
+        bool, typer.Option("--json", help="Print only the summary, as JSON.")
     ] = False,
     index_base: figures.IndexBase = 1,
     with_figures: Annotated[
-        bool, typer.Option("--figures/--no-figures", help="Draw the figures, or none.")
+        bool, typer.Option("--figures/--no-figures", help="Draw figures.")
     ] = True,
     video: Annotated[
-        Form | None, typer.Option("--animate", help="Make a video or GIF too, beside the page.")
+        Form | None, typer.Option("--animate", help="Also write a video or GIF.")
     ] = None,
 ) -> None:
-    """Put a mechanism together, carry out its analyses and write the results."""
+    """Assemble a mechanism, run its analyses and write the results."""
     case = _with_end(read_case(file, settings), t_end)
     if not case.analyses:
-        raise ModelError(f"{file} asks for no analysis", hint="add one, as [analyses.release]")
+        raise ModelError(f"{file} contains no analysis", hint="add one, as [analyses.release]")
     refuse_impossible(video)
     state = assembled(case)
     console = answers(silent=quiet or as_json)
     _show_start(console, case, state)
     folder, apart = output or Path("out") / file.stem, len(case.analyses) > 1
     drawing = {"index_base": index_base, "with_figures": with_figures, "video": video}
-    told = _Told(console, folder, apart, drawing)
+    finished = _Finished(console, folder, apart, drawing)
     try:
         for name, solution in _solutions(case, state, Clock(silent=quiet or as_json)):
-            told.finish(name, solution)
+            finished.finish(name, solution)
     except (KempeError, KeyboardInterrupt) as error:
-        _keep_partial(told, error, list(case.analyses))
+        _keep_partial(finished, error, list(case.analyses))
         raise
     finally:
         if as_json:
-            print(json.dumps({"analyses": told.summaries}, indent=2, ensure_ascii=False))
+            print(json.dumps({"analyses": finished.summaries}, indent=2, ensure_ascii=False))
 
 
 @dataclass
-class _Told:
-    """What has been finished: summaries printed, files written.
+class _Finished:
+    """The finished analyses: their summaries are printed and their files written.
 
     Attributes:
-        console: where to print.
-        folder: where the files go.
-        apart: whether every analysis has a folder of its own.
-        drawing: how to draw figures, as ``write_results`` takes it.
-        summaries: by analysis, each with its files.
+        console: console for the summaries.
+        folder: folder for the files.
+        apart: whether every analysis has its own subfolder.
+        drawing: options of ``write_results``.
+        summaries: summary and files of each analysis.
     """
 
     console: Console
@@ -129,7 +129,7 @@ def _show_start(console: Console, case: Case, state: State) -> None:
 
 
 def _solutions(case: Case, state: State, clock: Clock) -> Iterator[tuple[str, Solution]]:
-    """The solutions as they come, with the clock shown while each is computed."""
+    """The solutions one after the other; the clock displays the progress of each."""
     each = case.each(clock, state)
     now = float(state.t)
     ends = {"start": now}
@@ -140,15 +140,17 @@ def _solutions(case: Case, state: State, clock: Clock) -> Iterator[tuple[str, So
         yield done
 
 
-def _keep_partial(told: _Told, error: BaseException, names: list[str]) -> None:
-    """Write what was computed before the failure, and say so."""
+def _keep_partial(finished: _Finished, error: BaseException, names: list[str]) -> None:
+    """Write the solution up to the failure and print its file name."""
     partial = getattr(error, "solution", None)
-    name = names[len(told.summaries)]
+    name = names[len(finished.summaries)]
     console = remarks()
     if isinstance(error, KeyboardInterrupt):
         console.print(Text("interrupted"))
     if partial is None:
         return
-    told.finish(name, partial)
+    finished.finish(name, partial)
     reached = f"{float(partial.t[-1]):g} s"
-    console.print(Text(f"the solution until {reached} is in {told.summaries[name]['files'][0]}"))
+    console.print(
+        Text(f"the solution up to {reached} is in {finished.summaries[name]['files'][0]}")
+    )

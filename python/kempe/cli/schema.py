@@ -9,7 +9,7 @@ EXAMPLES = """Examples:
 
 
 def schema() -> None:
-    """Print the JSON Schema of a case, which editors use to check and complete."""
+    """Print the JSON Schema of a case, for checks and completion in editors."""
     from kempe.case import schema as text
 
     print(text(), end="")

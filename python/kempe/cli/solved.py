@@ -1,4 +1,4 @@
-"""The solutions that commands draw: of a case, simulated first, or one that was stored."""
+"""Solutions for the drawing commands: from a case, which is simulated, or from a file."""
 
 from __future__ import annotations
 
@@ -20,26 +20,26 @@ CaseOrSolution = Annotated[
 
 
 def results_folder(file: Path) -> Path:
-    """Where the results of a case are, or the folder of a stored solution."""
+    """The folder of the results of a case, or the folder of a stored solution."""
     return file.parent if _is_stored(file) else Path("out") / file.stem
 
 
 def solved(file: Path, settings: list[str] | None) -> Iterator[tuple[str, Solution]]:
-    """The solutions, each with the name of its analysis, which is empty if there is only one.
+    """The solutions with the names of their analyses; the name is empty for a single analysis.
 
     Raises:
-        ModelError: a case that asks for no analysis, or settings for a stored solution.
+        ModelError: the case contains no analysis, or settings are given for a stored solution.
     """
     if _is_stored(file):
         from kempe.archive import load_solution
 
         if settings:
-            raise ModelError("--set changes a case; a solution stays as it was computed")
+            raise ModelError("--set applies to a case, not to a stored solution")
         yield "", load_solution(file)
         return
     case = read_case(file, settings)
     if not case.analyses:
-        raise ModelError(f"{file} asks for no analysis", hint="add one, as [analyses.release]")
+        raise ModelError(f"{file} contains no analysis", hint="add one, as [analyses.release]")
     apart = len(case.analyses) > 1
     for name, solution in case.each(start=assembled(case)):
         yield name if apart else "", solution

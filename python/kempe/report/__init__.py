@@ -1,4 +1,4 @@
-"""What a solution says, in words and numbers; sees a Solution and nothing under it."""
+"""Reports of a solution as text and numbers; uses the public interface of Solution only."""
 
 from kempe.report.summary import summary
 

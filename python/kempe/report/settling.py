@@ -1,4 +1,4 @@
-"""When a motion comes to rest."""
+"""Settling times."""
 
 from __future__ import annotations
 
@@ -8,20 +8,19 @@ import numpy as np
 
 from kempe.arrays import Floats
 
-#: Settled: within this share of the largest deviation from the final value.
+#: Half width of the settling band, relative to the largest deviation from the final value.
 BAND = 0.005
-#: The last sample is always within its own band; to count, a motion must stay there for the last
-#: tenth of the time.
+#: A motion has settled only if it stays in the band for this share of the time, at the end.
 QUIET_SHARE = 0.1
 
 
 @dataclass(frozen=True)
 class Settling:
-    """How a quantity settles.
+    """Settling of a quantity.
 
     Attributes:
-        moves: whether it changes at all.
-        time: when it enters the band for good, s; None if it does not settle.
+        moves: whether the quantity changes.
+        time: time after which it stays in the band, s; None if it does not settle.
     """
 
     moves: bool
@@ -29,7 +28,7 @@ class Settling:
 
 
 def settling(t: Floats, values: Floats) -> Settling:
-    """When a quantity stays within 0.5 % of its largest deviation from the final value.
+    """Settling time, with a band of 0.5 % of the largest deviation from the final value.
 
     Args:
         t: (n_t,), s.
@@ -40,6 +39,6 @@ def settling(t: Floats, values: Floats) -> Settling:
     if peak <= 1e-12 * max(1.0, float(np.abs(values).max())):
         return Settling(moves=False, time=None)
     outside = np.flatnonzero(deviation > BAND * peak)
-    entered = float(t[outside[-1] + 1])  # the last value is never outside
+    entered = float(t[outside[-1] + 1])  # the last value is inside the band
     is_quiet = float(t[-1]) - entered >= QUIET_SHARE * float(t[-1] - t[0])
     return Settling(moves=True, time=entered if is_quiet else None)

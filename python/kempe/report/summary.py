@@ -1,4 +1,4 @@
-"""The summary of a solution: what a person wants to know of it first, as plain data."""
+"""The summary of a solution as plain data."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 
 def summary(solution: Solution) -> dict[str, Any]:
-    """The mechanism, its start and end, peaks, energy balance and settling, ready for JSON.
+    """Mechanism, initial and final state, peak values, energy balance and settling times.
 
-    Lengths in m, angles in rad, forces in N, torques in N·m, energies in J, times in s.
+    The result can be written as JSON. Units: m, rad, N, N·m, J, s.
     """
     return {
         "kempe": __version__,
@@ -45,7 +45,7 @@ def summary(solution: Solution) -> dict[str, Any]:
 
 
 def mechanism(solution: Solution) -> dict[str, Any]:
-    """What the mechanism is made of, and its degrees of freedom at the start."""
+    """Elements of the mechanism, and its degrees of freedom at the start."""
     model = solution.model
     return {
         "bodies": list(model.bodies),
@@ -59,7 +59,7 @@ def mechanism(solution: Solution) -> dict[str, Any]:
 
 
 def reaction(solution: Solution, name: str) -> dict[str, Any]:
-    """Largest reaction of a joint or driver on its body j, and when."""
+    """Largest reaction of a joint or driver on its body j, with its time."""
     joint = solution.constraint(name)
     on = joint.info.j
     force, force_at = _peak(solution.t, np.linalg.norm(joint.force(on=on), axis=1))
@@ -75,7 +75,7 @@ def reaction(solution: Solution, name: str) -> dict[str, Any]:
 
 
 def force(solution: Solution, name: str) -> dict[str, Any]:
-    """Largest force and torque of a force element on its body j, and when."""
+    """Largest force and torque of a force element on its body j, with their times."""
     element = solution.force(name)
     on = element.info.j
     magnitude, at = _peak(solution.t, np.linalg.norm(element.force(on=on), axis=1))
@@ -93,7 +93,7 @@ def force(solution: Solution, name: str) -> dict[str, Any]:
 
 
 def residual(solution: Solution) -> dict[str, Any] | None:
-    """Where the mechanism is most open, by how much and when; None without joints."""
+    """Largest constraint violation with its equation and time; None without constraints."""
     if not solution.model.n_rows:
         return None
     opening = np.abs(solution.residuals[0])
@@ -107,7 +107,7 @@ def residual(solution: Solution) -> dict[str, Any] | None:
 
 
 def energy(solution: Solution) -> dict[str, float]:
-    """Largest kinetic energy, losses, and the largest error of the balance."""
+    """Largest kinetic energy, dissipated energy, work, and largest error of the balance."""
     found = solution.energy
     return {
         "largest_kinetic": float(found.kinetic.max(initial=0.0)),
@@ -118,7 +118,7 @@ def energy(solution: Solution) -> dict[str, float]:
 
 
 def settling_of(solution: Solution, name: str) -> dict[str, Any]:
-    """When the angle of a body settles; ``time`` is None if it does not."""
+    """Settling of the angle of a body; ``time`` is None if the angle does not settle."""
     angle = solution.body(name).angle
     found = settling(solution.t, angle)
     return {"body": name, "moves": found.moves, "time": found.time, "angle": float(angle[-1])}

@@ -1,4 +1,4 @@
-"""Commented cases to start from."""
+"""Templates: commented cases to start from."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a motion says of one body, joint or force."""
+"""Views of a motion: one body, joint or force."""
 
 from kempe.views.body import BodyView, PointView
 from kempe.views.constraint import ConstraintView

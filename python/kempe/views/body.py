@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 
 class BodyView:
-    """A body of a motion: everything (n_t,) or (n_t, 2), SI units, angles in rad.
+    """A body of a motion; all arrays are (n_t,) or (n_t, 2), in SI units and rad.
 
     Attributes:
-        info: the body in numbers.
+        info: the body with numerical values.
     """
 
     def __init__(self, motion: Motion, info: BodyInfo) -> None:
@@ -31,7 +31,7 @@ class BodyView:
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """Name of the body."""
         return self.info.name
 
     @property
@@ -105,14 +105,14 @@ class BodyView:
         return self.at(self.info.points[name], name)
 
     def at(self, s: Vector, name: str = "") -> PointView:
-        """A point of the body by its coordinates in the body's frame, m."""
+        """A point of the body, given by its coordinates in the frame of the body, m."""
         return PointView(self, s, name)
 
     def _acceleration(self, k: int) -> Floats:
         return self._column(self._motion.a if self.info.number else self._motion.v, k)
 
     def _column(self, values: Floats, k: int) -> Floats:
-        if not self.info.number:  # ground has no columns: it is at zero
+        if not self.info.number:  # ground has no columns; its coordinates are zero
             return fixed(np.zeros(np.shape(self._motion.t)))
         return fixed(values[..., self.info.columns][..., k])
 
@@ -124,8 +124,8 @@ class PointView:
     """A point fixed in a body.
 
     Attributes:
-        s: its coordinates in the body's frame, m.
-        name: its name; empty if it has none.
+        s: coordinates in the frame of the body, m.
+        name: name of the point; empty for a point without a name.
     """
 
     def __init__(self, body: BodyView, s: Vector, name: str) -> None:

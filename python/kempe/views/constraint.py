@@ -1,6 +1,6 @@
-"""Reactions and residual of one joint or driver.
+"""Reactions and constraint violation of one joint or driver.
 
-F″ = -Cᵀ Aᵀ Φ_rᵀ λ (Haug 6.6.8), T″ by (6.6.9); C is fixed in the body named by ``on=``.
+F″ = -Cᵀ Aᵀ Φ_rᵀ λ (Haug 6.6.8), T″ by (6.6.9); C is fixed in the body given by ``on=``.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ class ConstraintView:
     """A joint or driver of a motion.
 
     Attributes:
-        info: the joint in numbers.
+        info: the joint with numerical values.
     """
 
     def __init__(self, motion: Motion, info: ConstraintInfo) -> None:
@@ -28,24 +28,24 @@ class ConstraintView:
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """Name of the joint or driver."""
         return self.info.name
 
     def force(self, *, on: str, frame: str = "global") -> Floats:
         """Force that the joint exerts on a body, (n_t, 2), N.
 
         Args:
-            on: the body; one of the two that the joint connects.
-            frame: "global", "body" (axes of that body) or "joint" (axes of the joint on it). Only
-                in the global frame are the components on the two bodies opposite.
+            on: the body; one of the two connected bodies.
+            frame: "global", "body" (axes of this body) or "joint" (axes of the joint on this body).
+                The components on the two bodies are opposite in the global frame only.
 
         Raises:
-            ModelError: ``on`` or ``frame`` is none of these.
+            ModelError: ``on`` or ``frame`` has another value.
         """
         return fixed(self._reaction(on, frame)[..., :2])
 
     def torque(self, *, on: str) -> Floats:
-        """Torque that the joint exerts on a body about the joint's point, (n_t,), N·m.
+        """Torque that the joint exerts on a body about the joint point, (n_t,), N·m.
 
         Raises:
             ModelError: the joint does not connect that body.
@@ -54,7 +54,7 @@ class ConstraintView:
 
     @property
     def residual(self) -> Floats:
-        """Φ of the joint, (n_t, m), m or rad: by how much it is open."""
+        """Constraint violation Φ of the joint, (n_t, m), m or rad."""
         return fixed(self._motion.residuals[0][..., self.info.rows])
 
     @property

@@ -1,4 +1,4 @@
-"""What one force element does to its bodies, as a whole and part by part."""
+"""Force and torque of one force element on its bodies, in total and by part."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ class ForceView:
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """Name of the force element."""
         return self.info.name
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Names of its parts."""
+        """Names of the parts."""
         return self.info.parts
 
     def force(self, *, on: str, frame: str = "global", part: str | None = None) -> Floats:
@@ -46,11 +46,11 @@ class ForceView:
 
         Args:
             on: the body; one of the two that the element connects.
-            frame: "global" or "body" (axes of that body).
-            part: one part alone; the sum by default.
+            frame: "global" or "body" (axes of this body).
+            part: name of one part; the sum of all parts by default.
 
         Raises:
-            ModelError: ``on``, ``frame`` or ``part`` is none of these.
+            ModelError: ``on``, ``frame`` or ``part`` has another value.
         """
         return fixed(self._action(on, frame, part)[..., :2])
 
@@ -59,10 +59,10 @@ class ForceView:
 
         Args:
             on: the body; one of the two that the element connects.
-            part: one part alone; the sum by default.
+            part: name of one part; the sum of all parts by default.
 
         Raises:
-            ModelError: ``on`` or ``part`` is none of these.
+            ModelError: ``on`` or ``part`` has another value.
         """
         return fixed(self._action(on, "global", part)[..., 2])
 
