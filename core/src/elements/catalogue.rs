@@ -70,7 +70,7 @@ pub trait Linear<S> {
 /// A loop over constraints of one type, see [`Constraint::run_typed`].
 pub trait TypedLoop<S: Real> {
     /// Runs for type `E` of `M` equations; `get` finds an element of this type in a constraint.
-    fn run<const M: usize, E: Joint<M>>(self, get: fn(&Constraint<S>) -> Option<&E::Over<S>>);
+    fn run<const M: usize, E: Joint<M>>(self, get: impl Fn(&Constraint<S>) -> Option<&E::Over<S>>);
 }
 
 macro_rules! constraints {
@@ -166,6 +166,7 @@ macro_rules! constraints {
                 })+)+ }
             }
             /// Runs a loop over constraints of the type of this one: the type is found once, not for each of them.
+            #[inline(always)]
             pub fn run_typed(&self, work: impl TypedLoop<S>) {
                 match self { $($(Self::$Name(_) => work.run::<_, $Name>(|constraint| {
                     match constraint {

@@ -198,8 +198,8 @@ struct Condense<'a, S> {
 }
 
 impl<S: Real> TypedLoop<S> for Condense<'_, S> {
-    #[inline(never)] // one loop for each type, so that no type costs another registers
-    fn run<const M: usize, E: Joint<M>>(self, get: fn(&Constraint<S>) -> Option<&E::Over<S>>) {
+    #[inline(always)] // a loop for each type; calls would cost more than they share
+    fn run<const M: usize, E: Joint<M>>(self, get: impl Fn(&Constraint<S>) -> Option<&E::Over<S>>) {
         let Self { compiled, run, at, pattern, saddle, forces, right } = self;
         for (k, grounded) in run.clone().zip(&compiled.grounded[run]) {
             grounded.turn(&compiled.inertias, at.motions, &mut saddle.condensed[k]);
@@ -247,8 +247,8 @@ struct PutPins<'a, S> {
 }
 
 impl<S: Real> TypedLoop<S> for PutPins<'_, S> {
-    #[inline(never)] // one loop for each type, so that no type costs another registers
-    fn run<const M: usize, E: Joint<M>>(self, get: fn(&Constraint<S>) -> Option<&E::Over<S>>) {
+    #[inline(always)] // a loop for each type; calls would cost more than they share
+    fn run<const M: usize, E: Joint<M>>(self, get: impl Fn(&Constraint<S>) -> Option<&E::Over<S>>) {
         let Self { compiled, pins, at, saddle, x, right } = self;
         for PinJoint { pair, rows: pin } in pins {
             let Some(element) = get(&compiled.pairs[*pair as usize].element) else { continue };
