@@ -108,7 +108,7 @@ impl PyRun {
         let (t, n) = (numbers(&t)?, self.model.model().layout.n_q);
         let count = rows.map_or(t.len(), |rows| rows.min(t.len()));
         let (q, v) = (&numbers(&q)?[..n * count], &numbers(&v)?[..n * count]);
-        give(core::States { t: &t[..count], q, v })
+        give(core::States { t: &t[..count], q, v, z: &[] })
     }
 
     fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {

@@ -6,6 +6,9 @@
 use crate::elements::BodyId;
 use std::ops::Range;
 
+/// Works that are integrated with the motion: dissipated, of drivers, of applied forces.
+pub const WORKS: usize = 3;
+
 /// One block of Φ_q: the equations of a constraint by the coordinates of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
@@ -47,6 +50,10 @@ pub struct Layout {
     pub n_rows: usize,
     /// Number of stored entries of Φ_q.
     pub n_entries: usize,
+    /// Number of first-order states of elements.
+    pub n_z: usize,
+    /// Number of works.
+    pub n_works: usize,
     /// One for each constraint.
     pub constraints: Vec<Slots>,
 }
@@ -62,7 +69,7 @@ pub fn columns(body: BodyId) -> Range<usize> {
 impl Layout {
     /// For `n_bodies` moving bodies and what the constraints touch.
     pub(super) fn new(n_bodies: usize, constraints: impl Iterator<Item = Touched>) -> Self {
-        let mut layout = Self { n_q: 3 * n_bodies, ..Self::default() };
+        let mut layout = Self { n_q: 3 * n_bodies, n_works: WORKS, ..Self::default() };
         for Touched { equations: m, bodies, pins } in constraints {
             let (i, j) = (bodies.first().copied(), bodies.get(1).copied());
             let sign = |body| match Some(body) == j {
@@ -83,6 +90,27 @@ impl Layout {
             layout.constraints.push(Slots { rows, blocks });
         }
         layout
+    }
+
+    /// Number of components of y = (q, v, z, works).
+    pub fn n_y(&self) -> usize {
+        2 * self.n_q + self.n_z + self.n_works
+    }
+
+    /// Splits y = (q, v, z, works) into its parts.
+    pub fn split<'a, S>(&self, y: &'a [S]) -> [&'a [S]; 4] {
+        let (q, rest) = y.split_at(self.n_q);
+        let (v, rest) = rest.split_at(self.n_q);
+        let (z, works) = rest.split_at(self.n_z);
+        [q, v, z, works]
+    }
+
+    /// The same, to be changed.
+    pub fn split_mut<'a, S>(&self, y: &'a mut [S]) -> [&'a mut [S]; 4] {
+        let (q, rest) = y.split_at_mut(self.n_q);
+        let (v, rest) = rest.split_at_mut(self.n_q);
+        let (z, works) = rest.split_at_mut(self.n_z);
+        [q, v, z, works]
     }
 
     /// Position (row, column) of every stored entry of Φ_q, in storage order.

@@ -22,7 +22,7 @@ pub use blueprint::{build, Blueprint};
 pub use body_fields::body_tables;
 pub use definition::{Definition, Entry, Value};
 pub use inertia::Inertia;
-pub use layout::{columns, Block, Layout, Slots};
+pub use layout::{columns, Block, Layout, Slots, WORKS};
 pub use link::{did_you_mean, Reach, Scope};
 pub use model::{variable, Body, ConstraintItem, Dependence, ForceItem, Model};
 pub use pin::Pin;

@@ -8,7 +8,7 @@ use super::failure::Reason;
 use super::lane_batch::are_finite;
 use super::model_cache::ModelCache;
 use super::report_projection::Halt;
-use super::Run;
+use super::run::Run;
 use crate::equations::{Gains, Singular, Workspace};
 use crate::integrate::{all_finite, Flow};
 use crate::math::{Lanes, Real};
@@ -24,6 +24,8 @@ pub struct States<'a> {
     pub q: &'a [f64],
     /// Velocities, rows of n_q.
     pub v: &'a [f64],
+    /// First-order states of elements, rows of n_z.
+    pub z: &'a [f64],
 }
 
 /// What states answer to forces, a row for each.
@@ -45,7 +47,7 @@ pub(super) fn accelerations(
     passing: bool,
     mut watch: impl FnMut(f64) -> Flow,
 ) -> Result<Accelerations, Reason> {
-    let States { t, q, v } = states;
+    let States { t, q, v, .. } = states;
     let (n, count) = (model.layout.n_q, t.len());
     assert_eq!([q.len(), v.len()], [n * count; 2], "a row for each time");
     let mut one = Workspace::on(model, cache.plan(model));

@@ -3,13 +3,12 @@
 use super::accelerations::{States, MANY};
 use super::failure::Reason;
 use super::model_cache::ModelCache;
-use super::motion_ode::WORKS;
 use super::report_projection::Halt;
-use super::Run;
+use super::run::Run;
 use crate::equations::{energy, kinematics};
 use crate::integrate::all_finite;
 use crate::math::{Lanes, Motion, Real};
-use crate::model::Model;
+use crate::model::{Model, WORKS};
 
 /// Number of columns of [`Run::energies`].
 pub const ENERGIES: usize = 2 + WORKS;
@@ -20,7 +19,7 @@ pub(super) fn energies(
     states: States<'_>,
     works: &[f64],
 ) -> Result<Vec<f64>, Reason> {
-    let States { t, q, v } = states;
+    let States { t, q, v, .. } = states;
     let n = model.layout.n_q;
     let lengths = [n, n, WORKS].map(|width| width * t.len());
     assert_eq!([q.len(), v.len(), works.len()], lengths, "a row for each time");
@@ -39,7 +38,7 @@ pub(super) fn energies(
 /// Kinetic and potential energy at each state.
 fn mechanical(
     (model, cache): (&Model, &ModelCache),
-    States { t, q, v }: States<'_>,
+    States { t, q, v, .. }: States<'_>,
 ) -> Vec<[f64; 2]> {
     let (n, mut found) = (model.layout.n_q, Vec::with_capacity(t.len()));
     let mut done = 0;

@@ -45,11 +45,11 @@ impl InitialStiffness {
         (t, t_end): (f64, f64),
         y: &[f64],
     ) -> Self {
-        let n = model.layout.n_q;
         let Some(fastest) = detector.fastest(t, y) else {
             return Self { fastest: None, pace: 0.0, steps: 0.0, under_way: false };
         };
-        let state = [&y[..n], &y[n..2 * n]];
+        let [q, v, ..] = model.layout.split(y);
+        let state = [q, v];
         let probe = PROBE / fastest.rate;
         let rates = detector.rates(t, state, probe);
         let pace = rates.as_ref().map_or(f64::INFINITY, |[a, _]| pace(model, state[1], a));

@@ -1,14 +1,14 @@
 //! The equations of motion as implicit methods want them: residuals, tangent, and the matrices of
 //! Newton's iteration by one plan of elimination.
 
-use super::motion_ode::WORKS;
 use super::options::{Options, Stabilization};
 use crate::equations::balance::Balance;
 use crate::equations::iteration::{assemble, Places};
 use crate::equations::tangent::Tangent;
 use crate::equations::{constraints, Gains, Workspace};
 use crate::integrate::{
-    ConstraintLevel, Dae, DaeResidual, Iterate, NewtonCoefficients, SingularMatrix,
+    ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
+    SingularMatrix,
 };
 use crate::math::Complex;
 use crate::model::Model;
@@ -67,25 +67,21 @@ impl<'a> MotionDae<'a> {
 impl Dae for MotionDae<'_> {
     type Stop = (f64, Fault);
 
-    fn coordinates(&self) -> usize {
-        self.model.layout.n_q
-    }
-
-    fn multipliers(&self) -> usize {
-        self.model.layout.n_rows
-    }
-
-    fn quadratures(&self) -> usize {
-        WORKS
+    fn lengths(&self) -> DaeLengths {
+        let layout = &self.model.layout;
+        DaeLengths {
+            coordinates: layout.n_q,
+            multipliers: layout.n_rows,
+            states: layout.n_z,
+            quadratures: layout.n_works,
+        }
     }
 
     fn accelerate(
         &mut self,
         t: f64,
-        [q, v]: [&[f64]; 2],
-        a: &mut [f64],
-        lam: &mut [f64],
-        powers: &mut [f64],
+        [q, v, _]: [&[f64]; 3],
+        out: DaeRates<'_>,
     ) -> Result<(), Self::Stop> {
         self.accelerations += 1;
         let outcome = self.workspace.accelerate(self.model, t, q, v, Gains::default());
@@ -93,13 +89,13 @@ impl Dae for MotionDae<'_> {
             if q.iter().chain(v).all(|x| x.is_finite()) {
                 return Err((t, Fault::Singular(singular)));
             }
-            a.fill(f64::NAN);
+            out.a.fill(f64::NAN);
             return Ok(());
         }
-        a.copy_from_slice(self.workspace.a());
-        lam.copy_from_slice(self.workspace.lam());
+        out.a.copy_from_slice(self.workspace.a());
+        out.lam.copy_from_slice(self.workspace.lam());
         let found = self.workspace.powers(self.model, v);
-        powers.copy_from_slice(&[found.dissipated, found.drivers, found.applied]);
+        out.powers.copy_from_slice(&[found.dissipated, found.drivers, found.applied]);
         Ok(())
     }
 
@@ -151,7 +147,7 @@ impl Dae for MotionDae<'_> {
         }
     }
 
-    fn times(&self, x: &[f64], s: &[f64], out: &mut [f64]) {
+    fn times(&self, x: &[f64], _: &[f64], s: &[f64], out: &mut [f64]) {
         self.tangent.times(self.model, x, s, out);
     }
 
@@ -168,7 +164,8 @@ impl Dae for MotionDae<'_> {
         x.copy_from_slice(&solution[..n]);
     }
 
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<bool, Self::Stop> {
+    fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Self::Stop> {
+        let DaeState { q, v, .. } = state;
         let Some(projector) = &mut self.projector else {
             // `normal` wants the factors of a state nearby, which projection would leave
             self.accelerations += 1;
@@ -178,7 +175,7 @@ impl Dae for MotionDae<'_> {
         projector.project(&mut self.workspace, t, (q, v), false).map_err(|fault| (t, fault))
     }
 
-    fn singular(&mut self, t: f64, q: &[f64], v: &[f64]) -> Option<Self::Stop> {
+    fn singular(&mut self, t: f64, [q, v, _]: [&[f64]; 3]) -> Option<Self::Stop> {
         let outcome = self.workspace.accelerate(self.model, t, q, v, Gains::default());
         outcome.err().map(|singular| (t, Fault::Singular(singular)))
     }

@@ -5,14 +5,12 @@ use super::singularity_passage::SingularityPassage;
 use crate::analyses::mobility;
 use crate::equations::augmented::Dependent;
 use crate::equations::{kinematics, Gains, Plan, Singular, Workspace};
-use crate::integrate::{all_finite, Ode};
+use crate::integrate::{all_finite, Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 use crate::math::{Lanes, Real};
 use crate::model::Model;
-use crate::stabilize::{Fault, Projector, StepwiseBaumgarte};
+use crate::model::WORKS;
+use crate::stabilize::{Fault, Projection, Projector, StepwiseBaumgarte};
 use std::sync::Arc;
-
-/// Works that are integrated beside the motion: dissipated, of drivers, of applied forces.
-pub(super) const WORKS: usize = 3;
 
 /// The right side of forward dynamics.
 pub(super) struct MotionOde<'a> {
@@ -20,18 +18,11 @@ pub(super) struct MotionOde<'a> {
     pub workspace: Workspace,
     pub gains: Gains,
     /// Baumgarte's term, if its gains come from the step.
-    held: Option<StepwiseBaumgarte>,
+    stepwise: Option<StepwiseBaumgarte>,
     pub projector: Option<Projector<'a>>,
     /// Whether singular positions are passed.
     pub passing: bool,
     pub passage: SingularityPassage,
-}
-
-/// Splits y into q, v and the works.
-pub(super) fn parts<S>(y: &mut [S], n_q: usize) -> (&mut [S], &mut [S], &mut [S]) {
-    let (q, rest) = y.split_at_mut(n_q);
-    let (v, works) = rest.split_at_mut(n_q);
-    (q, v, works)
 }
 
 /// dy = (v, a, powers), stored in the blocks that the next stage loads: of what was stored in parts just now no
@@ -104,11 +95,11 @@ impl<'a> MotionOde<'a> {
             workspace.pass_singular();
         }
         let passage = SingularityPassage::new(options, passing);
-        let held = match options.stabilization {
+        let stepwise = match options.stabilization {
             Stabilization::BaumgarteFromStep => Some(StepwiseBaumgarte::new(model)),
             _ => None,
         };
-        Self { model, workspace, gains: options.gains(), held, projector, passing, passage }
+        Self { model, workspace, gains: options.gains(), stepwise, projector, passing, passage }
     }
 
     /// Factorisations beside those of evaluations.
@@ -116,12 +107,26 @@ impl<'a> MotionOde<'a> {
         self.projector.as_ref().map_or(0, |projector| projector.factorisations)
     }
 
+    /// Projects the state at the start of a run or of a phase, if that is an option of the run; with
+    /// `velocities`, the velocities in any case. Refuses it where the constraints are dependent for good.
+    ///
+    /// # Errors
+    /// [`Fault`].
+    pub fn begin_phase(&mut self, t: f64, y: &mut [f64], velocities: bool) -> Result<(), Fault> {
+        if velocities && self.projector.is_none() {
+            let mut projector = Projector::new(self.model, Projection::default());
+            let [q, v, ..] = self.model.layout.split_mut(y);
+            projector.project_velocities(&mut self.workspace, t, (q, v))?;
+        }
+        self.project_state(t, y, false).map_err(|(_, fault)| fault)?;
+        self.begin(t, y).map_err(Fault::Singular)
+    }
+
     /// Refuses a start whose constraints are dependent for good, not in passing.
-    pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Singular> {
-        let n = self.model.layout.n_q;
-        let (q, v) = (&y[..n], &y[n..2 * n]);
+    fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Singular> {
+        let [q, v, ..] = self.model.layout.split(y);
         if self.workspace.accelerate(self.model, t, q, v, self.gains).is_err() {
-            return Ok(()); // the first step tells
+            return Ok(()); // the first step fails
         }
         self.passage.begin(t, &self.workspace);
         let near = self.workspace.matrix.ridged();
@@ -143,8 +148,7 @@ impl<'a> MotionOde<'a> {
         dy: &mut [f64],
         placed: bool,
     ) -> Result<(), (f64, Fault)> {
-        let n = self.model.layout.n_q;
-        let (q, v) = (&y[..n], &y[n..2 * n]);
+        let [q, v, ..] = self.model.layout.split(y);
         if !placed {
             kinematics::motions(q, v, &mut self.workspace.motions);
         }
@@ -164,9 +168,14 @@ impl<'a> MotionOde<'a> {
 
     /// Projects y if that was asked for; whether it changed. The works stay: what projection does to
     /// the energy shows in the balance.
-    pub fn project(&mut self, t: f64, y: &mut [f64], factored: bool) -> Result<bool, (f64, Fault)> {
+    fn project_state(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        factored: bool,
+    ) -> Result<bool, (f64, Fault)> {
         let Some(projector) = &mut self.projector else { return Ok(false) };
-        let (q, v, _) = parts(y, self.model.layout.n_q);
+        let [q, v, ..] = self.model.layout.split_mut(y);
         projector.project(&mut self.workspace, t, (q, v), factored).map_err(|fault| (t, fault))
     }
 }
@@ -185,67 +194,92 @@ impl Ode for MotionOde<'_> {
     type Stop = (f64, Fault);
 
     fn len(&self) -> usize {
-        2 * self.model.layout.n_q + WORKS
-    }
-
-    fn positions(&self) -> usize {
-        self.model.layout.n_q
-    }
-
-    /// Steps are judged by the motion alone.
-    fn controlled(&self) -> usize {
-        2 * self.model.layout.n_q
+        self.model.layout.n_y()
     }
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
         self.evaluate(t, y, dy, false)
     }
 
-    /// Projection leaves the bodies where y says.
+    fn structure(&self) -> Structure {
+        let layout = &self.model.layout;
+        Structure { positions: layout.n_q, states: layout.n_z, quadratures: layout.n_works }
+    }
+
+    fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = Self::Stop>> {
+        match self.projector {
+            Some(_) => Some(self),
+            None => None,
+        }
+    }
+
+    fn times_to_avoid(&mut self) -> Option<&mut dyn TimesToAvoid> {
+        match self.passing {
+            true => Some(self),
+            false => None,
+        }
+    }
+
+    fn trial_changes(&mut self) -> Option<&mut dyn TrialChanges> {
+        match self.stepwise {
+            Some(_) => Some(self),
+            None => None,
+        }
+    }
+}
+
+/// The states that meet the constraints.
+impl Manifold for MotionOde<'_> {
+    type Stop = (f64, Fault);
+
+    /// The last evaluation was near the end of the step: its factor is used.
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
+        if let Some(projector) = &mut self.projector {
+            projector.sharpen(self.passage.in_reach());
+        }
+        self.project_state(t, y, true)
+    }
+
+    /// After projection the motions of the workspace are those of y.
     fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
         self.evaluate(t, y, dy, true)
     }
 
-    /// Gains may come from the step.
-    fn before_trial(&mut self, t: f64, y: &[f64], h: f64) -> bool {
-        let Some(held) = &mut self.held else { return false };
-        let n = self.model.layout.n_q;
-        held.hold(self.model, &mut self.workspace, t, (&y[..n], &y[n..2 * n]), h);
-        true
-    }
-
-    /// Near a singular position noise along the direction that is lost there would refuse every step.
+    /// Near a singular position, where noise along the direction that is lost there would refuse every step.
     fn project_error(&mut self, dy: &mut [f64]) -> bool {
         let (true, Some(projector)) = (self.passage.near, &mut self.projector) else {
             return false;
         };
         self.workspace.matrix.restore_jacobian();
-        let (dq, dv, _) = parts(dy, self.model.layout.n_q);
+        let [dq, dv, ..] = self.model.layout.split_mut(dy);
         projector.tangent(&self.workspace, dq);
         projector.tangent(&self.workspace, dv);
         true
     }
+}
 
-    fn near_time_to_avoid(&self) -> bool {
+/// Times of singular positions.
+impl TimesToAvoid for MotionOde<'_> {
+    fn may_be_near(&self) -> bool {
         self.passage.near || self.passage.in_reach()
     }
 
-    /// A singular position ahead.
-    fn time_to_avoid(&mut self, t: f64) -> Option<f64> {
+    fn next(&mut self, t: f64) -> Option<f64> {
         self.passage.foresee(t, &self.workspace)
     }
 
-    /// The last evaluation was near the end of the step: its factor serves.
-    fn project_accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
-        if let Some(projector) = &mut self.projector {
-            projector.sharpen(self.passage.in_reach());
-        }
-        self.project(t, y, true)
-    }
-
-    /// From here the way to a singular position is seen on.
     fn on_accepted_end(&mut self, t: f64) {
         self.passage.accept(t, &self.workspace);
+    }
+}
+
+/// Baumgarte's term with gains from the step.
+impl TrialChanges for MotionOde<'_> {
+    fn before_trial(&mut self, t: f64, y: &[f64], h: f64) -> bool {
+        let Some(stepwise) = &mut self.stepwise else { return false };
+        let [q, v, ..] = self.model.layout.split(y);
+        stepwise.hold(self.model, &mut self.workspace, t, (q, v), h);
+        true
     }
 }
 

@@ -140,7 +140,7 @@ impl<'a> StiffnessDetector<'a> {
     /// The fastest motion of the equations linearised at a state; None where they are singular.
     pub fn fastest(&mut self, t: f64, y: &[f64]) -> Option<Fastest> {
         let n = self.model.layout.n_q;
-        let (q, v) = (&y[..n], &y[n..2 * n]);
+        let [q, v, ..] = self.model.layout.split(y);
         self.workspace.accelerate(self.model, t, q, v, Gains::default()).ok()?;
         let a = self.workspace.a().to_vec();
         let reach = largest(q).max(1e-3);
