@@ -65,7 +65,8 @@ fn who_watches_may_stop() {
     let (m, state) = four_bar();
     let (t, q, v) = turned(&state, 40);
     let watch = |t: f64| if t > 1.0 { Flow::Stop } else { Flow::Continue };
-    let found =
-        Prepared::new(&m).accelerations(States { t: &t, q: &q, v: &v, z: &[] }, false, watch).unwrap();
+    let found = Prepared::new(&m)
+        .accelerations(States { t: &t, q: &q, v: &v, z: &[] }, false, watch)
+        .unwrap();
     assert_eq!(found.a.len(), 9 * 12);
 }

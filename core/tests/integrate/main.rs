@@ -7,6 +7,7 @@ mod failures;
 mod order;
 mod scipy;
 mod second_order;
+mod states;
 
 use kempe::integrate::{ExplicitMethod, Failure, Flow, Ode, Statistics, Step};
 

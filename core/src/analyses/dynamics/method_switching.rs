@@ -37,8 +37,8 @@ pub(super) struct MethodSwitching<'a> {
     total: Statistics,
     /// Evaluations of the explicit pieces before, of which each has its factorisation.
     explicit_evaluations: usize,
-    /// Steps of Radau since it began, and when it was last compared.
-    tried: (usize, f64),
+    /// When Radau began, its steps since then, and when they were last compared.
+    tried: (f64, usize, f64),
     choice: MethodChoice,
 }
 
@@ -67,7 +67,7 @@ impl<'a> MethodSwitching<'a> {
             step: None,
             total: Statistics::none(t),
             explicit_evaluations: 0,
-            tried: (0, t),
+            tried: (t, 0, t),
             choice: MethodChoice { method: "dop853", why: String::new() },
         };
         switching.judge_start();
@@ -104,7 +104,7 @@ impl<'a> MethodSwitching<'a> {
         let (control, span) = (self.control_from(t), (t, self.options.t_end));
         self.piece = match &self.piece {
             Piece::Explicit(_) => {
-                self.tried = (0, t);
+                self.tried = (t, 0, t);
                 let options = &self.options;
                 let dae = self.dae.get_or_insert_with(|| MotionDae::new(ode.model, options));
                 Piece::Implicit(Radau { control }.start(dae, span, &y)?)
@@ -145,7 +145,7 @@ impl<'a> MethodSwitching<'a> {
         let Piece::Implicit(stepper) = &self.piece else { return };
         let Some(Step { t, t_old, .. }) = stepper.last_step() else { return };
         self.step = Some((t - t_old).abs());
-        let (taken, since) = &mut self.tried;
+        let (began, taken, since) = &mut self.tried;
         *taken += 1;
         if *taken % TRIAL > 0 {
             return;
@@ -155,7 +155,7 @@ impl<'a> MethodSwitching<'a> {
         let to_go = (self.options.t_end - t).abs();
         if h < WORTH * explicit_step && to_go > TRIAL as f64 * explicit_step {
             let why = format!(
-                "hardly stiff: radau was tried at t = {t:.4} s, and its steps became no longer than {WORTH} of \
+                "hardly stiff: radau was tried at t = {began:.4} s, and its steps became no longer than {WORTH} of \
                  {explicit_step:.1e} s"
             );
             self.choice = MethodChoice { method: "dop853", why };
@@ -254,7 +254,7 @@ impl<'a> Stepper<MotionOde<'a>, Stop> for MethodSwitching<'a> {
             Piece::Implicit(stepper) => stepper.restart(t, y)?,
         }
         self.detector.resume(t);
-        self.tried.1 = t;
+        self.tried.2 = t;
         Ok(())
     }
 
