@@ -164,7 +164,9 @@ fn a_stepper_locates_and_restarts_by_every_method() {
         stepper.restart(&back).expect("a state");
         let state = stepper.state();
         assert_eq!((state.t, state.q.len()), (event.t, n));
-        assert!(worst(&state.v, &back.v) < 1e-3 * (1.0 + largest(&back.v)));
+        let off = worst(&state.v, &back.v) / largest(&back.v);
+        // the interpolant is as good as the tolerance: the state is projected
+        assert!(off < 2e-2, "{off:.1e}");
         stepper.step().expect("a step");
         assert!(turned(&stepper.state().q) < 0.01);
     }
