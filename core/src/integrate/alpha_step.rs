@@ -189,9 +189,9 @@ impl AlphaStep {
     fn predict(&mut self, h: f64) {
         let (p, p_z) = (self.parameters, self.of_states);
         let Self { start, end, normal, carried: [of_v, of_z], .. } = self;
-        for i in 0..start.q.len() {
+        for (i, normal) in normal.iter().enumerate() {
             let mean = of_v.predict(&p, h, i, start.a[i], &mut end.a[i]);
-            let v = start.v[i] + h * h * normal[i];
+            let v = start.v[i] + h * h * normal;
             let bend = (0.5 - p.beta) * of_v.start[i] + p.beta * of_v.end[i];
             end.q[i] = start.q[i] + h * (v + h * bend);
             end.v[i] = v + h * mean;
