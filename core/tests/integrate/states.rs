@@ -140,9 +140,9 @@ fn solve<F: Field>(matrix: &[Vec<F>], x: &mut [F]) {
         let over = m[k][k].reciprocal();
         for i in (0..n).filter(|i| *i != k) {
             let factor = m[i][k] * over;
-            for j in k..n {
-                let part = factor * m[k][j];
-                m[i][j] -= part;
+            let pivot_row = m[k].clone();
+            for (to, from) in m[i].iter_mut().zip(pivot_row) {
+                *to -= factor * from;
             }
             let part = factor * x[k];
             x[i] -= part;
