@@ -15,7 +15,7 @@ mod mechanisms;
 use kempe::analyses::dynamics::{dynamics, Options, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::{constraints, kinematics};
-use kempe::integrate::{Atol, Dop853, Flow, Method, Ode, Rk45, Step, StepControl};
+use kempe::integrate::{Atol, Dop853, ExplicitMethod, Flow, Ode, Rk45, Step, StepControl};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 use mechanisms::chain;

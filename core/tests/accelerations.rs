@@ -17,7 +17,7 @@ fn turned(state: &State, count: usize) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
 }
 
 fn all(m: &Model, (t, q, v): &(Vec<f64>, Vec<f64>, Vec<f64>)) -> Result<Accelerations, Reason> {
-    Prepared::new(m).accelerations(States { t, q, v }, false, |_| Flow::Continue)
+    Prepared::new(m).accelerations(States { t, q, v, z: &[] }, false, |_| Flow::Continue)
 }
 
 #[test]
@@ -65,7 +65,8 @@ fn who_watches_may_stop() {
     let (m, state) = four_bar();
     let (t, q, v) = turned(&state, 40);
     let watch = |t: f64| if t > 1.0 { Flow::Stop } else { Flow::Continue };
-    let found =
-        Prepared::new(&m).accelerations(States { t: &t, q: &q, v: &v }, false, watch).unwrap();
+    let found = Prepared::new(&m)
+        .accelerations(States { t: &t, q: &q, v: &v, z: &[] }, false, watch)
+        .unwrap();
     assert_eq!(found.a.len(), 9 * 12);
 }

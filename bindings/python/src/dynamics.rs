@@ -108,12 +108,12 @@ impl PyRun {
         let (t, n) = (numbers(&t)?, self.model.model().layout.n_q);
         let count = rows.map_or(t.len(), |rows| rows.min(t.len()));
         let (q, v) = (&numbers(&q)?[..n * count], &numbers(&v)?[..n * count]);
-        give(core::States { t: &t[..count], q, v })
+        give(core::States { t: &t[..count], q, v, z: &[] })
     }
 
     fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {
         let n = model.model.layout.n_q;
-        let core::Trajectory { t, q, v, works } = run.trajectory;
+        let core::Trajectory { t, q, v, z, works } = run.trajectory;
         let count = t.len();
         let rows = |values, width| table(py, values, (count, width)).map(|t| frozen(t).unbind());
         let (dense_t, dense_y, dense_c) = match run.dense {

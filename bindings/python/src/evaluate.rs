@@ -63,7 +63,7 @@ pub fn evaluate<'py>(
     guard("evaluate", || {
         let states = States::read(py, &model.model, &t, &q, &v)?;
         let States { t, q, v } = &states;
-        responses(py, &model.prepared, core::States { t, q, v }, false)
+        responses(py, &model.prepared, core::States { t, q, v, z: &[] }, false)
     })
 }
 

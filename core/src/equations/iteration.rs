@@ -1,23 +1,36 @@
 //! The matrix of Newton's iteration of implicit methods,
 //!
 //! ```text
-//! [ c_a M + c_v D + c_q K   Φ_qᵀ ]
-//! [ Φ_q + c_b B              -μ  ]
+//! [ c_a M + c_v D + c_q K       -k_z ∂Q/∂z        Φ_qᵀ - ∂Q/∂λ ]
+//! [ -k_v ∂ż/∂v - k_q ∂ż/∂q     1 - k_s ∂ż/∂z          0        ]
+//! [ Φ_q + c_b B                     0                -μ        ]
 //! ```
 //!
-//! with the [`Tangent`] of the equations of motion, real or complex. Bodies without inertia get in M what
+//! with the [`Tangent`] of the equations of motion, real or complex. The middle row and column belong to the first-order
+//! states of elements, and few models have any. Bodies without inertia get in M what
 //! the model adds to them: the residual stays that of the true equations, so the iteration converges to
 //! their solution. Redundant rows are damped with μ, for the same reason without harm.
 
+use super::coupling::Participants;
 use super::plan::{groups, row_blocks};
-use super::tangent::Tangent;
+use super::tangent::{Entry, Tangent};
 use super::Compiled;
 use crate::math::Field;
-use crate::model::Model;
+use crate::model::{Model, StateLayout};
 use crate::solve::{BlockLu, LuPlan};
+use std::ops::Range;
 
 /// Damping of redundant rows, relative to the compliance of the bodies.
 const REDUNDANT: f64 = 1e-10;
+
+/// Coefficients of the parts of the matrix.
+#[derive(Clone, Copy, Debug)]
+pub struct Coefficients<F> {
+    /// Of M, D, K and B.
+    pub motion: [F; 4],
+    /// Of ∂Q/∂z, ∂ż/∂v, ∂ż/∂q and ∂ż/∂z.
+    pub states: [F; 4],
+}
 
 /// Where the blocks of a tangent go in the factors.
 #[derive(Clone, Debug)]
@@ -29,6 +42,10 @@ pub struct Places {
     groups: Vec<usize>,
     /// For each block of Φ_q: the first entry, its rows, and the slots of Φ_q and Φ_qᵀ.
     jacobian: Vec<(usize, usize, usize, usize)>,
+    /// The block of each first-order state, and its place in it.
+    states: Vec<(usize, usize)>,
+    /// The block of each row of Φ, and its place in it.
+    rows: Vec<(usize, usize)>,
     /// Slot of the diagonal block of each block of rows, and its rows.
     diagonal: Vec<(usize, usize)>,
     damping: f64,
@@ -44,14 +61,21 @@ impl Places {
         let compiled = Compiled::new(model);
         let groups: Vec<usize> = groups(model, &compiled).iter().map(|group| group.size).collect();
         let (blocks, _) = row_blocks(&model.layout);
-        let n = groups.len();
-        let sizes = groups.iter().copied().chain(blocks.iter().map(|block| block.size)).collect();
+        let state_sizes = state_blocks(&model.layout);
+        let n = groups.len() + state_sizes.len();
+        let row_sizes: Vec<usize> = blocks.iter().map(|block| block.size).collect();
+        let states = numbered(groups.len(), &state_sizes);
+        let rows = numbered(n, &row_sizes);
+        let sizes = groups.iter().copied().chain(state_sizes).chain(row_sizes).collect();
         let touches = || {
             let blocks = blocks.iter().enumerate();
             blocks.flat_map(|(k, b)| b.touches.iter().map(move |touch| (n + k, b.size, *touch)))
         };
         let mut entries = tangent.pairs().to_vec();
         entries.extend(touches().map(|(row, _, (group, _))| (row, group)));
+        for participants in tangent.participants() {
+            entries.extend(coupled(participants, &states, &rows));
+        }
         let plan = LuPlan::new(sizes, n, &entries);
         let pairs = tangent.pairs().iter().map(|&(row, column)| plan.slot(row, column)).collect();
         let slots = |(row, size, (group, first)): (usize, usize, (usize, usize))| {
@@ -63,18 +87,44 @@ impl Places {
         let compliance = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
         let damping = if model.allow_redundancy { REDUNDANT * compliance } else { 0.0 };
         let Compiled { added_inertia, own_mass, .. } = compiled;
-        Self { plan, pairs, groups, jacobian, diagonal, damping, added_inertia, own_mass }
+        Self { plan, pairs, groups, jacobian, states, rows, diagonal, damping, added_inertia, own_mass }
     }
 }
 
-/// Puts the matrix together, with the factors [c_a, c_v, c_q, c_b] of M, D, K and B.
+/// Sizes of the blocks of the states: one block for up to three states of an element.
+fn state_blocks(layout: &StateLayout) -> Vec<usize> {
+    let of = |own: &Range<usize>| (0..own.len()).step_by(3).map(|k| (own.len() - k).min(3)).collect();
+    layout.states.iter().flat_map(|own| -> Vec<usize> { of(own) }).collect()
+}
+
+/// The block of each unknown and its place in it, for blocks of these sizes from `first` on.
+fn numbered(first: usize, sizes: &[usize]) -> Vec<(usize, usize)> {
+    let blocks = sizes.iter().enumerate();
+    blocks.flat_map(|(k, &size)| (0..size).map(move |place| (first + k, place))).collect()
+}
+
+/// All pairs of blocks that a force with states, or with a reaction, couples.
+fn coupled(
+    force: &Participants,
+    states: &[(usize, usize)],
+    rows: &[(usize, usize)],
+) -> Vec<(usize, usize)> {
+    let own = force.states.iter().map(|&at| states[at].0);
+    let others: Vec<usize> = own.chain(force.rows.clone().map(|row| rows[row].0)).collect();
+    let owners = force.bodies.iter().map(|body| body.0 - 1);
+    let all: Vec<usize> = owners.chain(others.iter().copied()).collect();
+    others.iter().flat_map(|&a| all.iter().map(move |&b| (a, b))).collect()
+}
+
+/// Puts the matrix together.
 pub fn assemble<F: Field>(
     places: &Places,
     tangent: &Tangent,
-    [c_a, c_v, c_q, c_b]: [F; 4],
+    coefficients: Coefficients<F>,
     lu: &mut BlockLu<F>,
 ) {
     let real = F::from_real;
+    let [c_a, c_v, c_q, c_b] = coefficients.motion;
     lu.clear(&places.plan);
     // rows that a short group does not have keep the identity
     for (pair, &slot) in places.pairs.iter().enumerate() {
@@ -112,5 +162,38 @@ pub fn assemble<F: Field>(
     }
     for &(slot, m) in &places.diagonal {
         (0..m).for_each(|d| lu.block_mut(slot)[d][d] = real(-places.damping));
+    }
+    add_states(places, tangent, coefficients.states, lu);
+}
+
+/// The rows and columns of first-order states, and forces by multipliers.
+fn add_states<F: Field>(
+    places: &Places,
+    tangent: &Tangent,
+    [k_z, k_v, k_q, k_s]: [F; 4],
+    lu: &mut BlockLu<F>,
+) {
+    let (plan, real, of) = (&places.plan, F::from_real, &tangent.states);
+    for &(block, d) in &places.states {
+        lu.block_mut(plan.slot(block, block))[d][d] = F::one();
+    }
+    let columns = [(&of.forces, k_z, &places.states), (&of.reactions, F::one(), &places.rows)];
+    for (entries, factor, places) in columns {
+        for Entry { owner, at, values } in entries {
+            let (block, column) = places[*at];
+            let to = lu.block_mut(plan.slot(*owner, block));
+            to.iter_mut().zip(values).for_each(|(row, x)| row[column] += factor * real(*x));
+        }
+    }
+    for (entries, factor) in [(&of.by_velocity, k_v), (&of.by_position, k_q)] {
+        for Entry { owner, at, values } in entries {
+            let (block, row) = places.states[*at];
+            let to = &mut lu.block_mut(plan.slot(block, *owner))[row];
+            to.iter_mut().zip(values).for_each(|(entry, x)| *entry += factor * real(-x));
+        }
+    }
+    for &(at, by, slope) in &of.by_state {
+        let ((row, r), (column, c)) = (places.states[at], places.states[by]);
+        lu.block_mut(plan.slot(row, column))[r][c] += k_s * real(-slope);
     }
 }

@@ -189,6 +189,15 @@ impl<S: Real> Workspace<S> {
         outcome
     }
 
+    /// ż at the state that was [placed](Self::place), into `out`, shape (n_z).
+    #[inline(always)]
+    pub fn state_rates(&self, model: &Model<S>, t: S, out: &mut [S]) {
+        if !out.is_empty() {
+            let acting = Acting { z: &self.z, lam: None, t };
+            forces::state_rates(model, &self.motions, acting, out);
+        }
+    }
+
     /// q̈, shape (n_q).
     pub fn a(&self) -> &[S] {
         &self.solution[..self.n_q]

@@ -108,6 +108,11 @@ impl Tangent {
         }
     }
 
+    /// What every force depends on.
+    pub(super) fn participants(&self) -> &[Participants] {
+        &self.by_force
+    }
+
     /// The owners of each block of K and D.
     pub fn pairs(&self) -> &[(usize, usize)] {
         &self.pairs
@@ -141,9 +146,15 @@ impl Tangent {
         }
     }
 
-    /// (M x - K s, -B s) into `out`, shape (n_q + n_rows).
-    pub fn times(&self, model: &Model, x: &[f64], s: &[f64], out: &mut [f64]) {
-        let (upper, lower) = out.split_at_mut(x.len());
+    /// (M x - K s, y + ∂ż/∂q s, -B s) into `out`, shape (n_q + n_z + n_rows); x and s have shape (n_q), y has (n_z).
+    pub fn times(&self, model: &Model, [x, y, s]: [&[f64]; 3], out: &mut [f64]) {
+        let (upper, rest) = out.split_at_mut(x.len());
+        let (states, lower) = rest.split_at_mut(y.len());
+        states.copy_from_slice(y);
+        for Entry { owner, at, values } in &self.states.by_position {
+            let s = model.layout.owners[*owner].of(s);
+            states[*at] += values.iter().zip(s).map(|(slope, s)| slope * s).sum::<f64>();
+        }
         upper.fill(0.0);
         for (mass, columns) in self.mass.iter().zip(&model.layout.bodies[1..]) {
             columns.add(mass.times(columns.of(x)), upper);

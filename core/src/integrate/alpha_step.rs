@@ -16,11 +16,17 @@
 //! systems*, Numer. Math. 129 (2015) 149): a belongs to t + Δ h, so a - v̇ is proportional to h; and the
 //! velocities that step from constraint to constraint are off them by h² C_q v̈, normal to them. Both are
 //! carried from step to step over h and h², the velocities themselves on the constraints.
+//!
+//! First-order states z are integrated as v is, with parameters of the same damping
+//! ([`AlphaParameters::of_states`]); w takes the place of a, and their changes are unknowns beside x.
 
 use super::alpha_parameters::AlphaParameters;
-use super::dae::{ConstraintLevel, Dae, DaeResidual, Iterate, NewtonCoefficients};
+use super::dae::{
+    ConstraintLevel, Dae, DaeLengths, DaeResidual, DaeState, Iterate, NewtonCoefficients,
+};
 use super::error_weights::ErrorWeights;
 use super::evaluation_counter::CountedDae;
+use super::failure::Cause;
 use super::implicit_state::ImplicitState;
 use super::right_hand_side::all_finite;
 
@@ -35,25 +41,59 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Part of the tolerance that Newton's iteration may leave.
 const PART: f64 = 1e-2;
 
+/// What the method carries from step to step, of v or of z: at the beginning of a step (a - v̇) / h and the rate of
+/// v̇; and a, which the method has in the place of v̇, at both ends.
+pub(super) struct Carried {
+    pub shift: Vec<f64>,
+    pub slope: Vec<f64>,
+    start: Vec<f64>,
+    end: Vec<f64>,
+}
+
+impl Carried {
+    fn new(n: usize) -> Self {
+        let row = || vec![0.0; n];
+        Self { shift: row(), slope: row(), start: row(), end: row() }
+    }
+
+    /// Predicts the derivative at the end, which goes on changing as before, and a at both ends. Returns the mean of a
+    /// by which component i changes over the step, as (1 - γ) a₀ + γ a₁.
+    fn predict(&mut self, p: &AlphaParameters, h: f64, i: usize, rate: f64, end: &mut f64) -> f64 {
+        self.start[i] = rate + h * self.shift[i];
+        *end = rate + h * self.slope[i];
+        self.end[i] = ((1.0 - p.alpha_f) * *end + p.alpha_f * rate - p.alpha_m * self.start[i])
+            / (1.0 - p.alpha_m);
+        (1.0 - p.gamma) * self.start[i] + p.gamma * self.end[i]
+    }
+
+    /// The step ends with these derivatives.
+    fn move_on(&mut self, h: f64, old: &[f64], new: &[f64]) {
+        for i in 0..self.slope.len() {
+            self.slope[i] = (new[i] - old[i]) / h;
+            self.shift[i] = (self.end[i] - new[i]) / h;
+        }
+    }
+}
+
 /// State and memory of a run.
 pub(super) struct AlphaStep {
     pub parameters: AlphaParameters,
+    /// Those of first-order states.
+    pub of_states: AlphaParameters,
     /// The beginning: q, v on the constraints, a = v̇.
     pub start: ImplicitState,
     /// The end: q, v of the method, a = v̇.
     pub end: ImplicitState,
-    /// (a - v̇) / h, (v of the method - v) / h², and the rate of a, at the beginning.
-    pub shift: Vec<f64>,
+    /// Of v, and of z.
+    pub carried: [Carried; 2],
+    /// (v of the method - v) / h² at the beginning.
     pub normal: Vec<f64>,
-    pub slope: Vec<f64>,
-    /// The step that `slope` was found over.
+    /// The step that the slopes were found over.
     pub h_before: f64,
-    a_start: Vec<f64>,
-    a_end: Vec<f64>,
     x: Vec<f64>,
     dv: Vec<f64>,
-    /// Estimated errors of q and v.
-    error: [Vec<f64>; 2],
+    /// Estimated errors of q, v and z.
+    error: [Vec<f64>; 3],
     rows: Vec<f64>,
     /// The step for which the matrix at hand was made.
     factored: Option<f64>,
@@ -62,34 +102,50 @@ pub(super) struct AlphaStep {
 }
 
 impl AlphaStep {
-    pub fn new(parameters: AlphaParameters, n: usize, m: usize, works: usize) -> Self {
-        let row = || vec![0.0; n];
+    pub fn new(parameters: AlphaParameters, lengths: DaeLengths) -> Self {
+        let DaeLengths { coordinates: n, multipliers, states, .. } = lengths;
         Self {
             parameters,
-            start: ImplicitState::new(n, m, works),
-            end: ImplicitState::new(n, m, works),
-            shift: row(),
-            normal: row(),
-            slope: row(),
+            of_states: parameters.of_states(),
+            start: ImplicitState::new(lengths),
+            end: ImplicitState::new(lengths),
+            carried: [n, states].map(Carried::new),
+            normal: vec![0.0; n],
             h_before: 0.0,
-            a_start: row(),
-            a_end: row(),
-            x: vec![0.0; n + m],
-            dv: row(),
-            error: [row(), row()],
-            rows: vec![0.0; m],
+            x: vec![0.0; lengths.unknowns()],
+            dv: vec![0.0; n],
+            error: [n, n, states].map(|len| vec![0.0; len]),
+            rows: vec![0.0; multipliers],
             factored: None,
             singular: false,
         }
     }
 
+    /// Forgets the step before: the state has changed.
+    pub fn forget(&mut self) {
+        self.factored = None;
+        self.carried = self.carried.each_ref().map(|carried| Carried::new(carried.slope.len()));
+        self.normal.fill(0.0);
+        self.h_before = 0.0;
+    }
+
+    /// ∂z/∂ż at the end of a step.
+    fn state_share(&self, h: f64) -> f64 {
+        h * self.of_states.gamma / self.of_states.acceleration_share()
+    }
+
     fn coefficients(&self, h: f64) -> NewtonCoefficients {
         let AlphaParameters { beta, gamma, .. } = self.parameters;
+        let state = self.state_share(h);
         NewtonCoefficients {
             mass: self.parameters.acceleration_share(),
             damping: gamma * h,
             stiffness: beta * h * h,
             rate: 0.0,
+            state_force: beta * h * h,
+            state_velocity: state * gamma / (beta * h),
+            state_position: state,
+            state_rate: state,
         }
     }
 
@@ -100,7 +156,7 @@ impl AlphaStep {
         t: f64,
         h: f64,
     ) -> bool {
-        system.linearize(t, self.start.point());
+        system.linearize(t, self.start.iterate());
         self.factored = None;
         system.factor(self.coefficients(h))
     }
@@ -118,7 +174,7 @@ impl AlphaStep {
             return true;
         }
         self.predict(h);
-        system.linearize(t + h, self.end.point());
+        system.linearize(t + h, self.end.iterate());
         let factored = system.factor(self.coefficients(h));
         self.factored = factored.then_some(h);
         self.singular = !factored;
@@ -129,19 +185,19 @@ impl AlphaStep {
         converged
     }
 
-    /// First guess: v̇ goes on changing as before.
+    /// First guess: v̇ and ż go on changing as before.
     fn predict(&mut self, h: f64) {
-        let AlphaParameters { alpha_m, alpha_f, beta, gamma } = self.parameters;
-        let Self { start, end, shift, normal, slope, a_start, a_end, .. } = self;
-        for i in 0..start.q.len() {
-            let a = start.a[i];
-            a_start[i] = a + h * shift[i];
-            end.a[i] = a + h * slope[i];
-            a_end[i] =
-                ((1.0 - alpha_f) * end.a[i] + alpha_f * a - alpha_m * a_start[i]) / (1.0 - alpha_m);
-            let v = start.v[i] + h * h * normal[i];
-            end.q[i] = start.q[i] + h * (v + h * ((0.5 - beta) * a_start[i] + beta * a_end[i]));
-            end.v[i] = v + h * ((1.0 - gamma) * a_start[i] + gamma * a_end[i]);
+        let (p, p_z) = (self.parameters, self.of_states);
+        let Self { start, end, normal, carried: [of_v, of_z], .. } = self;
+        for (i, normal) in normal.iter().enumerate() {
+            let mean = of_v.predict(&p, h, i, start.a[i], &mut end.a[i]);
+            let v = start.v[i] + h * h * normal;
+            let bend = (0.5 - p.beta) * of_v.start[i] + p.beta * of_v.end[i];
+            end.q[i] = start.q[i] + h * (v + h * bend);
+            end.v[i] = v + h * mean;
+        }
+        for i in 0..start.z.len() {
+            end.z[i] = start.z[i] + h * of_z.predict(&p_z, h, i, start.dz[i], &mut end.dz[i]);
         }
         end.lam.copy_from_slice(&start.lam);
     }
@@ -185,11 +241,12 @@ impl AlphaStep {
         let AlphaParameters { beta, gamma, .. } = self.parameters;
         system.counts.iterations += 1;
         self.evaluate(system, t);
-        let n = self.dv.len();
-        let square = beta * h * h;
-        let Self { x, rows, end, dv, a_end, parameters, .. } = self;
+        let (n, square, share) = (self.dv.len(), beta * h * h, self.state_share(h));
+        let Self { x, rows, end, dv, carried: [of_v, of_z], parameters, of_states, .. } = self;
+        let both = n + end.z.len();
         x[..n].iter_mut().for_each(|x| *x *= -square);
-        x[n..].iter_mut().zip(rows.iter()).for_each(|(x, phi)| *x = -phi);
+        x[n..both].iter_mut().for_each(|x| *x *= -share);
+        x[both..].iter_mut().zip(rows.iter()).for_each(|(x, phi)| *x = -phi);
         system.system.solve(x);
         let to_rate = parameters.acceleration_share() / square;
         for i in 0..n {
@@ -197,49 +254,57 @@ impl AlphaStep {
             end.q[i] += x[i];
             end.v[i] += dv[i];
             end.a[i] += to_rate * x[i];
-            a_end[i] += x[i] / square;
+            of_v.end[i] += x[i] / square;
         }
-        end.lam.iter_mut().zip(&x[n..]).for_each(|(lam, x)| *lam += x / square);
+        for (i, x) in x[n..both].iter().enumerate() {
+            end.z[i] += x;
+            end.dz[i] += x / share;
+            of_z.end[i] += x / (h * of_states.gamma);
+        }
+        end.lam.iter_mut().zip(&x[both..]).for_each(|(lam, x)| *lam += x / square);
         scale.set(&self.start, &self.end);
-        scale.norm(&self.x[..n], &self.dv)
+        scale.norm(&self.x[..n], &self.dv, &self.x[n..both])
     }
 
-    /// Residuals at `end`: forces into the first part of x, Φ into `rows`.
+    /// Residuals at `end`: of forces and states into the first parts of x, Φ into `rows`.
     fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64) {
-        let n = self.dv.len();
-        let ImplicitState { q, v, a, lam, powers } = &mut self.end;
-        let out = DaeResidual { forces: &mut self.x[..n], rows: &mut self.rows, powers };
-        system.residual(t, Iterate { q, v, a, lam }, ConstraintLevel::Position, out);
+        let (forces, rest) = self.x.split_at_mut(self.dv.len());
+        let states = &mut rest[..self.end.z.len()];
+        let ImplicitState { q, v, a, lam, z, dz, powers } = &mut self.end;
+        let out = DaeResidual { forces, states, rows: &mut self.rows, powers };
+        system.residual(t, Iterate { q, v, a, lam, z, dz }, ConstraintLevel::Position, out);
     }
 
     /// The estimated error of the step over its tolerance: C_q h² (a₁ - a₀) for q and C_v h³ v⃛ for v,
     /// v⃛ from the last three accelerations; both without their part normal to the constraints, which the
-    /// constraints themselves prevent. Stiff motions are not filtered out: what rings in a enters q.
+    /// constraints themselves prevent. For z as for v. Stiff motions are not filtered out: oscillations of a enter q.
     pub fn error<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         h: f64,
         scale: &ErrorWeights,
     ) -> f64 {
-        let n = self.dv.len();
         let (c_q, c_v) = (self.parameters.position_error(), self.parameters.velocity_error());
+        let c_z = self.of_states.velocity_error();
         let span = 0.5 * (h + self.h_before);
-        for i in 0..n {
-            let change = self.change(i);
-            self.error[0][i] = c_q * h * h * change;
-            self.error[1][i] = c_v * h * h * h * (change / h - self.slope[i]) / span;
+        let Self { start, end, carried: [of_v, of_z], error: [of_q, error_v, error_z], .. } = self;
+        // (of a the change would be less smooth where the step changes)
+        let jerk = |change: f64, slope: f64| h * h * h * (change / h - slope) / span;
+        for i in 0..self.dv.len() {
+            let change = end.a[i] - start.a[i];
+            of_q[i] = c_q * h * h * change;
+            error_v[i] = c_v * jerk(change, of_v.slope[i]);
         }
-        for x in &mut self.error {
+        for (i, error) in error_z.iter_mut().enumerate() {
+            *error = c_z * jerk(end.dz[i] - start.dz[i], of_z.slope[i]);
+        }
+        for x in [of_q, error_v] {
             self.dv.copy_from_slice(x);
             system.system.normal(&mut self.dv);
             x.iter_mut().zip(&self.dv).for_each(|(x, normal)| *x -= normal);
         }
-        scale.norm(&self.error[0], &self.error[1])
-    }
-
-    /// v̇₁ - v̇₀ of one component. (Of a it would be less smooth where the step changes.)
-    fn change(&self, i: usize) -> f64 {
-        self.end.a[i] - self.start.a[i]
+        let [dq, dv, dz] = &self.error;
+        scale.norm(dq, dv, dz)
     }
 
     /// The norm of corrections that are rounding alone: of q relative to its largest component, since
@@ -249,34 +314,38 @@ impl AlphaStep {
         scale.set(&self.start, &self.end);
         let q = ROUNDING * self.start.q.iter().fold(0.0, |most: f64, q| most.max(q.abs()));
         let v = gamma / (beta * h.abs()) * q;
-        let (by_q, by_v) = scale.weights.split_at(self.dv.len());
-        let sum = |x: f64, weights: &[f64]| -> f64 {
-            weights.iter().filter(|w| **w > 0.0).map(|w| (x / w) * (x / w)).sum()
-        };
-        ((sum(q, by_q) + sum(v, by_v)) / scale.weights.len() as f64).sqrt()
+        let n = self.dv.len();
+        let by_z = self.end.z.iter().map(|z| ROUNDING * z.abs());
+        let sizes = std::iter::repeat_n(q, n).chain(std::iter::repeat_n(v, n)).chain(by_z);
+        let parts = sizes.zip(&scale.weights).filter(|(_, w)| **w > 0.0);
+        let sum: f64 = parts.map(|(x, w)| (x / w) * (x / w)).sum();
+        (sum / scale.weights.len() as f64).sqrt()
     }
 
-    /// x ← the solution of [S Φ_qᵀ; Φ_q 0] with M x (1 - α_m)/(1 - α_f) on the right.
-    pub fn filter<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, x: &mut [f64]) {
+    /// (x, y) ← the solution with M x (1 - α_m)/(1 - α_f) and y on the right and Φ_q x = 0: rates without those of stiff
+    /// motions.
+    pub fn filter<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, x: &mut [f64], y: &mut [f64]) {
         let n = x.len();
         let share = self.parameters.acceleration_share();
         self.dv.fill(0.0);
-        system.system.times(x, &self.dv, &mut self.x);
+        system.system.times(x, y, &self.dv, &mut self.x);
         self.x[..n].iter_mut().for_each(|x| *x *= share);
         system.system.solve(&mut self.x);
         x.copy_from_slice(&self.x[..n]);
+        y.copy_from_slice(&self.x[n..n + y.len()]);
     }
 
-    /// Puts the end onto the constraints; the normal part of its velocities is kept for the next step.
+    /// Projects the end onto the constraints; the normal part of its velocities is kept for the next step.
     pub fn project<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
-    ) -> Result<bool, Y::Stop> {
-        let ImplicitState { q, v, .. } = &mut self.end;
+    ) -> Result<bool, Cause<Y::Stop>> {
+        let ImplicitState { q, v, z, .. } = &mut self.end;
         self.normal.copy_from_slice(v);
-        let changed = system.system.project(t + h, q, v)?;
-        for (normal, v) in self.normal.iter_mut().zip(v.iter()) {
+        let state = DaeState { q, v, z };
+        let changed = system.system.project(t + h, state).map_err(Cause::Equations)?;
+        for (normal, v) in self.normal.iter_mut().zip(&self.end.v) {
             *normal = (*normal - v) / (h * h);
         }
         self.evaluate(system, t + h); // for the powers
@@ -285,16 +354,15 @@ impl AlphaStep {
 
     /// Whether the end is finite.
     pub fn finite(&self) -> bool {
-        let ImplicitState { q, v, a, lam, powers } = &self.end;
-        [q, v, a, lam, powers].into_iter().all(|x| all_finite(x))
+        let ImplicitState { q, v, a, lam, z, dz, powers } = &self.end;
+        [q, v, a, lam, z, dz, powers].into_iter().all(|x| all_finite(x))
     }
 
     /// The end becomes the beginning of the next step.
     pub fn move_on(&mut self, h: f64) {
-        for i in 0..self.dv.len() {
-            self.slope[i] = self.change(i) / h;
-            self.shift[i] = (self.a_end[i] - self.end.a[i]) / h;
-        }
+        let Self { start, end, carried: [of_v, of_z], .. } = self;
+        of_v.move_on(h, &start.a, &end.a);
+        of_z.move_on(h, &start.dz, &end.dz);
         self.h_before = h;
         self.start.copy_from(&self.end);
     }

@@ -1,19 +1,47 @@
-//! What a constrained mechanical system and an implicit method promise each other.
+//! Constrained mechanical systems as differential-algebraic equations (DAE), for implicit methods:
 //!
 //! ```text
-//! q′ = v        M(q, t) v′ + Φ_qᵀ λ - Q(t, q, v) = 0        Φ(q, t) = 0
+//! q′ = v        M(q, t) v′ + Φ_qᵀ λ - Q(t, q, v, z) = 0        Φ(q, t) = 0
+//!               z′ - f(t, q, v, z) = 0
 //! ```
 //!
-//! The method forms the iterates; the system evaluates residuals, holds its own tangent and the factors
-//! of the matrices of Newton's iteration, of which the method names only the coefficients. What is shown
-//! to an [`Observer`] is y = (q, v, quadratures), so output, dense output and events are those of the
-//! explicit methods.
+//! The method forms the iterates and the coefficients of the matrices of Newton's iteration; the system
+//! evaluates residuals, stores its own tangent and factorises the matrices. Observers see y = (q, v, z,
+//! quadratures), so output, interpolants and events are those of the explicit methods.
 
-use super::failure::Failure;
-use super::ode::{Observer, Statistics};
 use crate::math::Complex;
 
-/// Coordinates, velocities, accelerations and multipliers, which need not satisfy anything.
+/// Lengths of the parts of a DAE.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DaeLengths {
+    /// Of q, v and v′.
+    pub coordinates: usize,
+    /// Of λ.
+    pub multipliers: usize,
+    /// Of z.
+    pub states: usize,
+    /// Number of quadratures.
+    pub quadratures: usize,
+}
+
+impl DaeLengths {
+    /// Number of components that enter the error norm: q, v and z.
+    pub fn controlled(&self) -> usize {
+        2 * self.coordinates + self.states
+    }
+
+    /// Length of y = (q, v, z, quadratures).
+    pub fn total(&self) -> usize {
+        self.controlled() + self.quadratures
+    }
+
+    /// Length of a correction of Newton's iteration: (q or v part, z part, λ part).
+    pub fn unknowns(&self) -> usize {
+        self.coordinates + self.states + self.multipliers
+    }
+}
+
+/// Coordinates, velocities, accelerations, multipliers and states, which need not satisfy any equation.
 #[derive(Clone, Copy, Debug)]
 pub struct Iterate<'a> {
     /// Coordinates.
@@ -24,9 +52,13 @@ pub struct Iterate<'a> {
     pub a: &'a [f64],
     /// Multipliers.
     pub lam: &'a [f64],
+    /// First-order states.
+    pub z: &'a [f64],
+    /// Their rates.
+    pub dz: &'a [f64],
 }
 
-/// Which constraints a method puts beside the balance of forces.
+/// Which constraints a method adds to the balance of forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConstraintLevel {
     /// Φ: index 3.
@@ -35,13 +67,28 @@ pub enum ConstraintLevel {
     Velocity,
 }
 
-/// Where residuals go.
+/// Where residuals are written.
 #[derive(Debug)]
 pub struct DaeResidual<'a> {
     /// M a + Φ_qᵀ λ - Q, as long as q.
     pub forces: &'a mut [f64],
-    /// The constraints at the level asked for, as long as λ.
+    /// z′ - f, as long as z.
+    pub states: &'a mut [f64],
+    /// The constraints at the given level, as long as λ.
     pub rows: &'a mut [f64],
+    /// Rates of the quadratures.
+    pub powers: &'a mut [f64],
+}
+
+/// Where [`Dae::accelerate`] writes.
+#[derive(Debug)]
+pub struct DaeRates<'a> {
+    /// Accelerations.
+    pub a: &'a mut [f64],
+    /// Multipliers.
+    pub lam: &'a mut [f64],
+    /// Rates of the first-order states.
+    pub dz: &'a mut [f64],
     /// Rates of the quadratures.
     pub powers: &'a mut [f64],
 }
@@ -49,8 +96,9 @@ pub struct DaeResidual<'a> {
 /// Coefficients of the matrix of Newton's iteration,
 ///
 /// ```text
-/// [ mass M + damping D + stiffness K   Φ_qᵀ ]
-/// [ Φ_q + rate B                        0   ]
+/// [ mass M + damping D + stiffness K           - state_force Q_z    Φ_qᵀ ]
+/// [ - state_velocity f_v - state_position f_q    I - state_rate f_z   0  ]
+/// [ Φ_q + rate B                                 0                    0  ]
 /// ```
 ///
 /// with K and D the derivatives of the balance of forces by q and v, and B that of Φ_q v + Φ_t by q.
@@ -64,9 +112,17 @@ pub struct NewtonCoefficients<F = f64> {
     pub stiffness: F,
     /// Of B.
     pub rate: F,
+    /// Of Q_z.
+    pub state_force: F,
+    /// Of f_v.
+    pub state_velocity: F,
+    /// Of f_q.
+    pub state_position: F,
+    /// Of f_z.
+    pub state_rate: F,
 }
 
-/// A matrix without a factorisation, at the state where it was linearised: a shorter step may help.
+/// The matrix cannot be factorised at the state where it was linearised; a shorter step may help.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SingularMatrix;
 
@@ -75,33 +131,25 @@ pub trait Dae {
     /// Why the system cannot go on; passed through untouched.
     type Stop;
 
-    /// Number of coordinates.
-    fn coordinates(&self) -> usize;
+    /// Lengths of its parts.
+    fn lengths(&self) -> DaeLengths;
 
-    /// Number of constraints.
-    fn multipliers(&self) -> usize;
-
-    /// Number of quadratures.
-    fn quadratures(&self) -> usize;
-
-    /// a and λ at a state that meets its constraints, from their second derivative, and the rates of
-    /// the quadratures.
+    /// a and λ at a state (q, v, z) that meets its constraints, from their second derivative; the rates of z and
+    /// of the quadratures.
     ///
     /// # Errors
     /// Ends the integration. A state that is not finite should yield NaN instead.
     fn accelerate(
         &mut self,
         t: f64,
-        state: [&[f64]; 2],
-        a: &mut [f64],
-        lam: &mut [f64],
-        powers: &mut [f64],
+        state: [&[f64]; 3],
+        out: DaeRates<'_>,
     ) -> Result<(), Self::Stop>;
 
-    /// Residuals at a point.
+    /// Residuals at an iterate.
     fn residual(&mut self, t: f64, at: Iterate<'_>, level: ConstraintLevel, out: DaeResidual<'_>);
 
-    /// Finds and keeps M, D, K, B and Φ_q at a point.
+    /// Computes and stores M, D, K, B, Φ_q and the derivatives of Q and f at an iterate.
     fn linearize(&mut self, t: f64, at: Iterate<'_>);
 
     /// Factorises the matrix with the last tangent.
@@ -119,41 +167,37 @@ pub trait Dae {
         coefficients: NewtonCoefficients<Complex>,
     ) -> Result<(), SingularMatrix>;
 
-    /// Solves with the real factors, in place; (q part, λ part).
+    /// Solves with the real factors, in place; (q part, z part, λ part).
     fn solve(&mut self, x: &mut [f64]);
 
     /// Solves with the complex factors, in place.
     fn solve_complex(&mut self, x: &mut [Complex]);
 
-    /// (M x - K s, -B s) with the last tangent, into `out`: (q part, λ part).
-    fn times(&self, x: &[f64], s: &[f64], out: &mut [f64]);
+    /// (M x - K s, y + f_q s, -B s) with the last tangent, into `out` = (q part, z part, λ part); x and s are as
+    /// long as q, y is as long as z.
+    fn times(&self, x: &[f64], y: &[f64], s: &[f64], out: &mut [f64]);
 
     /// Replaces x by its part normal to the constraints in the metric of M, at the state of the last
     /// [`accelerate`](Self::accelerate).
     fn normal(&mut self, x: &mut [f64]);
 
-    /// Puts q and v onto the constraints, if that was asked for; whether they changed.
+    /// Projects q and v onto the constraints, if that is an option of the run. Returns whether they changed.
     ///
     /// # Errors
     /// Ends the integration.
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<bool, Self::Stop>;
+    fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Self::Stop>;
 
-    /// What to end with where no step, however short, has a matrix with a factorisation.
-    fn singular(&mut self, t: f64, q: &[f64], v: &[f64]) -> Option<Self::Stop>;
+    /// The error with which the run ends where no step, however short, has a matrix that can be factorised.
+    fn singular(&mut self, t: f64, state: [&[f64]; 3]) -> Option<Self::Stop>;
 }
 
-/// An implicit scheme with its options.
-pub trait ImplicitMethod {
-    /// Integrates as [`Method::integrate`](super::Method::integrate) does; `y` = (q, v, quadratures).
-    ///
-    /// # Errors
-    /// [`Failure`], with the time and the state reached.
-    fn integrate<Y: Dae, O: Observer>(
-        &self,
-        system: &mut Y,
-        t0: f64,
-        t_end: f64,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> Result<Statistics, Failure<Y::Stop>>;
+/// A state to be projected.
+#[derive(Debug)]
+pub struct DaeState<'a> {
+    /// Coordinates.
+    pub q: &'a mut [f64],
+    /// Velocities.
+    pub v: &'a mut [f64],
+    /// First-order states, which projection leaves.
+    pub z: &'a [f64],
 }

@@ -12,16 +12,17 @@
 //! Hermite polynomial. The derivative at the end is evaluated where the step stands, since the estimate does
 //! without: one evaluation less than scipy's for every step that is rejected.
 
-use super::adaptive::integrate;
 use super::dop853_coefficients::*;
-use super::embedded_pair::EmbeddedPair;
-use super::failure::Failure;
-use super::ode::{Method, Observer, Ode, Statistics};
-use super::right_hand_side::{RightHandSide, Trouble};
+use super::explicit_stepper::start;
+use super::failure::Cause;
+use super::ode::Ode;
+use super::right_hand_side::RightHandSide;
+use super::runge_kutta::RungeKutta;
 use super::stages::{rows, rows_mut, sum_at, Block, Trial};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
+use super::stepper::{BoxedStepper, ExplicitMethod};
 use super::tolerances::Tolerances;
 
 /// DOP853 with its options.
@@ -38,16 +39,14 @@ impl Dop853 {
     }
 }
 
-impl Method for Dop853 {
-    fn integrate<Y: Ode, O: Observer>(
+impl ExplicitMethod for Dop853 {
+    fn start<Y: Ode>(
         &self,
-        system: &mut Y,
-        t0: f64,
-        t_end: f64,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> Result<Statistics, Failure<Y::Stop>> {
-        integrate::<Pair, Y, O>(&self.control.usable(), system, (t0, t_end), y, observer)
+        system: &Y,
+        span: (f64, f64),
+        y: &[f64],
+    ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
+        start::<Pair, Y>(&self.control, system, span, y)
     }
 }
 
@@ -113,7 +112,7 @@ const fn weight(row: &[f64], stage: usize) -> f64 {
     }
 }
 
-impl EmbeddedPair for Pair {
+impl RungeKutta for Pair {
     const ERROR_ORDER: i32 = 7;
     const LAST_IN_ERROR: bool = false;
     const CONTROL: Control = Control { safety: 0.8, hold: 1.1 };
@@ -127,16 +126,16 @@ impl EmbeddedPair for Pair {
     const WITHOUT_EXTRA: &'static [f64] = &HERMITE;
 
     fn advance<Y: Ode>(
-        rate: &mut RightHandSide<'_, Y>,
+        rhs: &mut RightHandSide<'_, Y>,
         (t, t_new): (f64, f64),
         y: &[Block],
         k: &mut [Block],
         work: &mut [Block],
         y_new: &mut [Block],
-    ) -> Result<(), Trouble<Y::Stop>> {
+    ) -> Result<(), Cause<Y::Stop>> {
         let h = t_new - t;
         let [k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12] = rows_mut(k, y.len());
-        let mut trial = Trial::new(rate, (t, h), y, work);
+        let mut trial = Trial::new(rhs, (t, h), y, work);
         trial.stage(C[0], A2, [k1], k2)?;
         trial.stage(C[1], A3, [k1, k2], k3)?;
         trial.stage(C[2], A4, [k1, k3], k4)?;
@@ -152,20 +151,20 @@ impl EmbeddedPair for Pair {
     }
 
     fn extend<Y: Ode>(
-        rate: &mut RightHandSide<'_, Y>,
+        rhs: &mut RightHandSide<'_, Y>,
         (t, t_new): (f64, f64),
         y: &[Block],
         k: &mut [Block],
         work: &mut [Block],
-    ) -> Result<(), Trouble<Y::Stop>> {
+    ) -> Result<(), Cause<Y::Stop>> {
         let rows = rows_mut(k, y.len());
         let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16] = rows;
         let h = t_new - t;
-        let mut trial = Trial::new(rate, (t, h), y, work);
+        let mut trial = Trial::new(rhs, (t, h), y, work);
         trial.stage(C_EXTRA[0], A14, [k1, k7, k8, k9, k10, k11, k12, k13], k14)?;
         trial.stage(C_EXTRA[1], A15, [k1, k6, k7, k8, k11, k12, k13, k14], k15)?;
         trial.stage(C_EXTRA[2], A16, [k1, k6, k7, k8, k9, k13, k14, k15], k16)?;
-        rate.finite(t + C_EXTRA[2] * h, k16)
+        rhs.finite(t + C_EXTRA[2] * h, k16)
     }
 
     fn error_norm(

@@ -4,9 +4,9 @@ use super::dae::{ConstraintLevel, Dae, DaeResidual, Iterate, NewtonCoefficients}
 use super::error_weights::ErrorWeights;
 use super::failure::Cause;
 use super::implicit_state::ImplicitState;
-use super::ode::{Ended, Statistics};
 use super::right_hand_side::all_finite;
 use super::step_size::{initial_step, probing_step};
+use super::stepper::Statistics;
 use crate::math::Complex;
 
 /// A DAE with the counts of its evaluations.
@@ -15,25 +15,20 @@ pub(super) struct CountedDae<'a, Y> {
     pub counts: Statistics,
 }
 
-impl<'a, Y: Dae> CountedDae<'a, Y> {
-    pub fn new(system: &'a mut Y, t: f64) -> Self {
-        Self { system, counts: Statistics { ended: Ended::Stopped, ..Statistics::none(t) } }
-    }
-
-    /// Accelerations, multipliers and powers of a knot from its q and v.
-    pub fn accelerate(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Y::Stop> {
+impl<Y: Dae> CountedDae<'_, Y> {
+    /// The derivative of a state.
+    pub fn accelerate(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.counts.evaluations += 1;
-        let ImplicitState { q, v, a, lam, powers } = state;
-        self.system.accelerate(t, [q, v], a, lam, powers)
+        let (at, out) = state.rates();
+        self.system.accelerate(t, at, out).map_err(Cause::Equations)
     }
 
     /// The same where it has to be finite.
     pub fn begin(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
-        self.accelerate(t, state).map_err(Cause::Equations)?;
-        if all_finite(&state.a) && all_finite(&state.lam) {
-            Ok(())
-        } else {
-            Err(Cause::NotFinite { t })
+        self.accelerate(t, state)?;
+        match [&state.a, &state.lam, &state.dz].into_iter().all(|x| all_finite(x)) {
+            true => Ok(()),
+            false => Err(Cause::NotFinite { t }),
         }
     }
 
@@ -42,24 +37,29 @@ impl<'a, Y: Dae> CountedDae<'a, Y> {
         &mut self,
         (t, t_end): (f64, f64),
         (start, probe): (&ImplicitState, &mut ImplicitState),
-        scale: &mut ErrorWeights,
+        weights: &mut ErrorWeights,
         error_order: i32,
-    ) -> Result<f64, Y::Stop> {
+    ) -> Result<f64, Cause<Y::Stop>> {
         let interval = (t_end - t).abs();
-        scale.set(start, start);
-        let d0 = scale.norm(&start.q, &start.v);
-        let d1 = scale.norm(&start.v, &start.a);
+        weights.set(start, start);
+        let d0 = weights.norm(&start.q, &start.v, &start.z);
+        let d1 = weights.norm(&start.v, &start.a, &start.dz);
         let h0 = probing_step(d0, d1, interval);
         let h = h0.copysign(t_end - t);
-        for i in 0..start.q.len() {
-            probe.q[i] = start.q[i] + h * start.v[i];
-            probe.v[i] = start.v[i] + h * start.a[i];
+        for (to, from, rate) in [
+            (&mut probe.q, &start.q, &start.v),
+            (&mut probe.v, &start.v, &start.a),
+            (&mut probe.z, &start.z, &start.dz),
+        ] {
+            let moved = from.iter().zip(rate).map(|(y, dy)| y + h * dy);
+            to.iter_mut().zip(moved).for_each(|(to, y)| *to = y);
         }
         self.accelerate(t + h, probe)?;
         let change = |new: &[f64], old: &[f64]| -> Vec<f64> {
             new.iter().zip(old).map(|(new, old)| (new - old) / h0).collect()
         };
-        let d2 = scale.norm(&change(&probe.v, &start.v), &change(&probe.a, &start.a));
+        let [dv, da] = [(&probe.v, &start.v), (&probe.a, &start.a)].map(|(x, y)| change(x, y));
+        let d2 = weights.norm(&dv, &da, &change(&probe.dz, &start.dz));
         if !d2.is_finite() {
             return Ok(h0);
         }

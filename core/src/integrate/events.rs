@@ -4,7 +4,7 @@
 //! hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without using
 //! derivatives*, Adv. Eng. Softw. 28 (1997) 145): inverse quadratic where that is safe, else bisection.
 
-use super::ode::Step;
+use super::step::Step;
 
 /// Which changes of sign count, along the direction of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,18 +31,7 @@ pub fn locate(
     direction: Direction,
     tolerance: f64,
 ) -> Option<f64> {
-    let before = g(step.t_old, step.y_old);
-    let after = g(step.t, step.y);
-    let rising = before < 0.0 && after >= 0.0;
-    let falling = before > 0.0 && after <= 0.0;
-    let counts = match direction {
-        Direction::Rising => rising,
-        Direction::Falling => falling,
-        Direction::Any => rising || falling,
-    };
-    if !counts {
-        return None;
-    }
+    let (before, after) = signs(step, &mut g, direction)?;
     if after == 0.0 {
         y.copy_from_slice(step.y);
         return Some(step.t);
@@ -60,6 +49,32 @@ pub fn locate(
         step.interpolate(t, y);
     }
     Some(t)
+}
+
+/// Whether g changes sign over a step in a direction that counts.
+pub(super) fn changes_sign(
+    step: &Step<'_>,
+    g: &mut dyn FnMut(f64, &[f64]) -> f64,
+    direction: Direction,
+) -> bool {
+    signs(step, g, direction).is_some()
+}
+
+/// The values of g at the ends of a step over which it changes sign in a direction that counts.
+fn signs(
+    step: &Step<'_>,
+    g: &mut dyn FnMut(f64, &[f64]) -> f64,
+    direction: Direction,
+) -> Option<(f64, f64)> {
+    let (before, after) = (g(step.t_old, step.y_old), g(step.t, step.y));
+    let rising = before < 0.0 && after >= 0.0;
+    let falling = before > 0.0 && after <= 0.0;
+    let counts = match direction {
+        Direction::Rising => rising,
+        Direction::Falling => falling,
+        Direction::Any => rising || falling,
+    };
+    counts.then_some((before, after))
 }
 
 /// A time and the value there, positive on the side of the new sign.

@@ -1,6 +1,6 @@
 //! How an integration fails.
 
-use super::ode::{Ended, Statistics};
+use super::stepper::Statistics;
 use std::fmt;
 
 /// Why an integration failed.
@@ -63,18 +63,6 @@ pub struct Failure<E> {
     pub y: Box<[f64]>,
     /// Steps and evaluations up to the failure.
     pub statistics: Statistics,
-}
-
-/// What an integration returns that ended so, in the state `y`.
-pub(super) fn conclude<E>(
-    outcome: Result<Ended, Cause<E>>,
-    statistics: Statistics,
-    y: &[f64],
-) -> Result<Statistics, Failure<E>> {
-    match outcome {
-        Ok(ended) => Ok(Statistics { ended, ..statistics }),
-        Err(cause) => Err(Failure { cause, t: statistics.t, y: Box::from(y), statistics }),
-    }
 }
 
 impl<E: fmt::Display> fmt::Display for Failure<E> {

@@ -1,14 +1,15 @@
-//! The continuous extension of a step where y = (q, v, w), q′ = v and w are quadratures: one evaluation.
+//! The interpolant of a step where y = (q, v, z, w), q′ = v, z are further states and w quadratures: one evaluation.
 //!
 //! Of q, its first and its second derivative are known at both ends of a step and at the beginning of the
 //! one before: a polynomial of degree 8 after Hermite. It is as good as the step in q, but not in v. So the
 //! second derivative is evaluated once more inside, where that polynomial leads, and the one of degree 9 that
 //! has it there is taken, with its derivative for v: an interpolation of Hermite and Birkhoff, of order 9
 //! in q and 8 in v (Enright, Jackson, Nørsett and Thomsen, *Interpolants for Runge–Kutta formulas*, ACM
-//! Trans. Math. Software 12 (1986) 193, build theirs up in this way, from both ends). Quadratures are
-//! treated as v, with ∫ w dt in the place of q, which the stages give to the order of the step.
+//! Trans. Math. Software 12 (1986) 193, build theirs up in this way, from both ends). z and w are treated as v,
+//! with ∫ z dt and ∫ w dt in the place of q, which the stages give to the order of the step.
 //!
-//! With θ = (t - t_old) / h, of both ends' own terms less, what is left is θ³ times a polynomial in Newton's form,
+//! With θ = (t - t_old) / h, after subtracting the terms of the beginning, the remainder is θ³ times a polynomial in
+//! Newton's form,
 //!
 //! ```text
 //! s₀ + s₁ x + s₂ x² + x³ (u₀ + u₁ z + u₂ z² + g z³) ,   x = θ - 1 ,   z = θ + r ,   r = h_before / h
@@ -17,6 +18,7 @@
 //! An error e of the node before enters by some e / r⁵: steps much longer than that before do without.
 
 use super::interpolant::{Interpolant, HIGHEST as DEGREE};
+use super::ode::Structure;
 use super::stages;
 use crate::math::{Lanes, Real};
 
@@ -53,7 +55,7 @@ impl<'a> Ends<'a> {
 /// Four of the polynomials in the making.
 #[derive(Clone, Copy, Debug)]
 struct Block {
-    /// (v, w) and its derivative at the beginning.
+    /// (v, z, w) and its derivative at the beginning.
     begin: [Lanes; 2],
     /// Coefficients of θ³ … θ⁹, over h².
     c: [Lanes; DEGREE - 2],
@@ -68,27 +70,31 @@ type Four = [Lanes; DEGREE + 1];
 pub(super) struct HermiteBirkhoff {
     /// Number of components of q.
     positions: usize,
+    /// Number of components of (v, z), on which derivatives depend.
+    rates_needed: usize,
     /// Length of the step before; 0 where it does not serve.
     h_before: f64,
-    /// (v, w) and its derivative at the beginning of the step before.
+    /// (v, z, w) and its derivative at the beginning of the step before.
     rates: Vec<f64>,
     slopes: Vec<f64>,
-    /// What the integrals of (v, w) gain over the step before, and over this one.
+    /// What the integrals of (v, z, w) gain over the step before, and over this one.
     gained: Vec<f64>,
     gain: Vec<f64>,
     blocks: Vec<Block>,
-    /// What became of them: those of q, then those of (v, w).
+    /// What became of them: those of q, then those of (v, z, w).
     polynomials: Vec<Four>,
 }
 
 impl HermiteBirkhoff {
-    /// For y of `len` components, of which the first `positions` are q.
-    pub fn new(len: usize, positions: usize) -> Self {
-        let m = len - positions;
+    /// For y = (q, v, z, w).
+    pub fn new(structure: Structure) -> Self {
+        let positions = structure.positions;
+        let m = structure.total() - positions;
         let zero = Lanes::zero();
         let none = Block { begin: [zero; 2], c: [zero; DEGREE - 2], inside: zero };
         Self {
             positions,
+            rates_needed: positions + structure.states,
             h_before: 0.0,
             rates: vec![0.0; m],
             slopes: vec![0.0; m],
@@ -112,9 +118,9 @@ impl HermiteBirkhoff {
         BEFORE.contains(&(self.h_before / h))
     }
 
-    /// Takes what the integrals gain over a step: for q its ends tell, for w the weights `mean` of the
-    /// stages in the first rows of `k`, by which ∫ w dt = h w_old + h² Σ meanᵢ kᵢ.
-    pub fn measure(&mut self, ends: Ends<'_>, mean: &[f64], k: &[stages::Block]) {
+    /// Integrals of (v, z, w) over a step: of v from q at the ends, of x = z and w by the double-quadrature
+    /// `weights` of the stages in the first rows of `k`: ∫ x dt = h x_old + h² Σ weightᵢ kᵢ.
+    pub fn measure(&mut self, ends: Ends<'_>, weights: &[f64], k: &[stages::Block]) {
         let Ends { h, y_old, y, .. } = ends;
         let (n, p) = (y.len(), self.positions);
         for (gain, (y, y_old)) in self.gain.iter_mut().zip(y[..p].iter().zip(y_old)) {
@@ -122,7 +128,7 @@ impl HermiteBirkhoff {
         }
         let (each, rows) = (Lanes::constant(h), k.chunks_exact(stages::width(n)));
         for first in (2 * p..n).step_by(Lanes::WIDTH) {
-            let terms = mean.iter().zip(rows.clone().map(<[stages::Block]>::as_flattened));
+            let terms = weights.iter().zip(rows.clone().map(<[stages::Block]>::as_flattened));
             let sum = terms.fold(Lanes::zero(), |sum, (weight, k)| {
                 sum.plus_product(Lanes::constant(*weight), lanes(&k[first..]))
             });
@@ -139,7 +145,7 @@ impl HermiteBirkhoff {
         std::mem::swap(&mut self.gained, &mut self.gain);
     }
 
-    /// The state at [`INSIDE`] by the polynomial of degree 8; of w nothing is said.
+    /// (q, v, z) at [`INSIDE`] by the polynomial of degree 8; w stays open.
     pub fn predict(&mut self, ends: Ends<'_>, out: &mut [f64]) {
         let Ends { h, y_old, y, dy_old, dy } = ends;
         let (p, r) = (self.positions, self.h_before / h);
@@ -169,10 +175,12 @@ impl HermiteBirkhoff {
             block.begin = [v, a];
             block.c[..6].copy_from_slice(&c);
             block.inside = a + slope;
-            // the last four of q run into the rates, which are stored later
+            // blocks in descending order and rates last: the last four of q overlap the first rates
             if b * Lanes::WIDTH < p {
                 let q = of(y_old).plus_product(ahead, v.plus_product(bend, a));
                 store(q.plus_product(square, position), &mut out[b * Lanes::WIDTH..]);
+            }
+            if b * Lanes::WIDTH < self.rates_needed {
                 let v = v.plus_product(ahead, a).plus_product(all, rate);
                 store(v, &mut out[p + b * Lanes::WIDTH..]);
             }

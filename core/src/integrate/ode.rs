@@ -1,9 +1,9 @@
-//! What a system, an observer and a method promise each other.
+//! Ordinary differential equations y′ = f(t, y), and optional properties that a method may use.
 
-use super::failure::Failure;
-use super::interpolant::Interpolant;
-
-/// A first-order system y′ = f(t, y).
+/// A system of ordinary differential equations y′ = f(t, y).
+///
+/// Only [`len`](Self::len) and [`rate`](Self::rate) are required. Each other method gives access to one optional
+/// property of the system.
 pub trait Ode {
     /// Why the system cannot go on; passed through untouched.
     type Stop;
@@ -16,204 +16,108 @@ pub trait Ode {
         self.len() == 0
     }
 
-    /// How many components, from the first, enter the error norm; the others are quadratures, carried
-    /// along without influence on the steps.
-    fn controlled(&self) -> usize {
-        self.len()
-    }
-
-    /// How many components, from the first, are positions of a system of second order: their derivatives are
-    /// the next as many components, and the rest are quadratures, on which no derivative depends. Then the
-    /// continuous extension may cost less. 0 for any other system.
-    fn positions(&self) -> usize {
-        0
-    }
-
     /// dy = f(t, y); both of length [`Ode::len`].
     ///
     /// # Errors
-    /// Ends the integration at once. A trial state that is merely too far off should yield NaN
-    /// instead: an adaptive method then tries a shorter step.
+    /// Ends the integration at once. A trial state that is too far off should yield NaN instead: a method
+    /// with step control then tries a shorter step.
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop>;
 
-    /// Called before every step that is tried, from y at t over h, which is negative when integrating
-    /// backward. May change f for the step, as gains that follow it do, and then returns true: the
-    /// derivative at its beginning is evaluated afresh.
-    fn before_trial(&mut self, t: f64, y: &[f64], h: f64) -> bool {
-        let _ = (t, y, h);
-        false
+    /// What the components of y are.
+    fn structure(&self) -> Structure {
+        Structure::first_order(self.len())
     }
 
-    /// Called with every state whose error is accepted, near which f was evaluated last. May change y
-    /// (projection onto a manifold) and then returns true: the derivative there is that of the changed y,
-    /// and the continuous extension of the step ends in it.
-    ///
-    /// # Errors
-    /// The state is refused: a method with step control tries a shorter step, and stops with this
-    /// where none is short enough; one with constant steps stops at once.
-    fn project_accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
-        let _ = (t, y);
-        Ok(false)
+    /// The manifold on which accepted states have to be.
+    fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = Self::Stop>> {
+        None
     }
 
-    /// The same as [`rate`](Self::rate) right after [`accepted`](Self::project_accepted) has changed y: what the system
-    /// then knows of y it need not find again.
-    ///
-    /// # Errors
-    /// As there.
-    fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
-        self.rate(t, y, dy)
+    /// Times near which f is noise.
+    fn times_to_avoid(&mut self) -> Option<&mut dyn TimesToAvoid> {
+        None
     }
 
-    /// Called by methods with step control where a step stands, before the observer sees it; f was
-    /// evaluated last in its end.
-    fn on_accepted_end(&mut self, t: f64) {
-        let _ = t;
-    }
-
-    /// Of a derivative at the last evaluated state, leaves the part that [`accepted`](Self::project_accepted)
-    /// would not take away; false if it takes nothing. Linear in `dy`. By it a step is judged that the
-    /// whole error estimate refuses.
-    fn project_error(&mut self, dy: &mut [f64]) -> bool {
-        let _ = dy;
-        false
-    }
-
-    /// Whether an obstacle may be near, by the evaluations of the trial under way: then f is evaluated in the
-    /// very end of it too, which the error of a method may do without.
-    fn near_time_to_avoid(&self) -> bool {
-        false
-    }
-
-    /// Called after every trial step, whether it will be accepted or not, with the time of its end, at
-    /// which f was evaluated last, near the end if not in it. A time near which f is little but noise: a method with step control
-    /// places its steps so that no stage comes near it.
-    fn time_to_avoid(&mut self, t: f64) -> Option<f64> {
-        let _ = t;
+    /// Changes of f that depend on the step.
+    fn trial_changes(&mut self) -> Option<&mut dyn TrialChanges> {
         None
     }
 }
 
-/// Whether to go on after a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Flow {
-    /// Go on.
-    Continue,
-    /// End here; a normal outcome.
-    Stop,
+/// What the components of y = (q, v, z, w) are: positions with q′ = v, their rates, further states, and
+/// quadratures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Structure {
+    /// Number of components of q, and of v. A system of second order allows a cheaper interpolant.
+    pub positions: usize,
+    /// Number of further states z of first order.
+    pub states: usize,
+    /// Number of quadratures w. No derivative depends on them, and they do not enter the error norm.
+    pub quadratures: usize,
 }
 
-/// Sees every accepted step.
-pub trait Observer {
-    /// Takes what it needs from the step; nothing of it outlives the call.
-    fn step(&mut self, step: &Step<'_>) -> Flow;
+impl Structure {
+    /// Of a system of `n` equations of first order.
+    pub fn first_order(n: usize) -> Self {
+        Self { states: n, ..Self::default() }
+    }
 
-    /// Whether it will look between the ends of a step that it is about to be shown. If not, a scheme may
-    /// spare what only its continuous extension needs, which then is of lesser order.
-    fn looks_inside(&self, t_old: f64, t: f64) -> bool {
-        let _ = (t_old, t);
-        true
+    /// Number of components that enter the error norm: q, v and z.
+    pub fn controlled(&self) -> usize {
+        2 * self.positions + self.states
+    }
+
+    /// Number of all components.
+    pub fn total(&self) -> usize {
+        self.controlled() + self.quadratures
     }
 }
 
-impl<F: FnMut(&Step<'_>) -> Flow> Observer for F {
-    fn step(&mut self, step: &Step<'_>) -> Flow {
-        self(step)
-    }
-}
+/// A manifold on which the states of an [`Ode`] have to be.
+pub trait Manifold {
+    /// As that of the system.
+    type Stop;
 
-/// An accepted step, from `t_old` to `t` (which is earlier when integrating backward).
-#[derive(Clone, Copy, Debug)]
-pub struct Step<'a> {
-    /// Time at the beginning.
-    pub t_old: f64,
-    /// Time at the end.
-    pub t: f64,
-    /// State at the beginning.
-    pub y_old: &'a [f64],
-    /// State at the end.
-    pub y: &'a [f64],
-    /// Derivative at the beginning.
-    pub dy_old: &'a [f64],
-    /// Derivative at the end.
-    pub dy: &'a [f64],
-    /// The continuous extension.
-    pub interpolant: Interpolant<'a>,
-}
-
-impl Step<'_> {
-    /// The state at a `time` within the step, into `out` (length of y).
-    pub fn interpolate(&self, time: f64, out: &mut [f64]) {
-        let (h, ahead) = (self.t - self.t_old, time - self.t_old);
-        self.interpolant.evaluate(self.y_old, ahead, ahead / h, out);
-    }
-
-    /// Coefficients b of y(θ) = y_old + h Σₖ bₖ θᵏ, k = 1…[`Interpolant::degree`], θ = (t - t_old) / h: into
-    /// `out`, row-major (len of y) × degree.
-    pub fn coefficients(&self, out: &mut [f64]) {
-        self.interpolant.coefficients(out);
-    }
-}
-
-/// How an integration that did not fail ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ended {
-    /// At t_end.
-    Reached,
-    /// By the observer.
-    Stopped,
-}
-
-/// What an integration took.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Statistics {
-    /// Accepted steps.
-    pub steps: usize,
-    /// Rejected steps.
-    pub rejected: usize,
-    /// Evaluations of f; for an implicit method, of residuals and accelerations.
-    pub evaluations: usize,
-    /// Tangents; zero for an explicit method.
-    pub jacobians: u32,
-    /// Factorisations of matrices of Newton's iteration, a complex one as one.
-    pub factorisations: u32,
-    /// Steps of Newton's iteration.
-    pub iterations: u32,
-    /// How it ended; of a failure, not meaningful beyond "not at t_end".
-    pub ended: Ended,
-    /// Time reached.
-    pub t: f64,
-}
-
-impl Statistics {
-    /// Before the first step.
-    pub(crate) fn none(t: f64) -> Self {
-        Self {
-            steps: 0,
-            rejected: 0,
-            evaluations: 0,
-            jacobians: 0,
-            factorisations: 0,
-            iterations: 0,
-            ended: Ended::Stopped,
-            t,
-        }
-    }
-}
-
-/// A scheme with its options.
-pub trait Method {
-    /// Integrates from `t0` to `t_end`, forward or backward, in place: `y` holds the state at `t0` and
-    /// afterwards the last accepted one, of a failure too. With `t_end == t0` nothing is evaluated.
+    /// Projects an accepted state, near which f was evaluated last. Returns whether y changed; then the derivative
+    /// there is evaluated by [`rate_projected`](Self::rate_projected), and the interpolant ends in the new y.
     ///
     /// # Errors
-    /// [`Failure`], with the time and the state reached.
-    fn integrate<Y: Ode, O: Observer>(
-        &self,
-        system: &mut Y,
-        t0: f64,
-        t_end: f64,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> Result<Statistics, Failure<Y::Stop>>;
+    /// The state is refused: a method with step control tries a shorter step, and stops with this error where
+    /// none is short enough; a method with constant steps stops at once.
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop>;
+
+    /// dy = f(t, y) right after [`project`](Self::project) changed y, whose results it may use.
+    ///
+    /// # Errors
+    /// As [`Ode::rate`].
+    fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop>;
+
+    /// Replaces a derivative at the last evaluated state by its tangent part, which [`project`](Self::project)
+    /// leaves. Returns false if it is to count as a whole. Linear in `dy`. Used to test a rejected step again with
+    /// the tangential error alone.
+    fn project_error(&mut self, dy: &mut [f64]) -> bool {
+        let _ = dy;
+        false
+    }
+}
+
+/// Times near which f is noise. A method with step control places its steps so that no stage is near one.
+pub trait TimesToAvoid {
+    /// Whether such a time may be near, by the evaluations of the trial under way. Then f is evaluated at the end
+    /// of the trial as well, where the error estimate does not need it.
+    fn may_be_near(&self) -> bool;
+
+    /// The next such time, if one is in reach. Called after every trial step, accepted or not, with the time of
+    /// its end, at or near which f was evaluated last.
+    fn next(&mut self, t: f64) -> Option<f64>;
+
+    /// Called with the end of every accepted step, where f was evaluated last.
+    fn on_accepted_end(&mut self, t: f64);
+}
+
+/// Changes of f that depend on the step, such as gains that follow its length.
+pub trait TrialChanges {
+    /// Called before every trial step from y at t over h, which is negative when integrating backward. Returns
+    /// whether f changed; then the derivative at the beginning is evaluated again.
+    fn before_trial(&mut self, t: f64, y: &[f64], h: f64) -> bool;
 }

@@ -5,18 +5,19 @@
 //! while Newton's iteration converges fast, the factors while the step stays (Hairer and Wanner,
 //! *Solving Ordinary Differential Equations II*, IV.8). Between steps the polynomials of collocation.
 
-use super::dae::{Dae, ImplicitMethod};
+use super::dae::{Dae, DaeLengths, DaeState};
 use super::error_weights::ErrorWeights;
 use super::evaluation_counter::CountedDae;
-use super::failure::{conclude, Cause, Failure};
+use super::failure::Cause;
 use super::fixed_step::Grid;
-use super::interpolant::Interpolant;
-use super::ode::{Ended, Flow, Observer, Statistics, Step};
+use super::implicit_steps::ImplicitSteps;
 use super::radau_coefficients::{DEGREE, EXTENSION};
 use super::radau_step::{NewtonLimits, NewtonOutcome, RadauStep, ROWS};
 use super::right_hand_side::all_finite;
+use super::step::Step;
 use super::step_control::StepControl;
 use super::step_size::least_step;
+use super::stepper::{BoxedStepper, ImplicitMethod, Statistics, Stepper};
 
 /// Order of the error estimate.
 const ERROR_ORDER: i32 = 3;
@@ -57,174 +58,217 @@ impl Radau {
     }
 }
 
-/// An integration under way.
-struct Run<'a, Y: Dae> {
-    system: CountedDae<'a, Y>,
-    options: StepControl,
+/// The state of an integration.
+struct RadauStepper {
+    control: StepControl,
+    /// The ends of constant steps, and the steps taken on them.
+    grid: Option<(Grid, usize)>,
+    lengths: DaeLengths,
+    counts: Statistics,
+    steps: ImplicitSteps,
     step: RadauStep,
     scale: ErrorWeights,
-    t: f64,
-    t_end: f64,
-    direction: f64,
-    /// Magnitude of the step to try.
-    size: f64,
+    /// Magnitude of the step to try, once the derivative at the start is known.
+    size: Option<f64>,
     /// Whether the tangent of an earlier step is still good.
     keep_tangent: bool,
     /// Length and error of the step before.
     before: Option<(f64, f64)>,
-    y_new: Vec<f64>,
-    /// Derivatives at both ends of a step; rows of its continuous extension.
-    dy: Vec<f64>,
-    rows: Vec<f64>,
 }
 
 impl ImplicitMethod for Radau {
-    fn integrate<Y: Dae, O: Observer>(
+    fn start<Y: Dae>(
         &self,
-        system: &mut Y,
-        t0: f64,
-        t_end: f64,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> Result<Statistics, Failure<Y::Stop>> {
-        let (n, m, works) = (system.coordinates(), system.multipliers(), system.quadratures());
-        let len = 2 * n + works;
-        let options = self.control.usable();
-        let checked = options.begin((t0, t_end), (y, len), 2 * n);
-        let mut run = Run {
-            system: CountedDae::new(system, t0),
-            step: RadauStep::new(n, m, works),
-            scale: ErrorWeights::new(&options, n),
-            options,
-            t: t0,
-            t_end,
-            direction: (t_end - t0).signum(),
-            size: 0.0,
+        system: &Y,
+        span: (f64, f64),
+        y: &[f64],
+    ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
+        let (control, lengths) = (self.control.usable(), system.lengths());
+        let grid = control.begin(span, (y, lengths.total()), lengths.controlled())?;
+        Ok(Box::new(RadauStepper {
+            grid: grid.map(|grid| (grid, 0)),
+            lengths,
+            counts: Statistics::none(span.0),
+            steps: ImplicitSteps::new(span, y, ROWS),
+            step: RadauStep::new(lengths),
+            scale: ErrorWeights::new(&control, lengths.controlled()),
+            control,
+            size: None,
             keep_tangent: false,
             before: None,
-            y_new: vec![0.0; len],
-            dy: vec![0.0; 2 * len],
-            rows: vec![0.0; ROWS * len],
-        };
-        let outcome = checked.and_then(|grid| run.go(grid, y, observer));
-        conclude(outcome, Statistics { t: run.t, ..run.system.counts }, y)
+        }))
     }
 }
 
-impl<Y: Dae> Run<'_, Y> {
-    fn go<O: Observer>(
-        &mut self,
-        grid: Option<Grid>,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> Result<Ended, Cause<Y::Stop>> {
-        if self.t == self.t_end {
-            return Ok(Ended::Reached);
+impl<Y: Dae> Stepper<Y, Y::Stop> for RadauStepper {
+    fn step(&mut self, system: &mut Y) -> Result<(), Cause<Y::Stop>> {
+        self.steps.move_on();
+        let mut dae = CountedDae { system, counts: self.counts };
+        let outcome = self.next(&mut dae);
+        self.counts = dae.counts;
+        outcome
+    }
+
+    fn prepare_interpolant(&mut self, _: &mut Y) -> Result<(), Cause<Y::Stop>> {
+        Ok(())
+    }
+
+    fn last_step(&self) -> Option<Step<'_>> {
+        self.steps.view(&*EXTENSION, DEGREE)
+    }
+
+    fn t(&self) -> f64 {
+        self.steps.t()
+    }
+
+    fn t_end(&self) -> f64 {
+        self.steps.t_end
+    }
+
+    fn y(&self) -> &[f64] {
+        self.steps.y()
+    }
+
+    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Y::Stop>> {
+        let plain = StepControl { first_step: None, ..self.control.clone() };
+        let lengths = (self.lengths.total(), self.lengths.controlled());
+        let grid = plain.begin((t, self.steps.t_end), (y, lengths.0), lengths.1)?;
+        self.grid = grid.map(|grid| (grid, 0));
+        self.control.first_step = self.size.take();
+        (self.keep_tangent, self.before) = (false, None);
+        self.steps.restart(t, y);
+        self.step.forget();
+        Ok(())
+    }
+
+    fn statistics(&self) -> Statistics {
+        Statistics { t: self.steps.t(), ..self.counts }
+    }
+}
+
+impl RadauStepper {
+    /// The next accepted step.
+    fn next<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<(), Cause<Y::Stop>> {
+        let size = match self.size {
+            Some(size) => size,
+            None => self.begin(dae)?,
+        };
+        if self.control.max_steps.is_some_and(|most| dae.counts.steps >= most) {
+            return Err(Cause::MaxSteps { steps: dae.counts.steps });
         }
-        let n = self.step.start.q.len();
-        self.step.start.q.copy_from_slice(&y[..n]);
-        self.step.start.v.copy_from_slice(&y[n..2 * n]);
-        self.system.begin(self.t, &mut self.step.start)?;
-        self.size = match (self.options.step, self.options.first_step) {
+        let t_new = match self.grid {
+            Some(_) => self.constant_step(dae)?,
+            None => self.accepted_step(dae, size)?,
+        };
+        self.finish(dae, t_new)
+    }
+
+    /// The derivative at the start, and the first step.
+    fn begin<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<f64, Cause<Y::Stop>> {
+        let Self { step, scale, steps, .. } = self;
+        step.start.set(&steps.y);
+        dae.begin(steps.t, &mut step.start)?;
+        let first = match (self.control.step, self.control.first_step) {
             (Some(h), _) | (None, Some(h)) => h,
             (None, None) => {
-                let Self { system, step, scale, .. } = self;
-                let state = (&step.start, &mut step.stages[0]);
-                let first = system.first_step((self.t, self.t_end), state, scale, ERROR_ORDER);
-                first.map_err(Cause::Equations)?
+                let states = (&step.start, &mut step.stages[0]);
+                dae.first_step((steps.t, steps.t_end), states, scale, ERROR_ORDER)?
             }
         };
-        while self.t != self.t_end {
-            if self.options.max_steps.is_some_and(|most| self.system.counts.steps >= most) {
-                return Err(Cause::MaxSteps { steps: self.system.counts.steps });
-            }
-            let t_new = match &grid {
-                Some(grid) => self.constant_step(grid)?,
-                None => self.accepted_step()?,
-            };
-            if self.finish(t_new, y, observer)? == Flow::Stop {
-                return Ok(Ended::Stopped);
-            }
-        }
-        Ok(Ended::Reached)
+        self.size = Some(first);
+        Ok(first)
     }
 
     /// The next step of constant length, of which the last may be shorter. Returns its time.
-    fn constant_step(&mut self, grid: &Grid) -> Result<f64, Cause<Y::Stop>> {
-        let t = self.t;
-        let t_new = grid.end(self.system.counts.steps + 1, t)?;
+    fn constant_step<Y: Dae>(
+        &mut self,
+        dae: &mut CountedDae<'_, Y>,
+    ) -> Result<f64, Cause<Y::Stop>> {
+        let t = self.steps.t;
+        let Some((grid, taken)) = &mut self.grid else { unreachable!("a constant step") };
+        let t_new = grid.end(*taken + 1, t)?;
+        *taken += 1;
         let mut singular = false;
         for fresh in [false, true] {
             if fresh || !self.keep_tangent {
-                self.step.linearize(&mut self.system, t, t_new - t);
+                self.step.linearize(dae, t, t_new - t);
             }
-            let span = (t, t_new - t);
-            let solved = self.step.advance(&mut self.system, span, &mut self.scale, CONSTANT);
+            let solved = self.step.advance(dae, (t, t_new - t), &mut self.scale, CONSTANT);
             if let NewtonOutcome::Converged(_, rate) = solved {
                 self.keep_tangent = rate <= FAST;
                 return Ok(t_new);
             }
             singular = matches!(solved, NewtonOutcome::Singular);
         }
-        Err(self.gave_up(true, singular))
+        Err(self.gave_up(dae, (t_new - t).abs(), true, singular))
     }
 
     /// Tries steps until one is accepted. Returns its time.
-    fn accepted_step(&mut self) -> Result<f64, Cause<Y::Stop>> {
-        let t = self.t;
-        let least = least_step(t, self.direction);
-        self.size = self.size.min(self.options.max_step).max(least);
+    fn accepted_step<Y: Dae>(
+        &mut self,
+        dae: &mut CountedDae<'_, Y>,
+        size: f64,
+    ) -> Result<f64, Cause<Y::Stop>> {
+        let (t, t_end, direction) = (self.steps.t, self.steps.t_end, self.steps.direction());
+        let least = least_step(t, direction);
+        let mut size = size.min(self.control.max_step).max(least);
         let mut rejected = false;
         let (mut unsolved, mut singular) = (false, false);
         loop {
-            if self.size < least {
-                return Err(self.gave_up(unsolved, singular));
+            if size < least {
+                return Err(self.gave_up(dae, size, unsolved, singular));
             }
-            let mut t_new = t + self.size * self.direction;
-            if self.direction * (t_new - self.t_end) >= 0.0 {
-                t_new = self.t_end;
+            let mut t_new = t + size * direction;
+            if direction * (t_new - t_end) >= 0.0 {
+                t_new = t_end;
             }
             let h = t_new - t;
             if !self.step.fresh && !self.keep_tangent {
-                self.step.linearize(&mut self.system, t, h);
+                self.step.linearize(dae, t, h);
             }
-            let enough =
-                NewtonLimits { tolerance: newton_tolerance(self.options.rtol), most: MOST };
-            let solved = self.step.advance(&mut self.system, (t, h), &mut self.scale, enough);
+            let tolerance = newton_tolerance(self.control.rtol);
+            let limits = NewtonLimits { tolerance, most: MOST };
+            let solved = self.step.advance(dae, (t, h), &mut self.scale, limits);
             let NewtonOutcome::Converged(iterations, rate) = solved else {
                 singular = matches!(solved, NewtonOutcome::Singular);
                 unsolved = true;
-                // an old tangent gets another chance before the step is blamed
+                // an old tangent is renewed before the step is shortened
                 if self.step.fresh {
-                    self.size = SHORTEN * h.abs();
-                    self.system.counts.rejected += 1;
+                    size = SHORTEN * h.abs();
+                    dae.counts.rejected += 1;
                     rejected = true;
                 }
                 self.keep_tangent = false;
                 continue;
             };
             unsolved = false;
-            let norm = self.error((t, h), rejected)?;
+            let norm = self.error(dae, (t, h), rejected)?;
             let safety = SAFETY * (2 * MOST + 1) as f64 / (2 * MOST + iterations) as f64;
             let wanted = factor(norm, safety);
             if norm < 1.0 {
                 self.keep_tangent = rate <= FAST;
+                self.size = Some(size);
                 self.accept((h.abs(), norm), wanted, safety, rejected);
                 return Ok(t_new);
             }
-            self.size = h.abs() * wanted.min(SAFETY);
-            self.system.counts.rejected += 1;
+            size = h.abs() * wanted.min(SAFETY);
+            dae.counts.rejected += 1;
             rejected = true;
         }
     }
 
     /// The error of the step, estimated once more at the start and after rejections, where stiff
     /// components are not yet at rest.
-    fn error(&mut self, (t, h): (f64, f64), rejected: bool) -> Result<f64, Cause<Y::Stop>> {
-        let Self { step, system, scale, .. } = self;
-        let mut norm = step.error(system, (t, h), scale, false).map_err(Cause::Equations)?;
+    fn error<Y: Dae>(
+        &mut self,
+        dae: &mut CountedDae<'_, Y>,
+        span: (f64, f64),
+        rejected: bool,
+    ) -> Result<f64, Cause<Y::Stop>> {
+        let Self { step, scale, .. } = self;
+        let mut norm = step.error(dae, span, scale, false)?;
         if norm >= 1.0 && (rejected || self.before.is_none()) {
-            norm = step.error(system, (t, h), scale, true).map_err(Cause::Equations)?;
+            norm = step.error(dae, span, scale, true)?;
         }
         // the state may have left the domain: as bad as can be
         Ok(if norm.is_finite() { norm } else { f64::MAX })
@@ -244,18 +288,23 @@ impl<Y: Dae> Run<'_, Y> {
             by = by.min(1.0);
         }
         self.before = Some((h, norm.max(LEAST_NORM)));
-        let short = h < 0.99 * self.size; // the last step ends at t_end
+        let short = self.size.is_some_and(|size| h < 0.99 * size); // the last step ends at t_end
         if short || !(self.keep_tangent && (1.0..KEEP).contains(&by)) {
-            self.size = h * by;
+            self.size = Some(h * by);
         }
     }
 
-    /// Why no step could be had.
-    fn gave_up(&mut self, unsolved: bool, singular: bool) -> Cause<Y::Stop> {
-        let (t, h) = (self.t, self.size);
-        let start = &self.step.start;
+    /// Why no step of length `h` was found.
+    fn gave_up<Y: Dae>(
+        &mut self,
+        dae: &mut CountedDae<'_, Y>,
+        h: f64,
+        unsolved: bool,
+        singular: bool,
+    ) -> Cause<Y::Stop> {
+        let (t, start) = (self.steps.t, &self.step.start);
         if singular {
-            if let Some(stop) = self.system.system.singular(t, &start.q, &start.v) {
+            if let Some(stop) = dae.system.singular(t, [&start.q, &start.v, &start.z]) {
                 return Cause::Equations(stop);
             }
         }
@@ -266,55 +315,44 @@ impl<Y: Dae> Run<'_, Y> {
         }
     }
 
-    /// Puts the accepted state onto the constraints, shows the step to the observer, and moves on.
-    fn finish<O: Observer>(
+    /// Projects the accepted state onto the constraints and evaluates its derivative.
+    fn finish<Y: Dae>(
         &mut self,
+        dae: &mut CountedDae<'_, Y>,
         t_new: f64,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> Result<Flow, Cause<Y::Stop>> {
-        let (t, h) = (self.t, t_new - self.t);
-        let Self { system, step, y_new, dy, rows, .. } = self;
-        let (n, len) = (step.start.q.len(), y.len());
-        step.evaluate(system, (t, h)); // for the powers
-        step.extension(rows);
-        y_new[..n].copy_from_slice(&step.stages[2].q);
-        y_new[n..2 * n].copy_from_slice(&step.stages[2].v);
-        for (k, w) in (2 * n..len).enumerate() {
+    ) -> Result<(), Cause<Y::Stop>> {
+        let Self { step, steps, lengths, .. } = self;
+        let ImplicitSteps { t, y, y_new, dy, rows, .. } = steps;
+        let (h, n, len) = (t_new - *t, lengths.coordinates, lengths.total());
+        step.evaluate(dae, (*t, h)); // for the powers
+        step.interpolant_rows(rows);
+        step.stages[2].write(y_new);
+        let works = lengths.controlled();
+        for (k, w) in (works..len).enumerate() {
             y_new[w] = y[w] + step.work(k, h);
         }
         let (dy_old, dy_new) = dy.split_at_mut(len);
         step.start.derivative(dy_old);
         let (q, rest) = y_new.split_at_mut(n);
-        let changed = system.system.project(t_new, q, &mut rest[..n]).map_err(Cause::Equations)?;
+        let (v, rest) = rest.split_at_mut(n);
+        let state = DaeState { q, v, z: &rest[..lengths.states] };
+        let changed = dae.system.project(t_new, state).map_err(Cause::Equations)?;
         if !all_finite(y_new) {
             return Err(Cause::NotFinite { t: t_new });
         }
         if changed {
             let jump = &mut rows[(ROWS - 1) * len..];
-            for (k, jump) in jump[..2 * n].iter_mut().enumerate() {
-                let old = if k < n { step.stages[2].q[k] } else { step.stages[2].v[k - n] };
-                *jump = (y_new[k] - old) / h;
-            }
+            let before = step.stages[2].q.iter().chain(&step.stages[2].v);
+            let both = before.zip(y_new.iter());
+            jump.iter_mut().zip(both).for_each(|(jump, (old, new))| *jump = (new - old) / h);
         }
-        step.start.q.copy_from_slice(&y_new[..n]);
-        step.start.v.copy_from_slice(&y_new[n..2 * n]);
-        system.begin(t_new, &mut step.start)?;
+        step.start.set(y_new);
+        dae.begin(t_new, &mut step.start)?;
         step.start.derivative(dy_new);
-        let flow = observer.step(&Step {
-            t_old: t,
-            t: t_new,
-            y_old: y,
-            y: y_new,
-            dy_old,
-            dy: dy_new,
-            interpolant: Interpolant::new(rows, len, &*EXTENSION, DEGREE),
-        });
-        y.copy_from_slice(y_new);
         step.move_on(h);
-        self.t = t_new;
-        self.system.counts.steps += 1;
-        Ok(flow)
+        steps.accept(t_new);
+        dae.counts.steps += 1;
+        Ok(())
     }
 }
 

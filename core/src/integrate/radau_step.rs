@@ -1,8 +1,8 @@
 //! One step of Radau IIA of order 5 at index 2: Φ_q v + Φ_t = 0 at every stage.
 //!
-//! Unknown are Zᵢ = vᵢ - v₀ and λᵢ of the stages; the positions follow as q₀ + h Σ aᵢⱼ vⱼ, the
-//! accelerations as Σ (A⁻¹)ᵢⱼ Zⱼ / h. With μ an eigenvalue of A⁻¹, the equations of Newton's iteration
-//! are for the transformed unknowns
+//! Unknown are the increments vᵢ - v₀ and zᵢ - z₀, and λᵢ of the stages; the positions follow as q₀ + h Σ aᵢⱼ vⱼ, the
+//! derivatives of (v, z) as Σ (A⁻¹)ᵢⱼ incrementⱼ / h. With μ an eigenvalue of A⁻¹, the equations of Newton's iteration
+//! are for the transformed unknowns, here without z,
 //!
 //! ```text
 //! [ M + h/μ D + (h/μ)² K   Φ_qᵀ ] [    w    ]     [ h/μ r ]
@@ -12,9 +12,10 @@
 //! once real and once complex (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8 and
 //! VII.6), whose condition does not grow as h falls. Of q and v the order is 5, of λ 3.
 
-use super::dae::{ConstraintLevel, Dae, DaeResidual, Iterate, NewtonCoefficients};
+use super::dae::{ConstraintLevel, Dae, DaeLengths, DaeResidual, Iterate, NewtonCoefficients};
 use super::error_weights::ErrorWeights;
 use super::evaluation_counter::CountedDae;
+use super::failure::Cause;
 use super::implicit_state::ImplicitState;
 use super::radau_coefficients::{lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
 use crate::math::{Complex, Field};
@@ -48,20 +49,20 @@ pub(super) struct NewtonLimits {
 /// State and memory of a run.
 pub(super) struct RadauStep {
     pub start: ImplicitState,
-    /// v - v₀ at the stages is `z`; knots hold q, v, a, λ and the powers.
     pub stages: [ImplicitState; 3],
-    z: [Vec<f64>; 3],
-    /// Stages of the step before, for the prediction, and its length.
-    z_before: [Vec<f64>; 3],
+    /// (v - v₀, z - z₀) at the stages.
+    increments: [Vec<f64>; 3],
+    /// Those of the step before, for the prediction, and its length.
+    increments_before: [Vec<f64>; 3],
     lam_before: [Vec<f64>; 3],
     h_before: Option<f64>,
     residuals: [Vec<f64>; 3],
     real: Vec<f64>,
     complex: Vec<Complex>,
     dq: Vec<f64>,
-    /// Estimated errors of q and v.
-    error: [Vec<f64>; 2],
-    /// The start moved by them, and the move along it that the error estimate sees.
+    /// Estimated errors of q, v and z.
+    error: [Vec<f64>; 3],
+    /// The start moved by them, and the move along it that the error estimate uses.
     moved: ImplicitState,
     along: Vec<f64>,
     /// Whether the tangent is that of the beginning of this step.
@@ -70,25 +71,32 @@ pub(super) struct RadauStep {
 }
 
 impl RadauStep {
-    pub fn new(n: usize, m: usize, works: usize) -> Self {
+    pub fn new(lengths: DaeLengths) -> Self {
+        let DaeLengths { coordinates: n, multipliers: m, states, .. } = lengths;
+        let unknowns = lengths.unknowns();
         let rows = |len: usize| std::array::from_fn(|_| vec![0.0; len]);
         Self {
-            start: ImplicitState::new(n, m, works),
-            stages: std::array::from_fn(|_| ImplicitState::new(n, m, works)),
-            z: rows(n),
-            z_before: rows(n),
+            start: ImplicitState::new(lengths),
+            stages: std::array::from_fn(|_| ImplicitState::new(lengths)),
+            increments: rows(n + states),
+            increments_before: rows(n + states),
             lam_before: rows(m),
             h_before: None,
-            residuals: rows(n + m),
-            real: vec![0.0; n + m],
-            complex: vec![Complex::zero(); n + m],
+            residuals: rows(unknowns),
+            real: vec![0.0; unknowns],
+            complex: vec![Complex::zero(); unknowns],
             dq: vec![0.0; n],
-            error: std::array::from_fn(|_| vec![0.0; n]),
-            moved: ImplicitState::new(n, m, works),
+            error: [n, n, states].map(|len| vec![0.0; len]),
+            moved: ImplicitState::new(lengths),
             along: vec![0.0; n],
             fresh: false,
             factored: None,
         }
+    }
+
+    /// Forgets the step before: the state has changed.
+    pub fn forget(&mut self) {
+        (self.h_before, self.factored, self.fresh) = (None, None, false);
     }
 
     /// Solves for the stages of a step.
@@ -115,9 +123,9 @@ impl RadauStep {
     /// Finds the tangent at the beginning of the step, but for the positions, which are taken from its
     /// middle: bodies turn, and the iteration converges twice as fast.
     pub fn linearize<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64, h: f64) {
-        let ImplicitState { q, v, a, lam, .. } = &self.start;
+        let ImplicitState { q, v, .. } = &self.start;
         self.dq.iter_mut().zip(q.iter().zip(v)).for_each(|(mid, (q, v))| *mid = q + 0.5 * h * v);
-        system.linearize(t + 0.5 * h, Iterate { q: &self.dq, v, a, lam });
+        system.linearize(t + 0.5 * h, Iterate { q: &self.dq, ..self.start.iterate() });
         self.fresh = true;
         self.factored = None;
     }
@@ -128,15 +136,16 @@ impl RadauStep {
         for (i, stage) in self.stages.iter_mut().enumerate() {
             let Some(h_before) = self.h_before else {
                 let step = C[i] * h;
-                self.z[i].iter_mut().zip(&self.start.a).for_each(|(z, a)| *z = step * a);
+                let rates = self.start.a.iter().chain(&self.start.dz);
+                self.increments[i].iter_mut().zip(rates).for_each(|(to, rate)| *to = step * rate);
                 stage.lam.copy_from_slice(&self.start.lam);
                 continue;
             };
             let theta = 1.0 + C[i] * h / h_before;
             let [_, one, two, three] = lagrange(nodes, theta);
-            let z = self.z_before.each_ref();
-            for (k, out) in self.z[i].iter_mut().enumerate() {
-                *out = one * z[0][k] + two * z[1][k] + (three - 1.0) * z[2][k];
+            let before = self.increments_before.each_ref();
+            for (k, out) in self.increments[i].iter_mut().enumerate() {
+                *out = one * before[0][k] + two * before[1][k] + (three - 1.0) * before[2][k];
             }
             let [one, two, three] = lagrange(C, theta);
             let lam = self.lam_before.each_ref();
@@ -183,27 +192,35 @@ impl RadauStep {
         NewtonOutcome::Diverged
     }
 
-    /// q, v and a of the stages from Z.
+    /// q, v, z and the derivatives of the stages from the increments.
     fn update_stages(&mut self, h: f64) {
-        let Self { start, stages, z, .. } = self;
+        let Self { start, stages, increments, .. } = self;
+        let n = start.q.len();
+        let at = |k: usize| [increments[0][k], increments[1][k], increments[2][k]];
         for (i, stage) in stages.iter_mut().enumerate() {
-            for k in 0..start.q.len() {
-                let z = [z[0][k], z[1][k], z[2][k]];
-                stage.v[k] = start.v[k] + z[i];
-                stage.q[k] = start.q[k] + h * (C[i] * start.v[k] + dot(&A[i], &z));
-                stage.a[k] = dot(&INVERSE[i], &z) / h;
+            for k in 0..n {
+                let rise = at(k);
+                stage.v[k] = start.v[k] + rise[i];
+                stage.q[k] = start.q[k] + h * (C[i] * start.v[k] + dot(&A[i], &rise));
+                stage.a[k] = dot(&INVERSE[i], &rise) / h;
+            }
+            for k in 0..start.z.len() {
+                let rise = at(n + k);
+                stage.z[k] = start.z[k] + rise[i];
+                stage.dz[k] = dot(&INVERSE[i], &rise) / h;
             }
         }
     }
 
     /// Residuals of all stages, and their powers.
     pub fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, (t, h): (f64, f64)) {
-        let n = self.dq.len();
+        let (n, states) = (self.dq.len(), self.start.z.len());
         for ((stage, residual), c) in self.stages.iter_mut().zip(&mut self.residuals).zip(C) {
-            let ImplicitState { q, v, a, lam, powers } = stage;
-            let (forces, rows) = residual.split_at_mut(n);
-            let at = Iterate { q, v, a, lam };
-            let out = DaeResidual { forces, rows, powers };
+            let ImplicitState { q, v, a, lam, z, dz, powers } = stage;
+            let (forces, rest) = residual.split_at_mut(n);
+            let (states, rows) = rest.split_at_mut(states);
+            let at = Iterate { q, v, a, lam, z, dz };
+            let out = DaeResidual { forces, states, rows, powers };
             system.residual(t + c * h, at, ConstraintLevel::Velocity, out);
         }
     }
@@ -215,7 +232,7 @@ impl RadauStep {
         h: f64,
         scale: &ErrorWeights,
     ) -> f64 {
-        let n = self.dq.len();
+        let n = self.increments[0].len(); // of v and z
         system.counts.iterations += 1;
         let Self { residuals: r, real, complex, .. } = self;
         let scaled = Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h);
@@ -240,7 +257,7 @@ impl RadauStep {
                 // kept in place of the residual, for the norm
                 self.residuals[i][k] = change;
                 if k < n {
-                    self.z[i][k] += change;
+                    self.increments[i][k] += change;
                 } else {
                     self.stages[i].lam[k - n] += change;
                 }
@@ -250,27 +267,28 @@ impl RadauStep {
         self.norm(h, scale)
     }
 
-    /// Of the last correction, as mean over the stages.
+    /// The norm of the last correction, as mean over the stages.
     fn norm(&mut self, h: f64, scale: &ErrorWeights) -> f64 {
-        let n = self.dq.len();
+        let (n, both) = (self.dq.len(), self.increments[0].len());
         let mut sum = 0.0;
         for i in 0..3 {
             let r = self.residuals.each_ref();
             for (k, dq) in self.dq.iter_mut().enumerate() {
                 *dq = h * dot(&A[i], &[r[0][k], r[1][k], r[2][k]]);
             }
-            let norm = scale.norm(&self.dq, &r[i][..n]);
+            let norm = scale.norm(&self.dq, &r[i][..n], &r[i][n..both]);
             sum += norm * norm;
         }
         (sum / 3.0_f64).sqrt()
     }
 
-    /// The norm of corrections that are rounding alone.
+    /// The norm of corrections that are rounding alone: of v relative to the largest, of z to its own size.
     fn rounding(&self, scale: &ErrorWeights) -> f64 {
-        let n = self.dq.len();
-        let largest = self.stages[2].v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let parts = scale.weights[n..].iter().filter(|w| **w > 0.0);
-        let sum: f64 = parts.map(|w| (ROUNDING * largest / w) * (ROUNDING * largest / w)).sum();
+        let (n, end) = (self.dq.len(), &self.stages[2]);
+        let largest = end.v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let sizes = std::iter::repeat_n(largest, n).chain(end.z.iter().map(|z| z.abs()));
+        let parts = sizes.zip(&scale.weights[n..]).filter(|(_, w)| **w > 0.0);
+        let sum: f64 = parts.map(|(x, w)| (ROUNDING * x / w) * (ROUNDING * x / w)).sum();
         (sum / scale.weights.len().max(1) as f64).sqrt()
     }
 
@@ -283,46 +301,55 @@ impl RadauStep {
         (t, h): (f64, f64),
         scale: &ErrorWeights,
         again: bool,
-    ) -> Result<f64, Y::Stop> {
+    ) -> Result<f64, Cause<Y::Stop>> {
         let n = self.dq.len();
-        let Self { start, moved, stages, z, error, real, along, .. } = self;
+        let Self { start, moved, stages, increments, error, real, along, .. } = self;
         moved.copy_from(start);
         if again {
-            let add = |x: &mut [f64], dx: &[f64]| x.iter_mut().zip(dx).for_each(|(x, d)| *x += d);
-            add(&mut moved.q, &error[0]);
-            add(&mut moved.v, &error[1]);
+            for (x, dx) in [&mut moved.q, &mut moved.v, &mut moved.z].into_iter().zip(&*error) {
+                x.iter_mut().zip(dx).for_each(|(x, d)| *x += d);
+            }
             system.accelerate(t, moved)?;
         }
         let step = h / REAL;
-        // the error's memory holds what is multiplied by K and by M first
-        let [stiff, force] = error;
+        let rise = |k: usize| dot(&ERROR, &[increments[0][k], increments[1][k], increments[2][k]]);
+        // the memory of the error first holds what is multiplied by K and by M
+        let [stiff, force, states] = error;
         for k in 0..n {
             let q = std::array::from_fn(|i| stages[i].q[k] - start.q[k]);
             along[k] = step * moved.v[k] + dot(&ERROR, &q);
-            force[k] = step * moved.a[k] + dot(&ERROR, &[z[0][k], z[1][k], z[2][k]]);
+            force[k] = step * moved.a[k] + rise(k);
             stiff[k] = step * along[k];
         }
-        system.system.times(force, stiff, real);
+        for (k, state) in states.iter_mut().enumerate() {
+            *state = step * moved.dz[k] + rise(n + k);
+        }
+        system.system.times(force, states, stiff, real);
         // B comes without the h/μ that K has once more
-        real[n..].iter_mut().for_each(|row| *row /= step);
+        let both = n + states.len();
+        real[both..].iter_mut().for_each(|row| *row /= step);
         system.system.solve(real);
         force.copy_from_slice(&real[..n]);
+        states.copy_from_slice(&real[n..both]);
         let along = along.iter().zip(&real[..n]);
         stiff.iter_mut().zip(along).for_each(|(dq, (along, dv))| *dq = along + step * dv);
-        Ok(scale.norm(&self.error[0], &self.error[1]))
+        let [dq, dv, dz] = &self.error;
+        Ok(scale.norm(dq, dv, dz))
     }
 
-    /// Rows of the continuous extension of y = (q, v, quadratures), but for the last.
-    pub fn extension(&self, rows: &mut [f64]) {
-        let (n, works) = (self.dq.len(), self.start.powers.len());
-        let len = 2 * n + works;
+    /// Rows of the interpolant of y = (q, v, z, quadratures), except the last.
+    pub fn interpolant_rows(&self, rows: &mut [f64]) {
+        let ImplicitState { q, z, powers, .. } = &self.start;
+        let (n, states) = (q.len(), z.len());
+        let len = 2 * n + states + powers.len();
         rows.fill(0.0);
         rows[..n].copy_from_slice(&self.start.v);
         for (i, stage) in self.stages.iter().enumerate() {
             rows[(1 + i) * len..][..n].copy_from_slice(&stage.v);
             let rest = &mut rows[(4 + i) * len..][n..len];
             rest[..n].copy_from_slice(&stage.a);
-            rest[n..].copy_from_slice(&stage.powers);
+            rest[n..n + states].copy_from_slice(&stage.dz);
+            rest[n + states..].copy_from_slice(&stage.powers);
         }
     }
 
@@ -334,7 +361,7 @@ impl RadauStep {
     /// Keeps the stages for the prediction of the next step.
     pub fn move_on(&mut self, h: f64) {
         for i in 0..3 {
-            self.z_before[i].copy_from_slice(&self.z[i]);
+            self.increments_before[i].copy_from_slice(&self.increments[i]);
             self.lam_before[i].copy_from_slice(&self.stages[i].lam);
         }
         self.h_before = Some(h);
@@ -343,12 +370,30 @@ impl RadauStep {
 }
 
 fn coefficients(step: f64) -> NewtonCoefficients {
-    NewtonCoefficients { mass: 1.0, damping: step, stiffness: step * step, rate: step }
+    NewtonCoefficients {
+        mass: 1.0,
+        damping: step,
+        stiffness: step * step,
+        rate: step,
+        state_force: step,
+        state_velocity: step,
+        state_position: step * step,
+        state_rate: step,
+    }
 }
 
 fn complex_coefficients(h: f64) -> NewtonCoefficients<Complex> {
     let step = Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h);
-    NewtonCoefficients { mass: Complex::one(), damping: step, stiffness: step * step, rate: step }
+    NewtonCoefficients {
+        mass: Complex::one(),
+        damping: step,
+        stiffness: step * step,
+        rate: step,
+        state_force: step,
+        state_velocity: step,
+        state_position: step * step,
+        state_rate: step,
+    }
 }
 
 #[inline(always)]

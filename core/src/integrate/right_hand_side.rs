@@ -1,16 +1,9 @@
 //! Evaluations of f, counted and checked.
 
+use super::failure::Cause;
 use super::ode::Ode;
 use super::stages::Block;
 use crate::math::{Lanes, Real};
-
-/// Why an evaluation is of no use.
-pub(super) enum Trouble<E> {
-    /// Not finite at this time: a shorter step may help.
-    NotFinite(f64),
-    /// The system stops.
-    Stop(E),
-}
 
 /// A system with the count of its evaluations.
 pub(super) struct RightHandSide<'a, Y> {
@@ -19,67 +12,70 @@ pub(super) struct RightHandSide<'a, Y> {
 }
 
 impl<Y: Ode> RightHandSide<'_, Y> {
-    /// dy = f(t, y), both in blocks; not asked whether that is finite.
+    /// dy = f(t, y), both in blocks; whether dy is finite is not checked.
     #[inline(always)]
-    pub fn unasked(
+    pub fn unchecked(
         &mut self,
         t: f64,
         y: &[Block],
         dy: &mut [Block],
-    ) -> Result<(), Trouble<Y::Stop>> {
+    ) -> Result<(), Cause<Y::Stop>> {
         let n = self.system.len();
         self.evaluations += 1;
         let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
-        self.system.rate(t, y, rates).map_err(Trouble::Stop)
+        self.system.rate(t, y, rates).map_err(Cause::Equations)
     }
 
     /// dy = f(t, y), both in blocks.
     #[inline]
-    pub fn at(&mut self, t: f64, y: &[Block], dy: &mut [Block]) -> Result<(), Trouble<Y::Stop>> {
-        self.unasked(t, y, dy)?;
+    pub fn at(&mut self, t: f64, y: &[Block], dy: &mut [Block]) -> Result<(), Cause<Y::Stop>> {
+        self.unchecked(t, y, dy)?;
         self.finite(t, dy)
     }
 
-    /// The same after the system has accepted y; whether it `changed` it.
+    /// dy = f(t, y) at an accepted state, which projection may have changed.
     pub fn at_accepted(
         &mut self,
-        changed: bool,
+        projected: bool,
         t: f64,
         y: &[Block],
         dy: &mut [Block],
-    ) -> Result<(), Trouble<Y::Stop>> {
-        if !changed {
-            return self.at(t, y, dy);
-        }
+    ) -> Result<(), Cause<Y::Stop>> {
         let n = self.system.len();
+        match self.system.manifold().filter(|_| projected) {
+            None => return self.at(t, y, dy),
+            Some(manifold) => {
+                let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
+                manifold.rate_projected(t, y, rates).map_err(Cause::Equations)?;
+            }
+        }
         self.evaluations += 1;
-        let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
-        self.system.rate_projected(t, y, rates).map_err(Trouble::Stop)?;
         self.finite(t, dy)
     }
 
-    /// Whether a derivative at t is finite.
+    /// Refuses a derivative at t that is not finite.
     #[inline(always)]
-    pub fn finite(&self, t: f64, dy: &[Block]) -> Result<(), Trouble<Y::Stop>> {
-        // without what fills the last block: of what was stored in parts just now no vector can be loaded soon
-        if all_finite(&dy.as_flattened()[..self.system.len()]) {
-            Ok(())
-        } else {
-            Err(Trouble::NotFinite(t))
+    pub fn finite(&self, t: f64, dy: &[Block]) -> Result<(), Cause<Y::Stop>> {
+        // without the padding: a vector load that spans two recent stores cannot be forwarded and stalls
+        match all_finite(&dy.as_flattened()[..self.system.len()]) {
+            true => Ok(()),
+            false => Err(Cause::NotFinite { t }),
         }
     }
 
-    /// Tells the system that a step of length `h` from t is about to be tried; dy, the derivative at
-    /// its beginning, anew where that changes it; whether it does.
+    /// Announces a trial step of length `h` from t. If that changes f, evaluates dy at the beginning again and
+    /// returns true.
     #[inline]
-    pub fn begin(
+    pub fn before_trial(
         &mut self,
         t: f64,
         h: f64,
         y: &[Block],
         dy: &mut [Block],
-    ) -> Result<bool, Trouble<Y::Stop>> {
-        let changed = self.system.before_trial(t, &y.as_flattened()[..self.system.len()], h);
+    ) -> Result<bool, Cause<Y::Stop>> {
+        let n = self.system.len();
+        let Some(changes) = self.system.trial_changes() else { return Ok(false) };
+        let changed = changes.before_trial(t, &y.as_flattened()[..n], h);
         if changed {
             self.at(t, y, dy)?;
         }

@@ -4,15 +4,16 @@
 //! (1980) 19. Extension: Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135,
 //! with the optimal c₆. Control: that of `scipy.integrate.RK45`.
 
-use super::adaptive::integrate;
-use super::embedded_pair::EmbeddedPair;
-use super::failure::Failure;
-use super::ode::{Method, Observer, Ode, Statistics};
-use super::right_hand_side::{RightHandSide, Trouble};
+use super::explicit_stepper::start;
+use super::failure::Cause;
+use super::ode::Ode;
+use super::right_hand_side::RightHandSide;
+use super::runge_kutta::RungeKutta;
 use super::stages::{rows, rows_mut, sum_at, Block, Trial};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
+use super::stepper::{BoxedStepper, ExplicitMethod};
 use super::tolerances::Tolerances;
 
 /// Dormand–Prince 5(4) with its options.
@@ -29,16 +30,14 @@ impl Rk45 {
     }
 }
 
-impl Method for Rk45 {
-    fn integrate<Y: Ode, O: Observer>(
+impl ExplicitMethod for Rk45 {
+    fn start<Y: Ode>(
         &self,
-        system: &mut Y,
-        t0: f64,
-        t_end: f64,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> Result<Statistics, Failure<Y::Stop>> {
-        integrate::<DormandPrince, Y, O>(&self.control.usable(), system, (t0, t_end), y, observer)
+        system: &Y,
+        span: (f64, f64),
+        y: &[f64],
+    ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
+        start::<DormandPrince, Y>(&self.control, system, span, y)
     }
 }
 
@@ -75,7 +74,7 @@ const P: [f64; 32] = [
     0.0, 3.0, -2.0, 0.0,
 ];
 
-impl EmbeddedPair for DormandPrince {
+impl RungeKutta for DormandPrince {
     const ERROR_ORDER: i32 = 4;
     const LAST_IN_ERROR: bool = true;
     const CONTROL: Control = Control::ELEMENTARY;
@@ -86,23 +85,23 @@ impl EmbeddedPair for DormandPrince {
     const TABLE: &'static [f64] = &P;
 
     fn advance<Y: Ode>(
-        rate: &mut RightHandSide<'_, Y>,
+        rhs: &mut RightHandSide<'_, Y>,
         (t, t_new): (f64, f64),
         y: &[Block],
         k: &mut [Block],
         work: &mut [Block],
         y_new: &mut [Block],
-    ) -> Result<(), Trouble<Y::Stop>> {
+    ) -> Result<(), Cause<Y::Stop>> {
         let h = t_new - t;
         let [k1, k2, k3, k4, k5, k6, k7] = rows_mut(k, y.len());
-        let mut trial = Trial::new(rate, (t, h), y, work);
+        let mut trial = Trial::new(rhs, (t, h), y, work);
         trial.stage(C[0], A2, [k1], k2)?;
         trial.stage(C[1], A3, [k1, k2], k3)?;
         trial.stage(C[2], A4, [k1, k2, k3], k4)?;
         trial.stage(C[3], A5, [k1, k2, k3, k4], k5)?;
         trial.stage(C[4], A6, [k1, k2, k3, k4, k5], k6)?;
         trial.end(B, [k1, k3, k4, k5, k6], y_new)?;
-        rate.at(t_new, y_new, k7)
+        rhs.at(t_new, y_new, k7)
     }
 
     fn error_norm(

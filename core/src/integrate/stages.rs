@@ -3,8 +3,9 @@
 //! States and stages are rows of whole blocks with zeros behind the last number, so that sums over them are
 //! taken four numbers at once and know no remainder.
 
+use super::failure::Cause;
 use super::ode::Ode;
-use super::right_hand_side::{RightHandSide, Trouble};
+use super::right_hand_side::RightHandSide;
 use crate::math::{Lanes, Real};
 
 /// Numbers side by side.
@@ -96,7 +97,7 @@ pub(super) fn row_mut(k: &mut [Block], width: usize, s: usize) -> &mut [Block] {
 
 /// A step that is tried.
 pub(super) struct Trial<'r, 's, Y> {
-    rate: &'r mut RightHandSide<'s, Y>,
+    rhs: &'r mut RightHandSide<'s, Y>,
     t: f64,
     h: f64,
     y: &'r [Block],
@@ -110,12 +111,12 @@ impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
     /// Of length h from y at t; `work` is scratch.
     #[inline(always)]
     pub fn new(
-        rate: &'r mut RightHandSide<'s, Y>,
+        rhs: &'r mut RightHandSide<'s, Y>,
         (t, h): (f64, f64),
         y: &'r [Block],
         work: &'r mut [Block],
     ) -> Self {
-        Self { rate, t, h, y, work, last: t }
+        Self { rhs, t, h, y, work, last: t }
     }
 
     /// out = f(t + c h, y + h Σₛ aₛ kₛ). Whether that is finite is asked of what is made of it: the last of
@@ -127,13 +128,13 @@ impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
         a: [f64; S],
         k: [&[Block]; S],
         out: &mut [Block],
-    ) -> Result<(), Trouble<Y::Stop>> {
+    ) -> Result<(), Cause<Y::Stop>> {
         debug_assert!(a[S - 1] != 0.0, "what the stage before is like shows here alone");
         if !combine(self.y, self.h, a, k, self.work) {
-            return Err(Trouble::NotFinite(self.last));
+            return Err(Cause::NotFinite { t: self.last });
         }
         self.last = self.t + c * self.h;
-        self.rate.unasked(self.last, self.work, out)
+        self.rhs.unchecked(self.last, self.work, out)
     }
 
     /// out = y + h Σₛ aₛ kₛ, all finite; with k as there.
@@ -143,10 +144,10 @@ impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
         a: [f64; S],
         k: [&[Block]; S],
         out: &mut [Block],
-    ) -> Result<(), Trouble<Y::Stop>> {
+    ) -> Result<(), Cause<Y::Stop>> {
         match combine(self.y, self.h, a, k, out) {
             true => Ok(()),
-            false => Err(Trouble::NotFinite(self.last)),
+            false => Err(Cause::NotFinite { t: self.last }),
         }
     }
 }

@@ -164,6 +164,20 @@ impl<'a, S: Real> Projector<'a, S> {
         }
     }
 
+    /// Projects v alone, in place.
+    ///
+    /// # Errors
+    /// As [`project`](Self::project).
+    pub fn project_velocities(
+        &mut self,
+        workspace: &mut Workspace<S>,
+        t: S,
+        (q, v): (&mut [S], &mut [S]),
+    ) -> Result<bool, Fault> {
+        (self.known, self.lowering) = (Known::Nothing, 1.0);
+        self.meet(Level::Velocity, workspace, t, (q, v), &mut false)
+    }
+
     /// Whether the state is as it should be: most of those that are reported are.
     #[inline(always)]
     fn is_good(&mut self, workspace: &mut Workspace<S>, t: S, (q, v): (&[S], &[S])) -> bool {

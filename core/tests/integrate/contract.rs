@@ -1,7 +1,7 @@
 //! What systems and observers are promised.
 
 use super::*;
-use kempe::integrate::{Ended, Rk4, Rk45};
+use kempe::integrate::{Ended, Manifold, Rk4, Rk45, Structure};
 use std::f64::consts::PI;
 
 /// An oscillator that carries ∫ 1e6 y² dt as a quadrature.
@@ -12,8 +12,8 @@ impl Ode for WithQuadrature {
     fn len(&self) -> usize {
         3
     }
-    fn controlled(&self) -> usize {
-        2
+    fn structure(&self) -> Structure {
+        Structure { states: 2, quadratures: 1, ..Structure::default() }
     }
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), String> {
         oscillator(t, &y[..2], &mut dy[..2]);
@@ -47,7 +47,17 @@ impl Ode for OnCircle {
         oscillator(t, y, dy);
         Ok(())
     }
-    fn project_accepted(&mut self, _: f64, y: &mut [f64]) -> Result<bool, String> {
+    fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = String>> {
+        Some(self)
+    }
+}
+
+impl Manifold for OnCircle {
+    type Stop = String;
+    fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), String> {
+        self.rate(t, y, dy)
+    }
+    fn project(&mut self, _: f64, y: &mut [f64]) -> Result<bool, String> {
         self.calls += 1;
         let r = y[0].hypot(y[1]);
         y[0] /= r;
@@ -56,7 +66,7 @@ impl Ode for OnCircle {
     }
 }
 
-fn check_projection(method: &impl Method, evaluations: impl Fn(&Statistics) -> usize) {
+fn check_projection(method: &impl ExplicitMethod, evaluations: impl Fn(&Statistics) -> usize) {
     let mut system = OnCircle { calls: 0 };
     let mut last = [1.0, 0.0];
     let mut observer = |step: &Step<'_>| {

@@ -1,7 +1,7 @@
 //! DOP853: pair, estimate and extension those of scipy, of order 8 and 7; steps of its own.
 
 use super::*;
-use kempe::integrate::{Atol, Dop853, Observer, StepControl};
+use kempe::integrate::{Atol, Dop853, Manifold, Observer, StepControl};
 
 /// Sees the steps from their ends only.
 struct Ends;
@@ -222,7 +222,17 @@ impl Ode for OnCircle {
         oscillator(t, y, dy);
         Ok(())
     }
-    fn project_accepted(&mut self, _: f64, y: &mut [f64]) -> Result<bool, String> {
+    fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = String>> {
+        Some(self)
+    }
+}
+
+impl Manifold for OnCircle {
+    type Stop = String;
+    fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), String> {
+        self.rate(t, y, dy)
+    }
+    fn project(&mut self, _: f64, y: &mut [f64]) -> Result<bool, String> {
         let r = y[0].hypot(y[1]);
         y.iter_mut().for_each(|y| *y /= r);
         Ok(true)

@@ -1,7 +1,7 @@
 //! Every way an integration fails.
 
 use super::*;
-use kempe::integrate::{Atol, Cause, Dop853, Rk4, Rk45, StepControl};
+use kempe::integrate::{Atol, Cause, Dop853, Manifold, Rk4, Rk45, StepControl, Structure};
 
 fn cause(outcome: Outcome) -> Cause<String> {
     outcome.unwrap_err().cause
@@ -157,8 +157,8 @@ impl Ode for Flawed {
         3
     }
 
-    fn controlled(&self) -> usize {
-        2
+    fn structure(&self) -> Structure {
+        Structure { states: 2, quadratures: 1, ..Structure::default() }
     }
 
     fn rate(&mut self, _: f64, y: &[f64], dy: &mut [f64]) -> Result<(), String> {
@@ -170,7 +170,7 @@ impl Ode for Flawed {
     }
 }
 
-fn flawed(method: &impl Method, flaw: f64, at: usize) -> Outcome {
+fn flawed(method: &impl ExplicitMethod, flaw: f64, at: usize) -> Outcome {
     let mut system = Flawed { flaw, at, evaluations: 0 };
     let mut inside = [0.0; 3];
     let mut seen = |step: &Step<'_>| {
@@ -229,7 +229,19 @@ impl Ode for Reluctant {
         Ok(())
     }
 
-    fn project_accepted(&mut self, _: f64, _: &mut [f64]) -> Result<bool, String> {
+    fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = String>> {
+        Some(self)
+    }
+}
+
+impl Manifold for Reluctant {
+    type Stop = String;
+
+    fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), String> {
+        self.rate(t, y, dy)
+    }
+
+    fn project(&mut self, _: f64, _: &mut [f64]) -> Result<bool, String> {
         self.0 += 1;
         match self.0 % 7 {
             0 => Ok(false),
@@ -257,7 +269,7 @@ fn a_run_that_gets_nowhere_ends_before_its_steps_are_counted_out() {
 /// Nothing is evaluated where it is known before that the steps do not reach the end.
 #[test]
 fn too_many_steps_are_refused_before_the_first() {
-    fn check(method: &impl Method, needed: f64, step: f64) {
+    fn check(method: &impl ExplicitMethod, needed: f64, step: f64) {
         let failure = run(method, plain(2, oscillator), (0.0, 1.0), &mut [2.0, 0.0]).unwrap_err();
         assert_eq!(failure.cause, Cause::TooManySteps { needed, step, most: 5 });
         assert_eq!((failure.statistics.evaluations, failure.y), (0, Box::from([2.0, 0.0])));
@@ -299,7 +311,17 @@ impl Ode for Stops {
             Ok(())
         }
     }
-    fn project_accepted(&mut self, t: f64, _: &mut [f64]) -> Result<bool, String> {
+    fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = String>> {
+        Some(self)
+    }
+}
+
+impl Manifold for Stops {
+    type Stop = String;
+    fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), String> {
+        self.rate(t, y, dy)
+    }
+    fn project(&mut self, t: f64, _: &mut [f64]) -> Result<bool, String> {
         if !self.in_rate && t > 1.0 {
             Err("the crank locks".into())
         } else {

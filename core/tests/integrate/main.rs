@@ -7,8 +7,9 @@ mod failures;
 mod order;
 mod scipy;
 mod second_order;
+mod states;
 
-use kempe::integrate::{Failure, Flow, Method, Ode, Statistics, Step};
+use kempe::integrate::{ExplicitMethod, Failure, Flow, Ode, Statistics, Step};
 
 /// A system by closure, without any stop.
 struct Plain<F> {
@@ -34,7 +35,7 @@ fn plain<F: FnMut(f64, &[f64], &mut [f64])>(len: usize, f: F) -> Plain<F> {
 type Outcome = Result<Statistics, Failure<String>>;
 
 fn run<Y: Ode<Stop = String>>(
-    method: &impl Method,
+    method: &impl ExplicitMethod,
     mut system: Y,
     span: (f64, f64),
     y: &mut [f64],

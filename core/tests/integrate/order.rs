@@ -10,7 +10,7 @@ fn slope(errors: &[(f64, f64)]) -> f64 {
 }
 
 /// Errors at the end and, at worst, between steps for y″ = -y with a constant step.
-fn oscillator_errors(method: &impl Method) -> (f64, f64) {
+fn oscillator_errors(method: &impl ExplicitMethod) -> (f64, f64) {
     let mut system = plain(2, oscillator);
     let (mut between, mut y, mut z) = (0.0_f64, [1.0, 0.0], [0.0; 2]);
     let mut observer = |step: &Step<'_>| {
@@ -46,7 +46,7 @@ fn observed_orders() {
 
 #[test]
 fn extensions_begin_and_end_in_the_states_with_their_slopes() {
-    fn check(method: &impl Method) {
+    fn check(method: &impl ExplicitMethod) {
         let mut observer = |step: &Step<'_>| {
             let (mut z, mut b) = ([0.0; 2], [0.0; 8]);
             let h = step.t - step.t_old;

@@ -1,7 +1,7 @@
 //! The extension of DOP853 for systems of second order: one evaluation, through the step before.
 
 use super::*;
-use kempe::integrate::{Dop853, Observer, StepControl};
+use kempe::integrate::{Dop853, Observer, StepControl, Structure, TrialChanges};
 
 /// q̈ = a(t, q) with w = ∫ q̇² dt; y = (q, v, w).
 struct Mass<F> {
@@ -17,16 +17,20 @@ impl<F: Fn(f64, f64) -> f64> Ode for Mass<F> {
     fn len(&self) -> usize {
         3
     }
-    fn controlled(&self) -> usize {
-        2
+    fn structure(&self) -> Structure {
+        let positions = usize::from(self.told);
+        Structure { positions, states: 2 - 2 * positions, quadratures: 1 }
     }
-    fn positions(&self) -> usize {
-        usize::from(self.told)
+    fn trial_changes(&mut self) -> Option<&mut dyn TrialChanges> {
+        Some(self)
     }
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), String> {
         dy.copy_from_slice(&[y[1], (self.a)(t, y[0]), y[1] * y[1]]);
         Ok(())
     }
+}
+
+impl<F> TrialChanges for Mass<F> {
     fn before_trial(&mut self, _: f64, _: &[f64], _: f64) -> bool {
         self.changes
     }

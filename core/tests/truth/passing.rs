@@ -5,7 +5,7 @@ use crate::mechanisms::{close, run};
 use crate::n_four_bar::{upright, windows};
 use kempe::analyses::dynamics::{dynamics, Auto, Options, Reason, Scheme, Stabilization};
 use kempe::analyses::State;
-use kempe::integrate::{Dop853, Flow, Method, Ode, Step};
+use kempe::integrate::{Dop853, ExplicitMethod, Flow, Ode, Step};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 

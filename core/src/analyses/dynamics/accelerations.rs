@@ -8,7 +8,7 @@ use super::failure::Reason;
 use super::lane_batch::are_finite;
 use super::model_cache::ModelCache;
 use super::report_projection::Halt;
-use super::Run;
+use super::run::Run;
 use crate::equations::augmented::NearSingular;
 use crate::equations::{Gains, Singular, Workspace};
 use crate::integrate::{all_finite, Flow};
@@ -25,6 +25,8 @@ pub struct States<'a> {
     pub q: &'a [f64],
     /// Velocities, rows of n_q.
     pub v: &'a [f64],
+    /// First-order states of elements, rows of n_z.
+    pub z: &'a [f64],
 }
 
 /// What states answer to forces, a row for each.
@@ -46,9 +48,10 @@ pub(super) fn accelerations(
     passing: bool,
     mut watch: impl FnMut(f64) -> Flow,
 ) -> Result<Accelerations, Reason> {
-    let States { t, q, v } = states;
-    let (n, count) = (model.layout.n_q, t.len());
-    assert_eq!([q.len(), v.len()], [n * count; 2], "a row for each time");
+    let States { t, q, v, z } = states;
+    let (n, n_z, count) = (model.layout.n_q, model.layout.n_z, t.len());
+    let lengths = [n, n, n_z].map(|width| width * count);
+    assert_eq!([q.len(), v.len(), z.len()], lengths, "a row for each time");
     let mut one = Workspace::on(model, cache.plan(model));
     if passing {
         one.matrix.set_near_singular(NearSingular::Regularise);
@@ -60,8 +63,8 @@ pub(super) fn accelerations(
         if watch(t[first]) == Flow::Stop {
             break;
         }
-        let rows = first * n..end * n;
-        let four = (&t[first..end], &q[rows.clone()], &v[rows]);
+        let (rows, states) = (first * n..end * n, first * n_z..end * n_z);
+        let four = States { t: &t[first..end], q: &q[rows.clone()], v: &v[rows], z: &z[states] };
         if !many.as_mut().is_some_and(|many| many.solve(four, &mut found)) {
             one_by_one(model, &mut one, four, &mut found)?;
         }
@@ -76,21 +79,18 @@ impl Accelerations {
     }
 }
 
-/// Times and rows of some states.
-type Rows<'a> = (&'a [f64], &'a [f64], &'a [f64]);
-
 fn one_by_one(
     model: &Model,
     workspace: &mut Workspace,
-    (t, q, v): Rows<'_>,
+    States { t, q, v, z }: States<'_>,
     found: &mut Accelerations,
 ) -> Result<(), Reason> {
-    let n = model.layout.n_q;
+    let (n, n_z) = (model.layout.n_q, model.layout.n_z);
     for (k, &t) in t.iter().enumerate() {
         let row = k * n..(k + 1) * n;
-        let (q, v) = (&q[row.clone()], &v[row]);
+        let (q, v, z) = (&q[row.clone()], &v[row], &z[k * n_z..(k + 1) * n_z]);
         workspace
-            .accelerate(model, t, [q, v, &[]], Gains::default())
+            .accelerate(model, t, [q, v, z], Gains::default())
             .map_err(|Singular(row)| Halt::Fault(Fault::Singular(Singular(row))))
             .and_then(|()| match [workspace.a(), workspace.lam()].into_iter().all(all_finite) {
                 true => Ok(()),
@@ -109,6 +109,7 @@ struct Many<'a> {
     workspace: Workspace<Lanes>,
     q: Vec<Lanes>,
     v: Vec<Lanes>,
+    z: Vec<Lanes>,
 }
 
 impl<'a> Many<'a> {
@@ -116,17 +117,19 @@ impl<'a> Many<'a> {
     fn new(model: &'a Model<Lanes>, one: &Workspace) -> Self {
         let mut workspace = Workspace::like(model, one);
         workspace.matrix.set_near_singular(NearSingular::Refuse);
-        let none = vec![Lanes::zero(); model.layout.n_q];
-        Self { model, workspace, q: none.clone(), v: none }
+        let room = |width: usize| vec![Lanes::zero(); width];
+        let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
+        Self { model, workspace, q: room(n_q), v: room(n_q), z: room(n_z) }
     }
 
     /// Solves four states, if there are four and every one is regular.
-    fn solve(&mut self, (t, q, v): Rows<'_>, found: &mut Accelerations) -> bool {
-        let Ok(t) = t.try_into() else { return false };
-        Lanes::from_rows(q, &mut self.q);
-        Lanes::from_rows(v, &mut self.v);
-        let Self { model, workspace, q, v } = self;
-        let solved = workspace.accelerate(model, Lanes::new(t), [q, v, &[]], Gains::default());
+    fn solve(&mut self, rows: States<'_>, found: &mut Accelerations) -> bool {
+        let Ok(t) = rows.t.try_into() else { return false };
+        Lanes::from_rows(rows.q, &mut self.q);
+        Lanes::from_rows(rows.v, &mut self.v);
+        Lanes::from_rows(rows.z, &mut self.z);
+        let Self { model, workspace, q, v, z } = self;
+        let solved = workspace.accelerate(model, Lanes::new(t), [q, v, z], Gains::default());
         let (a, lam) = (workspace.a(), workspace.lam());
         if solved.is_err() || !are_finite([a, lam]) {
             return false;

@@ -3,14 +3,13 @@
 use super::accelerations::{States, MANY};
 use super::failure::Reason;
 use super::model_cache::ModelCache;
-use super::motion_ode::WORKS;
 use super::report_projection::Halt;
-use super::Run;
+use super::run::Run;
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
 use crate::integrate::all_finite;
 use crate::math::{Lanes, Real};
-use crate::model::Model;
+use crate::model::{Model, WORKS};
 
 /// Number of columns of [`Run::energies`].
 pub const ENERGIES: usize = 2 + WORKS;
@@ -21,10 +20,10 @@ pub(super) fn energies(
     states: States<'_>,
     works: &[f64],
 ) -> Result<Vec<f64>, Reason> {
-    let States { t, q, v } = states;
+    let States { t, q, v, z } = states;
     let n = model.layout.n_q;
-    let lengths = [n, n, WORKS].map(|width| width * t.len());
-    assert_eq!([q.len(), v.len(), works.len()], lengths, "a row for each time");
+    let lengths = [n, n, model.layout.n_z, WORKS].map(|width| width * t.len());
+    assert_eq!([q.len(), v.len(), z.len(), works.len()], lengths, "a row for each time");
     let mut found = Vec::with_capacity(ENERGIES * t.len());
     let rows = mechanical((model, cache), states).into_iter().zip(works.chunks_exact(WORKS));
     for (k, (energies, works)) in rows.enumerate() {
@@ -40,20 +39,22 @@ pub(super) fn energies(
 /// Kinetic and potential energy at each state.
 fn mechanical(
     (model, cache): (&Model, &ModelCache),
-    States { t, q, v }: States<'_>,
+    States { t, q, v, z }: States<'_>,
 ) -> Vec<[f64; 2]> {
-    let (n, mut found) = (model.layout.n_q, Vec::with_capacity(t.len()));
+    let (n, n_z) = (model.layout.n_q, model.layout.n_z);
+    let mut found = Vec::with_capacity(t.len());
     let mut done = 0;
     if t.len() >= MANY {
         let wide = cache.wide(model);
-        let (mut motions, none) = (Motions::new(&wide.layout), vec![Lanes::zero(); n]);
-        let (mut places, mut rates) = (none.clone(), none);
+        let mut motions = Motions::new(&wide.layout);
+        let [mut places, mut rates, mut states] = [n, n, n_z].map(|width| vec![Lanes::zero(); width]);
         for t in t.chunks_exact(Lanes::WIDTH) {
             let rows = done * n..(done + Lanes::WIDTH) * n;
             Lanes::from_rows(&q[rows.clone()], &mut places);
             Lanes::from_rows(&v[rows], &mut rates);
+            Lanes::from_rows(&z[done * n_z..(done + Lanes::WIDTH) * n_z], &mut states);
             let t = Lanes::new([t[0], t[1], t[2], t[3]]);
-            let [kinetic, potential] = at(cache.wide(model), t, (&places, &rates), &mut motions);
+            let [kinetic, potential] = at(wide, t, [&places, &rates, &states], &mut motions);
             let both = kinetic.to_array().into_iter().zip(potential.to_array());
             found.extend(both.map(|(kinetic, potential)| [kinetic, potential]));
             done += Lanes::WIDTH;
@@ -62,14 +63,15 @@ fn mechanical(
     let mut motions = Motions::new(&model.layout);
     for (k, &t) in t.iter().enumerate().skip(done) {
         let row = k * n..(k + 1) * n;
-        found.push(at(model, t, (&q[row.clone()], &v[row]), &mut motions));
+        let state = [&q[row.clone()], &v[row], &z[k * n_z..(k + 1) * n_z]];
+        found.push(at(model, t, state, &mut motions));
     }
     found
 }
 
-fn at<S: Real>(model: &Model<S>, t: S, (q, v): (&[S], &[S]), motions: &mut Motions<S>) -> [S; 2] {
+fn at<S: Real>(model: &Model<S>, t: S, [q, v, z]: [&[S]; 3], motions: &mut Motions<S>) -> [S; 2] {
     motions.place(&model.layout, q, v);
-    [energy::kinetic(model, motions), energy::potential(model, motions, &[], t)]
+    [energy::kinetic(model, motions), energy::potential(model, motions, z, t)]
 }
 
 impl Run {

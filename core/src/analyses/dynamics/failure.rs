@@ -2,12 +2,12 @@
 
 use super::constraint_violation::Violation;
 use super::report_projection::Halt;
-use super::Run;
+use super::run::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
 use crate::equations::augmented::Dependent;
 use crate::equations::Singular;
-use crate::integrate::{self, Cause};
+use crate::integrate::Cause;
 use crate::model::Model;
 use crate::stabilize::Fault;
 use std::fmt;
@@ -140,12 +140,13 @@ impl Reason {
 
     pub(super) fn from_integrator(
         model: &Model,
-        failure: integrate::Failure<(f64, Fault)>,
+        cause: Cause<(f64, Fault)>,
+        t: f64,
+        y: &[f64],
     ) -> Self {
-        let t = failure.t;
-        let (message, hint) = match failure.cause {
+        let (message, hint) = match cause {
             Cause::Equations((at, fault)) => {
-                return Self::fault(model, at, &failure.y[..model.layout.n_q], fault)
+                return Self::fault(model, at, model.layout.split(y)[0], fault)
             }
             Cause::Argument { name, value, must } => {
                 return Self::Option { name, message: format!("{name}: {value}; must be {must}") }

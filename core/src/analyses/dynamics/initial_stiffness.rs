@@ -45,15 +45,14 @@ impl InitialStiffness {
         (t, t_end): (f64, f64),
         y: &[f64],
     ) -> Self {
-        let n = model.layout.n_q;
         let Some(fastest) = detector.fastest(t, y) else {
             return Self { fastest: None, pace: 0.0, steps: 0.0, under_way: false };
         };
-        let state = [&y[..n], &y[n..2 * n]];
+        let v = model.layout.split(y)[1];
         let probe = PROBE / fastest.rate;
-        let rates = detector.rates(t, state, probe);
-        let pace = rates.as_ref().map_or(f64::INFINITY, |[a, _]| pace(model, state[1], a));
-        let left = |jerk: &[f64]| excited(auto, jerk, state[1], fastest.rate);
+        let rates = detector.rates(t, y, probe);
+        let pace = rates.as_ref().map_or(f64::INFINITY, |[a, _]| pace(model, v, a));
+        let left = |jerk: &[f64]| excited(auto, jerk, v, fastest.rate);
         Self {
             fastest: Some(fastest),
             pace,

@@ -1,10 +1,9 @@
 //! Reported states of a grid side by side: placed and kept four at once.
 
 use super::branch_averaging;
-use super::motion_ode::WORKS;
 use super::options::Options;
-use super::recorder::Trajectory;
 use super::report_projection::ReportProjection;
+use super::trajectory::Trajectory;
 use crate::equations::augmented::NearSingular;
 use crate::equations::Workspace;
 use crate::integrate::Step;
@@ -27,7 +26,7 @@ pub(super) struct LaneBatch<'a> {
 impl<'a> LaneBatch<'a> {
     /// With the workspace of the equations of motion of this run for its plan of elimination.
     pub fn new(model: &'a Model<Lanes>, options: &Options, one: &Workspace) -> Self {
-        let (n, len) = (model.layout.n_q, 2 * model.layout.n_q + WORKS);
+        let (n, len) = (model.layout.n_q, model.layout.n_y());
         let mut workspace = Workspace::like(model, one);
         workspace.matrix.set_near_singular(NearSingular::Refuse);
         Self {
@@ -67,11 +66,11 @@ impl<'a> LaneBatch<'a> {
     pub fn place(&mut self) -> bool {
         self.fill_up();
         Lanes::from_rows(&self.given, &mut self.y);
-        let n = self.rates.len();
-        self.rates.copy_from_slice(&self.y[n..2 * n]);
+        let layout = &self.placer.model.layout;
+        self.rates.copy_from_slice(layout.split(&self.y)[1]);
         self.placer.place(Lanes::new(self.t), &mut self.y).is_ok()
             && are_finite([&self.y])
-            && self.placer.turn(&self.rates, &self.y[n..2 * n]) <= branch_averaging::TURNED
+            && self.placer.turn(&self.rates, layout.split(&self.y)[1]) <= branch_averaging::TURNED
     }
 
     /// Lanes without a state of their own repeat the last.
@@ -86,11 +85,10 @@ impl<'a> LaneBatch<'a> {
     /// Keeps the states that wait, as they were placed; then nothing waits.
     pub fn keep(&mut self, trajectory: &mut Trajectory) {
         let count = std::mem::take(&mut self.waiting);
-        let (q, rest) = self.y.split_at(self.rates.len());
-        let (v, w) = rest.split_at(self.rates.len());
-        let Trajectory { t, q: to_q, v: to_v, works } = trajectory;
+        let parts = self.placer.model.layout.split(&self.y);
+        let Trajectory { t, q, v, z, works } = trajectory;
         t.extend_from_slice(&self.t[..count]);
-        for (to, lanes) in [(to_q, q), (to_v, v), (works, w)] {
+        for (to, lanes) in [q, v, z, works].into_iter().zip(parts) {
             let (start, width) = (to.len(), lanes.len());
             to.resize(start + Lanes::WIDTH * width, 0.0);
             Lanes::rows(lanes, &mut to[start..]);

@@ -1,5 +1,4 @@
-//! The run of a method that is not named: explicit and implicit pieces, one after the other, as
-//! `choice` decides.
+//! The automatic choice of the method: DOP853 and Radau, one after the other, as `stiffness_detection` decides.
 
 use super::initial_stiffness::InitialStiffness;
 use super::methods::Auto;
@@ -7,238 +6,184 @@ use super::motion_dae::MotionDae;
 use super::motion_ode::MotionOde;
 use super::options::Options;
 use super::stiffness_detection::{MethodChoice, StiffnessDetector, LIMIT, TRIAL, WORTH};
-use super::Outcome;
 use crate::integrate::{
-    Dop853, Ended, Flow, ImplicitMethod, Method, Observer, Radau, Statistics, Step, StepControl,
+    BoxedStepper, Cause, Dop853, ExplicitMethod, ImplicitMethod, Radau, Statistics, Step,
+    StepControl, Stepper,
 };
-use crate::model::Model;
+use crate::stabilize::Fault;
 
-/// Everything a run goes on with from piece to piece.
-pub(super) struct MethodSwitching<'a, 'o> {
-    model: &'a Model,
-    options: &'o Options,
-    auto: &'o Auto,
+/// Why the equations of motion cannot go on, and when.
+pub(super) type Stop = (f64, Fault);
+
+/// The stepper of one method.
+enum Piece<'a> {
+    Explicit(BoxedStepper<MotionOde<'a>, Stop>),
+    Implicit(BoxedStepper<MotionDae<'a>, Stop>),
+}
+
+/// A stepper that changes between an explicit and an implicit method.
+pub(super) struct MethodSwitching<'a> {
+    options: Options,
+    /// Tolerances and steps of both methods.
+    control: StepControl,
     detector: StiffnessDetector<'a>,
-    implicit: Option<MotionDae<'a>>,
+    initial: InitialStiffness,
+    dae: Option<MotionDae<'a>>,
+    piece: Piece<'a>,
+    /// Whether the other method goes on from here.
+    due: bool,
     /// Last step of the method that ran last.
     step: Option<f64>,
-    total: Option<Statistics>,
-    /// Evaluations of the explicit pieces, of which each has its factorisation.
-    pub explicitly: usize,
-    pub choice: MethodChoice,
+    /// Counts of the pieces before.
+    total: Statistics,
+    /// Evaluations of the explicit pieces before, of which each has its factorisation.
+    explicit_evaluations: usize,
+    /// When Radau began, its steps since then, and when they were last compared.
+    tried: (f64, usize, f64),
+    choice: MethodChoice,
 }
 
-/// Shows the steps on, and stops where `judge` says so.
-struct Judged<'o, O, F> {
-    observer: &'o mut O,
-    judge: F,
-    judged: bool,
-    last: Option<f64>,
-}
-
-impl<O: Observer, F: FnMut(&Step<'_>) -> bool> Observer for Judged<'_, O, F> {
-    fn step(&mut self, step: &Step<'_>) -> Flow {
-        self.last = Some((step.t - step.t_old).abs());
-        match self.observer.step(step) {
-            Flow::Stop => Flow::Stop,
-            Flow::Continue => {
-                self.judged = (self.judge)(step);
-                if self.judged {
-                    Flow::Stop
-                } else {
-                    Flow::Continue
-                }
-            }
-        }
-    }
-
-    fn looks_inside(&self, t_old: f64, t: f64) -> bool {
-        self.observer.looks_inside(t_old, t)
-    }
-}
-
-impl<'a, 'o> MethodSwitching<'a, 'o> {
-    /// Where the equations of motion are `system` to explicit methods.
-    pub fn new(system: &MotionOde<'a>, options: &'o Options, auto: &'o Auto, t0: f64) -> Self {
-        let model = system.model;
-        let choice = MethodChoice { method: "dop853", why: String::new() };
-        Self {
-            model,
-            options,
-            auto,
-            detector: StiffnessDetector::new(model, &system.workspace, t0),
-            implicit: None,
-            step: auto.control.first_step,
-            total: None,
-            explicitly: 0,
-            choice,
-        }
-    }
-
-    /// Integrates to the end, by one method or the other.
-    pub fn run<O: Observer>(
-        &mut self,
-        system: &mut MotionOde<'a>,
-        t0: f64,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> Outcome {
-        let mut t = t0;
-        let forecast = self.judge_start(t0, y);
-        let mut skipped = forecast.implicit();
-        let outcome = loop {
-            if !std::mem::take(&mut skipped) {
-                match self.explicit(system, t, y, observer) {
-                    (Ok(took), true) => t = took.t,
-                    (outcome, _) => break outcome,
-                }
-            }
-            match self.implicit(t, y, observer) {
-                (Ok(took), true) => t = took.t,
-                (outcome, _) => break outcome,
-            }
-            self.detector.resume(t);
+impl<'a> MethodSwitching<'a> {
+    /// From `y` at `t`, where the equations of motion are `ode` to explicit methods.
+    pub fn new(
+        ode: &MotionOde<'a>,
+        options: &Options,
+        auto: &Auto,
+        t: f64,
+        y: &[f64],
+    ) -> Result<Self, Cause<Stop>> {
+        let span = (t, options.t_end);
+        // refuses invalid options before the first evaluation
+        let piece = Piece::Explicit(Dop853 { control: auto.control.clone() }.start(ode, span, y)?);
+        let mut detector = StiffnessDetector::new(ode.model, &ode.workspace, t);
+        let initial = InitialStiffness::new(ode.model, &mut detector, auto, span, y);
+        let mut switching = Self {
+            options: options.clone(),
+            control: auto.control.clone(),
+            detector,
+            initial,
+            dae: None,
+            piece,
+            due: false,
+            step: None,
+            total: Statistics::none(t),
+            explicit_evaluations: 0,
+            tried: (t, 0, t),
+            choice: MethodChoice { method: "dop853", why: String::new() },
         };
-        if self.choice.why.is_empty() {
-            self.choice.why = self.not_stiff(&forecast);
-        }
-        outcome
+        switching.judge_start();
+        Ok(switching)
     }
 
-    /// Judges the model at the start, and has the detector know.
-    fn judge_start(&mut self, t: f64, y: &[f64]) -> InitialStiffness {
-        let Self { model, options, auto, detector, choice, .. } = self;
-        let forecast = InitialStiffness::new(model, detector, auto, (t, options.t_end), y);
-        let Some(fastest) = forecast.stiff() else { return forecast };
-        if forecast.implicit() {
-            detector.seen = Some((fastest, LIMIT / fastest.rate));
-            *choice = MethodChoice { method: "radau", why: forecast.why_implicit() };
+    /// Whether the model is stiff at the start.
+    fn judge_start(&mut self) {
+        let Some(fastest) = self.initial.stiff() else { return };
+        if self.initial.implicit() {
+            self.detector.seen = Some((fastest, LIMIT / fastest.rate));
+            let why = self.initial.why_implicit();
+            self.choice = MethodChoice { method: "radau", why };
+            self.step = self.control.first_step;
+            self.due = true;
         } else {
-            detector.foretold = Some(fastest.rate);
+            self.detector.foretold = Some(fastest.rate);
         }
-        forecast
-    }
-
-    /// Factorisations beside those that the integrators count.
-    pub fn factorisations(&self) -> usize {
-        self.explicitly + self.implicit.as_ref().map_or(0, MotionDae::factorisations)
-    }
-
-    /// A piece by DOP853; whether it ended for stiffness.
-    fn explicit<O: Observer>(
-        &mut self,
-        system: &mut MotionOde<'a>,
-        t: f64,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> (Outcome, bool) {
-        let t_end = self.options.t_end;
-        let method = Dop853 { control: self.control(t) };
-        let detector = &mut self.detector;
-        let foretold = detector.foretold.is_some();
-        let judge = |step: &Step<'_>| detector.stiff(step, t_end);
-        let mut judged = Judged { observer, judge, judged: false, last: None };
-        let outcome = method.integrate(system, t, t_end, y, &mut judged).map_err(Box::new);
-        let (stiff, last) = (judged.judged, judged.last);
-        let outcome = self.add(outcome, last, true);
-        if stiff {
-            let (fastest, h) = self.detector.seen.expect("stiffness was seen");
-            self.choice = MethodChoice {
-                method: "radau",
-                why: format!(
-                    "stiff: from t = {:.4} s on, since a damped motion with a rate of {:.2e} 1/s held the steps \
-                     of dop853 to {h:.1e} s{}",
-                    outcome.as_ref().map_or(t, |took| took.t),
-                    fastest.rate,
-                    if foretold && self.detector.foretold.is_none() {
-                        ", as the model told at the start"
-                    } else {
-                        ""
-                    }
-                ),
-            };
-        }
-        (outcome, stiff)
-    }
-
-    /// A piece by Radau; whether it ended because it does not pay.
-    fn implicit<O: Observer>(
-        &mut self,
-        t: f64,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> (Outcome, bool) {
-        let t_end = self.options.t_end;
-        let method = Radau { control: self.control(t) };
-        let explicit_step = self.detector.seen.map_or(0.0, |(_, h)| h);
-        let (mut taken, mut since) = (0, t);
-        let judge = |step: &Step<'_>| {
-            taken += 1;
-            if taken % TRIAL > 0 {
-                return false;
-            }
-            let h = (step.t - std::mem::replace(&mut since, step.t)).abs() / TRIAL as f64;
-            let to_go = (t_end - step.t).abs();
-            h < WORTH * explicit_step && to_go > TRIAL as f64 * explicit_step
-        };
-        let mut judged = Judged { observer, judge, judged: false, last: None };
-        let implicit =
-            self.implicit.get_or_insert_with(|| MotionDae::new(self.model, self.options));
-        let outcome = method.integrate(implicit, t, t_end, y, &mut judged).map_err(Box::new);
-        let (back, last) = (judged.judged, judged.last);
-        let outcome = self.add(outcome, last, false);
-        if back {
-            self.choice = MethodChoice {
-                method: "dop853",
-                why: format!(
-                    "hardly stiff: radau was tried at t = {t:.4} s, and its steps became no longer than {WORTH} of \
-                     {explicit_step:.1e} s"
-                ),
-            };
-        }
-        (outcome, back)
     }
 
     /// Tolerances and steps of a piece that begins at `t`.
-    fn control(&self, t: f64) -> StepControl {
-        let taken = self.total.map_or(0, |total| total.steps);
-        let StepControl { max_steps, .. } = self.auto.control;
-        StepControl {
-            first_step: self.step.map(|h| h.min((self.options.t_end - t).abs())),
-            max_steps: max_steps.map(|most| most - taken.min(most)),
-            ..self.auto.control.clone()
+    fn control_from(&self, t: f64) -> StepControl {
+        let max_steps = self.control.max_steps.map(|most| most - self.total.steps.min(most));
+        let first_step = self.step.map(|h| h.min((self.options.t_end - t).abs()));
+        StepControl { first_step, max_steps, ..self.control.clone() }
+    }
+
+    /// Changes to the other method.
+    fn switch(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Stop>> {
+        self.due = false;
+        let (t, y) = (self.t(), self.y().to_vec());
+        self.total = self.statistics();
+        self.explicit_evaluations = self.explicit_factorisations();
+        let (control, span) = (self.control_from(t), (t, self.options.t_end));
+        self.piece = match &self.piece {
+            Piece::Explicit(_) => {
+                self.tried = (t, 0, t);
+                let options = &self.options;
+                let dae = self.dae.get_or_insert_with(|| MotionDae::new(ode.model, options));
+                Piece::Implicit(Radau { control }.start(dae, span, &y)?)
+            }
+            Piece::Implicit(_) => {
+                self.detector.resume(t);
+                Piece::Explicit(Dop853 { control }.start(ode, span, &y)?)
+            }
+        };
+        Ok(())
+    }
+
+    /// Whether the explicit method should end after this step, for stiffness.
+    fn judge_explicit(&mut self) {
+        let Piece::Explicit(stepper) = &self.piece else { return };
+        let Some(step) = stepper.last_step() else { return };
+        self.step = Some((step.t - step.t_old).abs());
+        let foretold = self.detector.foretold.is_some();
+        if !self.detector.stiff(&step, self.options.t_end) {
+            return;
+        }
+        let (fastest, h) = self.detector.seen.expect("stiffness was seen");
+        let told = match foretold && self.detector.foretold.is_none() {
+            true => ", as the model told at the start",
+            false => "",
+        };
+        let why = format!(
+            "stiff: from t = {:.4} s on, since a damped motion with a rate of {:.2e} 1/s held the steps \
+             of dop853 to {h:.1e} s{told}",
+            step.t, fastest.rate,
+        );
+        self.choice = MethodChoice { method: "radau", why };
+        self.due = true;
+    }
+
+    /// Whether the implicit method should end after this step, because its steps are hardly longer.
+    fn judge_implicit(&mut self) {
+        let Piece::Implicit(stepper) = &self.piece else { return };
+        let Some(Step { t, t_old, .. }) = stepper.last_step() else { return };
+        self.step = Some((t - t_old).abs());
+        let (began, taken, since) = &mut self.tried;
+        *taken += 1;
+        if *taken % TRIAL > 0 {
+            return;
+        }
+        let h = (t - std::mem::replace(since, t)).abs() / TRIAL as f64;
+        let explicit_step = self.detector.seen.map_or(0.0, |(_, h)| h);
+        let to_go = (self.options.t_end - t).abs();
+        if h < WORTH * explicit_step && to_go > TRIAL as f64 * explicit_step {
+            let why = format!(
+                "hardly stiff: radau was tried at t = {began:.4} s, and its steps became no longer than {WORTH} of \
+                 {explicit_step:.1e} s"
+            );
+            self.choice = MethodChoice { method: "dop853", why };
+            self.due = true;
         }
     }
 
-    /// Counts a piece to those before; the outcome then tells of all.
-    fn add(&mut self, outcome: Outcome, last: Option<f64>, explicit: bool) -> Outcome {
-        self.step = last.or(self.step);
-        let took = outcome.as_ref().map_or_else(|failure| failure.statistics, |took| *took);
-        if explicit {
-            self.explicitly += took.evaluations;
+    /// Factorisations of the explicit pieces, one for each evaluation.
+    fn explicit_factorisations(&self) -> usize {
+        let now = match &self.piece {
+            Piece::Explicit(stepper) => stepper.statistics().evaluations,
+            Piece::Implicit(_) => 0,
+        };
+        self.explicit_evaluations + now
+    }
+
+    /// Factorisations beside those that the methods count.
+    pub fn factorisations(&self) -> usize {
+        self.explicit_factorisations() + self.dae.as_ref().map_or(0, MotionDae::factorisations)
+    }
+
+    /// The method so far, and why.
+    pub fn choice(&self) -> MethodChoice {
+        match self.choice.why.is_empty() {
+            true => MethodChoice { why: self.not_stiff(&self.initial), ..self.choice.clone() },
+            false => self.choice.clone(),
         }
-        let total = self.total.get_or_insert(Statistics {
-            steps: 0,
-            rejected: 0,
-            evaluations: 0,
-            jacobians: 0,
-            factorisations: 0,
-            iterations: 0,
-            ended: Ended::Stopped,
-            t: took.t,
-        });
-        total.steps += took.steps;
-        total.rejected += took.rejected;
-        total.evaluations += took.evaluations;
-        total.jacobians += took.jacobians;
-        total.factorisations += took.factorisations;
-        total.iterations += took.iterations;
-        (total.ended, total.t) = (took.ended, took.t);
-        let total = *total;
-        outcome.map(|_| total).map_err(|mut failure| {
-            failure.statistics = total;
-            failure
-        })
     }
 
     fn not_stiff(&self, forecast: &InitialStiffness) -> String {
@@ -250,6 +195,83 @@ impl<'a, 'o> MethodSwitching<'a, 'o> {
                 if fastest.damped { "a damped" } else { "an undamped" },
                 fastest.rate
             ),
+        }
+    }
+}
+
+impl<'a> Stepper<MotionOde<'a>, Stop> for MethodSwitching<'a> {
+    fn step(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Stop>> {
+        if self.due {
+            self.switch(ode)?;
+        }
+        match &mut self.piece {
+            Piece::Explicit(stepper) => {
+                stepper.step(ode)?;
+                self.judge_explicit();
+            }
+            Piece::Implicit(stepper) => {
+                stepper.step(self.dae.as_mut().expect("made for the implicit method"))?;
+                self.judge_implicit();
+            }
+        }
+        Ok(())
+    }
+
+    fn prepare_interpolant(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Stop>> {
+        match &mut self.piece {
+            Piece::Explicit(stepper) => stepper.prepare_interpolant(ode),
+            Piece::Implicit(_) => Ok(()),
+        }
+    }
+
+    fn last_step(&self) -> Option<Step<'_>> {
+        match &self.piece {
+            Piece::Explicit(stepper) => stepper.last_step(),
+            Piece::Implicit(stepper) => stepper.last_step(),
+        }
+    }
+
+    fn t(&self) -> f64 {
+        match &self.piece {
+            Piece::Explicit(stepper) => stepper.t(),
+            Piece::Implicit(stepper) => stepper.t(),
+        }
+    }
+
+    fn t_end(&self) -> f64 {
+        self.options.t_end
+    }
+
+    fn y(&self) -> &[f64] {
+        match &self.piece {
+            Piece::Explicit(stepper) => stepper.y(),
+            Piece::Implicit(stepper) => stepper.y(),
+        }
+    }
+
+    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Stop>> {
+        match &mut self.piece {
+            Piece::Explicit(stepper) => stepper.restart(t, y)?,
+            Piece::Implicit(stepper) => stepper.restart(t, y)?,
+        }
+        self.detector.resume(t);
+        self.tried.2 = t;
+        Ok(())
+    }
+
+    fn statistics(&self) -> Statistics {
+        let (now, before) = match &self.piece {
+            Piece::Explicit(stepper) => (stepper.statistics(), &self.total),
+            Piece::Implicit(stepper) => (stepper.statistics(), &self.total),
+        };
+        Statistics {
+            steps: before.steps + now.steps,
+            rejected: before.rejected + now.rejected,
+            evaluations: before.evaluations + now.evaluations,
+            jacobians: before.jacobians + now.jacobians,
+            factorisations: before.factorisations + now.factorisations,
+            iterations: before.iterations + now.iterations,
+            ..now
         }
     }
 }

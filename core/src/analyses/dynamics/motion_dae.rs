@@ -1,15 +1,15 @@
-//! The equations of motion as implicit methods want them: residuals, tangent, and the matrices of
+//! The equations of motion for implicit methods: residuals, tangent, and the matrices of
 //! Newton's iteration by one plan of elimination.
 
-use super::motion_ode::WORKS;
 use super::options::Options;
 use super::stabilizations::Stabilization;
 use crate::equations::balance::Balance;
-use crate::equations::iteration::{assemble, Places};
+use crate::equations::iteration::{assemble, Coefficients, Places};
 use crate::equations::tangent::Tangent;
 use crate::equations::{constraints, Gains, Workspace};
 use crate::integrate::{
-    ConstraintLevel, Dae, DaeResidual, Iterate, NewtonCoefficients, SingularMatrix,
+    ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
+    SingularMatrix,
 };
 use crate::math::Complex;
 use crate::model::Model;
@@ -60,57 +60,59 @@ impl<'a> MotionDae<'a> {
         self.accelerations + self.projector.as_ref().map_or(0, |p| p.factorisations)
     }
 
-    fn coefficients<F>(coefficients: NewtonCoefficients<F>) -> [F; 4] {
-        [coefficients.mass, coefficients.damping, coefficients.stiffness, coefficients.rate]
+    fn coefficients<F>(of: NewtonCoefficients<F>) -> Coefficients<F> {
+        Coefficients {
+            motion: [of.mass, of.damping, of.stiffness, of.rate],
+            states: [of.state_force, of.state_velocity, of.state_position, of.state_rate],
+        }
     }
 }
 
 impl Dae for MotionDae<'_> {
     type Stop = (f64, Fault);
 
-    fn coordinates(&self) -> usize {
-        self.model.layout.n_q
-    }
-
-    fn multipliers(&self) -> usize {
-        self.model.layout.n_rows
-    }
-
-    fn quadratures(&self) -> usize {
-        WORKS
+    fn lengths(&self) -> DaeLengths {
+        let layout = &self.model.layout;
+        DaeLengths {
+            coordinates: layout.n_q,
+            multipliers: layout.n_rows,
+            states: layout.n_z,
+            quadratures: layout.n_works,
+        }
     }
 
     fn accelerate(
         &mut self,
         t: f64,
-        [q, v]: [&[f64]; 2],
-        a: &mut [f64],
-        lam: &mut [f64],
-        powers: &mut [f64],
+        [q, v, z]: [&[f64]; 3],
+        out: DaeRates<'_>,
     ) -> Result<(), Self::Stop> {
         self.accelerations += 1;
-        let outcome = self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default());
+        let outcome = self.workspace.accelerate(self.model, t, [q, v, z], Gains::default());
         if let Err(singular) = outcome {
-            if q.iter().chain(v).all(|x| x.is_finite()) {
+            if q.iter().chain(v).chain(z).all(|x| x.is_finite()) {
                 return Err((t, Fault::Singular(singular)));
             }
-            a.fill(f64::NAN);
+            out.a.fill(f64::NAN);
             return Ok(());
         }
-        a.copy_from_slice(self.workspace.a());
-        lam.copy_from_slice(self.workspace.lam());
+        out.a.copy_from_slice(self.workspace.a());
+        out.lam.copy_from_slice(self.workspace.lam());
+        self.workspace.state_rates(self.model, t, out.dz);
         let found = self.workspace.powers(self.model, v);
-        powers.copy_from_slice(&[found.dissipated, found.drivers, found.applied]);
+        out.powers.copy_from_slice(&[found.dissipated, found.drivers, found.applied]);
         Ok(())
     }
 
     fn residual(&mut self, t: f64, at: Iterate<'_>, level: ConstraintLevel, out: DaeResidual<'_>) {
-        self.balance.evaluate(self.model, t, [at.q, at.v, at.a, &[]], at.lam);
+        self.balance.evaluate(self.model, t, [at.q, at.v, at.a, at.z], at.lam);
         out.forces.copy_from_slice(&self.balance.forces);
         out.rows.copy_from_slice(match level {
             ConstraintLevel::Position => &self.balance.position,
             ConstraintLevel::Velocity => &self.balance.rate,
         });
+        let rates = at.dz.iter().zip(&self.balance.state_rates);
+        out.states.iter_mut().zip(rates).for_each(|(out, (dz, rate))| *out = dz - rate);
         let powers = self.balance.powers;
         out.powers.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
     }
@@ -118,7 +120,7 @@ impl Dae for MotionDae<'_> {
     fn linearize(&mut self, t: f64, at: Iterate<'_>) {
         let motions = &mut self.balance.motions;
         motions.place(&self.model.layout, at.q, at.v);
-        self.tangent.linearize(self.model, motions, t, [at.a, at.lam, &[]]);
+        self.tangent.linearize(self.model, motions, t, [at.a, at.lam, at.z]);
     }
 
     fn factor(&mut self, coefficients: NewtonCoefficients) -> Result<(), SingularMatrix> {
@@ -146,8 +148,8 @@ impl Dae for MotionDae<'_> {
         }
     }
 
-    fn times(&self, x: &[f64], s: &[f64], out: &mut [f64]) {
-        self.tangent.times(self.model, x, s, out);
+    fn times(&self, x: &[f64], y: &[f64], s: &[f64], out: &mut [f64]) {
+        self.tangent.times(self.model, [x, y, s], out);
     }
 
     fn normal(&mut self, x: &mut [f64]) {
@@ -162,18 +164,19 @@ impl Dae for MotionDae<'_> {
         x.copy_from_slice(&solution[..n]);
     }
 
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<bool, Self::Stop> {
+    fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Self::Stop> {
+        let DaeState { q, v, z } = state;
         let Some(projector) = &mut self.projector else {
             // `normal` wants the factors of a state nearby, which projection would leave
             self.accelerations += 1;
-            let outcome = self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default());
+            let outcome = self.workspace.accelerate(self.model, t, [q, v, z], Gains::default());
             return outcome.map(|()| false).map_err(|singular| (t, Fault::Singular(singular)));
         };
         projector.project(&mut self.workspace, t, (q, v), false).map_err(|fault| (t, fault))
     }
 
-    fn singular(&mut self, t: f64, q: &[f64], v: &[f64]) -> Option<Self::Stop> {
-        let outcome = self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default());
+    fn singular(&mut self, t: f64, state: [&[f64]; 3]) -> Option<Self::Stop> {
+        let outcome = self.workspace.accelerate(self.model, t, state, Gains::default());
         outcome.err().map(|singular| (t, Fault::Singular(singular)))
     }
 }

@@ -1,4 +1,4 @@
-//! The equations of motion as a first-order system y = (q, v, work).
+//! The equations of motion as a first-order system y = (q, v, z, works).
 
 use super::options::Options;
 use super::singularity_passage::SingularityPassage;
@@ -6,14 +6,10 @@ use super::stabilizations::Stabilization;
 use crate::analyses::mobility;
 use crate::equations::augmented::{Dependent, NearSingular};
 use crate::equations::{Gains, Plan, Singular, Workspace};
-use crate::integrate::{all_finite, Ode};
-use crate::math::{Lanes, Real};
+use crate::integrate::{all_finite, Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 use crate::model::Model;
-use crate::stabilize::{Fault, Projector, StepwiseBaumgarte};
+use crate::stabilize::{Fault, Projection, Projector, StepwiseBaumgarte};
 use std::sync::Arc;
-
-/// Works that are integrated beside the motion: dissipated, of drivers, of applied forces.
-pub(super) const WORKS: usize = 3;
 
 /// The right side of forward dynamics.
 pub(super) struct MotionOde<'a> {
@@ -21,74 +17,11 @@ pub(super) struct MotionOde<'a> {
     pub workspace: Workspace,
     pub gains: Gains,
     /// Baumgarte's term, if its gains come from the step.
-    held: Option<StepwiseBaumgarte>,
+    stepwise: Option<StepwiseBaumgarte>,
     pub projector: Option<Projector<'a>>,
     /// Whether singular positions are passed.
     pub passing: bool,
     pub passage: SingularityPassage,
-}
-
-/// Splits y into q, v and the works.
-pub(super) fn parts<S>(y: &mut [S], n_q: usize) -> (&mut [S], &mut [S], &mut [S]) {
-    let (q, rest) = y.split_at_mut(n_q);
-    let (v, works) = rest.split_at_mut(n_q);
-    (q, v, works)
-}
-
-/// dy = (v, a, powers), stored in the blocks that the next stage loads: of what was stored in parts just now no
-/// vector can be loaded soon.
-#[inline(always)]
-fn join(v: &[f64], a: &[f64], powers: [f64; WORKS], dy: &mut [f64]) {
-    // each knows how many of v are left behind its last block, and with that what is left of all
-    match v.len() % Lanes::WIDTH {
-        0 => join_behind::<0>(v, a, powers, dy),
-        1 => join_behind::<1>(v, a, powers, dy),
-        2 => join_behind::<2>(v, a, powers, dy),
-        _ => join_behind::<3>(v, a, powers, dy),
-    }
-}
-
-#[inline(always)]
-fn join_behind<const LEFT: usize>(
-    v: &[f64],
-    mut a: &[f64],
-    [dissipated, drivers, applied]: [f64; WORKS],
-    dy: &mut [f64],
-) {
-    // -0 changes no number, and i, j, k are 1, 2, 3; compilers that knew them would load vectors of a, which was
-    // stored in parts just now, and store blocks in parts
-    let (nothing, one) = std::hint::black_box((-0.0, 1));
-    let (i, j, k) = (one & 1, (2 * one) & 2, (one & 1) | ((2 * one) & 2));
-    let whole = |four| (Lanes::new(four) + Lanes::constant(nothing)).to_array();
-    let mut blocks = dy.chunks_exact_mut(Lanes::WIDTH);
-    let mut of_v = v.chunks_exact(Lanes::WIDTH);
-    for (v, block) in (&mut of_v).zip(&mut blocks) {
-        block.copy_from_slice(v);
-    }
-    // where v ends a begins
-    if let (1.., Some(first)) = (LEFT, a.first_chunk::<3>()) {
-        let left = of_v.remainder();
-        let border = match LEFT {
-            1 => [left[0], first[0], first[i], first[j]],
-            2 => [left[0], left[1], first[0], first[i]],
-            _ => [left[0], left[1], left[2], first[0]],
-        };
-        blocks.next().expect("a block").copy_from_slice(&whole(border));
-        a = &a[Lanes::WIDTH - LEFT..];
-    }
-    let mut of_a = a.chunks_exact(Lanes::WIDTH);
-    for (a, block) in (&mut of_a).zip(&mut blocks) {
-        block.copy_from_slice(&whole([a[0], a[i], a[j], a[k]]));
-    }
-    // n is a multiple of 3, so that of 2 n numbers none or two are left
-    match (of_a.remainder(), LEFT % 2) {
-        (a @ [_, _], 1) => {
-            let block = blocks.next().expect("a block");
-            block.copy_from_slice(&whole([a[0], a[i], dissipated, drivers]));
-            blocks.into_remainder().copy_from_slice(&[applied]);
-        }
-        _ => blocks.into_remainder().copy_from_slice(&[dissipated, drivers, applied]),
-    }
 }
 
 impl<'a> MotionOde<'a> {
@@ -105,11 +38,11 @@ impl<'a> MotionOde<'a> {
             workspace.matrix.set_near_singular(NearSingular::Regularise);
         }
         let passage = SingularityPassage::new(options, passing);
-        let held = match options.stabilization {
+        let stepwise = match options.stabilization {
             Stabilization::BaumgarteFromStep => Some(StepwiseBaumgarte::new(model)),
             _ => None,
         };
-        Self { model, workspace, gains: options.gains(), held, projector, passing, passage }
+        Self { model, workspace, gains: options.gains(), stepwise, projector, passing, passage }
     }
 
     /// Factorisations beside those of evaluations.
@@ -117,12 +50,26 @@ impl<'a> MotionOde<'a> {
         self.projector.as_ref().map_or(0, |projector| projector.factorisations)
     }
 
+    /// Projects the state at the start of a run or of a phase, if that is an option of the run; with
+    /// `velocities`, the velocities in any case. Refuses it where the constraints are dependent for good.
+    ///
+    /// # Errors
+    /// [`Fault`].
+    pub fn begin_phase(&mut self, t: f64, y: &mut [f64], velocities: bool) -> Result<(), Fault> {
+        if velocities && self.projector.is_none() {
+            let mut projector = Projector::new(self.model, Projection::default());
+            let [q, v, ..] = self.model.layout.split_mut(y);
+            projector.project_velocities(&mut self.workspace, t, (q, v))?;
+        }
+        self.project_state(t, y, false).map_err(|(_, fault)| fault)?;
+        self.begin(t, y).map_err(Fault::Singular)
+    }
+
     /// Refuses a start whose constraints are dependent for good, not in passing.
-    pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Singular> {
-        let n = self.model.layout.n_q;
-        let (q, v) = (&y[..n], &y[n..2 * n]);
-        if self.workspace.accelerate(self.model, t, [q, v, &[]], self.gains).is_err() {
-            return Ok(()); // the first step tells
+    fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Singular> {
+        let [q, v, z, _] = self.model.layout.split(y);
+        if self.workspace.accelerate(self.model, t, [q, v, z], self.gains).is_err() {
+            return Ok(()); // the first step fails
         }
         self.passage.begin(t, &self.workspace);
         let near = self.workspace.matrix.regularised();
@@ -144,11 +91,11 @@ impl<'a> MotionOde<'a> {
         dy: &mut [f64],
         placed: bool,
     ) -> Result<(), (f64, Fault)> {
-        let n = self.model.layout.n_q;
-        let (q, v) = (&y[..n], &y[n..2 * n]);
+        let [q, v, z, _] = self.model.layout.split(y);
         if !placed {
-            self.workspace.place(self.model, [q, v, &[]]);
+            self.workspace.place(self.model, [q, v, z]);
         }
+        self.workspace.z.copy_from_slice(z); // which projection leaves
         if let Err(singular) = self.workspace.respond(self.model, t, self.gains) {
             dy.fill(f64::NAN);
             return stop_if_finite(singular, t, y);
@@ -158,16 +105,24 @@ impl<'a> MotionOde<'a> {
             return Ok(());
         }
         let powers = self.workspace.powers(self.model, v);
-        let works = [powers.dissipated, powers.drivers, powers.applied];
-        join(v, self.workspace.a(), works, dy);
+        let [dq, dv, dz, works] = self.model.layout.split_mut(dy);
+        dq.copy_from_slice(v);
+        dv.copy_from_slice(self.workspace.a());
+        self.workspace.state_rates(self.model, t, dz);
+        works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
         Ok(())
     }
 
     /// Projects y if that was asked for; whether it changed. The works stay: what projection does to
     /// the energy shows in the balance.
-    pub fn project(&mut self, t: f64, y: &mut [f64], factored: bool) -> Result<bool, (f64, Fault)> {
+    fn project_state(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        factored: bool,
+    ) -> Result<bool, (f64, Fault)> {
         let Some(projector) = &mut self.projector else { return Ok(false) };
-        let (q, v, _) = parts(y, self.model.layout.n_q);
+        let [q, v, ..] = self.model.layout.split_mut(y);
         projector.project(&mut self.workspace, t, (q, v), factored).map_err(|fault| (t, fault))
     }
 }
@@ -186,83 +141,90 @@ impl Ode for MotionOde<'_> {
     type Stop = (f64, Fault);
 
     fn len(&self) -> usize {
-        2 * self.model.layout.n_q + WORKS
-    }
-
-    fn positions(&self) -> usize {
-        self.model.layout.n_q
-    }
-
-    /// Steps are judged by the motion alone.
-    fn controlled(&self) -> usize {
-        2 * self.model.layout.n_q
+        self.model.layout.n_y()
     }
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
         self.evaluate(t, y, dy, false)
     }
 
-    /// Projection leaves the bodies where y says.
+    fn structure(&self) -> Structure {
+        let layout = &self.model.layout;
+        Structure { positions: layout.n_q, states: layout.n_z, quadratures: layout.n_works }
+    }
+
+    fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = Self::Stop>> {
+        match self.projector {
+            Some(_) => Some(self),
+            None => None,
+        }
+    }
+
+    fn times_to_avoid(&mut self) -> Option<&mut dyn TimesToAvoid> {
+        match self.passing {
+            true => Some(self),
+            false => None,
+        }
+    }
+
+    fn trial_changes(&mut self) -> Option<&mut dyn TrialChanges> {
+        match self.stepwise {
+            Some(_) => Some(self),
+            None => None,
+        }
+    }
+}
+
+/// The states that meet the constraints.
+impl Manifold for MotionOde<'_> {
+    type Stop = (f64, Fault);
+
+    /// The last evaluation was near the end of the step: its factor is used.
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
+        if let Some(projector) = &mut self.projector {
+            projector.sharpen(self.passage.in_reach());
+        }
+        self.project_state(t, y, true)
+    }
+
+    /// After projection the motions of the workspace are those of y.
     fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
         self.evaluate(t, y, dy, true)
     }
 
-    /// Gains may come from the step.
-    fn before_trial(&mut self, t: f64, y: &[f64], h: f64) -> bool {
-        let Some(held) = &mut self.held else { return false };
-        let n = self.model.layout.n_q;
-        held.hold(self.model, &mut self.workspace, t, (&y[..n], &y[n..2 * n]), h);
-        true
-    }
-
-    /// Near a singular position noise along the direction that is lost there would refuse every step.
+    /// Near a singular position, where noise along the direction that is lost there would refuse every step.
     fn project_error(&mut self, dy: &mut [f64]) -> bool {
         let (true, Some(projector)) = (self.passage.near, &mut self.projector) else {
             return false;
         };
-        let (dq, dv, _) = parts(dy, self.model.layout.n_q);
+        let [dq, dv, ..] = self.model.layout.split_mut(dy);
         projector.tangent(&self.workspace, dq);
         projector.tangent(&self.workspace, dv);
         true
     }
+}
 
-    fn near_time_to_avoid(&self) -> bool {
+/// Times of singular positions.
+impl TimesToAvoid for MotionOde<'_> {
+    fn may_be_near(&self) -> bool {
         self.passage.near || self.passage.in_reach()
     }
 
-    /// A singular position ahead.
-    fn time_to_avoid(&mut self, t: f64) -> Option<f64> {
+    fn next(&mut self, t: f64) -> Option<f64> {
         self.passage.foresee(t, &self.workspace)
     }
 
-    /// The last evaluation was near the end of the step: its factor serves.
-    fn project_accepted(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
-        if let Some(projector) = &mut self.projector {
-            projector.sharpen(self.passage.in_reach());
-        }
-        self.project(t, y, true)
-    }
-
-    /// From here the way to a singular position is seen on.
     fn on_accepted_end(&mut self, t: f64) {
         self.passage.accept(t, &self.workspace);
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rates_accelerations_and_powers_follow_each_other() {
-        for bodies in 0..12 {
-            let n = 3 * bodies;
-            let all: Vec<f64> = (0..2 * n + WORKS).map(|k| k as f64 - 0.5).collect();
-            let (v, rest) = all.split_at(n);
-            let (a, powers) = rest.split_at(n);
-            let mut dy = vec![f64::NAN; all.len()];
-            join(v, a, [powers[0], powers[1], powers[2]], &mut dy);
-            assert_eq!(dy, all);
-        }
+/// Baumgarte's term with gains from the step.
+impl TrialChanges for MotionOde<'_> {
+    fn before_trial(&mut self, t: f64, y: &[f64], h: f64) -> bool {
+        let Some(stepwise) = &mut self.stepwise else { return false };
+        let [q, v, ..] = self.model.layout.split(y);
+        stepwise.hold(self.model, &mut self.workspace, t, (q, v), h);
+        true
     }
 }

@@ -137,10 +137,10 @@ impl Options {
                 "absent: the automatic choice of the method controls its steps",
             )?;
         }
-        let n = model.layout.n_q;
-        let must = format!("as long as the coordinates of the model, {n}");
-        for (name, length) in [("q", start.q.len()), ("v", start.v.len())] {
-            require(name, length as f64, length == n, &must)?;
+        let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
+        for (name, part, n) in [("q", &start.q, n_q), ("v", &start.v, n_q), ("z", &start.z, n_z)] {
+            let must = format!("as long as the state of the model, {n}");
+            require(name, part.len() as f64, part.len() == n, &must)?;
         }
         Ok(())
     }

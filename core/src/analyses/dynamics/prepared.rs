@@ -1,9 +1,13 @@
 //! A model made ready for many runs: what each would work out anew is worked out by the first.
 
 use super::accelerations::accelerations;
+use super::accelerations::{Accelerations, States};
+use super::clock::{system_clock, Clock};
 use super::energies::energies;
+use super::failure::{Failure, Reason};
 use super::model_cache::ModelCache;
-use super::{simulate, Accelerations, Eyes, Failure, Options, Reason, Run, States};
+use super::options::Options;
+use super::run::{simulate, Phase, Run, Watcher};
 use crate::analyses::State;
 use crate::integrate::Flow;
 use crate::model::Model;
@@ -28,12 +32,18 @@ use std::ops::Deref;
 pub struct Prepared<M> {
     model: M,
     cache: ModelCache,
+    clock: Clock,
 }
 
 impl<M: Deref<Target = Model>> Prepared<M> {
     /// Works out nothing yet.
     pub fn new(model: M) -> Self {
-        Self { model, cache: ModelCache::default() }
+        Self { model, cache: ModelCache::default(), clock: system_clock }
+    }
+
+    /// The same with another clock for the wall time of runs.
+    pub fn with_clock(self, clock: Clock) -> Self {
+        Self { clock, ..self }
     }
 
     /// The model.
@@ -51,7 +61,8 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         options: &Options,
         watch: impl FnMut(f64) -> Flow,
     ) -> Result<Run, Box<Failure>> {
-        simulate((&self.model, &self.cache), start, options, Eyes { watch, look: None })
+        let phases = [(Phase::new(&self.model), &self.cache)];
+        simulate(&phases, start, options, self.clock, Watcher { watch, look: None })
     }
 
     /// Solves the equations of motion at states. With `passing` also near singular positions, as runs with projection

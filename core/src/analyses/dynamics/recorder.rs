@@ -1,35 +1,21 @@
 //! What forward dynamics reports: states at chosen times.
 
-use super::accelerations::{States, MANY};
+use super::accelerations::MANY;
 use super::lane_batch::LaneBatch;
 use super::methods::Scheme;
-use super::motion_ode::{MotionOde, WORKS};
+use super::motion_ode::MotionOde;
 use super::options::Options;
 use super::report_projection::{Halt, ReportProjection};
+use super::trajectory::{PiecewiseInterpolant, Trajectory};
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
 use crate::model::Model;
-
-/// Reported states, time first; row k of each table belongs to `t[k]`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Trajectory {
-    /// Times, s.
-    pub t: Vec<f64>,
-    /// Coordinates, rows of n_q.
-    pub q: Vec<f64>,
-    /// Velocities, rows of n_q.
-    pub v: Vec<f64>,
-    /// Dissipated energy, work of drivers, work of applied forces, from the start, J: rows of three.
-    pub works: Vec<f64>,
-}
 
 /// Whether a grid has so many states that solving several at once is worth a model over lanes.
 pub(super) fn many(output_step: Option<f64>, span: f64) -> bool {
     output_step.is_some_and(|h| (span / h).abs() >= MANY as f64)
 }
 
-/// Most numbers that room is made for beforehand; what is longer grows.
-const MOST_ROOM: usize = 1 << 20;
 /// Reported states in a step, for room: what takes shorter steps grows.
 const IN_A_STEP: usize = 4;
 
@@ -51,48 +37,27 @@ fn asked(output_step: Option<f64>, span: f64) -> usize {
     output_step.map_or(0, |h| ((span / h).abs() + 2.0) as usize) // NaN gives none
 }
 
-impl Trajectory {
-    /// Empty, with room for the states that a grid asks for: growing would copy them again and again.
-    fn with_room(model: &Model, output_step: Option<f64>, span: f64) -> Self {
-        let n = model.layout.n_q;
-        let rows = asked(output_step, span).min(MOST_ROOM / (2 * n + 1 + WORKS));
-        let room = |width: usize| Vec::with_capacity(rows * width);
-        Self { t: room(1), q: room(n), v: room(n), works: room(WORKS) }
-    }
-
-    /// The reported states.
-    pub fn states(&self) -> States<'_> {
-        States { t: &self.t, q: &self.q, v: &self.v }
-    }
-
-    /// Adds y = (q, v, works).
-    fn add(&mut self, t: f64, y: &[f64]) {
-        let n = (y.len() - WORKS) / 2;
-        self.t.push(t);
-        self.q.extend_from_slice(&y[..n]);
-        self.v.extend_from_slice(&y[n..2 * n]);
-        self.works.extend_from_slice(&y[2 * n..]);
-    }
-}
-
-/// The continuous extension of every step.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PiecewiseInterpolant {
-    /// Step boundaries, one more than steps.
-    pub t: Vec<f64>,
-    /// y at the start of each step, rows of n_y.
-    pub y: Vec<f64>,
-    /// Coefficients of θ … θᵈ, for each step n_y rows of d.
-    pub c: Vec<f64>,
-    /// d.
-    pub degree: usize,
+/// Empty tables for a run from `t0`, with room for the states that a grid contains.
+pub(super) fn tables(
+    model: &Model,
+    options: &Options,
+    t0: f64,
+) -> (Trajectory, Option<PiecewiseInterpolant>) {
+    let (layout, states) = (&model.layout, asked(options.output_step, options.t_end - t0));
+    // steps of several degrees all get the highest, from the start
+    let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
+    let degree = if several { HIGHEST } else { 0 };
+    let dense =
+        || PiecewiseInterpolant::with_room(layout.n_y(), degree, HIGHEST, states / IN_A_STEP, t0);
+    (Trajectory::with_room(layout, states), options.dense_output.then(dense))
 }
 
 /// Collects the output while the integrator runs.
 pub(super) struct Recorder<'a> {
     output_step: Option<f64>,
     t0: f64,
-    t_end: f64,
+    /// The end of the phase.
+    pub t_end: f64,
     /// 1 forward, -1 backward.
     direction: f64,
     next: usize,
@@ -116,12 +81,14 @@ pub(super) struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// With the model over lanes, if there are to be many.
+    /// For a phase that begins at `t` of a run that began at `t0`, with what the phases before recorded; with the model
+    /// over lanes, if there are to be many states.
     pub fn new(
         system: &MotionOde<'a>,
         wide: Option<&'a Model<Lanes>>,
         options: &Options,
-        t0: f64,
+        (t0, t): (f64, f64),
+        (trajectory, dense): (Trajectory, Option<PiecewiseInterpolant>),
     ) -> Self {
         let model = system.model;
         let mut recorder = Self {
@@ -132,18 +99,16 @@ impl<'a> Recorder<'a> {
             next: 0,
             upcoming: t0,
             unseen: [0, unseen(&options.method)],
-            latest: t0,
-            y: vec![0.0; 2 * model.layout.n_q + WORKS],
-            trajectory: Trajectory::with_room(model, options.output_step, options.t_end - t0),
-            dense: options
-                .dense_output
-                .then(|| PiecewiseInterpolant::with_room(model, options, t0)),
+            latest: t,
+            y: vec![0.0; model.layout.n_y()],
+            trajectory,
+            dense,
             coefficients: Vec::new(),
             one: ReportProjection::new(model, options, system.workspace.clone()),
             many: wide.map(|wide| LaneBatch::new(wide, options, &system.workspace)),
             halt: None,
         };
-        recorder.go_on();
+        recorder.go_on_beyond(t);
         recorder
     }
 
@@ -219,7 +184,7 @@ impl<'a> Recorder<'a> {
         if !all_finite(y) {
             return self.stop(t, Halt::NotFinite);
         }
-        self.trajectory.add(t, y);
+        self.trajectory.add(&self.one.model.layout, t, y);
         Flow::Continue
     }
 
@@ -279,6 +244,14 @@ impl<'a> Recorder<'a> {
         (!past(t, reached) && !past(t, self.t_end)).then_some(t)
     }
 
+    /// To the first time of the grid after `t`.
+    fn go_on_beyond(&mut self, t: f64) {
+        let Some(h) = self.output_step else { return };
+        // a grid point that misses t by rounding only is t
+        self.next = ((t - self.t0).abs() / h + 1e-9) as usize;
+        self.go_on();
+    }
+
     /// From one time of the grid to the next: t₀ + k h by multiplication, without drift.
     fn go_on(&mut self) {
         let Some(h) = self.output_step else { return };
@@ -288,43 +261,5 @@ impl<'a> Recorder<'a> {
         if (self.upcoming - self.t_end).abs() <= 1e-9 * h {
             self.upcoming = self.t_end;
         }
-    }
-}
-
-impl PiecewiseInterpolant {
-    /// Empty, with room for the steps that a grid lets expect.
-    fn with_room(model: &Model, options: &Options, t0: f64) -> Self {
-        // of steps of several degrees all have the highest, from the start
-        let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
-        let degree = if several { HIGHEST } else { 0 };
-        let n = 2 * model.layout.n_q + WORKS;
-        let steps = asked(options.output_step, options.t_end - t0) / IN_A_STEP;
-        let room = |width: usize| Vec::with_capacity(steps.min(MOST_ROOM / (HIGHEST * n)) * width);
-        let mut dense = Self { t: room(1), y: room(n), c: room(HIGHEST * n), degree };
-        dense.t.push(t0);
-        dense
-    }
-
-    /// Whether all numbers of the step are finite; else nothing is kept of it.
-    fn add(&mut self, step: &Step<'_>, coefficients: &mut Vec<f64>) -> bool {
-        let own = step.interpolant.degree();
-        coefficients.resize(own * step.y.len(), 0.0);
-        step.coefficients(coefficients);
-        if !all_finite(coefficients) {
-            return false;
-        }
-        self.degree = self.degree.max(own);
-        if own == self.degree {
-            self.c.extend_from_slice(coefficients);
-        } else {
-            // rows of a lesser degree are spread
-            for row in coefficients.chunks_exact(own) {
-                self.c.extend_from_slice(row);
-                self.c.resize(self.c.len() + self.degree - own, 0.0);
-            }
-        }
-        self.t.push(step.t);
-        self.y.extend_from_slice(step.y_old);
-        true
     }
 }

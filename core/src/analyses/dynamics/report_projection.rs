@@ -6,7 +6,6 @@
 
 use super::branch_averaging;
 use super::constraint_violation::{Violation, ViolationCheck};
-use super::motion_ode::parts;
 use super::options::Options;
 use super::stabilizations::Stabilization;
 use crate::equations::{Gains, Workspace};
@@ -56,8 +55,8 @@ impl<'a, S: Real> ReportProjection<'a, S> {
     }
 
     fn set_motions(&mut self, y: &[S]) {
-        let n = self.model.layout.n_q;
-        self.workspace.place(self.model, [&y[..n], &y[n..2 * n], &[]]);
+        let [q, v, z, _] = self.model.layout.split(y);
+        self.workspace.place(self.model, [q, v, z]);
     }
 
     /// Projects y = (q, v, works) if that was asked for; else sees whether joints are apart. The works stay: what
@@ -69,7 +68,7 @@ impl<'a, S: Real> ReportProjection<'a, S> {
         let Some(projector) = &mut self.projector else {
             return self.apart(t, y).map_or(Ok(()), |apart| Err(Halt::Violation(apart)));
         };
-        let (q, v, _) = parts(y, self.model.layout.n_q);
+        let [q, v, ..] = self.model.layout.split_mut(y);
         let changed = projector.project(&mut self.workspace, t, (q, v), false);
         self.changed = changed.map_err(Halt::Fault)?;
         Ok(())
@@ -111,8 +110,9 @@ impl ReportProjection<'_> {
     /// [`Halt`].
     pub fn place_on_branch(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
         let given = y.to_vec();
-        let n = self.model.layout.n_q;
-        let turned = |solver: &Self, y: &[f64]| solver.turn(&given[n..2 * n], &y[n..2 * n]);
+        let layout = &self.model.layout;
+        let turned =
+            |solver: &Self, y: &[f64]| solver.turn(layout.split(&given)[1], layout.split(y)[1]);
         self.place(t, y)?;
         let turn = turned(self, y);
         let Some(projector) = self.projector.as_mut().filter(|_| turn > branch_averaging::TURNED)
@@ -120,7 +120,7 @@ impl ReportProjection<'_> {
             return Ok(());
         };
         let mut other = given.clone();
-        let (q, v, _) = parts(&mut other, n);
+        let [q, v, ..] = layout.split_mut(&mut other);
         let taken = branch_averaging::take(projector, &mut self.workspace, t, (q, v));
         let placed = taken.is_ok() && self.place(t, &mut other).is_ok();
         if placed && turned(self, &other) < turn {

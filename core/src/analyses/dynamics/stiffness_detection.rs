@@ -62,7 +62,7 @@ pub(super) struct Fastest {
 pub(super) struct StiffnessDetector<'a> {
     model: &'a Model,
     workspace: Workspace,
-    /// The vector of the power iteration: (q part, v part), and its two images.
+    /// The vector of the power iteration: (q part, v part, z part), and its two images.
     x: [Vec<f64>; 3],
     steps: usize,
     next: usize,
@@ -76,7 +76,7 @@ pub(super) struct StiffnessDetector<'a> {
 impl<'a> StiffnessDetector<'a> {
     /// With the workspace of the equations of motion of this run for its plan of elimination.
     pub fn new(model: &'a Model, one: &Workspace, t0: f64) -> Self {
-        let n = 2 * model.layout.n_q;
+        let n = 2 * model.layout.n_q + model.layout.n_z;
         // a vector without pattern has a share of every motion
         let start = (0..n).map(|k| (1.0 + 0.7 * k as f64).sin()).collect();
         Self {
@@ -124,30 +124,38 @@ impl<'a> StiffnessDetector<'a> {
 
     /// Accelerations at a state, and their rate along the motion from a difference over `probe`, s; None
     /// where the equations are singular.
-    pub fn rates(&mut self, t: f64, [q, v]: [&[f64]; 2], probe: f64) -> Option<[Vec<f64>; 2]> {
-        let gains = Gains::default();
-        self.workspace.accelerate(self.model, t, [q, v, &[]], gains).ok()?;
-        let a = self.workspace.a().to_vec();
+    pub fn rates(&mut self, t: f64, y: &[f64], probe: f64) -> Option<[Vec<f64>; 2]> {
+        let [q, v, z, _] = self.model.layout.split(y);
+        let [a, dz] = self.respond(t, [q, v, z])?;
         let moved = |x: &[f64], rate: &[f64]| -> Vec<f64> {
             x.iter().zip(rate).map(|(x, rate)| x + probe * rate).collect()
         };
-        let (q, v) = (moved(q, v), moved(v, &a));
-        self.workspace.accelerate(self.model, t + probe, [&q, &v, &[]], gains).ok()?;
-        let jerk = self.workspace.a().iter().zip(&a).map(|(new, a)| (new - a) / probe).collect();
+        let (q, v, z) = (moved(q, v), moved(v, &a), moved(z, &dz));
+        let [later, _] = self.respond(t + probe, [&q, &v, &z])?;
+        let jerk = later.iter().zip(&a).map(|(new, a)| (new - a) / probe).collect();
         Some([a, jerk])
+    }
+
+    /// q̈ and ż at a state.
+    fn respond(&mut self, t: f64, state: [&[f64]; 3]) -> Option<[Vec<f64>; 2]> {
+        self.workspace.accelerate(self.model, t, state, Gains::default()).ok()?;
+        let mut dz = vec![0.0; self.model.layout.n_z];
+        self.workspace.state_rates(self.model, t, &mut dz);
+        Some([self.workspace.a().to_vec(), dz])
     }
 
     /// The fastest motion of the equations linearised at a state; None where they are singular.
     pub fn fastest(&mut self, t: f64, y: &[f64]) -> Option<Fastest> {
         let n = self.model.layout.n_q;
-        let (q, v) = (&y[..n], &y[n..2 * n]);
-        self.workspace.accelerate(self.model, t, [q, v, &[]], Gains::default()).ok()?;
-        let a = self.workspace.a().to_vec();
+        let [q, v, z, _] = self.model.layout.split(y);
+        let [a, dz] = self.respond(t, [q, v, z])?;
         let reach = largest(q).max(1e-3);
         for _ in 0..ITERATIONS {
             for k in 0..2 {
-                let size = largest(&self.x[k][..n]) / reach
-                    + largest(&self.x[k][n..]) / largest(v).max(reach);
+                let [of_q, of_v, of_z] = parts(n, &self.x[k]);
+                let size = largest(of_q) / reach
+                    + largest(of_v) / largest(v).max(reach)
+                    + largest(of_z) / largest(z).max(reach);
                 let epsilon = DIFFERENCE / size;
                 if !(epsilon.is_finite() && epsilon > 0.0) {
                     return None;
@@ -155,14 +163,12 @@ impl<'a> StiffnessDetector<'a> {
                 let moved = |y: &[f64], x: &[f64]| -> Vec<f64> {
                     y.iter().zip(x).map(|(y, x)| y + epsilon * x).collect()
                 };
-                let (near_q, near_v) = (moved(q, &self.x[k][..n]), moved(v, &self.x[k][n..]));
-                let gains = Gains::default();
-                self.workspace.accelerate(self.model, t, [&near_q, &near_v, &[]], gains).ok()?;
+                let (q, v, z) = (moved(q, of_q), moved(v, of_v), moved(z, of_z));
+                let [near_a, near_dz] = self.respond(t, [&q, &v, &z])?;
+                let images = near_a.iter().zip(&a).chain(near_dz.iter().zip(&dz));
                 let (from, to) = self.x.split_at_mut(k + 1);
-                to[0][..n].copy_from_slice(&from[k][n..]);
-                let images =
-                    self.workspace.a().iter().zip(&a).map(|(near, a)| (near - a) / epsilon);
-                to[0][n..].iter_mut().zip(images).for_each(|(to, image)| *to = image);
+                to[0][..n].copy_from_slice(&from[k][n..2 * n]);
+                to[0][n..].iter_mut().zip(images).for_each(|(to, (near, x))| *to = (near - x) / epsilon);
             }
             self.x.rotate_left(2);
             let scale = 1.0 / largest(&self.x[0]).max(f64::MIN_POSITIVE);
@@ -177,8 +183,8 @@ impl<'a> StiffnessDetector<'a> {
     }
 }
 
-/// The dominant λ from x, J x and J² x, each (q part of length n, v part): J² x = s J x - p x holds for one
-/// pair of eigenvalues. Velocities count over |λ|, so that both parts weigh alike.
+/// The dominant λ from x, J x and J² x, each (q part of length n, the others): J² x = s J x - p x holds for one
+/// pair of eigenvalues. The other parts count over |λ|, so that all weigh alike.
 fn dominant(n: usize, x: &[f64], jx: &[f64], jjx: &[f64]) -> Option<Fastest> {
     let plain = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let weight = (plain(&x[n..], &x[n..]) / plain(&jjx[n..], &jjx[n..])).sqrt();
@@ -200,6 +206,11 @@ fn dominant(n: usize, x: &[f64], jx: &[f64], jjx: &[f64]) -> Option<Fastest> {
         }
     };
     size.is_finite().then_some(Fastest { rate: size, damped: -re > DAMPED * size })
+}
+
+/// The q, v and z parts of a vector of the power iteration.
+fn parts(n: usize, x: &[f64]) -> [&[f64]; 3] {
+    [&x[..n], &x[n..2 * n], &x[2 * n..]]
 }
 
 fn largest(x: &[f64]) -> f64 {

@@ -1,18 +1,18 @@
-//! What the loop of `adaptive` asks of an embedded Runge–Kutta pair.
+//! The definition of an explicit Runge–Kutta method.
 
+use super::failure::Cause;
 use super::ode::Ode;
-use super::right_hand_side::{RightHandSide, Trouble};
+use super::right_hand_side::RightHandSide;
 use super::stages::Block;
 use super::step_placement::Gap;
 use super::step_size::Control;
 use super::tolerances::Tolerances;
 
-/// An embedded pair that has the derivative at the end of a step as its last stage.
-pub(super) trait EmbeddedPair {
+/// An explicit Runge–Kutta method that has the derivative at the end of a step as its last stage.
+pub(super) trait RungeKutta: 'static {
     /// Order of the error estimate.
     const ERROR_ORDER: i32;
-    /// Whether the error estimate takes the last stage. If not it is evaluated once the step stands, and
-    /// rejected steps do without it.
+    /// Whether the error estimate uses the last stage. If not, the stage is evaluated for accepted steps only.
     const LAST_IN_ERROR: bool;
     /// How its steps are chosen.
     const CONTROL: Control;
@@ -22,7 +22,7 @@ pub(super) trait EmbeddedPair {
     const EXTRA: usize = 0;
     /// Degree of the continuous extension.
     const DEGREE: usize;
-    /// Where an obstacle is passed best.
+    /// The widest gap between stages, where a time to avoid is passed.
     const GAP: Gap;
     /// STAGES + EXTRA + 1 rows of its table; the last, 3θ² - 2θ³, bends it to a projected end.
     const TABLE: &'static [f64];
@@ -36,22 +36,22 @@ pub(super) trait EmbeddedPair {
     /// [`LAST_IN_ERROR`](Self::LAST_IN_ERROR); the state at `t_new` into `y_new`. `work` is scratch as long
     /// as y.
     fn advance<Y: Ode>(
-        rate: &mut RightHandSide<'_, Y>,
+        rhs: &mut RightHandSide<'_, Y>,
         span: (f64, f64),
         y: &[Block],
         k: &mut [Block],
         work: &mut [Block],
         y_new: &mut [Block],
-    ) -> Result<(), Trouble<Y::Stop>>;
+    ) -> Result<(), Cause<Y::Stop>>;
 
     /// The extra stages of an accepted step, in the rows of `k` after the others.
     fn extend<Y: Ode>(
-        _rate: &mut RightHandSide<'_, Y>,
+        _rhs: &mut RightHandSide<'_, Y>,
         _span: (f64, f64),
         _y: &[Block],
         _k: &mut [Block],
         _work: &mut [Block],
-    ) -> Result<(), Trouble<Y::Stop>> {
+    ) -> Result<(), Cause<Y::Stop>> {
         Ok(())
     }
 

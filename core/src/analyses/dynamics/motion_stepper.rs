@@ -1,0 +1,184 @@
+//! The stepper of any method on the equations of motion of a model.
+
+use super::failure::Reason;
+use super::method_switching::{MethodSwitching, Stop};
+use super::motion_dae::MotionDae;
+use super::motion_ode::MotionOde;
+use super::methods::Scheme;
+use super::options::Options;
+use super::stiffness_detection::MethodChoice;
+use crate::integrate::{
+    BoxedStepper, Cause, Direction, ExplicitMethod, ImplicitMethod, Statistics, Step, Stepper,
+};
+
+/// A method with what it works on, beside the equations of motion as an ODE.
+enum Kind<'a> {
+    Explicit(BoxedStepper<MotionOde<'a>, Stop>),
+    Implicit(BoxedStepper<MotionDae<'a>, Stop>, Box<MotionDae<'a>>),
+    Auto(Box<MethodSwitching<'a>>),
+}
+
+/// Steps of a model.
+pub(super) struct MotionStepper<'a> {
+    pub ode: MotionOde<'a>,
+    kind: Kind<'a>,
+}
+
+impl<'a> MotionStepper<'a> {
+    /// From `y` at `t` to `options.t_end`.
+    ///
+    /// # Errors
+    /// [`Cause`] of invalid options.
+    pub fn new(
+        ode: MotionOde<'a>,
+        options: &Options,
+        t: f64,
+        y: &[f64],
+    ) -> Result<Self, Cause<Stop>> {
+        let (model, span) = (ode.model, (t, options.t_end));
+        let dae = || Box::new(MotionDae::new(model, options));
+        let kind = match &options.bounded_method(model) {
+            Scheme::Rk45(method) => Kind::Explicit(method.start(&ode, span, y)?),
+            Scheme::Dop853(method) => Kind::Explicit(method.start(&ode, span, y)?),
+            Scheme::Rk4(method) => Kind::Explicit(method.start(&ode, span, y)?),
+            Scheme::GeneralizedAlpha(method) => {
+                let dae = dae();
+                Kind::Implicit(method.start(&*dae, span, y)?, dae)
+            }
+            Scheme::Radau(method) => {
+                let dae = dae();
+                Kind::Implicit(method.start(&*dae, span, y)?, dae)
+            }
+            Scheme::Auto(auto) => {
+                Kind::Auto(Box::new(MethodSwitching::new(&ode, options, auto, t, y)?))
+            }
+        };
+        Ok(Self { ode, kind })
+    }
+
+    /// The next accepted step.
+    pub fn step(&mut self) -> Result<(), Cause<Stop>> {
+        match &mut self.kind {
+            Kind::Explicit(stepper) => stepper.step(&mut self.ode),
+            Kind::Implicit(stepper, dae) => stepper.step(dae),
+            Kind::Auto(stepper) => stepper.step(&mut self.ode),
+        }
+    }
+
+    /// What only the interpolant needs.
+    pub fn prepare_interpolant(&mut self) -> Result<(), Cause<Stop>> {
+        match &mut self.kind {
+            Kind::Explicit(stepper) => stepper.prepare_interpolant(&mut self.ode),
+            Kind::Implicit(stepper, dae) => stepper.prepare_interpolant(dae),
+            Kind::Auto(stepper) => stepper.prepare_interpolant(&mut self.ode),
+        }
+    }
+
+    pub fn last_step(&self) -> Option<Step<'_>> {
+        match &self.kind {
+            Kind::Explicit(stepper) => stepper.last_step(),
+            Kind::Implicit(stepper, _) => stepper.last_step(),
+            Kind::Auto(stepper) => stepper.last_step(),
+        }
+    }
+
+    pub fn t(&self) -> f64 {
+        match &self.kind {
+            Kind::Explicit(stepper) => stepper.t(),
+            Kind::Implicit(stepper, _) => stepper.t(),
+            Kind::Auto(stepper) => stepper.t(),
+        }
+    }
+
+    pub fn y(&self) -> &[f64] {
+        match &self.kind {
+            Kind::Explicit(stepper) => stepper.y(),
+            Kind::Implicit(stepper, _) => stepper.y(),
+            Kind::Auto(stepper) => stepper.y(),
+        }
+    }
+
+    pub fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Stop>> {
+        match &mut self.kind {
+            Kind::Explicit(stepper) => stepper.restart(t, y),
+            Kind::Implicit(stepper, _) => stepper.restart(t, y),
+            Kind::Auto(stepper) => stepper.restart(t, y),
+        }
+    }
+
+    pub fn statistics(&self) -> Statistics {
+        match &self.kind {
+            Kind::Explicit(stepper) => stepper.statistics(),
+            Kind::Implicit(stepper, _) => stepper.statistics(),
+            Kind::Auto(stepper) => stepper.statistics(),
+        }
+    }
+
+    /// Time within the last step at which g(t, [q, v, z]) changes sign, with the state there.
+    pub fn locate(
+        &mut self,
+        g: &dyn Fn(f64, [&[f64]; 3]) -> f64,
+        direction: Direction,
+    ) -> Result<Option<(f64, Vec<f64>)>, Cause<Stop>> {
+        let layout = &self.ode.model.layout;
+        let mut of_y = |t: f64, y: &[f64]| {
+            let [q, v, z, _] = layout.split(y);
+            g(t, [q, v, z])
+        };
+        match &mut self.kind {
+            Kind::Explicit(stepper) => stepper.locate(&mut self.ode, &mut of_y, direction, 0.0),
+            Kind::Implicit(stepper, dae) => stepper.locate(dae, &mut of_y, direction, 0.0),
+            Kind::Auto(stepper) => stepper.locate(&mut self.ode, &mut of_y, direction, 0.0),
+        }
+    }
+
+    /// Works at a time within the last step.
+    pub fn works_at(&self, t: f64) -> Vec<f64> {
+        let mut y = self.y().to_vec();
+        if let Some(step) = self.last_step().filter(|step| step.t != t) {
+            step.interpolate(t, &mut y);
+        }
+        self.ode.model.layout.split(&y)[3].to_vec()
+    }
+
+    /// A stepper from the beginning of the last step to another end.
+    pub fn again(self, options: &Options) -> Result<Self, Cause<Stop>> {
+        let (t, y) = match self.last_step() {
+            Some(step) => (step.t_old, step.y_old.to_vec()),
+            None => (self.t(), self.y().to_vec()),
+        };
+        let mut options = options.clone();
+        options.method.control_mut().first_step = None;
+        Self::new(self.ode, &options, t, &y)
+    }
+
+    /// A failure in terms of the mechanism.
+    pub fn reason(&self, cause: Cause<Stop>) -> Reason {
+        let (model, y) = (self.ode.model, self.y());
+        match (&cause, self.ode.passage.undecided) {
+            (Cause::NotFinite { .. }, Some((t, fault))) => {
+                Reason::fault(model, t, model.layout.split(y)[0], fault)
+            }
+            _ => Reason::from_integrator(model, cause, self.t(), y),
+        }
+    }
+
+    /// All factorisations.
+    pub fn factorisations(&self) -> usize {
+        let counted = self.statistics().factorisations as usize;
+        let others = match &self.kind {
+            Kind::Explicit(stepper) => stepper.statistics().evaluations,
+            Kind::Implicit(_, dae) => dae.factorisations(),
+            Kind::Auto(stepper) => stepper.factorisations(),
+        };
+        counted + others + self.ode.factorisations()
+    }
+
+    /// The method that was chosen, where none was named.
+    pub fn choice(&self) -> Option<MethodChoice> {
+        match &self.kind {
+            Kind::Auto(stepper) => Some(stepper.choice()),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,284 @@
+//! A run: a sequence of phases, each with its own active constraints.
+
+use super::accelerations::States;
+use super::clock::Clock;
+use super::failure::{Failure, Reason};
+use super::method_switching::Stop;
+use super::model_cache::ModelCache;
+use super::motion_ode::MotionOde;
+use super::motion_stepper::MotionStepper;
+use super::options::Options;
+use super::recorder::{self, Recorder};
+use super::stiffness_detection::MethodChoice;
+use super::trajectory::{PiecewiseInterpolant, Trajectory};
+use crate::analyses::State;
+use crate::integrate::{self, Cause, Direction, Ended, Flow, Step};
+use crate::model::Model;
+
+/// Counts of an integration.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Rejected steps.
+    pub rejected: usize,
+    /// Evaluations of the equations of motion, without those for the output.
+    pub evaluations: usize,
+    /// Tangents of the equations of motion; zero for explicit methods.
+    pub jacobians: usize,
+    /// Steps of Newton's iteration; zero for explicit methods.
+    pub iterations: usize,
+    /// Factorisations of the augmented matrix, with those for the output, and of the matrices of
+    /// Newton's iteration.
+    pub factorisations: usize,
+    /// Wall time, s.
+    pub seconds: f64,
+}
+
+impl Statistics {
+    /// Adds the counts of a stepper and the factorisations that belong to it.
+    fn add(&mut self, counts: integrate::Statistics, factorisations: usize) {
+        self.steps += counts.steps;
+        self.rejected += counts.rejected;
+        self.evaluations += counts.evaluations;
+        self.jacobians += counts.jacobians as usize;
+        self.iterations += counts.iterations as usize;
+        self.factorisations += factorisations;
+    }
+}
+
+/// The outcome of forward dynamics.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Run {
+    /// Reported states.
+    pub trajectory: Trajectory,
+    /// The first row of each phase. The state at the end of a phase and the state at the start of the next have a
+    /// row each, at one time.
+    pub phases: Vec<usize>,
+    /// Interpolants of all steps, if the options ask for them.
+    pub dense: Option<PiecewiseInterpolant>,
+    /// Counts.
+    pub statistics: Statistics,
+    /// The method that was chosen, where none was named.
+    pub choice: Option<MethodChoice>,
+    /// Whether t_end was reached; otherwise the observer stopped it.
+    pub reached: bool,
+    /// Whether it passes singular positions, as runs with projection do.
+    pub passing: bool,
+}
+
+impl Run {
+    /// The phase of a row of the trajectory.
+    pub fn phase_of(&self, row: usize) -> usize {
+        self.phases.partition_point(|first| *first <= row).saturating_sub(1)
+    }
+
+    /// The reported states of a phase.
+    pub fn states_of(&self, phase: usize) -> States<'_> {
+        let end = |k: usize| self.phases.get(k).copied().unwrap_or(self.trajectory.t.len());
+        let (rows, count) = (end(phase)..end(phase + 1), self.trajectory.t.len().max(1));
+        let part = |table: &[f64]| -> std::ops::Range<usize> {
+            let width = table.len() / count;
+            rows.start * width..rows.end * width
+        };
+        let Trajectory { t, q, v, z, .. } = &self.trajectory;
+        States { t: &t[rows.clone()], q: &q[part(q)], v: &v[part(v)], z: &z[part(z)] }
+    }
+}
+
+/// A function of the state whose change of sign ends a phase.
+#[derive(Clone, Copy)]
+pub struct Event<'a> {
+    /// g(t, q, v, z).
+    pub g: &'a dyn Fn(f64, [&[f64]; 3]) -> f64,
+    /// The changes of sign that count.
+    pub direction: Direction,
+}
+
+/// A part of a run with its own active constraints.
+#[derive(Clone, Copy)]
+pub struct Phase<'a> {
+    /// Bodies, constraints and forces. The models of all phases have the same bodies and states.
+    pub model: &'a Model,
+    /// Time at which the phase ends, s; with none at the end of the run.
+    pub t_end: Option<f64>,
+    /// An event that ends the phase before.
+    pub event: Option<Event<'a>>,
+    /// Whether the velocities at its start are projected onto its constraints, in the metric of the mass matrix.
+    /// Otherwise they should meet the constraints already.
+    pub project_velocities: bool,
+}
+
+impl<'a> Phase<'a> {
+    /// To the end of the run.
+    pub fn new(model: &'a Model) -> Self {
+        Self { model, t_end: None, event: None, project_velocities: false }
+    }
+}
+
+/// What the caller observes of a run.
+pub(super) struct Watcher<'l, W> {
+    /// Called with the time after each step and each reported state.
+    pub watch: W,
+    /// Called with each step.
+    pub look: Option<&'l mut dyn FnMut(&Step<'_>) -> Flow>,
+}
+
+/// The phases of a run, each with the cache of its model.
+pub(super) type Phases<'p, 'm> = &'p [(Phase<'m>, &'m ModelCache)];
+
+/// Integrates through all phases.
+pub(super) fn simulate<W: FnMut(f64) -> Flow>(
+    phases: Phases<'_, '_>,
+    start: &State,
+    options: &Options,
+    clock: Clock,
+    mut watcher: Watcher<'_, W>,
+) -> Result<Run, Box<Failure>> {
+    let began = clock();
+    let refused = |reason| Box::new(Failure { reason, run: Run::default() });
+    for (phase, _) in phases {
+        options.check(phase.model, start).map_err(refused)?;
+    }
+    let t0 = options.t_start.unwrap_or(start.t);
+    let mut run = Run::default();
+    let mut at = At { t0, t: t0, y: Vec::new() };
+    for (k, (phase, cache)) in phases.iter().enumerate() {
+        if k == 0 {
+            let layout = &phase.model.layout;
+            at.y = [&start.q[..], &start.v, &start.z].concat();
+            at.y.resize(layout.n_y(), 0.0);
+            (run.trajectory, run.dense) = recorder::tables(phase.model, options, t0);
+        }
+        let t_end = phase.t_end.unwrap_or(options.t_end);
+        let options = Options { t_end, ..options.clone() };
+        let outcome = run_phase((phase, cache), &mut at, &options, &mut run, &mut watcher);
+        run.statistics.seconds = clock() - began;
+        match outcome {
+            Ok(Ended::Reached) => {}
+            Ok(Ended::Stopped) => return Ok(run),
+            Err(reason) => return Err(Box::new(Failure { reason, run })),
+        }
+    }
+    run.reached = true;
+    Ok(run)
+}
+
+/// Where a run is.
+struct At {
+    /// The start of the run.
+    t0: f64,
+    t: f64,
+    y: Vec<f64>,
+}
+
+/// Integrates one phase; `at` and `run` go on.
+fn run_phase<W: FnMut(f64) -> Flow>(
+    (phase, cache): (&Phase<'_>, &ModelCache),
+    at: &mut At,
+    options: &Options,
+    run: &mut Run,
+    watcher: &mut Watcher<'_, W>,
+) -> Result<Ended, Reason> {
+    let model = phase.model;
+    let mut ode = MotionOde::new(model, options, cache.plan(model));
+    run.phases.push(run.trajectory.t.len());
+    run.passing = ode.passing;
+    let wide = recorder::many(options.output_step, options.t_end - at.t).then(|| cache.wide(model));
+    let tables = (std::mem::take(&mut run.trajectory), run.dense.take());
+    let mut recorder = Recorder::new(&ode, wide, options, (at.t0, at.t), tables);
+    let q = model.layout.split(&at.y)[0].to_vec();
+    let begun = ode.begin_phase(at.t, &mut at.y, phase.project_velocities);
+    let outcome = match begun {
+        Err(fault) => Err(Reason::fault(model, at.t, &q, fault)),
+        Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(Ended::Stopped),
+        Ok(()) => step_through(ode, phase, at, options, (&mut recorder, watcher), run),
+    };
+    recorder.flush();
+    run.statistics.factorisations += recorder.factorisations();
+    let Recorder { trajectory, dense, halt, .. } = recorder;
+    (run.trajectory, run.dense) = (trajectory, dense);
+    let last = run.trajectory.q.rchunks(model.layout.n_q.max(1)).next().unwrap_or(&q);
+    match halt {
+        Some((t, halt)) if outcome.is_ok() => Err(Reason::halt(model, t, last, halt)),
+        _ => outcome,
+    }
+}
+
+/// Takes the steps of a phase.
+fn step_through<W: FnMut(f64) -> Flow>(
+    ode: MotionOde<'_>,
+    phase: &Phase<'_>,
+    at: &mut At,
+    options: &Options,
+    (recorder, watcher): (&mut Recorder<'_>, &mut Watcher<'_, W>),
+    run: &mut Run,
+) -> Result<Ended, Reason> {
+    let model = ode.model;
+    let failed = |cause, t, y: &[f64]| Reason::from_integrator(model, cause, t, y);
+    let mut stepper = MotionStepper::new(ode, options, at.t, &at.y)
+        .map_err(|cause| failed(cause, at.t, &at.y))?;
+    let mut event = phase.event;
+    let outcome = loop {
+        if stepper.t() == recorder.t_end {
+            break Ok(Ended::Reached);
+        }
+        match next_step(&mut stepper, &mut event, recorder, watcher) {
+            Ok(Next::Step(Flow::Continue)) => {}
+            Ok(Next::Step(Flow::Stop)) => break Ok(Ended::Stopped),
+            // the step before the event is taken again, to end there
+            Ok(Next::Event(t)) => {
+                run.statistics.add(stepper.statistics(), stepper.factorisations());
+                recorder.t_end = t;
+                let again = stepper.again(&Options { t_end: t, ..options.clone() });
+                stepper = again.map_err(|cause| failed(cause, at.t, &at.y))?;
+            }
+            Err(cause) => break Err(stepper.reason(cause)),
+        }
+    };
+    run.statistics.add(stepper.statistics(), stepper.factorisations());
+    run.choice = stepper.choice();
+    at.t = stepper.t();
+    at.y.copy_from_slice(stepper.y());
+    outcome
+}
+
+/// What came next.
+enum Next {
+    Step(Flow),
+    /// An event at this time.
+    Event(f64),
+}
+
+/// Takes a step and shows it to the recorder and to the caller.
+fn next_step<W: FnMut(f64) -> Flow>(
+    stepper: &mut MotionStepper<'_>,
+    event: &mut Option<Event<'_>>,
+    recorder: &mut Recorder<'_>,
+    watcher: &mut Watcher<'_, W>,
+) -> Result<Next, Cause<Stop>> {
+    stepper.step()?;
+    if let Some(Event { g, direction }) = *event {
+        if let Some((t, _)) = stepper.locate(g, direction)? {
+            *event = None;
+            if t != stepper.t() {
+                return Ok(Next::Event(t));
+            }
+            recorder.t_end = t;
+        }
+    }
+    let Watcher { watch, look } = watcher;
+    if look.is_some() || recorder.looks_inside(stepper.t()) {
+        stepper.prepare_interpolant()?;
+    }
+    let step = stepper.last_step().expect("a step was taken");
+    let mut flow = recorder.step(&step, watch);
+    if flow == Flow::Continue {
+        flow = watch(step.t);
+    }
+    let flow = match look {
+        Some(look) if flow == Flow::Continue => look(&step),
+        _ => flow,
+    };
+    Ok(Next::Step(flow))
+}

@@ -1,0 +1,128 @@
+//! A stepper that the caller drives: a notebook, a web page, or another analysis.
+
+use super::failure::Reason;
+use super::model_cache::ModelCache;
+use super::motion_ode::MotionOde;
+use super::motion_stepper::MotionStepper;
+use super::options::Options;
+use crate::analyses::State;
+use crate::integrate::{Direction, Step};
+use crate::model::Model;
+
+/// Advances a model by one accepted step at a time, by any method.
+///
+/// ```
+/// # use kempe::{analyses::{dynamics, State}, integrate::Direction, model::Model};
+/// # fn all(model: &Model, start: &State) -> Result<(), dynamics::Reason> {
+/// let mut stepper = dynamics::Stepper::new(model, start, &dynamics::Options::new(1.0))?;
+/// while !stepper.is_at_end() {
+///     stepper.step()?;
+///     if let Some(event) = stepper.locate(|_, [q, _, _]| q[0], Direction::Falling)? {
+///         stepper.restart(&State { v: event.v.iter().map(|v| -v).collect(), ..event })?;
+///     }
+/// }
+/// # Ok(())
+/// # }
+/// ```
+pub struct Stepper<'a> {
+    model: &'a Model,
+    t_end: f64,
+    inner: MotionStepper<'a>,
+}
+
+impl<'a> Stepper<'a> {
+    /// From a state to `options.t_end`. Options of the output are ignored. With projection the start is projected onto
+    /// the constraints.
+    ///
+    /// # Errors
+    /// [`Reason`]
+    pub fn new(model: &'a Model, start: &State, options: &Options) -> Result<Self, Reason> {
+        options.check(model, start)?;
+        let t = options.t_start.unwrap_or(start.t);
+        let mut ode = MotionOde::new(model, options, ModelCache::default().plan(model));
+        let mut y = [&start.q[..], &start.v, &start.z].concat();
+        y.resize(model.layout.n_y(), 0.0);
+        let begun = ode.begin_phase(t, &mut y, false);
+        begun.map_err(|fault| Reason::fault(model, t, &start.q, fault))?;
+        let inner = MotionStepper::new(ode, options, t, &y)
+            .map_err(|cause| Reason::from_integrator(model, cause, t, &y))?;
+        Ok(Self { model, t_end: options.t_end, inner })
+    }
+
+    /// Takes the next step; at the end none.
+    ///
+    /// # Errors
+    /// [`Reason`]; the stepper then stays at the last accepted state.
+    pub fn step(&mut self) -> Result<(), Reason> {
+        if self.is_at_end() {
+            return Ok(());
+        }
+        self.inner.step().map_err(|cause| self.inner.reason(cause))
+    }
+
+    /// Whether t_end is reached.
+    pub fn is_at_end(&self) -> bool {
+        self.inner.t() == self.t_end
+    }
+
+    /// The state reached.
+    pub fn state(&self) -> State {
+        self.to_state(self.inner.t(), self.inner.y())
+    }
+
+    /// Works up to the state reached, J: dissipated energy, work of drivers, work of applied forces.
+    pub fn works(&self) -> &[f64] {
+        self.model.layout.split(self.inner.y())[3]
+    }
+
+    /// The state at a time within the last step; none outside it. It is not projected.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn interpolate(&mut self, t: f64) -> Result<Option<State>, Reason> {
+        self.inner.prepare_interpolant().map_err(|cause| self.inner.reason(cause))?;
+        let inside = |step: &Step<'_>| (t - step.t_old) * (t - step.t) <= 0.0;
+        Ok(self.inner.last_step().filter(inside).map(|step| {
+            let mut y = step.y.to_vec();
+            if t != step.t {
+                step.interpolate(t, &mut y);
+            }
+            self.to_state(t, &y)
+        }))
+    }
+
+    /// The state within the last step at which g(t, [q, v, z]) changes sign; none if it has the same sign at both ends.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn locate(
+        &mut self,
+        g: impl Fn(f64, [&[f64]; 3]) -> f64,
+        direction: Direction,
+    ) -> Result<Option<State>, Reason> {
+        let found = self.inner.locate(&g, direction).map_err(|cause| self.inner.reason(cause))?;
+        Ok(found.map(|(t, y)| self.to_state(t, &y)))
+    }
+
+    /// Goes on from another state, at a time within the last step or at its end: for instance with other velocities
+    /// after an impact. Works go on from the last step.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn restart(&mut self, state: &State) -> Result<(), Reason> {
+        let mut y = [&state.q[..], &state.v, &state.z].concat();
+        let works = match self.interpolate(state.t)? {
+            Some(_) => self.inner.works_at(state.t),
+            None => self.works().to_vec(),
+        };
+        y.extend(works);
+        let begun = self.inner.ode.begin_phase(state.t, &mut y, false);
+        begun.map_err(|fault| Reason::fault(self.model, state.t, &state.q, fault))?;
+        self.inner.restart(state.t, &y).map_err(|cause| self.inner.reason(cause))
+    }
+
+    fn to_state(&self, t: f64, y: &[f64]) -> State {
+        let [q, v, z, _] = self.model.layout.split(y).map(<[f64]>::to_vec);
+        State { t, q, v, z }
+    }
+}

@@ -1,0 +1,116 @@
+//! Reported states of a run, and its interpolants.
+
+use super::accelerations::States;
+use crate::integrate::{all_finite, Step};
+use crate::model::StateLayout;
+
+/// Most numbers that room is made for beforehand; what is longer grows.
+const MOST_ROOM: usize = 1 << 20;
+
+/// Reported states, time first; row k of each table belongs to `t[k]`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trajectory {
+    /// Times, s.
+    pub t: Vec<f64>,
+    /// Coordinates, rows of n_q.
+    pub q: Vec<f64>,
+    /// Velocities, rows of n_q.
+    pub v: Vec<f64>,
+    /// First-order states of elements, rows of n_z.
+    pub z: Vec<f64>,
+    /// Works from the start, J: dissipated energy, work of drivers, work of applied forces. Rows of n_works.
+    pub works: Vec<f64>,
+}
+
+impl Trajectory {
+    /// Empty, with room for so many rows: growing would copy them again and again.
+    pub(super) fn with_room(layout: &StateLayout, rows: usize) -> Self {
+        let rows = rows.min(MOST_ROOM / (layout.n_y() + 1));
+        let room = |width: usize| Vec::with_capacity(rows * width);
+        let StateLayout { n_q, n_z, n_works, .. } = *layout;
+        Self { t: room(1), q: room(n_q), v: room(n_q), z: room(n_z), works: room(n_works) }
+    }
+
+    /// The reported states.
+    pub fn states(&self) -> States<'_> {
+        States { t: &self.t, q: &self.q, v: &self.v, z: &self.z }
+    }
+
+    /// Adds y = (q, v, z, works).
+    pub(super) fn add(&mut self, layout: &StateLayout, t: f64, y: &[f64]) {
+        let [q, v, z, works] = layout.split(y);
+        self.t.push(t);
+        self.q.extend_from_slice(q);
+        self.v.extend_from_slice(v);
+        self.z.extend_from_slice(z);
+        self.works.extend_from_slice(works);
+    }
+}
+
+/// The interpolants of all steps.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PiecewiseInterpolant {
+    /// Step boundaries, one more than steps.
+    pub t: Vec<f64>,
+    /// y at the start of each step, rows of n_y.
+    pub y: Vec<f64>,
+    /// Coefficients of θ … θᵈ, for each step n_y rows of d.
+    pub c: Vec<f64>,
+    /// d.
+    pub degree: usize,
+}
+
+impl PiecewiseInterpolant {
+    /// Empty, from `t0` on, with room for so many steps. The degree may grow from `degree` with the steps.
+    pub(super) fn with_room(
+        n_y: usize,
+        degree: usize,
+        highest: usize,
+        steps: usize,
+        t0: f64,
+    ) -> Self {
+        let steps = steps.min(MOST_ROOM / (highest * n_y).max(1));
+        let room = |width: usize| Vec::with_capacity(steps * width);
+        let mut interpolant = Self { t: room(1), y: room(n_y), c: room(highest * n_y), degree };
+        interpolant.t.push(t0);
+        interpolant
+    }
+
+    /// Adds a step, if all its numbers are finite; whether they are. `coefficients` is scratch.
+    pub(super) fn add(&mut self, step: &Step<'_>, coefficients: &mut Vec<f64>) -> bool {
+        let own = step.interpolant.degree();
+        coefficients.resize(own * step.y.len(), 0.0);
+        step.coefficients(coefficients);
+        if !all_finite(coefficients) {
+            return false;
+        }
+        if own > self.degree {
+            self.raise(own);
+        }
+        if own == self.degree {
+            self.c.extend_from_slice(coefficients);
+        } else {
+            // rows of a lower degree are padded with zeros
+            for row in coefficients.chunks_exact(own) {
+                self.c.extend_from_slice(row);
+                self.c.resize(self.c.len() + self.degree - own, 0.0);
+            }
+        }
+        self.t.push(step.t);
+        self.y.extend_from_slice(step.y_old);
+        true
+    }
+
+    /// Pads all rows for a higher degree.
+    fn raise(&mut self, degree: usize) {
+        if !self.c.is_empty() {
+            let mut c = Vec::with_capacity(self.c.len() / self.degree * degree);
+            for row in self.c.chunks_exact(self.degree) {
+                c.extend_from_slice(row);
+                c.resize(c.len() + degree - self.degree, 0.0);
+            }
+            self.c = c;
+        }
+        self.degree = degree;
+    }
+}

@@ -1,0 +1,386 @@
+//! The stepper of every explicit Runge–Kutta method: try, test the error, accept or shorten.
+//!
+//! With the elementary control it takes step for step what `scipy.integrate.solve_ivp` takes, so that counts of
+//! steps can be compared.
+
+use super::failure::Cause;
+use super::fixed_step::Grid;
+use super::hermite_birkhoff::HermiteBirkhoff;
+use super::ode::Ode;
+use super::right_hand_side::RightHandSide;
+use super::runge_kutta::RungeKutta;
+use super::stages::{combine, room, row_mut, rows_mut, width, Block};
+use super::step::Step;
+use super::step_control::StepControl;
+use super::step_placement::StepPlacement;
+use super::step_size::{initial_step, least_step, probing_step, StepSize};
+use super::stepper::{BoxedStepper, Statistics, Stepper};
+use super::tolerances::Tolerances;
+use crate::math::Lanes;
+use std::marker::PhantomData;
+
+/// Rejected steps after which a run gets nowhere, or half of max_steps if that is more.
+const MANY: usize = 10_000;
+
+/// Memory of a stepper.
+pub(super) struct Work {
+    /// Blocks in a row.
+    pub width: usize,
+    /// Stages, extra ones, the jump of a projection over h, the derivative after a projection if it is not
+    /// the last stage.
+    pub k: Vec<Block>,
+    /// The state at the beginning of the step.
+    pub y: Vec<Block>,
+    /// The state at its end.
+    pub y_new: Vec<Block>,
+    /// Arguments of stages; the state before a projection.
+    pub trial: Vec<Block>,
+    /// Tangent parts of the stages.
+    tangential: Vec<Block>,
+    tolerances: Tolerances,
+    /// The interpolant of systems of second order, for methods whose own takes extra stages.
+    pub hermite_birkhoff: Option<HermiteBirkhoff>,
+}
+
+impl Work {
+    fn new<P: RungeKutta>(system: &impl Ode, control: &StepControl, initial: &[f64]) -> Self {
+        let (n, structure) = (system.len(), system.structure());
+        assert_eq!(structure.total(), n, "the structure of all components");
+        let second_order = structure.positions > 0 && !P::DOUBLE_QUADRATURE.is_empty();
+        let mut y = room(1, n);
+        y.as_flattened_mut()[..n].copy_from_slice(initial);
+        Self {
+            width: width(n),
+            k: room(P::STAGES + P::EXTRA + 2, n),
+            y,
+            y_new: room(1, n),
+            trial: room(1, n),
+            tangential: Vec::new(),
+            tolerances: Tolerances::new(control.rtol, &control.atol, structure.controlled()),
+            hermite_birkhoff: second_order.then(|| HermiteBirkhoff::new(structure)),
+        }
+    }
+}
+
+/// The last accepted step.
+#[derive(Clone, Copy)]
+pub(super) struct Accepted {
+    pub t: f64,
+    pub projected: bool,
+    pub interpolant: Prepared,
+}
+
+/// How far the interpolant of a step is prepared.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Prepared {
+    /// By the stages of the step alone.
+    Plain,
+    /// With the extra stages of the method.
+    Extended,
+    /// By one evaluation inside the step.
+    HermiteBirkhoff,
+}
+
+/// The state of an integration by the method `P`.
+pub(super) struct ExplicitStepper<P> {
+    control: StepControl,
+    /// The ends of constant steps, and the steps taken on them.
+    grid: Option<(Grid, usize)>,
+    pub n: usize,
+    /// The beginning of the step.
+    pub t: f64,
+    t_end: f64,
+    /// The step to try next, once the first derivative was evaluated.
+    size: Option<StepSize>,
+    pub accepted: Option<Accepted>,
+    steps: usize,
+    rejected: usize,
+    evaluations: usize,
+    placement: StepPlacement,
+    pub work: Work,
+    method: PhantomData<P>,
+}
+
+/// Starts the method `P`; the body of [`ExplicitMethod::start`](super::ExplicitMethod::start).
+pub(super) fn start<P: RungeKutta, Y: Ode>(
+    control: &StepControl,
+    system: &Y,
+    (t0, t_end): (f64, f64),
+    y: &[f64],
+) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
+    let control = control.usable();
+    let n = system.len();
+    let grid = control.begin((t0, t_end), (y, n), system.structure().controlled())?;
+    let stepper: ExplicitStepper<P> = ExplicitStepper {
+        work: Work::new::<P>(system, &control, y),
+        control,
+        grid: grid.map(|grid| (grid, 0)),
+        n,
+        t: t0,
+        t_end,
+        size: None,
+        accepted: None,
+        steps: 0,
+        rejected: 0,
+        evaluations: 0,
+        placement: StepPlacement::default(),
+        method: PhantomData,
+    };
+    Ok(Box::new(stepper))
+}
+
+impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
+    fn step(&mut self, system: &mut Y) -> Result<(), Cause<Y::Stop>> {
+        self.move_on();
+        assert!(self.t != self.t_end, "a step beyond t_end");
+        let mut rhs = RightHandSide { system, evaluations: self.evaluations };
+        let outcome = self.next(&mut rhs);
+        self.evaluations = rhs.evaluations;
+        outcome
+    }
+
+    fn prepare_interpolant(&mut self, system: &mut Y) -> Result<(), Cause<Y::Stop>> {
+        let mut rhs = RightHandSide { system, evaluations: self.evaluations };
+        let outcome = self.extend(&mut rhs);
+        self.evaluations = rhs.evaluations;
+        outcome
+    }
+
+    fn last_step(&self) -> Option<Step<'_>> {
+        self.accepted.map(|accepted| self.view(accepted))
+    }
+
+    fn t(&self) -> f64 {
+        self.accepted.map_or(self.t, |accepted| accepted.t)
+    }
+
+    fn t_end(&self) -> f64 {
+        self.t_end
+    }
+
+    fn y(&self) -> &[f64] {
+        let Work { y, y_new, .. } = &self.work;
+        &(if self.accepted.is_some() { y_new } else { y }).as_flattened()[..self.n]
+    }
+
+    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Y::Stop>> {
+        let plain = StepControl { first_step: None, ..self.control.clone() };
+        let grid = plain.begin((t, self.t_end), (y, self.n), self.work.tolerances.controlled)?;
+        self.grid = grid.map(|grid| (grid, 0));
+        self.control.first_step = self.size.as_ref().map(|size| size.size);
+        (self.t, self.size, self.accepted) = (t, None, None);
+        self.placement = StepPlacement::default();
+        self.work.y.as_flattened_mut()[..self.n].copy_from_slice(y);
+        self.work.hermite_birkhoff.iter_mut().for_each(HermiteBirkhoff::forget);
+        Ok(())
+    }
+
+    fn statistics(&self) -> Statistics {
+        Statistics {
+            steps: self.steps,
+            rejected: self.rejected,
+            evaluations: self.evaluations,
+            ..Statistics::none(self.accepted.map_or(self.t, |accepted| accepted.t))
+        }
+    }
+}
+
+impl<P: RungeKutta> ExplicitStepper<P> {
+    fn direction(&self) -> f64 {
+        (self.t_end - self.t).signum()
+    }
+
+    /// The next accepted step.
+    fn next<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>) -> Result<(), Cause<Y::Stop>> {
+        let mut size = match self.size.take() {
+            Some(size) => size,
+            None => self.begin(rhs)?,
+        };
+        let taken = match self.grid {
+            Some(_) => self.constant_step(rhs),
+            None => self.check_counts(&size).and_then(|()| self.accepted_step(rhs, &mut size)),
+        };
+        self.size = Some(size);
+        let (t, projected) = taken?;
+        self.steps += 1;
+        let accepted = Accepted { t, projected, interpolant: Prepared::Plain };
+        self.measure(accepted);
+        self.accepted = Some(accepted);
+        Ok(())
+    }
+
+    /// The derivative at the start, and the first step.
+    fn begin<Y: Ode>(
+        &mut self,
+        rhs: &mut RightHandSide<'_, Y>,
+    ) -> Result<StepSize, Cause<Y::Stop>> {
+        let Work { k, y, width, .. } = &mut self.work;
+        rhs.at(self.t, y, row_mut(k, *width, 0))?;
+        let first = match (&self.grid, self.control.first_step) {
+            (Some(_), _) => 0.0,
+            (None, Some(h)) => h,
+            (None, None) => self.first_step(rhs)?,
+        };
+        Ok(StepSize::new(first, P::ERROR_ORDER, P::CONTROL))
+    }
+
+    fn check_counts<E>(&self, size: &StepSize) -> Result<(), Cause<E>> {
+        let Some(most) = self.control.max_steps else { return Ok(()) };
+        if self.steps >= most {
+            return Err(Cause::MaxSteps { steps: self.steps });
+        }
+        if self.rejected >= (most / 2).max(MANY) {
+            return Err(Cause::StepTooSmall { t: self.t, h: size.size });
+        }
+        Ok(())
+    }
+
+    /// A step of constant length, whatever its error.
+    fn constant_step<Y: Ode>(
+        &mut self,
+        rhs: &mut RightHandSide<'_, Y>,
+    ) -> Result<(f64, bool), Cause<Y::Stop>> {
+        let Some((grid, taken)) = &mut self.grid else { unreachable!("a constant step") };
+        let t_new = grid.end(*taken + 1, self.t)?;
+        *taken += 1;
+        self.advance(rhs, t_new)?;
+        let projected = self.settle(rhs, t_new)??;
+        Ok((t_new, projected))
+    }
+
+    /// Hairer's choice of the first step, at the cost of one evaluation.
+    fn first_step<Y: Ode>(
+        &mut self,
+        rhs: &mut RightHandSide<'_, Y>,
+    ) -> Result<f64, Cause<Y::Stop>> {
+        let (interval, direction) = ((self.t_end - self.t).abs(), self.direction());
+        let most = interval.min(self.control.max_step);
+        let Work { width, k, y, trial, tolerances, .. } = &mut self.work;
+        if tolerances.controlled == 0 {
+            return Ok(most);
+        }
+        let [f0, f1] = rows_mut(k, *width);
+        let d0 = tolerances.norm(y, |i| Lanes::new(y[i]));
+        let d1 = tolerances.norm(y, |i| Lanes::new(f0[i]));
+        let h0 = probing_step(d0, d1, interval);
+        combine(y, h0 * direction, [1.0], [f0], trial);
+        match rhs.at(self.t + h0 * direction, trial, f1) {
+            Ok(()) => {}
+            // the probe left the domain: begin with it as a step, which rejection shortens
+            Err(Cause::NotFinite { .. }) => return Ok(h0.min(most)),
+            Err(stop) => return Err(stop),
+        }
+        let d2 = tolerances.norm(y, |i| Lanes::new(f1[i]) - Lanes::new(f0[i])) / h0;
+        Ok(initial_step(h0, d1, d2, P::ERROR_ORDER).min(most))
+    }
+
+    /// Tries steps until error and system accept one. Its time, and whether projection changed its end.
+    fn accepted_step<Y: Ode>(
+        &mut self,
+        rhs: &mut RightHandSide<'_, Y>,
+        size: &mut StepSize,
+    ) -> Result<(f64, bool), Cause<Y::Stop>> {
+        let (t, direction) = (self.t, self.direction());
+        let least = least_step(t, direction);
+        size.begin(least, self.control.max_step);
+        self.placement.begin();
+        size.control = self.placement.control(P::CONTROL);
+        let mut refusal = None;
+        loop {
+            if size.size < least {
+                return Err(refusal.unwrap_or(Cause::StepTooSmall { t, h: size.size }));
+            }
+            let mut t_new = t + size.size * direction;
+            if direction * (t_new - self.t_end) > 0.0 {
+                t_new = self.t_end;
+            }
+            let h = t_new - t;
+            let trial = self.attempt(rhs, t_new).map(|norm| self.tangential(rhs, norm, h));
+            let norm = trial.as_ref().map_or(f64::NAN, |norm| *norm);
+            let at_best = self.placement.at_best(norm, self.control.rtol);
+            let placed = self.placed(rhs, t_new).filter(|_| !at_best);
+            match trial {
+                Err(stop @ Cause::Equations(_)) => return Err(stop),
+                _ if placed.is_some() => size.size = placed.unwrap_or(size.size),
+                Ok(norm) if norm < 1.0 || at_best => match self.settle(rhs, t_new)? {
+                    Ok(projected) => {
+                        size.accept(h.abs(), norm);
+                        size.size = self.placement.resume(size.size);
+                        return Ok((t_new, projected));
+                    }
+                    Err(cause) => {
+                        match cause {
+                            Cause::NotFinite { .. } => size.reject(h.abs(), f64::NAN),
+                            _ => size.refuse(h.abs()),
+                        }
+                        refusal = Some(cause);
+                    }
+                },
+                Ok(norm) => {
+                    refusal = None;
+                    size.reject(h.abs(), norm);
+                }
+                Err(cause) => {
+                    refusal = Some(cause);
+                    size.reject(h.abs(), f64::NAN);
+                }
+            }
+            self.rejected += 1;
+        }
+    }
+
+    /// The step to try instead of that to `t_new`, so that no stage is near a time to avoid.
+    fn placed<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>, t_new: f64) -> Option<f64> {
+        let avoid = rhs.system.times_to_avoid()?.next(t_new)?;
+        let [h, left] = [t_new, self.t_end].map(|end| (end - self.t).abs());
+        let left = left.min(self.control.max_step);
+        self.placement.instead(P::GAP, h, self.direction() * (avoid - self.t), left)
+    }
+
+    /// The error norm of a step to `t_new`.
+    fn attempt<Y: Ode>(
+        &mut self,
+        rhs: &mut RightHandSide<'_, Y>,
+        t_new: f64,
+    ) -> Result<f64, Cause<Y::Stop>> {
+        self.advance(rhs, t_new)?;
+        let Work { k, y, y_new, tolerances, .. } = &self.work;
+        let norm = P::error_norm(t_new - self.t, k, (y, y_new), tolerances);
+        Ok(self.placement.strictness() * norm)
+    }
+
+    /// The stages of a step to `t_new`, and the state there.
+    fn advance<Y: Ode>(
+        &mut self,
+        rhs: &mut RightHandSide<'_, Y>,
+        t_new: f64,
+    ) -> Result<(), Cause<Y::Stop>> {
+        let Work { width, k, y, y_new, trial, hermite_birkhoff, .. } = &mut self.work;
+        if rhs.before_trial(self.t, t_new - self.t, y, row_mut(k, *width, 0))? {
+            hermite_birkhoff.iter_mut().for_each(HermiteBirkhoff::forget);
+        }
+        P::advance(rhs, (self.t, t_new), y, k, trial, y_new)?;
+        if !P::LAST_IN_ERROR && rhs.system.times_to_avoid().is_some_and(|avoid| avoid.may_be_near())
+        {
+            rhs.at(t_new, y_new, row_mut(k, *width, P::STAGES - 1))?;
+        }
+        Ok(())
+    }
+
+    /// The error norm of a rejected step by its tangential error alone, if that is smaller.
+    fn tangential<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>, norm: f64, h: f64) -> f64 {
+        if norm < 1.0 || !norm.is_finite() {
+            return norm;
+        }
+        let Some(manifold) = rhs.system.manifold() else { return norm };
+        let Work { width, k, y, y_new, tangential, tolerances, .. } = &mut self.work;
+        tangential.clear();
+        tangential.extend_from_slice(&k[..P::STAGES * *width]);
+        let mut rows = tangential.chunks_exact_mut(*width);
+        if !rows.all(|dy| manifold.project_error(&mut dy.as_flattened_mut()[..self.n])) {
+            return norm;
+        }
+        let left = P::error_norm(h, tangential, (y, y_new), tolerances);
+        norm.min(self.placement.strictness() * left)
+    }
+}

@@ -1,0 +1,64 @@
+//! An accepted step, and an observer of steps.
+
+use super::interpolant::Interpolant;
+
+/// Whether to go on after a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// Go on.
+    Continue,
+    /// End here; a normal outcome.
+    Stop,
+}
+
+/// Sees every accepted step.
+pub trait Observer {
+    /// Takes what it needs from the step, which is valid during the call only.
+    fn step(&mut self, step: &Step<'_>) -> Flow;
+
+    /// Whether it will evaluate the interpolant of the step that it is about to see. If not, a method may skip
+    /// evaluations that only the interpolant needs, which then has a lower order.
+    fn looks_inside(&self, t_old: f64, t: f64) -> bool {
+        let _ = (t_old, t);
+        true
+    }
+}
+
+impl<F: FnMut(&Step<'_>) -> Flow> Observer for F {
+    fn step(&mut self, step: &Step<'_>) -> Flow {
+        self(step)
+    }
+}
+
+/// An accepted step, from `t_old` to `t` (which is earlier when integrating backward).
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    /// Time at the beginning.
+    pub t_old: f64,
+    /// Time at the end.
+    pub t: f64,
+    /// State at the beginning.
+    pub y_old: &'a [f64],
+    /// State at the end.
+    pub y: &'a [f64],
+    /// Derivative at the beginning.
+    pub dy_old: &'a [f64],
+    /// Derivative at the end.
+    pub dy: &'a [f64],
+    /// The state between the ends.
+    pub interpolant: Interpolant<'a>,
+}
+
+impl Step<'_> {
+    /// The state at a `time` within the step, into `out` (length of y).
+    pub fn interpolate(&self, time: f64, out: &mut [f64]) {
+        let (h, ahead) = (self.t - self.t_old, time - self.t_old);
+        self.interpolant.evaluate(self.y_old, ahead, ahead / h, out);
+    }
+
+    /// Coefficients b of y(θ) = y_old + h Σₖ bₖ θᵏ, k = 1…[`Interpolant::degree`], θ = (t - t_old) / h: into
+    /// `out`, row-major (len of y) × degree.
+    pub fn coefficients(&self, out: &mut [f64]) {
+        self.interpolant.coefficients(out);
+    }
+}

@@ -1,0 +1,230 @@
+//! Steppers advance an initial value problem by one accepted step at a time.
+//!
+//! A [`Stepper`] is started by a method ([`ExplicitMethod`], [`ImplicitMethod`]) and works on a system `Y`, which
+//! it takes at each call. [`integrate`] is the loop over a stepper.
+
+use super::dae::Dae;
+use super::events::{self, Direction};
+use super::failure::{Cause, Failure};
+use super::ode::Ode;
+use super::step::{Flow, Observer, Step};
+
+/// How an integration that did not fail ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// At t_end.
+    Reached,
+    /// By the observer.
+    Stopped,
+}
+
+/// Counts of an integration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Rejected steps.
+    pub rejected: usize,
+    /// Evaluations of f; for an implicit method, of residuals and accelerations.
+    pub evaluations: usize,
+    /// Tangents; zero for an explicit method.
+    pub jacobians: u32,
+    /// Factorisations of matrices of Newton's iteration, a complex one as one.
+    pub factorisations: u32,
+    /// Steps of Newton's iteration.
+    pub iterations: u32,
+    /// How it ended; of a failure, not meaningful beyond "not at t_end".
+    pub ended: Ended,
+    /// Time reached.
+    pub t: f64,
+}
+
+impl Statistics {
+    /// Before the first step.
+    pub(crate) fn none(t: f64) -> Self {
+        Self {
+            steps: 0,
+            rejected: 0,
+            evaluations: 0,
+            jacobians: 0,
+            factorisations: 0,
+            iterations: 0,
+            ended: Ended::Stopped,
+            t,
+        }
+    }
+}
+
+/// Advances a system `Y`, whose own errors are `E`, by one accepted step at a time.
+pub trait Stepper<Y, E> {
+    /// Takes the next step, at most to t_end.
+    ///
+    /// # Errors
+    /// [`Cause`]; the stepper then stays at the last accepted state.
+    ///
+    /// # Panics
+    /// At t_end.
+    fn step(&mut self, system: &mut Y) -> Result<(), Cause<E>>;
+
+    /// Evaluates the system where only the interpolant of the last step needs it. Without this call the interpolant
+    /// has a lower order. Has to be called before the next step.
+    ///
+    /// # Errors
+    /// [`Cause::Equations`].
+    fn prepare_interpolant(&mut self, system: &mut Y) -> Result<(), Cause<E>>;
+
+    /// The last accepted step; none before the first step and after a restart.
+    fn last_step(&self) -> Option<Step<'_>>;
+
+    /// Time reached.
+    fn t(&self) -> f64;
+
+    /// Time at which the steps end.
+    fn t_end(&self) -> f64;
+
+    /// State reached.
+    fn y(&self) -> &[f64];
+
+    /// Goes on from a state `y` at a time `t` within the last step, for instance after an event that changes the
+    /// velocities. The stepper then has two states at one time: the end of the last step and `y`.
+    ///
+    /// # Errors
+    /// [`Cause::Argument`].
+    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<E>>;
+
+    /// Counts of all steps so far.
+    fn statistics(&self) -> Statistics;
+
+    /// Time within the last step at which g(t, y) changes sign, with the state there; see
+    /// [`locate`](fn@super::locate). None if the signs at both ends are equal.
+    ///
+    /// # Errors
+    /// As [`prepare_interpolant`](Self::prepare_interpolant).
+    fn locate(
+        &mut self,
+        system: &mut Y,
+        g: &mut dyn FnMut(f64, &[f64]) -> f64,
+        direction: Direction,
+        tolerance: f64,
+    ) -> Result<Option<(f64, Vec<f64>)>, Cause<E>> {
+        let changes = |step: Step<'_>| events::changes_sign(&step, &mut *g, direction);
+        if !self.last_step().is_some_and(changes) {
+            return Ok(None);
+        }
+        self.prepare_interpolant(system)?;
+        let Some(step) = self.last_step() else { return Ok(None) };
+        let mut y = step.y.to_vec();
+        let t = events::locate(&step, &mut y, g, direction, tolerance);
+        Ok(t.map(|t| (t, y)))
+    }
+}
+
+/// A stepper of a system `Y` whose own errors are `E`.
+pub type BoxedStepper<Y, E> = Box<dyn Stepper<Y, E>>;
+
+/// Takes steps to t_end and shows each to the observer, which may stop.
+///
+/// # Errors
+/// [`Cause`] of the step that failed.
+pub fn integrate<Y, E, O: Observer>(
+    stepper: &mut dyn Stepper<Y, E>,
+    system: &mut Y,
+    observer: &mut O,
+) -> Result<Ended, Cause<E>> {
+    while stepper.t() != stepper.t_end() {
+        let t_old = stepper.t();
+        stepper.step(system)?;
+        if observer.looks_inside(t_old, stepper.t()) {
+            stepper.prepare_interpolant(system)?;
+        }
+        let step = stepper.last_step().expect("a step was taken");
+        if observer.step(&step) == Flow::Stop {
+            return Ok(Ended::Stopped);
+        }
+    }
+    Ok(Ended::Reached)
+}
+
+/// From the beginning to the end, with the state in `y`.
+fn whole<Y, E, O: Observer>(
+    started: Result<BoxedStepper<Y, E>, Cause<E>>,
+    system: &mut Y,
+    t0: f64,
+    y: &mut [f64],
+    observer: &mut O,
+) -> Result<Statistics, Failure<E>> {
+    let mut stepper = started.map_err(|cause| Failure {
+        cause,
+        t: t0,
+        y: Box::from(&*y),
+        statistics: Statistics::none(t0),
+    })?;
+    let outcome = integrate(&mut *stepper, system, observer);
+    y.copy_from_slice(stepper.y());
+    let statistics = stepper.statistics();
+    match outcome {
+        Ok(ended) => Ok(Statistics { ended, ..statistics }),
+        Err(cause) => Err(Failure { cause, t: statistics.t, y: Box::from(&*y), statistics }),
+    }
+}
+
+/// An explicit method with its options.
+pub trait ExplicitMethod {
+    /// A stepper from `y` at `t0` to `t_end`, forward or backward. Evaluates nothing.
+    ///
+    /// # Errors
+    /// [`Cause::Argument`] and [`Cause::TooManySteps`].
+    fn start<Y: Ode>(
+        &self,
+        system: &Y,
+        span: (f64, f64),
+        y: &[f64],
+    ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>>;
+
+    /// Integrates from `t0` to `t_end` in place: `y` holds the state at `t0` and afterwards the last accepted one,
+    /// of a failure too. With `t_end == t0` nothing is evaluated.
+    ///
+    /// # Errors
+    /// [`Failure`], with the time and the state reached.
+    fn integrate<Y: Ode, O: Observer>(
+        &self,
+        system: &mut Y,
+        t0: f64,
+        t_end: f64,
+        y: &mut [f64],
+        observer: &mut O,
+    ) -> Result<Statistics, Failure<Y::Stop>> {
+        let started = self.start(&*system, (t0, t_end), y);
+        whole(started, system, t0, y, observer)
+    }
+}
+
+/// An implicit method with its options.
+pub trait ImplicitMethod {
+    /// As [`ExplicitMethod::start`]; `y` = (q, v, z, quadratures).
+    ///
+    /// # Errors
+    /// As there.
+    fn start<Y: Dae>(
+        &self,
+        system: &Y,
+        span: (f64, f64),
+        y: &[f64],
+    ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>>;
+
+    /// As [`ExplicitMethod::integrate`].
+    ///
+    /// # Errors
+    /// As there.
+    fn integrate<Y: Dae, O: Observer>(
+        &self,
+        system: &mut Y,
+        t0: f64,
+        t_end: f64,
+        y: &mut [f64],
+        observer: &mut O,
+    ) -> Result<Statistics, Failure<Y::Stop>> {
+        let started = self.start(&*system, (t0, t_end), y);
+        whole(started, system, t0, y, observer)
+    }
+}
