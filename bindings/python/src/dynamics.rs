@@ -43,7 +43,7 @@ pub struct PyRun {
     #[pyo3(get)]
     message: String,
     statistics: core::Statistics,
-    choice: Option<core::Choice>,
+    choice: Option<core::MethodChoice>,
 }
 
 #[pymethods]
@@ -113,11 +113,11 @@ impl PyRun {
 
     fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {
         let n = model.model.layout.n_q;
-        let core::Trajectory { t, q, v, works } = run.trajectory;
+        let core::Trajectory { t, q, v, works, .. } = run.trajectory;
         let count = t.len();
         let rows = |values, width| table(py, values, (count, width)).map(|t| frozen(t).unbind());
         let (dense_t, dense_y, dense_c) = match run.dense {
-            Some(dense) => dense_arrays(py, dense, 2 * n + 3)?,
+            Some(dense) => dense_arrays(py, dense, model.model.layout.n_y())?,
             None => (None, None, None),
         };
         Ok(Self {
@@ -141,7 +141,7 @@ impl PyRun {
 type DenseArrays =
     (Option<Py<PyArray1<f64>>>, Option<Py<PyArray2<f64>>>, Option<Py<PyArray3<f64>>>);
 
-fn dense_arrays(py: Python<'_>, dense: core::Dense, n_y: usize) -> PyResult<DenseArrays> {
+fn dense_arrays(py: Python<'_>, dense: core::PiecewiseInterpolant, n_y: usize) -> PyResult<DenseArrays> {
     let steps = dense.t.len() - 1;
     let shape = (steps, n_y, dense.degree);
     let c = Array3::from_shape_vec(shape, dense.c).map_err(|e| {
