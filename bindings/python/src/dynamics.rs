@@ -141,7 +141,11 @@ impl PyRun {
 type DenseArrays =
     (Option<Py<PyArray1<f64>>>, Option<Py<PyArray2<f64>>>, Option<Py<PyArray3<f64>>>);
 
-fn dense_arrays(py: Python<'_>, dense: core::PiecewiseInterpolant, n_y: usize) -> PyResult<DenseArrays> {
+fn dense_arrays(
+    py: Python<'_>,
+    dense: core::PiecewiseInterpolant,
+    n_y: usize,
+) -> PyResult<DenseArrays> {
     let steps = dense.t.len() - 1;
     let shape = (steps, n_y, dense.degree);
     let c = Array3::from_shape_vec(shape, dense.c).map_err(|e| {
