@@ -110,7 +110,7 @@ impl RadauStep {
         if !self.factored.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs()) {
             self.factored = None;
             if !(system.factor(coefficients(h / REAL))
-                && system.factor_complex(complex_coefficients(h)))
+                && system.factor_complex(coefficients(complex_step(h))))
             {
                 return NewtonOutcome::Singular;
             }
@@ -235,7 +235,7 @@ impl RadauStep {
         let n = self.increments[0].len(); // of v and z
         system.counts.iterations += 1;
         let Self { residuals: r, real, complex, .. } = self;
-        let scaled = Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h);
+        let scaled = complex_step(h);
         for k in 0..real.len() {
             let r = [r[0][k], r[1][k], r[2][k]];
             let [first, second, third] = T_INVERSE.map(|row| dot(&row, &r));
@@ -369,9 +369,10 @@ impl RadauStep {
     }
 }
 
-fn coefficients(step: f64) -> NewtonCoefficients {
+/// Of the matrix for an eigenvalue, `step` being h over it.
+fn coefficients<F: Field>(step: F) -> NewtonCoefficients<F> {
     NewtonCoefficients {
-        mass: 1.0,
+        mass: F::one(),
         damping: step,
         stiffness: step * step,
         rate: step,
@@ -382,18 +383,9 @@ fn coefficients(step: f64) -> NewtonCoefficients {
     }
 }
 
-fn complex_coefficients(h: f64) -> NewtonCoefficients<Complex> {
-    let step = Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h);
-    NewtonCoefficients {
-        mass: Complex::one(),
-        damping: step,
-        stiffness: step * step,
-        rate: step,
-        state_force: step,
-        state_velocity: step,
-        state_position: step * step,
-        state_rate: step,
-    }
+/// h over the complex eigenvalue.
+fn complex_step(h: f64) -> Complex {
+    Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h)
 }
 
 #[inline(always)]

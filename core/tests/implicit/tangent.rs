@@ -177,7 +177,7 @@ fn products_with_the_tangent() {
     tangent.linearize(&m, &motions, 0.7, [&at.a, &at.lam, &[]]);
     let (x, s) = (Random::new(3).many(n), Random::new(4).many(n));
     let mut out = vec![0.0; n + rows];
-    tangent.times(&m, &x, &s, &mut out);
+    tangent.times(&m, [&x, &[], &s], &mut out);
     let along = |h: f64| {
         let q = at.q.iter().zip(&s).map(|(q, s)| q - h * s).collect();
         let a = at.a.iter().zip(&x).map(|(a, x)| a + h * x).collect();

@@ -18,66 +18,40 @@ fn refused(outcome: Outcome) -> &'static str {
 
 #[test]
 fn arguments_are_refused_by_name() {
-    let good = Rk45::default();
-    let with = |method: Rk45, span: (f64, f64), y0: [f64; 2]| {
-        refused(run(&method, plain(2, oscillator), span, &mut y0.clone()))
+    let good = StepControl::default();
+    let with = |control: StepControl, span: (f64, f64), y0: [f64; 2]| {
+        refused(run(&Rk45 { control }, plain(2, oscillator), span, &mut y0.clone()))
     };
     let (span, y0) = ((0.0, 1.0), [1.0, 0.0]);
     for bad in [f64::NAN, f64::INFINITY] {
         assert_eq!(with(good.clone(), (bad, 1.0), y0), "t0");
         assert_eq!(with(good.clone(), (0.0, bad), y0), "t_end");
         assert_eq!(with(good.clone(), span, [1.0, bad]), "y0");
-        assert_eq!(with(Rk45::new(bad, 1e-6), span, y0), "rtol");
-        assert_eq!(with(Rk45::new(1e-3, bad), span, y0), "atol");
+        assert_eq!(with(StepControl::new(bad, 1e-6), span, y0), "rtol");
+        assert_eq!(with(StepControl::new(1e-3, bad), span, y0), "atol");
     }
-    assert_eq!(with(Rk45::new(-1e-3, 1e-6), span, y0), "rtol");
-    assert_eq!(with(Rk45::new(1e-3, -1e-6), span, y0), "atol");
-    let each = |atol: &[f64]| Rk45 {
-        control: StepControl { atol: Atol::Each(atol.to_vec()), ..good.control.clone() },
-    };
+    assert_eq!(with(StepControl::new(-1e-3, 1e-6), span, y0), "rtol");
+    assert_eq!(with(StepControl::new(1e-3, -1e-6), span, y0), "atol");
+    let each = |atol: &[f64]| StepControl { atol: Atol::Each(atol.to_vec()), ..good.clone() };
     assert_eq!(with(each(&[1e-6, -1.0]), span, y0), "atol");
     assert_eq!(with(each(&[1e-6]), span, y0), "atol");
     for bad in [0.0, -1.0, f64::NAN] {
+        assert_eq!(with(StepControl { max_step: bad, ..good.clone() }, span, y0), "max_step");
         assert_eq!(
-            with(Rk45 { control: StepControl { max_step: bad, ..good.control.clone() } }, span, y0),
-            "max_step"
-        );
-        assert_eq!(
-            with(
-                Rk45 { control: StepControl { first_step: Some(bad), ..good.control.clone() } },
-                span,
-                y0
-            ),
+            with(StepControl { first_step: Some(bad), ..good.clone() }, span, y0),
             "first_step"
         );
         let fixed = run(&Rk4::new(bad), plain(2, oscillator), span, &mut y0.clone());
         assert_eq!(refused(fixed), "step");
-        assert_eq!(
-            with(
-                Rk45 { control: StepControl { step: Some(bad), ..good.control.clone() } },
-                span,
-                y0
-            ),
-            "step"
-        );
+        assert_eq!(with(StepControl { step: Some(bad), ..good.clone() }, span, y0), "step");
     }
-    let constant = Rk45 { control: StepControl { step: Some(0.1), ..good.control.clone() } };
+    let constant = StepControl { step: Some(0.1), ..good.clone() };
     assert_eq!(
-        with(
-            Rk45 { control: StepControl { first_step: Some(0.1), ..constant.control.clone() } },
-            span,
-            y0
-        ),
+        with(StepControl { first_step: Some(0.1), ..constant.clone() }, span, y0),
         "first_step"
     );
-    assert_eq!(
-        with(Rk45 { control: StepControl { max_step: 0.1, ..constant.control } }, span, y0),
-        "max_step"
-    );
-    assert_eq!(
-        with(Rk45 { control: StepControl { first_step: Some(2.0), ..good.control } }, span, y0),
-        "first_step"
-    );
+    assert_eq!(with(StepControl { max_step: 0.1, ..constant }, span, y0), "max_step");
+    assert_eq!(with(StepControl { first_step: Some(2.0), ..good }, span, y0), "first_step");
     for bad in [f64::INFINITY, 1e-20] {
         let fixed = run(&Rk4::new(bad), plain(2, oscillator), span, &mut y0.clone());
         assert_eq!(refused(fixed), "step");
