@@ -3,7 +3,7 @@
 mod mechanisms;
 
 use kempe::analyses::dynamics::{
-    dynamics, dynamics_in_phases, Auto, Event, Options, Output, Phase, Prepared, Run, Scheme,
+    dynamics, dynamics_in_phases, Auto, Event, Options, Phase, Prepared, Run, Scheme,
     Stabilization, Stepper,
 };
 use kempe::analyses::State;
@@ -40,8 +40,8 @@ fn all() -> Vec<(Scheme, Stabilization)> {
     ]
 }
 
-fn options(scheme: Scheme, stabilization: Stabilization) -> Options {
-    Options { scheme, stabilization, output: Output::Steps, ..Options::new(1.5) }
+fn options(method: Scheme, stabilization: Stabilization) -> Options {
+    Options { method, stabilization, ..Options::new(1.5) }
 }
 
 fn in_phases(phases: &[Phase<'_>], start: &State, options: &Options) -> Run {
@@ -63,7 +63,7 @@ fn a_driver_is_released_without_a_jump() {
     let n = released.layout.n_q;
     for (scheme, stabilization) in all() {
         let options = options(scheme, stabilization);
-        let name = format!("{:?} {:?}", options.scheme, options.stabilization);
+        let name = format!("{:?} {:?}", options.method, options.stabilization);
         let first = Phase { t_end: Some(1.0), project_velocities: true, ..Phase::new(&driven) };
         let run = in_phases(&[first, Phase::new(&released)], &start, &options);
         assert!(run.reached && run.phases.len() == 2, "{name}");
@@ -95,7 +95,7 @@ fn a_driver_is_released_without_a_jump() {
 fn dense_output_and_a_grid_span_the_phases() {
     let ((released, start), driven) = (four_bar(), driven());
     let first = Phase { t_end: Some(0.33), project_velocities: true, ..Phase::new(&driven) };
-    let options = Options { output: Output::Every(0.1), ..Options::new(1.0) };
+    let options = Options { output_step: Some(0.1), ..Options::new(1.0) };
     let run = in_phases(&[first, Phase::new(&released)], &start, &options);
     let times = [0.0, 0.1, 0.2, 0.3, 0.33, 0.33, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
     assert!(worst(&run.trajectory.t, &times) < 1e-12, "{:?}", run.trajectory.t);
@@ -117,7 +117,7 @@ fn an_event_ends_a_phase() {
         let first = Phase { event, project_velocities: true, ..Phase::new(&driven) };
         let run = in_phases(&[first, Phase::new(&released)], &start, &options);
         let t = run.trajectory.t[run.phases[1]];
-        assert!((t - 0.5).abs() < 1e-5, "{:?}: {t}", options.scheme);
+        assert!((t - 0.5).abs() < 1e-5, "{:?}: {t}", options.method);
         assert_eq!(run.trajectory.t.last(), Some(&1.5));
     }
 }
@@ -136,7 +136,7 @@ fn a_stepper_takes_the_steps_of_a_run() {
         }
         assert_eq!(steps, run.statistics.steps);
         let last = state(&run, run.trajectory.t.len() - 1, m.layout.n_q);
-        assert_eq!(stepper.state(), last, "{:?}", options.scheme);
+        assert_eq!(stepper.state(), last, "{:?}", options.method);
         assert_eq!(stepper.works(), run.trajectory.works.rchunks(3).next().expect("a row"));
     }
 }

@@ -59,7 +59,8 @@ pub fn rows(
 pub fn state(py: Python<'_>, model: &Model, t: f64, q: &Row<'_>, v: &Row<'_>) -> PyResult<State> {
     let n = model.layout.n_q;
     let (q, v) = (row(py, "q", q, n)?, row(py, "v", v, n)?);
-    Ok(State { t: number(py, "t", t)?, q, v, z: Vec::new() })
+    let z = vec![0.0; model.layout.n_z];
+    Ok(State { t: number(py, "t", t)?, q, v, z })
 }
 
 /// The value of a JSON text that the front wrote.

@@ -113,7 +113,7 @@ impl PyRun {
 
     fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {
         let n = model.model.layout.n_q;
-        let core::Trajectory { t, q, v, z, works } = run.trajectory;
+        let core::Trajectory { t, q, v, works, .. } = run.trajectory;
         let count = t.len();
         let rows = |values, width| table(py, values, (count, width)).map(|t| frozen(t).unbind());
         let (dense_t, dense_y, dense_c) = match run.dense {
