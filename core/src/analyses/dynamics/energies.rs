@@ -47,7 +47,8 @@ fn mechanical(
     if t.len() >= MANY {
         let wide = cache.wide(model);
         let mut motions = Motions::new(&wide.layout);
-        let [mut places, mut rates, mut states] = [n, n, n_z].map(|width| vec![Lanes::zero(); width]);
+        let [mut places, mut rates, mut states] =
+            [n, n, n_z].map(|width| vec![Lanes::zero(); width]);
         for t in t.chunks_exact(Lanes::WIDTH) {
             let rows = done * n..(done + Lanes::WIDTH) * n;
             Lanes::from_rows(&q[rows.clone()], &mut places);
