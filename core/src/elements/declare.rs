@@ -133,7 +133,7 @@ macro_rules! element {
                 -> Option<$Name<$crate::expression::Tape>>
             {
                 let mut fields = <Self as $crate::elements::Element>::table().fields.into_iter();
-                // every field is read before any failure counts: all errors at once
+                // every field is read, so that all errors are reported at once
                 $(let $field = <$crate::elements::$kind as $crate::elements::Kind>::read(
                     source, &fields.next()?);)+
                 Some($Name { $($field: $field?),+ })

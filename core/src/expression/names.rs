@@ -17,7 +17,7 @@ pub enum Symbol {
 pub trait Names {
     /// The meaning of `name`: `"L1"`, `"t"`, `"crank.omega"`. Backticks are already removed.
     ///
-    /// Where the time has no meaning, `"t"` is `None`. `pi` and `deg` are never asked for.
+    /// Where the time has no meaning, `"t"` is `None`. `pi` and `deg` are never passed to it.
     fn resolve(&self, name: &str) -> Option<Symbol>;
 
     /// Every name that [`resolve`](Names::resolve) knows, for suggestions.

@@ -1,11 +1,11 @@
-//! What is asked of an assembly.
+//! The request for an assembly.
 
 use crate::analyses::State;
 use crate::elements::{BodyId, Coordinate};
 use crate::equations::at;
 use crate::model::{did_you_mean, Model, Problem, Reach, Scope, Value};
 
-/// A value asked for a coordinate or a rate.
+/// A requested value of a coordinate or a rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// The moving body.
@@ -16,19 +16,19 @@ pub struct Target {
     pub value: f64,
 }
 
-/// All that is asked of an assembly.
+/// The request for an assembly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
-    /// Held exactly.
+    /// Targets held exactly.
     pub set: Vec<Target>,
-    /// Approached.
+    /// Targets approached.
     pub guess: Vec<Target>,
     /// A whole state as guess.
     pub state: Option<State>,
     /// Time, s.
     pub t: f64,
-    /// Whether Newton starts from the guess as it stands, loops open, instead of a placement that
-    /// closes them: the classical iteration, for people to look at.
+    /// Whether Newton's method starts from the guess with open loops, and not from a placement that closes them: the
+    /// classical iteration, for teaching.
     pub from_guess: bool,
 }
 
@@ -91,7 +91,7 @@ fn named(
     if found.is_none() {
         let known = Coordinate::ALL.map(Coordinate::name);
         let hint = did_you_mean(coordinate, &known, "coordinates and rates");
-        problems.push(fault(format!("'{coordinate}' is no coordinate of a body"), hint));
+        problems.push(fault(format!("'{coordinate}' is not a coordinate of a body"), hint));
     }
     Some((id?, found?))
 }

@@ -1,4 +1,4 @@
-//! Energies at the states of a run, worked out when they are asked for; several at once over lanes.
+//! Energies at the states of a run, computed on request; several states at once over lanes.
 
 use super::accelerations::{States, MANY};
 use super::failure::Reason;
@@ -47,7 +47,8 @@ fn mechanical(
     if t.len() >= MANY {
         let wide = cache.wide(model);
         let mut motions = Motions::new(&wide.layout);
-        let [mut places, mut rates, mut states] = [n, n, n_z].map(|width| vec![Lanes::zero(); width]);
+        let [mut places, mut rates, mut states] =
+            [n, n, n_z].map(|width| vec![Lanes::zero(); width]);
         for t in t.chunks_exact(Lanes::WIDTH) {
             let rows = done * n..(done + Lanes::WIDTH) * n;
             Lanes::from_rows(&q[rows.clone()], &mut places);
