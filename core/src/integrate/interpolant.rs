@@ -51,8 +51,8 @@ fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
 }
 
 impl<'a> Interpolant<'a> {
-    /// `stages` in rows of `len`, whose first entries are the components; the caller passes as many stages of `table` as
-    /// it needs.
+    /// `stages` in rows of `len`, whose first entries are the components; the caller passes as many stages of `table`
+    /// as it needs.
     pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
         assert!(degree <= HIGHEST, "a method of a higher degree");
         assert!(table.len() <= MOST * degree, "a method of more stages");

@@ -268,7 +268,7 @@ impl<S: Real> Add for Wrench<S> {
 mod tests {
     use super::{Lever, Local, Pose};
 
-    /// To the last bit, but for the sign of zero.
+    /// Equal to the last bit, except for the sign of zero.
     #[test]
     fn a_lever_gives_the_turned_vector() {
         for k in 0..100 {

@@ -10,7 +10,7 @@ pub struct Problem {
     pub path: Vec<String>,
     /// What is wrong, naming value and requirement.
     pub message: String,
-    /// What to do, if that can be said.
+    /// Remedy, if there is one.
     pub hint: Option<String>,
     /// The faulty bytes within the value at `path`, if it is a text and only part of it is wrong.
     pub within: Option<Range<usize>>,

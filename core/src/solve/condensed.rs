@@ -177,7 +177,7 @@ pub(super) struct Load {
 /// The row blocks among `blocks`, of which `rows` are the first rows, that are `condensed`, and the loads of each.
 ///
 /// # Panics
-/// If such a row block is no pair of rows at one group, or shares its group with another.
+/// If such a row block is not a pair of rows at one group, or shares its group with another.
 pub(super) fn condensations(
     starts: &[usize],
     blocks: &[RowBlock],

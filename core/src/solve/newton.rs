@@ -24,7 +24,7 @@ pub trait Equations {
     fn residual(&mut self, x: &[f64], residual: &mut [f64]) -> Result<(), Self::Stop>;
 
     /// The full step s into `step`: F′(x) s = -`residual`, or its least-squares or least-norm solution;
-    /// with `levenberg` > 0, (F′ᵀF′ + levenberg² I) s = -F′ᵀ `residual`, or alike.
+    /// with `levenberg` > 0, (F′ᵀF′ + levenberg² I) s = -F′ᵀ `residual`, or a similar damped step.
     ///
     /// # Errors
     /// Ends the iteration at once. A step that is not finite ends it as [`Outcome::NotFinite`].

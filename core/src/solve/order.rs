@@ -148,7 +148,7 @@ impl Graph {
         }
     }
 
-    /// Lets each block from `n_first` on wait for none but its own neighbours before.
+    /// Sets each block from `n_first` on to wait only for its own earlier neighbours.
     fn release(&mut self, n_first: usize) {
         self.waits_for = vec![0; self.weight.len()];
         self.waiters = vec![Vec::new(); n_first];

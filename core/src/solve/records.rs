@@ -7,7 +7,7 @@
 /// All records.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Program {
-    /// Row blocks with their diagonal blocks, but for those in [`PinRows`].
+    /// Row blocks with their diagonal blocks, except those in [`PinRows`].
     pub starts: Vec<Start>,
     pub touches: Vec<Touch>,
     /// Rows of blocks of L, in elimination order.

@@ -51,7 +51,7 @@ pub struct Saddle<S> {
 }
 
 impl<S: Real> Saddle<S> {
-    /// Memory for matrices of the given pattern: W = I, A = 0 but for the unit blocks, μ = 0.
+    /// Memory for matrices of the given pattern: W = I, A = 0 except for the unit blocks, μ = 0.
     pub fn new(pattern: &Pattern) -> Self {
         let (zero, one, none) = (S::zero(), S::one(), [S::zero(); 3]);
         let mut entries = vec![none; pattern.n_entries];

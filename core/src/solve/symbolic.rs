@@ -53,7 +53,7 @@ pub(super) fn program(
 }
 
 impl Program {
-    /// The row blocks with their diagonal blocks, but for those with pin blocks alone.
+    /// The row blocks with their diagonal blocks, except those with pin blocks only.
     fn starts(&mut self, order: &[usize], touches: &[Vec<Touch>]) {
         for (&own, row) in
             order.iter().zip(&self.rows).filter(|(own, _)| !is_pin_only(&touches[**own]))

@@ -11,7 +11,7 @@ const VECTOR: &str = "d";
 
 impl Arena {
     /// The expressions with their parts named. A sum gets a name if it is a component of a vector
-    /// and stands in a product, a power or a function.
+    /// and part of a product, a power or a function.
     pub fn name_parts(&mut self, roots: &[Id]) -> Vec<Id> {
         let mut found = Found::default();
         for root in roots {
@@ -79,7 +79,7 @@ struct Found {
 }
 
 impl Found {
-    /// Goes through an expression; `nested` if it stands in a product, a power or a function.
+    /// Goes through an expression; `nested` if it is part of a product, a power or a function.
     fn visit(&mut self, arena: &Arena, id: Id, nested: bool) {
         if nested && !self.seen.insert(id) {
             return;

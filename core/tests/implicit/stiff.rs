@@ -220,8 +220,7 @@ fn radau_begins_where_the_fast_motion_has_died_out() {
     let later = State { t: 1.0, q, v, z: Vec::new() };
     let (method, why, steps) = chosen(&m, &later, 15.0);
     assert!(method == "radau" && steps < 70, "{steps} steps");
-    let told =
-        "stiff from the start: a damped motion with a rate of 4.74e3 1/s would need 108";
+    let told = "stiff from the start: a damped motion with a rate of 4.74e3 1/s would need 108";
     assert!(why.starts_with(told), "{why}");
     // backward in time damped motions grow
     let auto = run(&m, &later, &options(0.99, Scheme::Auto(Auto::default())));

@@ -27,7 +27,7 @@ EXAMPLES = """Examples:
 """
 
 
-def plot(  # noqa: PLR0917 - typer tells options from arguments by their annotations
+def plot(  # noqa: PLR0917 - typer distinguishes options by their annotations
     file: CaseOrSolution,
     names: Annotated[
         list[str] | None,
