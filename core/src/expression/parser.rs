@@ -63,7 +63,7 @@ impl Parser<'_> {
         result
     }
 
-    /// A number: whatever a comparison is not.
+    /// A number, as opposed to a comparison.
     fn value(&mut self) -> Parsed<Range<usize>> {
         let span = self.comparison()?;
         match self.nodes.last() {

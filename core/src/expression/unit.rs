@@ -67,7 +67,7 @@ pub struct Unit {
     pub numerator: f64,
     /// Divisor to the SI unit.
     pub denominator: f64,
-    /// What it measures.
+    /// The measured quantity.
     pub dimension: Dimension,
 }
 

@@ -103,7 +103,7 @@ impl Lanes {
         ];
         columns.map(Self::new)
     }
-    /// -0, which changes no number, not even -0; compilers do not see that it is.
+    /// -0, whose addition changes no number, not even -0. Compilers do not know its value.
     #[inline(always)]
     fn nothing() -> Self {
         std::hint::black_box(Self::constant(-0.0))

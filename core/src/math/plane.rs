@@ -127,7 +127,7 @@ impl<S: Real> From<Local<S>> for Lever<S> {
     }
 }
 
-/// Where a body frame stands: its origin r, its angle φ, and A(φ).
+/// The pose of a body frame: its origin r, its angle φ, and A(φ).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<S = f64> {
     /// Origin of the body frame, m.
@@ -237,7 +237,7 @@ impl<S: Real> Wrench<S> {
     pub fn zero() -> Self {
         Self { force: Vec2::zero(), torque: S::zero() }
     }
-    /// A torque alone.
+    /// A pure torque.
     pub fn torque(torque: S) -> Self {
         Self { force: Vec2::zero(), torque }
     }

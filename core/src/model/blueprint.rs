@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// The linked content of a file: elements over [`Tape`].
 #[derive(Clone, Debug)]
 pub struct Blueprint {
-    /// What it is.
+    /// Title.
     pub title: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,

@@ -1,7 +1,7 @@
 //! Bodies from their definition: the general body, the uniform slender bar, ground.
 //!
 //! A bar is shorthand: it becomes a general body whose numbers are formulas in its own, such as
-//! J = m L²/12, so that nothing after this file knows bars.
+//! J = m L²/12, so that no other file needs bars.
 
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};

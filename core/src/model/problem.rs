@@ -1,4 +1,4 @@
-//! What is wrong with a definition, where, and what to do.
+//! A fault of a definition, with its place and remedy.
 
 use std::fmt;
 use std::ops::Range;
@@ -8,7 +8,7 @@ use std::ops::Range;
 pub struct Problem {
     /// Keys from the top of the file, such as `bodies`, `crank`, `mass`; list indices as digits.
     pub path: Vec<String>,
-    /// What is wrong, naming value and requirement.
+    /// Description, with the value and the requirement.
     pub message: String,
     /// Remedy, if there is one.
     pub hint: Option<String>,

@@ -1,7 +1,8 @@
-//! Static condensation: a pair of rows R of A that touches one group alone, such as a joint to ground, is eliminated
-//! with its group before everything else.
+//! Static condensation: a pair of rows R of A in only one group, such as a joint to ground, is eliminated with its
+//! group before everything else.
 //!
-//! Two rows leave a group of three unknowns one freedom, e = r₁ × r₂ (R e = 0). With a particular solution P,
+//! A group of three unknowns with two rows has one degree of freedom, e = r₁ × r₂ (R e = 0). With a particular
+//! solution P,
 //! R P = I, and g the right side of the rows,
 //!
 //! ```text

@@ -57,7 +57,7 @@ fn euclidean(x: &[f64]) -> f64 {
     x.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
-/// What is done about a step that does not lower the residual.
+/// The remedy for a step that does not reduce the residual.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Damping {
     /// Half of it is tried, up to this many times.
@@ -139,7 +139,7 @@ pub struct Newton {
     history: Vec<Record>,
 }
 
-/// A step that was found, or why none was.
+/// A step, or the reason for its failure.
 enum Search {
     Found(Record),
     None,
@@ -167,7 +167,7 @@ impl Newton {
     /// tolerance is returned untouched.
     ///
     /// # Errors
-    /// What the equations stop with.
+    /// The error of the equations.
     ///
     /// # Panics
     /// If `x` has another length than the unknowns.
@@ -219,7 +219,7 @@ impl Newton {
         self.history.clear();
     }
 
-    /// Looks for a step that lowers the residual; leaves it in `trial` and `trial_residual`.
+    /// Searches a step that reduces the residual; the result is in `trial` and `trial_residual`.
     fn search<E: Equations>(
         &mut self,
         equations: &mut E,
@@ -270,7 +270,7 @@ impl Newton {
     }
 }
 
-/// Whether the iteration is over after a step: solved, or creeping with a residual that stays.
+/// Whether the iteration ends after a step: solved, or with a residual that no longer falls.
 fn judge(options: &Options, last: &Record, found: &Record) -> Option<Outcome> {
     if found.step_norm > options.step_tolerance {
         return None;

@@ -83,7 +83,7 @@ fn check_blocks(starts: &[usize], n_first: usize, n: usize) {
     assert!(boundary, "n_first = {n_first} cuts a block");
 }
 
-/// (not yet?, approximate degree, block): the smallest goes next.
+/// (not yet?, approximate degree, block): the smallest is eliminated next.
 type Key = (bool, usize, usize);
 
 /// The quotient graph: blocks not yet eliminated, and elements (cliques left by eliminated ones).

@@ -19,7 +19,7 @@ pub(super) struct Program {
     pub below: Vec<Below>,
 }
 
-/// A row block with nothing but pin blocks: rows [±I b] at one or two groups.
+/// A row block with pin blocks only: rows [±I b] at one or two groups.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PinRows {
     /// Its place among the row blocks.

@@ -27,7 +27,7 @@ const LEAST_PIVOT: f64 = 1e-300;
 
 /// A matrix and its factors; all memory is taken in [`Saddle::new`]. The table in [`solve`](super) describes every array.
 ///
-/// Between a factorisation and the solutions that use it the matrix must stay as it is.
+/// The matrix must not change between a factorisation and the solutions that use it.
 #[derive(Clone, Debug)]
 pub struct Saddle<S> {
     /// W⁻¹, one for each group.

@@ -81,7 +81,7 @@ struct Place {
     block: u32,
 }
 
-/// Where the blocks of L stand, row by row.
+/// The places of the blocks of L, row by row.
 struct Factors {
     diagonals: Vec<u32>,
     /// Of each row.

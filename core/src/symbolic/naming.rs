@@ -42,7 +42,7 @@ impl Arena {
         self.named.insert(id, symbol);
     }
 
-    /// The same expression made anew, with the names that its parts have now.
+    /// The same expression with the present names of its parts.
     fn rebuilt(&mut self, id: Id, known: &mut HashMap<Id, Id>) -> Id {
         if let Some(known) = known.get(&id) {
             return *known;
@@ -116,7 +116,7 @@ impl Arena {
         }
     }
 
-    /// The component of a vector that an expression is; `None` if it is none.
+    /// An expression as a component of a vector; `None` if it is not one.
     fn axis(&self, id: Id) -> Option<Axis> {
         match self.node(id) {
             Node::Symbol(k) => self.symbols[*k].name.axis,
