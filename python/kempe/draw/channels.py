@@ -30,7 +30,7 @@ def channels(motion: Motion) -> list[dict[str, Any]]:
 
 
 def numbers_per_frame(model: CompiledModel) -> int:
-    """How many numbers tell one frame, poses, rates, reactions and channels together, about."""
+    """Approximate count of the numbers of a frame: poses, rates, reactions and channels."""
     return 8 * len(model.bodies) + 4 * len(model.constraints) + 2 * len(model.forces) + 2
 
 
