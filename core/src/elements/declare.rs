@@ -37,12 +37,12 @@ impl From<&'static str> for Default {
     }
 }
 
-/// One field of an element, as files, the schema, Python and the reference page see it.
+/// One field of an element, for files, the schema, Python and the reference page.
 #[derive(Clone, Debug)]
 pub struct Field {
     /// Key in the file, argument in Python.
     pub name: &'static str,
-    /// What may stand there.
+    /// The values that it accepts.
     pub shape: Shape,
     /// SI unit; empty for references.
     pub unit: String,
@@ -74,7 +74,7 @@ impl Field {
 pub struct Table {
     /// The `type` in the file and the method in Python.
     pub name: &'static str,
-    /// What it is, its equation, its source, its signs.
+    /// Its meaning, equation, source and signs.
     pub doc: String,
     /// Fields in order.
     pub fields: Vec<Field>,
@@ -133,7 +133,7 @@ macro_rules! element {
                 -> Option<$Name<$crate::expression::Tape>>
             {
                 let mut fields = <Self as $crate::elements::Element>::table().fields.into_iter();
-                // every field is read before any failure counts: all errors at once
+                // every field is read, so that all errors are reported at once
                 $(let $field = <$crate::elements::$kind as $crate::elements::Kind>::read(
                     source, &fields.next()?);)+
                 Some($Name { $($field: $field?),+ })

@@ -11,7 +11,7 @@ use std::fmt;
 pub const MAX_LENGTH: usize = 4096;
 /// The deepest nesting of parentheses, calls, signs and powers that is read.
 pub const MAX_DEPTH: usize = 64;
-/// The largest number of operands that may wait for their operation at a time.
+/// The largest number of operands before their operation.
 pub const MAX_OPERANDS: usize = 32;
 
 /// An expression: its text, and the syntax tree read from it.
@@ -63,7 +63,7 @@ impl Expression {
     }
 
     /// The dimension of the unit behind a bare number; `None` where no unit was written, and the
-    /// value is then in the SI unit of the place where it stands.
+    /// value is then in the SI unit of its place.
     pub fn dimension(&self) -> Option<Dimension> {
         self.dimension
     }

@@ -13,10 +13,10 @@ use crate::elements::{
 use crate::expression::{Symbol, Tape};
 use std::sync::Arc;
 
-/// What the file says, linked: elements over [`Tape`].
+/// The linked content of a file: elements over [`Tape`].
 #[derive(Clone, Debug)]
 pub struct Blueprint {
-    /// What it is.
+    /// Title.
     pub title: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
@@ -63,7 +63,7 @@ pub fn build(
         }
     }
     let model = Model::new(&Arc::new(blueprint), &values);
-    // what follows from a faulty parameter need not be told; all else is told at once
+    // consequences of a faulty parameter are not reported; all other faults are reported at once
     if values.iter().all(|x| x.is_finite()) {
         checks::numbers(&model, &mut problems);
     }

@@ -27,7 +27,7 @@ EXAMPLES = """Examples:
 """
 
 
-def plot(  # noqa: PLR0917 - typer tells options from arguments by their annotations
+def plot(  # noqa: PLR0917 - typer distinguishes options by their annotations
     file: CaseOrSolution,
     names: Annotated[
         list[str] | None,
@@ -37,7 +37,7 @@ def plot(  # noqa: PLR0917 - typer tells options from arguments by their annotat
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="Folder for figures; beside the results if absent."),
+        typer.Option("--output", "-o", help="Folder for figures; by default beside the results."),
     ] = None,
     index_base: figures.IndexBase = 1,
     form: Annotated[
@@ -57,12 +57,12 @@ def plot(  # noqa: PLR0917 - typer tells options from arguments by their annotat
 
 
 def _folder(file: Path, output: Path | None, analysis: str) -> Path:
-    """Beside the results of the analysis, or in the folder that was named."""
+    """The folder of the figures: the given one, or one beside the results of the analysis."""
     return results_folder(file) / analysis / "figures" if output is None else output / analysis
 
 
 def _chosen(solution: Solution, known: list[Page], names: list[str]) -> list[Page]:
-    """The pages asked for; of a figure named after a joint or a force, the name is told apart.
+    """The requested pages; an unknown joint or force in the name of a figure is reported as such.
 
     Raises:
         ModelError: there is no such figure, joint or force.

@@ -12,7 +12,7 @@ from kempe.compiled import CompiledModel
 from kempe.draw.numbers import plain
 from kempe.motion import Motion
 
-#: Torques and forces below this share of the largest reaction are zero but for rounding.
+#: Torques and forces below this share of the largest reaction are zero except for rounding.
 _NOTHING = 1e-9
 
 
@@ -30,7 +30,7 @@ def channels(motion: Motion) -> list[dict[str, Any]]:
 
 
 def numbers_per_frame(model: CompiledModel) -> int:
-    """How many numbers tell one frame, poses, rates, reactions and channels together, about."""
+    """Approximate count of the numbers of a frame: poses, rates, reactions and channels."""
     return 8 * len(model.bodies) + 4 * len(model.constraints) + 2 * len(model.forces) + 2
 
 

@@ -30,7 +30,7 @@ def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int)
     Args:
         drawn: a solution, or a state, which is one frame.
         frames: how many; chosen when None.
-        numbers_per_frame: how much there is to tell of one frame.
+        numbers_per_frame: how many numbers a frame has.
 
     Raises:
         ModelError: ``frames`` is less than 1.
@@ -61,7 +61,7 @@ def _count(duration: float, numbers_per_frame: int) -> int:
 
 
 class _Outputs(Motion):
-    """Some outputs of a solution, with what was computed there."""
+    """Some outputs of a solution, with the quantities computed there."""
 
     def __init__(self, solution: Solution, kept: NDArray[np.intp]) -> None:
         super().__init__(solution.model, solution.t[kept], solution.q[kept], solution.v[kept])

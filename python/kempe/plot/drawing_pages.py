@@ -1,4 +1,4 @@
-"""The drawings of the mechanism as they stand on a page: as high as they need to be."""
+"""The drawings of the mechanism on pages of the height that they need."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
     from kempe.state import State
 
-#: What stands beside and above and below the axes, mm.
+#: Margins beside, above and below the axes, mm.
 _BESIDE, _ABOVE = 16.0, 18.0
 _HIGHEST = 170.0
 

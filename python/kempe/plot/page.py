@@ -1,4 +1,4 @@
-"""A figure of the report: its name, its size, how it is drawn, and how it becomes files."""
+"""A figure of the report: its name, its size, its drawing, and its files."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def select(known: Sequence[Page], names: Sequence[str]) -> list[Page]:
 
 
 def file_names(names: Iterable[str]) -> list[str]:
-    """Names of the model made fit for files: plain letters and digits, short, no two alike."""
+    """Names of the model made fit for files: plain letters and digits, short, all different."""
     taken: set[str] = set()
     found = []
     for name in names:

@@ -1,4 +1,4 @@
-"""The figures over time as they stand on a page: panels side by side and one below the other."""
+"""The figures over time on pages: panels side by side and one below the other."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 #: More panels than this do not fit on a page.
 _MOST_PANELS = 12
-#: Height of a panel, and of what stands above and below all of them, mm.
+#: Height of a panel, and of the texts above and below all panels, mm.
 _PANEL, _AROUND = 38.0, 14.0
 
 
@@ -92,7 +92,7 @@ def _draw_body(
 
 
 def only_turns(solution: Solution, force: str) -> bool:
-    """Whether a force element exerts torques alone."""
+    """Whether a force element exerts only torques."""
     view = solution.force(force)
     return not view.force(on=view.info.j).any()
 
@@ -172,7 +172,7 @@ def of_residual(solution: Solution, cut: float | None) -> Page:
 
 
 def of_energy(solution: Solution, cut: float | None) -> Page:
-    """Where the energy goes, and below it how well the balance is kept."""
+    """The parts of the energy, and below them the error of the balance."""
 
     def draw(figure: Figure) -> None:
         upper, lower = figure.subplots(2, 1, height_ratios=[3, 2])
@@ -207,7 +207,7 @@ def _share_limits(panels: Sequence[Axes]) -> None:
 
 
 def _label_lowest(panels: Sequence[Axes], columns: int) -> None:
-    """Times stand only below the lowest panel of each column."""
+    """Write times only below the lowest panel of each column."""
     for panel in panels[:-columns]:
         panel.set_xlabel("")
         panel.tick_params(labelbottom=False)

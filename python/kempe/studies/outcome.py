@@ -1,4 +1,4 @@
-"""What the variants of a study gave."""
+"""The outcomes of the variants of a study."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a variant gave.
+    """The outcome of a variant.
 
     Attributes:
-        variant: how it was computed.
+        variant: its options.
         solution: on the common output times, or until it diverged; None if not even the start
             could be computed.
-        diverged_at: time of the divergence, s; None if it got to the end.
+        diverged_at: time of the divergence, s; None if it reached the end.
         reason: why it diverged; empty if it did not.
         angle_error: largest difference of any body's angle from the reference, rad; NaN if
             it diverged.
         position_error: the same of any body's position, m.
-        residual: largest |Φ| over time, lengths and angles alike, m and rad; NaN if diverged.
+        residual: largest |Φ| over time, of lengths and of angles, m and rad; NaN if diverged.
         residual_at: when, s.
         imbalance: largest error of the energy balance, relative to the largest kinetic energy.
         steps: steps taken.
@@ -50,7 +50,7 @@ class Outcome:
 
     @property
     def diverged(self) -> bool:
-        """Whether it did not get to the end."""
+        """Whether it failed before the end."""
         return bool(self.reason)
 
 

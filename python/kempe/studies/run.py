@@ -1,4 +1,4 @@
-"""Carries a study out: every variant from the same state, on the same output times."""
+"""Runs a study: every variant from the same state, with the same output times."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ MOST_STEPS = 300_000
 
 
 class Study(Outcomes):
-    """The outcomes of a study, with what they say."""
+    """The outcomes of a study, with the findings."""
 
     def findings(self) -> list[str]:
-        """What the numbers say, in sentences."""
+        """The findings, in sentences."""
         return findings(self)
 
     def table(self) -> str:
@@ -66,7 +66,7 @@ def study(
     bodies and output times.
 
     Args:
-        case: what is computed.
+        case: the case.
         analysis: name of the analysis; the first when None.
         ways: the variants, the most accurate first; ``variants()`` when None.
         progress: called with the name of each variant before it is computed.
@@ -77,7 +77,7 @@ def study(
     """
     names = list(case.analyses)
     if not names:
-        raise ModelError("the case asks for no analysis", hint="add one, as [analyses.release]")
+        raise ModelError("the case contains no analysis", hint="add one, as [analyses.release]")
     name = names[0] if analysis is None else one_of("analysis", analysis, names)
     begin, entry = _beginning(case, name)
     reference: Solution | None = None
@@ -119,7 +119,7 @@ def _computed(
         return _measured(way, solution, reference or solution)
     except (IntegrationError, SingularityError) as error:
         partial: Solution | None = getattr(error, "solution", None)
-        reason = str(error.args[0]).partition(" at t = ")[0]  # the time is told apart
+        reason = str(error.args[0]).partition(" at t = ")[0]  # the time is reported separately
         return _diverged(way, partial, error.t, reason)
 
 
