@@ -70,7 +70,10 @@ pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box
     }
     let v = velocities(model, request, &q)?;
     describe(model, &asked, &q, &mut report);
-    Ok((State { t: request.t, q, v, z: Vec::new() }, report))
+    let n_z = model.layout.n_z;
+    let given = request.state.as_ref().map(|state| state.z.clone()).filter(|z| z.len() == n_z);
+    let z = given.unwrap_or_else(|| vec![0.0; n_z]);
+    Ok((State { t: request.t, q, v, z }, report))
 }
 
 /// Drivers and `set` are hard; drawn poses, `guess` and a given state are soft.
