@@ -1,4 +1,4 @@
-"""Calls that ask for what was asked for before: what is kept changes no result and no error."""
+"""Repeated calls: the cache changes no result and no error."""
 
 import json
 from collections.abc import Iterator
@@ -29,7 +29,7 @@ def numbers(sol: Solution) -> tuple[bytes, ...]:
 
 
 def anew(model: Model, start: State, **wanted: Any) -> Solution:
-    """The same asked of a model that nothing was asked of, with nothing kept."""
+    """The same run of a new model, with an empty cache."""
     request_cache._kept.clear()
     fresh = Model.from_tree(model.tree())
     return kp.dynamics(fresh, start, **wanted)
