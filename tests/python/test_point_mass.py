@@ -1,4 +1,4 @@
-"""A point mass has two coordinates: columns, names, views, tables and closed forms of its motion."""
+"""A point mass has two coordinates: columns, names, views, tables, closed forms of its motion."""
 
 import json
 from pathlib import Path

@@ -1,7 +1,7 @@
 """First-order states z reach every result of a run.
 
-No force element of the list has states, so the description of the flagship is changed: its spring gets
-two of them. The core computes nothing here.
+The description of the flagship is changed here: its spring gets two states. The core computes
+nothing.
 """
 
 import copy
