@@ -7,6 +7,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe.table import columns
+from matplotlib.figure import Figure
 
 
 @pytest.fixture
@@ -107,3 +108,17 @@ def test_pages_of_angles_leave_a_point_mass_out(pendulum: kp.Solution) -> None:
     found = {page.name: page for page in pages(stone)}
     assert "angle" not in found
     assert {"x", "y", "stone"} <= set(found)
+    figure = Figure()
+    found["stone"].draw(figure)
+    assert len(figure.axes) == 4  # vx, ax, vy, ay
+
+
+def test_a_figure_of_a_point_mass_has_no_axis_of_the_angle(pendulum: kp.Solution) -> None:
+    from kempe.plot import positions
+
+    counts = {}
+    for body in ("bob", "rod"):
+        axes = Figure().add_subplot()
+        positions(pendulum, body, ax=axes)
+        counts[body] = len(axes.figure.axes)
+    assert counts == {"bob": 1, "rod": 2}

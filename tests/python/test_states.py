@@ -79,6 +79,26 @@ def test_a_force_has_its_states_as_attributes(sol: kp.Solution) -> None:
         spring.state("curent")
 
 
+def test_a_force_that_depends_on_a_reaction_is_given_the_multipliers(
+    start: kp.State, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given = []
+
+    def force(*arguments: object) -> np.ndarray:
+        given.append(arguments[-2:])
+        return np.zeros((1, 3))
+
+    monkeypatch.setattr("kempe.motion._core.force", force)
+    seeing = CompiledModel(start.model.core, start.model.case)
+    seeing._about["forces"][0]["reaction"] = "D"
+    for model in (start.model, seeing):
+        kp.State(model, 0.0, start.q, start.v).force("spring").torque(on="rocker")
+    (_, without), (z, lam) = given
+    assert without is None
+    assert z.shape == (1, 0)
+    assert np.array_equal(lam, start.lam[None])
+
+
 def test_states_are_part_of_the_first_and_the_last_state(sol: kp.Solution) -> None:
     assert np.array_equal(sol.initial.z, Z[0])
     assert np.array_equal(sol.final.z, Z[-1])
