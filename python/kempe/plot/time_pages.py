@@ -31,8 +31,8 @@ _PANEL, _AROUND = 38.0, 14.0
 def of_coordinate(
     solution: Solution, quantity: str, cut: float | None, index_base: int
 ) -> list[Page]:
-    """One coordinate of all bodies, a panel for each; more pages where there are many bodies."""
-    bodies = list(solution.model.bodies)
+    """One coordinate of all bodies that have it, a panel for each; more pages for many bodies."""
+    bodies = [name for name, info in solution.model.bodies.items() if quantity in info.quantities]
     count = math.ceil(len(bodies) / _MOST_PANELS)
     found = []
     for k in range(count):
@@ -72,15 +72,19 @@ def _draw_coordinate(
 def of_body(solution: Solution, body: str, file: str, cut: float | None, index_base: int) -> Page:
     """Velocities of a body to the left, accelerations to the right."""
     draw = partial(_draw_body, solution, body, cut, index_base)
-    return Page(0, file, body, 3 * _PANEL + _AROUND, draw)
+    rows = solution.model.bodies[body].count
+    return Page(0, file, body, rows * _PANEL + _AROUND, draw)
 
 
 def _draw_body(
     solution: Solution, body: str, cut: float | None, index_base: int, figure: Figure
 ) -> None:
-    panels = _grid(figure, 6, 2)
+    count = solution.model.bodies[body].count
+    panels = _grid(figure, 2 * count, 2)
     common: dict[str, Any] = {"cut": cut, "index_base": index_base}
-    for k, (rate, acceleration) in enumerate(zip(RATES, ACCELERATIONS, strict=True)):
+    for k, (rate, acceleration) in enumerate(
+        zip(RATES[:count], ACCELERATIONS[:count], strict=True)
+    ):
         velocities(solution, body, rate, ax=panels[2 * k], **common)
         accelerations(solution, body, acceleration, ax=panels[2 * k + 1], **common)
     for panel in panels:
