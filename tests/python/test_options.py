@@ -1,4 +1,4 @@
-"""Options and bodies written by hand hold what the catalogue of the core says."""
+"""Options and bodies written by hand agree with the catalogue of the core."""
 
 import json
 from dataclasses import MISSING, fields

@@ -1,4 +1,4 @@
-"""Calls that ask for what was asked for before: what is kept changes no result and no error."""
+"""Repeated calls: kept results change no result and no error."""
 
 import json
 from collections.abc import Iterator
@@ -29,7 +29,7 @@ def numbers(sol: Solution) -> tuple[bytes, ...]:
 
 
 def anew(model: Model, start: State, **wanted: Any) -> Solution:
-    """The same asked of a model that nothing was asked of, with nothing kept."""
+    """The same solution from a fresh model, with nothing kept."""
     request_cache._kept.clear()
     fresh = Model.from_tree(model.tree())
     return kp.dynamics(fresh, start, **wanted)

@@ -4,7 +4,7 @@
 //! position is a singular position that the mechanism passes; one that stays is redundancy. Its left
 //! null vectors name all joints that take part.
 
-use super::assemble::Closing;
+use super::closing::Closing;
 use crate::elements::{BodyId, Coordinate, CoordinateOf};
 use crate::equations::augmented::Augmented;
 use crate::equations::kinematics::Motions;

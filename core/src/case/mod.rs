@@ -18,6 +18,7 @@ mod bodies;
 mod body_builder;
 mod builder;
 mod check;
+mod contents;
 mod diagnostic;
 mod document;
 mod fault;
@@ -39,6 +40,7 @@ mod write_value;
 
 pub use body_builder::{Bar, BodyBuilder, General, Ground};
 pub use builder::ModelBuilder;
+pub use contents::{Case, Format, Start, FORMAT_VERSION, MOST_BYTES, MOST_REPORTED};
 use diagnostic::shown;
 pub use diagnostic::Diagnostic;
 pub use document::Document;
@@ -46,43 +48,7 @@ pub use schema::schema;
 pub use tree::{MOST_DEPTH, MOST_VALUES};
 pub use write::write;
 
-use crate::model::{Definition, Entry, Value};
-
-/// The version of the format that is read and written: `kempe = 1`.
-pub const FORMAT_VERSION: u32 = 1;
-/// Most bytes of a text that are read: 16 MiB.
-pub const MOST_BYTES: usize = 16 << 20;
-/// Most faults that are reported.
-pub const MOST_REPORTED: usize = 100;
-
-/// How a case is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// TOML 1.0.
-    Toml,
-    /// JSON, RFC 8259.
-    Json,
-}
-
-/// A model as written, where it starts, and what is asked of it.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Case {
-    /// The model.
-    pub definition: Definition,
-    /// Where assembly starts.
-    pub start: Start,
-    /// Analyses, in order.
-    pub analyses: Vec<Entry>,
-}
-
-/// Coordinates and rates for the assembly; keys are `body.coordinate`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Start {
-    /// Those that are prescribed.
-    pub set: Vec<(String, Value)>,
-    /// Those that are guessed.
-    pub guess: Vec<(String, Value)>,
-}
+use crate::model::Value;
 
 /// Reads a case.
 ///

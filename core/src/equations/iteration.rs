@@ -87,13 +87,25 @@ impl Places {
         let compliance = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
         let damping = if model.allow_redundancy { REDUNDANT * compliance } else { 0.0 };
         let Compiled { added_inertia, own_mass, .. } = compiled;
-        Self { plan, pairs, groups, jacobian, states, rows, diagonal, damping, added_inertia, own_mass }
+        Self {
+            plan,
+            pairs,
+            groups,
+            jacobian,
+            states,
+            rows,
+            diagonal,
+            damping,
+            added_inertia,
+            own_mass,
+        }
     }
 }
 
 /// Sizes of the blocks of the states: one block for up to three states of an element.
 fn state_blocks(layout: &StateLayout) -> Vec<usize> {
-    let of = |own: &Range<usize>| (0..own.len()).step_by(3).map(|k| (own.len() - k).min(3)).collect();
+    let of =
+        |own: &Range<usize>| (0..own.len()).step_by(3).map(|k| (own.len() - k).min(3)).collect();
     layout.states.iter().flat_map(|own| -> Vec<usize> { of(own) }).collect()
 }
 

@@ -1,6 +1,6 @@
 //! How an integration fails.
 
-use super::stepper::Statistics;
+use super::statistics::Statistics;
 use std::fmt;
 
 /// Why an integration failed.

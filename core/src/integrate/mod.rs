@@ -58,6 +58,7 @@ mod rk4;
 mod rk45;
 mod runge_kutta;
 mod stages;
+mod statistics;
 mod step;
 mod step_acceptance;
 mod step_control;
@@ -82,8 +83,7 @@ pub use radau::Radau;
 pub(crate) use right_hand_side::all_finite;
 pub use rk4::Rk4;
 pub use rk45::Rk45;
+pub use statistics::{Ended, Statistics};
 pub use step::{Flow, Observer, Step};
 pub use step_control::{Atol, StepControl};
-pub use stepper::{
-    integrate, BoxedStepper, Ended, ExplicitMethod, ImplicitMethod, Statistics, Stepper,
-};
+pub use stepper::{integrate, BoxedStepper, ExplicitMethod, ImplicitMethod, Stepper};

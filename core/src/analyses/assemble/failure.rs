@@ -1,8 +1,8 @@
 //! Why a mechanism cannot be assembled, in terms of the mechanism.
 
-use super::closing::Closing;
 use super::placement::Gap;
 use super::request::{Request, Target};
+use crate::analyses::closing::Closing;
 use crate::analyses::Mobility;
 use crate::elements::{Attachment, BodyId, Fixes, Group};
 use crate::equations::constraints;

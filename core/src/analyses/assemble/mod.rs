@@ -5,7 +5,6 @@
 //! consistent velocities nearest to those asked for. What is consistent already is left alone.
 
 mod angle_winding;
-mod closing;
 mod dyad;
 mod failure;
 mod open_placement;
@@ -16,7 +15,7 @@ mod slider_placement;
 mod targets;
 mod velocities;
 
-pub use closing::Closing;
+pub use super::closing::Closing;
 pub use failure::{Failure, Fault};
 pub use open_placement::open_placement;
 pub use placement::{place, Dyad, Gap, Placement};

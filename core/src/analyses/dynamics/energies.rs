@@ -1,10 +1,10 @@
 //! Energies at the states of a run, worked out when they are asked for; several at once over lanes.
 
-use super::accelerations::{States, MANY};
+use super::accelerations::MANY;
 use super::failure::Reason;
 use super::model_cache::ModelCache;
 use super::report_projection::Halt;
-use super::run::Run;
+use super::trajectory::States;
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
 use crate::integrate::all_finite;
@@ -47,7 +47,8 @@ fn mechanical(
     if t.len() >= MANY {
         let wide = cache.wide(model);
         let mut motions = Motions::new(&wide.layout);
-        let [mut places, mut rates, mut states] = [n, n, n_z].map(|width| vec![Lanes::zero(); width]);
+        let [mut places, mut rates, mut states] =
+            [n, n, n_z].map(|width| vec![Lanes::zero(); width]);
         for t in t.chunks_exact(Lanes::WIDTH) {
             let rows = done * n..(done + Lanes::WIDTH) * n;
             Lanes::from_rows(&q[rows.clone()], &mut places);
@@ -72,15 +73,4 @@ fn mechanical(
 fn at<S: Real>(model: &Model<S>, t: S, [q, v, z]: [&[S]; 3], motions: &mut Motions<S>) -> [S; 2] {
     motions.place(&model.layout, q, v);
     [energy::kinetic(model, motions), energy::potential(model, motions, z, t)]
-}
-
-impl Run {
-    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces at the reported states, J:
-    /// rows of [`ENERGIES`].
-    ///
-    /// # Errors
-    /// As [`Prepared::energies`](super::Prepared::energies).
-    pub fn energies(&self, model: &Model) -> Result<Vec<f64>, Reason> {
-        energies((model, &ModelCache::default()), self.trajectory.states(), &self.trajectory.works)
-    }
 }

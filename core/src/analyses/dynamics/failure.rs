@@ -2,7 +2,6 @@
 
 use super::constraint_violation::Violation;
 use super::report_projection::Halt;
-use super::run::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
 use crate::equations::augmented::Dependent;
@@ -40,15 +39,6 @@ pub enum Reason {
         /// What to try.
         hint: &'static str,
     },
-}
-
-/// A failed run with what was computed before.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
-    /// Why.
-    pub reason: Reason,
-    /// What was computed before.
-    pub run: Run,
 }
 
 impl Reason {

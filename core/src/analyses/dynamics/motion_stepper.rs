@@ -2,9 +2,9 @@
 
 use super::failure::Reason;
 use super::method_switching::{MethodSwitching, Stop};
+use super::methods::Scheme;
 use super::motion_dae::MotionDae;
 use super::motion_ode::MotionOde;
-use super::methods::Scheme;
 use super::options::Options;
 use super::stiffness_detection::MethodChoice;
 use crate::integrate::{

@@ -1,13 +1,14 @@
 //! A model made ready for many runs: what each would work out anew is worked out by the first.
 
 use super::accelerations::accelerations;
-use super::accelerations::{Accelerations, States};
+use super::accelerations::Accelerations;
 use super::clock::{system_clock, Clock};
 use super::energies::energies;
-use super::failure::{Failure, Reason};
+use super::failure::Reason;
 use super::model_cache::ModelCache;
 use super::options::Options;
-use super::run::{simulate, Phase, Run, Watcher};
+use super::run::{simulate, Failure, Phase, Run, Watcher};
+use super::trajectory::States;
 use crate::analyses::State;
 use crate::integrate::Flow;
 use crate::model::Model;

@@ -7,23 +7,13 @@
 //!   aside within a part of its size in which the branches cannot be told apart;
 //! * where its velocity is tangent to no branch: Φ_q a = γ has no solution.
 
-use super::options::Options;
+use super::options::{Options, Singularity};
 use super::singularity_forecast::SingularityForecast;
 use crate::equations::augmented::Dependent;
 use crate::equations::forces::Acting;
 use crate::equations::{constraints, forces, mass, Singular, Workspace};
 use crate::model::{size, Model};
 use crate::stabilize::Fault;
-
-/// What to do at a singular position where the motion does not decide the branch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Singularity {
-    /// Stop with an error that names time, position and joints.
-    #[default]
-    Stop,
-    /// Go on; which branch is taken is left to rounding.
-    Pass,
-}
 
 /// Ratio of a pivot to what it was cancelled from below which branches are not told apart: a part of
 /// 1e-3 of the mechanism's size.

@@ -168,7 +168,10 @@ impl<'a> StiffnessDetector<'a> {
                 let images = near_a.iter().zip(&a).chain(near_dz.iter().zip(&dz));
                 let (from, to) = self.x.split_at_mut(k + 1);
                 to[0][..n].copy_from_slice(&from[k][n..2 * n]);
-                to[0][n..].iter_mut().zip(images).for_each(|(to, (near, x))| *to = (near - x) / epsilon);
+                to[0][n..]
+                    .iter_mut()
+                    .zip(images)
+                    .for_each(|(to, (near, x))| *to = (near - x) / epsilon);
             }
             self.x.rotate_left(2);
             let scale = 1.0 / largest(&self.x[0]).max(f64::MIN_POSITIVE);
