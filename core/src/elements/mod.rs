@@ -8,6 +8,7 @@
 mod declare;
 pub(crate) mod derive;
 mod dispatch;
+mod field;
 mod force_trait;
 mod joint_trait;
 mod kinds;
@@ -24,13 +25,14 @@ pub mod joints;
 pub mod test_elements;
 
 use declare::join;
-pub use declare::{Default, Element, Field, Table};
+pub use declare::{Element, Table};
 pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
+pub use field::{Default, Field, Shape};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation};
 pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
 pub use kinds::{
     body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, JointId,
-    Kind, PointOn, Shape, Source,
+    Kind, PointOn, Source,
 };
 pub use list::{catalogue, holding, states_of, Constraint, ForceElement, ForcePools, JointPools};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};

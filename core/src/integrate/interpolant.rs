@@ -5,7 +5,7 @@
 //! computed for a step nobody looks into. Hairer, Nørsett and Wanner, *Solving Ordinary Differential
 //! Equations I*, II.6.
 
-use super::hermite_birkhoff::Polynomials;
+use super::component_polynomials::{Polynomials, HIGHEST};
 use crate::math::{Lanes, Real};
 
 /// Most stages of a method, with those of its extension and the jump of a projection.
@@ -13,9 +13,6 @@ const MOST: usize = 17;
 
 /// Blocks of components that are summed side by side.
 const TOGETHER: usize = 3;
-
-/// Highest degree that a method has.
-pub(crate) const HIGHEST: usize = 9;
 
 /// The cubic polynomial of Hermite, of order 3: coefficients of θ … θ⁴ of the derivative at the beginning,
 /// at the end, and the chord (y - y_old) / h.

@@ -35,6 +35,7 @@
 mod alpha_parameters;
 mod alpha_step;
 mod arguments;
+mod component_polynomials;
 mod dae;
 mod dop853;
 mod dop853_coefficients;
@@ -66,8 +67,10 @@ mod step_placement;
 mod step_size;
 mod stepper;
 mod tolerances;
+mod trial;
 
 pub use alpha_parameters::AlphaParameters;
+pub(crate) use component_polynomials::HIGHEST;
 pub use dae::{
     ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
     SingularMatrix,
@@ -77,7 +80,6 @@ pub use events::{locate, Direction};
 pub use failure::{Cause, Failure};
 pub use generalized_alpha::GeneralizedAlpha;
 pub use interpolant::Interpolant;
-pub(crate) use interpolant::HIGHEST;
 pub use ode::{Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 pub use radau::Radau;
 pub(crate) use right_hand_side::all_finite;
