@@ -54,7 +54,7 @@ class ConstraintInfo:
     Attributes:
         name: name of the joint or driver.
         group: "joints" or "drivers".
-        type: such as "revolute".
+        type: the ``type`` in the file.
         i, j: the connected bodies.
         point_i, point_j: the joint point in the frame of each body, m.
         axis_i, axis_j: angle of the joint's x axis in the frame of each body, rad.
@@ -81,7 +81,7 @@ class ForceInfo:
 
     Attributes:
         name: name of the element.
-        type: such as "torsion_spring".
+        type: the ``type`` in the file.
         i, j: the bodies on which it acts.
         parts: names of its parts, such as "stiffness" and "damping".
         points: the two points of a force along a line, in the frames of bodies i and j, m; None for

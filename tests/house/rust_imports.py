@@ -11,8 +11,8 @@ from house.rust_source import closing_brace, code_only
 Name = tuple[str, ...]
 
 _PATH = re.compile(r"(?<![\w:$])(crate|super|self)\s*::\s*")
-_USE = re.compile(r"(?m)^\s*(?:pub(?:\([^)]*\))?\s+)?use\s+([^;]+);")
-_CHILD = re.compile(r"(?m)^\s*(?:pub(?:\([^)]*\))?\s+)?mod\s+(\w+)\s*;")
+_USE = re.compile(r"(?m)(?:^|(?<=[;{}]))\s*(?:pub(?:\([^)]*\))?\s+)?use\s+([^;]+);")
+_CHILD = re.compile(r"(?m)(?:^|(?<=[;{}]))\s*(?:pub(?:\([^)]*\))?\s+)?mod\s+(\w+)\s*;")
 
 
 def module_of(path: Path) -> Name:
@@ -60,11 +60,12 @@ def without_tests(code: str) -> str:
 
 
 class Source:
-    """The imports of one file."""
+    """The imports of one file: its text and its module."""
 
-    def __init__(self, path: Path) -> None:
-        code = without_tests(code_only(path.read_text(encoding="utf-8")))
-        self.module = module_of(path)
+    def __init__(self, text: str, module: Name) -> None:
+        code = without_tests(code_only(text))
+        self.module = module
+        #: Modules that the file declares.
         self.children = set(_CHILD.findall(code))
         #: Local name → imported item, for each `use`.
         self.used: dict[str, Name] = {}
@@ -95,7 +96,8 @@ class Source:
 def sources() -> dict[Name, Source]:
     """All files of the core by module, without lib.rs."""
     paths = [path for path in sorted(CORE.rglob("*.rs")) if path.name != "lib.rs"]
-    return {source.module: source for source in map(Source, paths)}
+    texts = {module_of(path): path.read_text(encoding="utf-8") for path in paths}
+    return {module: Source(text, module) for module, text in texts.items()}
 
 
 def defined_in(item: Name, files: dict[Name, Source]) -> Name:

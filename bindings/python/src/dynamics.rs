@@ -117,7 +117,7 @@ impl PyRun {
         let count = t.len();
         let rows = |values, width| table(py, values, (count, width)).map(|t| frozen(t).unbind());
         let (dense_t, dense_y, dense_c) = match run.dense {
-            Some(dense) => dense_arrays(py, dense, 2 * n + 3)?,
+            Some(dense) => dense_arrays(py, dense, model.model.layout.n_y())?,
             None => (None, None, None),
         };
         Ok(Self {
