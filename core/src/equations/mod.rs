@@ -21,6 +21,7 @@ pub mod mass;
 pub mod motion;
 mod plan;
 pub mod reactions;
+mod reactive;
 mod refine;
 mod residuals;
 mod roles;

@@ -14,7 +14,7 @@ use super::forces::{self, Acting};
 use super::kinematics::Motions;
 use super::plan::Plan;
 use super::roles::{self, Roles};
-use super::{mass, refine, Compiled};
+use super::{mass, reactive, refine, Compiled};
 use crate::math::Real;
 use crate::model::Model;
 use std::sync::Arc;
@@ -30,7 +30,18 @@ pub struct Gains {
 
 /// The equations of motion have no unique solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Singular(pub Dependent);
+pub enum Singular {
+    /// A row of Φ_q depends on the others, or a coordinate has no inertia.
+    Dependent(Dependent),
+    /// No reactions agree with the forces that depend on them. The first row of such a reaction.
+    Reaction(usize),
+}
+
+impl From<Dependent> for Singular {
+    fn from(dependent: Dependent) -> Self {
+        Self::Dependent(dependent)
+    }
+}
 
 /// Memory for the equations of motion of one model, and the results of the last evaluation: motions, accelerations,
 /// multipliers, powers, Φ_q and the factors of the matrix.
@@ -55,8 +66,11 @@ pub struct Workspace<S = f64> {
     powers: Powers<S>,
     /// Subtracted from γ, whatever the state; empty if nothing.
     offset: Vec<S>,
-    /// Whether the matrix is never that of the equations: inertia is added, or redundant rows are damped.
+    /// Whether the matrix is never that of the equations: inertia is added, or redundant rows are damped. Or whether
+    /// forces depend on reactions.
     modified: bool,
+    /// The rows of the multipliers on which forces depend.
+    reactive: Vec<usize>,
     n_q: usize,
     /// Number of unknowns of the solver: n_q, and padding behind a short last group.
     n_unknowns: usize,
@@ -89,6 +103,7 @@ impl<S: Real> Workspace<S> {
         let (n_unknowns, m) = (plan.n_unknowns(), model.layout.n_rows);
         let compiled = Arc::new(Compiled::new(model));
         let roles = Roles::new(model, &compiled, &plan);
+        let reactive = reactive::rows(model);
         let mut matrix = Augmented::on(plan);
         matrix.set_inertia(&compiled);
         if model.allow_redundancy {
@@ -99,7 +114,8 @@ impl<S: Real> Workspace<S> {
             z: vec![S::zero(); model.layout.n_z],
             roles,
             matrix,
-            modified: compiled.adds_mass || model.allow_redundancy,
+            modified: compiled.adds_mass || model.allow_redundancy || !reactive.is_empty(),
+            reactive,
             compiled,
             solution: vec![S::zero(); n_unknowns + m],
             powers: Powers::zero(),
@@ -146,10 +162,10 @@ impl<S: Real> Workspace<S> {
         if !self.modified {
             match self.solve_directly(model, t, gains) {
                 Err(Dependent::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
-                outcome => return outcome.map_err(Singular),
+                outcome => return outcome.map_err(Singular::Dependent),
             }
         }
-        self.solve_and_refine(model, t, gains).map_err(Singular)
+        self.solve_and_refine(model, t, gains)
     }
 
     /// q̈ and λ where the matrix is that of the equations: joints are put into it as they are evaluated.
@@ -173,20 +189,30 @@ impl<S: Real> Workspace<S> {
     }
 
     /// The same by the whole matrix, with a factor that may be that of a modified one.
-    fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
-        let Self { motions, z, compiled, matrix, solution, powers, offset, .. } = self;
+    fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
+        let Self { motions, z, compiled, matrix, solution, powers, offset, reactive, .. } = self;
         let (n, padded) = (self.n_q, self.n_unknowns);
-        let mut x = vec![S::zero(); n + solution.len() - padded];
-        let (forces, right) = x.split_at_mut(n);
-        constraints::linearize(model, motions, t, gains, right, matrix.jacobian_mut());
+        let mut right = vec![S::zero(); model.layout.n_rows];
+        constraints::linearize(model, motions, t, gains, &mut right, matrix.jacobian_mut());
         right.iter_mut().zip(offset).for_each(|(right, offset)| *right -= *offset);
         matrix.set_mass(compiled, motions);
-        *powers = forces::generalized(model, compiled, motions, Acting { z, lam: None, t }, forces);
         matrix.factor()?;
-        let outcome = refine::solve((model, compiled), motions, matrix, &mut x);
-        solution[..n].copy_from_slice(&x[..n]);
-        solution[padded..].copy_from_slice(&x[n..]);
-        outcome
+        let mut respond = |lam: Option<&[S]>| -> Result<Vec<S>, Dependent> {
+            let mut x = vec![S::zero(); n];
+            x.extend_from_slice(&right);
+            *powers =
+                forces::generalized(model, compiled, motions, Acting { z, lam, t }, &mut x[..n]);
+            let outcome = refine::solve((model, compiled), motions, matrix, &mut x);
+            solution[..n].copy_from_slice(&x[..n]);
+            solution[padded..].copy_from_slice(&x[n..]);
+            outcome.map(|()| x.split_off(n))
+        };
+        let mut lam = respond(None)?;
+        if let Some(&row) = reactive.first() {
+            let converged = reactive::solve(reactive, &mut lam, |lam| respond(Some(lam)))?;
+            return if converged { Ok(()) } else { Err(Singular::Reaction(row)) };
+        }
+        Ok(())
     }
 
     /// ż at the state that was [placed](Self::place), into `out`, shape (n_z).

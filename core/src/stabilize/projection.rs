@@ -321,7 +321,7 @@ impl<'a, S: Real> Projector<'a, S> {
         self.residuals.jacobian(self.model, motions, t, matrix.jacobian_mut());
         matrix.set_mass(compiled, motions);
         self.factorisations += 1;
-        matrix.factor().map_err(|dependent| Fault::Singular(Singular(dependent)))
+        matrix.factor().map_err(|dependent| Fault::Singular(dependent.into()))
     }
 
     /// One step with the factor at hand.

@@ -1,7 +1,7 @@
 //! What assembly says when a position cannot be.
 
 use crate::mechanisms::{asked, close, model, refused, FOUR_BAR};
-use kempe::analyses::assemble::{assemble, targets, Fault, Request};
+use kempe::analyses::assemble::{assemble, targets, Fault, Request, Target};
 use kempe::analyses::State;
 
 fn slider(value: &str) -> String {
@@ -75,10 +75,12 @@ fn wishes_that_cannot_be_read() {
         let text = found[0].to_string();
         assert!(parts.iter().all(|part| text.contains(part)), "{key} = {value}: {text}");
     }
-    let target = &asked(&m, "set", &[("crank.angle", "L1*30*deg/10")])[0];
-    close("a formula", target.value, 30_f64.to_radians(), 1e-15);
-    let target = &asked(&m, "set", &[("crank.x", "250 mm")])[0];
-    close("a unit", target.value, 0.25, 1e-16);
+    let value = |key: &str, text: &str| match &asked(&m, "set", &[(key, text)])[0] {
+        Target::Coordinate(target) => target.value,
+        Target::State { .. } => panic!("not a state"),
+    };
+    close("a formula", value("crank.angle", "L1*30*deg/10"), 30_f64.to_radians(), 1e-15);
+    close("a unit", value("crank.x", "250 mm"), 0.25, 1e-16);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Why a mechanism cannot be assembled, in terms of the mechanism.
 
 use super::placement::Gap;
-use super::request::{Request, Target};
+use super::request::{of_bodies, of_rates, CoordinateTarget, Request};
 use crate::analyses::closing::Closing;
 use crate::analyses::Mobility;
 use crate::elements::{Attachment, BodyId, Fixes, Group};
@@ -109,7 +109,7 @@ fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
         )
     };
     let loop_ = loop_through(model, gap.joint).unwrap_or_else(|| format!("{a}-{b}"));
-    let set = asked(model, &request.set);
+    let set = asked(model, of_bodies(&request.set));
     let change = if set.is_empty() { String::new() } else { ", or change what is set".to_string() };
     Failure {
         fault: Fault::Open,
@@ -139,7 +139,7 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
         Some(loop_) => format!("the loop {loop_}"),
         None => "the mechanism".to_string(),
     };
-    let set = asked(model, &request.set);
+    let set = asked(model, of_bodies(&request.set));
     let gap = if total > 0.0 { total } else { worst.1 };
     let unit = model.constraints[worst.0].equations[0].unit;
     let message = if unit == "m" {
@@ -152,18 +152,19 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
 }
 
 /// "with crank.angle = 70° ", or nothing.
-fn asked(model: &Model, set: &[Target]) -> String {
-    if set.is_empty() {
-        return String::new();
-    }
-    let one = |target: &Target| {
+fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a CoordinateTarget>) -> String {
+    let one = |target: &CoordinateTarget| {
         let name = format!("{}.{}", model.bodies[target.body.0].name, target.coordinate.name());
         match target.coordinate.unit() {
             "rad" => format!("{name} = {}°", trimmed(target.value.to_degrees())),
             unit => format!("{name} = {} {unit}", trimmed(target.value)),
         }
     };
-    format!("with {} ", set.iter().map(one).collect::<Vec<_>>().join(", "))
+    let all: Vec<String> = set.map(one).collect();
+    match all.is_empty() {
+        true => String::new(),
+        false => format!("with {} ", all.join(", ")),
+    }
 }
 
 /// Six decimals without trailing zeros.
@@ -213,15 +214,15 @@ fn ends(item: &ConstraintItem) -> [usize; 2] {
 
 /// The rates that are set cannot be reached.
 pub(super) fn rates(model: &Model, request: &Request) -> Failure {
-    let set: Vec<Target> = request.set.iter().filter(|w| w.coordinate.is_rate()).cloned().collect();
-    let name = set.first().map_or(String::new(), |w| model.bodies[w.body.0].name.clone());
+    let mut set = of_rates(&request.set);
+    let name = set.clone().next().map_or(String::new(), |w| model.bodies[w.body.0].name.clone());
     Failure {
         fault: Fault::Rates,
         name,
         gap: 0.0,
         message: format!(
             "{}the velocities contradict the constraints or each other",
-            asked(model, &set)
+            asked(model, &mut set)
         ),
         hint: "set no more rates than there are degrees of freedom".to_string(),
     }

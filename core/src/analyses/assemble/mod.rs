@@ -20,7 +20,7 @@ pub use failure::{Failure, Fault};
 pub use open_placement::open_placement;
 pub use placement::{place, Dyad, Gap, Placement};
 pub use report::{Mode, Report};
-pub use request::{targets, Request, Target};
+pub use request::{targets, CoordinateTarget, Request, Target};
 pub use targets::Targets;
 
 use super::{mobility, State};
@@ -29,6 +29,7 @@ use crate::equations::kinematics;
 use crate::math::Pose;
 use crate::model::Model;
 use crate::solve::newton::Record;
+use request::{of_positions, of_rates};
 use std::sync::Arc;
 
 /// Most placements that are looked at.
@@ -69,7 +70,21 @@ pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box
     }
     let v = velocities(model, request, &q)?;
     describe(model, &asked, &q, &mut report);
-    Ok((State { t: request.t, q, v, z: Vec::new() }, report))
+    Ok((State { t: request.t, q, v, z: states(model, request) }, report))
+}
+
+/// First-order states: those that are set, else guessed, else given, else zero.
+fn states(model: &Model, request: &Request) -> Vec<f64> {
+    let mut z = match &request.state {
+        Some(state) => state.z.clone(),
+        None => vec![0.0; model.layout.n_z],
+    };
+    for target in request.guess.iter().chain(&request.set) {
+        if let Target::State { place, value } = target {
+            z[*place] = *value;
+        }
+    }
+    z
 }
 
 /// Drivers and `set` are hard; drawn poses, `guess` and a given state are soft.
@@ -79,11 +94,11 @@ fn asked(model: &Model, request: &Request) -> Targets {
         asked.approach(model, &state.q);
         asked.turn[1..].fill(true);
     }
-    for target in request.guess.iter().filter(|w| !w.coordinate.is_rate()) {
+    for target in of_positions(&request.guess) {
         asked.soft[target.body.0][target.coordinate.column()] = Some(target.value);
         asked.turn[target.body.0] |= target.coordinate.column() == 2;
     }
-    for target in request.set.iter().filter(|w| !w.coordinate.is_rate()) {
+    for target in of_positions(&request.set) {
         asked.hard[target.body.0][target.coordinate.column()] = Some(target.value);
         asked.turn[target.body.0] |= target.coordinate.column() == 2;
     }
@@ -95,15 +110,14 @@ fn asked(model: &Model, request: &Request) -> Targets {
 
 /// The model with a driver for each coordinate that is set.
 pub fn holding(model: &Model, request: &Request) -> Model {
-    let positions = request.set.iter().filter(|w| !w.coordinate.is_rate());
-    let held: Vec<_> = positions.map(|w| held(model, w, w.value.into())).collect();
+    let held: Vec<_> = of_positions(&request.set).map(|w| held(model, w, w.value.into())).collect();
     let blueprint = model.blueprint.holding(&held);
     Model::new(&Arc::new(blueprint), &model.parameters)
 }
 
 fn held(
     model: &Model,
-    target: &Target,
+    target: &CoordinateTarget,
     value: crate::expression::Tape,
 ) -> (String, CoordinateOf, crate::expression::Tape) {
     let position = crate::elements::Coordinate::ALL[target.coordinate.column()];
@@ -112,7 +126,7 @@ fn held(
 }
 
 /// The column of a coordinate or of its rate.
-fn column(model: &Model, target: &Target) -> usize {
+fn column(model: &Model, target: &CoordinateTarget) -> usize {
     model.layout.bodies[target.body.0].first + target.coordinate.column()
 }
 
@@ -196,10 +210,10 @@ fn velocities(model: &Model, request: &Request, q: &[f64]) -> Result<Vec<f64>, B
         None => vec![0.0; q.len()],
     };
     let mut drivers = Vec::new();
-    for target in request.guess.iter().chain(&request.set).filter(|w| w.coordinate.is_rate()) {
+    for target in of_rates(&request.guess).chain(of_rates(&request.set)) {
         v[column(model, target)] = target.value;
     }
-    for target in request.set.iter().filter(|w| w.coordinate.is_rate()) {
+    for target in of_rates(&request.set) {
         let position = q[column(model, target)];
         let law = crate::expression::Tape::line(position, target.value, request.t);
         drivers.push(held(model, target, law));

@@ -1,13 +1,13 @@
-//! What is asked of an assembly.
+//! Input of an assembly.
 
 use crate::analyses::State;
 use crate::elements::{BodyId, Coordinate};
 use crate::equations::at;
 use crate::model::{did_you_mean, Model, Problem, Reach, Scope, Value};
 
-/// A value asked for a coordinate or a rate.
+/// A value given for a coordinate or a rate of a body.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Target {
+pub struct CoordinateTarget {
     /// The moving body.
     pub body: BodyId,
     /// Coordinate or rate.
@@ -16,7 +16,39 @@ pub struct Target {
     pub value: f64,
 }
 
-/// All that is asked of an assembly.
+/// A value given for the start.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    /// Of a body.
+    Coordinate(CoordinateTarget),
+    /// Of a first-order state of an element.
+    State {
+        /// Its place in z.
+        place: usize,
+        /// In its unit.
+        value: f64,
+    },
+}
+
+/// The targets of coordinates.
+pub(super) fn of_positions(targets: &[Target]) -> impl Iterator<Item = &CoordinateTarget> + Clone {
+    of_bodies(targets).filter(|target| !target.coordinate.is_rate())
+}
+
+/// The targets of rates.
+pub(super) fn of_rates(targets: &[Target]) -> impl Iterator<Item = &CoordinateTarget> + Clone {
+    of_bodies(targets).filter(|target| target.coordinate.is_rate())
+}
+
+/// The targets of coordinates and rates.
+pub(super) fn of_bodies(targets: &[Target]) -> impl Iterator<Item = &CoordinateTarget> + Clone {
+    targets.iter().filter_map(|target| match target {
+        Target::Coordinate(target) => Some(target),
+        Target::State { .. } => None,
+    })
+}
+
+/// Input of an assembly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
     /// Held exactly.
@@ -45,14 +77,14 @@ pub fn targets(
     let mut found = Vec::new();
     for (key, value) in written {
         let path = ["start".to_string(), section.to_string(), key.clone()];
-        let Some((body, coordinate)) = named(model, key, &path, &mut problems) else { continue };
+        let Some(named) = named(model, key, &path, &mut problems) else { continue };
         let scope = Scope::of_parameters(&model.blueprint.parameters);
-        let unit = coordinate.unit();
+        let unit = named.unit;
         let tape = scope.formula(value, &path, unit, Reach::Parameters, &mut problems);
         let Some(tape) = tape else { continue };
         let value = tape.evaluate(&at(&model.parameters, &[], &[], 0.0));
         if value.is_finite() {
-            found.push(Target { body, coordinate, value });
+            found.push(named.with(value));
         } else {
             problems.push(Problem::at(&path, format!("becomes {value}; must be finite")));
         }
@@ -64,12 +96,41 @@ pub fn targets(
     }
 }
 
-fn named(
-    model: &Model,
-    key: &str,
-    path: &[String],
-    problems: &mut Vec<Problem>,
-) -> Option<(BodyId, Coordinate)> {
+/// A quantity that a target may have.
+struct Named {
+    of: Quantity,
+    unit: &'static str,
+}
+
+enum Quantity {
+    Coordinate(BodyId, Coordinate),
+    State(usize),
+}
+
+impl Named {
+    fn with(self, value: f64) -> Target {
+        match self.of {
+            Quantity::Coordinate(body, coordinate) => {
+                Target::Coordinate(CoordinateTarget { body, coordinate, value })
+            }
+            Quantity::State(place) => Target::State { place, value },
+        }
+    }
+}
+
+/// A first-order state such as `motor.current`.
+fn state(model: &Model, key: &str) -> Option<Named> {
+    let (element, name) = key.rsplit_once('.')?;
+    let k = model.force(element)?;
+    let at = model.forces[k].states.iter().position(|state| state.name == name)?;
+    let place = model.layout.states[k].start + at;
+    Some(Named { of: Quantity::State(place), unit: model.forces[k].states[at].unit })
+}
+
+fn named(model: &Model, key: &str, path: &[String], problems: &mut Vec<Problem>) -> Option<Named> {
+    if let Some(found) = state(model, key) {
+        return Some(found);
+    }
     let fault = |message: String, hint: Option<String>| {
         Problem::at(path, message).maybe_hint(hint).at_key()
     };
@@ -93,5 +154,11 @@ fn named(
         let hint = did_you_mean(coordinate, &known, "coordinates and rates");
         problems.push(fault(format!("'{coordinate}' is no coordinate of a body"), hint));
     }
-    Some((id?, found?))
+    let (id, coordinate) = (id?, found?);
+    if coordinate.column() >= model.layout.bodies[id.0].count {
+        let message = format!("'{body}' is a point mass and has no {}", coordinate.name());
+        problems.push(fault(message, Some("give its x, y, vx or vy".to_string())));
+        return None;
+    }
+    Some(Named { of: Quantity::Coordinate(id, coordinate), unit: coordinate.unit() })
 }

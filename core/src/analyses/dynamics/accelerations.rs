@@ -10,7 +10,7 @@ use super::model_cache::ModelCache;
 use super::report_projection::Halt;
 use super::trajectory::States;
 use crate::equations::augmented::NearSingular;
-use crate::equations::{Gains, Singular, Workspace};
+use crate::equations::{Gains, Workspace};
 use crate::integrate::{all_finite, Flow};
 use crate::math::{Lanes, Real};
 use crate::model::Model;
@@ -78,7 +78,7 @@ fn one_by_one(
         let (q, v, z) = (&q[row.clone()], &v[row], &z[k * n_z..(k + 1) * n_z]);
         workspace
             .accelerate(model, t, [q, v, z], Gains::default())
-            .map_err(|Singular(row)| Halt::Fault(Fault::Singular(Singular(row))))
+            .map_err(|singular| Halt::Fault(Fault::Singular(singular)))
             .and_then(|()| match [workspace.a(), workspace.lam()].into_iter().all(all_finite) {
                 true => Ok(()),
                 false => Err(Halt::NotFinite),

@@ -42,9 +42,17 @@ pub enum Reason {
 }
 
 impl Reason {
-    pub(super) fn singular(model: &Model, t: f64, q: &[f64], Singular(at): Singular) -> Self {
-        let (name, message) = match at {
-            Dependent::Row(row) => {
+    pub(super) fn singular(model: &Model, t: f64, q: &[f64], singular: Singular) -> Self {
+        let (name, message) = match singular {
+            Singular::Reaction(row) => {
+                let name = model.constraints[model.layout.owner(row).0].name.clone();
+                let message = format!(
+                    "no reaction of {name} at t = {t:.6} s agrees with the forces that depend on it: \
+                     with so much friction the mechanism jams; reduce the coefficient of friction"
+                );
+                (name, message)
+            }
+            Singular::Dependent(Dependent::Row(row)) => {
                 let (k, equation) = model.layout.owner(row);
                 let item = &model.constraints[k];
                 let what = format!("{}.{}", item.name, item.equations[equation].name);
@@ -55,7 +63,7 @@ impl Reason {
                 );
                 (item.name.clone(), message)
             }
-            Dependent::Column(column) => {
+            Singular::Dependent(Dependent::Column(column)) => {
                 let body = model.layout.body_of(column).map_or(BodyId::GROUND, |(body, _)| body);
                 let body = &model.bodies[body.0];
                 let (name, inertia) = (body.name.clone(), body.inertia);
@@ -86,7 +94,9 @@ impl Reason {
 
     pub(super) fn fault(model: &Model, t: f64, q: &[f64], fault: Fault) -> Self {
         let (row, gap) = match fault {
-            Fault::AtRest(Singular(Dependent::Row(row))) => return Self::at_rest(model, t, q, row),
+            Fault::AtRest(Singular::Dependent(Dependent::Row(row))) => {
+                return Self::at_rest(model, t, q, row)
+            }
             Fault::Singular(singular) | Fault::AtRest(singular) => {
                 return Self::singular(model, t, q, singular)
             }

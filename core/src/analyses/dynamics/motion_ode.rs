@@ -75,7 +75,7 @@ impl<'a> MotionOde<'a> {
         let near = self.workspace.matrix.regularised();
         match self.workspace.matrix.cancellation().filter(|_| near) {
             Some((row, _)) if !mobility(self.model, t, q).redundant.is_empty() => {
-                Err(Singular(Dependent::Row(row)))
+                Err(Singular::Dependent(Dependent::Row(row)))
             }
             _ => Ok(()),
         }

@@ -77,7 +77,7 @@ impl SingularityPassage {
         if !ridged || self.singularity == Singularity::Pass || kept > UNTOLD {
             return Ok(());
         }
-        let singular = Singular(Dependent::Row(row));
+        let singular = Singular::Dependent(Dependent::Row(row));
         if self.unmet(model, work, t) {
             return Err(Fault::Singular(singular));
         }
