@@ -2,7 +2,7 @@
 
 use kempe::case::{self, Diagnostic, Format};
 
-/// Text after the first line `kempe = 1`, line and column of a fault, parts of what is displayed.
+/// Text after the first line `kempe = 1`, line and column of a fault, parts of the displayed text.
 type Row = (&'static str, usize, usize, &'static str, &'static str);
 
 const TOML: &[Row] = &[
@@ -81,7 +81,7 @@ const TOML: &[Row] = &[
     ),
     // start
     ("[start]\nsets = {}\n", 3, 1, "unknown key 'sets' of start", "did you mean 'set'?"),
-    ("[start]\nset = { a = 1 }\n", 3, 9, "'a' is no coordinate", ""),
+    ("[start]\nset = { a = 1 }\n", 3, 9, "'a' is not a coordinate", ""),
     ("[start]\nset = { 'a.agle' = 1 }\n", 3, 9, "unknown coordinate 'agle'", "mean 'angle'?"),
     ("[start.set.a]\nphi = 1\n", 3, 1, "unknown coordinate 'phi'", "x, y, angle, vx, vy or omega"),
     ("[start]\nset = { 'a.x' = 1, a.x = 2 }\n", 3, 22, "a.x is given twice", ""),
@@ -166,7 +166,7 @@ const TOML: &[Row] = &[
     ("[parameters]\na = 1e999\n", 3, 5, "number is too large", ""),
     ("[parameters]\na = 9007199254740993\n", 3, 5, "integer is beyond 2^53", ""),
     ("[parameters]\na = 0xFFFFFFFFFFFFFFFFFFFFF\n", 3, 5, "integer is beyond 2^53", ""),
-    ("[parameters]\na = 1979-05-27\n", 3, 5, "a date is no value of a case", ""),
+    ("[parameters]\na = 1979-05-27\n", 3, 5, "a date is not a value of a case", ""),
     // syntax
     ("[parameters]\na = 1\na = 2\n", 4, 1, "key 'a' is given twice", "in line 3 already"),
     ("[parameters]\n[parameters]\n", 3, 2, "key 'parameters' is given twice", "in line 2 already"),
@@ -191,7 +191,7 @@ const JSON: &[Row] = &[
     ("{\"kempe\": .5}", 1, 11, "expected value", ""),
     ("{\"kempe\": 1, \"title\": 'a'}", 1, 23, "a text is written in double quotes", ""),
     ("{\"kempe\": 1, \"title\": abc}", 1, 23, "expected value", ""),
-    ("{\"kempe\": 1, \"title\": null}", 1, 23, "title: null is no value of a case", ""),
+    ("{\"kempe\": 1, \"title\": null}", 1, 23, "title: null is not a value of a case", ""),
     ("{\"kempe\": 1, \"title\": \"a\n\"}", 1, 25, "the text has no closing '\"'", ""),
     ("{\"kempe\": 1, \"title\": \"a\\q\"}", 1, 26, "invalid escape", ""),
     ("{\"kempe\": 1, \"title\": \"\\ud800\"}", 1, 23, "unexpected end of hex escape", ""),

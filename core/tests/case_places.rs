@@ -75,7 +75,7 @@ fn columns_count_characters_and_carets_stand_below_tabs() {
 fn long_lines_are_shortened_around_the_fault_and_hidden_characters_are_shown() {
     let blank = " ".repeat(300);
     let text = format!("kempe = 1\ngravity = [0,{blank}true,{blank}]\n");
-    let faults = case::read(&text, Format::Toml).expect_err("true is no number");
+    let faults = case::read(&text, Format::Toml).expect_err("true is not a number");
     assert_eq!(faults[0].column, 314);
     let lines: Vec<&str> = faults[0].excerpt.lines().collect();
     assert!(lines.iter().all(|line| line.chars().count() < 120));

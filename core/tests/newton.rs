@@ -68,7 +68,7 @@ fn converges_quadratically() {
 #[test]
 fn a_solution_is_returned_untouched() {
     let start = 2.0_f64.sqrt() + 1e-12; // not the best number, but good enough
-    let mut equations = scalar(|x| x * x - 2.0, |_| panic!("no step is asked for"));
+    let mut equations = scalar(|x| x * x - 2.0, |_| panic!("no step is needed"));
     let (mut newton, mut x) = (Newton::new(), [start]);
     assert_eq!(newton.solve(&mut equations, &mut x, &Options::default()), Ok(Outcome::Converged));
     assert_eq!(x[0].to_bits(), start.to_bits());

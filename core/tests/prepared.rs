@@ -1,4 +1,4 @@
-//! A model made ready for many runs gives the same bits as one that is asked for the first time.
+//! A model prepared for many runs gives the same bits as a model at its first run.
 
 mod mechanisms;
 

@@ -75,7 +75,7 @@ fn of_equal_rows_the_later_is_dependent() {
 
 #[test]
 fn a_left_null_vector_names_all_rows_that_take_part() {
-    // row 4 = row 0 + row 2 - row 3; row 1 stands apart
+    // row 4 = row 0 + row 2 - row 3; row 1 is independent
     let rows =
         [[1.0, 2.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 3.0], [2.0, 0.0, 0.0, 1.0]];
     let mut a = rows.concat();

@@ -139,7 +139,7 @@ def options_class(section: str, table: dict[str, Any], classes: dict[str, str]) 
 
 
 def option_shape(field: dict[str, Any]) -> str:
-    """What may stand in a field of options: a shape, a family, or words."""
+    """The values that a field of options accepts: a shape, a family, or words."""
     shape = field["shape"]
     if isinstance(shape, str):
         return f'"{shape}"'

@@ -28,11 +28,11 @@ _RUNNERS: dict[str, _Runner] = {"dynamics": simulate}
 
 @dataclass(frozen=True)
 class Start:
-    """How the mechanism is put together before the first analysis.
+    """The request for assembly before the first analysis.
 
     Attributes:
-        set: coordinates and rates that are to hold, m, rad and per s.
-        guess: the same for those that may move.
+        set: coordinates and rates that hold exactly, m, rad and per s.
+        guess: approximate coordinates and rates.
     """
 
     set: Coordinates = field(default_factory=dict)

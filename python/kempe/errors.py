@@ -76,7 +76,7 @@ class ModelError(KempeError):
 
 
 class AssemblyError(KempeError):
-    """The mechanism cannot be put together."""
+    """The mechanism cannot be assembled."""
 
 
 class RedundancyError(KempeError):

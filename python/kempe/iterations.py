@@ -28,7 +28,7 @@ class Iterations:
     def text(self) -> str:
         """A table with residual, step and damping of each iteration."""
         lines = [
-            "Newton–Raphson from the guess (bodies hung by their joints, loops open)",
+            "Newton–Raphson from the unchanged guess (bodies placed by their joints, loops open)",
             "lengths relative to the size of the mechanism",
             f"{HEADER[0]:>9}  {HEADER[1]:>10}  {HEADER[2]:>10}  {HEADER[3]:>7}",
         ]

@@ -13,7 +13,7 @@ from kempe.errors import ModelError
 from kempe.names import one_of
 from kempe.values import CHECKS, number, reference
 
-#: Permitted content of a field: the name of a shape, the name of a family of options, or words.
+#: The values that a field accepts: the name of a shape, the name of a family of options, or words.
 Shape: TypeAlias = "str | tuple[str, ...]"
 
 #: Families of options, each with an example for messages.

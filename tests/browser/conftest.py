@@ -42,7 +42,7 @@ def browser() -> Iterator["sync_api.Browser"]:
 
 @dataclass
 class Watched:
-    """A page, and all that it said, broke and asked for."""
+    """A page with its messages, errors and requests."""
 
     page: "sync_api.Page"
     messages: list[str] = field(default_factory=list)

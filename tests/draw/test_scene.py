@@ -1,4 +1,4 @@
-"""The scene says what the solution says."""
+"""The scene agrees with the solution."""
 
 import json
 from importlib import resources

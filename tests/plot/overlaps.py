@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
-#: Boxes of texts have some air; touching by less than this, in pixels, is no overlap.
+#: Boxes of texts have some air; touching by less than this, in pixels, does not count.
 SLACK = 1.0
 
 

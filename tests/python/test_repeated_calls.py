@@ -1,4 +1,4 @@
-"""Repeated calls: kept results change no result and no error."""
+"""Repeated calls: the cache changes neither results nor errors."""
 
 import json
 from collections.abc import Iterator
@@ -29,7 +29,7 @@ def numbers(sol: Solution) -> tuple[bytes, ...]:
 
 
 def anew(model: Model, start: State, **wanted: Any) -> Solution:
-    """The same solution from a fresh model, with nothing kept."""
+    """The same call with a fresh model and an empty cache."""
     request_cache._kept.clear()
     fresh = Model.from_tree(model.tree())
     return kp.dynamics(fresh, start, **wanted)

@@ -182,7 +182,7 @@ def test_every_formula_gives_the_number_of_the_core(somewhere: kp.State) -> None
             assert_allclose(jacobian, found.Phi_q[at], atol=1e-12, err_msg=row)
     tables: dict[str, Any] = json.loads(_core.catalogue())
     every = {(group, t["name"]) for group in ("joints", "drivers") for t in tables[group]}
-    assert seen == every  # the mechanism above must contain every new element
+    assert seen == every  # a new element must be added to the mechanism above
 
 
 def test_a_wrong_formula_would_be_seen(somewhere: kp.State) -> None:

@@ -1,4 +1,4 @@
-//! Arrays in and out, checked: shapes and finiteness are told by name.
+//! Conversion of arrays, with checks of shape and finiteness; errors contain the name of the array.
 
 use crate::errors::{raise, Failure, Kind};
 use kempe::analyses::State;

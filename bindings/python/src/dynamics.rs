@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 use serde_json::json;
 use std::sync::Arc;
 
-/// Columns of what was dissipated and done.
+/// Columns of dissipated energy and works.
 const WORKS: usize = core::ENERGIES - 2;
 
 /// What an integration gave.

@@ -12,11 +12,11 @@ use pyo3::types::{PyDict, PyTuple};
 pub enum Kind {
     /// The model, or the file it was read from, is wrong.
     Model,
-    /// The mechanism cannot be put together.
+    /// The mechanism cannot be assembled.
     Assembly,
     /// Some constraints repeat others, everywhere.
     Redundancy,
-    /// The mechanism stands in a position where the task has no unique answer.
+    /// The mechanism is in a position where the task has no unique answer.
     Singularity,
     /// The integrator could not go on.
     Integration,

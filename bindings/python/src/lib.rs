@@ -24,8 +24,8 @@ use guard::guard;
 use mimalloc::MiMalloc;
 use pyo3::prelude::*;
 
-/// Keeps the memory of results that are gone for those to come: returned to the system and asked for again with
-/// every run, its pages would cost a brief run a quarter of its time.
+/// Keeps the memory of freed results for later ones. Its return to the system and a new request with every run would
+/// cost a brief run a quarter of its time.
 #[global_allocator]
 static ALLOCATOR: MiMalloc = MiMalloc;
 
@@ -35,7 +35,7 @@ fn version() -> PyResult<&'static str> {
     guard("version", || Ok(env!("CARGO_PKG_VERSION")))
 }
 
-/// What may stand in a case, as JSON.
+/// The catalogue of the allowed content of a case, as JSON.
 #[pyfunction]
 fn catalogue() -> PyResult<String> {
     guard("catalogue", || Ok(tables::all()))

@@ -21,7 +21,7 @@ pub struct PyModel {
     pub options: RecentOptions,
 }
 
-/// Python's allocator aligns objects to 16 bytes and asks for nothing more.
+/// Python's allocator aligns objects to 16 bytes only.
 const _: () = assert!(align_of::<PyModel>() <= 16);
 
 impl PyModel {

@@ -68,7 +68,7 @@ fn element(group: Group, own: &Table) -> Value {
     value
 }
 
-/// Everything that may stand in a case, by section; then the functions and units of formulas.
+/// The allowed content of a case by section, then the functions and units of formulas.
 pub fn all() -> String {
     let mut sections = Map::new();
     sections.insert("bodies".into(), body_tables().iter().map(table).collect());

@@ -1,8 +1,8 @@
 //! Closing a mechanism: Newton–Raphson on Φ(q, t) = 0 with the rows of drivers and of `set`.
 //!
-//! Each step solves [W Φ_qᵀ; Φ_q -μ I]: the smallest step where coordinates are left free, Newton's
-//! own where Φ_q is square, a damped least-squares step where μ > 0. Lengths are measured by the
-//! size of the mechanism, so that metres and radians can be compared.
+//! Each step solves [W Φ_qᵀ; Φ_q -μ I]. It is the smallest step if there are free coordinates, Newton's step if Φ_q is
+//! square, and a damped least-squares step if μ > 0. Lengths are divided by the size of the mechanism, so that metres
+//! and radians can be compared.
 
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
@@ -12,7 +12,7 @@ use crate::solve::newton::{Damping, Equations, Newton, Options, Outcome, Record}
 
 /// Largest scaled residual of a consistent position.
 pub const TOLERANCE: f64 = 1e-12;
-/// Damping where a row of Φ_q depends on the others: far below the tolerance, enough for a pivot.
+/// Damping if a row of Φ_q depends on the others: far below the tolerance, but large enough for a pivot.
 const REDUNDANT: f64 = 1e-9;
 
 /// The position equations of a model at a fixed time.
@@ -46,13 +46,13 @@ impl<'a> Closing<'a> {
         }
     }
 
-    /// The model that is closed, drivers for `set` included.
+    /// The model with the drivers for `set`.
     pub fn model(&self) -> &'a Model {
         self.model
     }
 
-    /// Improves `q` until it satisfies the constraints; a `q` that does is returned untouched.
-    /// Gives the iterations and whether it closed.
+    /// Improves `q` until it satisfies the constraints; a consistent `q` is unchanged. Returns the iterations, and
+    /// whether the mechanism closed.
     pub fn close(&mut self, q: &mut [f64]) -> (Vec<Record>, bool) {
         let mut newton = Newton::new();
         let mut options = Options {

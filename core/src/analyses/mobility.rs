@@ -1,8 +1,8 @@
 //! Degrees of freedom and redundant constraints.
 //!
-//! Rank is judged by the row-scaled Φ_q. A deficiency that vanishes at a neighbouring admissible
-//! position is a singular position that the mechanism passes; one that stays is redundancy. Its left
-//! null vectors name all joints that take part.
+//! The rank is that of the row-scaled Φ_q. If a rank deficiency vanishes at a neighbouring admissible
+//! position, the position is singular. If it remains, the constraints are redundant. The left null vectors
+//! of Φ_q give all joints that take part.
 
 use super::closing::Closing;
 use crate::elements::{BodyId, Coordinate, CoordinateOf};
@@ -15,12 +15,12 @@ use std::sync::Arc;
 
 /// Part of a left null vector below which a row does not take part.
 const PART: f64 = 1e-6;
-/// Pivots that kept this much of their magnitude leave no doubt about the rank.
+/// If all pivots keep this part of their magnitude, the rank is certain.
 const BEYOND_DOUBT: f64 = 1e-7;
 /// Size of the excursion to a neighbouring position, rad.
 const EXCURSION: f64 = 3e-3;
 
-/// Most bodies whose angle is tried to reach a neighbour.
+/// Largest number of bodies whose angle is tried to reach a neighbouring position.
 const EXCURSIONS: usize = 6;
 
 /// How a mechanism can move at a position.
@@ -56,13 +56,13 @@ pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
     Mobility { degrees_of_freedom: n - here.rank, rank: here.rank, redundant, singular }
 }
 
-/// Most equations for which all joints of a near dependence are looked for.
+/// Largest number of equations for which all joints of a near dependence are determined.
 const MOST_ROWS: usize = 300;
 /// Remainder of a row that counts as dependent near a singular position.
 const NEAR: f64 = 0.05;
 
-/// The constraints (indices) that depend on each other at or near a position, of which that with `row`
-/// is one.
+/// The constraints (indices) that depend on each other at or near a position; the constraint with `row` is one
+/// of them.
 pub(super) fn dependent(model: &Model, t: f64, q: &[f64], row: usize) -> Vec<usize> {
     let own = model.layout.owner(row).0;
     if model.layout.n_rows > MOST_ROWS {
@@ -72,7 +72,7 @@ pub(super) fn dependent(model: &Model, t: f64, q: &[f64], row: usize) -> Vec<usi
     found.into_iter().find(|group| group.contains(&own)).unwrap_or(vec![own])
 }
 
-/// Whether the sparse factorisation alone shows full rank: linear in the size of the model.
+/// Whether the sparse factorisation shows full rank; its cost is linear in the size of the model.
 fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
     if model.layout.n_rows > model.layout.n_q {
         return false;
@@ -91,12 +91,12 @@ fn dense_rank(model: &Model, t: f64, q: &[f64]) -> Rank {
 fn scaled_rank(model: &Model, t: f64, q: &[f64], tolerance: f64) -> Rank {
     let n = model.layout.n_q;
     let mut dense = equations::dense::jacobian(model, &Motions::at_rest(&model.layout, q), t);
-    // metres and radians become comparable by the size of the mechanism
+    // the size of the mechanism makes metres and radians comparable
     let scales = column_scales(model);
     for row in dense.chunks_exact_mut(n.max(1)) {
         row.iter_mut().zip(&scales).for_each(|(entry, scale)| *entry *= scale);
     }
-    // a law without derivative here constrains nothing
+    // a law without a derivative at this position has zero rows
     dense.iter_mut().filter(|entry| !entry.is_finite()).for_each(|entry| *entry = 0.0);
     normalize_rows(&mut dense, n);
     rank(&dense, n, tolerance)
@@ -114,8 +114,8 @@ fn groups(model: &Model, rank: &Rank) -> Vec<Vec<usize>> {
     groups
 }
 
-/// A position a little way along an admissible motion, if there is one. Where branches meet, Newton
-/// falls back to the meeting point; so the angle of body `held` is kept away from it (ground: none).
+/// A position a little way along an admissible motion, if there is one. Where branches meet, Newton's method
+/// returns to the meeting point; therefore the angle of body `held` is kept away from it (ground: none).
 fn neighbour(model: &Model, t: f64, q: &[f64], held: usize) -> Option<Vec<f64>> {
     let extended = match held.checked_sub(1) {
         Some(_) => {
@@ -125,7 +125,7 @@ fn neighbour(model: &Model, t: f64, q: &[f64], held: usize) -> Option<Vec<f64>> 
         None => None,
     };
     let mut closing = Closing::new(extended.as_ref().unwrap_or(model), t);
-    // fixed numbers without pattern, so that no symmetry of the mechanism survives
+    // fixed arbitrary numbers, which have no symmetry of the mechanism
     let excursion =
         |k: usize| EXCURSION * ((12.9898 * (k as f64 + 1.0)).sin() * 43758.5453).fract();
     let unit = column_scales(model);

@@ -1,4 +1,4 @@
-//! What a user asks for: free functions of model, state and options.
+//! The analyses of a model: free functions of model, state and options.
 
 pub mod assemble;
 mod closing;

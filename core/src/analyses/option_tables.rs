@@ -1,10 +1,10 @@
-//! Which analyses and options there are, as data: for the reader of files, the schema, Python and docs.
+//! All analyses and options, as data: for the reader of files, the schema, Python and docs.
 
 use super::dynamics;
 use super::options::{Declaration, Declared, Family, Member};
 use std::sync::LazyLock;
 
-// made once: every simulation is checked by them
+// made once, because every simulation is checked with them
 static ANALYSES: LazyLock<Vec<Declaration>> =
     LazyLock::new(|| vec![dynamics::Options::declaration()]);
 static FAMILIES: LazyLock<Vec<Family>> =

@@ -11,7 +11,7 @@ use std::fmt;
 /// Why a result cannot be given.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoResult {
-    /// The model has nothing of this name, or the joint does not touch this body.
+    /// The model has nothing of this name, or the body does not belong to the joint.
     Unknown(String),
     /// Accelerations and multipliers cannot be computed at a reported state.
     Unsolved(Reason),

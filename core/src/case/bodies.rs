@@ -9,7 +9,7 @@ use crate::model::body_tables;
 /// The declarations of bodies.
 pub(super) struct Bodies {
     ground: Option<Declaration>,
-    /// All that a `type` may name.
+    /// All types of bodies.
     typed: Vec<Declaration>,
 }
 

@@ -59,8 +59,8 @@ macro_rules! moving {
                 self.with("mass", mass.into())
             }
 
-            /// Where a named point of the body is in the global frame when assembly starts, m. Two such
-            /// points place the body; a bar with two of them needs no length and no ends.
+            /// The global position of a named point of the body when assembly starts, m. Two such points place
+            /// the body; a bar with two of them needs no length and no ends.
             pub fn through(self, name: &str, x: impl Into<Number>, y: impl Into<Number>) -> Self {
                 self.place("through", name, Pair::from((x, y)))
             }

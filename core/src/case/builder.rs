@@ -1,4 +1,4 @@
-//! A model written in Rust, checked as a file is.
+//! A model written in Rust, with the same checks as a file.
 
 use super::body_builder::{Bar, BodyBuilder, General, Ground};
 use super::{read, write, Case, Format};
@@ -7,8 +7,8 @@ use crate::model::{build, Definition, Entry, Model, Problem, Problems};
 
 /// Writes a model in Rust.
 ///
-/// The builder collects a [`Definition`], the same that a file is read into, so its faults are those of a
-/// file. Order matters as in a file: bodies come in the order of q, joints and drivers in that of Φ.
+/// The builder collects a [`Definition`], as the reader of files does, so it reports the same faults. The order
+/// matters as in a file: that of bodies is the order of q, that of joints and drivers the order of Φ.
 ///
 /// ```
 /// use kempe::{joints::Revolute, ModelBuilder};
@@ -46,7 +46,7 @@ impl ModelBuilder {
         self
     }
 
-    /// Accepts redundant constraints; their multipliers are then the smallest that carry the loads.
+    /// Accepts redundant constraints; their multipliers are then the smallest that balance the loads.
     pub fn allow_redundancy(&mut self) -> &mut Self {
         self.definition.redundancy = Some("allow".to_string());
         self
@@ -129,7 +129,7 @@ impl ModelBuilder {
 fn structure(case: &Case) -> Result<(), Problems> {
     let mut problems = given_twice(&case.definition);
     if let Err(found) = read(&write(case, Format::Json), Format::Json) {
-        // without a path: keys that are given twice, with a line of a text that nobody wrote
+        // without a path: keys that occur twice; the line of the generated text has no meaning
         let placed = found.into_iter().filter(|fault| !fault.path.is_empty());
         problems.extend(
             placed.map(|fault| Problem::at(&fault.path, fault.message).maybe_hint(fault.hint)),
@@ -141,7 +141,7 @@ fn structure(case: &Case) -> Result<(), Problems> {
     }
 }
 
-/// Names that a file could not give twice, because they are keys of one table.
+/// Names that a file cannot contain twice, because they are keys of one table.
 fn given_twice(definition: &Definition) -> Vec<Problem> {
     let mut problems = Vec::new();
     let mut report = |path: &[&str], names: Vec<&str>| {

@@ -4,12 +4,12 @@ use crate::model::{Definition, Entry, Value};
 
 /// The version of the format that is read and written: `kempe = 1`.
 pub const FORMAT_VERSION: u32 = 1;
-/// Most bytes of a text that are read: 16 MiB.
+/// Largest text that is read, in bytes: 16 MiB.
 pub const MOST_BYTES: usize = 16 << 20;
-/// Most faults that are reported.
+/// Largest number of faults that are reported.
 pub const MOST_REPORTED: usize = 100;
 
-/// How a case is written.
+/// The format of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// TOML 1.0.
@@ -18,12 +18,12 @@ pub enum Format {
     Json,
 }
 
-/// A model as written, where it starts, and what is asked of it.
+/// A model as written, its start, and its analyses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Case {
     /// The model.
     pub definition: Definition,
-    /// Where assembly starts.
+    /// The start of assembly.
     pub start: Start,
     /// Analyses, in order.
     pub analyses: Vec<Entry>,
@@ -32,8 +32,8 @@ pub struct Case {
 /// Coordinates and rates for the assembly; keys are `body.coordinate`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Start {
-    /// Those that are prescribed.
+    /// Prescribed coordinates and rates.
     pub set: Vec<(String, Value)>,
-    /// Those that are guessed.
+    /// Guessed coordinates and rates.
     pub guess: Vec<(String, Value)>,
 }

@@ -1,4 +1,4 @@
-//! A fault as the writer of a file sees it: where, what, and what to do.
+//! A fault for the author of a file: its place, description and remedy.
 
 use std::fmt;
 use std::ops::Range;
@@ -19,9 +19,9 @@ pub struct Diagnostic {
     pub column: usize,
     /// Keys from the top of the file; empty for a fault of syntax.
     pub path: Vec<String>,
-    /// What is wrong.
+    /// Description.
     pub message: String,
-    /// What to do, if that can be said.
+    /// Remedy, if there is one.
     pub hint: Option<String>,
     /// The line with a caret below it: two lines of text.
     pub excerpt: String,
@@ -45,17 +45,17 @@ impl fmt::Display for Diagnostic {
 
 impl std::error::Error for Diagnostic {}
 
-/// Most characters of a line that are shown.
+/// Largest number of characters of a line that are shown.
 const WIDTH: usize = 100;
-/// Characters before the caret that are shown at least.
+/// Smallest number of characters that are shown before the caret.
 const BEFORE: usize = 30;
-/// Most characters of a name that are shown.
+/// Largest number of characters of a name that are shown.
 const MOST_SHOWN: usize = 80;
 
 impl Diagnostic {
-    /// Of some bytes of a text.
+    /// A fault at some bytes of a text.
     pub(super) fn new(text: &str, place: Range<usize>, message: String) -> Self {
-        // what is missing at the end is shown after the last word
+        // a fault at the end of the text is shown after the last word
         let last = text.trim_end().len();
         let start = boundary(text, place.start).min(last);
         let end = boundary(text, place.end.max(start));
@@ -106,7 +106,7 @@ fn excerpt(line: usize, content: &str, first: usize, marked: usize) -> String {
     format!("  {number} | {shown_line}\n  {gutter} | {}{caret}", " ".repeat(indent))
 }
 
-/// Adds a character as it is shown; the number of columns that it takes.
+/// Adds a character in printable form; returns its number of columns.
 fn push_shown(out: &mut String, c: char) -> usize {
     let before = out.chars().count();
     match c {
@@ -117,14 +117,14 @@ fn push_shown(out: &mut String, c: char) -> usize {
     out.chars().count() - before
 }
 
-/// Whether a character would not show, or would turn the text around it (Unicode controls of
-/// direction, and blanks of no width).
+/// Whether a character is invisible, or changes the direction of the text around it (Unicode controls of direction,
+/// and blanks without width).
 fn is_hidden(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{200B}'..='\u{200F}' | '\u{2028}'..='\u{202E}' | '\u{2060}'..='\u{206F}' | '\u{FEFF}')
 }
 
-/// A name or text as a message shows it: on one line, not too long, nothing hidden.
+/// A name or text for a message: on one line, not too long, with visible characters only.
 pub(super) fn shown(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars().take(MOST_SHOWN) {

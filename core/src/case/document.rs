@@ -8,7 +8,7 @@ use super::tree::{Data, Node, Table};
 use super::{json, toml, Format, MOST_BYTES};
 use crate::model::{Problem, Value};
 
-/// A text that was read: turns any later [`Problem`] into a [`Diagnostic`].
+/// A text after reading; it turns any later [`Problem`] into a [`Diagnostic`].
 #[derive(Debug)]
 pub struct Document {
     text: String,
@@ -16,7 +16,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads the syntax; with the document, the keys that are given twice.
+    /// Reads the syntax. Returns the document and the keys that occur twice.
     /// Errors: all faults of syntax that the reader could tell apart, one for each line.
     pub(super) fn parse(
         text: &str,
@@ -82,7 +82,7 @@ impl Document {
         }
     }
 
-    /// Some bytes of a text value, if the file has the text as it is; else the entire value.
+    /// Some bytes of a text value, if the file contains the text without escapes; otherwise the entire value.
     fn part(&self, node: &Node, part: &Range<usize>) -> Range<usize> {
         let (Data::Text(text), Some(raw)) = (&node.data, self.text.get(node.span.clone())) else {
             return node.span.clone();
@@ -106,7 +106,7 @@ fn of_fault(text: &str, fault: Fault) -> Diagnostic {
     let mut found = Diagnostic::new(text, fault.place, fault.message);
     found.hint = fault.earlier.and_then(|earlier| {
         let line = Diagnostic::new(text, earlier, String::new()).line;
-        (line != found.line).then(|| format!("it stands in line {line} already"))
+        (line != found.line).then(|| format!("it already exists in line {line}"))
     });
     found
 }

@@ -2,17 +2,17 @@
 
 use std::ops::Range;
 
-/// What is wrong with the text itself, before it has paths.
+/// A fault of the text itself, which has no path yet.
 #[derive(Debug)]
 pub(super) struct Fault {
     pub place: Range<usize>,
     pub message: String,
-    /// Where the same key stood before, if that is the fault; such a fault leaves the tree sound.
+    /// The earlier place of the same key, for a key that occurs twice; such a fault leaves the tree complete.
     pub earlier: Option<Range<usize>>,
 }
 
 impl Fault {
-    /// A key that is given a second time.
+    /// A key that occurs a second time.
     pub(super) fn twice(key: &str, place: Range<usize>, earlier: Range<usize>) -> Self {
         let message = format!("key '{}' is given twice", super::shown(key));
         Self { place, message, earlier: Some(earlier) }
@@ -33,7 +33,7 @@ impl Faults {
             self.0.push(fault);
         }
     }
-    /// Whether the tree says what the text says, but for keys given twice.
+    /// Whether the tree contains all of the text, except keys that occur twice.
     pub(super) fn sound(&self) -> bool {
         self.0.iter().all(|fault| fault.earlier.is_some())
     }

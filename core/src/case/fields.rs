@@ -44,7 +44,7 @@ pub(super) fn declared<'d>(
     })
 }
 
-/// Where a type belongs that stands in the wrong section.
+/// The right section for a type in the wrong section.
 fn belongs(name: &str) -> Option<String> {
     let elements = catalogue().into_iter().map(|(group, table)| (group.section(), table.name));
     let bodies = body_tables().into_iter().map(|table| ("bodies", table.name));
@@ -59,7 +59,7 @@ pub(super) fn check(report: &mut Report, table: &Table, declared: &Declaration, 
     if typed {
         known.push("type");
     }
-    let mut meant = Vec::new(); // by keys that are misspelt: these are not missing as well
+    let mut meant = Vec::new(); // fields with misspelt keys; they are not reported as missing
     for (key, node) in &table.entries {
         report.within(key, |report| match declared.fields.iter().find(|f| f.name == key) {
             Some(field) => shape(report, node, field.shape),
@@ -131,7 +131,7 @@ pub(super) fn options(report: &mut Report, table: &Table, known: &[Options], nou
     }
 }
 
-/// What a field is, with its unit.
+/// The description of a field, with its unit.
 fn meaning(field: &Field) -> String {
     let words = field.doc.lines().next().unwrap_or_default().trim_end_matches('.');
     match field.unit.as_str() {

@@ -51,7 +51,7 @@ impl<'t> Reader<'t, '_> {
             }
             b'"' => Data::Text(self.string(raw)?),
             b't' | b'f' => Data::Flag(raw == "true"),
-            b'n' => Data::Refused("null is no value of a case; leave the key out".to_string()),
+            b'n' => Data::Refused("null is not a value of a case; omit the key".to_string()),
             _ => number(raw, !raw.contains(['.', 'e', 'E'])),
         })
     }
@@ -105,7 +105,7 @@ fn words(error: &Error) -> String {
     text.rsplit_once(" at line ").map_or(text.as_str(), |(words, _)| words).to_string()
 }
 
-/// A fault of syntax: its place, and advice for what people write who do not know JSON.
+/// A fault of syntax: its place, and advice for frequent mistakes.
 fn fault(text: &str, error: &Error) -> Fault {
     let before: usize = text.split_inclusive('\n').take(error.line() - 1).map(str::len).sum();
     let mut message = words(error);

@@ -66,7 +66,7 @@ pub fn read(text: &str, format: Format) -> Result<(Case, Document), Vec<Diagnost
     Err(found)
 }
 
-/// The values of any text in order, without regard to what a case may hold.
+/// The values of any text in order, without checks of their meaning.
 ///
 /// Errors: faults of syntax; values that no case may hold, such as dates and numbers not finite.
 pub fn parse_tree(text: &str, format: Format) -> Result<Value, Vec<Diagnostic>> {

@@ -54,7 +54,7 @@ pub(super) fn unreserved_key(report: &mut Report, name: &str) {
 pub(super) struct Namespace(HashMap<String, &'static str>);
 
 impl Namespace {
-    /// Checks the present key, the name of a `singular`, and takes it.
+    /// Checks the present key, the name of a `singular`, and adds it to the namespace.
     pub(super) fn take(&mut self, report: &mut Report, name: &str, singular: &'static str) {
         if singular == "body" && name == "ground" {
             return;

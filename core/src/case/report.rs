@@ -1,4 +1,4 @@
-//! The problems found so far, and the path of the value that is looked at.
+//! The problems found so far, and the path of the present value.
 
 use crate::expression::suggest::did_you_mean;
 use crate::model::Problem;
@@ -11,7 +11,7 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// Looks at the value of a key of the present value.
+    /// Goes to the value of a key of the present value.
     pub(super) fn within<T>(&mut self, key: &str, look: impl FnOnce(&mut Self) -> T) -> T {
         self.path.push(key.to_string());
         let result = look(self);
@@ -40,7 +40,7 @@ impl Report {
     pub(super) fn say_of_key(&mut self, message: impl Into<String>) {
         self.add(self.here(message).at_key());
     }
-    /// Reports a key that is not among the known ones: suggests the nearest, or names them all.
+    /// Reports an unknown key; suggests the nearest known key, or lists all.
     pub(super) fn unknown_key(&mut self, message: impl Into<String>, key: &str, known: &[&str]) {
         let hint = did_you_mean(key, known).unwrap_or_else(|| among("it may have", known));
         self.add(self.here(message).at_key().hint(hint));

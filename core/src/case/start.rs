@@ -1,4 +1,4 @@
-//! The section `[start]`: coordinates that are set and guessed, and states of elements.
+//! The section `[start]`: set and guessed coordinates, and states of elements.
 
 use super::report::Report;
 use super::tree::{Data, Node, Table};
@@ -27,7 +27,7 @@ pub(super) fn read(report: &mut Report, node: &Node, root: &Table) -> Start {
     start
 }
 
-/// `{ "crank.angle" = 1 }` or `{ crank = { angle = 1 } }`, which a dotted key means.
+/// `{ "crank.angle" = 1 }` or `{ crank = { angle = 1 } }`, the meaning of a dotted key.
 fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, Value)> {
     let mut found: Vec<(String, Value)> = Vec::new();
     let Data::Table(table) = &node.data else {
@@ -56,7 +56,7 @@ fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, V
                 match key.split_once('.') {
                     Some(of) => coordinate(report, root, of),
                     None => report.say_of_key(format!(
-                        "'{}' is no coordinate; must be \"body.coordinate\", such as \"crank.angle\"",
+                        "'{}' is not a coordinate; must be \"body.coordinate\", such as \"crank.angle\"",
                         super::shown(key)
                     )),
                 }
@@ -67,7 +67,7 @@ fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, V
     found
 }
 
-/// Checks the name of a coordinate. States of elements are known to the model alone.
+/// Checks the name of a coordinate. Only the model knows the states of elements.
 fn coordinate(report: &mut Report, root: &Table, (owner, name): (&str, &str)) {
     if Coordinate::named(name).is_none() && !is_element(root, owner) {
         let known = Coordinate::ALL.map(Coordinate::name);

@@ -23,7 +23,7 @@ impl Start {
         self
     }
 
-    /// What [`assemble`](crate::assemble) takes.
+    /// The request for [`assemble`](crate::assemble).
     ///
     /// # Errors
     /// Every coordinate that the model does not have, and every faulty value.

@@ -40,7 +40,7 @@ fn range(span: Span) -> Range<usize> {
     span.start()..span.end()
 }
 
-/// What is wrong, in the words of the parser and what it expected.
+/// The message of the parser, with the expected tokens.
 fn message(error: &ParseError) -> String {
     let mut text = error.description().to_string();
     if text.starts_with("string values") && error.unexpected().is_none_or(|span| span.is_empty()) {
@@ -66,7 +66,7 @@ fn word(expected: &Expected) -> String {
     }
 }
 
-/// Turns what the parser sees into tables.
+/// Turns the events of the parser into tables.
 struct Events<'s> {
     source: Source<'s>,
     builder: Builder,
@@ -82,7 +82,7 @@ impl Events<'_> {
         match raw.decode_scalar(&mut text, error) {
             ScalarKind::String => Data::Text(text.into_owned()),
             ScalarKind::Boolean(flag) => Data::Flag(flag),
-            ScalarKind::DateTime => Data::Refused("a date is no value of a case".to_string()),
+            ScalarKind::DateTime => Data::Refused("a date is not a value of a case".to_string()),
             ScalarKind::Float => number(&text, false),
             ScalarKind::Integer(radix) if radix.value() == 10 => number(&text, true),
             ScalarKind::Integer(radix) => match u64::from_str_radix(&text, radix.value()) {

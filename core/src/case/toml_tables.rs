@@ -22,7 +22,7 @@ pub(super) struct Builder {
     faults: Faults,
 }
 
-/// A list or an inline table of which the end is not yet seen.
+/// A list or an inline table whose end is not read yet.
 struct Open {
     start: usize,
     data: Data,
@@ -43,7 +43,7 @@ impl Builder {
         self.header_start = start;
     }
 
-    /// One part of a key; `joined` if a dot stood before it.
+    /// One part of a key; `joined` if a dot precedes it.
     pub(super) fn key(&mut self, key: String, place: Range<usize>, joined: bool) {
         let keys = self.open.last_mut().map_or(&mut self.keys, |open| &mut open.keys);
         if !joined {
@@ -64,7 +64,7 @@ impl Builder {
         }
     }
 
-    /// A value is complete: puts it where the keys before it say.
+    /// Puts a complete value at the place that the keys before it give.
     pub(super) fn place(&mut self, span: Range<usize>, data: Data) {
         self.values += 1;
         if self.values == MOST_VALUES + 1 {
@@ -110,7 +110,7 @@ impl Builder {
         }
     }
 
-    /// A header is complete: makes its table.
+    /// Makes the table of a complete header.
     pub(super) fn close_header(&mut self, end: usize, of_list: bool) {
         self.started = true;
         self.header = None;

@@ -1,4 +1,4 @@
-//! The values of a file with the bytes where they stand.
+//! The values of a file with their places in bytes.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -8,7 +8,7 @@ use crate::model::Value;
 
 /// Deepest nesting of values that is read.
 pub const MOST_DEPTH: usize = 64;
-/// Most values that are read.
+/// Largest number of values that are read.
 pub const MOST_VALUES: usize = 1_000_000;
 
 /// A value and its place.
@@ -18,11 +18,11 @@ pub(super) struct Node {
     pub key: Range<usize>,
     /// Bytes of the value; of a table with a header, those of the header.
     pub span: Range<usize>,
-    /// What stands there.
+    /// The value.
     pub data: Data,
 }
 
-/// A value as a file has it.
+/// A value of a file.
 #[derive(Debug)]
 pub(super) enum Data {
     /// A finite number.
@@ -35,7 +35,7 @@ pub(super) enum Data {
     List(Vec<Node>),
     /// A table.
     Table(Table),
-    /// What no case may hold, with the reason.
+    /// A value that a case must not hold, with the reason.
     Refused(String),
 }
 
@@ -45,11 +45,11 @@ pub(super) struct Table {
     /// Entries in order.
     pub entries: Vec<(String, Node)>,
     index: HashMap<String, usize>,
-    /// How the file made it.
+    /// The way in which the file defines it.
     pub origin: Origin,
 }
 
-/// How a table came to be; TOML extends some tables and not others.
+/// The way in which a table is defined; TOML allows the extension of some tables only.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Origin {
     /// Written in braces.
@@ -94,7 +94,7 @@ impl Table {
 }
 
 impl Node {
-    /// The value without places; what is refused becomes an empty text.
+    /// The value without places; a refused value becomes an empty text.
     pub(super) fn value(&self) -> Value {
         match &self.data {
             Data::Number(x) => Value::Number(*x),
@@ -105,7 +105,7 @@ impl Node {
             Data::Refused(_) => Value::Text(String::new()),
         }
     }
-    /// What a reader of the file would call it.
+    /// The kind of value, in the words of error messages.
     pub(super) fn noun(&self) -> &'static str {
         match &self.data {
             Data::Number(_) => "a number",
@@ -133,7 +133,7 @@ impl Table {
     }
 }
 
-/// A number from the digits of a file, or why it is refused.
+/// A number from the digits of a file, or the reason for its refusal.
 pub(super) fn number(digits: &str, whole: bool) -> Data {
     const EXACT: i64 = 1 << 53;
     let exact = || digits.parse::<i64>().is_ok_and(|n| (-EXACT..=EXACT).contains(&n));

@@ -1,11 +1,11 @@
-//! Values of the file against what may stand in their place.
+//! Checks of the values of a file against the allowed shapes.
 
 use super::names;
 use super::report::{among, Report};
 use super::tree::{Data, Node};
 use crate::expression::suggest::did_you_mean;
 
-/// Reports that something else must stand here.
+/// Reports a value of the wrong shape.
 pub(super) fn wrong(report: &mut Report, node: &Node, wanted: &str) {
     if !matches!(node.data, Data::Refused(_)) {
         report.say(format!("{}; must be {wanted}", node.noun()));

@@ -6,8 +6,8 @@ use crate::model::{Entry, Value};
 /// Writes a case so that [`read`](super::read) gives the same case again: same order, same formulas,
 /// numbers with the fewest digits that give the same bits.
 ///
-/// A case that [`read`](super::read) would not give, with two things of one name or a number that is
-/// not finite, is written as it is, and then refused when read.
+/// A case that [`read`](super::read) cannot return, with two entries of one name or a number that is not finite,
+/// is written unchanged; [`read`](super::read) then reports its faults.
 pub fn write(case: &Case, format: Format) -> String {
     let tree = tree(case);
     match format {

@@ -16,7 +16,7 @@ fn key(name: &str) -> String {
     quoted(name) + ": "
 }
 
-/// The top and its sections are always broken into lines, what is within them only where it is long.
+/// The top and its sections always have several lines; values within them only if they are long.
 fn value(out: &mut String, value: &Value, depth: usize) {
     let line = one_line(value, key);
     match value {

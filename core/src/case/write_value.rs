@@ -1,4 +1,4 @@
-//! Values on one line, which TOML and JSON write alike but for the keys of tables.
+//! Values on one line. TOML and JSON differ only in the keys of tables.
 
 use crate::model::Value;
 

@@ -10,7 +10,7 @@ use crate::expression::Tape;
 pub struct Table {
     /// The `type` in the file and the method in Python.
     pub name: &'static str,
-    /// What it is, its equation, its source, its signs.
+    /// Its meaning, equation, source and signs.
     pub doc: String,
     /// Fields in order.
     pub fields: Vec<Field>,
@@ -69,7 +69,7 @@ macro_rules! element {
                 -> Option<$Name<$crate::expression::Tape>>
             {
                 let mut fields = <Self as $crate::elements::Element>::table().fields.into_iter();
-                // every field is read before any failure counts: all errors at once
+                // every field is read, so that all errors are reported at once
                 $(let $field = <$crate::elements::$kind as $crate::elements::Kind>::read(
                     source, &fields.next()?);)+
                 Some($Name { $($field: $field?),+ })

@@ -33,7 +33,7 @@ pub(crate) fn moving<S: Real>(m: &Motion<S>) -> Pose<Jet<S>> {
     }
 }
 
-/// Calls `f` with n values, on the stack where they are few.
+/// Calls `f` with n values; few values are kept on the stack.
 #[inline(always)]
 pub(crate) fn with_values<T: Copy, R>(
     n: usize,
@@ -105,8 +105,8 @@ pub(crate) fn terms<S: Real>(
     );
 }
 
-/// The rows of Φ_q in the columns of the bodies that `varies` selects by their places, or of the
-/// internal coordinates.
+/// The rows of Φ_q in the columns of the internal coordinates, or of the bodies that `varies` selects
+/// by their places.
 pub(crate) fn columns_of<S: Real>(
     at: &Moving<'_, S>,
     varies: impl Fn(usize) -> bool,

@@ -5,7 +5,7 @@ use super::declare::Table;
 use super::force_trait::Force;
 use super::joint_trait::Joint;
 
-/// Where an element stands in a model file.
+/// The section of an element in a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
     /// `[joints.…]`
@@ -21,22 +21,22 @@ impl Group {
     pub fn section(self) -> &'static str {
         ["joints", "drivers", "forces"][self as usize]
     }
-    /// The name of one entry of it.
+    /// The name of one entry of the section.
     pub fn singular(self) -> &'static str {
         ["joint", "driver", "force"][self as usize]
     }
 }
 
-/// An element of a pool, with all that its loop reads.
+/// An element of a pool, with all data that its loop reads.
 #[derive(Clone, Debug)]
 pub struct Pooled<E> {
     /// The element.
     pub element: E,
-    /// Where it belongs in the model.
+    /// Its place in the model.
     pub place: Place,
 }
 
-/// Where an element of a pool belongs.
+/// The place of an element of a pool in the model.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// Its place among the constraints or forces.
@@ -132,7 +132,7 @@ macro_rules! constraints {
         }
 
         impl<S: Clone> Constraint<S> {
-            /// What the constraint fixes, for assembly.
+            /// The geometry that the constraint fixes, for assembly.
             pub fn fixes(&self) -> Vec<Fixes<S>> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::fixes(e),)+)+ }
             }
@@ -192,7 +192,7 @@ macro_rules! constraints {
                     self.$Name.push(Pooled { element: e.clone(), place });
                 })+)+ }
             }
-            /// Shows every type that occurs to the visitor.
+            /// Passes every type that occurs to the visitor.
             #[inline(always)]
             pub fn visit(&self, visitor: &mut impl VisitJoints<S>) {
                 $($($(#[$on])* {
@@ -327,7 +327,7 @@ macro_rules! forces {
                     self.$Name.push(Pooled { element: e.clone(), place });
                 })+ }
             }
-            /// Shows every type that occurs to the visitor.
+            /// Passes every type that occurs to the visitor.
             #[inline(always)]
             pub fn visit(&self, visitor: &mut impl VisitForces<S>) {
                 $($(#[$on])* {

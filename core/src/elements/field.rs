@@ -1,6 +1,6 @@
 //! Fields of an element as data: shape, unit, default, and one sentence.
 
-/// Permitted content of a field.
+/// The values that a field accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Name of a body.
@@ -64,12 +64,12 @@ impl From<&'static str> for Default {
     }
 }
 
-/// One field of an element, as files, the schema, Python and the reference page see it.
+/// One field of an element, for files, the schema, Python and the reference page.
 #[derive(Clone, Debug)]
 pub struct Field {
     /// Key in the file, argument in Python.
     pub name: &'static str,
-    /// Permitted content.
+    /// The values that it accepts.
     pub shape: Shape,
     /// SI unit; empty for references.
     pub unit: String,

@@ -5,7 +5,7 @@ use super::kinds::{BodyId, JointId};
 use super::symbols::SceneSymbol;
 use crate::math::{Local, Motion, Real, Wrench};
 
-/// What a force may depend on.
+/// The quantities that a force may depend on.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a, S = f64> {
     /// Motion of each body, in the order of [`Force::bodies`].
@@ -32,16 +32,16 @@ impl<S> Situation<'_, S> {
     }
 }
 
-/// Where the work of a part of a force goes in the energy balance.
+/// The entry of the energy balance for the work of a part of a force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nature {
-    /// Into the potential of the element.
+    /// The potential energy of the element.
     Conservative,
-    /// It is lost.
+    /// Dissipated energy.
     Dissipative,
-    /// It is done from outside.
+    /// Work from outside.
     Applied,
-    /// Between the bodies and the states of the element, whose own powers count in its place.
+    /// An exchange between the bodies and the states of the element; the powers of the element count instead.
     Exchanged,
 }
 
@@ -50,7 +50,7 @@ pub enum Nature {
 pub struct Part {
     /// Name: `sol["spring"].stiffness_torque(…)`.
     pub name: &'static str,
-    /// Where its work goes while the parameters are constant.
+    /// The entry of its work in the energy balance while the parameters are constant.
     pub nature: Nature,
 }
 
@@ -66,7 +66,7 @@ pub struct OwnState {
 /// Powers of an element beside those of its wrenches, W: of a circuit, for example.
 #[derive(Clone, Copy, Debug)]
 pub struct OwnPowers<S> {
-    /// Lost.
+    /// Dissipated.
     pub dissipated: S,
     /// Put in from outside.
     pub applied: S,

@@ -76,7 +76,7 @@ pub struct Linearized<'a, S> {
     pub columns: &'a mut [[S; 3]],
 }
 
-/// What a joint fixes between its bodies i and j: assembly places bodies by it.
+/// The geometry that a joint fixes between its bodies i and j; assembly places bodies by it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fixes<S> {
     /// The origins of both joint frames coincide.
@@ -112,7 +112,7 @@ pub trait Joint: Element {
     /// The joint frame on a body, given by its place in [`Joint::bodies`].
     fn attachment<S: Real>(e: &Self::Over<S>, body: usize) -> Attachment<S>;
 
-    /// What the joint fixes, for assembly.
+    /// The geometry that the joint fixes, for assembly.
     fn fixes<S: Clone>(e: &Self::Over<S>) -> Vec<Fixes<S>> {
         let _ = e;
         Vec::new()

@@ -1,4 +1,4 @@
-//! Kinds of fields: what an element may hold, and how each is read and carried between scalars.
+//! Kinds of fields: the values that an element may hold, and how each is read and converted between scalars.
 
 use super::field::{Field, Shape};
 use crate::expression::Tape;
@@ -94,7 +94,7 @@ pub struct CoordinateOf {
     pub coordinate: Coordinate,
 }
 
-/// Where fields are read from; it keeps the reports of what is wrong with them.
+/// Where fields are read from; it keeps the reports of their faults.
 pub trait Source {
     /// A body by name.
     fn body(&mut self, field: &Field) -> Option<BodyId>;
@@ -114,20 +114,20 @@ pub trait Source {
 
 /// A kind of field.
 pub trait Kind {
-    /// What the element holds over the scalar `S`.
+    /// The value that the element holds over the scalar `S`.
     type Over<S>;
-    /// What may stand in the file.
+    /// The values that the file may hold.
     const SHAPE: Shape;
     /// Reads one field.
     fn read(source: &mut dyn Source, field: &Field) -> Option<Self::Over<Tape>>;
-    /// Carries it to another scalar.
+    /// Converts it to another scalar.
     fn map<S, T>(value: &Self::Over<S>, f: &mut dyn FnMut(&S) -> T) -> Self::Over<T>;
 }
 
 macro_rules! kind {
     ($(#[$doc:meta])* $kind:ident, $Shape:ident, $S:ident => $Over:ty, |$v:ident, $f:ident| $map:expr) => {
         $(#[$doc])*
-        #[allow(non_camel_case_types)] // stands for a type in `element!`, written like a word
+        #[allow(non_camel_case_types)] // a type in `element!`, written like a word
         #[derive(Clone, Copy, Debug)]
         pub enum $kind {}
         impl Kind for $kind {

@@ -44,7 +44,7 @@ pub fn catalogue() -> Vec<(Group, Table)> {
     tables
 }
 
-/// The driver that holds a coordinate at a value: assembly holds by it what is `set`.
+/// The driver that holds a coordinate at a value: assembly uses it for the coordinates in `set`.
 pub fn holding(coordinate: CoordinateOf, value: Tape) -> Constraint<Tape> {
     Constraint::CoordinateDriver(CoordinateDriver { coordinate, value })
 }

@@ -1,9 +1,9 @@
-//! Elements: joints, drivers and forces. One file is one element.
+//! Elements: joints, drivers and forces. Each element has one file.
 //!
 //! An element declares its fields once ([`element!`](crate::element)) and states its physics once ([`Joint`] or
-//! [`Force`]), generic in the scalar. From that follow the reader of the file, the JSON schema, the
-//! Python class, the reference page, and all derivatives. To add one: write its file, name it in
-//! `list.rs`, and give it a test sample and a page. No other file names it.
+//! [`Force`]), generic in the scalar. The reader of files, the JSON schema, the Python class, the
+//! reference page and all derivatives follow from these two. To add an element, write its file, name it
+//! in `list.rs`, and give it a test sample and a page. No other file names it.
 
 mod declare;
 pub(crate) mod derive;

@@ -1,8 +1,8 @@
-//! The symbols of a drawing, as data: what an element looks like, without its type.
+//! The symbols of a drawing, as data, without the types of elements.
 //!
-//! An element returns its symbols from the hook `symbols` of its trait. The numbers that it sees are
-//! those of the model; a law that depends on time or state is NaN there. The test `x != 0.0` is
-//! therefore true for every law that may differ from zero.
+//! An element returns its symbols from the method `symbols` of its trait. This method receives the numbers
+//! of the model; a law that depends on time or state is NaN there. The test `x != 0.0` is therefore true
+//! for every law that may differ from zero.
 
 use super::kinds::{BodyId, Coordinate, CoordinateOf, PointOn};
 use crate::math::Local;

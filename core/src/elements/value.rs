@@ -1,6 +1,6 @@
-//! A value as it stands in a file, and the arguments of typed methods that become one.
+//! A value as written in a file, and the arguments of typed methods that become one.
 
-/// A value as it stands in a file.
+/// A value as written in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A number.
@@ -16,7 +16,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// What a reader of the file would call it.
+    /// The kind of value, in the words of error messages.
     pub fn noun(&self) -> &'static str {
         match self {
             Self::Number(_) => "a number",

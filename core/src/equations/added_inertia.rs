@@ -1,20 +1,18 @@
 //! Moments of inertia added to bodies that have none, or hardly any, so that M can be inverted.
 //!
-//! The equations of motion stay those of the body as it is: what is added here is taken back when
-//! they are solved (`equations/refine.rs`). Like DESIGN's M + ρ Φ_qᵀ Φ_q this is exact, but it leaves
-//! M block-diagonal.
+//! The equations of motion remain those of the body without added inertia: the solution is corrected for the
+//! added inertia (`equations/refine.rs`). Like M + ρ Φ_qᵀ Φ_q this is exact, but M stays block-diagonal.
 
 use crate::math::Real;
 use crate::model::{Body, ConstraintItem};
 
-/// What is added, relative to m l², with l the farthest joint point from the mass centre: so much
-/// that the elimination loses few digits, so little that taking it back needs few steps.
+/// Added inertia relative to m l², with l the distance of the farthest joint point from the mass centre. It is large
+/// enough that the elimination loses few digits, and small enough that its correction needs few steps.
 const ADDED: f64 = 1e-7;
 
 /// One for each body: zero where the body's own inertia suffices, kg·m².
 ///
-/// A body with joints only at its mass centre keeps the inertia that it has: nothing else resists its
-/// turning.
+/// A body with joints only at its mass centre gets no added inertia, because no joint resists its rotation.
 pub(super) fn added<S: Real>(bodies: &[Body<S>], constraints: &[ConstraintItem<S>]) -> Vec<S> {
     let mut reach = vec![S::zero(); bodies.len()];
     for item in constraints {
@@ -34,7 +32,7 @@ pub(super) fn added<S: Real>(bodies: &[Body<S>], constraints: &[ConstraintItem<S
         }
         let massless = body.inertia.least_magnitude() == 0.0;
         if massless && scale.least_magnitude() == 0.0 {
-            // nothing of its own tells how large it is: as the largest of the model, or 1 m
+            // the body has no length of its own: it gets that of the largest body of the model, or 1 m
             *scale = if largest.least_magnitude() > 0.0 { largest } else { body.mass };
         }
         let added = *scale * S::constant(ADDED);

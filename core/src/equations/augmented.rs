@@ -11,19 +11,19 @@ pub use crate::solve::Dependent;
 use crate::solve::{InverseMass, Saddle};
 use std::sync::Arc;
 
-/// ε² of near singular positions: between the noise of positions over ε and the load over a time in
-/// proportion to ε; `docs/performance.md` has the errors for others.
+/// ε² near singular positions. A small ε amplifies the rounding errors of positions by 1/ε; a large ε disturbs the
+/// motion for a time in proportion to ε. `docs/performance.md` has the errors for other values.
 pub const RIDGE: f64 = 1e-10;
 
-/// What a factorisation does near a singular position, where a row of Φ_q comes near to dependence.
+/// The policy of a factorisation near a singular position, where a row of Φ_q comes near to dependence.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NearSingular {
-    /// Factorises as everywhere; only dependent rows are refused.
+    /// Factorises as everywhere; only dependent rows are an error.
     #[default]
     Ignore,
     /// Factorises with the ridge ε² = [`RIDGE`], which bounds the multipliers.
     Regularise,
-    /// Refuses.
+    /// Returns an error.
     Refuse,
 }
 
@@ -33,7 +33,7 @@ pub struct Augmented<S = f64> {
     plan: Arc<Plan>,
     saddle: Saddle<S>,
     near_singular: NearSingular,
-    /// Whether the factor at hand has the ridge.
+    /// Whether the current factor has the ridge.
     regularised: bool,
 }
 
@@ -54,8 +54,8 @@ impl<S: Real> Augmented<S> {
         &self.plan
     }
 
-    /// Plan and numbers for an evaluation that puts its rows into the matrix piece by piece; inertia, which no state
-    /// changes, must be set already. The factor is then without ridge.
+    /// Plan and numbers for an evaluation that puts its rows into the matrix piece by piece. The inertia that does not
+    /// depend on the state must be set already. The factor then has no ridge.
     #[inline(always)]
     pub(super) fn parts_mut(&mut self) -> (&Plan, &mut Saddle<S>) {
         self.regularised = false;
@@ -75,7 +75,7 @@ impl<S: Real> Augmented<S> {
         }
     }
 
-    /// What no state changes of W = M.
+    /// The part of W = M that does not depend on the state.
     pub(super) fn set_inertia(&mut self, compiled: &Compiled<S>) {
         let (bodies, own) = self.saddle.masses.split_at_mut(compiled.inertias.len());
         for (mass, inertia) in bodies.iter_mut().zip(&compiled.inertias) {
@@ -123,10 +123,10 @@ impl<S: Real> Augmented<S> {
         self.saddle.damping.extend(mu);
     }
 
-    /// Sets what is done near singular positions from now on.
+    /// Sets the policy near singular positions.
     ///
     /// # Panics
-    /// If a policy other than [`NearSingular::Ignore`] is to be taken back.
+    /// If a policy other than [`NearSingular::Ignore`] was set before.
     pub fn set_near_singular(&mut self, policy: NearSingular) {
         match policy {
             NearSingular::Ignore => assert_eq!(self.near_singular, policy, "it stays"),
@@ -135,12 +135,12 @@ impl<S: Real> Augmented<S> {
         self.near_singular = policy;
     }
 
-    /// What is done near singular positions.
+    /// The policy near singular positions.
     pub fn near_singular(&self) -> NearSingular {
         self.near_singular
     }
 
-    /// Whether the factor at hand is that of a near singular position, with the ridge.
+    /// Whether the current factor is that of a near singular position, with the ridge.
     pub fn regularised(&self) -> bool {
         self.regularised
     }
@@ -177,8 +177,8 @@ impl<S: Real> Augmented<S> {
         rows.copy_from_slice(&padded[q.len() + padding..]);
     }
 
-    /// How many digits the worst pivot lost: the constraint row and the pivot over what it was
-    /// cancelled from.
+    /// The loss of digits of the worst pivot: the constraint row, and the ratio of the pivot to the largest number from
+    /// which it was computed by subtraction.
     pub fn cancellation(&self) -> Option<(usize, f64)> {
         self.saddle.cancellation(&self.plan.pattern)
     }

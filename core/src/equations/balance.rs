@@ -1,5 +1,5 @@
-//! The balance that implicit methods bring to zero: r = M a + Φ_qᵀ λ - Q, Φ, Φ_q v + Φ_t, and the rates
-//! ż of first-order states, at any (q, v, a, λ, z) and without solving for anything.
+//! The residuals that implicit methods reduce to zero: r = M a + Φ_qᵀ λ - Q, Φ, Φ_q v + Φ_t, and the rates
+//! ż of first-order states, at any (q, v, a, λ, z). They are evaluated without the solution of equations.
 
 use super::energy::Powers;
 use super::forces::{self, Acting};
@@ -46,7 +46,7 @@ impl Balance {
         }
     }
 
-    /// Evaluates all of it.
+    /// Evaluates all residuals and powers.
     pub fn evaluate(&mut self, model: &Model, t: f64, [q, v, a, z]: [&[f64]; 4], lam: &[f64]) {
         let Self { motions, forces: out, position, rate, gamma, jacobian, applied, .. } = self;
         motions.place(&model.layout, q, v);

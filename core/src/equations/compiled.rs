@@ -1,4 +1,4 @@
-//! Data derived from a model: all that evaluations need and no state changes.
+//! Data derived from a model: everything that evaluations need and that does not depend on the state.
 //!
 //! A [`Model`] holds no caches. [`Compiled`] is built from it once, and shared by everything that evaluates the same
 //! model over the same scalar.
@@ -15,8 +15,8 @@ use crate::model::Model;
 pub struct Compiled<S = f64> {
     /// Inertia of the moving bodies, without ground.
     pub inertias: Vec<Inertia<S>>,
-    /// Moments of inertia that are added to bodies without their own while the equations are solved, and are taken
-    /// back by `refine`, kg·m²; one for each moving body, zero for most.
+    /// Moments of inertia that are added to bodies without their own while the equations are solved, kg·m²; `refine`
+    /// corrects the solution for them. One for each moving body, zero for most.
     pub added_inertia: Vec<S>,
     /// Mass that is added to the internal coordinates of elements in the same way, kg.
     pub own_mass: S,
@@ -35,7 +35,7 @@ pub struct Compiled<S = f64> {
 }
 
 impl<S: Real> Compiled<S> {
-    /// Of a model.
+    /// Derives the data from a model.
     pub fn new(model: &Model<S>) -> Self {
         let added_inertia = added_inertia::added(&model.bodies, &model.constraints);
         let (mut joints, mut forces) = (JointPools::default(), ForcePools::default());

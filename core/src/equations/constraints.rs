@@ -75,7 +75,7 @@ pub fn linearize<S: Real>(
     linearize_some(model, all, motions, t, Stabilized::new(gains), right, entries);
 }
 
-/// The same of the constraints `which` alone.
+/// The same for the constraints `which` only.
 pub(super) fn linearize_some<S: Real>(
     model: &Model<S>,
     which: impl Iterator<Item = usize>,
@@ -145,7 +145,7 @@ pub(super) enum ByBlock<'a, S> {
     Blocks(&'a [[S; 3]]),
 }
 
-/// Gives Φ, Φ̇, γ and the rows of Φ_q of constraint `k`, an `element` with constant fields, to `take`.
+/// Calls `take` with Φ, Φ̇, γ and the rows of Φ_q of constraint `k`, an `element` with constant fields.
 #[inline(always)]
 pub(super) fn linearize_element<E: Joint, S: Real, R>(
     model: &Model<S>,
@@ -183,7 +183,7 @@ pub(super) fn linearize_element<E: Joint, S: Real, R>(
     })
 }
 
-/// Gives Φ, Φ̇, γ and the rows of Φ_q of constraint `k` to `take`.
+/// Calls `take` with Φ, Φ̇, γ and the rows of Φ_q of constraint `k`.
 pub(super) fn linearize_one<S: Real, R>(
     model: &Model<S>,
     k: usize,

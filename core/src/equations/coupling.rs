@@ -11,10 +11,10 @@ use std::ops::Range;
 
 type D = ByThree<f64>;
 
-/// For each block of a constraint, the pair with each of its blocks; none if they are not coupled.
+/// For each block of a constraint, the pair with each of its blocks; None if they are not coupled.
 pub(super) type ByConstraint = Vec<Vec<Option<usize>>>;
 
-/// What a force depends on.
+/// The quantities on which a force depends.
 #[derive(Clone, Debug)]
 pub(super) struct Participants {
     /// The moving bodies on which it depends: its own, those of its laws, and those of the joint whose
@@ -61,7 +61,7 @@ impl Pairs {
     }
 }
 
-/// What every force depends on.
+/// The quantities on which each force depends.
 pub(super) fn by_force(model: &Model, pairs: &mut Pairs) -> Vec<Participants> {
     let one = |k: usize, pairs: &mut Pairs| {
         let item = &model.forces[k];
@@ -92,8 +92,8 @@ pub(super) fn by_force(model: &Model, pairs: &mut Pairs) -> Vec<Participants> {
     (0..model.forces.len()).map(|k| one(k, pairs)).collect()
 }
 
-/// Which blocks each constraint couples. Without laws two poses without pattern show it: where Φ_q of
-/// one owner does not change with the other, no pair is needed, as with every revolute joint.
+/// The blocks that each constraint couples. Without laws, two arbitrary poses show them: if Φ_q of one owner does
+/// not change with the other, no pair is needed. This is the case for every revolute joint.
 pub(super) fn by_constraint(lifted: &Model<D>, pairs: &mut Pairs) -> Vec<ByConstraint> {
     let trials = [0, 1].map(|trial| without_pattern(lifted, trial));
     let mut columns = vec![D::zero(); lifted.layout.n_entries];
@@ -143,7 +143,7 @@ fn changes(
     }
 }
 
-/// A state of all bodies without pattern; ground stays in the origin.
+/// An arbitrary state of all bodies; ground stays at the origin.
 fn without_pattern(lifted: &Model<D>, trial: usize) -> Motions<D> {
     let mut motions = Motions::new(&lifted.layout);
     let x = |b: usize, k: usize| D::lift((1.0 + (7 * b + 3 * trial + k) as f64 * 0.618_034).sin());

@@ -1,4 +1,4 @@
-//! The matrices of the equations in full, for people to look at.
+//! The matrices of the equations in full, for printing.
 
 use super::forces::Acting;
 use super::kinematics::Motions;

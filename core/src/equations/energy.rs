@@ -57,13 +57,13 @@ impl<S: Real> Powers<S> {
         Self { dissipated: S::zero(), drivers: S::zero(), applied: S::zero() }
     }
 
-    /// Books the power of a part of a force; `law`: whether time or state enters its formulas.
+    /// Adds the power of a part of a force; `law`: whether time or state enters its formulas.
     #[inline(always)]
     pub(super) fn add(&mut self, nature: Nature, law: bool, power: impl Fn() -> S) {
         match (law, nature) {
             (false, Nature::Conservative) | (_, Nature::Exchanged) => {}
             (_, Nature::Dissipative) => self.dissipated -= power(),
-            _ => self.applied += power(), // a law of time or state: no potential keeps its work
+            _ => self.applied += power(), // a law of time or state has no potential
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::elements::{BodyId, Force, ForceElement, Part, Pooled, Situation, Visi
 use crate::math::{Motion, Real, Vec2, Wrench};
 use crate::model::{ForceItem, Model};
 
-/// What forces may depend on beside the motion.
+/// The quantities that forces may depend on in addition to the motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Acting<'a, S> {
     /// First-order states of elements, shape (n_z).
@@ -21,7 +21,7 @@ pub struct Acting<'a, S> {
     pub t: S,
 }
 
-/// Q into `out`, shape (n_q); gives the powers of the force elements.
+/// Writes Q into `out`, shape (n_q), and returns the powers of the force elements.
 pub fn generalized<S: Real>(
     model: &Model<S>,
     compiled: &Compiled<S>,
@@ -158,7 +158,7 @@ fn at_state<S: Real>(
     }
 }
 
-/// Gives the situation of force `k` to `take`.
+/// Calls `take` with the situation of force `k`.
 #[inline(always)]
 fn situation<S: Real, R>(
     model: &Model<S>,

@@ -52,7 +52,7 @@ fn residual(
 }
 
 /// Differentiates Φ by the coordinates of the bodies `columns` and by the internal coordinates, and prints
-/// all.
+/// Φ, Φ_q and γ.
 fn print(
     record: &Record,
     phi: &[Symbolic],

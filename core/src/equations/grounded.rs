@@ -1,5 +1,5 @@
-//! Bodies that a joint of two rows holds to ground. Such a body has one freedom: it is condensed to it before
-//! everything else is eliminated (`solve/condensed.rs`).
+//! Bodies that a joint of two rows holds to ground. Such a body has one degree of freedom. It is condensed to this
+//! degree of freedom before everything else is eliminated (`solve/condensed.rs`).
 
 use super::inertia::Inertia;
 use super::kinematics::Motions;
@@ -18,12 +18,12 @@ pub struct Grounded<S = f64> {
     pub body: BodyId,
     /// W of the body in its own frame.
     mass: CondensedGroup<S>,
-    /// For a pin, the inverse of the moment of inertia about it, 1/(kg·m²), whatever the state.
+    /// For a pin, the inverse of the moment of inertia about it, 1/(kg·m²); it does not depend on the state.
     about_pin: Option<S>,
 }
 
-/// The bodies that joints to ground hold: by the first joint with constant columns of each, else by the first other
-/// one. Bodies without an inertia of their own, and point masses, stay free.
+/// The bodies that joints hold to ground. If several joints hold one body, the first joint with constant columns is
+/// chosen, otherwise the first joint. Bodies without an inertia of their own, and point masses, are left out.
 pub(super) fn grounded<S: Real>(model: &Model<S>, added: &[S]) -> Vec<Grounded<S>> {
     let mut holds: Vec<Option<(usize, bool)>> = vec![None; model.bodies.len()];
     for (k, (item, slots)) in model.constraints.iter().zip(&model.layout.constraints).enumerate() {

@@ -13,12 +13,12 @@ pub struct Inertia<S = f64> {
     pub mass: S,
     /// Mass centre in the body frame, m.
     pub center: Local<S>,
-    /// Whether the mass centre can be off the origin of the frame: only then are rotation and translation
-    /// coupled. Decided by the formulas, whatever the parameters.
+    /// Whether the mass centre can be off the origin of the frame; only then rotation and translation are
+    /// coupled. This follows from the formulas and does not depend on the values of parameters.
     pub coupled: bool,
 }
 
-/// Of all moving bodies, given as formulas and as numbers, ground first.
+/// Inertias of all moving bodies, given as formulas and as numbers, ground first.
 pub(super) fn inertias<S: Real>(
     formulas: &[Body<Tape>],
     bodies: &[Body<S>],

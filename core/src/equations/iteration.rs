@@ -6,10 +6,10 @@
 //! [ Φ_q + c_b B                     0                -μ        ]
 //! ```
 //!
-//! with the [`Tangent`] of the equations of motion, real or complex. The middle row and column belong to the first-order
-//! states of elements, and few models have any. Bodies without inertia get in M what
-//! the model adds to them: the residual stays that of the true equations, so the iteration converges to
-//! their solution. Redundant rows are damped with μ, for the same reason without harm.
+//! with the [`Tangent`] of the equations of motion, real or complex. The middle row and column belong to the
+//! first-order states of elements; few models have any. M contains the inertia added to bodies without their own.
+//! The residual is that of the true equations, so the iteration still converges to their solution. For the same
+//! reason redundant rows may be damped with μ.
 
 use super::coupling::Participants;
 use super::plan::{groups, row_blocks};
@@ -26,13 +26,13 @@ const REDUNDANT: f64 = 1e-10;
 /// Coefficients of the parts of the matrix.
 #[derive(Clone, Copy, Debug)]
 pub struct Coefficients<F> {
-    /// Of M, D, K and B.
+    /// Coefficients of M, D, K and B.
     pub motion: [F; 4],
-    /// Of ∂Q/∂z, ∂ż/∂v, ∂ż/∂q and ∂ż/∂z.
+    /// Coefficients of ∂Q/∂z, ∂ż/∂v, ∂ż/∂q and ∂ż/∂z.
     pub states: [F; 4],
 }
 
-/// Where the blocks of a tangent go in the factors.
+/// The places of the blocks of a tangent in the factors.
 #[derive(Clone, Debug)]
 pub struct Places {
     /// Pattern, order and plan.
@@ -128,7 +128,7 @@ fn coupled(
     others.iter().flat_map(|&a| all.iter().map(move |&b| (a, b))).collect()
 }
 
-/// Puts the matrix together.
+/// Assembles the matrix.
 pub fn assemble<F: Field>(
     places: &Places,
     tangent: &Tangent,

@@ -24,7 +24,7 @@ impl<S> Deref for Motions<S> {
 }
 
 impl<S: Real> Motions<S> {
-    /// Memory for a model; everything rests in the origin.
+    /// Memory for a model; all bodies are at rest at the origin.
     pub fn new(layout: &StateLayout) -> Self {
         let bodies = layout.bodies.len();
         let first_own = layout.bodies.iter().map(|columns| columns.range().end).max().unwrap_or(0);
@@ -92,12 +92,12 @@ impl<S: Real> Motions<S> {
         }
     }
 
-    /// The motion of a body, to be changed.
+    /// The motion of a body, mutable.
     pub(super) fn body_mut(&mut self, body: usize) -> &mut Motion<S> {
         &mut self.bodies[body]
     }
 
-    /// Internal coordinates of an element and their rates, to be changed.
+    /// Internal coordinates of an element and their rates, mutable.
     pub(super) fn own_mut(&mut self, columns: Columns) -> (&mut [S], &mut [S]) {
         let first = columns.first.saturating_sub(self.first_own);
         let range = first..first + columns.count;
@@ -105,7 +105,7 @@ impl<S: Real> Motions<S> {
     }
 }
 
-/// Number by number: a twist that is put together first would be copied twice.
+/// Number by number: a twist that is assembled first would be copied twice.
 #[inline(always)]
 fn put_rates<S: Real>(v: &[S], twist: &mut Twist<S>) {
     (twist.velocity.x, twist.velocity.y) = (v[0], v[1]);
@@ -114,8 +114,8 @@ fn put_rates<S: Real>(v: &[S], twist: &mut Twist<S>) {
     }
 }
 
-/// The coordinates of poses of all bodies, ground first, with the internal coordinates that elements
-/// start from there; shape (n_q).
+/// The coordinates of given poses of all bodies, ground first, with the first values of the internal coordinates of
+/// elements at these poses; shape (n_q).
 pub fn coordinates(model: &Model, poses: &[Pose]) -> Vec<f64> {
     let layout = &model.layout;
     let mut q = vec![0.0; layout.n_q];

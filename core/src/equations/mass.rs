@@ -8,7 +8,7 @@ use crate::math::{Motion, Real, Vec2};
 use crate::model::{Body, Model};
 use crate::solve::InverseMass;
 
-/// The four numbers that a block holds.
+/// The four numbers of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassBlock<S = f64> {
     /// m, kg.
@@ -29,7 +29,8 @@ pub fn block<S: Real>(body: &Body<S>, motion: &Motion<S>) -> MassBlock<S> {
     }
 }
 
-/// Turns the inverse of the block with the body: b of the mass centre is its direction. 1/m and 1/J are set already.
+/// Rotates the inverse of the block with the body: b of the mass centre gives the direction. 1/m and 1/J are set
+/// already.
 #[inline(always)]
 pub fn turn<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, mass: &mut InverseMass<S>) {
     if inertia.coupled {

@@ -1,6 +1,6 @@
 //! The equations of planar mechanics, one file per concept, over any scalar.
 //!
-//! Functions of a [`Model`](crate::model::Model) and plain slices; scratch is a [`Workspace`].
+//! They are functions of a [`Model`](crate::model::Model) and plain slices; a [`Workspace`] has their scratch memory.
 
 mod added_inertia;
 pub mod augmented;

@@ -19,7 +19,7 @@ use crate::math::Real;
 use crate::model::Model;
 use std::sync::Arc;
 
-/// Baumgarte's gains; zeros leave γ as it is.
+/// Baumgarte's gains; with zeros γ is unchanged.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Gains {
     /// α, 1/s.
@@ -46,8 +46,8 @@ impl From<Dependent> for Singular {
 /// Memory for the equations of motion of one model, and the results of the last evaluation: motions, accelerations,
 /// multipliers, powers, Φ_q and the factors of the matrix.
 ///
-/// No evaluation depends on those before it. But projection and implicit methods use the factors, and Φ_q, that the last
-/// one left, on purpose: between an evaluation and such a use no other may come.
+/// No evaluation depends on the evaluations before it. But projection and implicit methods use the factors and Φ_q of
+/// the last evaluation: there must be no other evaluation between that evaluation and such a use.
 #[derive(Clone, Debug)]
 pub struct Workspace<S = f64> {
     /// Motion of every body, ground first.
@@ -64,22 +64,21 @@ pub struct Workspace<S = f64> {
     solution: Vec<S>,
     /// Powers of the force elements.
     powers: Powers<S>,
-    /// Subtracted from γ, whatever the state; empty if nothing.
+    /// A constant vector that is subtracted from γ; empty if absent.
     offset: Vec<S>,
-    /// Whether the matrix is never that of the equations: inertia is added, or redundant rows are damped. Or whether
-    /// forces depend on reactions.
+    /// Whether the matrix always differs from that of the equations: inertia is added, or redundant rows are damped.
     modified: bool,
     /// The rows of the multipliers on which forces depend.
     reactive: Vec<usize>,
     n_q: usize,
-    /// Number of unknowns of the solver: n_q, and padding behind a short last group.
+    /// Number of unknowns of the solver: n_q, and the padding of a short last group.
     n_unknowns: usize,
 }
 
 /// Damping of redundant rows, relative to the largest compliance 1/m.
 const REDUNDANT: f64 = 1e-10;
 
-/// Damping with which the multipliers of redundant constraints become the smallest that carry the loads.
+/// Damping with which the multipliers of redundant constraints become the smallest that balance the loads.
 fn redundant_rows<S: Real>(model: &Model<S>) -> impl Iterator<Item = S> {
     let compliance = |b: &crate::model::Body<S>| S::one() / b.mass;
     let largest = model.bodies[1..].iter().map(compliance).fold(S::zero(), S::max);
@@ -93,7 +92,7 @@ impl<S: Real> Workspace<S> {
         Self::on(model, Arc::new(Plan::of_motion(model)))
     }
 
-    /// The same for a model whose plan of elimination `other` has, of the same model over other numbers.
+    /// The same with the plan of elimination of `other`, which belongs to the same model over other numbers.
     pub fn like<P: Real>(model: &Model<S>, other: &Workspace<P>) -> Self {
         Self::on(model, Arc::clone(other.matrix.plan()))
     }
@@ -125,7 +124,7 @@ impl<S: Real> Workspace<S> {
         }
     }
 
-    /// From now on `term`, shape (n_rows), is subtracted from γ at every state.
+    /// Sets a constant `term`, shape (n_rows), that is subtracted from γ at every state.
     pub fn set_offset(&mut self, term: &[S]) {
         self.offset.clear();
         self.offset.extend_from_slice(term);
@@ -134,7 +133,7 @@ impl<S: Real> Workspace<S> {
     /// Solves the equations of motion at a state; then [`a`](Self::a), [`lam`](Self::lam).
     ///
     /// # Errors
-    /// [`Singular`] where Φ_q loses rank, and where a torque turns an angle without any inertia.
+    /// [`Singular`] where Φ_q loses rank, and where a torque acts on an angle without inertia.
     pub fn accelerate(
         &mut self,
         model: &Model<S>,
@@ -168,7 +167,7 @@ impl<S: Real> Workspace<S> {
         self.solve_and_refine(model, t, gains)
     }
 
-    /// q̈ and λ where the matrix is that of the equations: joints are put into it as they are evaluated.
+    /// q̈ and λ if the matrix is that of the equations: each joint is put into it when it is evaluated.
     #[inline(always)]
     fn solve_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
         let Self { motions, z, compiled, roles, matrix, solution, powers, offset, .. } = self;
@@ -188,7 +187,7 @@ impl<S: Real> Workspace<S> {
         saddle.finish(&plan.pattern, solution)
     }
 
-    /// The same by the whole matrix, with a factor that may be that of a modified one.
+    /// The same by the whole matrix; the factor may be that of a modified matrix.
     fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
         let Self { motions, z, compiled, matrix, solution, powers, offset, reactive, .. } = self;
         let (n, padded) = (self.n_q, self.n_unknowns);

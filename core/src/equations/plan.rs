@@ -1,4 +1,4 @@
-//! The structure of the augmented matrix of a model, whatever its numbers: pattern and program of elimination.
+//! The structure of the augmented matrix of a model, without its numbers: pattern and program of elimination.
 
 use super::Compiled;
 use crate::math::Real;
@@ -12,7 +12,7 @@ const ROWS: usize = 3;
 #[derive(Debug)]
 pub struct Plan {
     pub(super) pattern: Pattern,
-    /// The constraints that are condensed with the grounded bodies that they hold, in the order of those.
+    /// The constraints that are condensed with the grounded bodies that they hold, in the order of these bodies.
     pub(super) condensed: Vec<usize>,
     /// The constraints whose rows an evaluation puts into the matrix as pins, in the order of
     /// [`Pattern::pin_rows`].
@@ -24,13 +24,13 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Of the equations of motion of a model: grounded bodies are condensed, unless redundant constraints are
+    /// Plan of the equations of motion of a model. Grounded bodies are condensed unless redundant constraints are
     /// accepted.
     pub fn of_motion<S: Real>(model: &Model<S>) -> Self {
         Self::with(model, !model.allow_redundancy)
     }
 
-    /// Bodies first, then the constraints by minimum degree, so that every pivot is safe while Φ_q has full rank.
+    /// Eliminates bodies first, then the constraints by minimum degree: every pivot is safe while Φ_q has full rank.
     pub fn free<S: Real>(model: &Model<S>) -> Self {
         Self::with(model, false)
     }

@@ -21,9 +21,9 @@ pub enum Frame {
 /// Force and torque of constraint `k` on a body, reduced to the joint point; `lam` are the multipliers of
 /// its own rows. None for a body that the constraint does not touch.
 ///
-/// A body that only a law names, such as the other wheel of a coupling by angles, has no joint point:
-/// its reaction is reduced to the origin of its frame, and its joint frame is the body frame. Ground
-/// carries the opposite of all other bodies together.
+/// A body that occurs only in a law, such as the other wheel of a coupling by angles, has no joint point.
+/// Its reaction is reduced to the origin of its frame, and its joint frame is the body frame. The reaction on
+/// ground is opposite to the sum of the reactions on all other bodies.
 pub fn reaction<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -74,7 +74,7 @@ fn against<S: Real>(
     )
 }
 
-/// What a constraint with a law takes from all moving bodies together, about the global origin.
+/// The sum of the reactions of a constraint with a law on all moving bodies, about the global origin.
 fn on_ground<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -91,7 +91,7 @@ fn on_ground<S: Real>(
     sum
 }
 
-/// A wrench about the frame's origin, taken to the joint point and into a frame.
+/// A wrench about the frame's origin, reduced to the joint point and expressed in a frame.
 fn reduced<S: Real>(w: Wrench<S>, pose: &Pose<S>, at: Attachment<S>, frame: Frame) -> Wrench<S> {
     let arm = pose.global(at.s);
     let force = match frame {
@@ -105,7 +105,7 @@ fn reduced<S: Real>(w: Wrench<S>, pose: &Pose<S>, at: Attachment<S>, frame: Fram
     Wrench { force, torque: w.torque - arm.cross(w.force) }
 }
 
-/// Components in the requested frame; from here on the caller keeps track of the frame.
+/// Components in the requested frame; the caller keeps track of the frame.
 fn as_vector<S: Real>(s: Local<S>) -> Vec2<S> {
     Vec2::new(s.x, s.y)
 }

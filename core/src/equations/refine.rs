@@ -1,10 +1,10 @@
 //! Solutions of the true equations of motion by factors of modified ones.
 //!
 //! The factors may be those of a matrix W with inertia added to bodies that have none, and with damped
-//! rows where constraints are redundant. With K the true matrix, x ← x + W⁻¹ (b - K x) is repeated: the
-//! remainder is computed with K alone, so that what it converges to is exact. Each step multiplies the
-//! error of an angle with the inertia ε added by ε / (ε + J), J being what the angle has to turn through
-//! its joints; that of redundant rows by their damping (the method of multipliers).
+//! rows where constraints are redundant. With K the true matrix, x ← x + W⁻¹ (b - K x) is repeated. The
+//! remainder is computed with K, so the limit is exact. Each step multiplies the error of an angle with added
+//! inertia ε by ε / (ε + J), where J is the inertia of the bodies that the angle moves through its joints. It
+//! multiplies the error of redundant rows by their damping (the method of multipliers).
 
 use super::augmented::{Augmented, Dependent};
 use super::kinematics::Motions;
@@ -17,15 +17,15 @@ use crate::model::Model;
 const FOR_REDUNDANCY: usize = 2;
 /// Most steps for added inertia: an angle that nothing resists does not converge at all.
 const MOST: usize = 50;
-/// Corrections of accelerations so small, relative to the largest, end the steps.
+/// Correction of accelerations, relative to the largest, that ends the steps.
 const SETTLED: f64 = 1e-14;
-/// Where rounding keeps them from getting so small, this is accepted.
+/// Correction that is accepted where rounding prevents a smaller one.
 const ACCEPTED: f64 = 1e-9;
 
-/// Solves K x = b; `x` comes with b and leaves with the solution, shape (n_q + n_rows).
+/// Solves K x = b; `x` contains b at first and the solution afterwards, shape (n_q + n_rows).
 ///
 /// # Errors
-/// The angle of a body without inertia that a torque turns while nothing resists.
+/// The angle of a body without inertia on which a torque acts while no joint prevents its rotation.
 pub(super) fn solve<S: Real>(
     (model, compiled): (&Model<S>, &Compiled<S>),
     motions: &Motions<S>,

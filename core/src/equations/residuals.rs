@@ -1,4 +1,4 @@
-//! How far a state is from its constraints: Φ and Φ̇ of all of them and the largest of each, in one pass.
+//! The constraint errors of a state: Φ and Φ̇ of all constraints and the largest of each, in one pass.
 
 use super::constraints::{self};
 use super::kinematics::Motions;
@@ -7,7 +7,7 @@ use crate::elements::{Joint, Linearized, Moving, Pooled, VisitJoints};
 use crate::math::{Largest, Real};
 use crate::model::{row_scales, Model};
 
-/// Φ and Φ̇ of one model, at the state that was looked at last.
+/// Φ and Φ̇ of one model, at the last evaluated state.
 #[derive(Clone, Debug)]
 pub struct Residuals<S = f64> {
     /// Φ and Φ̇, each of shape (n_rows), m or rad and that per s.
@@ -27,8 +27,8 @@ impl<S: Real> Residuals<S> {
         }
     }
 
-    /// Fills the [`rows`](Self::rows) at a state; gives the largest of Φ and of Φ̇, scaled, in any lane; NaN
-    /// if one is NaN.
+    /// Fills the [`rows`](Self::rows) at a state. Returns the largest of Φ and of Φ̇, scaled, over all lanes, or NaN if
+    /// one is NaN.
     pub fn look(&mut self, model: &Model<S>, motions: &Motions<S>, t: S) -> [f64; 2] {
         let mut look = Look { model, motions, t, rows: &mut self.rows };
         self.compiled.joints.visit(&mut look);

@@ -1,7 +1,7 @@
 //! The joints and drivers of a model by the role that they have in an elimination, and by type.
 //!
-//! A joint that holds a grounded body is condensed with it. A pin among bodies has rows [±I b] (Haug 3.3.12): of its
-//! columns b alone changes, and its part of the matrix is computed while its numbers are at hand. Every other joint puts
+//! A joint that holds a grounded body is condensed with it. A pin among bodies has rows [±I b] (Haug 3.3.12), of which
+//! only b depends on the state; its part of the matrix is computed in the same loop as its rows. Every other joint puts
 //! its rows into the entries of Φ_q. Each type has one loop for each role; all numbers come from the element's own
 //! `linearize`.
 
@@ -17,7 +17,7 @@ use crate::solve::{PinRows, PinSum, Saddle};
 /// Joints and drivers by role.
 #[derive(Clone, Debug)]
 pub(super) struct Roles<S> {
-    /// Those that hold the grounded bodies that are condensed.
+    /// Joints that hold condensed grounded bodies.
     condensing: JointPools<S>,
     /// Pins among bodies.
     pins: JointPools<S>,
@@ -162,8 +162,8 @@ impl<S: Real> PutOthers<'_, S> {
     }
 }
 
-/// Condenses the grounded bodies. `forces` and `right`, as long as the unknowns and the rows, become what
-/// [`Saddle::condense`] leaves there.
+/// Condenses the grounded bodies. `forces` has the length of the unknowns and `right` that of the rows;
+/// [`Saddle::condense`] changes both.
 #[inline(always)] // once in an evaluation: a call would spill registers
 pub(super) fn condense<S: Real>(
     roles: &Roles<S>,

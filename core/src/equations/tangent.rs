@@ -5,10 +5,10 @@
 //! K = ∂r/∂q      D = ∂r/∂v      M = ∂r/∂a      B = ∂(Φ_q v + Φ_t)/∂q
 //! ```
 //!
-//! Bodies in closed form; constraints and forces by dual numbers, over one owner of coordinates at a
-//! time, with the same code as the equations themselves, laws of time and state included. K and D are
-//! stored as blocks (owner, owner); only the blocks that an element couples exist. Derivatives that few
-//! models have, by states and multipliers, are lists of [`Entry`].
+//! The part of bodies is in closed form. Constraints and forces, with their laws of time and state, are
+//! differentiated by dual numbers over one owner of coordinates at a time, with the same code as the equations
+//! themselves. K and D are stored as blocks (owner, owner); only the blocks that an element couples exist. Few
+//! models have derivatives by states and multipliers; these are lists of [`Entry`].
 
 use super::constraints;
 use super::coupling::{self, Pairs, Participants};
@@ -108,7 +108,7 @@ impl Tangent {
         }
     }
 
-    /// What every force depends on.
+    /// The quantities on which each force depends.
     pub(super) fn participants(&self) -> &[Participants] {
         &self.by_force
     }
@@ -168,7 +168,7 @@ impl Tangent {
         lower.iter_mut().for_each(|row| *row = -*row);
     }
 
-    /// (Φ_qᵀ λ)_q and B of one constraint; its Φ_q comes with them.
+    /// (Φ_qᵀ λ)_q, B and Φ_q of one constraint.
     fn constraint(&mut self, k: usize, slots: &Slots, motions: &Motions, t: f64, lam: &[f64]) {
         let m = lam.len();
         for (seed, block) in slots.blocks.iter().enumerate() {
@@ -290,7 +290,7 @@ impl Tangent {
     }
 }
 
-/// By what a force is differentiated.
+/// The variable by which a force is differentiated.
 #[derive(Clone, Copy)]
 enum Variable {
     /// By the pose of the body with this place among the participants.

@@ -28,7 +28,7 @@ struct Compiler<'a> {
     tape: Tape,
     /// Operands on the stack after the last instruction.
     depth: usize,
-    /// Relations whose `if` has not come yet.
+    /// Relations whose `if` follows later.
     conditions: Vec<Relation>,
 }
 
@@ -150,7 +150,7 @@ fn unknown<N: Names + ?Sized>(name: &str, span: Range<usize>, names: &N) -> Expr
     ExpressionError::new(span, format!("unknown name '{name}'")).hint(hint)
 }
 
-/// What is known of `body`, if it is one.
+/// The constant value of `body`, if it is constant.
 fn coordinates(body: &str, known: &[String]) -> Option<String> {
     let prefix = format!("{body}.");
     let owned: Vec<_> =

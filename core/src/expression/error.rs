@@ -1,4 +1,4 @@
-//! What is wrong with an expression, and where.
+//! Faults of an expression, with their places.
 
 use std::fmt;
 use std::ops::Range;
@@ -6,11 +6,11 @@ use std::ops::Range;
 /// An expression that cannot be read or compiled.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
-    /// What is wrong, in one sentence without a full stop.
+    /// Description, in one sentence without a full stop.
     pub message: String,
     /// Where: bytes of the text, on character boundaries; empty at the end of the text.
     pub span: Range<usize>,
-    /// What to do about it, where that can be guessed.
+    /// Remedy, if it can be guessed.
     pub hint: Option<String>,
 }
 

@@ -5,5 +5,5 @@
 pub const MAX_LENGTH: usize = 4096;
 /// The deepest nesting of parentheses, calls, signs and powers that is read.
 pub const MAX_DEPTH: usize = 64;
-/// The largest number of operands that may wait for their operation at a time.
+/// The largest number of operands before their operation.
 pub const MAX_OPERANDS: usize = 32;

@@ -1,7 +1,7 @@
 //! Expressions: text → syntax tree → tape → value on any [`Real`](crate::math::Real).
 //!
 //! ```text
-//! expression = sum                      a comparison may stand only as the condition of `if`
+//! expression = sum                      a comparison is allowed only as the condition of `if`
 //! comparison = sum ("<" | "<=" | ">" | ">=") sum
 //! sum        = product {("+" | "-") product}
 //! product    = unary {("*" | "/") unary}

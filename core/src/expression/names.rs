@@ -1,8 +1,8 @@
-//! Which names an expression may use, and what they stand for.
+//! The names that an expression may use, and their meaning.
 
 use super::operation::FUNCTIONS;
 
-/// What a name in an expression stands for.
+/// The meaning of a name in an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Symbol {
     /// The named parameter with this index.
@@ -13,11 +13,11 @@ pub enum Symbol {
     Variable(usize),
 }
 
-/// The names that an expression may use where it stands.
+/// The names that an expression at a place may use.
 pub trait Names {
     /// The meaning of `name`: `"L1"`, `"t"`, `"crank.omega"`. Backticks are already removed.
     ///
-    /// Where the time has no meaning, `"t"` is `None`. `pi` and `deg` are never asked for.
+    /// Where the time has no meaning, `"t"` is `None`. `pi` and `deg` are never passed to it.
     fn resolve(&self, name: &str) -> Option<Symbol>;
 
     /// Every name that [`resolve`](Names::resolve) knows, for suggestions.
@@ -52,7 +52,7 @@ pub(super) fn constant(name: &str) -> Option<f64> {
     }
 }
 
-/// Whether nothing in a model may bear this name: `t pi deg ground` and the functions.
+/// Whether a name is reserved: `t pi deg ground` and the functions.
 pub fn is_reserved(name: &str) -> bool {
     matches!(name, "t" | "pi" | "deg" | "ground") || FUNCTIONS.iter().any(|f| f.name == name)
 }

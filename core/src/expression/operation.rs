@@ -1,7 +1,7 @@
-//! The operations of the language and what they do to any [`Real`].
+//! The operations of the language on any [`Real`].
 //!
-//! NaN is never swallowed: where a decision is taken on NaN the result is NaN. [`Real::select`]
-//! alone takes the last branch then, so decisions go through [`by_sign`].
+//! NaN is never lost: a decision on NaN gives NaN. [`Real::select`] would take the last branch, so decisions use
+//! [`by_sign`].
 
 use crate::math::Real;
 
@@ -51,7 +51,7 @@ pub(super) enum Relation {
     GreaterOrEqual,
 }
 
-/// What calling a function does.
+/// The operation of a function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Call {
     Unary(Unary),
@@ -66,7 +66,7 @@ pub struct Function {
     pub name: &'static str,
     /// The names of its arguments, in order.
     pub arguments: &'static [&'static str],
-    /// What it does, in one line.
+    /// Description in one line.
     pub doc: &'static str,
     pub(super) call: Call,
 }

@@ -5,7 +5,7 @@ use crate::math::Real;
 use std::collections::HashMap;
 use std::fmt;
 
-/// What is wrong with the definition of a parameter.
+/// A fault of the definition of a parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParameterError {
     /// Index of the parameter in the list.

@@ -63,7 +63,7 @@ impl Parser<'_> {
         result
     }
 
-    /// A number: whatever a comparison is not.
+    /// A number, as opposed to a comparison.
     fn value(&mut self) -> Parsed<Range<usize>> {
         let span = self.comparison()?;
         match self.nodes.last() {
@@ -234,7 +234,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The next token cannot stand where it does.
+    /// The error for a token at a wrong place.
     fn misplaced(&self) -> ExpressionError {
         let span = self.token.span.clone();
         let written = &self.text[span.clone()];
@@ -284,7 +284,7 @@ impl Parser<'_> {
 }
 
 fn misplaced_comparison(span: Range<usize>) -> ExpressionError {
-    ExpressionError::new(span, "a comparison may stand only as the first argument of if")
+    ExpressionError::new(span, "a comparison is allowed only as the first argument of if")
         .hint("write if(a < b, 1, 0) for its value as a number".to_string())
 }
 

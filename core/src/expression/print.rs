@@ -27,7 +27,7 @@ impl Piece {
         Self { text, binding }
     }
 
-    /// The text as an operand where the grammar wants at least `binding`.
+    /// The text as an operand where the grammar needs at least `binding`.
     fn at_least(self, binding: Binding) -> String {
         if self.binding < binding {
             format!("({})", self.text)

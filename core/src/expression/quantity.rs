@@ -8,8 +8,8 @@ use super::ExpressionError;
 
 /// Reads `["-" | "+"] number unit`; `None` if the text is something else.
 ///
-/// What begins like one but goes on (`30 deg + 1`) is an error here; a number followed by a name
-/// that is no unit (`2 pi`) is left to the parser, which knows better what is wrong with it.
+/// A longer text that begins with a quantity (`30 deg + 1`) is an error here. For a number followed by a name that is
+/// not a unit (`2 pi`) the parser has the better error message.
 pub(super) fn read(text: &str) -> Result<Option<(Node, Unit)>, ExpressionError> {
     let Some((value, end)) = signed_number(text) else { return Ok(None) };
     let written = text[end..].trim();

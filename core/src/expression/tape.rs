@@ -22,7 +22,7 @@ pub(super) enum Instruction {
 }
 
 impl Instruction {
-    /// How many operands it takes; it leaves one.
+    /// Its number of operands; it has one result.
     pub fn operands(self) -> usize {
         match self {
             Self::Constant(_) | Self::Load(_) => 0,
@@ -77,7 +77,7 @@ pub struct Tape {
 }
 
 impl Tape {
-    /// The value of the expression, with whatever the scalar carries (derivatives, lanes).
+    /// The value of the expression, with the further content of the scalar (derivatives, lanes).
     ///
     /// Nothing is allocated. Outside the domain of a function the value is NaN, never a panic.
     pub fn evaluate<S: Real>(&self, values: &impl Values<S>) -> S {
@@ -134,7 +134,7 @@ impl Tape {
         self.symbols.iter().any(|symbol| matches!(symbol, Symbol::Variable(_)))
     }
 
-    /// The value, if it depends on nothing.
+    /// The value, if it is constant.
     pub fn constant(&self) -> Option<f64> {
         match self.code[..] {
             [Instruction::Constant(value)] => Some(value),

@@ -56,7 +56,7 @@ impl Expression {
     }
 
     /// The dimension of the unit behind a bare number; `None` where no unit was written, and the
-    /// value is then in the SI unit of the place where it stands.
+    /// value is then in the SI unit of its place.
     pub fn dimension(&self) -> Option<Dimension> {
         self.dimension
     }

@@ -1,4 +1,4 @@
-//! The syntax tree, kept in postorder: operands stand before their operation.
+//! The syntax tree in postorder: operands precede their operation.
 //!
 //! So reading, printing and compiling are single passes, and no shape of the tree, however lopsided,
 //! can overflow the call stack.
@@ -13,7 +13,7 @@ pub(super) struct Node {
     pub span: Range<usize>,
 }
 
-/// What a node is; operations take as many of the preceding subtrees as they have operands.
+/// The kind of a node; an operation takes as many of the preceding subtrees as it has operands.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Kind {
     /// A number, SI.

@@ -2,7 +2,7 @@
 //!
 //! A unit is a product of the units of [`UNITS`], each with an integer exponent:
 //! `atom ["^" integer] {("*" | "/") atom ["^" integer]}`, read from left to right, so that
-//! `N*m*s/rad` is (N·m·s)/rad. `1/s` is allowed. `·` may stand for `*`, `µm` for `um`, `°` for
+//! `N*m*s/rad` is (N·m·s)/rad. `1/s` is allowed. `·` is read as `*`, `µm` as `um`, `°` as
 //! `deg`. Case counts: `mN` is 10⁻³ N, `MN` is 10⁶ N.
 //!
 //! The angle has no dimension (SI): `N*m/rad` is as good as `N*m` for a torsional stiffness.
@@ -59,7 +59,7 @@ impl fmt::Display for Dimension {
 
 /// A unit: SI value = number · `numerator` / `denominator`.
 ///
-/// Two factors, because 10⁻³ is no binary fraction and 1000 is: `0.3 mm` is the same number as
+/// Two factors, because 1000 is a binary number and 10⁻³ is not: `0.3 mm` is the same number as
 /// `3e-4`, rounded once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
@@ -67,7 +67,7 @@ pub struct Unit {
     pub numerator: f64,
     /// Divisor to the SI unit.
     pub denominator: f64,
-    /// What it measures.
+    /// The measured quantity.
     pub dimension: Dimension,
 }
 

@@ -5,7 +5,7 @@
 //! (1 - α_m) a₁ + α_m a₀ = (1 - α_f) v̇₁ + α_f v̇₀
 //! ```
 //!
-//! a is no acceleration at t but, to second order, that at t + Δ h with Δ = α_m - α_f. (Chung and
+//! a is not the acceleration at t but, to second order, that at t + Δ h with Δ = α_m - α_f. (Chung and
 //! Hulbert, *A time integration algorithm for structural dynamics with improved numerical dissipation:
 //! the generalized-α method*, J. Appl. Mech. 60 (1993) 371; Arnold and Brüls, *Convergence of the
 //! generalized-α scheme for constrained mechanical systems*, Multibody Syst. Dyn. 18 (2007) 185.)

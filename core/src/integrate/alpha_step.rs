@@ -11,11 +11,11 @@
 //! independent conditioning and sensitivity to perturbations in the numerical solution of index three
 //! differential algebraic equations*, SIAM J. Sci. Comput. 29 (2007) 397).
 //!
-//! What makes order 2 hold from the first step and for steps that change (Arnold, Brüls and Cardona,
-//! *Error analysis of generalized-α Lie group time integration methods for constrained mechanical
-//! systems*, Numer. Math. 129 (2015) 149): a belongs to t + Δ h, so a - v̇ is proportional to h; and the
-//! velocities that step from constraint to constraint are off them by h² C_q v̈, normal to them. Both are
-//! carried from step to step over h and h², the velocities themselves on the constraints.
+//! The method keeps order 2 from the first step on and for variable steps (Arnold, Brüls and Cardona, *Error analysis
+//! of generalized-α Lie group time integration methods for constrained mechanical systems*, Numer. Math. 129 (2015)
+//! 149). For this, two deviations pass from step to step: a belongs to t + Δ h, so a - v̇ is proportional to h; and the
+//! velocities of the method deviate from the constraints by h² C_q v̈, normal to them. They are stored divided by h and
+//! h². The reported velocities meet the constraints.
 //!
 //! First-order states z are integrated as v is, with parameters of the same damping
 //! ([`AlphaParameters::of_states`]); w takes the place of a, and their changes are unknowns beside x.
@@ -30,19 +30,19 @@ use super::failure::Cause;
 use super::implicit_state::ImplicitState;
 use super::right_hand_side::all_finite;
 
-/// Most iterations with one matrix.
+/// Largest number of iterations with one matrix.
 const MOST: usize = 10;
-/// A matrix of an earlier step that lowers the error by less is renewed.
+/// A matrix of an earlier step is renewed if it reduces the error by less.
 const SLOW: f64 = 0.2;
-/// Steps that differ by less share a matrix: a difference of times is never twice the same.
+/// Steps that differ by less share a matrix: differences of times are subject to rounding.
 const SAME: f64 = 1e-6;
 /// Corrections below this part of the largest coordinate are rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Part of the tolerance that Newton's iteration may leave.
 const PART: f64 = 1e-2;
 
-/// What the method carries from step to step, of v or of z: at the beginning of a step (a - v̇) / h and the rate of
-/// v̇; and a, which the method has in the place of v̇, at both ends.
+/// The quantities of v or of z that pass from step to step: (a - v̇) / h and the rate of v̇ at the beginning of a
+/// step; and a, which replaces v̇ in the method, at both ends.
 pub(super) struct Carried {
     pub shift: Vec<f64>,
     pub slope: Vec<f64>,
@@ -56,8 +56,8 @@ impl Carried {
         Self { shift: row(), slope: row(), start: row(), end: row() }
     }
 
-    /// Predicts the derivative at the end, which goes on changing as before, and a at both ends. Returns the mean of a
-    /// by which component i changes over the step, as (1 - γ) a₀ + γ a₁.
+    /// Predicts the derivative at the end by extrapolation, and a at both ends. Returns the mean of a
+    /// by which component i changes over the step, (1 - γ) a₀ + γ a₁.
     fn predict(&mut self, p: &AlphaParameters, h: f64, i: usize, rate: f64, end: &mut f64) -> f64 {
         self.start[i] = rate + h * self.shift[i];
         *end = rate + h * self.slope[i];
@@ -88,14 +88,14 @@ pub(super) struct AlphaStep {
     pub carried: [Carried; 2],
     /// (v of the method - v) / h² at the beginning.
     pub normal: Vec<f64>,
-    /// The step that the slopes were found over.
+    /// The step over which the slopes were computed.
     pub h_before: f64,
     x: Vec<f64>,
     dv: Vec<f64>,
     /// Estimated errors of q, v and z.
     error: [Vec<f64>; 3],
     rows: Vec<f64>,
-    /// The step for which the matrix at hand was made.
+    /// The step of the current matrix.
     factored: Option<f64>,
     /// Whether the last failure was that of a factorisation.
     pub singular: bool,
@@ -161,7 +161,7 @@ impl AlphaStep {
         system.factor(self.coefficients(h))
     }
 
-    /// The state at t + h into `end`; whether Newton's iteration converged.
+    /// Computes the state at t + h into `end`; returns whether Newton's iteration converged.
     pub fn advance<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
@@ -185,7 +185,7 @@ impl AlphaStep {
         converged
     }
 
-    /// First guess: v̇ and ż go on changing as before.
+    /// First guess: v̇ and ż are extrapolated.
     fn predict(&mut self, h: f64) {
         let (p, p_z) = (self.parameters, self.of_states);
         let Self { start, end, normal, carried: [of_v, of_z], .. } = self;

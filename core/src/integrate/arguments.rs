@@ -1,13 +1,13 @@
-//! What is refused before the first evaluation, with the name of the argument.
+//! Checks of the arguments before the first evaluation.
 
 use super::failure::Cause;
 
-/// Most steps for which t0 + k step still tells neighbours apart.
+/// Largest number of steps for which neighbouring times t0 + k step still differ.
 const MOST_STEPS: f64 = 1e15;
-/// A remainder of the interval that is so small a part of it is rounding, and no step.
+/// A remainder of the interval below this part of it is rounding, not a step.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// A refused argument: name, value, what it must be.
+/// A refused argument: its name, its value, and the condition on it.
 pub(super) type Refused = (&'static str, f64, &'static str);
 
 pub(super) fn refusal<E>((name, value, must): Refused) -> Cause<E> {
@@ -51,7 +51,7 @@ pub(super) fn not_negative(name: &'static str, value: f64) -> Result<(), Refused
     }
 }
 
-/// Number of constant steps over an interval; a remainder of rounding is no step.
+/// Number of constant steps over an interval; a remainder of rounding does not count.
 pub(super) fn step_count(step: f64, interval: f64) -> Result<usize, Refused> {
     positive("step", step)?;
     finite("step", step)?;

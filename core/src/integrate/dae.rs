@@ -58,7 +58,7 @@ pub struct Iterate<'a> {
     pub dz: &'a [f64],
 }
 
-/// Which constraints a method adds to the balance of forces.
+/// The constraints that a method adds to the balance of forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConstraintLevel {
     /// Φ: index 3.
@@ -128,7 +128,7 @@ pub struct SingularMatrix;
 
 /// A constrained mechanical system.
 pub trait Dae {
-    /// Why the system cannot go on; passed through untouched.
+    /// The error of the system; it is passed on unchanged.
     type Stop;
 
     /// Lengths of its parts.
@@ -187,7 +187,7 @@ pub trait Dae {
     /// Ends the integration.
     fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Self::Stop>;
 
-    /// The error with which the run ends where no step, however short, has a matrix that can be factorised.
+    /// The error with which the run ends if the matrix cannot be factorised for any step.
     fn singular(&mut self, t: f64, state: [&[f64]; 3]) -> Option<Self::Stop>;
 }
 
@@ -198,6 +198,6 @@ pub struct DaeState<'a> {
     pub q: &'a mut [f64],
     /// Velocities.
     pub v: &'a mut [f64],
-    /// First-order states, which projection leaves.
+    /// First-order states, which projection does not change.
     pub z: &'a [f64],
 }

@@ -2,7 +2,7 @@
 //! second edition, II.5 (the method and its estimators) and II.6 (its extension), as published with
 //! their program; rounded to double precision.
 //!
-//! Zeros are left out: of each row it is said which stages k its numbers belong to, counted from 1.
+//! Zeros are left out. The comment at each row gives the stages k of its numbers, counted from 1.
 
 /// Nodes of stages 2 to 12; the thirteenth stage is the derivative at the end of the step.
 #[rustfmt::skip]
@@ -80,8 +80,8 @@ pub(super) const B: [f64; 8] = [
     0.054293734116568765, 4.450312892752409, 1.8915178993145003, -5.801203960010585,
     0.3111643669578199, -0.1521609496625161, 0.20136540080403034, 0.04471061572777259,
 ];
-/// Weights bᵢ (1 - cᵢ) of stages 1 to 12 for ∫ y dt over a step: by the conditions for order 8 of the trees of
-/// which the root has a leaf more.
+/// Weights bᵢ (1 - cᵢ) of stages 1 to 12 for ∫ y dt over a step. They follow from the conditions of order 8 for
+/// trees with one more leaf at the root.
 #[rustfmt::skip]
 pub(super) const DOUBLE_QUADRATURE: [f64; 12] = [
     B[0], 0.0, 0.0, 0.0, 0.0, B[1] * (1.0 - C[4]), B[2] * (1.0 - C[5]), B[3] * (1.0 - C[6]),

@@ -1,7 +1,7 @@
 //! The stepper of every explicit Runge–Kutta method: try, test the error, accept or shorten.
 //!
-//! With the elementary control it takes step for step what `scipy.integrate.solve_ivp` takes, so that counts of
-//! steps can be compared.
+//! With the elementary control it takes the same steps as `scipy.integrate.solve_ivp`, so that counts of steps can be
+//! compared.
 
 use super::failure::Cause;
 use super::fixed_step::Grid;
@@ -20,7 +20,7 @@ use super::tolerances::Tolerances;
 use crate::math::Lanes;
 use std::marker::PhantomData;
 
-/// Rejected steps after which a run gets nowhere, or half of max_steps if that is more.
+/// Number of rejected steps that ends a run; half of max_steps if that is more.
 const MANY: usize = 10_000;
 
 /// Memory of a stepper.

@@ -1,35 +1,35 @@
-//! How an integration fails.
+//! Failures of an integration.
 
 use super::statistics::Statistics;
 use std::fmt;
 
-/// Why an integration failed.
+/// The cause of a failure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cause<E> {
-    /// An argument or option that cannot be right; nothing was evaluated.
+    /// An argument or option with an impossible value; nothing was evaluated.
     Argument {
         /// Name of the argument.
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it must be.
+        /// The condition on it.
         must: &'static str,
     },
-    /// The error test asks for a step below the spacing of numbers: a singularity or a stiff system.
+    /// The error test needs a step below the spacing of numbers: a singularity or a stiff system.
     StepTooSmall {
-        /// Where the step begins.
+        /// Time at which the step begins.
         t: f64,
         /// Size of the refused step.
         h: f64,
     },
-    /// The derivative or the state is not finite, however short the step.
+    /// The derivative or the state is not finite, for steps of any length.
     NotFinite {
-        /// Where.
+        /// Time.
         t: f64,
     },
-    /// Newton's iteration does not converge, with a constant step or however short the step.
+    /// Newton's iteration does not converge with a constant step, or with steps of any length.
     Newton {
-        /// Where the step begins.
+        /// Time at which the step begins.
         t: f64,
         /// Size of the step.
         h: f64,
@@ -39,23 +39,23 @@ pub enum Cause<E> {
         /// The number.
         steps: usize,
     },
-    /// More steps than are allowed are needed, as their length is bounded; nothing was evaluated.
+    /// Steps of the largest allowed length need more steps than allowed; nothing was evaluated.
     TooManySteps {
-        /// At least so many.
+        /// Least number of steps needed.
         needed: f64,
         /// Largest length of a step.
         step: f64,
         /// The allowed number.
         most: usize,
     },
-    /// The system cannot go on.
+    /// An error of the system.
     Equations(E),
 }
 
-/// A failed integration, with what was reached.
+/// A failed integration, with the time and state reached.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure<E> {
-    /// Why.
+    /// The cause.
     pub cause: Cause<E>,
     /// Last accepted time.
     pub t: f64,

@@ -1,4 +1,4 @@
-//! Steps of constant length: where they end, and whether there are too many of them.
+//! Steps of constant length: their ends, and a check of their number.
 
 use super::arguments::{finite, positive, refusal, step_count, ROUNDING};
 use super::failure::Cause;

@@ -1,7 +1,7 @@
 //! The generalized-α method at index 3, with step control or a constant step.
 //!
-//! Order 2 for q, v and λ. Between steps the cubic Hermite polynomial of q and v. For stiff forces and
-//! for tolerances of about 1e-2 to 1e-4; see `alpha_step` for the method itself.
+//! The order is 2 for q, v and λ. The cubic Hermite polynomial interpolates q and v between the steps. The method is
+//! for stiff forces and for tolerances of about 1e-2 to 1e-4; `alpha_step` contains one step.
 
 use super::alpha_parameters::AlphaParameters;
 use super::alpha_step::AlphaStep;
@@ -23,18 +23,17 @@ use super::stepper::{BoxedStepper, ImplicitMethod, Stepper};
 const ERROR_ORDER: i32 = 2;
 /// Part of the first step over which the rate of the accelerations is taken.
 const PROBE: f64 = 1e-3;
-/// Part of a step that is tried after one without convergence.
+/// Factor on the step after a trial without convergence.
 const SHORTEN: f64 = 0.25;
-/// Most by which a step grows: what is damped of a stiff motion, by ρ in a step, must not be outrun by
-/// what a longer step makes of it.
+/// Largest growth of a step. A step damps a stiff motion by the factor ρ; a longer step must not amplify it by more.
 const GROWTH: f64 = 1.5;
-/// A step that might grow by less is kept, and the matrix with it.
+/// The step and the matrix are kept if the step could grow by less.
 const KEEP: f64 = 1.2;
 
 /// Generalized-α with its options.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeneralizedAlpha {
-    /// Which member of the family.
+    /// Parameters of the method.
     pub parameters: AlphaParameters,
     /// Tolerances and steps.
     pub control: StepControl,
@@ -164,7 +163,7 @@ impl AlphaStepper {
         self.finish(dae, taken?)
     }
 
-    /// The derivative at the start, the first step, and what order 2 needs from the first step.
+    /// The derivative at the start, the first step, and the initial deviations that order 2 needs.
     fn begin<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<StepSize, Cause<Y::Stop>> {
         let Self { step, scale, steps, .. } = self;
         step.start.set(&steps.y);
@@ -205,7 +204,7 @@ impl AlphaStepper {
         let mut normal = difference(&end.a, &start.a);
         let mut of_z = difference(&end.dz, &start.dz);
         if normal.iter().chain(&of_z).any(|x| !x.is_finite()) {
-            return Ok(()); // a rough start costs the order of the first steps, no more
+            return Ok(()); // a rough start lowers only the order of the first steps
         }
         let mut along = normal.clone();
         dae.begin(t, start)?;
@@ -293,7 +292,7 @@ impl AlphaStepper {
         converged && self.step.finite()
     }
 
-    /// Why no step of length `h` was found.
+    /// The reason for which no step of length `h` was found.
     fn gave_up<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>, h: f64) -> Cause<Y::Stop> {
         let (t, start) = (self.steps.t, &self.step.start);
         if self.singular {

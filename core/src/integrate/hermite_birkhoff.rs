@@ -1,12 +1,12 @@
 //! The interpolant of a step where y = (q, v, z, w), q′ = v, z are further states and w quadratures: one evaluation.
 //!
-//! Of q, its first and its second derivative are known at both ends of a step and at the beginning of the
-//! one before: a polynomial of degree 8 after Hermite. It is as good as the step in q, but not in v. So the
-//! second derivative is evaluated once more inside, where that polynomial leads, and the one of degree 9 that
-//! has it there is taken, with its derivative for v: an interpolation of Hermite and Birkhoff, of order 9
-//! in q and 8 in v (Enright, Jackson, Nørsett and Thomsen, *Interpolants for Runge–Kutta formulas*, ACM
-//! Trans. Math. Software 12 (1986) 193, build theirs up in this way, from both ends). z and w are treated as v,
-//! with ∫ z dt and ∫ w dt in the place of q, which the stages give to the order of the step.
+//! q and its first and second derivatives are known at both ends of a step and at the beginning of the step before.
+//! They give a Hermite polynomial of degree 8, which is as accurate as the step in q, but not in v. So the second
+//! derivative is evaluated once more inside the step, at the state of this polynomial. The polynomial of degree 9 with
+//! this second derivative, and its derivative for v, form a Hermite–Birkhoff interpolation of order 9 in q and 8 in v.
+//! (Enright, Jackson, Nørsett and Thomsen, *Interpolants for Runge–Kutta formulas*, ACM Trans. Math. Software 12 (1986)
+//! 193, construct interpolants in this way from both ends.) z and w are treated as v, with ∫ z dt and ∫ w dt in the
+//! place of q; the stages give these integrals to the order of the step.
 //!
 //! With θ = (t - t_old) / h, after subtracting the terms of the beginning, the remainder is θ³ times a polynomial in
 //! Newton's form,
@@ -15,7 +15,7 @@
 //! s₀ + s₁ x + s₂ x² + x³ (u₀ + u₁ z + u₂ z² + g z³) ,   x = θ - 1 ,   z = θ + r ,   r = h_before / h
 //! ```
 //!
-//! An error e of the node before enters by some e / r⁵: steps much longer than that before do without.
+//! An error e of the node before appears as about e / r⁵: a step much longer than the one before does not use it.
 
 use super::component_polynomials::{store, Four, Polynomials, HIGHEST as DEGREE};
 use super::interpolant::Interpolant;
@@ -23,10 +23,10 @@ use super::ode::Structure;
 use super::stages;
 use crate::math::{Lanes, Real};
 
-/// Where the second derivative is evaluated, part of the step. For equal steps the error of v is
-/// least between 0.55 and 0.6, and DOP853 has a stage here already, so that its gap stays.
+/// Place of the second derivative, as a part of the step. For equal steps the error of v is least between 0.55 and
+/// 0.6. DOP853 has a stage here already, so its widest gap is unchanged.
 pub(super) const INSIDE: f64 = 0.6;
-/// Length of the step before, in steps, between which its beginning serves.
+/// Bounds on the length of the step before, in steps, within which its beginning is used.
 const BEFORE: std::ops::RangeInclusive<f64> = 0.5..=2.5;
 
 /// A step that is accepted.
@@ -53,7 +53,7 @@ impl<'a> Ends<'a> {
     }
 }
 
-/// Four of the polynomials in the making.
+/// Four polynomials under construction.
 #[derive(Clone, Copy, Debug)]
 struct Block {
     /// (v, z, w) and its derivative at the beginning.
@@ -64,22 +64,22 @@ struct Block {
     inside: Lanes,
 }
 
-/// The extension, and what it takes from the step before.
+/// The extension, and the data of the step before.
 pub(super) struct HermiteBirkhoff {
     /// Number of components of q.
     positions: usize,
     /// Number of components of (v, z), on which derivatives depend.
     rates_needed: usize,
-    /// Length of the step before; 0 where it does not serve.
+    /// Length of the step before; 0 if it is not used.
     h_before: f64,
     /// (v, z, w) and its derivative at the beginning of the step before.
     rates: Vec<f64>,
     slopes: Vec<f64>,
-    /// What the integrals of (v, z, w) gain over the step before, and over this one.
+    /// The integrals of (v, z, w) over the step before, and over this one.
     gained: Vec<f64>,
     gain: Vec<f64>,
     blocks: Vec<Block>,
-    /// What became of them: those of q, then those of (v, z, w).
+    /// The finished polynomials: those of q, then those of (v, z, w).
     polynomials: Vec<Four>,
 }
 
@@ -106,12 +106,12 @@ impl HermiteBirkhoff {
         }
     }
 
-    /// The step before does not serve: the equations have changed.
+    /// Discards the step before, because the equations have changed.
     pub fn forget(&mut self) {
         self.h_before = 0.0;
     }
 
-    /// Whether the step before serves for one of length `h`.
+    /// Whether the step before can be used for one of length `h`.
     pub fn serves(&self, h: f64) -> bool {
         BEFORE.contains(&(self.h_before / h))
     }

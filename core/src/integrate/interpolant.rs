@@ -1,14 +1,13 @@
 //! The continuous extension of a step, 0 ≤ θ ≤ 1: by the stages, y(θ) = y_old + h Σₛ wₛ(θ) kₛ, or by one
 //! polynomial for each component.
 //!
-//! kₛ are the stages of a Runge–Kutta step and wₛ polynomials without constant term, so that nothing is
-//! computed for a step nobody looks into. Hairer, Nørsett and Wanner, *Solving Ordinary Differential
-//! Equations I*, II.6.
+//! kₛ are the stages of a Runge–Kutta step, and wₛ are polynomials without a constant term. Nothing is computed until
+//! the interpolant is evaluated. Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6.
 
 use super::component_polynomials::{Polynomials, HIGHEST};
 use crate::math::{Lanes, Real};
 
-/// Most stages of a method, with those of its extension and the jump of a projection.
+/// Largest number of stages of a method, with those of its extension and the jump of a projection.
 const MOST: usize = 17;
 
 /// Blocks of components that are summed side by side.
@@ -19,7 +18,7 @@ const TOGETHER: usize = 3;
 pub(super) const HERMITE: [f64; 12] =
     [1.0, -2.0, 1.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0];
 
-/// What a step is like between its ends.
+/// The form of the solution between the ends of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Interpolant<'a> {
     form: Form<'a>,
@@ -49,7 +48,8 @@ fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
 }
 
 impl<'a> Interpolant<'a> {
-    /// `stages` in rows of `len`, of which the components are the first, as many as the caller wants of those in `table`.
+    /// `stages` in rows of `len`, whose first entries are the components; the caller passes as many stages of `table`
+    /// as it needs.
     pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
         assert!(degree <= HIGHEST, "a method of a higher degree");
         assert!(table.len() <= MOST * degree, "a method of more stages");
@@ -145,7 +145,7 @@ impl<'a> Stages<'a> {
         }
     }
 
-    /// The coefficients of θ, θ², … of what `component` takes from the stages.
+    /// The coefficients of θ, θ², … of a `component`.
     #[inline(always)]
     fn sums<R: Real>(&self, degree: usize, component: impl Fn(&[f64]) -> R) -> [R; HIGHEST] {
         let mut sums = [R::zero(); HIGHEST];

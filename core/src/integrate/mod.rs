@@ -8,7 +8,7 @@
 //!
 //! | trait | content | used for |
 //! |---|---|---|
-//! | [`Ode`] | `len`, `rate`: all that a system has to have | every explicit method |
+//! | [`Ode`] | `len`, `rate`: the required methods | every explicit method |
 //! | [`Structure`] (a value) | numbers of positions, states of first order, quadratures | error norm, cheaper interpolant |
 //! | [`Manifold`] | projects an accepted state; the tangent part of an error | drift, errors near singular positions |
 //! | [`TimesToAvoid`] | times near which f is noise | placement of steps |
@@ -21,7 +21,7 @@
 //! |---|---|
 //! | `ode`, `dae` | the systems |
 //! | `stepper`, `step` | the interface of all methods; an accepted step and its observer |
-//! | `failure`, `arguments` | causes of failure; arguments refused before the first evaluation |
+//! | `failure`, `arguments` | causes of failure; checks of arguments before the first evaluation |
 //! | `step_control`, `step_size`, `fixed_step` | options of steps; choice of the step from the error; constant steps |
 //! | `events` | where a function of the state changes sign |
 //! | `interpolant`, `hermite_birkhoff` | the state between the ends of a step; that of systems of second order |

@@ -5,7 +5,7 @@
 /// Only [`len`](Self::len) and [`rate`](Self::rate) are required. Each other method gives access to one optional
 /// property of the system.
 pub trait Ode {
-    /// Why the system cannot go on; passed through untouched.
+    /// The error of the system; it is passed on unchanged.
     type Stop;
 
     /// Number of components of y.
@@ -23,7 +23,7 @@ pub trait Ode {
     /// with step control then tries a shorter step.
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop>;
 
-    /// What the components of y are.
+    /// The structure of y.
     fn structure(&self) -> Structure {
         Structure::first_order(self.len())
     }
@@ -44,8 +44,7 @@ pub trait Ode {
     }
 }
 
-/// What the components of y = (q, v, z, w) are: positions with q′ = v, their rates, further states, and
-/// quadratures.
+/// The structure of y = (q, v, z, w): positions with q′ = v, their rates, further states, and quadratures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Structure {
     /// Number of components of q, and of v. A system of second order allows a cheaper interpolant.

@@ -1,9 +1,9 @@
 //! Radau IIA of order 5 with step control, for constrained mechanical systems that may be stiff.
 //!
-//! At index 2: the velocities meet their constraints at every stage, the positions by projection at the
-//! end of a step; see `radau_step`. Steps by the predictive control of Gustafsson; the tangent is kept
-//! while Newton's iteration converges fast, the factors while the step stays (Hairer and Wanner,
-//! *Solving Ordinary Differential Equations II*, IV.8). Between steps the polynomials of collocation.
+//! The equations are at index 2: the velocities meet their constraints at every stage, the positions by projection at
+//! the end of a step; see `radau_step`. The predictive control of Gustafsson chooses the steps. The tangent is kept
+//! while Newton's iteration converges fast, and the factors while the step is unchanged (Hairer and Wanner, *Solving
+//! Ordinary Differential Equations II*, IV.8). The collocation polynomials interpolate between the steps.
 
 use super::dae::{Dae, DaeLengths, DaeState};
 use super::error_weights::ErrorWeights;
@@ -22,22 +22,22 @@ use super::stepper::{BoxedStepper, ImplicitMethod, Stepper};
 
 /// Order of the error estimate.
 const ERROR_ORDER: i32 = 3;
-/// Part of the step that the error would allow.
+/// Safety factor on the step that the error would allow.
 const SAFETY: f64 = 0.9;
 /// Bounds on the change of the step.
 const MIN_FACTOR: f64 = 0.2;
 const MAX_FACTOR: f64 = 8.0;
-/// A step that might grow by less is kept, and the factors with it.
+/// The step and the factors are kept if the step could grow by less.
 const KEEP: f64 = 1.2;
 /// A tangent is kept while Newton's iteration converges at this rate.
 const FAST: f64 = 1e-3;
-/// Part of a step that is tried after one without convergence.
+/// Factor on the step after a trial without convergence.
 const SHORTEN: f64 = 0.5;
-/// Most iterations for a step of controlled length.
+/// Largest number of iterations for a step of controlled length.
 const MOST: usize = 7;
-/// What is asked of Newton's iteration with a constant step.
+/// Limits of Newton's iteration with a constant step.
 const CONSTANT: NewtonLimits = NewtonLimits { tolerance: 1e-2, most: 25 };
-/// An error below counts as this in the prediction from it.
+/// Least error norm that the prediction of the next step uses.
 const LEAST_NORM: f64 = 1e-2;
 
 /// Radau IIA of order 5 with its options.
@@ -295,7 +295,7 @@ impl RadauStepper {
         }
     }
 
-    /// Why no step of length `h` was found.
+    /// The reason for which no step of length `h` was found.
     fn gave_up<Y: Dae>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
@@ -357,13 +357,13 @@ impl RadauStepper {
     }
 }
 
-/// By which the step may change for an error norm.
+/// The factor on the step for an error norm.
 fn factor(norm: f64, safety: f64) -> f64 {
     let wanted = safety * norm.max(f64::MIN_POSITIVE).powf(-1.0 / f64::from(ERROR_ORDER + 1));
     wanted.clamp(MIN_FACTOR, MAX_FACTOR)
 }
 
-/// What Newton's iteration may leave: the smaller the tolerance, the smaller a part of it need not be.
+/// Residual that Newton's iteration may leave, as a part of the tolerance. It may be larger for small tolerances.
 fn newton_tolerance(rtol: f64) -> f64 {
     (10.0 * f64::EPSILON / rtol).max(rtol.sqrt().min(0.03))
 }

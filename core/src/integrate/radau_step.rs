@@ -20,7 +20,7 @@ use super::implicit_state::ImplicitState;
 use super::radau_coefficients::{lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
 use crate::math::{Complex, Field};
 
-/// Steps that differ by less share their matrices: a difference of times is never twice the same.
+/// Steps that differ by less share their matrices: differences of times are subject to rounding.
 const SAME: f64 = 1e-6;
 /// Corrections of velocities below this part of the largest are rounding.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -28,21 +28,21 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// jump of a projection.
 pub(super) const ROWS: usize = 8;
 
-/// How Newton's iteration ended.
+/// The outcome of Newton's iteration.
 pub(super) enum NewtonOutcome {
-    /// After so many iterations, with this rate of convergence.
+    /// It converged after so many iterations, with this rate of convergence.
     Converged(usize, f64),
     Diverged,
     /// The matrix has no factorisation.
     Singular,
 }
 
-/// When Newton's iteration is content, and when it gives up.
+/// The limits of Newton's iteration.
 #[derive(Clone, Copy)]
 pub(super) struct NewtonLimits {
-    /// Norm of what may be left.
+    /// Largest norm of the remainder.
     pub tolerance: f64,
-    /// Most iterations.
+    /// Largest number of iterations.
     pub most: usize,
 }
 
@@ -120,8 +120,8 @@ impl RadauStep {
         self.newton(system, (t, h), scale, enough)
     }
 
-    /// Finds the tangent at the beginning of the step, but for the positions, which are taken from its
-    /// middle: bodies turn, and the iteration converges twice as fast.
+    /// Computes the tangent at the beginning of the step, with the positions at its middle: because bodies rotate, the
+    /// iteration then converges twice as fast.
     pub fn linearize<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64, h: f64) {
         let ImplicitState { q, v, .. } = &self.start;
         self.dq.iter_mut().zip(q.iter().zip(v)).for_each(|(mid, (q, v))| *mid = q + 0.5 * h * v);
@@ -130,7 +130,7 @@ impl RadauStep {
         self.factored = None;
     }
 
-    /// First guess: the polynomials of the step before go on.
+    /// First guess: the polynomials of the step before are extrapolated.
     fn predict(&mut self, h: f64) {
         let nodes = [0.0, C[0], C[1], C[2]];
         for (i, stage) in self.stages.iter_mut().enumerate() {
@@ -293,8 +293,8 @@ impl RadauStep {
     }
 
     /// The estimated error of the step over its tolerance: the difference from an embedded method of
-    /// order 3, filtered by the real matrix (IV.8.19 and IV.8.20 of the book). With `again`, that of a
-    /// step from the start moved by the estimate, which is what a stiff start needs.
+    /// order 3, filtered by the real matrix (IV.8.19 and IV.8.20 of the book). With `again`, that of a step from
+    /// the start moved by the estimate, which a stiff start needs.
     pub fn error<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,

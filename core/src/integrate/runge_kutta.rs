@@ -14,7 +14,7 @@ pub(super) trait RungeKutta: 'static {
     const ERROR_ORDER: i32;
     /// Whether the error estimate uses the last stage. If not, the stage is evaluated for accepted steps only.
     const LAST_IN_ERROR: bool;
-    /// How its steps are chosen.
+    /// The choice of its steps.
     const CONTROL: Control;
     /// Number of stages, the derivative at the end included.
     const STAGES: usize;
@@ -24,7 +24,7 @@ pub(super) trait RungeKutta: 'static {
     const DEGREE: usize;
     /// The widest gap between stages, where a time to avoid is passed.
     const GAP: Gap;
-    /// STAGES + EXTRA + 1 rows of its table; the last, 3θ² - 2θ³, bends it to a projected end.
+    /// STAGES + EXTRA + 1 rows of its table; the last row, 3θ² - 2θ³, moves its end to a projected state.
     const TABLE: &'static [f64];
     /// Weights wᵢ of the stages by which ∫ y dt = h y_old + h² Σ wᵢ kᵢ over a step, to its order: where
     /// there are extra stages, for systems that can do without them.

@@ -11,9 +11,9 @@ pub enum Flow {
     Stop,
 }
 
-/// Sees every accepted step.
+/// Observes every accepted step.
 pub trait Observer {
-    /// Takes what it needs from the step, which is valid during the call only.
+    /// Called with every step; the step is valid only during the call.
     fn step(&mut self, step: &Step<'_>) -> Flow;
 
     /// Whether it will evaluate the interpolant of the step that it is about to see. If not, a method may skip

@@ -12,7 +12,7 @@ use super::step::Step;
 use crate::math::Lanes;
 use std::mem::swap;
 
-/// Whether projection changed the state; inside, why a shorter step is to be tried.
+/// Whether projection changed the state; the inner error is the reason for a shorter step.
 type Settled<E> = Result<Result<bool, Cause<E>>, Cause<E>>;
 
 impl<P: RungeKutta> ExplicitStepper<P> {

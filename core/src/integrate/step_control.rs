@@ -82,8 +82,8 @@ impl StepControl {
         Self { rtol, ..self.clone() }
     }
 
-    /// Refuses invalid options, times, and a `y` that is not `len` long. Returns the ends of constant steps, if the
-    /// step is constant.
+    /// Checks options, times, and that `y` has the length `len`. Returns the ends of constant steps, if the step is
+    /// constant.
     pub(super) fn begin<E>(
         &self,
         (t0, t_end): (f64, f64),

@@ -1,34 +1,33 @@
-//! Steps that keep clear of a time near which rates are little but noise.
+//! Steps that avoid a time near which rates are noise.
 //!
-//! Such an obstacle is passed by a step that has it in the middle of its widest part without a stage.
-//! Where it lies too far ahead for that, a shorter step comes first: it ends where the one that passes
-//! has to begin.
+//! A step passes such an obstacle with its widest part without a stage; the obstacle lies in the middle of this part.
+//! If the obstacle is too far ahead, a shorter step comes first and ends where the passing step must begin.
 //!
-//! The nearer the stages of a step that passes are to the obstacle, the more noise there is in them; the further, the
-//! more a deviation from the constraints counts. So there is a length at which such a step is best, and where its
-//! error is still too large, shorter ones only creep into the noise: then it is taken as it is.
+//! Stages near the obstacle contain noise; in stages far from it a deviation from the constraints counts more. So there
+//! is a best length of the passing step. If its error is still too large, shorter steps only have more noise, and the
+//! step is accepted.
 
 use super::step_size::Control;
 
-/// Part of the half-width that an obstacle may lie off the middle.
+/// Largest distance of an obstacle from the middle, as a part of the half-width.
 const OFF: f64 = 0.8;
-/// A step that ends before an obstacle by more than this part of where the middle is, is let be.
+/// A step is unchanged if it ends before an obstacle by more than this part of the distance of the middle.
 const BEFORE: f64 = 0.7;
-/// By how much a step may grow to pass an obstacle.
+/// Largest factor by which a step may grow to pass an obstacle.
 const LONGER: f64 = 1.1;
-/// An obstacle within this part of a step from its start is left behind best by the step as it is.
+/// A step is unchanged if the obstacle is within this part of the step from its start.
 const BEHIND: f64 = 0.04;
-/// Least part of a step that is worth a step.
+/// Least part of a step that may become a step.
 const LEAST: f64 = 0.05;
-/// Most times that a step is placed.
+/// Largest number of placements of a step.
 const MOST: usize = 3;
-/// What errors count once an obstacle was met: beside it they are judged by the part that the system would not
-/// take away, and that is told by one state for all stages.
+/// Weight of errors after an obstacle was met. Near it only the part of an error counts that projection leaves, and
+/// this part is determined at one state for all stages.
 const STRICT: f64 = 2.5;
 
-/// A step that passes has to be better than the one before it by this factor, to try for a shorter one.
+/// A shorter passing step is tried only if the last one was better than the one before by this factor.
 const BETTER: f64 = 4.0;
-/// Most error, relative, of a step that is taken because no shorter one is better.
+/// Largest relative error of a step that is accepted because no shorter one is better.
 const AT_BEST: f64 = 1e-6;
 
 /// The widest part of a step without a stage of scheme or extension; in parts of the step.
@@ -38,16 +37,16 @@ pub(super) struct Gap {
     pub half: f64,
 }
 
-/// Obstacles of a run, and how the step under way has been placed.
+/// Obstacles of a run, and the placement of the current step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct StepPlacement {
     met: bool,
     tried: usize,
-    /// The step to go on with; 0 if the step was not placed.
+    /// The step to continue with; 0 if the step was not placed.
     wanted: f64,
-    /// Whether the try under way was placed so as to pass.
+    /// Whether the current trial is placed to pass the obstacle.
     passing: bool,
-    /// Least error norm of the tries to pass that were rejected; none where no step was placed.
+    /// Least error norm of the rejected trials to pass; None if no step was placed.
     least: Option<f64>,
 }
 
@@ -58,8 +57,8 @@ impl StepPlacement {
         *self = Self { met: self.met, least, ..Self::default() };
     }
 
-    /// Whether the try under way, with this error norm at a relative tolerance, is to be taken though it is too
-    /// large: it passes, and its like did not get better.
+    /// Whether the current trial is accepted although its error norm is too large: it passes, and similar trials were
+    /// not better.
     pub fn at_best(&mut self, norm: f64, rtol: f64) -> bool {
         if !std::mem::take(&mut self.passing) || !norm.is_finite() {
             return false;
@@ -95,8 +94,8 @@ impl StepPlacement {
         Some(placed)
     }
 
-    /// How steps are chosen: elementarily once an obstacle was met, since what a low safety factor gains
-    /// there is lost to noise.
+    /// The choice of steps: the elementary one after an obstacle was met, since noise near an obstacle defeats a low
+    /// safety factor.
     pub fn control(&self, otherwise: Control) -> Control {
         if self.met {
             Control::ELEMENTARY
@@ -105,7 +104,7 @@ impl StepPlacement {
         }
     }
 
-    /// By what error norms are to be multiplied.
+    /// Factor on error norms.
     pub fn strictness(&self) -> f64 {
         if self.met {
             STRICT
@@ -114,7 +113,7 @@ impl StepPlacement {
         }
     }
 
-    /// The step to go on with after one that was accepted, where its error allows `next`.
+    /// The step after an accepted one whose error allows `next`.
     pub fn resume(&self, next: f64) -> f64 {
         next.max(self.wanted)
     }
@@ -176,7 +175,7 @@ mod tests {
         let mut placement = StepPlacement::default();
         placement.instead(GAP, 1.0, 1.0, 10.0).expect("a step before");
         assert!(!placement.at_best(9.0, 1e-10) && !placement.at_best(9.0, 1e-10));
-        // nor where what was tried before was of another obstacle
+        // nor if the earlier trials belong to another obstacle
         placement.instead(GAP, 1.0, 0.25, 10.0).expect("placed to pass");
         assert!(!placement.at_best(9.0, 1e-10));
         placement.begin();

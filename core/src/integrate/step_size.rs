@@ -5,13 +5,12 @@
 //! h_new = h min(most, factor),   factor = safety norm^(-1/k),   k the order of the estimate + 1,
 //! ```
 //!
-//! of which the constants may differ from method to method, and which may hold its step: a factor above 1
-//! is divided by `hold`, and not below 1. So a step grows only where it is short by more than that, and
-//! then by the rest, without a jump. Controllers that remember errors (Gustafsson 1991; Söderlind,
-//! *Digital filters in adaptive time-stepping*, ACM TOMS 29 (2003) 1) did worse on mechanisms:
-//! `docs/performance.md`.
+//! The constants may differ from method to method. A controller may hold its step: a factor above 1 is divided by
+//! `hold`, but does not become less than 1. So a step grows only if it is too short by more than the factor `hold`.
+//! Controllers with a memory of errors (Gustafsson 1991; Söderlind, *Digital filters in adaptive time-stepping*, ACM
+//! TOMS 29 (2003) 1) were worse for mechanisms: `docs/performance.md`.
 
-/// Part of a step that is tried after the system refused its end.
+/// Factor on the step after the system refused its end.
 const REFUSED: f64 = 0.7;
 /// Least factor from one step to the next.
 const MIN_FACTOR: f64 = 0.2;
@@ -25,19 +24,19 @@ const MIN_SPACINGS: f64 = 10.0;
 pub(super) struct Control {
     /// Part of the optimal step that is tried.
     pub safety: f64,
-    /// By how much a step has to be too short before it grows; 1 if it grows at once.
+    /// Factor by which a step must be too short before it grows; 1 if it grows at once.
     pub hold: f64,
 }
 
 impl Control {
-    /// That of `scipy.integrate`.
+    /// The controller of `scipy.integrate`.
     pub const ELEMENTARY: Self = Self { safety: 0.9, hold: 1.0 };
 }
 
 /// The step to try next, as a magnitude.
 pub(super) struct StepSize {
     pub size: f64,
-    /// Whether the step under way was rejected before: then it may not grow at once.
+    /// Whether the current step was rejected before; then the next step may not grow.
     rejected: bool,
     /// -1 / (order of the error estimate + 1).
     exponent: f64,
@@ -79,8 +78,8 @@ impl StepSize {
         self.size = h * (self.control.safety * norm.powf(self.exponent)).max(MIN_FACTOR);
     }
 
-    /// After a step of magnitude `h` whose end the system refused: the next may grow at once, past
-    /// what was refused.
+    /// After a step of magnitude `h` whose end the system refused: the next step may grow at once, past the
+    /// refused end.
     pub fn refuse(&mut self, h: f64) {
         self.rejected = false;
         self.size = h * REFUSED;

@@ -1,4 +1,4 @@
-//! What errors of a step are measured by: atolᵢ + rtol max(|yᵢ|, |y_newᵢ|).
+//! The scale of the errors of a step: atolᵢ + rtol max(|yᵢ|, |y_newᵢ|).
 
 use super::stages::{room, Block};
 use super::step_control::Atol;

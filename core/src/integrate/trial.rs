@@ -29,7 +29,7 @@ impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
         Self { rhs, t, h, y, work, last: t }
     }
 
-    /// out = f(t + c h, y + h Σₛ aₛ kₛ). Whether that is finite is asked of what is made of it: the last of
+    /// out = f(t + c h, y + h Σₛ aₛ kₛ). The result is checked to be finite only in the sums that use it: the last of
     /// the stages k must be the one before, with a weight that is not zero.
     #[inline(always)]
     pub fn stage<const S: usize>(

@@ -15,7 +15,7 @@ pub struct Dual<const N: usize, S = f64> {
 }
 
 impl<const N: usize, S: Real> Dual<N, S> {
-    /// The variable that seed `k` stands for.
+    /// The variable of seed `k`.
     pub fn variable(value: S, k: usize) -> Self {
         let mut slope = [S::zero(); N];
         slope[k] = S::one();

@@ -1,4 +1,4 @@
-//! What linear algebra asks of a number, real or complex.
+//! The operations on numbers, real or complex, that linear algebra needs.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};

@@ -82,9 +82,9 @@ impl Lanes {
             out[k] = Self::new([a[k], b[k], c[k], d[k]]);
         }
     }
-    /// Four by four, in registers: by pairs, since compilers make a shuffle of what comes from two. Left alone they
-    /// move number by number, and of what is stored in parts no vector can be loaded soon; so `nothing` is added,
-    /// [`nothing`](Self::nothing) that they know of.
+    /// Transposes four by four numbers in registers, by pairs: compilers turn a combination of two vectors into a
+    /// shuffle. Without help they move the numbers one by one, and a vector that was stored in parts cannot be loaded
+    /// soon. The addition of [`nothing`](Self::nothing), a zero unknown to the compiler, prevents this.
     #[inline(always)]
     fn transposed(rows: [Self; Self::WIDTH], nothing: Self) -> [Self; Self::WIDTH] {
         let [p, q, r, s] = rows.map(Self::to_array);
@@ -103,7 +103,7 @@ impl Lanes {
         ];
         columns.map(Self::new)
     }
-    /// -0, which changes no number, not even -0; compilers do not see that it is.
+    /// -0, whose addition changes no number, not even -0. Compilers do not know its value.
     #[inline(always)]
     fn nothing() -> Self {
         std::hint::black_box(Self::constant(-0.0))

@@ -127,7 +127,7 @@ impl<S: Real> From<Local<S>> for Lever<S> {
     }
 }
 
-/// Where a body frame stands: its origin r, its angle φ, and A(φ).
+/// The pose of a body frame: its origin r, its angle φ, and A(φ).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<S = f64> {
     /// Origin of the body frame, m.
@@ -237,7 +237,7 @@ impl<S: Real> Wrench<S> {
     pub fn zero() -> Self {
         Self { force: Vec2::zero(), torque: S::zero() }
     }
-    /// A torque alone.
+    /// A pure torque.
     pub fn torque(torque: S) -> Self {
         Self { force: Vec2::zero(), torque }
     }
@@ -268,7 +268,7 @@ impl<S: Real> Add for Wrench<S> {
 mod tests {
     use super::{Lever, Local, Pose};
 
-    /// To the last bit, but for the sign of zero.
+    /// Equal to the last bit, except for the sign of zero.
     #[test]
     fn a_lever_gives_the_turned_vector() {
         for k in 0..100 {

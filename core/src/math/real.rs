@@ -1,9 +1,9 @@
-//! What a scalar must do to carry the mechanics.
+//! The operations on scalars that the mechanics needs.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A scalar: a real number, or a real number that carries something more (derivatives, other designs).
+/// A scalar: a real number, or a real number with further content (derivatives, other designs).
 ///
 /// Domain errors follow `f64`: they give NaN, never a panic.
 pub trait Real:

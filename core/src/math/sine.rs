@@ -12,7 +12,7 @@ use wide::{f64x4, CmpGt};
 
 /// Largest angle reduced here: k has at most 17 bits, so that its products with the first two parts are exact.
 const LARGEST: f64 = 1e5;
-/// π/2 in three parts, of 33 bits each but for the last.
+/// π/2 in three parts, of 33 bits each except the last.
 const HALF_PI: [f64; 3] = [
     f64::from_bits(0x3FF9_21FB_5440_0000),
     f64::from_bits(0x3DD0_B461_1A60_0000),

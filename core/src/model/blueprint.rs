@@ -10,10 +10,10 @@ use crate::elements::{
 };
 use crate::expression::{Symbol, Tape};
 
-/// What the file says, linked: elements over [`Tape`].
+/// The linked content of a file: elements over [`Tape`].
 #[derive(Clone, Debug)]
 pub struct Blueprint {
-    /// What it is.
+    /// Title.
     pub title: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,

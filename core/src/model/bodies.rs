@@ -1,7 +1,7 @@
 //! Bodies from their definition: the general body, the uniform slender bar, ground.
 //!
 //! A bar is shorthand: it becomes a general body whose numbers are formulas in its own, such as
-//! J = m L²/12, so that nothing after this file knows bars.
+//! J = m L²/12, so that no other file needs bars.
 
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
@@ -226,7 +226,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A formula put together here; it can only fail by becoming too long.
+    /// A formula composed here; it can only fail if it becomes too long.
     fn compose(&mut self, text: &str) -> Tape {
         let path = self.path("type");
         let value = Value::Text(text.to_string());
@@ -254,7 +254,7 @@ fn text(value: &Value) -> Option<String> {
     }
 }
 
-/// A value as a term of a longer formula. A quantity with a unit cannot stand there, its number can.
+/// A value as a term of a longer formula. A quantity with a unit is not allowed there, so its number is used.
 fn term(value: &Value) -> String {
     match value {
         Value::Number(x) => format!("({x:?})"),

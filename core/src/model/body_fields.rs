@@ -17,8 +17,8 @@ fn points() -> Field {
 }
 
 fn through() -> Field {
-    let doc = "Where named points of the body stand in the global frame when assembly starts, \
-               each [x, y]. A bar with two of them needs no length and no ends.";
+    let doc = "Global positions of named points of the body when assembly starts, each [x, y]. \
+    A bar with two of them needs no length and no ends.";
     Field::optional("through", Shape::Points, "m", Default::Absent, doc)
 }
 

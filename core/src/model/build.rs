@@ -41,7 +41,7 @@ pub fn build(
         }
     }
     let model = Model::new(&Arc::new(blueprint), &values);
-    // what follows from a faulty parameter need not be told; all else is told at once
+    // consequences of a faulty parameter are not reported; all other faults are reported at once
     if values.iter().all(|x| x.is_finite()) {
         checks::numbers(&model, &mut problems);
     }

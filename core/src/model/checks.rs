@@ -46,7 +46,7 @@ fn positive(body: &Body, problems: &mut Vec<Problem>) {
     let path = |key: &str| ["bodies".to_string(), body.name.clone(), key.to_string()];
     if !(body.mass.is_finite() && body.mass > 0.0) {
         problems.push(Problem::at(&path("mass"), format!("{} kg; must be > 0", body.mass)));
-        return; // what follows from the mass need not be told
+        return; // consequences of the mass are not reported
     }
     if body.kind == "bar" {
         let length = body.points.first().map_or(f64::NAN, |(_, s)| -2.0 * s.x);

@@ -21,7 +21,7 @@ impl Entry {
 /// A model as written. Order is order in q and Φ.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Definition {
-    /// What it is.
+    /// Title.
     pub title: Option<String>,
     /// Acceleration of free fall, two numbers or formulas, m/s²; none means zero.
     pub gravity: Option<Value>,

@@ -50,11 +50,11 @@ pub struct Block {
     pub body: Option<BodyId>,
     /// Index of the block's first entry; entry (row r, column c) is `first + 3 r + c`.
     pub first: usize,
-    /// ±1 where the columns of translation are ±I whatever the state (Haug 3.3.12), else 0.
+    /// ±1 if the columns of translation are ±I in all states (Haug 3.3.12), otherwise 0.
     pub sign: f64,
 }
 
-/// What a constraint touches.
+/// The owners of coordinates of a constraint.
 #[derive(Clone, Debug)]
 pub(super) struct Touched {
     /// Number of its equations.
@@ -179,7 +179,7 @@ impl StateLayout {
         [q, v, z, works]
     }
 
-    /// The same, to be changed.
+    /// The same, mutable.
     pub fn split_mut<'a, S>(&self, y: &'a mut [S]) -> [&'a mut [S]; 4] {
         let (q, rest) = y.split_at_mut(self.n_q);
         let (v, rest) = rest.split_at_mut(self.n_q);

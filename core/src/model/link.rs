@@ -1,4 +1,4 @@
-//! From the text of a field to what it means: names become indices, text becomes formulas.
+//! Linking of the text of fields: names become indices, text becomes formulas.
 
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
@@ -108,7 +108,7 @@ impl Scope {
         }
     }
 
-    /// The parameters alone.
+    /// Only the parameters.
     pub fn of_parameters(parameters: &[String]) -> Self {
         let bodies = vec![("ground".to_string(), true)];
         Self { parameters: parameters.to_vec(), bodies, states: Vec::new() }

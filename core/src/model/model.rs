@@ -29,7 +29,7 @@ pub struct Model<S = f64> {
     /// Whether a joint or driver is driven.
     pub driven: bool,
     /// Whether redundant constraints are accepted; their multipliers are then the smallest that
-    /// carry the loads.
+    /// balance the loads.
     pub allow_redundancy: bool,
 }
 

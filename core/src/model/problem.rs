@@ -1,4 +1,4 @@
-//! What is wrong with a definition, where, and what to do.
+//! A fault of a definition, with its place and remedy.
 
 use std::fmt;
 use std::ops::Range;
@@ -8,9 +8,9 @@ use std::ops::Range;
 pub struct Problem {
     /// Keys from the top of the file, such as `bodies`, `crank`, `mass`; list indices as digits.
     pub path: Vec<String>,
-    /// What is wrong, naming value and requirement.
+    /// Description, with the value and the requirement.
     pub message: String,
-    /// What to do, if that can be said.
+    /// Remedy, if there is one.
     pub hint: Option<String>,
     /// The faulty bytes within the value at `path`, if it is a text and only part of it is wrong.
     pub within: Option<Range<usize>>,

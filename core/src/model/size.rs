@@ -1,4 +1,4 @@
-//! What lengths and angles of a mechanism are compared with.
+//! The size of a mechanism, the unit for comparisons of lengths and angles.
 
 use super::Model;
 use crate::math::Real;

@@ -1,9 +1,9 @@
-//! What the variables of a formula stand for.
+//! The meaning of the variables of a formula.
 
 use crate::elements::{BodyId, Coordinate};
 use crate::expression::{Symbol, Tape};
 
-/// What the variable with an index stands for.
+/// The meaning of the variable with an index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variable {
     /// A coordinate of a body, or its rate.
@@ -42,7 +42,7 @@ pub struct Dependence {
 }
 
 impl Dependence {
-    /// Adds what a formula depends on.
+    /// Adds the variables on which a formula depends.
     pub fn add(&mut self, tape: &Tape) {
         for symbol in tape.symbols() {
             match symbol {

@@ -14,7 +14,7 @@ pub(super) fn part<T, const N: usize>(x: &[T], first: u32) -> &[T; N] {
     x[first..first + N].first_chunk().expect("as long as the range")
 }
 
-/// The same, to be changed.
+/// The same, mutable.
 #[inline(always)]
 pub(super) fn part_mut<T, const N: usize>(x: &mut [T], first: u32) -> &mut [T; N] {
     let first = first as usize;

@@ -10,7 +10,7 @@ use crate::math::Field;
 /// A block, row by row.
 pub type Block<F> = [[F; 3]; 3];
 
-/// A pivot below this part of what it was cancelled from has no digits.
+/// A pivot below this part of its largest summand has no accurate digits.
 pub const LOST: f64 = 1e-13;
 
 /// A matrix, later its factors, on an [`LuPlan`].
@@ -18,7 +18,7 @@ pub const LOST: f64 = 1e-13;
 pub struct BlockLu<F> {
     /// Diagonal (after factorisation inverted), lower and upper blocks.
     store: Vec<Block<F>>,
-    /// What each diagonal entry was summed up from, as magnitude.
+    /// Sum of the magnitudes of the terms of each diagonal entry.
     weight: Vec<[f64; 3]>,
     x: Vec<[F; 3]>,
 }
@@ -52,7 +52,7 @@ impl<F: Field> BlockLu<F> {
     /// Factorises in place.
     ///
     /// # Errors
-    /// The unknown whose pivot is lost: the matrix is singular, or as good as.
+    /// The unknown whose pivot has no accurate digits: the matrix is singular, or nearly so.
     pub fn factor(&mut self, plan: &LuPlan) -> Result<(), usize> {
         let n = plan.blocks();
         for (weight, block) in self.weight.iter_mut().zip(&self.store) {

@@ -1,7 +1,8 @@
-//! Static condensation: a pair of rows R of A that touches one group alone, such as a joint to ground, is eliminated
-//! with its group before everything else.
+//! Static condensation: a pair of rows R of A in only one group, such as a joint to ground, is eliminated with its
+//! group before everything else.
 //!
-//! Two rows leave a group of three unknowns one freedom, e = r₁ × r₂ (R e = 0). With a particular solution P,
+//! A group of three unknowns with two rows has one degree of freedom, e = r₁ × r₂ (R e = 0). With a particular
+//! solution P,
 //! R P = I, and g the right side of the rows,
 //!
 //! ```text
@@ -177,7 +178,7 @@ pub(super) struct Load {
 /// The row blocks among `blocks`, of which `rows` are the first rows, that are `condensed`, and the loads of each.
 ///
 /// # Panics
-/// If such a row block is no pair of rows at one group, or shares its group with another.
+/// If such a row block is not a pair of rows at one group, or shares its group with another.
 pub(super) fn condensations(
     starts: &[usize],
     blocks: &[RowBlock],

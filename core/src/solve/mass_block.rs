@@ -41,7 +41,7 @@ impl<S: Real> InverseMass<S> {
     }
 }
 
-/// What cannot be eliminated.
+/// The row or unknown that cannot be eliminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dependent {
     /// A row of A that depends on the others.

@@ -24,7 +24,7 @@ pub trait Equations {
     fn residual(&mut self, x: &[f64], residual: &mut [f64]) -> Result<(), Self::Stop>;
 
     /// The full step s into `step`: F′(x) s = -`residual`, or its least-squares or least-norm solution;
-    /// with `levenberg` > 0, (F′ᵀF′ + levenberg² I) s = -F′ᵀ `residual`, or alike.
+    /// with `levenberg` > 0, (F′ᵀF′ + levenberg² I) s = -F′ᵀ `residual`, or a similar damped step.
     ///
     /// # Errors
     /// Ends the iteration at once. A step that is not finite ends it as [`Outcome::NotFinite`].
@@ -57,7 +57,7 @@ fn euclidean(x: &[f64]) -> f64 {
     x.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
-/// What is done about a step that does not lower the residual.
+/// The remedy for a step that does not reduce the residual.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Damping {
     /// Half of it is tried, up to this many times.
@@ -139,7 +139,7 @@ pub struct Newton {
     history: Vec<Record>,
 }
 
-/// A step that was found, or why none was.
+/// A step, or the reason for its failure.
 enum Search {
     Found(Record),
     None,
@@ -167,7 +167,7 @@ impl Newton {
     /// tolerance is returned untouched.
     ///
     /// # Errors
-    /// What the equations stop with.
+    /// The error of the equations.
     ///
     /// # Panics
     /// If `x` has another length than the unknowns.
@@ -219,7 +219,7 @@ impl Newton {
         self.history.clear();
     }
 
-    /// Looks for a step that lowers the residual; leaves it in `trial` and `trial_residual`.
+    /// Searches a step that reduces the residual; the result is in `trial` and `trial_residual`.
     fn search<E: Equations>(
         &mut self,
         equations: &mut E,
@@ -270,7 +270,7 @@ impl Newton {
     }
 }
 
-/// Whether the iteration is over after a step: solved, or creeping with a residual that stays.
+/// Whether the iteration ends after a step: solved, or with a residual that no longer falls.
 fn judge(options: &Options, last: &Record, found: &Record) -> Option<Outcome> {
     if found.step_norm > options.step_tolerance {
         return None;

@@ -83,7 +83,7 @@ fn check_blocks(starts: &[usize], n_first: usize, n: usize) {
     assert!(boundary, "n_first = {n_first} cuts a block");
 }
 
-/// (not yet?, approximate degree, block): the smallest goes next.
+/// (not yet?, approximate degree, block): the smallest is eliminated next.
 type Key = (bool, usize, usize);
 
 /// The quotient graph: blocks not yet eliminated, and elements (cliques left by eliminated ones).
@@ -148,7 +148,7 @@ impl Graph {
         }
     }
 
-    /// Lets each block from `n_first` on wait for none but its own neighbours before.
+    /// Sets each block from `n_first` on to wait only for its own earlier neighbours.
     fn release(&mut self, n_first: usize) {
         self.waits_for = vec![0; self.weight.len()];
         self.waiters = vec![Vec::new(); n_first];

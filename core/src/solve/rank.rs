@@ -2,7 +2,7 @@
 //!
 //! Householder QR with pivoting on the rows, Aᵀ P = Q R (Golub and Van Loan, *Matrix Computations*, 4th
 //! ed., 5.4.2), with one change: of the rows that are still long enough the *earliest* is taken, not
-//! the longest, so that of two joints that say the same the later one is named dependent. A y with
+//! the longest, so that the later of two redundant joints is reported as dependent. A y with
 //! yᵀ A = 0 then is P [-R₁₁⁻¹ R₁₂; 1], made orthonormal; its nonzero components are all the rows that
 //! take part in the dependence.
 //!
@@ -14,7 +14,7 @@ pub const RANK_TOLERANCE: f64 = 1e-9;
 /// Part of the largest remainder a row must keep to be taken before longer ones.
 const LONG_ENOUGH: f64 = 0.1;
 
-/// What is known of the rows of a matrix.
+/// Dependence of the rows of a matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rank {
     /// Numerical rank.
@@ -29,7 +29,7 @@ pub struct Rank {
     /// |r_kk|: what was left of each independent row when it was taken; of the order of the singular
     /// values, but not sorted.
     pub kept: Vec<f64>,
-    /// What was left of the largest dependent row, 0 without any.
+    /// Remainder of the largest dependent row, 0 without any.
     pub dropped: f64,
 }
 

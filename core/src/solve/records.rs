@@ -7,7 +7,7 @@
 /// All records.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Program {
-    /// Row blocks with their diagonal blocks, but for those in [`PinRows`].
+    /// Row blocks with their diagonal blocks, except those in [`PinRows`].
     pub starts: Vec<Start>,
     pub touches: Vec<Touch>,
     /// Rows of blocks of L, in elimination order.
@@ -19,7 +19,7 @@ pub(super) struct Program {
     pub below: Vec<Below>,
 }
 
-/// A row block with nothing but pin blocks: rows [±I b] at one or two groups.
+/// A row block with pin blocks only: rows [±I b] at one or two groups.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PinRows {
     /// Its place among the row blocks.

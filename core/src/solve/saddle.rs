@@ -27,7 +27,7 @@ const LEAST_PIVOT: f64 = 1e-300;
 
 /// A matrix and its factors; all memory is taken in [`Saddle::new`]. The table in [`solve`](super) describes every array.
 ///
-/// Between a factorisation and the solutions that use it the matrix must stay as it is.
+/// The matrix must not change between a factorisation and the solutions that use it.
 #[derive(Clone, Debug)]
 pub struct Saddle<S> {
     /// W⁻¹, one for each group.
@@ -51,7 +51,7 @@ pub struct Saddle<S> {
 }
 
 impl<S: Real> Saddle<S> {
-    /// Memory for matrices of the given pattern: W = I, A = 0 but for the unit blocks, μ = 0.
+    /// Memory for matrices of the given pattern: W = I, A = 0 except for the unit blocks, μ = 0.
     pub fn new(pattern: &Pattern) -> Self {
         let (zero, one, none) = (S::zero(), S::one(), [S::zero(); 3]);
         let mut entries = vec![none; pattern.n_entries];

@@ -53,7 +53,7 @@ pub(super) fn program(
 }
 
 impl Program {
-    /// The row blocks with their diagonal blocks, but for those with pin blocks alone.
+    /// The row blocks with their diagonal blocks, except those with pin blocks only.
     fn starts(&mut self, order: &[usize], touches: &[Vec<Touch>]) {
         for (&own, row) in
             order.iter().zip(&self.rows).filter(|(own, _)| !is_pin_only(&touches[**own]))
@@ -81,7 +81,7 @@ struct Place {
     block: u32,
 }
 
-/// Where the blocks of L stand, row by row.
+/// The places of the blocks of L, row by row.
 struct Factors {
     diagonals: Vec<u32>,
     /// Of each row.

@@ -1,32 +1,31 @@
 //! Baumgarte's stabilization with gains from the step.
 //!
-//! Gains that are worth their name bring an error of Φ back within few steps, so that they are of the order of
-//! 1/h (a Taylor series of Φ over a step gives α = 1/h, β = √2/h: Flores, Machado, Seabra and Silva, *A
-//! parametric study on the Baumgarte stabilization method*, J. Comput. Nonlinear Dyn. 6 (2011) 011019).
-//! Evaluated at every stage, such gains make the equations stiff for the very step: stages are off the
-//! constraints by h², times 1/h², and the order of the method falls to 2. Here the term is taken at the
-//! beginning of a step and held over it,
+//! Effective gains reduce an error of Φ within few steps. They are therefore of the order of 1/h (a Taylor series of Φ
+//! over a step gives α = 1/h, β = √2/h: Flores, Machado, Seabra and Silva, *A parametric study on the Baumgarte
+//! stabilization method*, J. Comput. Nonlinear Dyn. 6 (2011) 011019). If such gains are evaluated at every stage, they
+//! make the equations stiff for this step: stages violate the constraints by h², the term multiplies this by 1/h², and
+//! the order of the method falls to 2. Here the term is computed at the beginning of a step and held over it,
 //!
 //! ```text
 //! Φ̈ = -c ,   c = 2α Φ̇ₙ + β² Φₙ ,   2α = (1 + b/2) / h ,   β² = b / h²
 //! ```
 //!
-//! so that stages see a smooth motion, the order is kept, and no step is limited. Then s = Φ + h Φ̇/2
-//! is all that is carried from step to step, whatever their lengths (the other eigenvalue is 0):
+//! so that the right side is smooth over the step, the order is kept, and the step is not limited. Then only
+//! s = Φ + h Φ̇/2 propagates from step to step, for steps of any length (the other eigenvalue is 0):
 //!
 //! ```text
 //! s' = (1 - b (1 + h'/h) / 2) s
 //! ```
 //!
-//! which falls for every h'/h < 4/b - 1. No step control lets a step grow by more than 10.
+//! This error falls for every h'/h < 4/b - 1. No step control increases a step by more than a factor of 10.
 
 use crate::equations::{constraints, Workspace};
 use crate::model::Model;
 
-/// b: an error falls by a third in a step, and does not grow while steps grow tenfold.
+/// b: an error falls by a third in a step, and does not grow when a step grows tenfold.
 const B: f64 = 1.0 / 3.0;
 
-/// Baumgarte's term, from the step and held over it.
+/// Baumgarte's term, computed from the step and held over it.
 #[derive(Clone, Debug)]
 pub struct StepwiseBaumgarte {
     /// Φ, Φ̇ and γ at the beginning of the step; the first becomes the term.
@@ -39,8 +38,7 @@ impl StepwiseBaumgarte {
         Self { terms: std::array::from_fn(|_| vec![0.0; model.layout.n_rows]) }
     }
 
-    /// Takes the term at (q, v) for a step of length `h`, negative backward in time, and has the
-    /// workspace hold it.
+    /// Computes the term at (q, v) for a step of length `h`, negative backward in time, and sets it in the workspace.
     pub fn hold(
         &mut self,
         model: &Model,

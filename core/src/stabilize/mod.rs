@@ -1,8 +1,8 @@
-//! What keeps a motion on its constraints while it is integrated.
+//! Stabilization of the constraints during integration.
 //!
-//! Baumgarte's stabilization with given gains changes the right side of the equations of motion and lives
-//! there ([`Gains`](crate::equations::Gains)); gains from the step, and what is done to accepted states,
-//! live here.
+//! Baumgarte's stabilization with given gains changes the right side of the equations of motion and is part of them
+//! ([`Gains`](crate::equations::Gains)). This module contains Baumgarte's stabilization with gains from the step, and
+//! the projection of states.
 
 mod baumgarte;
 mod projection;

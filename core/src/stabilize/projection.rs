@@ -1,7 +1,7 @@
 //! Projection of states onto the constraints Φ(q, t) = 0 and Φ_q v + Φ_t = 0.
 //!
-//! Positions first, then velocities; of all states that meet the constraints the nearest in the metric
-//! of the mass matrix is taken, for velocities that of least kinetic energy of the difference:
+//! Positions are projected first, then velocities. The result is the nearest state that meets the constraints in the
+//! metric of the mass matrix; for velocities this is the least kinetic energy of the difference:
 //!
 //! ```text
 //! [ M   Φ_qᵀ ] [ Δq ]   [  0 ]        [ M   Φ_qᵀ ] [ Δv ]   [        0        ]
@@ -9,37 +9,37 @@
 //! ```
 //!
 //! (Eich, *Convergence results for a coordinate projection method applied to mechanical systems with
-//! algebraic constraints*, SIAM J. Numer. Anal. 30 (1993) 1467.) The matrix is that of the equations of
-//! motion, so its last factor serves: chord iterations, whose error falls by about the share of the
-//! mechanism's size that is corrected. It is factorised anew only where that is too slow.
+//! algebraic constraints*, SIAM J. Numer. Anal. 30 (1993) 1467.) The matrix is that of the equations of motion, so
+//! their last factor is used for chord iterations. Each iteration multiplies the error by about the size of the
+//! correction over the size of the mechanism. The matrix is factorised anew only if this is too slow.
 
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, Residuals, Singular, Workspace};
 use crate::math::{Largest, Real};
 use crate::model::{column_scales, Model};
 
-/// Most iterations for positions, and for velocities.
+/// Largest number of iterations for positions, and for velocities.
 const MOST: usize = 12;
-/// A chord iteration that lowers the residual by less deserves a factor of its own.
+/// If a chord iteration reduces the residual by less, the matrix is factorised anew.
 const SLOW: f64 = 1e-2;
-/// What a step for velocities leaves, by the factor of this very state: Φ̇ is linear in them.
+/// Remainder of a step for velocities with the factor of the same state, since Φ̇ is linear in the velocities.
 const LINEAR: f64 = 1e-10;
-/// How much worse than measured a step may be that is not checked.
+/// Safety factor on the measured convergence for a step that is not checked.
 const MARGIN: f64 = 10.0;
-/// A residual that Newton's own step does not lower is rounding up to this factor of the tolerance.
+/// A residual up to this factor of the tolerance counts as rounding if Newton's step does not reduce it.
 const ROUNDING: f64 = 1e3;
 
-/// Part of the tolerance that may stay beside a singular position.
+/// Part of the tolerance that may remain near a singular position.
 const SHARP: f64 = 1e-3;
 
-/// No residual above this is rounding, however far the coordinates are: the joint is open.
+/// A larger residual never counts as rounding, even for large coordinates: the joint is open.
 const CLOSED: f64 = 1e-8;
 
-/// Projection as an option.
+/// The options of projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
-    /// Largest residual that is left: of lengths relative to the size of the mechanism, of angles in
-    /// rad, of their rates relative to the largest rate; of states between steps to the largest so far.
+    /// Largest remaining residual. Lengths are relative to the size of the mechanism, angles are in rad, and rates are
+    /// relative to the largest rate of the state; for states between steps, to the largest rate so far.
     pub tolerance: f64,
 }
 
@@ -50,23 +50,23 @@ impl Default for Projection {
     }
 }
 
-/// Why a state cannot be had.
+/// Failure of a projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
     /// Φ_q lost rank.
     Singular(Singular),
-    /// Φ_q lost rank where the mechanism all but rests under load.
+    /// Φ_q lost rank where the mechanism is almost at rest under load.
     AtRest(Singular),
-    /// A row of Φ stays open.
+    /// A row of Φ remains open.
     Open {
-        /// The row that is worst.
+        /// The row with the largest residual.
         row: usize,
-        /// What is left of it, m or rad, or that per s.
+        /// Its residual, m or rad, or the same per s.
         gap: f64,
     },
 }
 
-/// Scratch of projections of one model; over lanes all are projected until the last of them is good.
+/// Memory for projections of one model. Over lanes, all states are projected until each meets the tolerance.
 #[derive(Clone, Debug)]
 pub struct Projector<'a, S = f64> {
     model: &'a Model<S>,
@@ -77,21 +77,21 @@ pub struct Projector<'a, S = f64> {
     residuals: Residuals<S>,
     /// The largest of each, scaled.
     gaps: [f64; 2],
-    /// What of the workspace's motions and of the residuals is that of the state at hand.
+    /// The parts of the workspace's motions and of the residuals that belong to the current state.
     known: Known,
-    /// By how much the last step with the factor at hand lowered the residual.
+    /// Factor by which the last step with the current factorisation reduced the residual.
     lowering: f64,
-    /// Part of the tolerance that may stay.
+    /// Part of the tolerance that may remain.
     part: f64,
-    /// The largest rate that was seen; none if each state has to be as good as its own rates.
+    /// The largest rate so far; None if the tolerance is relative to the rates of each state.
     fastest: Option<f64>,
     /// Right side, then (Δ, μ).
     correction: Vec<S>,
-    /// Factorisations that chord iterations did not spare.
+    /// Number of factorisations.
     pub factorisations: usize,
 }
 
-/// What is known of a state.
+/// The quantities that are up to date for a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Known {
     Nothing,
@@ -101,7 +101,7 @@ enum Known {
     All,
 }
 
-/// What is to be met, by its place among the residuals.
+/// The constraints to be met, by their place among the residuals.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Level {
     Position = 0,
@@ -127,29 +127,28 @@ impl<'a, S: Real> Projector<'a, S> {
         }
     }
 
-    /// For states that are reported, and not gone on from: rates need only be as good as the fastest of
-    /// them, so that what is nearly at rest is not projected for digits that nobody sees.
+    /// For reported states, from which no step starts. Their tolerance is relative to the fastest rate of all states:
+    /// a state nearly at rest is not projected to digits that do not matter.
     pub fn for_reports(self) -> Self {
         Self { fastest: Some(0.0), ..self }
     }
 
-    /// The fastest rate of the states that were projected for reports, scaled as by [`Self::largest`]; else 0.
+    /// The fastest rate of the reported states so far, scaled as by [`Self::largest`]; otherwise 0.
     pub fn fastest(&self) -> f64 {
         self.fastest.unwrap_or(0.0)
     }
 
-    /// Whether to leave as little as rounding does: beside a singular position accelerations have what is
-    /// left of Φ over σ³.
+    /// Sets whether to project to rounding: near a singular position a residual of Φ appears in accelerations divided
+    /// by σ³.
     pub fn sharpen(&mut self, sharp: bool) {
         self.part = if sharp { SHARP } else { 1.0 };
     }
 
-    /// Projects (q, v) in place; whether they changed. The motions of the workspace are then those of the
-    /// new state. With `factored`, the matrix of the workspace
-    /// holds the factor of a state nearby.
+    /// Projects (q, v) in place; returns whether they changed. The motions of the workspace are then those of the
+    /// new state. With `factored`, the matrix of the workspace holds the factor of a state nearby.
     ///
     /// # Errors
-    /// [`Fault`]; q and v are then of no use.
+    /// [`Fault`]; q and v are then invalid.
     pub fn project(
         &mut self,
         workspace: &mut Workspace<S>,
@@ -164,7 +163,7 @@ impl<'a, S: Real> Projector<'a, S> {
         }
     }
 
-    /// Projects v alone, in place.
+    /// Projects only v, in place.
     ///
     /// # Errors
     /// As [`project`](Self::project).
@@ -178,7 +177,7 @@ impl<'a, S: Real> Projector<'a, S> {
         self.meet(Level::Velocity, workspace, t, (q, v), &mut false)
     }
 
-    /// Whether the state is as it should be: most of those that are reported are.
+    /// Whether the state meets the tolerance, as most reported states do.
     #[inline(always)]
     fn is_good(&mut self, workspace: &mut Workspace<S>, t: S, (q, v): (&[S], &[S])) -> bool {
         self.look(workspace, t, (q, v));
@@ -187,7 +186,7 @@ impl<'a, S: Real> Projector<'a, S> {
             && velocity <= self.targets(Level::Velocity, q, v, velocity).0
     }
 
-    /// Projects a state that was looked at.
+    /// Projects a state whose residuals are known.
     #[inline(never)]
     fn bring(
         &mut self,
@@ -255,14 +254,14 @@ impl<'a, S: Real> Projector<'a, S> {
         Err(self.open(level))
     }
 
-    /// The row that was open most when last looked at.
+    /// The row with the largest residual at the last evaluation.
     fn open(&self, level: Level) -> Fault {
         let mut worst = (0, 0.0, 0.0);
         let rows = self.residuals.rows[level as usize].iter().zip(&self.residuals.per_scale);
         for (row, (r, per_scale)) in rows.enumerate() {
             let gap = r.largest_magnitude();
             let scaled = gap * per_scale;
-            // NaN, once there, stays
+            // NaN is kept
             if scaled > worst.2 || scaled.is_nan() {
                 worst = (row, gap, scaled);
             }
@@ -270,20 +269,20 @@ impl<'a, S: Real> Projector<'a, S> {
         Fault::Open { row: worst.0, gap: worst.1 }
     }
 
-    /// The residual to be met, and that which is accepted where rounding keeps it from being met.
-    #[inline(always)] // what is known of the level is not asked for
+    /// The target of the residual, and the residual that is accepted where rounding prevents the target.
+    #[inline(always)] // the level is a constant at each call
     fn targets(&mut self, level: Level, q: &[S], v: &[S], gap: f64) -> (f64, f64) {
         let (target, most) = match level {
             Level::Position => {
                 let target = self.part * self.tolerance;
-                // what meets the tolerance need not be told from rounding
+                // rounding matters only if the tolerance is not met
                 let rounding = match gap <= target {
                     true => 0.0,
                     false => 8.0 * f64::EPSILON * self.largest(q),
                 };
                 (target.max(rounding), CLOSED.max(self.tolerance))
             }
-            // what has come to rest has rates without digits
+            // the rates of a mechanism at rest have no accurate digits
             Level::Velocity => {
                 let largest = self.largest(v).max(gap);
                 self.fastest = self.fastest.map(|fastest| fastest.max(largest));
@@ -294,7 +293,7 @@ impl<'a, S: Real> Projector<'a, S> {
         (target.min(most), (ROUNDING * target).min(most))
     }
 
-    /// Brings motions, residuals and gaps to the state at hand.
+    /// Updates motions, residuals and gaps for the current state.
     #[inline(never)] // from several places
     fn look(&mut self, workspace: &mut Workspace<S>, t: S, place: (&[S], &[S])) {
         if self.known == Known::All {
@@ -305,7 +304,7 @@ impl<'a, S: Real> Projector<'a, S> {
         self.known = Known::All;
     }
 
-    /// Brings the motions to the state at hand.
+    /// Updates the motions for the current state.
     #[inline]
     fn move_bodies(&self, motions: &mut Motions<S>, (q, v): (&[S], &[S])) {
         match self.known {
@@ -315,7 +314,7 @@ impl<'a, S: Real> Projector<'a, S> {
         }
     }
 
-    /// Factorises at the state that `look` saw last.
+    /// Factorises at the state of the last call of `look`.
     fn factor(&mut self, workspace: &mut Workspace<S>, t: S) -> Result<(), Fault> {
         let Workspace { motions, matrix, compiled, .. } = workspace;
         self.residuals.jacobian(self.model, motions, t, matrix.jacobian_mut());
@@ -324,7 +323,7 @@ impl<'a, S: Real> Projector<'a, S> {
         matrix.factor().map_err(|dependent| Fault::Singular(dependent.into()))
     }
 
-    /// One step with the factor at hand.
+    /// One step with the current factor.
     fn correct(&mut self, level: Level, workspace: &Workspace<S>, x: &mut [S]) {
         let (upper, lower) = self.correction.split_at_mut(x.len());
         upper.fill(S::zero());
@@ -338,7 +337,7 @@ impl<'a, S: Real> Projector<'a, S> {
         };
     }
 
-    /// Leaves of a displacement what the constraints admit, by the factor at hand.
+    /// Projects a displacement onto the null space of Φ_q, with the current factor.
     pub fn tangent(&mut self, workspace: &Workspace<S>, x: &mut [S]) {
         let (upper, lower) = self.correction.split_at_mut(x.len());
         upper.fill(S::zero());
@@ -369,8 +368,8 @@ impl<'a, S: Real> Projector<'a, S> {
 }
 
 impl Level {
-    /// Residual, relative as the tolerance is, that may stay near a singular position, where a deviation
-    /// e leaves residuals of order e² in positions and e in velocities.
+    /// Residual, relative as the tolerance is, that may remain near a singular position. There a deviation e leaves
+    /// residuals of order e² in positions and e in velocities.
     fn near(self) -> f64 {
         match self {
             Self::Position => 1e-9,

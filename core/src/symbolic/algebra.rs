@@ -118,7 +118,7 @@ impl Arena {
         (size, self.name_of(plus))
     }
 
-    /// c·Π baseₖ^eₖ; bases are no numbers and no products, exponents of equal bases are added.
+    /// c·Π baseₖ^eₖ; bases are neither numbers nor products, exponents of equal bases are added.
     pub fn product(&mut self, c: f64, factors: List) -> Id {
         let factors = merge(factors);
         let product = match factors[..] {

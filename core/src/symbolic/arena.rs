@@ -35,7 +35,7 @@ pub(super) enum Node {
     Select([Id; 3]),
 }
 
-/// How a symbol changes with time while all accelerations are zero.
+/// The time derivative of a symbol with zero accelerations.
 #[derive(Clone, Debug)]
 pub(super) enum Rate {
     /// Its rate is this expression.
@@ -46,7 +46,7 @@ pub(super) enum Rate {
     Named(Box<Name>),
 }
 
-/// A name and what it means.
+/// A name and its meaning.
 #[derive(Clone, Debug)]
 pub(super) struct Symbol {
     pub name: Name,
@@ -74,7 +74,7 @@ pub(super) struct Arena {
     ids: HashMap<Node, Id>,
     pub symbols: Vec<Symbol>,
     pub pairs: Vec<Pair>,
-    /// Sums whose sign is settled: the opposite sum is written with a minus sign before it.
+    /// Sums with a fixed sign: the opposite sum is written with a minus sign before it.
     pub signs: HashSet<Id>,
     /// Expressions that have got a name, and the name.
     pub named: HashMap<Id, Id>,

@@ -36,7 +36,7 @@ impl Arena {
         inner.max().unwrap_or(0) + usize::from(named)
     }
 
-    /// What the name of a part stands for.
+    /// The meaning of the name of a part.
     pub fn meaning(&mut self, id: Id, form: Form) -> String {
         if let Node::Turned { pair, angle, axis } = *self.node(id) {
             let Pair { x, y, .. } = self.pairs[pair];

@@ -5,7 +5,7 @@ use super::function::Function;
 use super::name::Axis;
 use std::collections::HashMap;
 
-/// What is differentiated by.
+/// The variable of differentiation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum By {
     /// A symbol, all others being constant.

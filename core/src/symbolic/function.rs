@@ -1,4 +1,4 @@
-//! Functions that stay in an expression as they are.
+//! Functions that remain in an expression.
 
 /// A function of one or two expressions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

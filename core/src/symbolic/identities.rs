@@ -116,7 +116,7 @@ fn shared(a: &[(Id, f64)], b: &[(Id, f64)]) -> List {
     a.iter().filter_map(common).collect()
 }
 
-/// What remains of a product without some of its factors.
+/// A product without some of its factors.
 fn without(a: &[(Id, f64)], common: &[(Id, f64)]) -> List {
     let taken = |id| common.iter().find(|(other, _)| *other == id).map_or(0.0, |(_, e)| *e);
     a.iter().map(|(id, e)| (*id, e - taken(*id))).filter(|(_, e)| *e != 0.0).collect()

@@ -1,6 +1,6 @@
 //! Names of the unknowns and constants of an expression, in every form of print.
 
-/// What a name stands for: decides where it is written in a product and what is factored out.
+/// The kind of a name: it decides its place in a product and the order of common factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A velocity.
@@ -44,7 +44,7 @@ pub struct Name {
     pub unicode: String,
     /// In LaTeX.
     pub latex: String,
-    /// What it stands for.
+    /// Its kind.
     pub kind: Kind,
     /// The component, if it is one of a vector.
     pub axis: Option<Axis>,

@@ -11,7 +11,7 @@ const VECTOR: &str = "d";
 
 impl Arena {
     /// The expressions with their parts named. A sum gets a name if it is a component of a vector
-    /// and stands in a product, a power or a function.
+    /// and part of a product, a power or a function.
     pub fn name_parts(&mut self, roots: &[Id]) -> Vec<Id> {
         let mut found = Found::default();
         for root in roots {
@@ -42,7 +42,7 @@ impl Arena {
         self.named.insert(id, symbol);
     }
 
-    /// The same expression made anew, with the names that its parts have now.
+    /// The same expression with the present names of its parts.
     fn rebuilt(&mut self, id: Id, known: &mut HashMap<Id, Id>) -> Id {
         if let Some(known) = known.get(&id) {
             return *known;
@@ -79,7 +79,7 @@ struct Found {
 }
 
 impl Found {
-    /// Goes through an expression; `nested` if it stands in a product, a power or a function.
+    /// Goes through an expression; `nested` if it is part of a product, a power or a function.
     fn visit(&mut self, arena: &Arena, id: Id, nested: bool) {
         if nested && !self.seen.insert(id) {
             return;
@@ -116,7 +116,7 @@ impl Arena {
         }
     }
 
-    /// The component of a vector that an expression is; `None` if it is none.
+    /// An expression as a component of a vector; `None` if it is not one.
     fn axis(&self, id: Id) -> Option<Axis> {
         match self.node(id) {
             Node::Symbol(k) => self.symbols[*k].name.axis,

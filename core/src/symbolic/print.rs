@@ -181,7 +181,7 @@ impl Arena {
     }
 }
 
-/// Factors one after the other; a sum among several stands in brackets.
+/// Factors one after the other; a sum among several is in brackets.
 fn joined(mut texts: Vec<(String, Binding)>, form: Form) -> (String, Binding) {
     if texts.len() == 1 {
         return texts.remove(0);

@@ -8,7 +8,7 @@ use std::cell::{Cell, RefCell};
 use std::marker::PhantomData;
 
 thread_local! {
-    /// The arenas of the records under way; a nested record hides the outer one.
+    /// The arenas of the current records; a nested record hides the outer one.
     static ARENAS: RefCell<Vec<(u32, Arena)>> = const { RefCell::new(Vec::new()) };
     static RECORDS: Cell<u32> = const { Cell::new(0) };
 }
@@ -57,7 +57,7 @@ pub(super) fn constant(x: Symbolic) -> Option<f64> {
     })
 }
 
-/// A record under way. It stays on its thread.
+/// A current record, which belongs to its thread.
 #[derive(Debug)]
 pub struct Record {
     number: u32,

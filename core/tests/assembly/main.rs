@@ -1,4 +1,4 @@
-//! Assembly: positions, closures, turns, velocities, and what is said when it cannot be.
+//! Assembly: positions, closures, turns, velocities, and the errors if it fails.
 
 #[path = "../mechanisms/mod.rs"]
 mod mechanisms;

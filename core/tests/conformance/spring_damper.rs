@@ -11,7 +11,7 @@ fn spring(free_length: f64) -> SpringDamper {
     SpringDamper { i: at(0), j: at(1), stiffness: 50.0, damping: 3.0, free_length }
 }
 
-/// Both points in one place but for `x`, j moving away with (2, -1) m/s.
+/// Both points in one place except for `x`, j moving away with (2, -1) m/s.
 fn together<S: Lift<f64>>(x: S) -> [Motion<S>; 2] {
     let still = motion([0.0; 6].map(S::lift));
     let mut moving = [0.0, 0.0, 0.0, 2.0, -1.0, 0.0].map(S::lift);

@@ -106,7 +106,7 @@ fn functions() {
 
 #[test]
 fn conditions() {
-    let only = "a comparison may stand only as the first argument of if";
+    let only = "a comparison is allowed only as the first argument of if";
     let write = "write if(a < b, 1, 0) for its value as a number";
     for text in [
         "a < b",

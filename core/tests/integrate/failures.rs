@@ -267,7 +267,7 @@ fn too_many_steps_are_refused_before_the_first() {
     }
 }
 
-/// y′ = 1 that stops for good past t = 1, in the rate or at acceptance.
+/// y′ = 1 that stops past t = 1, in the rate or at acceptance.
 struct Stops {
     in_rate: bool,
 }

@@ -6,7 +6,7 @@ use kempe::integrate::{Dop853, Observer, StepControl, Structure, TrialChanges};
 /// q̈ = a(t, q) with w = ∫ q̇² dt; y = (q, v, w).
 struct Mass<F> {
     a: F,
-    /// Whether it tells that q is a position.
+    /// Whether it declares that q is a position.
     told: bool,
     /// Whether every step changes the equations.
     changes: bool,

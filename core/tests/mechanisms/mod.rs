@@ -130,7 +130,7 @@ pub fn asked(model: &Model, section: &str, written: &[(&str, &str)]) -> Vec<Targ
     targets(model, section, &written).unwrap_or_else(|p| panic!("{p:#?}"))
 }
 
-/// What assembly is asked for.
+/// A request for assembly.
 pub fn request(model: &Model, set: &[(&str, &str)], guess: &[(&str, &str)]) -> Request {
     Request {
         set: asked(model, "set", set),

@@ -86,7 +86,7 @@ fn others_go_on() {
     }
 }
 
-/// Who asks for none asks for the drift, not for joints farther apart than the mechanism is large.
+/// Without stabilization drift is expected, but not joints farther apart than the mechanism is large.
 #[test]
 fn without_stabilization_they_drift_so_far_and_no_further() {
     let (_, start) = four_bar();

@@ -101,5 +101,8 @@ fn a_torque_on_an_angle_that_nothing_resists_is_refused() {
     let failure =
         dynamics(&m, &state, &tolerances(1.0, 1e-6, 1e-9), |_| Flow::Continue).unwrap_err();
     let told = failure.reason.to_string();
-    assert!(told.contains("a torque turns bob") && told.contains("no inertia"), "{told}");
+    assert!(
+        told.contains("a torque acts on bob") && told.contains("no moment of inertia"),
+        "{told}"
+    );
 }

@@ -55,7 +55,7 @@ fn both_closures_with_first_and_second_derivatives() {
         let Some((degrees, closure)) = name.split_once("deg ") else { continue };
         let m = model(&FOUR_BAR.replace("th0 = 0", &format!("th0 = \"{degrees} deg\"")));
         let (phi2, phi3) = (number(&values["phi2_deg"]), number(&values["phi3_deg"]));
-        // a rough guess that tells the closures apart and fixes the turn
+        // a rough guess that decides the closure and the whole turns
         let guess = [
             ("coupler.angle", format!("{}*deg", phi2 + 9.0)),
             ("rocker.angle", format!("{}*deg", phi3 - 9.0)),

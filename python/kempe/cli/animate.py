@@ -34,14 +34,14 @@ class Form(str, Enum):
     gif = "gif"
 
 
-def animate(  # noqa: PLR0917 - typer tells options from arguments by their annotations
+def animate(  # noqa: PLR0917 - typer distinguishes options by their annotations
     file: CaseOrSolution,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="The file; animation.* beside the results if absent."),
+        typer.Option("--output", "-o", help="The file; by default animation.* beside the results."),
     ] = None,
     form: Annotated[
-        Form | None, typer.Option("--format", help="Told by the ending of the file if absent.")
+        Form | None, typer.Option("--format", help="By default, from the ending of the file.")
     ] = None,
     fps: Annotated[
         float | None, typer.Option("--fps", help="Pictures per second of a video or GIF.")
@@ -63,7 +63,7 @@ def animate(  # noqa: PLR0917 - typer tells options from arguments by their anno
 
 
 def _path(file: Path, output: Path | None, form: Form | None, analysis: str) -> Path:
-    """Where the animation of an analysis goes; the ending that ``--format`` asks for wins."""
+    """The file of the animation of an analysis; ``--format`` has priority over the ending."""
     if output is None:
         return results_folder(file) / analysis / f"{STEM}.{(form or Form.html).value}"
     named = output.with_name(f"{output.stem}_{analysis}{output.suffix}") if analysis else output

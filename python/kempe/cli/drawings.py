@@ -15,7 +15,7 @@ FIRST, LAST = "first_frame.png", "last_frame.png"
 
 
 def write_drawings(solution: Solution, folder: Path, video: Form | None) -> list[Path]:
-    """The page that plays the motion, its first and last frame, and a video if one is asked for.
+    """The page that plays the motion, its first and last frame, and a video if requested.
 
     Raises:
         FileError: a file cannot be written, or there is no ffmpeg for an MP4.

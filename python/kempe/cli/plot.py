@@ -27,7 +27,7 @@ EXAMPLES = """Examples:
 """
 
 
-def plot(  # noqa: PLR0917 - typer tells options from arguments by their annotations
+def plot(  # noqa: PLR0917 - typer distinguishes options by their annotations
     file: CaseOrSolution,
     names: Annotated[
         list[str] | None,
@@ -62,7 +62,7 @@ def _folder(file: Path, output: Path | None, analysis: str) -> Path:
 
 
 def _chosen(solution: Solution, known: list[Page], names: list[str]) -> list[Page]:
-    """The pages asked for; of a figure named after a joint or a force, the name is told apart.
+    """The requested pages; an unknown joint or force in the name of a figure is reported as such.
 
     Raises:
         ModelError: there is no such figure, joint or force.

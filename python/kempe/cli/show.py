@@ -37,7 +37,7 @@ def _flag(name: str, told: str) -> Any:
     return typer.Option(f"--{name}", help=told)
 
 
-def show(  # noqa: PLR0917 - typer tells options from arguments by their annotations
+def show(  # noqa: PLR0917 - typer distinguishes options by their annotations
     file: File,
     jacobian: Annotated[bool, _flag("jacobian", "Φ_q; what is shown if nothing is named.")] = False,
     mass: Annotated[bool, _flag("mass", "The mass matrix M.")] = False,
@@ -48,7 +48,7 @@ def show(  # noqa: PLR0917 - typer tells options from arguments by their annotat
     nu: Annotated[bool, _flag("nu", "ν = -Φ_t, right side of the velocities.")] = False,
     multipliers: Annotated[bool, _flag("multipliers", "The multipliers λ.")] = False,
     iterations: Annotated[
-        bool, _flag("iterations", "Newton–Raphson from the guess as it stands.")
+        bool, _flag("iterations", "Newton–Raphson from the unchanged guess.")
     ] = False,
     symbolic: Annotated[bool, _flag("symbolic", "Φ, Φ_q and γ of each joint as formulas.")] = False,
     assembly: Annotated[

@@ -43,13 +43,13 @@ def animate(
     speed: float = 1.0,
     progress: Progress | None = None,
 ) -> Path:
-    """Write a motion as a page, a video or a GIF, told by the ending of the path.
+    """Write a motion as a page, a video or a GIF, chosen by the ending of the path.
 
     Args:
-        solution: what moves.
+        solution: the motion.
         path: ending in ``.html``, ``.mp4`` or ``.gif``.
         fps: pictures per second, 30 for MP4 and 20 for GIF by default; a page has no use for it.
-        speed: 2 plays twice as fast. 1 is real time, but for motions shorter than 2 s or longer
+        speed: 2 plays twice as fast. 1 is real time, except for motions shorter than 2 s or longer
             than a minute; those are slowed down or sped up by a round factor.
         progress: called with the number of pictures drawn and of all pictures.
 

@@ -12,7 +12,7 @@ from kempe.compiled import CompiledModel
 from kempe.draw.numbers import plain
 from kempe.motion import Motion
 
-#: Torques and forces below this share of the largest reaction are zero but for rounding.
+#: Torques and forces below this share of the largest reaction are zero except for rounding.
 _NOTHING = 1e-9
 
 

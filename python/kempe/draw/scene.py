@@ -1,7 +1,6 @@
 """The scene: everything that a drawing of a motion needs, as plain data ready for JSON.
 
-The player, the pictures and the videos draw this and nothing else; ``docs/scene.md`` tells the
-format.
+The player, the pictures and the videos draw only this; ``docs/scene.md`` describes the format.
 """
 
 from __future__ import annotations

@@ -49,7 +49,7 @@ def draw(symbol: Symbol, rings: Rings, aside: float = 0.0) -> Iterator[Item]:
     Args:
         symbol: an entry of the scene.
         rings: what is around each point already.
-        aside: distance from the line of what is drawn in parallel; 0 for what is alone.
+        aside: distance from the line of a symbol drawn in parallel to others; 0 for one alone.
     """
     mark = symbol["mark"]
     if mark in _ALONG:

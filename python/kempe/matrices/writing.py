@@ -56,7 +56,7 @@ def text(rows: Sequence[str], columns: Sequence[str], values: Floats) -> str:
 
 
 def _aligned(cells: Sequence[str]) -> list[str]:
-    """Cells with blanks behind them so that the decimal points are in one column."""
+    """Cells padded with blanks so that the decimal points are aligned."""
     behind = [
         0 if _exponent(cell) else len(cell.partition(".")[2]) + ("." in cell) for cell in cells
     ]

@@ -1,4 +1,4 @@
-"""The mechanism as it stands at one time, bodies numbered and joints named."""
+"""The configuration of the mechanism at one time, bodies numbered and joints named."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ class Curve:
     """A quantity over time.
 
     Attributes:
-        label: what stands in the legend.
+        label: text of the legend.
         values: (n_t,), SI units.
         line: colour, dashes and width; chosen by its place in the panel when empty.
     """
@@ -83,7 +83,7 @@ def add_lines(axes: Axes, t: Floats, curves: Sequence[Curve], divisor: float = 1
 
 
 def limit(axes: Axes, curves: Sequence[Curve], chosen: Scale) -> None:
-    """Do not blow up the rounding noise of what is constant."""
+    """Do not magnify the rounding noise of constant curves."""
     values = np.concatenate([np.atleast_1d(curve.values) for curve in curves])
     low, high = float(values.min()), float(values.max())
     largest = max(abs(low), abs(high))

@@ -1,4 +1,4 @@
-"""The drawings of the mechanism as they stand on a page: as high as they need to be."""
+"""The drawings of the mechanism on pages of the height that they need."""
 
 from __future__ import annotations
 

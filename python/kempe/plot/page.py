@@ -78,7 +78,7 @@ def select(known: Sequence[Page], names: Sequence[str]) -> list[Page]:
 
 
 def file_names(names: Iterable[str]) -> list[str]:
-    """Names of the model made fit for files: plain letters and digits, short, no two alike."""
+    """Names of the model made fit for files: plain letters and digits, short, all different."""
     taken: set[str] = set()
     found = []
     for name in names:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def pages(solution: Solution, index_base: int = 1, most: int | None = None) -> list[Page]:
-    """All figures of a solution; each is drawn when it is asked for.
+    """All figures of a solution; each is drawn on request.
 
     Args:
         solution: what is drawn.

@@ -1,4 +1,4 @@
-"""What all figures have in common: sizes for print, fonts, colours that everybody tells apart."""
+"""What all figures have in common: sizes for print, fonts, colours that everybody can distinguish."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def on(ax: Axes | None) -> Iterator[Axes]:
 
 
 def line(k: int) -> dict[str, Any]:
-    """Colour and dashes of the k-th line of a panel, from 0; no two of the first 49 are alike."""
+    """Colour and dashes of the k-th line of a panel, from 0; the first 49 are different."""
     shift = k // len(COLOURS)
     return {
         "color": COLOURS[k % len(COLOURS)],

@@ -1,4 +1,4 @@
-"""The figures over time as they stand on a page: panels side by side and one below the other."""
+"""The figures over time on pages: panels side by side and one below the other."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ class Outcome:
         angle_error: largest difference of any body's angle from the reference, rad; NaN if
             it diverged.
         position_error: the same of any body's position, m.
-        residual: largest |Φ| over time, lengths and angles alike, m and rad; NaN if diverged.
+        residual: largest |Φ| over time, of lengths and of angles, m and rad; NaN if diverged.
         residual_at: when, s.
         imbalance: largest error of the energy balance, relative to the largest kinetic energy.
         steps: steps taken.

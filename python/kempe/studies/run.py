@@ -77,7 +77,7 @@ def study(
     """
     names = list(case.analyses)
     if not names:
-        raise ModelError("the case asks for no analysis", hint="add one, as [analyses.release]")
+        raise ModelError("the case contains no analysis", hint="add one, as [analyses.release]")
     name = names[0] if analysis is None else one_of("analysis", analysis, names)
     begin, entry = _beginning(case, name)
     reference: Solution | None = None
@@ -119,7 +119,7 @@ def _computed(
         return _measured(way, solution, reference or solution)
     except (IntegrationError, SingularityError) as error:
         partial: Solution | None = getattr(error, "solution", None)
-        reason = str(error.args[0]).partition(" at t = ")[0]  # the time is told apart
+        reason = str(error.args[0]).partition(" at t = ")[0]  # the time is reported separately
         return _diverged(way, partial, error.t, reason)
 
 

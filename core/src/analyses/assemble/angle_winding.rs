@@ -1,15 +1,14 @@
-//! Whole turns: which of the angles that differ by 2π a body has after assembly.
+//! Whole turns: the choice among angles that differ by multiples of 2π.
 //!
-//! A guess or `set` fixes the turn of its body, and of all bodies that a slide keeps from turning
-//! against it. Of the others those are chosen for which each torsional spring, in the order of the
-//! file, is relaxed as far as whole turns can.
+//! A guess or `set` fixes the whole turns of its body, and of all bodies whose relative angle to it a slide fixes. For
+//! the other bodies, each torsional spring, in the order of the file, is relaxed as far as whole turns can relax it.
 
 use super::targets::{nearest_turn, Targets};
 use crate::elements::{BodyId, Fixes};
 use crate::model::{ConstraintItem, Model};
 use std::f64::consts::PI;
 
-/// Shifts free angles of `q` by whole turns; gives a warning for each spring still beyond half a turn.
+/// Shifts free angles of `q` by whole turns; returns a warning for each spring still beyond half a turn.
 pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
     let group = turning_together(model);
     let mut fixed = vec![false; group.len()];
@@ -45,7 +44,7 @@ pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
     warnings
 }
 
-/// For each body the first of the bodies that slides keep from turning against it.
+/// For each body, the first of the bodies whose relative angle to it is fixed by slides.
 fn turning_together(model: &Model) -> Vec<usize> {
     let mut group: Vec<usize> = (0..model.bodies.len()).collect();
     let turns_together = |item: &&ConstraintItem| item.element.fixes().contains(&Fixes::Direction);

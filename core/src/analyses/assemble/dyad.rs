@@ -2,13 +2,13 @@
 
 use crate::math::Vec2;
 
-/// Where the joint of a dyad can be.
+/// The possible places of the joint of a dyad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Closure {
     /// To the left of the line from the first to the second centre, and to its right.
     Two(Vec2, Vec2),
-    /// The circles touch, or they miss each other by the given length: positive where the dyad is
-    /// too short to reach, negative where one arm is too long for the other.
+    /// The circles touch, or they miss each other by the given length: positive if the dyad is too short,
+    /// negative if one arm is too long for the other.
     One(Vec2, Option<f64>),
     /// Equal circles: the joint may be anywhere on them.
     Undetermined,

@@ -1,4 +1,4 @@
-//! Why a mechanism cannot be assembled, in terms of the mechanism.
+//! Failures of assembly, in terms of the mechanism.
 
 use super::placement::Gap;
 use super::request::{of_bodies, of_rates, CoordinateTarget, Request};
@@ -11,29 +11,29 @@ use crate::model::{ConstraintItem, Model};
 use std::collections::VecDeque;
 use std::fmt;
 
-/// What went wrong.
+/// The kind of fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// The positions asked for cannot be reached.
+    /// The requested positions cannot be reached.
     Open,
-    /// The rates asked for contradict each other or the constraints.
+    /// The requested rates contradict each other or the constraints.
     Rates,
-    /// Constraints repeat each other.
+    /// Constraints are redundant.
     Redundant,
 }
 
 /// An assembly that failed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// What went wrong.
+    /// The kind of fault.
     pub fault: Fault,
-    /// The joint or driver at which it shows.
+    /// The joint or driver with the largest error.
     pub name: String,
-    /// The gap that remains there, m; zero where that has no meaning.
+    /// The gap that remains there, m; zero for faults without a gap.
     pub gap: f64,
-    /// In words.
+    /// Description of the fault.
     pub message: String,
-    /// What to do.
+    /// Remedy.
     pub hint: String,
 }
 
@@ -43,7 +43,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// The loop does not close; `q` is as near as it gets.
+/// The loop does not close; `q` is the position with the smallest gap that was found.
 pub(super) fn open(
     model: &Model,
     request: &Request,
@@ -63,7 +63,7 @@ pub(super) fn open(
 /// A constraint whose law has no finite value or derivative at a position.
 pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
     if !q.iter().all(|q| q.is_finite()) {
-        return None; // then the position is at fault, not a law
+        return None; // the position is the fault, not a law
     }
     let motions = Motions::at_rest(&model.layout, q);
     let m = model.layout.n_rows;
@@ -104,7 +104,7 @@ fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
         (
             format!("one link is too long for the other by {missing:.3} m at joint {joint}"),
             format!(
-                "make {a} and {b} more alike in length, or move the pins that carry them apart"
+                "make the lengths of {a} and {b} more equal, or move the pins that carry them apart"
             ),
         )
     };
@@ -126,14 +126,14 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
     for (k, slots) in model.layout.constraints.iter().enumerate() {
         let gap = phi[slots.rows.clone()].iter().map(|r| r * r).sum::<f64>().sqrt();
         if model.constraints[k].equations[0].unit == "m" {
-            total += gap; // of a stretched loop the gaps of its joints add up to what is missing
+            total += gap; // the gaps of the joints of a loop add up to the missing length
         }
         if gap > worst.1 {
             worst = (k, gap);
         }
     }
     let name = model.constraints[worst.0].name.clone();
-    // what is missed may be a driver or what is set: then the constraints contradict each other
+    // if a driver or a set coordinate has the largest error, the constraints contradict each other
     let joint = model.constraints[worst.0].group == Group::Joints;
     let around = match loop_through(model, worst.0).filter(|_| joint) {
         Some(loop_) => format!("the loop {loop_}"),
@@ -228,7 +228,7 @@ pub(super) fn rates(model: &Model, request: &Request) -> Failure {
     }
 }
 
-/// Constraints repeat each other.
+/// Constraints are redundant.
 pub(super) fn redundant(model: &Model, mobility: &Mobility) -> Failure {
     let group = mobility.redundant.first().cloned().unwrap_or_default();
     let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();

@@ -1,8 +1,11 @@
-//! Assembly: a consistent state from what is set, guessed, drawn and driven.
+//! Assembly: a consistent state from set coordinates, guesses, drawn positions and drivers.
 //!
-//! Bodies are placed by walking the joints ([`place`]), closed by Newton–Raphson on Φ with the rows
-//! of drivers and of `set` ([`Closing`]), turned by whole turns to relax springs, and given the
-//! consistent velocities nearest to those asked for. What is consistent already is left alone.
+//! 1. The bodies are placed along the joints ([`place`]).
+//! 2. Newton–Raphson solves Φ = 0 with the rows of drivers and of `set` ([`Closing`]).
+//! 3. Angles are changed by whole turns to relax springs.
+//! 4. The velocities become the consistent velocities nearest to the requested ones.
+//!
+//! A consistent position is not changed.
 
 mod angle_winding;
 mod dyad;
@@ -32,18 +35,18 @@ use crate::solve::newton::Record;
 use request::{of_positions, of_rates};
 use std::sync::Arc;
 
-/// Most placements that are looked at.
+/// Largest number of placements that are computed.
 const MOST_PLACEMENTS: usize = 256;
-/// Most placements from which Newton is tried.
+/// Largest number of placements from which Newton's method is tried.
 const MOST_TRIES: usize = 16;
-/// How far a given pose may be from what is set before bodies are placed anew, rad.
+/// Largest difference of a given pose from `set` with which bodies are not placed anew, rad.
 const NEAR: f64 = 0.35;
 
 /// Assembles a mechanism.
 ///
 /// # Errors
-/// [`Failure`] if it cannot close, if rates contradict the constraints, or if constraints repeat
-/// each other and that is not allowed.
+/// [`Failure`] if the mechanism cannot close, if rates contradict the constraints, or if constraints are redundant
+/// and redundancy is not allowed.
 pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box<Failure>> {
     let asked = asked(model, request);
     let extended = holding(model, request);
@@ -188,7 +191,7 @@ fn placements(model: &Model, asked: &Targets) -> Vec<Placement> {
         let options = placement.options.clone();
         let closes = placement.gaps.is_empty();
         found.push(placement);
-        // one that closes by construction needs no rival, unless Newton refuses it
+        // a placement that closes by construction is enough, unless Newton's method fails from it
         if closes && found.iter().filter(|p| p.gaps.is_empty()).count() >= MOST_TRIES {
             break;
         }
@@ -203,7 +206,7 @@ fn placements(model: &Model, asked: &Targets) -> Vec<Placement> {
     found
 }
 
-/// Velocities from the guess, made consistent; rates that are set are held as drivers.
+/// Velocities from the guess, made consistent; drivers hold the rates of `set`.
 fn velocities(model: &Model, request: &Request, q: &[f64]) -> Result<Vec<f64>, Box<Failure>> {
     let mut v = match &request.state {
         Some(state) => state.v.clone(),
@@ -226,7 +229,7 @@ fn velocities(model: &Model, request: &Request, q: &[f64]) -> Result<Vec<f64>, B
     Ok(v)
 }
 
-/// Says which assembly mode was taken.
+/// Writes the assembly mode into the report.
 fn describe(model: &Model, asked: &Targets, q: &[f64], report: &mut Report) {
     let mut taken = asked.clone();
     taken.approach(model, q);

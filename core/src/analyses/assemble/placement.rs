@@ -1,11 +1,15 @@
-//! First positions of all bodies, by walking the joints from ground and closing dyads.
+//! First positions of all bodies: along the joints from ground, with dyads closed on the way.
 //!
-//! A body is placed as soon as what is known of it suffices: its angle and one pin, or two pins, or
-//! as a dyad with a neighbour (two bodies pinned to each other and to placed bodies: the
-//! intersection of two circles, with two closures), or on a slide whose other body stands, together
-//! with a pin, a coordinate or a link that reaches it. Where nothing suffices a coordinate is taken
-//! from the guess, or tried over the circle. Choices that no guess decides are numbered, so that a
-//! caller can go through all of them.
+//! A body is placed as soon as enough is known:
+//!
+//! * its angle and one pin;
+//! * two pins;
+//! * a dyad with a neighbour: two bodies pinned to each other and to placed bodies. The joint between them is
+//!   an intersection of two circles, so there are two closures;
+//! * a slide on a placed body, and a pin, a coordinate or a link to a placed body.
+//!
+//! If no body can be placed, a coordinate is taken from the guess, or several angles are tried. Choices that
+//! no guess decides are numbered, so that a caller can go through all of them.
 
 use super::dyad::{close, Closure};
 use super::slider_placement::{slides, Rail, Slide};
@@ -22,7 +26,7 @@ pub(super) struct Leg {
     pub own: Local,
     pub other: usize,
     pub at_other: Local,
-    /// The angle of the own body less that of the other, if the joint fixes it as well.
+    /// The angle of the own body minus that of the other, if the joint fixes this difference as well.
     turned: Option<f64>,
 }
 
@@ -35,7 +39,7 @@ pub struct Dyad {
     pub joint: usize,
     /// Joints that carry them.
     pub anchors: [usize; 2],
-    /// Whether the other closure is a different position.
+    /// Whether the two closures are different positions.
     pub has_other: bool,
     /// Whether the second anchor is a slide.
     pub slides: bool,
@@ -48,11 +52,11 @@ pub struct Gap {
     pub bodies: [usize; 2],
     /// The joint between them.
     pub joint: usize,
-    /// By how much the bodies together are too short (> 0) or their difference too long (< 0), m.
+    /// Length by which the two bodies together are too short (> 0) or one is too long for the other (< 0), m.
     pub missing: f64,
 }
 
-/// Positions for all bodies, and how they were found.
+/// Positions of all bodies, and the choices that led to them.
 #[derive(Clone, Debug, Default)]
 pub struct Placement {
     /// Coordinates, shape (n_q).
@@ -61,11 +65,11 @@ pub struct Placement {
     pub dyads: Vec<Dyad>,
     /// Dyads that did not close.
     pub gaps: Vec<Gap>,
-    /// How many options each undecided choice had.
+    /// Number of options of each undecided choice.
     pub options: Vec<usize>,
 }
 
-/// Angles tried for a body of which nothing is known, in this order.
+/// Angles that are tried for a body without known coordinates, in this order.
 const TRIED_DEG: [f64; 12] =
     [0.0, 90.0, 45.0, 135.0, -45.0, 180.0, -90.0, -135.0, 20.0, 110.0, -70.0, -160.0];
 
@@ -128,7 +132,7 @@ fn direction<V: Into<(f64, f64)>>(v: V) -> f64 {
 }
 
 impl Placer<'_> {
-    /// Where a pin of body `b` must be, if its other body is placed.
+    /// The required place of a pin of body `b`, if its other body is placed.
     fn target(&self, leg: &Leg) -> Option<Vec2> {
         self.poses[leg.other].as_ref().map(|pose| pose.point(leg.at_other))
     }
@@ -137,7 +141,7 @@ impl Placer<'_> {
         self.legs[b].iter().filter_map(|leg| Some((*leg, self.target(leg)?)))
     }
 
-    /// The first slide of body `b` whose other body is placed, and where it lets `b` be.
+    /// The first slide of body `b` whose other body is placed, and the places that it allows for `b`.
     fn rail(&self, b: usize) -> Option<(Slide, Rail)> {
         self.slides[b].iter().find_map(|s| Some((*s, s.rail(self.poses[s.other].as_ref()?)?)))
     }
@@ -146,14 +150,14 @@ impl Placer<'_> {
         self.poses[b] = Some(pose);
     }
 
-    /// With its angle known and pinned at `leg` to `target`.
+    /// Places a body with a known angle that is pinned at `leg` to `target`.
     fn hang(&mut self, b: usize, leg: &Leg, target: Vec2, angle: f64) {
         let mut pose = Pose::new(0.0, 0.0, angle);
         pose.r = target - pose.global(leg.own);
         self.put(b, pose);
     }
 
-    /// As a joint holds it that also fixes the angle.
+    /// Places a body by a joint that fixes a point and the angle.
     fn join(&mut self, b: usize, pins: &[(Leg, Vec2)]) {
         for (leg, target) in pins {
             if let (Some(turned), Some(other)) = (leg.turned, self.poses[leg.other]) {
@@ -162,7 +166,7 @@ impl Placer<'_> {
         }
     }
 
-    /// Places a body of which enough is known; false if not, or if it stands already.
+    /// Places a body if enough is known; false if not, or if it is placed already.
     fn follow(&mut self, b: usize) -> bool {
         if self.poses[b].is_some() {
             return false;
@@ -306,7 +310,7 @@ impl Placer<'_> {
         });
     }
 
-    /// As [`Placer::decide`], but a place that is asked for counts where no angle does.
+    /// As [`Placer::decide`], but requested places decide if there are no requested angles.
     fn decide_place(&mut self, bodies: [usize; 2], closures: [&[Pose; 2]; 2]) -> usize {
         let off = |poses: &[Pose; 2], c: usize| -> Option<f64> {
             let squares = bodies.iter().zip(poses).filter_map(|(b, pose)| {
@@ -331,7 +335,7 @@ impl Placer<'_> {
         self.targets.nearest_turn(b, angle)
     }
 
-    /// Which of two closures: the one nearer to the guess, else an undecided choice.
+    /// Chooses one of two closures: the one nearer to the guess, otherwise an undecided choice.
     fn decide(&mut self, bodies: [usize; 2], angles: &[[f64; 2]]) -> usize {
         let distance = |pair: &[f64; 2]| -> Option<f64> {
             let squares = bodies.iter().zip(pair).filter_map(|(b, angle)| {
@@ -352,7 +356,7 @@ impl Placer<'_> {
         self.choices.get(k).copied().unwrap_or(0)
     }
 
-    /// Where nothing suffices: a guess is taken as it stands, or an angle is tried.
+    /// If no body can be placed: takes a coordinate from the guess, or tries an angle.
     fn assume(&mut self, first: usize) {
         let open = |b: &usize| self.poses[*b].is_none();
         let all = first..self.poses.len();

@@ -1,4 +1,4 @@
-//! What an assembly tells about itself.
+//! The report of an assembly.
 
 use super::placement::Dyad;
 use crate::equations::kinematics::Motions;
@@ -6,7 +6,7 @@ use crate::math::{Local, Motion, Rotation, Vec2};
 use crate::model::Model;
 use crate::solve::newton::Record;
 
-/// Which of its two closures a dyad took.
+/// The closure of a dyad, one of two.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
     /// The two bodies.
@@ -15,8 +15,8 @@ pub struct Mode {
     pub joint: String,
     /// The joints that carry them.
     pub anchors: [String; 2],
-    /// Whether the joint lies to the left of the line from the first to the second anchor; where the
-    /// second is a slide, whether it lies ahead of the first along the slide.
+    /// Whether the joint lies to the left of the line from the first to the second anchor. If the second anchor is a
+    /// slide: whether the joint lies ahead of the first anchor along the slide.
     pub left: bool,
     /// Whether the second anchor is a slide.
     pub slides: bool,
@@ -31,9 +31,9 @@ pub struct Report {
     pub degrees_of_freedom: usize,
     /// The assembly mode: the closure of each dyad.
     pub modes: Vec<Mode>,
-    /// How many other combinations of closures there are, reachable or not.
+    /// Number of other combinations of closures, reachable or not.
     pub alternatives: usize,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 

@@ -1,11 +1,11 @@
-//! Input of an assembly.
+//! The request for an assembly.
 
 use crate::analyses::State;
 use crate::elements::{BodyId, Coordinate};
 use crate::equations::at;
 use crate::model::{did_you_mean, Model, Problem, Reach, Scope, Value};
 
-/// A value given for a coordinate or a rate of a body.
+/// A requested value of a coordinate or a rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoordinateTarget {
     /// The moving body.
@@ -16,7 +16,7 @@ pub struct CoordinateTarget {
     pub value: f64,
 }
 
-/// A value given for the start.
+/// A requested value at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     /// Of a body.
@@ -48,19 +48,19 @@ pub(super) fn of_bodies(targets: &[Target]) -> impl Iterator<Item = &CoordinateT
     })
 }
 
-/// Input of an assembly.
+/// The request for an assembly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
-    /// Held exactly.
+    /// Targets held exactly.
     pub set: Vec<Target>,
-    /// Approached.
+    /// Targets approached.
     pub guess: Vec<Target>,
     /// A whole state as guess.
     pub state: Option<State>,
     /// Time, s.
     pub t: f64,
-    /// Whether Newton starts from the guess as it stands, loops open, instead of a placement that
-    /// closes them: the classical iteration, for people to look at.
+    /// Whether Newton's method starts from the guess with open loops, and not from a placement that closes them: the
+    /// classical iteration, for teaching.
     pub from_guess: bool,
 }
 
@@ -152,7 +152,7 @@ fn named(model: &Model, key: &str, path: &[String], problems: &mut Vec<Problem>)
     if found.is_none() {
         let known = Coordinate::ALL.map(Coordinate::name);
         let hint = did_you_mean(coordinate, &known, "coordinates and rates");
-        problems.push(fault(format!("'{coordinate}' is no coordinate of a body"), hint));
+        problems.push(fault(format!("'{coordinate}' is not a coordinate of a body"), hint));
     }
     let (id, coordinate) = (id?, found?);
     if coordinate.column() >= model.layout.bodies[id.0].count {

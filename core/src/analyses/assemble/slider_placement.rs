@@ -1,5 +1,5 @@
-//! Placing bodies on slides: the angle is known from the other body, the place along the slide is
-//! not, until a pin, a coordinate or a link that reaches the slide decides it.
+//! Placing bodies on slides. The other body gives the angle. The place along the slide follows from a pin, a
+//! coordinate, or a link to a placed body.
 
 use super::targets::Targets;
 use crate::elements::Fixes;
@@ -19,16 +19,16 @@ pub(super) struct Slide {
     other_axis: f64,
 }
 
-/// Where a body on a slide can be: at `pose` moved along `direction`.
+/// The possible places of a body on a slide: `pose` moved along `direction`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rail {
-    /// Where the joint points coincide.
+    /// The pose at which the joint points coincide.
     pub pose: Pose,
     /// Along the slide, of length 1.
     pub direction: Vec2,
 }
 
-/// Directions less along a coordinate than this do not decide a place by it.
+/// Smallest component of a direction along a coordinate with which the coordinate decides the place.
 const ACROSS: f64 = 1e-9;
 
 /// The slides of each body.
@@ -56,7 +56,7 @@ pub(super) fn slides(model: &Model) -> Vec<Vec<Slide>> {
 }
 
 impl Slide {
-    /// Where the body can be when the other stands; None where that is not finite.
+    /// The possible places of the body if the other is placed; None if they are not finite.
     pub fn rail(&self, other: &Pose) -> Option<Rail> {
         let axis = other.angle + self.other_axis;
         let mut pose = Pose::new(0.0, 0.0, axis - self.own_axis);
@@ -83,16 +83,16 @@ impl Rail {
         (along.abs() > ACROSS).then(|| self.at((value - from) / along))
     }
 
-    /// The pose nearest to what is asked for of the place of body `b`.
+    /// The pose nearest to the requested place of body `b`.
     pub fn towards(&self, b: usize, targets: &Targets) -> Pose {
         let targeted = |c: usize, otherwise: f64| targets.value(b, c).unwrap_or(otherwise);
         let place = Vec2::new(targeted(0, self.pose.r.x), targeted(1, self.pose.r.y));
         self.at((place - self.pose.r).dot(self.direction))
     }
 
-    /// Where the point `s` of the body can be at the distance `radius` from `center`: the
-    /// intersection of a line and a circle, ahead first. The first of the result are distances
-    /// along the slide, the second is by how much the radius is too short, m.
+    /// The places at which the point `s` of the body has the distance `radius` from `center`: the intersection
+    /// of a line and a circle, with the point ahead first. Returns the distances along the slide, and the length
+    /// by which the radius is too short, m.
     pub fn meeting(&self, s: Local, center: Vec2, radius: f64) -> (Vec<f64>, Option<f64>) {
         let from = self.pose.point(s) - center;
         let (along, across) = (-from.dot(self.direction), self.direction.cross(from).abs());

@@ -6,9 +6,9 @@ use crate::model::{Dependence, Model};
 /// Target values, by body (ground first) and coordinate x, y, angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Targets {
-    /// Held exactly: by `set` or by a driver.
+    /// Targets held exactly: by `set` or by a driver.
     pub hard: Vec<[Option<f64>; 3]>,
-    /// Approached: by `guess`, a given state, or where the body was drawn.
+    /// Targets approached: from `guess`, a given state, or the drawn position of the body.
     pub soft: Vec<[Option<f64>; 3]>,
     /// Whether the soft angle decides the whole turn.
     pub turn: Vec<bool>,
@@ -59,13 +59,13 @@ impl Targets {
     }
 }
 
-/// `angle` plus whole turns, as near to `to` as can be.
+/// `angle` plus the whole turns that bring it nearest to `to`.
 pub fn nearest_turn(angle: f64, to: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     angle - turn * ((angle - to) / turn).round()
 }
 
-/// The value a coordinate driver prescribes at `t`, if that depends on time alone.
+/// The value that a coordinate driver prescribes at `t`, if it depends only on time.
 fn driven(
     model: &Model,
     item: &crate::model::ConstraintItem,

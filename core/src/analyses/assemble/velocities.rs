@@ -1,24 +1,24 @@
-//! Consistent velocities: of all q̇ with Φ_q q̇ = ν the one nearest to the velocities given, by kinetic
-//! energy of the difference.
+//! Consistent velocities: the solution of Φ_q q̇ = ν that is nearest to the given velocities. The distance is the
+//! kinetic energy of the difference.
 
 use crate::equations::augmented::Augmented;
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, Compiled};
 use crate::model::{size, Model};
 
-/// Largest velocity residual that is left alone, relative to what it is computed from.
+/// Largest velocity residual that is not corrected, relative to the terms of which it is the sum.
 const TOLERANCE: f64 = 1e-12;
-/// What is left by more than that after corrections in the metric of the masses is corrected as if all
-/// bodies were alike: masses in a ratio of 1e10 and more leave few digits, and their metric none to choose.
+/// If a larger residual remains after corrections in the metric of the mass matrix, it is corrected in the metric of
+/// the unit matrix: with ratios of masses of 1e10 and more, the mass matrix leaves too few digits.
 const ALIKE: f64 = 1e-10;
-/// Corrections that are always made: the second takes out the rounding of the first.
+/// Corrections that are always made: the second removes the rounding errors of the first.
 const LEAST: usize = 2;
-/// Most corrections. Damped rows converge by the ratio of their damping to the compliance at the joint,
-/// which heavy bodies beside light ones bring near 1.
+/// Largest number of corrections. Damped rows converge by the ratio of their damping to the compliance at the
+/// joint. This ratio is near 1 if heavy bodies are joined to light ones.
 const MOST: usize = 30;
 
-/// Makes `v` consistent at `q`; one that is consistent is left untouched. Gives the largest part of
-/// Φ_q q̇ - ν that remains, relative; not near zero if the rates asked for contradict each other.
+/// Makes `v` consistent at `q`; a consistent `v` is unchanged. Returns the largest remaining part of Φ_q q̇ - ν,
+/// relative; it is not near zero if the requested rates contradict each other.
 pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     let motions = Motions::at(&model.layout, q, v);
     let rate = velocity_residual(model, t, &motions);
@@ -41,7 +41,7 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     correct(model, t, q, v, (&mut matrix, 1.0, scale))
 }
 
-/// Corrects `v` with the weights of the matrix until that brings no more; what is left.
+/// Corrects `v` with the weights of the matrix until the residual no longer falls; returns the residual.
 fn correct(
     model: &Model,
     t: f64,

@@ -1,8 +1,8 @@
-//! What follows from the states of a run: accelerations and multipliers, by γ and never γ̂.
+//! Accelerations and multipliers at the states of a run, with γ and never γ̂.
 //!
-//! A run keeps states alone; what follows from them is worked out when it is asked for. States do not wait for each
-//! other, so several are solved at once: the same formulas over lanes. Where one of them is not regular (a position
-//! near a singular one, a number that is not finite), each is solved by itself.
+//! A run keeps only states. Accelerations and multipliers are computed on request. The states are independent of each
+//! other, so several are solved at once, with the same formulas over lanes. If one of them is not regular (near a
+//! singular position, or with a number that is not finite), each is solved separately.
 
 use super::failure::Reason;
 use super::lane_batch::are_finite;
@@ -16,7 +16,7 @@ use crate::math::{Lanes, Real};
 use crate::model::Model;
 use crate::stabilize::Fault;
 
-/// What states answer to forces, a row for each.
+/// Accelerations and multipliers of states, a row for each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Accelerations {
     /// Accelerations, rows of n_q.
@@ -25,7 +25,7 @@ pub struct Accelerations {
     pub lam: Vec<f64>,
 }
 
-/// So many states that solving several at once is worth a model over lanes.
+/// Number of states from which a model over lanes, which solves several at once, is faster.
 pub(super) const MANY: usize = 4 * Lanes::WIDTH;
 
 /// See [`Prepared::accelerations`](super::Prepared::accelerations).

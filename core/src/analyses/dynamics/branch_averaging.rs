@@ -1,32 +1,32 @@
-//! Reported states beside a singular position, where branches of the motion are closer to each other than
-//! a loose tolerance is tight: the nearest state that meets the constraints may be one of another branch.
+//! Reported states near a singular position. There the distance of two branches of the motion may be below the
+//! tolerance, so the nearest state that meets the constraints may belong to the wrong branch.
 //!
-//! Further off the branches are apart. So the state is moved ahead and behind along its rates, projected
-//! there, and taken as the mean, extrapolated once: the error of the extension is the same in all of them
-//! and goes, and what curvature leaves is of the fourth order.
+//! Farther away the branches are apart. So the state is moved forward and backward along its rates and projected
+//! there, and the mean of these states is extrapolated once. The error of the linear motion cancels, and the remaining
+//! error by curvature is of the fourth order.
 
 use crate::equations::Workspace;
 use crate::math::Real;
 use crate::stabilize::{Fault, Projector};
 
-/// Part of the fastest rate by which projection changes the rates of a state of the right branch at most.
+/// Largest change of the rates by projection on the right branch, as a part of the fastest rate.
 pub(super) const TURNED: f64 = 0.1;
-/// How far ahead, in parts of the mechanism or rad: first where branches are well apart, then closer by,
-/// where curvature leaves less, since rates have what is left over σ.
+/// Distances of the neighbouring states, as parts of the mechanism's size or in rad: first far away, where the
+/// branches are well apart, then nearer, where the error by curvature is smaller.
 const AHEAD: [f64; 3] = [0.2, 0.05, 0.0125];
-/// How far, in parts of that, and what it counts: even orders up to the second cancel.
+/// Place of each neighbouring state in units of the distance, and its weight: even orders up to the second cancel.
 const AROUND: [(f64, f64); 4] =
     [(1.0, 2.0 / 3.0), (-1.0, 2.0 / 3.0), (2.0, -1.0 / 6.0), (-2.0, -1.0 / 6.0)];
 
-/// Part of the fastest rate by which projection changed v.
+/// Change of v by projection, as a part of the fastest rate.
 pub(super) fn turn<S: Real>(projector: &Projector<'_, S>, given: &[S], v: &[S]) -> f64 {
     projector.largest_difference(v, given) / projector.fastest().max(f64::MIN_POSITIVE)
 }
 
-/// Takes (q, v) from states around; they are to be projected then.
+/// Computes (q, v) from neighbouring states; they must be projected afterwards.
 ///
 /// # Errors
-/// [`Fault`] of a state around; q and v are then of no use.
+/// [`Fault`] of a neighbouring state; q and v are then invalid.
 pub(super) fn take(
     projector: &mut Projector<'_>,
     workspace: &mut Workspace,
@@ -42,7 +42,7 @@ pub(super) fn take(
     Ok(())
 }
 
-/// The mean of states around, `dt` apart.
+/// The mean of neighbouring states, `dt` apart.
 fn mean(
     projector: &mut Projector<'_>,
     workspace: &mut Workspace,

@@ -3,7 +3,7 @@
 /// Seconds since a fixed time.
 pub type Clock = fn() -> f64;
 
-/// The clock of the system; where there is none, as in WebAssembly, always zero.
+/// The clock of the system; always zero on a platform without one, such as WebAssembly.
 pub fn system_clock() -> f64 {
     #[cfg(not(target_family = "wasm"))]
     {

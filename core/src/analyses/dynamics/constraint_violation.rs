@@ -1,8 +1,8 @@
-//! Joints that come apart: what Baumgarte's stabilization leaves is bounded by nothing but gains and tolerance.
+//! Joints that open too far. Baumgarte's stabilization bounds the opening only by its gains and the tolerance.
 //!
-//! Projection closes the joints or fails. Baumgarte's opens them more or less; beyond [`APART`] of the
-//! mechanism's size the run is no motion of the mechanism. Who asks for no stabilization asks for the drift,
-//! but not for joints that are farther apart than the mechanism is large.
+//! Projection closes the joints or fails. With Baumgarte's stabilization they open a little; beyond [`APART`] of the
+//! mechanism's size the result is not a motion of the mechanism. Without stabilization drift is expected, but not
+//! joints that are farther apart than the mechanism is large.
 
 use super::options::Options;
 use super::stabilizations::Stabilization;
@@ -11,25 +11,25 @@ use crate::equations::{constraints, Gains};
 use crate::math::Real;
 use crate::model::{row_scales, Model};
 
-/// Most that a joint may open: lengths relative to the size of the mechanism, angles in rad. The classical
-/// way at its loosest, α = 1, β = 20 at rtol 1e-3, opens the flagship by 6e-4.
+/// Largest opening of a joint: lengths relative to the size of the mechanism, angles in rad. The classical gains at
+/// their smallest, α = 1, β = 20 at rtol 1e-3, open the flagship by 6e-4.
 const APART: f64 = 1e-2;
 /// The same without stabilization.
 const ADRIFT: f64 = 1.0;
 
-/// A row of Φ that stands open.
+/// A row of Φ that is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Violation {
     pub row: usize,
-    /// What is left of it, m or rad.
+    /// Its residual, m or rad.
     pub gap: f64,
-    /// What may be left of it.
+    /// The largest residual that is allowed.
     pub most: f64,
 }
 
-/// Looks at states for joints that came apart.
+/// Checks states for joints that opened too far.
 pub(super) struct ViolationCheck<S = f64> {
-    /// Most that each row may be open.
+    /// Largest residual of each row.
     most: Vec<f64>,
     residual: Vec<S>,
 }
@@ -49,7 +49,7 @@ impl<S: Real> ViolationCheck<S> {
         })
     }
 
-    /// The row that is widest open, if it is too wide; over lanes, in any of them.
+    /// The row with the largest residual, if it is too large; over lanes, in any of them.
     pub fn look(&mut self, model: &Model<S>, t: S, motions: &Motions<S>) -> Option<Violation> {
         constraints::residual(model, motions, t, &mut self.residual);
         let gaps = || self.residual.iter().map(|gap| gap.largest_magnitude());

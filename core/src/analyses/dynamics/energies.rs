@@ -1,4 +1,4 @@
-//! Energies at the states of a run, worked out when they are asked for; several at once over lanes.
+//! Energies at the states of a run, computed on request; several states at once over lanes.
 
 use super::accelerations::MANY;
 use super::failure::Reason;

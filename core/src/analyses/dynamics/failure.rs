@@ -1,4 +1,4 @@
-//! How forward dynamics fails, in terms of the mechanism.
+//! Failures of forward dynamics, in terms of the mechanism.
 
 use super::constraint_violation::Violation;
 use super::report_projection::Halt;
@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::stabilize::Fault;
 use std::fmt;
 
-/// Why the integration could not go on.
+/// The reason for which the integration stopped.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
     /// The constraints lose rank: reactions and accelerations are not unique.
@@ -20,23 +20,23 @@ pub enum Reason {
         t: f64,
         /// The joint or driver whose equation depends on the others, or the body without mass.
         name: String,
-        /// In words.
+        /// Description.
         message: String,
     },
-    /// An option that cannot be right.
+    /// An option with an impossible value.
     Option {
         /// Its name.
         name: &'static str,
-        /// In words.
+        /// Description.
         message: String,
     },
-    /// The integrator gave up.
+    /// The integrator failed.
     Integration {
         /// Time reached, s.
         t: f64,
-        /// In words.
+        /// Description.
         message: String,
-        /// What to try.
+        /// Remedy.
         hint: &'static str,
     },
 }
@@ -67,13 +67,15 @@ impl Reason {
                 let body = model.layout.body_of(column).map_or(BodyId::GROUND, |(body, _)| body);
                 let body = &model.bodies[body.0];
                 let (name, inertia) = (body.name.clone(), body.inertia);
-                let (has, remedy) = match inertia > 0.0 {
-                    true => (format!("hardly any inertia ({inertia:.1e} kg·m²)"), "a larger"),
-                    false => ("no inertia".to_string(), "an"),
+                let (has, set) = match inertia > 0.0 {
+                    true => {
+                        (format!("hardly any moment of inertia ({inertia:.1e} kg·m²)"), "increase")
+                    }
+                    false => ("no moment of inertia".to_string(), "set"),
                 };
                 let message = format!(
-                    "a torque turns {name} at t = {t:.6} s, which has {has} and which no joint keeps \
-                     from turning: give it {remedy} inertia"
+                    "a torque acts on {name} at t = {t:.6} s, but {name} has {has} and no joint prevents its \
+                    rotation; {set} its inertia"
                 );
                 (name, message)
             }
@@ -81,12 +83,12 @@ impl Reason {
         Self::Singular { t, name, message }
     }
 
-    /// At rest where branches meet.
+    /// A mechanism at rest where branches of its motion meet.
     fn at_rest(model: &Model, t: f64, q: &[f64], row: usize) -> Self {
         let name = model.constraints[model.layout.owner(row).0].name.clone();
         let message = format!(
-            "singular position at t = {t:.6} s: the mechanism all but rests where it can go on in more \
-             than one way{}",
+            "singular position at t = {t:.6} s: the mechanism is almost at rest where its motion can \
+            continue in more than one way{}",
             place(model, t, q, row)
         );
         Self::Singular { t, name, message }
@@ -112,7 +114,7 @@ impl Reason {
         Self::Integration { t, message, hint }
     }
 
-    /// Joints that nothing keeps together.
+    /// Joints that open too far.
     fn apart(model: &Model, t: f64, Violation { row, gap, most }: Violation) -> Self {
         let (k, equation) = model.layout.owner(row);
         let item = &model.constraints[k];
@@ -186,10 +188,10 @@ fn not_finite(t: f64) -> (String, &'static str) {
     (message, "use a smaller step or tolerance; check forces and laws at this state")
 }
 
-/// Bodies whose coordinates a message gives.
+/// Largest number of bodies whose coordinates a message contains.
 const MOST_BODIES: usize = 4;
 
-/// The joints that depend on each other, and where the bodies are.
+/// The joints that depend on each other, and the positions of the bodies.
 fn place(model: &Model, t: f64, q: &[f64], row: usize) -> String {
     let joints = dependent(model, t, q, row);
     let joints: Vec<&str> = joints.iter().map(|k| model.constraints[*k].name.as_str()).collect();

@@ -1,39 +1,40 @@
-//! What the model says of its stiffness before the first step.
+//! Stiffness of a model at its initial state, before the first step.
 //!
-//! At the start stand side by side the rate |λ| of the fastest motion of the linearised equations and the
-//! pace of what moves,
+//! Two rates are compared: the rate |λ| of the fastest motion of the linearised equations, and the pace of the
+//! actual motion,
 //!
 //! ```text
 //! w = max ( |ω|, |ṙ| / L, √(|ω̇|), √(|r̈| / L) )        of all bodies, L the size of the mechanism
 //! ```
 //!
-//! Where |λ| is damped and far above w, accuracy allows steps that stability forbids. Then the fast
-//! motion is either under way, and DOP853 follows it at least cost until it has died out, which it tells by
-//! its steps; or it has died out before the start, and Radau begins. It is under way where its part in the
-//! velocities, |v⃛| / |λ|² after the third derivative of q along the motion, is above the tolerance.
+//! If the fastest motion is damped and |λ| is far above w, accuracy allows longer steps than stability. There are two
+//! cases. If the fast motion has decayed before the start, Radau begins. If it has not, DOP853 begins, because it
+//! follows the fast motion at the least cost until its steps show that the motion has decayed. The part of the fast
+//! motion in the velocities is estimated as |q⃛| / |λ|². The fast motion has not decayed if this part is above the
+//! tolerance.
 
 use super::methods::Auto;
 use super::stiffness_detection::{Fastest, StiffnessDetector, LIMIT, TO_GO};
 use crate::integrate::Atol;
 use crate::model::{size, Model};
 
-/// |λ| / w from which a model is taken for stiff: six times what separates stability from accuracy, and
-/// five for the lower order of Radau.
+/// Ratio |λ| / w from which a model counts as stiff: a factor of six between the steps of stability and of accuracy,
+/// times five for the lower order of Radau.
 const FAR: f64 = 30.0;
-/// Part of 1/|λ| over which the accelerations are differenced.
+/// Time of the difference quotient of accelerations, as a part of 1/|λ|.
 const PROBE: f64 = 1e-3;
 
-/// The judgement at the start.
+/// Stiffness at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct InitialStiffness {
     /// None where the equations are singular.
     fastest: Option<Fastest>,
     /// w, 1/s.
     pace: f64,
-    /// Steps of DOP853 at the limit of stability to the end; not positive backward in time, when what is
-    /// damped grows.
+    /// Number of steps of DOP853 to the end, at the limit of stability. Not positive backward in time, where damped
+    /// motions grow.
     steps: f64,
-    /// Whether the fast motion is under way.
+    /// Whether the fast motion has not decayed.
     under_way: bool,
 }
 
@@ -67,29 +68,30 @@ impl InitialStiffness {
         self.fastest.filter(|fastest| far(fastest) && self.steps > TO_GO)
     }
 
-    /// Whether Radau is to begin.
+    /// Whether Radau begins.
     pub fn implicit(&self) -> bool {
         self.stiff().is_some() && !self.under_way
     }
 
-    /// Why Radau begins, in words.
+    /// Explains why Radau begins.
     pub fn why_implicit(&self) -> String {
         format!(
-            "stiff: radau from the start, since a damped motion with a rate of {:.2e} 1/s would hold dop853 to \
-             {:.0} steps, while what moves has a rate of {:.1e} 1/s",
+            "stiff from the start: a damped motion with a rate of {:.2e} 1/s would need {:.0} steps of dop853, but \
+            the bodies move with a rate of {:.1e} 1/s",
             self.fastest.map_or(0.0, |fastest| fastest.rate),
             self.steps.ceil(),
             self.pace
         )
     }
 
-    /// Why DOP853 begins, in words.
+    /// Explains why DOP853 begins.
     pub fn why_explicit(&self) -> String {
         let Some(Fastest { rate, damped }) = self.fastest else {
-            return "not stiff: done before its steps were worth a look".to_string();
+            return "not stiff: the run ended before the first check".to_string();
         };
         format!(
-            "not stiff: at the start the fastest motion is {} and has a rate of {rate:.2e} 1/s, what moves {:.1e} 1/s",
+            "not stiff: at the start the fastest motion is {} and has a rate of {rate:.2e} 1/s; the bodies move with a \
+            rate of {:.1e} 1/s",
             if damped { "damped" } else { "undamped" },
             self.pace
         )
@@ -107,7 +109,7 @@ fn pace(model: &Model, v: &[f64], a: &[f64]) -> f64 {
     })
 }
 
-/// Whether a motion of this rate has a part in the velocities that the tolerance sees.
+/// Whether the part of a motion of this rate in the velocities is above the tolerance.
 fn excited(auto: &Auto, jerk: &[f64], v: &[f64], rate: f64) -> bool {
     let n = v.len();
     let atol = |k: usize| match &auto.control.atol {

@@ -1,4 +1,4 @@
-//! Reported states of a grid side by side: placed and kept four at once.
+//! Reported states of a grid, projected and kept four at once.
 
 use super::branch_averaging;
 use super::options::Options;
@@ -10,21 +10,21 @@ use crate::integrate::Step;
 use crate::math::{Lanes, Real};
 use crate::model::Model;
 
-/// States of a grid that wait until there is one for each lane.
+/// States of a grid, collected until there is one for each lane.
 pub(super) struct LaneBatch<'a> {
     pub placer: ReportProjection<'a, Lanes>,
     t: [f64; Lanes::WIDTH],
     waiting: usize,
-    /// As they were put in, a row for each lane.
+    /// The states as added, a row for each lane.
     given: Vec<f64>,
     /// Their rates.
     rates: Vec<Lanes>,
-    /// Projected.
+    /// The projected states.
     y: Vec<Lanes>,
 }
 
 impl<'a> LaneBatch<'a> {
-    /// With the workspace of the equations of motion of this run for its plan of elimination.
+    /// Uses the plan of elimination of the equations of motion of this run.
     pub fn new(model: &'a Model<Lanes>, options: &Options, one: &Workspace) -> Self {
         let (n, len) = (model.layout.n_q, model.layout.n_y());
         let mut workspace = Workspace::like(model, one);
@@ -39,7 +39,7 @@ impl<'a> LaneBatch<'a> {
         }
     }
 
-    /// Puts in the state of a step at a time; there must be a lane without one.
+    /// Adds the state of a step at a time; there must be a free lane.
     pub fn add(&mut self, step: &Step<'_>, t: f64) {
         let (lane, len) = (self.waiting, self.y.len());
         self.t[lane] = t;
@@ -47,7 +47,7 @@ impl<'a> LaneBatch<'a> {
         self.waiting += 1;
     }
 
-    /// Whether no state waits.
+    /// Whether it contains no state.
     pub fn is_empty(&self) -> bool {
         self.waiting == 0
     }
@@ -57,12 +57,12 @@ impl<'a> LaneBatch<'a> {
         self.waiting == Lanes::WIDTH
     }
 
-    /// The times of the states that wait; then nothing waits.
+    /// Returns the times of the states and empties the batch.
     pub fn take(&mut self) -> impl Iterator<Item = (usize, f64)> {
         self.t.into_iter().enumerate().take(std::mem::take(&mut self.waiting))
     }
 
-    /// Places all; whether every one is regular. Else the lanes are of no use.
+    /// Projects all states; returns whether every one is regular. If not, the lanes are invalid.
     pub fn place(&mut self) -> bool {
         self.fill_up();
         Lanes::from_rows(&self.given, &mut self.y);
@@ -73,7 +73,7 @@ impl<'a> LaneBatch<'a> {
             && self.placer.turn(&self.rates, layout.split(&self.y)[1]) <= branch_averaging::TURNED
     }
 
-    /// Lanes without a state of their own repeat the last.
+    /// Free lanes repeat the last state.
     fn fill_up(&mut self) {
         let (last, len) = (self.waiting.max(1) - 1, self.y.len());
         for lane in last + 1..Lanes::WIDTH {
@@ -82,7 +82,7 @@ impl<'a> LaneBatch<'a> {
         }
     }
 
-    /// Keeps the states that wait, as they were placed; then nothing waits.
+    /// Records the projected states and empties the batch.
     pub fn keep(&mut self, trajectory: &mut Trajectory) {
         let count = std::mem::take(&mut self.waiting);
         let parts = self.placer.model.layout.split(&self.y);
@@ -96,7 +96,7 @@ impl<'a> LaneBatch<'a> {
         }
     }
 
-    /// A state as it was put in.
+    /// A state as added.
     pub fn given(&self, lane: usize, y: &mut [f64]) {
         y.copy_from_slice(&self.given[lane * y.len()..][..y.len()]);
     }
@@ -105,7 +105,7 @@ impl<'a> LaneBatch<'a> {
 /// Whether every number is finite, in every lane.
 #[inline]
 pub(super) fn are_finite<const N: usize>(parts: [&[Lanes]; N]) -> bool {
-    // 0 x is zero for finite x and NaN otherwise; sums of which none waits for another
+    // 0 x is zero for finite x and NaN otherwise; the sums are independent of each other
     let nothing = |sum: Lanes, x: &Lanes| sum.plus_product(Lanes::zero(), *x);
     let sums = parts.map(|part| part.iter().fold(Lanes::zero(), nothing));
     sums.into_iter().fold(Lanes::zero(), |all, sum| all + sum).is_finite()

@@ -1,4 +1,4 @@
-//! Options of the methods of integration, as they are written; each set becomes a [`Scheme`].
+//! Options of the methods of integration, as written in a file; each set becomes a [`Scheme`].
 
 use super::methods::{self, Scheme};
 use crate::analyses::options::{
@@ -18,7 +18,7 @@ macro_rules! explicit {
                 rtol: not_negative = StepControl::USUAL.0,
                 /// Absolute tolerance of one step, in the units of the state.
                 atol: not_negative = StepControl::USUAL.1,
-                /// Constant step, whatever the tolerances; if absent, the step is controlled.
+                /// Constant step, independent of the tolerances; if absent, the step is controlled.
                 step: Option<positive> [s] = None,
                 /// First step; if absent, the solver chooses it.
                 first_step: Option<positive> [s] = None,
@@ -48,11 +48,11 @@ macro_rules! implicit {
             $(#[doc = $doc])*
             $Name, $name, $class () {
                 $($(#[doc = $about])* $own: $kind = $default,)?
-                /// Relative tolerance of one step, 1e-6 if absent, 1e-4 of methods of order 2; with step that of
-                /// Newton's iteration, 1e-10 if absent.
+                /// Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With a constant step,
+                /// the tolerance of Newton's iteration, 1e-10 if absent.
                 rtol: Option<not_negative> = None,
-                /// Absolute tolerance of one step, 1e-9 if absent, 1e-7 of methods of order 2; with step that of
-                /// Newton's iteration, 1e-12 if absent.
+                /// Absolute tolerance of one step, 1e-9 if absent, 1e-7 for methods of order 2. With a constant step,
+                /// the tolerance of Newton's iteration, 1e-12 if absent.
                 atol: Option<not_negative> = None,
                 /// Constant step, without control of the error; if absent, the step is controlled.
                 step: Option<positive> [s] = None,
@@ -101,8 +101,8 @@ explicit! {
 options! {
     /// DOP853, and Radau where the model is stiff. At the start the fastest damped motion of the linearised
     /// equations is compared with the pace of the other motions: if it is far faster and has decayed, Radau begins,
-    /// else DOP853. Where a damped motion holds the steps of DOP853 at the limit of stability, Radau takes over;
-    /// where that does not lengthen the steps, DOP853 returns. The statistics name the last method and the reason.
+    /// otherwise DOP853. If a damped motion holds the steps of DOP853 at the limit of stability, Radau takes over; if
+    /// this does not lengthen the steps, DOP853 returns. The statistics contain the last method and the reason.
     Auto, "auto", "Auto" () {
         /// Relative tolerance of one step.
         rtol: not_negative = StepControl::AUTO.0,

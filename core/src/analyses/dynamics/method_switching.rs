@@ -1,4 +1,4 @@
-//! The automatic choice of the method: DOP853 and Radau, one after the other, as `stiffness_detection` decides.
+//! The automatic choice of the method: changes between DOP853 and Radau, decided by `stiffness_detection`.
 
 use super::initial_stiffness::InitialStiffness;
 use super::methods::Auto;
@@ -12,7 +12,7 @@ use crate::integrate::{
 };
 use crate::stabilize::Fault;
 
-/// Why the equations of motion cannot go on, and when.
+/// Time and reason of a failure of the equations of motion.
 pub(super) type Stop = (f64, Fault);
 
 /// The stepper of one method.
@@ -30,21 +30,21 @@ pub(super) struct MethodSwitching<'a> {
     initial: InitialStiffness,
     dae: Option<MotionDae<'a>>,
     piece: Piece<'a>,
-    /// Whether the other method goes on from here.
+    /// Whether the other method takes the next step.
     due: bool,
-    /// Last step of the method that ran last.
+    /// Length of the last step of the last method.
     step: Option<f64>,
-    /// Counts of the pieces before.
+    /// Statistics of the earlier pieces.
     total: Statistics,
-    /// Evaluations of the explicit pieces before, of which each has its factorisation.
+    /// Evaluations in the earlier explicit pieces; each has one factorisation.
     explicit_evaluations: usize,
-    /// When Radau began, its steps since then, and when they were last compared.
+    /// Time at which Radau began, its number of steps since then, and the time of the last comparison.
     tried: (f64, usize, f64),
     choice: MethodChoice,
 }
 
 impl<'a> MethodSwitching<'a> {
-    /// From `y` at `t`, where the equations of motion are `ode` to explicit methods.
+    /// Begins with `y` at `t`; `ode` are the equations of motion for explicit methods.
     pub fn new(
         ode: &MotionOde<'a>,
         options: &Options,
@@ -53,7 +53,7 @@ impl<'a> MethodSwitching<'a> {
         y: &[f64],
     ) -> Result<Self, Cause<Stop>> {
         let span = (t, options.t_end);
-        // refuses invalid options before the first evaluation
+        // invalid options are an error before the first evaluation
         let piece = Piece::Explicit(Dop853 { control: auto.control.clone() }.start(ode, span, y)?);
         let mut detector = StiffnessDetector::new(ode.model, &ode.workspace, t);
         let initial = InitialStiffness::new(ode.model, &mut detector, auto, span, y);
@@ -129,19 +129,19 @@ impl<'a> MethodSwitching<'a> {
         }
         let (fastest, h) = self.detector.seen.expect("stiffness was seen");
         let told = match foretold && self.detector.foretold.is_none() {
-            true => ", as the model told at the start",
+            true => " (predicted at the start)",
             false => "",
         };
         let why = format!(
-            "stiff: from t = {:.4} s on, since a damped motion with a rate of {:.2e} 1/s held the steps \
-             of dop853 to {h:.1e} s{told}",
+            "stiff from t = {:.4} s on: a damped motion with a rate of {:.2e} 1/s limited the steps of \
+            dop853 to {h:.1e} s{told}",
             step.t, fastest.rate,
         );
         self.choice = MethodChoice { method: "radau", why };
         self.due = true;
     }
 
-    /// Whether the implicit method should end after this step, because its steps are hardly longer.
+    /// Whether the implicit method should end after this step, because its steps are not much longer.
     fn judge_implicit(&mut self) {
         let Piece::Implicit(stepper) = &self.piece else { return };
         let Some(Step { t, t_old, .. }) = stepper.last_step() else { return };
@@ -156,8 +156,8 @@ impl<'a> MethodSwitching<'a> {
         let to_go = (self.options.t_end - t).abs();
         if h < WORTH * explicit_step && to_go > TRIAL as f64 * explicit_step {
             let why = format!(
-                "hardly stiff: radau was tried at t = {began:.4} s, and its steps became no longer than {WORTH} of \
-                 {explicit_step:.1e} s"
+                "hardly stiff: radau was tried at t = {began:.4} s, but its steps were less than {WORTH} times as long \
+                as those of dop853 ({explicit_step:.1e} s)"
             );
             self.choice = MethodChoice { method: "dop853", why };
             self.due = true;
@@ -173,12 +173,12 @@ impl<'a> MethodSwitching<'a> {
         self.explicit_evaluations + now
     }
 
-    /// Factorisations beside those that the methods count.
+    /// Factorisations that the methods do not count.
     pub fn factorisations(&self) -> usize {
         self.explicit_factorisations() + self.dae.as_ref().map_or(0, MotionDae::factorisations)
     }
 
-    /// The method so far, and why.
+    /// The current method, and the reason for its choice.
     pub fn choice(&self) -> MethodChoice {
         match self.choice.why.is_empty() {
             true => MethodChoice { why: self.not_stiff(&self.initial), ..self.choice.clone() },

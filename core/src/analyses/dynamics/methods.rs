@@ -9,20 +9,20 @@ pub enum Scheme {
     Rk45(Rk45),
     /// Dormand–Prince 8(5,3).
     Dop853(Dop853),
-    /// Classical, fixed step.
+    /// The classical method with a constant step.
     Rk4(Rk4),
-    /// Implicit, of order 2, at index 3; HHT is one of them.
+    /// Implicit, of order 2, at index 3; HHT is a special case.
     GeneralizedAlpha(GeneralizedAlpha),
     /// Implicit, of order 5, at index 2.
     Radau(Radau),
-    /// DOP853, and Radau where the equations prove stiff.
+    /// DOP853, and Radau if the equations are stiff.
     Auto(Auto),
 }
 
 /// The automatic choice of the method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Auto {
-    /// Tolerances and steps; a constant step is refused.
+    /// Tolerances and steps; a constant step is not allowed.
     pub control: StepControl,
 }
 
@@ -50,7 +50,7 @@ impl Scheme {
         }
     }
 
-    /// Tolerances and steps, to be changed.
+    /// Tolerances and steps, mutable.
     pub fn control_mut(&mut self) -> &mut StepControl {
         match self {
             Self::Rk45(method) => &mut method.control,

@@ -6,8 +6,8 @@
 //! | file | concept |
 //! |---|---|
 //! | `options`, `option_checks` | options, and the combinations that are refused |
-//! | `run`, `run_results`, `stepper` | a run through its phases; a stepper that the caller drives |
-//! | `motion_stepper`, `method_switching` | the stepper of a method on a model; of the automatic choice |
+//! | `run`, `run_results`, `stepper` | a run through its phases; a stepper for callers |
+//! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
 //! | `singularity_passage`, `singularity_forecast`, `branch_averaging` | singular positions |
@@ -96,8 +96,8 @@ pub fn dynamics_by_steps(
     simulate(&[(Phase::new(model), &ModelCache::default())], start, options, system_clock, watcher)
 }
 
-/// Integrates through a sequence of phases: at the end of each the state is handed over to the next, whose constraints
-/// then hold. Reactions and redundancy follow the model of the phase; see [`Run::states_of`].
+/// Integrates through a sequence of phases. Each phase begins with the state at the end of the phase before and has
+/// its own constraints. Reactions and redundancy are those of the model of the phase; see [`Run::states_of`].
 ///
 /// # Errors
 /// As [`dynamics`].

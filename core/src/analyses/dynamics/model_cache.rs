@@ -9,7 +9,7 @@ use std::sync::{Arc, OnceLock};
 #[derive(Debug, Default)]
 pub(super) struct ModelCache {
     plan: OnceLock<Arc<Plan>>,
-    /// In a box: it is aligned as vector registers are, to more than allocators of other languages give.
+    /// In a box: it has the alignment of vector registers, which allocators of other languages do not provide.
     wide: OnceLock<Box<Model<Lanes>>>,
 }
 

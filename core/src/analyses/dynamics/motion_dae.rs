@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::solve::BlockLu;
 use crate::stabilize::{Fault, Projector};
 
-/// The mechanism with the memory of implicit methods.
+/// The mechanism and the memory of implicit methods.
 pub(super) struct MotionDae<'a> {
     model: &'a Model,
     workspace: Workspace,
@@ -167,7 +167,7 @@ impl Dae for MotionDae<'_> {
     fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Self::Stop> {
         let DaeState { q, v, z } = state;
         let Some(projector) = &mut self.projector else {
-            // `normal` wants the factors of a state nearby, which projection would leave
+            // `normal` needs the factors of a state nearby, which projection would provide
             self.accelerations += 1;
             let outcome = self.workspace.accelerate(self.model, t, [q, v, z], Gains::default());
             return outcome.map(|()| false).map_err(|singular| (t, Fault::Singular(singular)));

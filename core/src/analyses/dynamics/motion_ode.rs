@@ -16,7 +16,7 @@ pub(super) struct MotionOde<'a> {
     pub model: &'a Model,
     pub workspace: Workspace,
     pub gains: Gains,
-    /// Baumgarte's term, if its gains come from the step.
+    /// Baumgarte's term, if its gains follow from the step.
     stepwise: Option<StepwiseBaumgarte>,
     pub projector: Option<Projector<'a>>,
     /// Whether singular positions are passed.
@@ -25,14 +25,14 @@ pub(super) struct MotionOde<'a> {
 }
 
 impl<'a> MotionOde<'a> {
-    /// With the plan of elimination of the model.
+    /// Uses the plan of elimination of the model.
     pub fn new(model: &'a Model, options: &Options, plan: Arc<Plan>) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
         let mut workspace = Workspace::on(model, plan);
-        // without projection nothing brings a state back to its branch
+        // only projection returns a state to its branch
         let passing = projector.is_some() && !model.allow_redundancy;
         if passing {
             workspace.matrix.set_near_singular(NearSingular::Regularise);
@@ -45,13 +45,13 @@ impl<'a> MotionOde<'a> {
         Self { model, workspace, gains: options.gains(), stepwise, projector, passing, passage }
     }
 
-    /// Factorisations beside those of evaluations.
+    /// Factorisations in addition to those of evaluations.
     pub fn factorisations(&self) -> usize {
         self.projector.as_ref().map_or(0, |projector| projector.factorisations)
     }
 
-    /// Projects the state at the start of a run or of a phase, if that is an option of the run; with
-    /// `velocities`, the velocities in any case. Refuses it where the constraints are dependent for good.
+    /// Projects the state at the start of a run or of a phase, if projection is an option of the run; with
+    /// `velocities`, the velocities in any case. Fails if the constraints are redundant.
     ///
     /// # Errors
     /// [`Fault`].
@@ -65,7 +65,7 @@ impl<'a> MotionOde<'a> {
         self.begin(t, y).map_err(Fault::Singular)
     }
 
-    /// Refuses a start whose constraints are dependent for good, not in passing.
+    /// Fails at a start with redundant constraints; a singular position alone is allowed.
     fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Singular> {
         let [q, v, z, _] = self.model.layout.split(y);
         if self.workspace.accelerate(self.model, t, [q, v, z], self.gains).is_err() {
@@ -81,8 +81,8 @@ impl<'a> MotionOde<'a> {
         }
     }
 
-    /// dy at y, where the bodies may be `placed` already: one function, since two copies of it are more than the
-    /// nearest cache holds.
+    /// dy at y; `placed` if the bodies are at y already. This is one function, because two copies of it would exceed
+    /// the instruction cache.
     #[inline(never)]
     fn evaluate(
         &mut self,
@@ -95,7 +95,7 @@ impl<'a> MotionOde<'a> {
         if !placed {
             self.workspace.place(self.model, [q, v, z]);
         }
-        self.workspace.z.copy_from_slice(z); // which projection leaves
+        self.workspace.z.copy_from_slice(z); // projection does not set z
         if let Err(singular) = self.workspace.respond(self.model, t, self.gains) {
             dy.fill(f64::NAN);
             return stop_if_finite(singular, t, y);
@@ -113,8 +113,8 @@ impl<'a> MotionOde<'a> {
         Ok(())
     }
 
-    /// Projects y if that was asked for; whether it changed. The works stay: what projection does to
-    /// the energy shows in the balance.
+    /// Projects y if projection is an option of the run; returns whether y changed. The works are unchanged, so the
+    /// energy balance shows the change of energy by projection.
     fn project_state(
         &mut self,
         t: f64,
@@ -127,8 +127,8 @@ impl<'a> MotionOde<'a> {
     }
 }
 
-/// Stops where no unique accelerations are; a trial state that is not finite is off itself, and a shorter step
-/// may do.
+/// Stops where the accelerations are not unique. A trial state that is not finite is rejected, because a shorter step
+/// may avoid it.
 #[cold]
 fn stop_if_finite(singular: Singular, t: f64, y: &[f64]) -> Result<(), (f64, Fault)> {
     match all_finite(y) {
@@ -175,11 +175,11 @@ impl Ode for MotionOde<'_> {
     }
 }
 
-/// The states that meet the constraints.
+/// The manifold of the states that meet the constraints.
 impl Manifold for MotionOde<'_> {
     type Stop = (f64, Fault);
 
-    /// The last evaluation was near the end of the step: its factor is used.
+    /// Uses the factor of the last evaluation, which was near the end of the step.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
         if let Some(projector) = &mut self.projector {
             projector.sharpen(self.passage.in_reach());
@@ -192,7 +192,7 @@ impl Manifold for MotionOde<'_> {
         self.evaluate(t, y, dy, true)
     }
 
-    /// Near a singular position, where noise along the direction that is lost there would refuse every step.
+    /// Near a singular position: there the noise along the lost direction would reject every step.
     fn project_error(&mut self, dy: &mut [f64]) -> bool {
         let (true, Some(projector)) = (self.passage.near, &mut self.projector) else {
             return false;

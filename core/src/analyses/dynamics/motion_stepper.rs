@@ -11,21 +11,21 @@ use crate::integrate::{
     BoxedStepper, Cause, Direction, ExplicitMethod, ImplicitMethod, Statistics, Step, Stepper,
 };
 
-/// A method with what it works on, beside the equations of motion as an ODE.
+/// A method with its own form of the equations of motion, in addition to the ODE.
 enum Kind<'a> {
     Explicit(BoxedStepper<MotionOde<'a>, Stop>),
     Implicit(BoxedStepper<MotionDae<'a>, Stop>, Box<MotionDae<'a>>),
     Auto(Box<MethodSwitching<'a>>),
 }
 
-/// Steps of a model.
+/// The stepper of a model.
 pub(super) struct MotionStepper<'a> {
     pub ode: MotionOde<'a>,
     kind: Kind<'a>,
 }
 
 impl<'a> MotionStepper<'a> {
-    /// From `y` at `t` to `options.t_end`.
+    /// Begins with `y` at `t` and ends at `options.t_end`.
     ///
     /// # Errors
     /// [`Cause`] of invalid options.
@@ -56,7 +56,7 @@ impl<'a> MotionStepper<'a> {
         Ok(Self { ode, kind })
     }
 
-    /// The next accepted step.
+    /// Takes the next accepted step.
     pub fn step(&mut self) -> Result<(), Cause<Stop>> {
         match &mut self.kind {
             Kind::Explicit(stepper) => stepper.step(&mut self.ode),
@@ -65,7 +65,7 @@ impl<'a> MotionStepper<'a> {
         }
     }
 
-    /// What only the interpolant needs.
+    /// Computes the data that only the interpolant needs.
     pub fn prepare_interpolant(&mut self) -> Result<(), Cause<Stop>> {
         match &mut self.kind {
             Kind::Explicit(stepper) => stepper.prepare_interpolant(&mut self.ode),
@@ -174,7 +174,7 @@ impl<'a> MotionStepper<'a> {
         counted + others + self.ode.factorisations()
     }
 
-    /// The method that was chosen, where none was named.
+    /// The method of the automatic choice.
     pub fn choice(&self) -> Option<MethodChoice> {
         match &self.kind {
             Kind::Auto(stepper) => Some(stepper.choice()),

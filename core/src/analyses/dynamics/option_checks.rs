@@ -1,4 +1,4 @@
-//! Options with which no integration can begin.
+//! Checks of the options that every integration needs.
 
 use super::failure::Reason;
 use super::methods::Scheme;
@@ -10,11 +10,11 @@ use crate::equations::Gains;
 use crate::model::Model;
 use crate::stabilize::Projection;
 
-/// Most reported states on a grid.
+/// Largest number of reported states on a grid.
 const MOST_OUTPUTS: f64 = 1e6;
 
 impl Options {
-    /// Refuses options with which no integration can begin. The method checks its own options.
+    /// Checks the options that every integration needs. The method checks its own options.
     pub(super) fn check(&self, model: &Model, start: &State) -> Result<(), Reason> {
         if let Some(h) = self.output_step {
             bounded::<positive>("output_step", h)?;
@@ -56,7 +56,7 @@ impl Options {
     }
 }
 
-/// Refuses a number that is not finite or not within the bounds of its kind.
+/// Checks that a number is finite and within the bounds of its kind.
 fn bounded<B: Bounded>(name: &'static str, value: f64) -> Result<(), Reason> {
     require(name, value, value.is_finite() && B::holds(value), &format!("{} and finite", B::MUST))
 }

@@ -8,26 +8,25 @@ use crate::analyses::options::{
 use crate::equations::Gains;
 use crate::model::{Model, Problem, Value};
 
-/// Steps times moving bodies of a run that does not bound its steps: some seconds, and half a gigabyte
-/// if everything is kept.
+/// Default of max_steps, times the moving bodies: some seconds, and half a gigabyte if everything is kept.
 const MOST_WORK: usize = 1_000_000;
-/// Steps that large models may take in any case.
+/// Smallest default of max_steps, for large models.
 const LEAST_BOUND: usize = 50_000;
 
-/// Which states are reported without `output_step`.
+/// The states that are reported without `output_step`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Output {
     /// The solver's own steps.
     Steps,
 }
 
-/// What to do at a singular position where the motion does not decide the branch.
+/// The policy at a singular position where the motion does not decide the branch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Singularity {
     /// Stop with an error that names time, position and joints.
     #[default]
     Stop,
-    /// Go on; which branch is taken is left to rounding.
+    /// Continue; rounding decides the branch.
     Pass,
 }
 
@@ -44,27 +43,28 @@ options! {
         output_step: Option<positive> [s] = None,
         /// Method of integration.
         method: Scheme = Scheme::default(),
-        /// What keeps the constraints from drifting.
+        /// Stabilization of the constraints against drift.
         stabilization: Stabilization = Stabilization::default(),
-        /// Most steps before the solver gives up; if steps of bounded length cannot reach t_end with so many, at
-        /// once. If absent, 1 000 000 over the number of moving bodies, at least 50 000. Half as many rejected steps
-        /// end the run too, if they are over 10 000.
+        /// Largest number of steps. The run fails when it needs more, or at once if so many steps of the largest
+        /// allowed length cannot reach t_end. If absent, 1 000 000 over the number of moving bodies, at least 50 000.
+        /// Half as many rejected steps, if over 10 000, end the run too.
         max_steps: Option<count> = None,
         /// Whether the solution can be evaluated at any time.
         dense_output: flag = true,
-        /// Time at which it starts; if absent, that of the state it starts from.
+        /// Time at which the simulation starts; if absent, the time of the first state.
         t_start: Option<number> [s] = None,
         /// At a singular position where the motion does not decide its branch: "stop" with an error, or "pass".
         singularity: Singularity = Singularity::Stop,
         /// "steps" reports the steps of the solver, as without this option.
         output: Option<Output> = None,
-        /// Where it starts: "start" or the name of an earlier analysis; if absent, where the analysis before it ended.
+        /// State at which it starts: "start", or the name of an earlier analysis for the end of that analysis. If
+        /// absent, the end of the analysis before it.
         from: Option<name> = None,
     }
     excludes { output_step: output; }
 }
 
-/// Reads the fields of an analysis of type `dynamics`; `path` is where it stands in the file.
+/// Reads the fields of an analysis of type `dynamics`; `path` is its path in the file.
 ///
 /// # Errors
 /// Every faulty value, with its path.
@@ -76,14 +76,13 @@ pub fn read(
     Reader::read(model, fields, path, Options::read)
 }
 
-/// Most steps of a run that does not bound them: 1 000 000 over the number of moving bodies, and at
-/// least 50 000.
+/// Default of max_steps: 1 000 000 over the number of moving bodies, and at least 50 000.
 pub fn most_steps(model: &Model) -> usize {
     (MOST_WORK / (model.bodies.len() - 1).max(1)).max(LEAST_BOUND)
 }
 
 impl Options {
-    /// The classical way: Dormand–Prince with Baumgarte's α = 10, β = 200.
+    /// The classical options: Dormand–Prince with Baumgarte's α = 10, β = 200.
     pub fn classical(t_end: f64) -> Self {
         Self {
             method: Scheme::Rk45(Default::default()),

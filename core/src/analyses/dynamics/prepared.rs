@@ -1,4 +1,4 @@
-//! A model made ready for many runs: what each would work out anew is worked out by the first.
+//! A model prepared for many runs: data that each run would compute anew is computed only by the first run.
 
 use super::accelerations::accelerations;
 use super::accelerations::Accelerations;
@@ -14,10 +14,10 @@ use crate::integrate::Flow;
 use crate::model::Model;
 use std::ops::Deref;
 
-/// A model and what its runs have in common: the plan of elimination, and the model over lanes once a run wants it.
+/// A model and the data that its runs share: the plan of elimination, and the model over lanes once a run needs it.
 ///
-/// Of a borrowed model or, as `Prepared<Arc<Model>>`, with the model in it. Threads may share it; the results of a
-/// run do not depend on those before it.
+/// It borrows the model or, as `Prepared<Arc<Model>>`, contains it. Threads may share it; the results of a run do not
+/// depend on earlier runs.
 ///
 /// ```
 /// # use kempe::{analyses::{dynamics, State}, integrate::Flow, model::Model};
@@ -37,7 +37,7 @@ pub struct Prepared<M> {
 }
 
 impl<M: Deref<Target = Model>> Prepared<M> {
-    /// Works out nothing yet.
+    /// Prepares a model; the data is computed at first use.
     pub fn new(model: M) -> Self {
         Self { model, cache: ModelCache::default(), clock: system_clock }
     }
@@ -66,8 +66,8 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         simulate(&phases, start, options, self.clock, Watcher { watch, look: None })
     }
 
-    /// Solves the equations of motion at states. With `passing` also near singular positions, as runs with projection
-    /// pass them. `watch` sees the times, and may stop: then the rows so far are given.
+    /// Solves the equations of motion at states. With `passing`, also near singular positions, as runs with projection
+    /// do. `watch` is called with the times and may stop the computation; then the rows so far are returned.
     ///
     /// # Errors
     /// [`Reason`] of the first state where accelerations and multipliers are not unique, or not finite.
@@ -83,8 +83,8 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         accelerations((&self.model, &self.cache), states, passing, watch)
     }
 
-    /// Kinetic and potential energy at states, J, before what was dissipated and done up to them: `works`, rows of
-    /// three, become rows of [`ENERGIES`](super::ENERGIES).
+    /// Kinetic and potential energy at states, J, followed by the dissipated energy and the works up to them: `works`,
+    /// rows of three, become rows of [`ENERGIES`](super::ENERGIES).
     ///
     /// # Errors
     /// [`Reason`] of the first state where one of them is not finite.

@@ -1,4 +1,4 @@
-//! What forward dynamics reports: states at chosen times.
+//! Recording of the states of a run at chosen times.
 
 use super::accelerations::MANY;
 use super::lane_batch::LaneBatch;
@@ -11,19 +11,19 @@ use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
 use crate::model::Model;
 
-/// Whether a grid has so many states that solving several at once is worth a model over lanes.
+/// Whether a grid has so many states that a model over lanes, which solves several at once, is faster.
 pub(super) fn many(output_step: Option<f64>, span: f64) -> bool {
     output_step.is_some_and(|h| (span / h).abs() >= MANY as f64)
 }
 
-/// Reported states in a step, for room: what takes shorter steps grows.
+/// Reported states for which memory is reserved in each step; tables grow beyond it.
 const IN_A_STEP: usize = 4;
 
-/// Steps without a reported state after which joints are looked at, where errors choose the steps: what opens joints
-/// then takes many steps, and each look two fifths of the instructions of an evaluation.
+/// Steps without a reported state after which the joints are checked, for steps chosen by the error control. Joints
+/// then open over many steps, and each check costs two fifths of the instructions of an evaluation.
 const UNSEEN: usize = 4;
 
-/// The same for a scheme: a constant step beyond its stability opens joints within a few.
+/// The same for a scheme: an unstable constant step opens joints within few steps.
 fn unseen(scheme: &Scheme) -> usize {
     let constant = match scheme {
         Scheme::GeneralizedAlpha(_) | Scheme::Radau(_) | Scheme::Auto(_) => None,
@@ -32,7 +32,7 @@ fn unseen(scheme: &Scheme) -> usize {
     constant.map_or(UNSEEN, |_| 1)
 }
 
-/// How many states a grid asks for; none if the steps are to be reported.
+/// Number of states of a grid; zero if the steps are reported.
 fn asked(output_step: Option<f64>, span: f64) -> usize {
     output_step.map_or(0, |h| ((span / h).abs() + 2.0) as usize) // NaN gives none
 }
@@ -44,7 +44,7 @@ pub(super) fn tables(
     t0: f64,
 ) -> (Trajectory, Option<PiecewiseInterpolant>) {
     let (layout, states) = (&model.layout, asked(options.output_step, options.t_end - t0));
-    // steps of several degrees all get the highest, from the start
+    // all steps get the highest degree of the method from the start
     let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
     let degree = if several { HIGHEST } else { 0 };
     let dense =
@@ -63,26 +63,26 @@ pub(super) struct Recorder<'a> {
     next: usize,
     /// The next time of the grid, beyond t_end once it has been reached.
     upcoming: f64,
-    /// Steps since the last look for joints apart, and after how many there is one.
+    /// Steps since the last check of the joints, and the number of steps between checks.
     unseen: [usize; 2],
-    /// The last time that was asked for.
+    /// The latest requested time.
     latest: f64,
     y: Vec<f64>,
     pub trajectory: Trajectory,
     pub dense: Option<PiecewiseInterpolant>,
     /// Of the continuous extension of the last step.
     coefficients: Vec<f64>,
-    /// Brings reported states onto the constraints.
+    /// Projects reported states onto the constraints.
     one: ReportProjection<'a>,
-    /// The same for those of a grid, if they are many.
+    /// The same for the states of a grid, if they are many.
     many: Option<LaneBatch<'a>>,
-    /// Why it cannot go on, and when.
+    /// The failure that stops it, and its time.
     pub halt: Option<(f64, Halt)>,
 }
 
 impl<'a> Recorder<'a> {
-    /// For a phase that begins at `t` of a run that began at `t0`, with what the phases before recorded; with the model
-    /// over lanes, if there are to be many states.
+    /// For a phase that begins at `t` of a run that began at `t0`, with the records of the phases before. It uses the
+    /// model over lanes if there are many states to report.
     pub fn new(
         system: &MotionOde<'a>,
         wide: Option<&'a Model<Lanes>>,
@@ -118,13 +118,13 @@ impl<'a> Recorder<'a> {
         self.one.factorisations() + Lanes::WIDTH * many
     }
 
-    /// Reports the start, from which there must be a way on: else the run stops before it begins.
+    /// Reports the start. The run stops here if the equations of motion have no solution at the start.
     pub fn begin(&mut self, t: f64, y: &[f64]) -> Flow {
         let begun = self.one.begin(t, y);
         self.keep(t, y, begun)
     }
 
-    /// Reports a state given as (q, v, works), as it is.
+    /// Reports a state given as (q, v, works), unchanged.
     pub fn report(&mut self, t: f64, y: &[f64]) -> Flow {
         if self.flush() == Flow::Stop {
             return Flow::Stop;
@@ -133,7 +133,7 @@ impl<'a> Recorder<'a> {
         self.keep(t, y, apart.map_or(Ok(()), |apart| Err(Halt::Violation(apart))))
     }
 
-    /// Reports the state of a step at a time between its ends; whether it can is known once it is placed.
+    /// Reports the state of a step at a time between its ends; a failure may appear later, when it is projected.
     fn report_between(&mut self, step: &Step<'_>, t: f64) -> Flow {
         let Some(batch) = &mut self.many else {
             step.interpolate(t, &mut self.y);
@@ -155,7 +155,7 @@ impl<'a> Recorder<'a> {
         flow
     }
 
-    /// Reports the states that wait for others.
+    /// Reports the states of an incomplete batch.
     pub fn flush(&mut self) -> Flow {
         let Some(batch) = self.many.as_mut().filter(|batch| !batch.is_empty()) else {
             return Flow::Continue;
@@ -176,7 +176,7 @@ impl<'a> Recorder<'a> {
         flow
     }
 
-    /// Keeps a state that was placed.
+    /// Keeps a projected state.
     fn keep(&mut self, t: f64, y: &[f64], placed: Result<(), Halt>) -> Flow {
         if let Err(halt) = placed {
             return self.stop(t, halt);
@@ -193,8 +193,7 @@ impl<'a> Recorder<'a> {
         Flow::Stop
     }
 
-    /// Reports whatever falls into a step; stops where `watch` says so, and where a state cannot be
-    /// projected.
+    /// Reports all states in a step; stops when `watch` requests it, and where a state cannot be projected.
     pub fn step(&mut self, step: &Step<'_>, watch: &mut impl FnMut(f64) -> Flow) -> Flow {
         if let Some(dense) = &mut self.dense {
             if !dense.add(step, &mut self.coefficients) {
@@ -217,7 +216,7 @@ impl<'a> Recorder<'a> {
         flow
     }
 
-    /// Looks for joints apart at the end of a step, where it is the last of so many without reported states.
+    /// Checks the joints at the end of a step, after so many steps without reported states.
     fn look_apart(&mut self, step: &Step<'_>) -> Flow {
         let due = self.due(step.t).is_some();
         let [since, most] = &mut self.unseen;
@@ -237,27 +236,27 @@ impl<'a> Recorder<'a> {
         self.dense.is_some() || self.output_step.is_some() && self.due(t).is_some()
     }
 
-    /// The next time of the grid if it has been reached.
+    /// The next time of the grid, if it is reached.
     fn due(&self, reached: f64) -> Option<f64> {
         let past = |a: f64, b: f64| self.direction * (a - b) > 0.0;
         let t = self.upcoming;
         (!past(t, reached) && !past(t, self.t_end)).then_some(t)
     }
 
-    /// To the first time of the grid after `t`.
+    /// Goes to the first time of the grid after `t`.
     fn go_on_beyond(&mut self, t: f64) {
         let Some(h) = self.output_step else { return };
-        // a grid point that misses t by rounding only is t
+        // a grid point that differs from t only by rounding is t
         self.next = ((t - self.t0).abs() / h + 1e-9) as usize;
         self.go_on();
     }
 
-    /// From one time of the grid to the next: t₀ + k h by multiplication, without drift.
+    /// Goes to the next time of the grid: t₀ + k h by multiplication, without drift.
     fn go_on(&mut self) {
         let Some(h) = self.output_step else { return };
         self.next += 1;
         self.upcoming = self.t0 + self.direction * self.next as f64 * h;
-        // a grid point that misses t_end by rounding only is t_end
+        // a grid point that differs from t_end only by rounding is t_end
         if (self.upcoming - self.t_end).abs() <= 1e-9 * h {
             self.upcoming = self.t_end;
         }

@@ -1,8 +1,8 @@
-//! Reported states: brought onto the constraints, or looked at whether they meet them.
+//! Reported states: projected onto the constraints, or checked whether they meet them.
 //!
-//! States of a grid lie between the ends of steps and do not wait for each other, so several are
-//! placed at once (`batch`): the same formulas over lanes. Where one of them is not regular (a position near a singular
-//! one, a gap that does not close, a number that is not finite), each is solved by itself.
+//! States of a grid lie between the ends of steps and are independent of each other, so several are projected at once
+//! (`lane_batch`), with the same formulas over lanes. If one of them is not regular (near a singular position, with a
+//! gap that does not close, or with a number that is not finite), each is projected separately.
 
 use super::branch_averaging;
 use super::constraint_violation::{Violation, ViolationCheck};
@@ -14,7 +14,7 @@ use crate::math::Real;
 use crate::model::Model;
 use crate::stabilize::{Fault, Projector};
 
-/// Why a state cannot be reported.
+/// The reason for which a state cannot be reported.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Halt {
     /// It cannot be projected, or has no unique accelerations.
@@ -25,7 +25,7 @@ pub(super) enum Halt {
     NotFinite,
 }
 
-/// Places reported states, one at a time or one in each lane.
+/// Projects reported states, one at a time or one in each lane.
 pub(super) struct ReportProjection<'a, S = f64> {
     pub model: &'a Model<S>,
     workspace: Workspace<S>,
@@ -36,7 +36,7 @@ pub(super) struct ReportProjection<'a, S = f64> {
 }
 
 impl<'a, S: Real> ReportProjection<'a, S> {
-    /// With the workspace of the equations of motion of this run, or a copy of it.
+    /// Uses the workspace of the equations of motion of this run, or a copy of it.
     pub fn new(model: &'a Model<S>, options: &Options, workspace: Workspace<S>) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
@@ -47,7 +47,7 @@ impl<'a, S: Real> ReportProjection<'a, S> {
         Self { model, workspace, projector, guard, changed: false }
     }
 
-    /// The joint that is apart at y, if one is.
+    /// The joint that is open too far at y, if there is one.
     pub fn apart(&mut self, t: S, y: &[S]) -> Option<Violation> {
         self.guard.as_ref()?;
         self.set_motions(y);
@@ -59,11 +59,11 @@ impl<'a, S: Real> ReportProjection<'a, S> {
         self.workspace.place(self.model, [q, v, z]);
     }
 
-    /// Projects y = (q, v, works) if that was asked for; else sees whether joints are apart. The works stay: what
-    /// projection does to the energy shows in the balance.
+    /// Projects y = (q, v, works) if projection is an option of the run; otherwise checks the joints. The works are
+    /// unchanged, so the energy balance shows the change of energy by projection.
     ///
     /// # Errors
-    /// [`Halt`]; of lanes, that of one of them.
+    /// [`Halt`]; over lanes, that of one of them.
     pub fn place(&mut self, t: S, y: &mut [S]) -> Result<(), Halt> {
         let Some(projector) = &mut self.projector else {
             return self.apart(t, y).map_or(Ok(()), |apart| Err(Halt::Violation(apart)));
@@ -74,20 +74,20 @@ impl<'a, S: Real> ReportProjection<'a, S> {
         Ok(())
     }
 
-    /// By what part of the fastest rate projection has changed the rates that were `given`.
+    /// Change of the `given` rates by projection, as a part of the fastest rate.
     pub fn turn(&self, given: &[S], v: &[S]) -> f64 {
         let projector = self.projector.as_ref().filter(|_| self.changed);
         projector.map_or(0.0, |projector| branch_averaging::turn(projector, given, v))
     }
 
-    /// Factorisations, of all lanes one.
+    /// Number of factorisations; one over all lanes counts once.
     pub fn factorisations(&self) -> usize {
         self.projector.as_ref().map_or(0, |projector| projector.factorisations)
     }
 }
 
 impl ReportProjection<'_> {
-    /// Whether joints are together at y, and the equations of motion have a solution there.
+    /// Checks that the joints are closed at y, and that the equations of motion have a solution there.
     ///
     /// # Errors
     /// [`Halt`].
@@ -104,7 +104,8 @@ impl ReportProjection<'_> {
         }
     }
 
-    /// The same; where that ends on another branch, from states around if that changes rates less.
+    /// The same. If it ends on another branch, the state is computed from neighbouring states, if this changes the
+    /// rates less.
     ///
     /// # Errors
     /// [`Halt`].

@@ -54,13 +54,13 @@ pub struct Run {
     /// The first row of each phase. The state at the end of a phase and the state at the start of the next have a
     /// row each, at one time.
     pub phases: Vec<usize>,
-    /// Interpolants of all steps, if the options ask for them.
+    /// Interpolants of all steps, if the options request them.
     pub dense: Option<PiecewiseInterpolant>,
     /// Counts.
     pub statistics: Statistics,
-    /// The method that was chosen, where none was named.
+    /// The method of the automatic choice.
     pub choice: Option<MethodChoice>,
-    /// Whether t_end was reached; otherwise the observer stopped it.
+    /// Whether t_end was reached; otherwise the observer stopped the run.
     pub reached: bool,
     /// Whether it passes singular positions, as runs with projection do.
     pub passing: bool,
@@ -85,12 +85,12 @@ impl Run {
     }
 }
 
-/// A failed run with what was computed before.
+/// A failed run with the results before the failure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// Why.
+    /// The reason.
     pub reason: Reason,
-    /// What was computed before.
+    /// The results before the failure.
     pub run: Run,
 }
 
@@ -108,7 +108,7 @@ pub struct Event<'a> {
 pub struct Phase<'a> {
     /// Bodies, constraints and forces. The models of all phases have the same bodies and states.
     pub model: &'a Model,
-    /// Time at which the phase ends, s; with none at the end of the run.
+    /// Time at which the phase ends, s; None for the end of the run.
     pub t_end: Option<f64>,
     /// An event that ends the phase before.
     pub event: Option<Event<'a>>,
@@ -118,13 +118,13 @@ pub struct Phase<'a> {
 }
 
 impl<'a> Phase<'a> {
-    /// To the end of the run.
+    /// A phase to the end of the run.
     pub fn new(model: &'a Model) -> Self {
         Self { model, t_end: None, event: None, project_velocities: false }
     }
 }
 
-/// What the caller observes of a run.
+/// The functions of the caller that observe a run.
 pub(super) struct Watcher<'l, W> {
     /// Called with the time after each step and each reported state.
     pub watch: W,
@@ -172,7 +172,7 @@ pub(super) fn simulate<W: FnMut(f64) -> Flow>(
     Ok(run)
 }
 
-/// Where a run is.
+/// The place of a run in its phases.
 struct At {
     /// The start of the run.
     t0: f64,
@@ -180,7 +180,7 @@ struct At {
     y: Vec<f64>,
 }
 
-/// Integrates one phase; `at` and `run` go on.
+/// Integrates one phase; updates `at` and `run`.
 fn run_phase<W: FnMut(f64) -> Flow>(
     (phase, cache): (&Phase<'_>, &ModelCache),
     at: &mut At,
@@ -234,7 +234,7 @@ fn step_through<W: FnMut(f64) -> Flow>(
         match next_step(&mut stepper, &mut event, recorder, watcher) {
             Ok(Next::Step(Flow::Continue)) => {}
             Ok(Next::Step(Flow::Stop)) => break Ok(Ended::Stopped),
-            // the step before the event is taken again, to end there
+            // the step is taken again, to end at the event
             Ok(Next::Event(t)) => {
                 run.statistics.add(stepper.statistics(), stepper.factorisations());
                 recorder.t_end = t;
@@ -251,14 +251,14 @@ fn step_through<W: FnMut(f64) -> Flow>(
     outcome
 }
 
-/// What came next.
+/// The outcome of a step.
 enum Next {
     Step(Flow),
     /// An event at this time.
     Event(f64),
 }
 
-/// Takes a step and shows it to the recorder and to the caller.
+/// Takes a step and passes it to the recorder and to the caller.
 fn next_step<W: FnMut(f64) -> Flow>(
     stepper: &mut MotionStepper<'_>,
     event: &mut Option<Event<'_>>,

@@ -1,29 +1,28 @@
-//! When a mechanism will be at a singular position, from its least pivot on the way.
+//! Forecast of the time of a singular position, from the least pivot on the way.
 //!
-//! Where Φ_q loses rank at t_s, a pivot of Φ_q M⁻¹ Φ_qᵀ goes to zero as (t - t_s)². So its root falls to
-//! zero along a line, and around t_s it is itself a parabola: by either t_s is found well before a step
-//! comes near.
+//! If Φ_q loses rank at t_s, a pivot of Φ_q M⁻¹ Φ_qᵀ goes to zero as (t - t_s)². So its root falls to zero along a
+//! line, and the pivot itself is a parabola around t_s. Both give t_s well before a step comes near.
 
-/// Part of the pivots beside it that the vertex of the parabola may keep: else it is no singular position.
+/// Largest pivot at the vertex of the parabola, as a part of the pivots beside it. Above it the position is regular.
 const DEEP: f64 = 0.05;
-/// Samples nearer to each other than this part of a step tell nothing new.
+/// Samples nearer to each other than this part of a step add no information.
 const APART: f64 = 0.01;
 
-/// What an approach within two steps takes away from the pivot, at least: the square of one half.
+/// Least reduction of the pivot by an approach within two steps: the square of one half.
 const NEARER: f64 = 4.0;
 
-/// Stages of a trial, at most: constant steps are not foreseen, and nobody asks for theirs.
+/// Largest number of stages of a trial; constant steps have no forecast.
 const MOST: usize = 64;
 
-/// A time, and the least ratio of a pivot to what it was cancelled from.
+/// A time, and the least ratio of a pivot to its largest summand.
 type Sample = (f64, f64);
 
-/// What was seen on the way.
+/// The samples on the way.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SingularityForecast {
-    /// At the start of the step under way.
+    /// At the start of the current step.
     start: Option<Sample>,
-    /// At stages of the trial under way.
+    /// At stages of the current trial.
     stages: Vec<Sample>,
     /// At, or near, the end of the last trial.
     end: Option<Sample>,
@@ -37,12 +36,12 @@ impl SingularityForecast {
         *self = Self { start, ..Self::default() };
     }
 
-    /// Whether a singular position is in reach, so that stages should be looked at.
+    /// Whether a singular position is in reach, so that stages must be sampled.
     pub fn in_reach(&self) -> bool {
         self.position.is_some() || !self.stages.is_empty()
     }
 
-    /// Takes a stage of the trial under way.
+    /// Adds a stage of the current trial.
     pub fn pass(&mut self, stage: Sample) {
         if self.stages.len() == MOST {
             self.stages.clear();
@@ -50,7 +49,7 @@ impl SingularityForecast {
         self.stages.push(stage);
     }
 
-    /// Ends a trial; the time of a singular position within two steps from its start.
+    /// Ends a trial; returns the time of a singular position within two steps from its start.
     pub fn foresee(&mut self, end: Sample) -> Option<f64> {
         let stages = std::mem::take(&mut self.stages);
         self.end = Some(end);
@@ -70,7 +69,7 @@ impl SingularityForecast {
         self.position
     }
 
-    /// The last trial is accepted, and ends so: the trial itself had told it from a state nearby.
+    /// Accepts the last trial with the sample at its end, which the trial knew only from a state nearby.
     pub fn accept(&mut self, end: Option<Sample>) {
         self.end = end.or(self.end);
         if let (Some((from, _)), Some((to, _))) = (self.start, self.end) {
@@ -80,7 +79,7 @@ impl SingularityForecast {
     }
 }
 
-/// When the pivot vanishes; the samples are in the order of motion.
+/// The time at which the pivot vanishes; the samples are in the order of motion.
 fn vanishing(way: &[Sample]) -> Option<f64> {
     let least = (1..way.len()).min_by(|a, b| way[*a].1.total_cmp(&way[*b].1))?;
     let (t, kept) = way[least];

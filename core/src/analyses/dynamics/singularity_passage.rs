@@ -1,11 +1,11 @@
 //! Passing singular positions: where Φ_q loses rank for an instant and branches of motion may meet.
 //!
-//! A motion that passes at speed stays on the branch that its velocity is tangent to; that is what the
-//! integration does, since it follows the smooth continuation of what came before. It is undecided
+//! A motion that passes with a velocity stays on the branch to which this velocity is tangent. The integration follows
+//! this branch, since it is the smooth continuation of the motion before. The branch is undecided
 //!
-//! * where the mechanism all but rests there: 2 T ≤ [`REST`] |M⁻¹Q| L, so that the loads turn it back or
-//!   aside within a part of its size in which the branches cannot be told apart;
-//! * where its velocity is tangent to no branch: Φ_q a = γ has no solution.
+//! * if the mechanism is almost at rest: 2 T ≤ [`REST`] |M⁻¹Q| L. Then the loads turn it back or aside within a part
+//!   of its size in which the branches cannot be distinguished;
+//! * if its velocity is not tangent to any branch: Φ_q a = γ has no solution.
 
 use super::options::{Options, Singularity};
 use super::singularity_forecast::SingularityForecast;
@@ -15,23 +15,23 @@ use crate::equations::{constraints, forces, mass, Singular, Workspace};
 use crate::model::{size, Model};
 use crate::stabilize::Fault;
 
-/// Ratio of a pivot to what it was cancelled from below which branches are not told apart: a part of
-/// 1e-3 of the mechanism's size.
+/// Branches cannot be distinguished if the ratio of a pivot to its largest summand is below this: a part of 1e-3 of
+/// the mechanism's size.
 const UNTOLD: f64 = 1e-6;
-/// The same part: how far from turning back a mechanism counts as at rest.
+/// The same part: a mechanism counts as at rest within this distance of its turning point.
 const REST: f64 = 1e-3;
-/// Part of γ that may stay unmet: what the error of a trial state leaves is far less.
+/// Part of γ that may remain; the error of a trial state leaves far less.
 const UNMET: f64 = 0.05;
-/// Part of the accelerations that rounding may make of a γ that is zero, over [`UNMET`].
+/// Rounding of γ = 0, relative to the accelerations and divided by [`UNMET`].
 const ROUNDING: f64 = 1e-9;
-/// Part of what the joints carry that counts as balanced.
+/// Loads count as balanced below this part of the joint forces.
 const BALANCED: f64 = 1e-9;
 
-/// What a step came by.
+/// The singular positions near a step.
 pub(super) struct SingularityPassage {
-    /// Whether a stage of the trial under way was near a singular position.
+    /// Whether a stage of the current trial was near a singular position.
     pub near: bool,
-    /// Why the last trial state that was refused was, and when.
+    /// Reason and time of the last undecided trial state.
     pub undecided: Option<(f64, Fault)>,
     singularity: Singularity,
     /// Whether singular positions are passed at all.
@@ -54,9 +54,9 @@ impl SingularityPassage {
         }
     }
 
-    /// Looks at the accelerations that were just computed; whether the motion decides how it goes on, or is to
-    /// go on all the same. If not, that is [`undecided`](Self::undecided): the state may be but a trial, and
-    /// counts where no shorter step avoids it.
+    /// Checks the accelerations that were just computed. Returns whether the motion decides its branch, or continues
+    /// anyway. If not, the fault is kept in [`undecided`](Self::undecided): the state may be a trial, and the fault
+    /// counts only if no shorter step avoids it.
     #[inline(always)]
     pub fn watch(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
         if !(work.matrix.regularised() || self.approach.in_reach()) {
@@ -67,7 +67,7 @@ impl SingularityPassage {
         looked.is_ok()
     }
 
-    /// The same beside a singular position.
+    /// The same near a singular position.
     #[cold]
     fn look(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> Result<(), Fault> {
         let ridged = work.matrix.regularised();
@@ -92,7 +92,7 @@ impl SingularityPassage {
         self.approach.begin(work.matrix.cancellation().map(|(_, kept)| (t, kept)));
     }
 
-    /// The singular position ahead, if one is in reach of steps as long as that which was tried.
+    /// The singular position ahead, if a step of the length of the last trial can reach it.
     pub fn foresee(&mut self, t: f64, work: &Workspace) -> Option<f64> {
         self.near = false;
         if !self.passing {
@@ -102,20 +102,20 @@ impl SingularityPassage {
         self.approach.foresee((t, kept))
     }
 
-    /// Whether the trial that was foreseen last is beside a singular position.
+    /// Whether the trial of the last forecast is near a singular position.
     pub fn in_reach(&self) -> bool {
         self.approach.in_reach()
     }
 
-    /// The trial that was foreseen last is accepted; the workspace is that of its end.
+    /// Accepts the trial of the last forecast; the workspace belongs to its end.
     pub fn accept(&mut self, t: f64, work: &Workspace) {
         if self.passing {
             self.approach.accept(work.matrix.cancellation().map(|(_, kept)| (t, kept)));
         }
     }
 
-    /// Whether the mechanism all but rests where loads would move it. Accelerations of a trial state are
-    /// noisy here, so loads are what rest is measured by, and accelerations tell balance only.
+    /// Whether the mechanism is almost at rest under loads that would move it. Accelerations of a trial state are
+    /// noisy here. So the loads are the measure of rest, and accelerations are used only for the balance of loads.
     fn rests(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
         self.loads.resize(v.len(), 0.0);
         let acting = Acting { z: &work.z, lam: None, t };
@@ -141,7 +141,7 @@ impl SingularityPassage {
         pull > BALANCED * applied && twice <= REST * applied * size(model) * root
     }
 
-    /// Whether Φ_q a = γ is missed.
+    /// Whether Φ_q a = γ is violated.
     fn unmet(&mut self, model: &Model, work: &Workspace, t: f64) -> bool {
         self.residual.resize(model.layout.n_rows, 0.0);
         let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![0.0; model.layout.n_rows]);

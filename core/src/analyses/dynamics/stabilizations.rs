@@ -4,10 +4,10 @@ use crate::analyses::options::{family, not_negative, options, positive, words};
 use crate::equations::Gains;
 use crate::stabilize;
 
-/// What keeps the constraints from drifting.
+/// Stabilization of the constraints against drift.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stabilization {
-    /// Nothing.
+    /// No stabilization.
     None,
     /// Baumgarte's, with gains α and β.
     Baumgarte(Gains),
@@ -20,10 +20,10 @@ pub enum Stabilization {
 
 family!(Stabilization, "stabilization", [Projection, Baumgarte, NoStabilization]);
 
-/// Gains where none are given.
+/// Default gains.
 const CLASSICAL: Gains = Gains { alpha: 10.0, beta: 200.0 };
 
-/// Gains that need no numbers.
+/// Gains without numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AutomaticGains {
     /// From the step.
@@ -40,8 +40,8 @@ options! {
         alpha: Option<not_negative> [1/s] = None,
         /// Factor of the constraints, as beta^2; 200 if absent. Stability limits the step to about 3/beta.
         beta: Option<not_negative> [1/s] = None,
-        /// "step" computes them from each step h that is tried, alpha = 7/(12 h) and beta = 1/(sqrt(3) h), and holds
-        /// the term over the step, which neither limits the step nor lowers the order of the method.
+        /// "step" computes them from each trial step h, alpha = 7/(12 h) and beta = 1/(sqrt(3) h), and holds the term
+        /// over the step. This neither limits the step nor lowers the order of the method.
         gains: Option<AutomaticGains> = None,
     }
     excludes { gains: alpha, beta; }

@@ -1,4 +1,4 @@
-//! A stepper that the caller drives: a notebook, a web page, or another analysis.
+//! A stepper for callers that take the steps themselves: a notebook, a web page, or another analysis.
 
 use super::failure::Reason;
 use super::model_cache::ModelCache;
@@ -31,8 +31,8 @@ pub struct Stepper<'a> {
 }
 
 impl<'a> Stepper<'a> {
-    /// From a state to `options.t_end`. Options of the output are ignored. With projection the start is projected onto
-    /// the constraints.
+    /// Begins at a state and ends at `options.t_end`. Options of the output are ignored. With projection, the start is
+    /// projected onto the constraints.
     ///
     /// # Errors
     /// [`Reason`]
@@ -49,7 +49,7 @@ impl<'a> Stepper<'a> {
         Ok(Self { model, t_end: options.t_end, inner })
     }
 
-    /// Takes the next step; at the end none.
+    /// Takes the next step; does nothing at the end.
     ///
     /// # Errors
     /// [`Reason`]; the stepper then stays at the last accepted state.
@@ -75,7 +75,7 @@ impl<'a> Stepper<'a> {
         self.model.layout.split(self.inner.y())[3]
     }
 
-    /// The state at a time within the last step; none outside it. It is not projected.
+    /// The state at a time within the last step; None outside it. It is not projected.
     ///
     /// # Errors
     /// As [`step`](Self::step).
@@ -91,7 +91,7 @@ impl<'a> Stepper<'a> {
         }))
     }
 
-    /// The state within the last step at which g(t, [q, v, z]) changes sign; none if it has the same sign at both ends.
+    /// The state within the last step at which g(t, [q, v, z]) changes sign; None if it has the same sign at both ends.
     ///
     /// # Errors
     /// As [`step`](Self::step).
@@ -104,8 +104,8 @@ impl<'a> Stepper<'a> {
         Ok(found.map(|(t, y)| self.to_state(t, &y)))
     }
 
-    /// Goes on from another state, at a time within the last step or at its end: for instance with other velocities
-    /// after an impact. Works go on from the last step.
+    /// Continues from another state, at a time within the last step or at its end: for instance with other velocities
+    /// after an impact. The works continue from the last step.
     ///
     /// # Errors
     /// As [`step`](Self::step).

@@ -1,20 +1,19 @@
-//! Which method integrates when none is named: DOP853, or Radau where the equations prove stiff.
+//! Detection of stiffness for the automatic choice of the method: DOP853, or Radau if the equations are stiff.
 //!
-//! The model is judged at the start (`forecast`), and the steps are on the way, here.
+//! `initial_stiffness` judges the model at the start. This module judges the steps on the way.
 //!
-//! No number of a model alone tells its stiffness: a damper of 1e7 N·m·s/rad is soft on a heavy rocker, and what
-//! is stiff for a second is not for a microsecond. So the steps of the explicit method are looked at
-//! now and then: where a damped motion of the linearised equations holds them at the limit
-//! of stability, h |λ| ≈ 6.1 for DOP853 (the number of its authors), accuracy would allow longer ones, and
-//! Radau goes on. Undamped vibrations do not count: an implicit method has to follow them as well, in
-//! steps as short. A start costs the explicit method few steps, however stiff: it makes them short.
+//! Stiffness is not a property of one number of a model: a damper of 1e7 N·m·s/rad is soft on a heavy rocker, and a
+//! system that is stiff over a second is not stiff over a microsecond. Therefore the steps of the explicit method are
+//! checked now and then. If a damped motion of the linearised equations limits them by stability, h |λ| ≈ 6.1 for
+//! DOP853 (the number of its authors), accuracy would allow longer steps, and Radau takes over. Undamped vibrations do
+//! not count, because an implicit method needs steps of the same length to follow them.
 //!
-//! Radau is of lower order, so that it is not the cheaper one by being stable alone: if it does not make
-//! steps longer by [`WORTH`], DOP853 takes over again, and the next look waits.
+//! Radau is of lower order, so stability alone does not make it cheaper. If its steps are not longer by the factor
+//! [`WORTH`], DOP853 takes over again, and the next check is later.
 //!
-//! |λ| by power iteration on differences of the accelerations (as in the code RKC of Sommeijer, Shampine
-//! and Verwer, *RKC: an explicit solver for parabolic PDEs*, J. Comput. Appl. Math. 88 (1998) 315), with the
-//! vector of the last look; whether it is damped, from the quadratic that its last images satisfy.
+//! |λ| is computed by power iteration on differences of the accelerations (as in the code RKC of Sommeijer, Shampine
+//! and Verwer, *RKC: an explicit solver for parabolic PDEs*, J. Comput. Appl. Math. 88 (1998) 315), which begins with
+//! the vector of the last check. The quadratic equation of its last images shows whether the motion is damped.
 
 use crate::equations::{Gains, Workspace};
 use crate::integrate::Step;
@@ -22,31 +21,31 @@ use crate::model::Model;
 
 /// Extent of the stability of DOP853 along the negative real axis.
 pub(super) const LIMIT: f64 = 6.1;
-/// Part of it at which steps count as held by stability.
+/// Part of this limit from which steps count as limited by stability.
 const NEAR: f64 = 0.6;
 /// -Re λ / |λ| from which a motion counts as damped.
 const DAMPED: f64 = 0.3;
-/// Steps before the first look, and least between looks.
+/// Number of steps before the first check, and smallest number between checks.
 const FIRST_LOOK: usize = 15;
-/// Steps until the next look, over those so far.
+/// Steps until the next check, over the steps so far.
 const NEXT_LOOK: f64 = 0.25;
-/// Fewer steps than this still to go are not worth a change.
+/// The method changes only if more steps than this remain.
 pub(super) const TO_GO: f64 = 100.0;
-/// Steps of Radau after which it is judged, again and again.
+/// Number of steps of Radau between its checks.
 pub(super) const TRIAL: usize = 20;
-/// By which its steps must be longer: what one of them costs, in steps of DOP853.
+/// Factor by which the steps of Radau must be longer: the cost of one of them in steps of DOP853.
 pub(super) const WORTH: f64 = 2.0;
-/// Double applications of the Jacobian in a look.
+/// Double applications of the Jacobian in a check.
 const ITERATIONS: usize = 3;
-/// Relative size of the differences.
+/// Relative size of the finite differences.
 const DIFFERENCE: f64 = 1e-7;
 
-/// What was chosen, and why.
+/// The chosen method and the reason.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MethodChoice {
     /// The method at the end: its `type` in a file.
     pub method: &'static str,
-    /// In words.
+    /// The reason.
     pub why: String,
 }
 
@@ -67,17 +66,17 @@ pub(super) struct StiffnessDetector<'a> {
     steps: usize,
     next: usize,
     since: (usize, f64),
-    /// The rate of a damped motion that the start foretells to hold the steps.
+    /// Rate of a damped motion that was predicted at the start to limit the steps.
     pub foretold: Option<f64>,
-    /// The last look: the fastest motion, and the mean step.
+    /// Result of the last check: the fastest motion, and the mean step.
     pub seen: Option<(Fastest, f64)>,
 }
 
 impl<'a> StiffnessDetector<'a> {
-    /// With the workspace of the equations of motion of this run for its plan of elimination.
+    /// Uses the plan of elimination of the equations of motion of this run.
     pub fn new(model: &'a Model, one: &Workspace, t0: f64) -> Self {
         let n = 2 * model.layout.n_q + model.layout.n_z;
-        // a vector without pattern has a share of every motion
+        // an arbitrary vector has a part of every motion
         let start = (0..n).map(|k| (1.0 + 0.7 * k as f64).sin()).collect();
         Self {
             model,
@@ -105,24 +104,24 @@ impl<'a> StiffnessDetector<'a> {
         self.since = (self.steps, step.t);
         let Some(fastest) = self.fastest(step.t, step.y) else { return false };
         self.seen = Some((fastest, h));
-        // backward in time what is damped grows, and an implicit method is no better
+        // backward in time damped motions grow, and an implicit method is no better
         let to_go = (t_end - step.t) / h;
         h > 0.0 && to_go > TO_GO && fastest.damped && h * fastest.rate > NEAR * LIMIT
     }
 
-    /// The next look, `times` later than usual.
+    /// Schedules the next check, `times` later than usual.
     pub fn wait(&mut self, times: f64) {
         let steps = (times * NEXT_LOOK * self.steps as f64) as usize;
         self.next = self.steps + steps.max((times * FIRST_LOOK as f64) as usize);
     }
 
-    /// The explicit method goes on from `t`.
+    /// Restarts the detection where the explicit method continues from `t`.
     pub fn resume(&mut self, t: f64) {
         self.since = (self.steps, t);
         self.wait(4.0);
     }
 
-    /// Accelerations at a state, and their rate along the motion from a difference over `probe`, s; None
+    /// Accelerations at a state, and their rate along the motion by a difference over the time `probe`, s; None
     /// where the equations are singular.
     pub fn rates(&mut self, t: f64, y: &[f64], probe: f64) -> Option<[Vec<f64>; 2]> {
         let [q, v, z, _] = self.model.layout.split(y);
@@ -175,7 +174,7 @@ impl<'a> StiffnessDetector<'a> {
             }
             self.x.rotate_left(2);
             let scale = 1.0 / largest(&self.x[0]).max(f64::MIN_POSITIVE);
-            // the others follow, so that the quadratic may be read off all three
+            // the other vectors are rotated too, so that all three give the quadratic
             for x in &mut self.x {
                 x.iter_mut().for_each(|x| *x *= scale);
             }
@@ -187,7 +186,7 @@ impl<'a> StiffnessDetector<'a> {
 }
 
 /// The dominant λ from x, J x and J² x, each (q part of length n, the others): J² x = s J x - p x holds for one
-/// pair of eigenvalues. The other parts count over |λ|, so that all weigh alike.
+/// pair of eigenvalues. The other parts are divided by |λ|, so that all have equal weight.
 fn dominant(n: usize, x: &[f64], jx: &[f64], jjx: &[f64]) -> Option<Fastest> {
     let plain = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let weight = (plain(&x[n..], &x[n..]) / plain(&jjx[n..], &jjx[n..])).sqrt();
@@ -229,7 +228,7 @@ mod tests {
         let pair = |re: f64, im: f64| {
             // one coordinate: q̈ = 2 re q̇ - (re² + im²) q
             let times = |[q, v]: [f64; 2]| [v, 2.0 * re * v - (re * re + im * im) * q];
-            // a real pair is met as the power iteration leaves it
+            // a real pair has the form that the power iteration gives
             let x = if im == 0.0 { [1.0, re] } else { [1.0, 0.3 * im] };
             dominant(1, &x, &times(x), &times(times(x))).expect("finite")
         };

@@ -3,7 +3,7 @@
 use crate::integrate::{all_finite, Step};
 use crate::model::StateLayout;
 
-/// Most numbers that room is made for beforehand; what is longer grows.
+/// Largest number of values for which memory is reserved; longer tables grow.
 const MOST_ROOM: usize = 1 << 20;
 
 /// States in rows, time first.
@@ -35,7 +35,7 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// Empty, with room for so many rows: growing would copy them again and again.
+    /// Empty, with memory for so many rows; growth would copy them repeatedly.
     pub(super) fn with_room(layout: &StateLayout, rows: usize) -> Self {
         let rows = rows.min(MOST_ROOM / (layout.n_y() + 1));
         let room = |width: usize| Vec::with_capacity(rows * width);
@@ -73,7 +73,7 @@ pub struct PiecewiseInterpolant {
 }
 
 impl PiecewiseInterpolant {
-    /// Empty, from `t0` on, with room for so many steps. The degree may grow from `degree` with the steps.
+    /// Empty, from `t0` on, with memory for so many steps. Later steps may have a degree above `degree`.
     pub(super) fn with_room(
         n_y: usize,
         degree: usize,
@@ -88,7 +88,7 @@ impl PiecewiseInterpolant {
         interpolant
     }
 
-    /// Adds a step, if all its numbers are finite; whether they are. `coefficients` is scratch.
+    /// Adds a step if all its numbers are finite; returns whether they are. `coefficients` is scratch memory.
     pub(super) fn add(&mut self, step: &Step<'_>, coefficients: &mut Vec<f64>) -> bool {
         let own = step.interpolant.degree();
         coefficients.resize(own * step.y.len(), 0.0);

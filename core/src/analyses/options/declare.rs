@@ -39,7 +39,7 @@ pub struct Family {
     pub options: Vec<Declaration>,
 }
 
-/// A struct of options with its declaration.
+/// A struct of options and its declaration.
 pub trait Declared: Sized {
     /// The `type` in the file.
     const NAME: &'static str;
@@ -109,7 +109,7 @@ macro_rules! options {
 
             #[allow(unused_variables)] // where there are no options
             fn read(reader: &mut $crate::analyses::options::Reader<'_>) -> Option<Self> {
-                // every option is read before any failure counts: all problems at once
+                // every option is read, so that all problems are reported at once
                 $(let $required = <$must as $crate::analyses::options::Kind>::required(
                     reader, stringify!($required), concat!($($(stringify!($in)),*)?));)*
                 $(let $field = <$kind as $crate::analyses::options::Kind>::optional(

@@ -6,9 +6,9 @@ use crate::model::Value as Written;
 
 /// A kind of option.
 pub trait Kind {
-    /// What the struct of options holds.
+    /// The value in the struct of options.
     type Value;
-    /// What may stand in the file.
+    /// The values that the file may hold.
     fn shape() -> Shape;
     /// A default value as data.
     fn data(value: &Self::Value) -> Default;
@@ -41,7 +41,7 @@ pub trait Kind {
     }
 }
 
-/// An option that may be left out, with no value then.
+/// An option that may be left out; it then has no value.
 impl<K: Kind> Kind for Option<K> {
     type Value = Option<K::Value>;
 
@@ -58,7 +58,7 @@ impl<K: Kind> Kind for Option<K> {
 
 /// Bounds of a number.
 pub trait Bounded {
-    /// What a number must be.
+    /// The condition on a number, after the words "must be".
     const MUST: &'static str;
     /// Whether a finite number is within the bounds.
     fn holds(x: f64) -> bool;
@@ -68,7 +68,7 @@ pub trait Bounded {
 macro_rules! numbers {
     ($($(#[doc = $doc:literal])* $kind:ident: |$x:ident| $holds:expr, $must:literal;)+) => {$(
         $(#[doc = $doc])*
-        #[allow(non_camel_case_types)] // stands for a type in `options!`, written like a word
+        #[allow(non_camel_case_types)] // a type in `options!`, written like a word
         pub enum $kind {}
         impl Bounded for $kind {
             const MUST: &'static str = $must;
@@ -110,7 +110,7 @@ numbers! {
 macro_rules! plain {
     ($($(#[doc = $doc:literal])* $kind:ident: $Value:ty, $Shape:ident, $data:expr, $pattern:pat => $value:expr, $must:literal;)+) => {$(
         $(#[doc = $doc])*
-        #[allow(non_camel_case_types)] // stands for a type in `options!`, written like a word
+        #[allow(non_camel_case_types)] // a type in `options!`, written like a word
         pub enum $kind {}
         impl Kind for $kind {
             type Value = $Value;
@@ -140,7 +140,7 @@ plain! {
 }
 
 /// A whole number from 1.
-#[allow(non_camel_case_types)] // stands for a type in `options!`, written like a word
+#[allow(non_camel_case_types)] // a type in `options!`, written like a word
 pub enum count {}
 impl Bounded for count {
     const MUST: &'static str = "a whole number from 1";
@@ -192,7 +192,7 @@ impl<W: Words> Kind for W {
     }
 }
 
-/// Says which words stand for the values of an enum.
+/// Declares the words for the values of an enum.
 macro_rules! words {
     ($Value:ident { $($word:literal => $value:expr),+ $(,)? }) => {
         impl $crate::analyses::options::Words for $Value {

@@ -3,7 +3,7 @@
 use crate::equations::at;
 use crate::model::{Model, Problem, Reach, Scope, Value};
 
-/// Reads the fields of one table of options and keeps what is wrong with them.
+/// Reads the fields of one table of options and keeps the reports of their faults.
 pub struct Reader<'a> {
     model: &'a Model,
     scope: &'a Scope,
@@ -13,8 +13,8 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads fields by `read`; `path` is where they stand in the file. Numbers may be formulas in the parameters of
-    /// the model.
+    /// Reads fields by `read`; `path` is their path in the file. Numbers may be formulas in the parameters of the
+    /// model.
     ///
     /// # Errors
     /// Every faulty value, with its path.
@@ -39,7 +39,7 @@ impl<'a> Reader<'a> {
         self.fields.iter().find(|(k, _)| k == key).map(|(_, value)| value)
     }
 
-    /// Reports what is wrong with a value.
+    /// Reports the fault of a value.
     pub fn refuse<T>(&mut self, key: &str, message: impl Into<String>) -> Option<T> {
         self.problems.push(Problem::at(&self.path_of(key), message));
         None

@@ -1,7 +1,7 @@
 //! Coordinate driver (Haug 3.5.1, 3.5.2): a coordinate of a body follows a law.
 //!
-//! Φ = c - value(t), with c one of x, y, φ, measured in the frame of ground: what drives the body
-//! stands on ground and presses against it. The law may use t and the positions of other bodies.
+//! Φ = c - value(t), with c one of x, y, φ, measured in the frame of ground: the reaction of the driver
+//! acts on ground. The law may use t and the positions of other bodies.
 
 use crate::elements::{
     element, At, Attachment, BodyId, Coordinate, Equation, Fixes, Joint, SceneSymbol,

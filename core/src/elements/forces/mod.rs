@@ -1,4 +1,4 @@
-//! Forces: what acts on bodies beside joints and gravity.
+//! Forces: springs, dampers and loads, which act on bodies in addition to joints and gravity.
 
 mod spring_damper;
 mod torque;

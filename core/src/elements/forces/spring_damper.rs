@@ -4,9 +4,9 @@
 //! on i. V = ½ k (l - l₀)².
 //!
 //! The stiffness part is computed as -k d + k l₀ u, so that with l₀ = 0 it is -k d exactly, without a
-//! division. Where the points meet, l = 0, the line has no direction: k l₀ u, which jumps there, is
-//! taken as zero, the mean of its directions; the damping is -c ḋ, its limit on both sides of a
-//! passage. All states are thus allowed, and the force is finite in all of them.
+//! division. Where the points meet, l = 0, the line has no direction. There k l₀ u jumps; it is taken
+//! as zero, the mean over all directions. The damping force is -c ḋ, its limit on both sides of a
+//! passage. All states are allowed, and the force is finite in all of them.
 
 use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
 use crate::math::{Local, Real, Vec2, Wrench};
@@ -25,7 +25,7 @@ element! {
         stiffness: law [N/m] = 0.0,
         /// Force per velocity.
         damping: law [N*s/m] = 0.0,
-        /// Distance of the points without force.
+        /// Distance of the points at which the spring is relaxed.
         free_length: law [m] = 0.0,
     }
 }

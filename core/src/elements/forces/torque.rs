@@ -1,7 +1,7 @@
 //! Applied torque (Haug 6.2.16): a given torque on body j, opposite on body i.
 //!
-//! T = law of time and state; positive turns body j counter-clockwise. Its work counts as applied. All
-//! states.
+//! T is a law of time and state; a positive torque turns body j counter-clockwise. Its work counts as
+//! applied. All states are allowed.
 
 use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
 use crate::math::{Real, Wrench};

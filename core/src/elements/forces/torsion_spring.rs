@@ -1,7 +1,7 @@
-//! Rotational spring-damper (Haug 6.2.18): a torque by the relative angle and its rate.
+//! Rotational spring-damper (Haug 6.2.18): a torque that depends on the relative angle and its rate.
 //!
 //! θ = φⱼ - φᵢ, continuous, never modulo 2π. Torque on j: -k (θ - θ₀) - c θ̇; opposite on i.
-//! V = ½ k (θ - θ₀)². All real θ.
+//! V = ½ k (θ - θ₀)². All real θ are allowed.
 
 use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
 use crate::math::{Real, Wrench};
@@ -18,7 +18,7 @@ element! {
         stiffness: law [N*m/rad] = 0.0,
         /// Torque per angular velocity.
         damping: law [N*m*s/rad] = 0.0,
-        /// Relative angle without torque.
+        /// Relative angle at which the spring is relaxed.
         free_angle: law [rad] = 0.0,
     }
 }

@@ -4,8 +4,8 @@
 //! With uᵢ = Aᵢ u′ᵢ along the slide, nᵢ = uᵢ turned by +90° and dᵢⱼ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ:
 //! Φ₁ = nᵢᵀ dᵢⱼ = 0, the distance of point j from the line, m; Φ₂ = φⱼ + aⱼ - φᵢ - aᵢ = 0, rad, with
 //! a the angle of the slide in each body. The book's second equation is the sine of this angle
-//! (3.3.14); the angle itself admits no slide that is turned by 180°. All positions but whole turns
-//! of φⱼ - φᵢ, which differ.
+//! (3.3.14), which is also zero for a slide turned by 180°; the angle itself is not. Φ₂ distinguishes
+//! positions that differ by whole turns of φⱼ - φᵢ.
 
 use crate::elements::{
     element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Moving, SceneSymbol,

@@ -70,7 +70,7 @@ fn side(record: &Record, field: &str, k: usize) -> Symbolic {
     record.symbol(Name { owner: Some(k), ..name })
 }
 
-/// An element of a type, each of its bodies another one, all numbers zero.
+/// An element of a type between different bodies, with all numbers zero.
 struct Sample {
     bodies: usize,
 }

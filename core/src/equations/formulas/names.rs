@@ -28,7 +28,7 @@ impl BodyName {
         Self { text: letter.into(), unicode: index.into(), latex: letter.into() }
     }
 
-    /// Of the field of an element that a point is named by: `i` as an index, others in full.
+    /// The name of the field of an element that holds a point: `i` as an index, others in full.
     pub fn field(name: &str) -> Self {
         match LETTERS.iter().position(|(letter, _)| *letter == name) {
             Some(position) => Self::letter(position),
@@ -87,7 +87,7 @@ fn coordinate(coordinate: Coordinate, body: &BodyName, owner: usize) -> Name {
     }
 }
 
-/// The components of a body-fixed point, zero where `zero` says so. In the global frame the vector
+/// The components of a body-fixed point; those marked in `zero` are zero. In the global frame the vector
 /// to the point is written a with the field as index: aᵢ = Aᵢ s′ᵢ.
 pub(super) fn point(
     record: &Record,

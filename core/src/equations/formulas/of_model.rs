@@ -10,8 +10,8 @@ use crate::math::{Pose, Real};
 use crate::model::{Dependence, Model};
 use crate::symbolic::{record, Form, Name, Record, Symbolic};
 
-/// The equations of constraint `k`. Numbers and laws are put in as they are written; a point has
-/// the name that `written` gives for its field, such as `crank.B`.
+/// The equations of constraint `k`. Numbers and laws are inserted as written; a point has the name that
+/// `written` contains for its field, such as `crank.B`.
 ///
 /// A law may depend on the coordinates of other bodies: these have columns too.
 pub fn of_constraint(

@@ -10,7 +10,7 @@ pub(super) enum Scalar {
     Law(String),
 }
 
-/// Those of a type of element.
+/// The fields of a type of element that hold scalars.
 pub(super) fn scalars(kind: &str) -> Vec<Scalar> {
     let tables = catalogue().into_iter().map(|(_, table)| table);
     let fields = tables.filter(|table| table.name == kind).flat_map(|table| table.fields);

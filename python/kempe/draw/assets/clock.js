@@ -1,6 +1,6 @@
 // The present time, and how it goes on while the motion is played.
 
-/** A clock over the duration of a motion; tells `changed` whenever it moves, starts or stops. */
+/** A clock over the duration of a motion; calls `changed` whenever it moves, starts or stops. */
 export class Clock {
   constructor(motion, rate, changed) {
     this.motion = motion;

@@ -1,4 +1,4 @@
-// What tells sizes in a drawing: grid, scale of length, reaction arrows with their scale, gravity.
+// Measures in a drawing: grid, scale of length, reaction arrows with their scale, gravity.
 import { roundBelow, roundQuantity } from "./numbers.js";
 import { font, rimmed } from "./surface.js";
 
@@ -52,7 +52,7 @@ export function paintGravity(context, view, gravity, colours) {
   context.fillText("g", x - 12 * Math.abs(dy) - 0.1, y - 14 * Math.abs(dx));
 }
 
-/** The force of each joint on its body j, and an arrow that tells how much it is. */
+/** The force of each joint on its body j, and an arrow of a length in proportion to it. */
 export function paintReactions(context, view, pins, forces, pixelsPerNewton, colours) {
   const most = 3 * Math.hypot(view.width, view.height);
   forces.forEach(([fx, fy], k) => {

@@ -1,4 +1,4 @@
-// Numbers for people: round steps, SI prefixes, as many digits as can be told apart.
+// Numbers for people: round steps, SI prefixes, as many digits as can be distinguished.
 
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
 const SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
