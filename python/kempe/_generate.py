@@ -225,7 +225,7 @@ def default(field: dict[str, Any]) -> str:
 
 
 def camel(name: str) -> str:
-    """``torsion_spring`` → ``TorsionSpring``."""
+    """``two_words`` → ``TwoWords``."""
     return "".join(word.capitalize() for word in name.split("_"))
 
 

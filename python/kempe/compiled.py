@@ -66,7 +66,7 @@ class ConstraintInfo:
     Attributes:
         name: name of the joint or driver.
         group: "joints" or "drivers".
-        type: such as "revolute".
+        type: the ``type`` in the file.
         i, j: the first two connected bodies.
         bodies: all connected bodies.
         point_i, point_j: the joint point in the frame of each body, m.
@@ -99,7 +99,7 @@ class ForceInfo:
 
     Attributes:
         name: name of the element.
-        type: such as "torsion_spring".
+        type: the ``type`` in the file.
         i, j: the first two bodies on which it acts.
         bodies: all bodies on which it acts.
         parts: names of its parts, such as "stiffness" and "damping".

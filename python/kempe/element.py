@@ -16,7 +16,7 @@ class Element:
     Attributes:
         name: name in the model.
         section: the section of the file, such as ``joints``.
-        kind: the ``type`` in the file, such as ``revolute``.
+        kind: the ``type`` in the file.
         shapes: kind of value of each field.
 
     Raises:

@@ -44,7 +44,7 @@ class Equations:
 
     Attributes:
         name: of the joint or driver.
-        type: such as "revolute".
+        type: the ``type`` in the file.
         rows: names of the equations, such as ``C.x``.
         expressions: the equations in the language of expressions, which can be evaluated.
         symbols: the same in LaTeX.

@@ -4,7 +4,7 @@
 //! position, the position is singular. If it remains, the constraints are redundant. The left null vectors
 //! of Φ_q give all joints that take part.
 
-use super::assemble::Closing;
+use super::closing::Closing;
 use crate::elements::{BodyId, Coordinate, CoordinateOf};
 use crate::equations::augmented::Augmented;
 use crate::equations::kinematics::Motions;

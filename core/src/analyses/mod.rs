@@ -1,6 +1,7 @@
 //! The analyses of a model: free functions of model, state and options.
 
 pub mod assemble;
+mod closing;
 pub mod dynamics;
 mod errors;
 mod mobility;

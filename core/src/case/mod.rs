@@ -18,6 +18,7 @@ mod bodies;
 mod body_builder;
 mod builder;
 mod check;
+mod contents;
 mod diagnostic;
 mod document;
 mod fault;
@@ -37,8 +38,9 @@ mod write_json;
 mod write_toml;
 mod write_value;
 
-pub use body_builder::{Bar, BodyBuilder, General, Ground};
+pub use body_builder::{Bar, BodyBuilder, General, Ground, PointMass};
 pub use builder::ModelBuilder;
+pub use contents::{Case, Format, Start, FORMAT_VERSION, MOST_BYTES, MOST_REPORTED};
 use diagnostic::shown;
 pub use diagnostic::Diagnostic;
 pub use document::Document;
@@ -46,43 +48,7 @@ pub use schema::schema;
 pub use tree::{MOST_DEPTH, MOST_VALUES};
 pub use write::write;
 
-use crate::model::{Definition, Entry, Value};
-
-/// The version of the format that is read and written: `kempe = 1`.
-pub const FORMAT_VERSION: u32 = 1;
-/// Largest text that is read, in bytes: 16 MiB.
-pub const MOST_BYTES: usize = 16 << 20;
-/// Largest number of faults that are reported.
-pub const MOST_REPORTED: usize = 100;
-
-/// The format of a text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// TOML 1.0.
-    Toml,
-    /// JSON, RFC 8259.
-    Json,
-}
-
-/// A model as written, its start, and its analyses.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Case {
-    /// The model.
-    pub definition: Definition,
-    /// The start of assembly.
-    pub start: Start,
-    /// Analyses, in order.
-    pub analyses: Vec<Entry>,
-}
-
-/// Coordinates and rates for the assembly; keys are `body.coordinate`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Start {
-    /// Prescribed coordinates and rates.
-    pub set: Vec<(String, Value)>,
-    /// Guessed coordinates and rates.
-    pub guess: Vec<(String, Value)>,
-}
+use crate::model::Value;
 
 /// Reads a case.
 ///

@@ -1,73 +1,9 @@
 //! The declaration of an element: one macro emits the struct over any scalar, its `map` between
 //! scalars, its reader and its table of fields.
 
-use super::kinds::{Shape, Source};
+use super::field::Field;
+use super::kinds::Source;
 use crate::expression::Tape;
-
-/// A default value of a field.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Default {
-    /// One number.
-    Number(f64),
-    /// Two numbers.
-    Pair([f64; 2]),
-    /// true or false.
-    Flag(bool),
-    /// The options of this type, each with its own default.
-    Type(&'static str),
-    /// This body.
-    Body(&'static str),
-    /// Nothing: the field may be left out.
-    Absent,
-}
-
-impl From<f64> for Default {
-    fn from(x: f64) -> Self {
-        Self::Number(x)
-    }
-}
-impl From<[f64; 2]> for Default {
-    fn from(x: [f64; 2]) -> Self {
-        Self::Pair(x)
-    }
-}
-impl From<&'static str> for Default {
-    fn from(body: &'static str) -> Self {
-        Self::Body(body)
-    }
-}
-
-/// One field of an element, for files, the schema, Python and the reference page.
-#[derive(Clone, Debug)]
-pub struct Field {
-    /// Key in the file, argument in Python.
-    pub name: &'static str,
-    /// The values that it accepts.
-    pub shape: Shape,
-    /// SI unit; empty for references.
-    pub unit: String,
-    /// Value if absent; a field without one is required.
-    pub default: Option<Default>,
-    /// One sentence.
-    pub doc: String,
-}
-
-impl Field {
-    /// A field that must be given.
-    pub fn required(name: &'static str, shape: Shape, unit: &str, doc: &str) -> Self {
-        Self { name, shape, unit: unit.to_string(), default: None, doc: doc.to_string() }
-    }
-    /// A field with a default; [`Default::Absent`] if it may be left out.
-    pub fn optional(
-        name: &'static str,
-        shape: Shape,
-        unit: &str,
-        default: Default,
-        doc: &str,
-    ) -> Self {
-        Self { default: Some(default), ..Self::required(name, shape, unit, doc) }
-    }
-}
 
 /// The declaration of an element as data.
 #[derive(Clone, Debug)]

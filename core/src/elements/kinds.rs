@@ -1,6 +1,6 @@
 //! Kinds of fields: the values that an element may hold, and how each is read and converted between scalars.
 
-use super::declare::Field;
+use super::field::{Field, Shape};
 use crate::expression::Tape;
 use crate::math::{Local, Pose, Real, Twist};
 
@@ -92,37 +92,6 @@ pub struct CoordinateOf {
     pub body: BodyId,
     /// Which coordinate.
     pub coordinate: Coordinate,
-}
-
-/// The values that a field accepts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// Name of a body.
-    Body,
-    /// `body.point`.
-    Point,
-    /// `body.x`, `body.y` or `body.angle`.
-    Coordinate,
-    /// Number or expression in the parameters.
-    Number,
-    /// Number or expression in the parameters, `t` and the state.
-    Law,
-    /// Two numbers.
-    Pair,
-    /// Names of points with two numbers each.
-    Points,
-    /// Two names.
-    Names,
-    /// One name.
-    Name,
-    /// true or false.
-    Flag,
-    /// A whole number from 1.
-    Count,
-    /// One of these words.
-    Word(&'static [&'static str]),
-    /// A table of the family of options of this name, chosen by its `type`.
-    Options(&'static str),
 }
 
 /// Where fields are read from; it keeps the reports of their faults.

@@ -8,6 +8,7 @@
 mod declare;
 pub(crate) mod derive;
 mod dispatch;
+mod field;
 mod force_trait;
 mod joint_trait;
 mod kinds;
@@ -51,17 +52,18 @@ pub mod test_elements;
 use crate::expression::Tape;
 use crate::math::{Lift, Local, Pose, Real, Wrench};
 use declare::join;
-pub use declare::{Default, Element, Field, Table};
+pub use declare::{Element, Table};
 use dispatch::{constraints, declared, forces};
 pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
 use drivers::*;
+pub use field::{Default, Field, Shape};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation};
 use forces::*;
 pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
 use joints::*;
 pub use kinds::{
     body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, JointId,
-    Kind, PointOn, Shape, Source,
+    Kind, PointOn, Source,
 };
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]

@@ -29,6 +29,7 @@
 mod compile;
 mod error;
 mod lexer;
+mod limits;
 mod names;
 mod operation;
 pub mod parameters;
@@ -42,7 +43,8 @@ mod tree;
 pub mod unit;
 
 pub use error::ExpressionError;
+pub use limits::{MAX_DEPTH, MAX_LENGTH, MAX_OPERANDS};
 pub use names::{is_identifier, is_reserved, Names, Symbol};
 pub use operation::{Function, FUNCTIONS};
 pub use tape::{Scope, Tape, Values};
-pub use text::{Expression, MAX_DEPTH, MAX_LENGTH, MAX_OPERANDS};
+pub use text::Expression;

@@ -18,12 +18,13 @@ use super::failure::Cause;
 use super::ode::Ode;
 use super::right_hand_side::RightHandSide;
 use super::runge_kutta::RungeKutta;
-use super::stages::{rows, rows_mut, sum_at, Block, Trial};
+use super::stages::{rows, rows_mut, sum_at, Block};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
 use super::stepper::{BoxedStepper, ExplicitMethod};
 use super::tolerances::Tolerances;
+use super::trial::Trial;
 
 /// DOP853 with its options.
 #[derive(Clone, Debug, Default, PartialEq)]

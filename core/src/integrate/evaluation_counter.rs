@@ -5,8 +5,8 @@ use super::error_weights::ErrorWeights;
 use super::failure::Cause;
 use super::implicit_state::ImplicitState;
 use super::right_hand_side::all_finite;
+use super::statistics::Statistics;
 use super::step_size::{initial_step, probing_step};
-use super::stepper::Statistics;
 use crate::math::Complex;
 
 /// A DAE with the counts of its evaluations.

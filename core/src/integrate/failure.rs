@@ -1,6 +1,6 @@
 //! Failures of an integration.
 
-use super::stepper::Statistics;
+use super::statistics::Statistics;
 use std::fmt;
 
 /// The cause of a failure.

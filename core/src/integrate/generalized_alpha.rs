@@ -13,10 +13,11 @@ use super::failure::Cause;
 use super::fixed_step::Grid;
 use super::implicit_steps::ImplicitSteps;
 use super::interpolant::HERMITE;
+use super::statistics::Statistics;
 use super::step::Step;
 use super::step_control::StepControl;
 use super::step_size::{least_step, Control, StepSize};
-use super::stepper::{BoxedStepper, ImplicitMethod, Statistics, Stepper};
+use super::stepper::{BoxedStepper, ImplicitMethod, Stepper};
 
 /// Order of the error estimate.
 const ERROR_ORDER: i32 = 2;

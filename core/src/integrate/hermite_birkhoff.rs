@@ -17,7 +17,8 @@
 //!
 //! An error e of the node before appears as about e / r⁵: a step much longer than the one before does not use it.
 
-use super::interpolant::{Interpolant, HIGHEST as DEGREE};
+use super::component_polynomials::{store, Four, Polynomials, HIGHEST as DEGREE};
+use super::interpolant::Interpolant;
 use super::ode::Structure;
 use super::stages;
 use crate::math::{Lanes, Real};
@@ -62,9 +63,6 @@ struct Block {
     /// The second derivative inside without the last of them.
     inside: Lanes,
 }
-
-/// Values of four components at the beginning, and coefficients of θ … θ⁹, over h.
-type Four = [Lanes; DEGREE + 1];
 
 /// The extension, and the data of the step before.
 pub(super) struct HermiteBirkhoff {
@@ -221,49 +219,6 @@ impl HermiteBirkhoff {
     }
 }
 
-/// The extension of a step, component by component.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Polynomials<'a> {
-    q: &'a [Four],
-    rates: &'a [Four],
-    positions: usize,
-}
-
-impl Polynomials<'_> {
-    /// The state at θ, by a time of `ahead` = h θ after the beginning.
-    pub fn evaluate(&self, ahead: f64, theta: f64, out: &mut [f64]) {
-        let (ahead, theta) = (Lanes::constant(ahead), Lanes::constant(theta));
-        let at = |[begin, c @ .., last]: &Four| {
-            let sum = c.iter().rev().fold(*last, |sum, c| c.plus_product(sum, theta));
-            begin.plus_product(ahead, sum)
-        };
-        // the last four of q run into the rates, which follow
-        for (first, all) in [(0, self.q), (self.positions, self.rates)] {
-            let (mut blocks, mut all) = (out[first..].chunks_exact_mut(Lanes::WIDTH), all.iter());
-            for (out, four) in (&mut blocks).zip(&mut all) {
-                out.copy_from_slice(&at(four).to_array());
-            }
-            if let Some(four) = all.next() {
-                store(at(four), blocks.into_remainder());
-            }
-        }
-    }
-
-    /// Coefficients of θ … θ⁹ of each component, over h: row-major (len of y) × 9.
-    pub fn coefficients(&self, out: &mut [f64]) {
-        let (of_q, of_rates) = out.split_at_mut(self.positions * DEGREE);
-        for (all, out) in [(self.q, of_q), (self.rates, of_rates)] {
-            for (four, rows) in all.iter().zip(out.chunks_mut(Lanes::WIDTH * DEGREE)) {
-                for (lane, row) in rows.chunks_exact_mut(DEGREE).enumerate() {
-                    row.iter_mut().zip(&four[1..]).for_each(|(out, c)| *out = c.to_array()[lane]);
-                }
-            }
-        }
-    }
-}
-
-const _: () = assert!(DEGREE == 9, "ten numbers of q");
-
 /// The first numbers, zeros behind the last.
 #[inline(always)]
 fn lanes(x: &[f64]) -> Lanes {
@@ -271,20 +226,6 @@ fn lanes(x: &[f64]) -> Lanes {
         Some(block) => Lanes::new(*block),
         None => Lanes::new(std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0))),
     }
-}
-
-/// Puts as many numbers as there is room for.
-#[inline(always)]
-fn store(x: Lanes, out: &mut [f64]) {
-    match out.first_chunk_mut() {
-        Some(four) => *four = x.to_array(),
-        None => store_part(x, out),
-    }
-}
-
-#[inline(never)]
-fn store_part(x: Lanes, out: &mut [f64]) {
-    out.iter_mut().zip(x.to_array()).for_each(|(out, x)| *out = x);
 }
 
 /// 1 / x³, 3 / x, 6 / x and 12 / x².

@@ -4,7 +4,7 @@
 //! kₛ are the stages of a Runge–Kutta step, and wₛ are polynomials without a constant term. Nothing is computed until
 //! the interpolant is evaluated. Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6.
 
-use super::hermite_birkhoff::Polynomials;
+use super::component_polynomials::{Polynomials, HIGHEST};
 use crate::math::{Lanes, Real};
 
 /// Largest number of stages of a method, with those of its extension and the jump of a projection.
@@ -12,9 +12,6 @@ const MOST: usize = 17;
 
 /// Blocks of components that are summed side by side.
 const TOGETHER: usize = 3;
-
-/// Highest degree that a method has.
-pub(crate) const HIGHEST: usize = 9;
 
 /// The cubic polynomial of Hermite, of order 3: coefficients of θ … θ⁴ of the derivative at the beginning,
 /// at the end, and the chord (y - y_old) / h.

@@ -35,6 +35,7 @@
 mod alpha_parameters;
 mod alpha_step;
 mod arguments;
+mod component_polynomials;
 mod dae;
 mod dop853;
 mod dop853_coefficients;
@@ -58,6 +59,7 @@ mod rk4;
 mod rk45;
 mod runge_kutta;
 mod stages;
+mod statistics;
 mod step;
 mod step_acceptance;
 mod step_control;
@@ -65,8 +67,10 @@ mod step_placement;
 mod step_size;
 mod stepper;
 mod tolerances;
+mod trial;
 
 pub use alpha_parameters::AlphaParameters;
+pub(crate) use component_polynomials::HIGHEST;
 pub use dae::{
     ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
     SingularMatrix,
@@ -76,14 +80,12 @@ pub use events::{locate, Direction};
 pub use failure::{Cause, Failure};
 pub use generalized_alpha::GeneralizedAlpha;
 pub use interpolant::Interpolant;
-pub(crate) use interpolant::HIGHEST;
 pub use ode::{Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 pub use radau::Radau;
 pub(crate) use right_hand_side::all_finite;
 pub use rk4::Rk4;
 pub use rk45::Rk45;
+pub use statistics::{Ended, Statistics};
 pub use step::{Flow, Observer, Step};
 pub use step_control::{Atol, StepControl};
-pub use stepper::{
-    integrate, BoxedStepper, Ended, ExplicitMethod, ImplicitMethod, Statistics, Stepper,
-};
+pub use stepper::{integrate, BoxedStepper, ExplicitMethod, ImplicitMethod, Stepper};

@@ -14,10 +14,11 @@ use super::implicit_steps::ImplicitSteps;
 use super::radau_coefficients::{DEGREE, EXTENSION};
 use super::radau_step::{NewtonLimits, NewtonOutcome, RadauStep, ROWS};
 use super::right_hand_side::all_finite;
+use super::statistics::Statistics;
 use super::step::Step;
 use super::step_control::StepControl;
 use super::step_size::least_step;
-use super::stepper::{BoxedStepper, ImplicitMethod, Statistics, Stepper};
+use super::stepper::{BoxedStepper, ImplicitMethod, Stepper};
 
 /// Order of the error estimate.
 const ERROR_ORDER: i32 = 3;

@@ -6,12 +6,13 @@ use super::failure::Cause;
 use super::ode::Ode;
 use super::right_hand_side::RightHandSide;
 use super::runge_kutta::RungeKutta;
-use super::stages::{combine, rows_mut, Block, Trial};
+use super::stages::{combine, rows_mut, Block};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
 use super::stepper::{BoxedStepper, ExplicitMethod};
 use super::tolerances::Tolerances;
+use super::trial::Trial;
 
 /// Classical Runge–Kutta 4 with its options.
 ///

@@ -1,17 +1,14 @@
 //! A model over formulas: the definition with all names linked, before numbers are put in.
 
-use super::bodies;
-use super::definition::{Definition, Entry, Value};
+use super::definition::{Entry, Value};
+use super::items::Body;
 use super::link::{self, Linker, Scope};
-use super::model::{Body, Model};
 use super::problem::Problem;
 use super::variable::Variable;
-use super::{checks, parameters};
 use crate::elements::{
     holding, BodyId, Constraint, CoordinateOf, Fixes, ForceElement, Group, OwnState,
 };
 use crate::expression::{Symbol, Tape};
-use std::sync::Arc;
 
 /// The linked content of a file: elements over [`Tape`].
 #[derive(Clone, Debug)]
@@ -32,59 +29,14 @@ pub struct Blueprint {
     pub forces: Vec<(String, &'static [OwnState], ForceElement<Tape>)>,
 }
 
-/// Links a definition and puts numbers in. `overrides` replace parameters by name.
-///
-/// All faults are reported at once.
-pub fn build(
-    definition: &Definition,
-    overrides: &[(String, Value)],
-) -> Result<Model, Vec<Problem>> {
-    let mut problems = Vec::new();
-    let values = parameters::values(definition, overrides, &mut problems);
-    let scope = Scope::new(definition);
-    let gravity = gravity(definition, &scope, &mut problems);
-    let bodies = bodies::read(definition, &scope, &mut problems);
-    let mut blueprint = Blueprint {
-        title: definition.title.clone().unwrap_or_default(),
-        parameters: scope.parameters.clone(),
-        allow_redundancy: definition.redundancy.as_deref() == Some("allow"),
-        gravity,
-        bodies,
-        constraints: Vec::new(),
-        forces: Vec::new(),
-    };
-    for (group, entries) in [
-        (Group::Joints, &definition.joints),
-        (Group::Drivers, &definition.drivers),
-        (Group::Forces, &definition.forces),
-    ] {
-        for entry in entries {
-            blueprint.link(group, entry, &scope, &mut problems);
-        }
-    }
-    let model = Model::new(&Arc::new(blueprint), &values);
-    // consequences of a faulty parameter are not reported; all other faults are reported at once
-    if values.iter().all(|x| x.is_finite()) {
-        checks::numbers(&model, &mut problems);
-    }
-    if problems.is_empty() {
-        Ok(model)
-    } else {
-        Err(problems)
-    }
-}
-
-fn gravity(definition: &Definition, scope: &Scope, problems: &mut Vec<Problem>) -> [Tape; 2] {
-    let path = ["gravity".to_string()];
-    let none = || [Tape::from(0.0), Tape::from(0.0)];
-    match &definition.gravity {
-        None => none(),
-        Some(value) => scope.pair(value, &path, "m/s^2", problems).unwrap_or_else(none),
-    }
-}
-
 impl Blueprint {
-    fn link(&mut self, group: Group, entry: &Entry, scope: &Scope, problems: &mut Vec<Problem>) {
+    pub(super) fn link(
+        &mut self,
+        group: Group,
+        entry: &Entry,
+        scope: &Scope,
+        problems: &mut Vec<Problem>,
+    ) {
         let Some(Value::Text(kind)) = entry.get("type") else {
             let message = format!("this {} has no type", group.singular());
             problems.push(Problem::at(&[group.section(), &entry.name], message));

@@ -1,6 +1,7 @@
 //! Numbers of a model that cannot be right.
 
-use super::model::{Body, Model};
+use super::items::Body;
+use super::model::Model;
 use super::problem::Problem;
 
 /// Longer lengths, m, have powers that overflow where positions are solved for.

@@ -2,7 +2,7 @@
 
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
-use super::model::Body;
+use super::items::Body;
 use super::problem::Problem;
 use super::variable::Variable;
 use crate::elements::{

@@ -3,8 +3,10 @@
 mod blueprint;
 mod bodies;
 mod body_fields;
+mod build;
 mod checks;
 mod definition;
+mod items;
 mod layout;
 mod link;
 #[allow(clippy::module_inception)] // the model of the module `model`
@@ -16,12 +18,14 @@ mod size;
 mod symbols;
 mod variable;
 
-pub use blueprint::{build, Blueprint};
+pub use blueprint::Blueprint;
 pub use body_fields::body_tables;
+pub use build::build;
 pub use definition::{Definition, Entry, Value};
+pub use items::{Body, ConstraintItem, ForceItem};
 pub use layout::{Block, Columns, Slots, StateLayout, WORKS};
 pub use link::{did_you_mean, Reach, Scope};
-pub use model::{Body, ConstraintItem, ForceItem, Model};
+pub use model::Model;
 pub use problem::Problem;
 pub use problems::Problems;
 pub use size::{column_scales, row_scales, size};

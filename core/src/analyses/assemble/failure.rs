@@ -1,8 +1,8 @@
 //! Failures of assembly, in terms of the mechanism.
 
-use super::closing::Closing;
 use super::placement::Gap;
 use super::request::{of_bodies, of_rates, CoordinateTarget, Request};
+use crate::analyses::closing::Closing;
 use crate::analyses::Mobility;
 use crate::elements::{Attachment, BodyId, Fixes, Group};
 use crate::equations::constraints;

@@ -8,7 +8,6 @@
 //! A consistent position is not changed.
 
 mod angle_winding;
-mod closing;
 mod dyad;
 mod failure;
 mod open_placement;
@@ -19,7 +18,7 @@ mod slider_placement;
 mod targets;
 mod velocities;
 
-pub use closing::Closing;
+pub use super::closing::Closing;
 pub use failure::{Failure, Fault};
 pub use open_placement::open_placement;
 pub use placement::{place, Dyad, Gap, Placement};

@@ -8,26 +8,13 @@ use super::failure::Reason;
 use super::lane_batch::are_finite;
 use super::model_cache::ModelCache;
 use super::report_projection::Halt;
-use super::run::Run;
+use super::trajectory::States;
 use crate::equations::augmented::NearSingular;
 use crate::equations::{Gains, Workspace};
 use crate::integrate::{all_finite, Flow};
 use crate::math::{Lanes, Real};
 use crate::model::Model;
 use crate::stabilize::Fault;
-
-/// States in rows, time first.
-#[derive(Clone, Copy, Debug)]
-pub struct States<'a> {
-    /// Times, s.
-    pub t: &'a [f64],
-    /// Coordinates, rows of n_q.
-    pub q: &'a [f64],
-    /// Velocities, rows of n_q.
-    pub v: &'a [f64],
-    /// First-order states of elements, rows of n_z.
-    pub z: &'a [f64],
-}
 
 /// Accelerations and multipliers of states, a row for each.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -140,21 +127,5 @@ impl<'a> Many<'a> {
             Lanes::rows(lanes, &mut to[start..]);
         }
         true
-    }
-}
-
-impl Run {
-    /// Accelerations and multipliers at the reported states, without stabilization.
-    ///
-    /// # Errors
-    /// As [`Prepared::accelerations`](super::Prepared::accelerations).
-    pub fn accelerations(&self, model: &Model) -> Result<Accelerations, Reason> {
-        let watch = |_| Flow::Continue;
-        accelerations(
-            (model, &ModelCache::default()),
-            self.trajectory.states(),
-            self.passing,
-            watch,
-        )
     }
 }

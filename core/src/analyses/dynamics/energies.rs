@@ -1,10 +1,10 @@
 //! Energies at the states of a run, computed on request; several states at once over lanes.
 
-use super::accelerations::{States, MANY};
+use super::accelerations::MANY;
 use super::failure::Reason;
 use super::model_cache::ModelCache;
 use super::report_projection::Halt;
-use super::run::Run;
+use super::trajectory::States;
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
 use crate::integrate::all_finite;
@@ -73,15 +73,4 @@ fn mechanical(
 fn at<S: Real>(model: &Model<S>, t: S, [q, v, z]: [&[S]; 3], motions: &mut Motions<S>) -> [S; 2] {
     motions.place(&model.layout, q, v);
     [energy::kinetic(model, motions), energy::potential(model, motions, z, t)]
-}
-
-impl Run {
-    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces at the reported states, J:
-    /// rows of [`ENERGIES`].
-    ///
-    /// # Errors
-    /// As [`Prepared::energies`](super::Prepared::energies).
-    pub fn energies(&self, model: &Model) -> Result<Vec<f64>, Reason> {
-        energies((model, &ModelCache::default()), self.trajectory.states(), &self.trajectory.works)
-    }
 }

@@ -2,7 +2,6 @@
 
 use super::constraint_violation::Violation;
 use super::report_projection::Halt;
-use super::run::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
 use crate::equations::augmented::Dependent;
@@ -40,15 +39,6 @@ pub enum Reason {
         /// Remedy.
         hint: &'static str,
     },
-}
-
-/// A failed run with the results before the failure.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
-    /// The reason.
-    pub reason: Reason,
-    /// The results before the failure.
-    pub run: Run,
 }
 
 impl Reason {

@@ -5,8 +5,8 @@
 //!
 //! | file | concept |
 //! |---|---|
-//! | `options`, `read` | options, and their values in a file |
-//! | `run`, `stepper` | a run through its phases; a stepper for callers |
+//! | `options`, `option_checks` | options, and the combinations that are refused |
+//! | `run`, `run_results`, `stepper` | a run through its phases; a stepper for callers |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
@@ -32,11 +32,13 @@ mod model_cache;
 mod motion_dae;
 mod motion_ode;
 mod motion_stepper;
+mod option_checks;
 mod options;
 mod prepared;
 mod recorder;
 mod report_projection;
 mod run;
+mod run_results;
 mod singularity_forecast;
 mod singularity_passage;
 mod stabilizations;
@@ -44,19 +46,18 @@ mod stepper;
 mod stiffness_detection;
 mod trajectory;
 
-pub use accelerations::{Accelerations, States};
+pub use accelerations::Accelerations;
 pub use clock::{system_clock, Clock};
 pub use energies::ENERGIES;
-pub use failure::{Failure, Reason};
+pub use failure::Reason;
 pub use methods::{Auto, Scheme};
-pub use options::{most_steps, read, Options, Output};
+pub use options::{most_steps, read, Options, Output, Singularity};
 pub use prepared::Prepared;
-pub use run::{Event, Phase, Run, Statistics};
-pub use singularity_passage::Singularity;
+pub use run::{Event, Failure, Phase, Run, Statistics};
 pub use stabilizations::Stabilization;
 pub use stepper::Stepper;
 pub use stiffness_detection::MethodChoice;
-pub use trajectory::{PiecewiseInterpolant, Trajectory};
+pub use trajectory::{PiecewiseInterpolant, States, Trajectory};
 
 use super::State;
 use crate::integrate::{Flow, Step};

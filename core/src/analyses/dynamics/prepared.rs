@@ -1,13 +1,14 @@
 //! A model prepared for many runs: data that each run would compute anew is computed only by the first run.
 
 use super::accelerations::accelerations;
-use super::accelerations::{Accelerations, States};
+use super::accelerations::Accelerations;
 use super::clock::{system_clock, Clock};
 use super::energies::energies;
-use super::failure::{Failure, Reason};
+use super::failure::Reason;
 use super::model_cache::ModelCache;
 use super::options::Options;
-use super::run::{simulate, Phase, Run, Watcher};
+use super::run::{simulate, Failure, Phase, Run, Watcher};
+use super::trajectory::States;
 use crate::analyses::State;
 use crate::integrate::Flow;
 use crate::model::Model;

@@ -1,8 +1,7 @@
 //! A run: a sequence of phases, each with its own active constraints.
 
-use super::accelerations::States;
 use super::clock::Clock;
-use super::failure::{Failure, Reason};
+use super::failure::Reason;
 use super::method_switching::Stop;
 use super::model_cache::ModelCache;
 use super::motion_ode::MotionOde;
@@ -10,7 +9,7 @@ use super::motion_stepper::MotionStepper;
 use super::options::Options;
 use super::recorder::{self, Recorder};
 use super::stiffness_detection::MethodChoice;
-use super::trajectory::{PiecewiseInterpolant, Trajectory};
+use super::trajectory::{PiecewiseInterpolant, States, Trajectory};
 use crate::analyses::State;
 use crate::integrate::{self, Cause, Direction, Ended, Flow, Step};
 use crate::model::Model;
@@ -84,6 +83,15 @@ impl Run {
         let Trajectory { t, q, v, z, .. } = &self.trajectory;
         States { t: &t[rows.clone()], q: &q[part(q)], v: &v[part(v)], z: &z[part(z)] }
     }
+}
+
+/// A failed run with the results before the failure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// The reason.
+    pub reason: Reason,
+    /// The results before the failure.
+    pub run: Run,
 }
 
 /// A function of the state whose change of sign ends a phase.

@@ -7,23 +7,13 @@
 //!   of its size in which the branches cannot be distinguished;
 //! * if its velocity is not tangent to any branch: Φ_q a = γ has no solution.
 
-use super::options::Options;
+use super::options::{Options, Singularity};
 use super::singularity_forecast::SingularityForecast;
 use crate::equations::augmented::Dependent;
 use crate::equations::forces::Acting;
 use crate::equations::{constraints, forces, mass, Singular, Workspace};
 use crate::model::{size, Model};
 use crate::stabilize::Fault;
-
-/// The policy at a singular position where the motion does not decide the branch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Singularity {
-    /// Stop with an error that names time, position and joints.
-    #[default]
-    Stop,
-    /// Continue; rounding decides the branch.
-    Pass,
-}
 
 /// Branches cannot be distinguished if the ratio of a pivot to its largest summand is below this: a part of 1e-3 of
 /// the mechanism's size.

@@ -1,11 +1,23 @@
 //! Reported states of a run, and its interpolants.
 
-use super::accelerations::States;
 use crate::integrate::{all_finite, Step};
 use crate::model::StateLayout;
 
 /// Largest number of values for which memory is reserved; longer tables grow.
 const MOST_ROOM: usize = 1 << 20;
+
+/// States in rows, time first.
+#[derive(Clone, Copy, Debug)]
+pub struct States<'a> {
+    /// Times, s.
+    pub t: &'a [f64],
+    /// Coordinates, rows of n_q.
+    pub q: &'a [f64],
+    /// Velocities, rows of n_q.
+    pub v: &'a [f64],
+    /// First-order states of elements, rows of n_z.
+    pub z: &'a [f64],
+}
 
 /// Reported states, time first; row k of each table belongs to `t[k]`.
 #[derive(Clone, Debug, Default, PartialEq)]

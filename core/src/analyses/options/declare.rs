@@ -110,10 +110,10 @@ macro_rules! options {
             #[allow(unused_variables)] // where there are no options
             fn read(reader: &mut $crate::analyses::options::Reader<'_>) -> Option<Self> {
                 // every option is read, so that all problems are reported at once
-                $(let $required = reader.required::<$must>(
-                    stringify!($required), concat!($($(stringify!($in)),*)?));)*
-                $(let $field = reader.optional::<$kind>(
-                    stringify!($field), concat!($($(stringify!($unit)),*)?), $default);)*
+                $(let $required = <$must as $crate::analyses::options::Kind>::required(
+                    reader, stringify!($required), concat!($($(stringify!($in)),*)?));)*
+                $(let $field = <$kind as $crate::analyses::options::Kind>::optional(
+                    reader, stringify!($field), concat!($($(stringify!($unit)),*)?), $default);)*
                 Some(Self { $($required: $required?,)* $($field: $field?),* })
             }
         }

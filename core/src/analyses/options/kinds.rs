@@ -14,6 +14,31 @@ pub trait Kind {
     fn data(value: &Self::Value) -> Default;
     /// Reads a value that is given; None if it is faulty (the reader keeps the report).
     fn read(reader: &mut Reader<'_>, key: &'static str, unit: &'static str) -> Option<Self::Value>;
+
+    /// Reads an option that must be given.
+    fn required(
+        reader: &mut Reader<'_>,
+        key: &'static str,
+        unit: &'static str,
+    ) -> Option<Self::Value> {
+        match reader.get(key) {
+            Some(_) => Self::read(reader, key, unit),
+            None => reader.refuse(key, "missing"),
+        }
+    }
+
+    /// Reads an option with a default.
+    fn optional(
+        reader: &mut Reader<'_>,
+        key: &'static str,
+        unit: &'static str,
+        default: Self::Value,
+    ) -> Option<Self::Value> {
+        match reader.get(key) {
+            Some(_) => Self::read(reader, key, unit),
+            None => Some(default),
+        }
+    }
 }
 
 /// An option that may be left out; it then has no value.
@@ -62,7 +87,7 @@ macro_rules! numbers {
                 Default::Number(*value)
             }
             fn read(reader: &mut Reader<'_>, key: &'static str, unit: &'static str) -> Option<f64> {
-                reader.number::<Self>(key, unit)
+                reader.number(key, unit, (Self::holds, Self::MUST))
             }
         }
     )+};
@@ -134,7 +159,7 @@ impl Kind for count {
         Default::Number(*value as f64)
     }
     fn read(reader: &mut Reader<'_>, key: &'static str, unit: &'static str) -> Option<usize> {
-        reader.number::<Self>(key, unit).map(|x| x as usize)
+        reader.number(key, unit, (Self::holds, Self::MUST)).map(|x| x as usize)
     }
 }
 

@@ -1,6 +1,5 @@
 //! Options from a file or from Python. Their structure has been checked by the tables; here values are computed.
 
-use super::kinds::{Bounded, Kind};
 use crate::equations::at;
 use crate::model::{Model, Problem, Reach, Scope, Value};
 
@@ -46,38 +45,22 @@ impl<'a> Reader<'a> {
         None
     }
 
-    /// An option that must be given.
-    pub fn required<K: Kind>(&mut self, key: &'static str, unit: &'static str) -> Option<K::Value> {
-        match self.get(key) {
-            Some(_) => K::read(self, key, unit),
-            None => self.refuse(key, "missing"),
-        }
-    }
-
-    /// An option with a default.
-    pub fn optional<K: Kind>(
+    /// A finite number for which `holds` is true; otherwise it is refused, with the words `must`.
+    pub fn number(
         &mut self,
-        key: &'static str,
-        unit: &'static str,
-        default: K::Value,
-    ) -> Option<K::Value> {
-        match self.get(key) {
-            Some(_) => K::read(self, key, unit),
-            None => Some(default),
-        }
-    }
-
-    /// A finite number within bounds.
-    pub fn number<B: Bounded>(&mut self, key: &str, unit: &str) -> Option<f64> {
+        key: &str,
+        unit: &str,
+        (holds, must): (fn(f64) -> bool, &str),
+    ) -> Option<f64> {
         let (value, path) = (self.get(key)?, self.path_of(key));
         let tape = self.scope.formula(value, &path, unit, Reach::Parameters, self.problems)?;
         let x = tape.evaluate(&at(&self.model.parameters, &[], &[], 0.0));
         if !x.is_finite() {
             return self.refuse(key, format!("becomes {x}; must be finite"));
         }
-        if !B::holds(x) {
+        if !holds(x) {
             let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-            return self.refuse(key, format!("{x}{unit}; must be {}", B::MUST));
+            return self.refuse(key, format!("{x}{unit}; must be {must}"));
         }
         Some(x)
     }

@@ -1,0 +1,39 @@
+//! The contents of a case, its formats and the limits of its texts.
+
+use crate::model::{Definition, Entry, Value};
+
+/// The version of the format that is read and written: `kempe = 1`.
+pub const FORMAT_VERSION: u32 = 1;
+/// Largest text that is read, in bytes: 16 MiB.
+pub const MOST_BYTES: usize = 16 << 20;
+/// Largest number of faults that are reported.
+pub const MOST_REPORTED: usize = 100;
+
+/// The format of a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// TOML 1.0.
+    Toml,
+    /// JSON, RFC 8259.
+    Json,
+}
+
+/// A model as written, its start, and its analyses.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Case {
+    /// The model.
+    pub definition: Definition,
+    /// The start of assembly.
+    pub start: Start,
+    /// Analyses, in order.
+    pub analyses: Vec<Entry>,
+}
+
+/// Coordinates and rates for the assembly; keys are `body.coordinate`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Start {
+    /// Prescribed coordinates and rates.
+    pub set: Vec<(String, Value)>,
+    /// Guessed coordinates and rates.
+    pub guess: Vec<(String, Value)>,
+}

@@ -1,0 +1,97 @@
+//! Fields of an element as data: shape, unit, default, and one sentence.
+
+/// The values that a field accepts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Name of a body.
+    Body,
+    /// `body.point`.
+    Point,
+    /// `body.x`, `body.y` or `body.angle`.
+    Coordinate,
+    /// Number or expression in the parameters.
+    Number,
+    /// Number or expression in the parameters, `t` and the state.
+    Law,
+    /// Two numbers.
+    Pair,
+    /// Names of points with two numbers each.
+    Points,
+    /// Two names.
+    Names,
+    /// One name.
+    Name,
+    /// true or false.
+    Flag,
+    /// A whole number from 1.
+    Count,
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// A table of the family of options of this name, chosen by its `type`.
+    Options(&'static str),
+}
+
+/// A default value of a field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Default {
+    /// One number.
+    Number(f64),
+    /// Two numbers.
+    Pair([f64; 2]),
+    /// true or false.
+    Flag(bool),
+    /// The options of this type, each with its own default.
+    Type(&'static str),
+    /// This body.
+    Body(&'static str),
+    /// Nothing: the field may be left out.
+    Absent,
+}
+
+impl From<f64> for Default {
+    fn from(x: f64) -> Self {
+        Self::Number(x)
+    }
+}
+impl From<[f64; 2]> for Default {
+    fn from(x: [f64; 2]) -> Self {
+        Self::Pair(x)
+    }
+}
+impl From<&'static str> for Default {
+    fn from(body: &'static str) -> Self {
+        Self::Body(body)
+    }
+}
+
+/// One field of an element, for files, the schema, Python and the reference page.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// Key in the file, argument in Python.
+    pub name: &'static str,
+    /// The values that it accepts.
+    pub shape: Shape,
+    /// SI unit; empty for references.
+    pub unit: String,
+    /// Value if absent; a field without one is required.
+    pub default: Option<Default>,
+    /// One sentence.
+    pub doc: String,
+}
+
+impl Field {
+    /// A field that must be given.
+    pub fn required(name: &'static str, shape: Shape, unit: &str, doc: &str) -> Self {
+        Self { name, shape, unit: unit.to_string(), default: None, doc: doc.to_string() }
+    }
+    /// A field with a default; [`Default::Absent`] if it may be left out.
+    pub fn optional(
+        name: &'static str,
+        shape: Shape,
+        unit: &str,
+        default: Default,
+        doc: &str,
+    ) -> Self {
+        Self { default: Some(default), ..Self::required(name, shape, unit, doc) }
+    }
+}

@@ -1,0 +1,62 @@
+//! From a definition to a model: names are linked, parameters evaluated, numbers checked.
+
+use super::blueprint::Blueprint;
+use super::definition::{Definition, Value};
+use super::link::Scope;
+use super::model::Model;
+use super::problem::Problem;
+use super::{bodies, checks, parameters};
+use crate::elements::Group;
+use crate::expression::Tape;
+use std::sync::Arc;
+
+/// Links a definition and puts numbers in. `overrides` replace parameters by name.
+///
+/// All faults are reported at once.
+pub fn build(
+    definition: &Definition,
+    overrides: &[(String, Value)],
+) -> Result<Model, Vec<Problem>> {
+    let mut problems = Vec::new();
+    let values = parameters::values(definition, overrides, &mut problems);
+    let scope = Scope::new(definition);
+    let gravity = gravity(definition, &scope, &mut problems);
+    let bodies = bodies::read(definition, &scope, &mut problems);
+    let mut blueprint = Blueprint {
+        title: definition.title.clone().unwrap_or_default(),
+        parameters: scope.parameters.clone(),
+        allow_redundancy: definition.redundancy.as_deref() == Some("allow"),
+        gravity,
+        bodies,
+        constraints: Vec::new(),
+        forces: Vec::new(),
+    };
+    for (group, entries) in [
+        (Group::Joints, &definition.joints),
+        (Group::Drivers, &definition.drivers),
+        (Group::Forces, &definition.forces),
+    ] {
+        for entry in entries {
+            blueprint.link(group, entry, &scope, &mut problems);
+        }
+    }
+    let model = Model::new(&Arc::new(blueprint), &values);
+    // consequences of a faulty parameter are not reported; all other faults are reported at once
+    if values.iter().all(|x| x.is_finite()) {
+        checks::numbers(&model, &mut problems);
+    }
+    if problems.is_empty() {
+        Ok(model)
+    } else {
+        Err(problems)
+    }
+}
+
+fn gravity(definition: &Definition, scope: &Scope, problems: &mut Vec<Problem>) -> [Tape; 2] {
+    let path = ["gravity".to_string()];
+    let none = || [Tape::from(0.0), Tape::from(0.0)];
+    match &definition.gravity {
+        None => none(),
+        Some(value) => scope.pair(value, &path, "m/s^2", problems).unwrap_or_else(none),
+    }
+}

@@ -1,0 +1,86 @@
+//! The items of a model, over any scalar: bodies, joints, drivers and forces.
+
+use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, JointId, OwnState};
+use crate::expression::Tape;
+use crate::math::Local;
+
+/// A rigid body.
+#[derive(Clone, Debug)]
+pub struct Body<S = f64> {
+    /// Its name.
+    pub name: String,
+    /// The `type` in the file.
+    pub kind: &'static str,
+    /// Mass, kg; zero for ground.
+    pub mass: S,
+    /// Moment of inertia about the mass centre, kg·m².
+    pub inertia: S,
+    /// Mass centre in the body frame, m.
+    pub center: Local<S>,
+    /// Named points in the body frame, m.
+    pub points: Vec<(String, Local<S>)>,
+    /// Where it was drawn: x, y, angle; a guess for assembly.
+    pub drawn: Option<[S; 3]>,
+    /// Whether the angle is a coordinate; a point mass has none.
+    pub turns: bool,
+}
+
+impl<S> Body<S> {
+    /// The same body over another scalar.
+    pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Body<T> {
+        let mut local = |s: &Local<S>| Local { x: f(&s.x), y: f(&s.y) };
+        let center = local(&self.center);
+        let points = self.points.iter().map(|(name, s)| (name.clone(), local(s))).collect();
+        Body {
+            name: self.name.clone(),
+            kind: self.kind,
+            mass: f(&self.mass),
+            inertia: f(&self.inertia),
+            center,
+            points,
+            drawn: self.drawn.as_ref().map(|[x, y, angle]| [f(x), f(y), f(angle)]),
+            turns: self.turns,
+        }
+    }
+
+    /// A named point.
+    pub fn point(&self, name: &str) -> Option<&Local<S>> {
+        self.points.iter().find(|(n, _)| n == name).map(|(_, s)| s)
+    }
+}
+
+/// A joint or driver in a model.
+#[derive(Clone, Debug)]
+pub struct ConstraintItem<S = f64> {
+    /// Its name.
+    pub name: String,
+    /// Joint or driver.
+    pub group: Group,
+    /// The bodies whose poses enter Φ: i and j first.
+    pub bodies: Vec<BodyId>,
+    /// The element; if there is a `law`, with its formulas at t = 0.
+    pub element: Constraint<S>,
+    /// The element over formulas, if one of them depends on time or state.
+    pub law: Option<Box<Constraint<Tape>>>,
+    /// Whether time or a driven motion does work through it.
+    pub driven: bool,
+    /// Equations, in the order of the rows.
+    pub equations: Vec<Equation>,
+}
+
+/// A force in a model.
+#[derive(Clone, Debug)]
+pub struct ForceItem<S = f64> {
+    /// Its name.
+    pub name: String,
+    /// The bodies on which it acts: i and j first.
+    pub bodies: Vec<BodyId>,
+    /// Its first-order states.
+    pub states: &'static [OwnState],
+    /// The joint whose reaction enters it.
+    pub reaction: Option<JointId>,
+    /// The element; if there is a `law`, with its formulas at t = 0.
+    pub element: ForceElement<S>,
+    /// The element over formulas, if one of them depends on time or state.
+    pub law: Option<Box<ForceElement<Tape>>>,
+}

@@ -1,0 +1,134 @@
+"""An element lives in its own file: no other source names its struct or its `type`."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from house.places import CORE, PACKAGE, ROOT
+
+LIST = CORE / "elements" / "list.rs"
+GENERATED = "@generated"
+
+#: Types whose names are also words of mechanics. These are allowed where they do not name a type.
+WORDS = {"Distance", "Force", "Torque", "Translational"}
+
+#: Code examples in doc comments and docstrings.
+_EXAMPLE = re.compile(
+    r"(?ms)^\s*//[/!] ```.*?^\s*//[/!] ```|^(?P<in>[ ]*)```.*?^(?P=in)```|^\s*m\.\w+\(.*?$"
+)
+
+
+@dataclass(frozen=True)
+class Element:
+    """Struct, `type` in a file, and source of an element."""
+
+    struct: str
+    kind: str
+    source: Path
+
+
+def elements() -> list[Element]:
+    """The elements in the order of the list, without those of the tests."""
+    listed = LIST.read_text(encoding="utf-8")
+    listed = re.sub(r"#\[cfg\(feature[^\n]*", "", listed)
+    calls = re.findall(r"(?ms)^(?:constraints|forces)! \{(.*?)^\}", listed)
+    groups = {"Joints", "Drivers"}
+    names = [name for call in calls for name in re.findall(r"\w+", call) if name not in groups]
+    return [element(name) for name in names]
+
+
+def element(struct: str) -> Element:
+    for path in (CORE / "elements").rglob("*.rs"):
+        declared = re.search(rf'\b{struct}, "(\w+)" \{{', path.read_text(encoding="utf-8"))
+        if declared:
+            return Element(struct, declared[1], path)
+    raise ValueError(f"{struct} is not declared")
+
+
+def named(text: str, element: Element) -> list[str]:
+    """The lines of a source that name an element; examples in comments are skipped."""
+    text = _EXAMPLE.sub(lambda found: "\n" * found[0].count("\n"), text)
+    return [line.strip() for line in text.splitlines() if names(line, element)]
+
+
+def names(line: str, element: Element) -> bool:
+    quoted = re.search(rf"""(["'`]){element.kind}\1""", line)
+    if element.struct not in WORDS:
+        called = re.search(rf"\.{element.kind}\(", line)
+        return bool(re.search(rf"\b{element.struct}\b", line) or quoted or called)
+    of_type = quoted and re.search(r"(?i)\b(?:type|kind)\b", line)
+    # `Enum::Torque` and `Torque(S)` are variants; `joints::Torque`, `Torque<S>`, `Torque::…` name the struct
+    struct = re.search(
+        rf"\b(?:joints|drivers|forces|elements|Constraint|ForceElement)::(?:\{{[^}}]*)?\b{element.struct}\b"
+        rf"|(?<!::)\b{element.struct}(?:<|::|\s*\{{)",
+        line,
+    )
+    return bool(of_type or struct)
+
+
+def others(element: Element) -> list[Path]:
+    """The sources that may not name an element."""
+    folders = (CORE, ROOT / "bindings", PACKAGE)
+    suffixes = (".rs", ".py", ".pyi", ".js", ".html")
+    found = [path for folder in folders for path in folder.rglob("*") if path.suffix in suffixes]
+    beside = {element.source, element.source.with_name("mod.rs"), LIST}
+    return [path for path in sorted(found) if path not in beside]
+
+
+ELEMENTS = elements()
+TEXTS = {
+    path: text
+    for path in others(ELEMENTS[0]) + [each.source for each in ELEMENTS]
+    if GENERATED not in (text := path.read_text(encoding="utf-8")).partition("\n")[0]
+}
+
+
+@pytest.mark.parametrize("element", ELEMENTS, ids=lambda element: element.kind)
+def test_no_other_file_names_an_element(element: Element) -> None:
+    allowed = set(others(element))
+    found = {
+        str(path.relative_to(ROOT)): lines
+        for path, text in TEXTS.items()
+        if path in allowed and (lines := named(text, element))
+    }
+    assert not found
+
+
+def test_the_list_is_read() -> None:
+    assert {"revolute", "coordinate_driver", "torque"} <= {each.kind for each in ELEMENTS}
+    assert all(each.source.is_relative_to(CORE / "elements") for each in ELEMENTS)
+
+
+@pytest.mark.parametrize(
+    ("struct", "line"),
+    [
+        ("Revolute", "use crate::elements::joints::Revolute;"),
+        ("Revolute", 'if kind == "revolute" {'),
+        ("Revolute", "/// Pins such as [`Revolute`]."),
+        ("Revolute", 'm.joints.revolute("A")'),
+        ("CoordinateDriver", "Constraint::CoordinateDriver(driver) => driver.value,"),
+        ("Torque", "use super::forces::{SpringDamper, Torque};"),
+        ("Torque", "let torque = Torque::<f64>::read(source);"),
+        ("Torque", 'if info.kind == "torque":'),
+        ("Distance", "Constraint::Distance(rod) => rod.length,"),
+        ("Distance", 'match kind { "distance" => 1, _ => 2 }'),
+    ],
+)
+def test_a_name_is_found(struct: str, line: str) -> None:
+    assert named(line, element(struct))
+
+
+@pytest.mark.parametrize(
+    ("struct", "text"),
+    [
+        ("Revolute", "/// As with every revolute joint."),
+        ("Revolute", "/// ```\n/// use kempe::joints::Revolute;\n/// ```"),
+        ("Torque", 'UNITS = {"torque": "N·m"}'),
+        ("Translational", "/// Translational stiffness, N/m."),
+        ("Torque", "/// Torque about the frame's origin, N·m."),
+        ("Distance", "Fixes::Distance(length) => length,"),
+    ],
+)
+def test_a_word_of_mechanics_is_allowed(struct: str, text: str) -> None:
+    assert not named(text, element(struct))
