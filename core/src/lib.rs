@@ -9,7 +9,7 @@
 //! - [`dynamics()`] integrates the motion. [`Options`] choose the method ([`methods`]), the [`Stabilization`] of
 //!   the constraints and the [output step](Options::output_step).
 //! - [`Run`] holds the reported states. From them follow coordinates ([`Run::coordinate`]), reactions
-//!   ([`Run::reactions`]), accelerations and multipliers ([`Run::responses`]) and energies ([`Run::energies`]).
+//!   ([`Run::reactions`]), accelerations and multipliers ([`Run::accelerations`]) and energies ([`Run::energies`]).
 //! - [`Problems`] and [`failures`] explain in words what is wrong with a model, or why a mechanism cannot be
 //!   assembled or simulated.
 #![forbid(unsafe_code)]

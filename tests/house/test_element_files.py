@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from house.places import CORE, PACKAGE, ROOT
 
-LIST = CORE / "elements" / "list.rs"
+LIST = CORE / "elements" / "mod.rs"
 GENERATED = "@generated"
 
 #: Types whose names are also words of mechanics. These are allowed where they do not name a type.
@@ -58,9 +58,10 @@ def names(line: str, element: Element) -> bool:
         called = re.search(rf"\.{element.kind}\(", line)
         return bool(re.search(rf"\b{element.struct}\b", line) or quoted or called)
     of_type = quoted and re.search(r"(?i)\b(?:type|kind)\b", line)
-    # `Enum::Torque` and `Torque(S)` are variants; `joints::Torque`, `Torque<S>`, `Torque::…` name the struct
+    # `joints::Torque`, `Torque<S>` and `Torque::…` name the struct, other `Enum::Torque` a variant
+    homes = "joints|drivers|forces|elements|Constraint|ForceElement"
     struct = re.search(
-        rf"\b(?:joints|drivers|forces|elements|Constraint|ForceElement)::(?:\{{[^}}]*)?\b{element.struct}\b"
+        rf"\b(?:{homes})::(?:\{{[^}}]*)?\b{element.struct}\b"
         rf"|(?<!::)\b{element.struct}(?:<|::|\s*\{{)",
         line,
     )
@@ -72,7 +73,7 @@ def others(element: Element) -> list[Path]:
     folders = (CORE, ROOT / "bindings", PACKAGE)
     suffixes = (".rs", ".py", ".pyi", ".js", ".html")
     found = [path for folder in folders for path in folder.rglob("*") if path.suffix in suffixes]
-    beside = {element.source, element.source.with_name("mod.rs"), LIST}
+    beside = {element.source, LIST}
     return [path for path in sorted(found) if path not in beside]
 
 
