@@ -186,7 +186,7 @@ fn at_rest_on_one_line_the_motion_is_undecided() {
     let failure = dynamics(&m, &state, &options, |_| Flow::Continue).unwrap_err();
     let Reason::Singular { t, message, .. } = &failure.reason else { panic!("{}", failure.reason) };
     assert_eq!(*t, 0.0);
-    for part in ["t = 0.000000 s", "rests", "joints A0, A1, B0, C0", "crank1 x = 1.500000"] {
+    for part in ["t = 0.000000 s", "at rest", "joints A0, A1, B0, C0", "crank1 x = 1.500000"] {
         assert!(message.contains(part), "{part}: {message}");
     }
     let told = Options { singularity: Singularity::Pass, ..options };
