@@ -160,6 +160,7 @@ fn every_field_of_bodies() {
     bar.through("A", 0, 0).through("B", 1, 0).point("C", 0, 1);
     let body = m.body("body").mass(1).inertia(1).center(0, 0).point("C", 0, 1);
     body.through("C", 0, 0).through("D", 1, 1);
+    m.point_mass("point_mass").mass(1).at(0.5, 2);
     m.build().unwrap();
     for table in body_tables() {
         let entry = m.definition().bodies.iter().find(|b| b.name == table.name).unwrap();

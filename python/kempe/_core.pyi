@@ -1,7 +1,7 @@
 """Python interface of the compiled core.
 
 Bulk data are NumPy arrays (float64, C order) with time as first axis. Structured data are JSON
-texts. Ground has the number 0; moving body k has the columns 3 (k - 1) to 3 k of q.
+texts. Ground has the number 0 and no columns of q; ``describe`` gives the columns of the others.
 """
 
 from collections.abc import Callable
@@ -77,13 +77,18 @@ class Model:
     def describe(self) -> str:
         """Contents of the model with numerical values, as JSON.
 
-        ``{"title", "gravity": [x, y], "parameters": {…}, "n_q", "n_rows",
-        "bodies": [{"name", "type", "mass", "inertia", "center": [x, y], "points": {"B": [x, y]}}],
-        "constraints": [{"name", "group": "joints" | "drivers", "type", "i", "j",
+        ``{"title", "gravity": [x, y], "parameters": {…}, "n_q", "n_z", "n_rows",
+        "bodies": [{"name", "type", "mass", "inertia", "center": [x, y], "points": {"B": [x, y]},
+        "columns": [start, stop]}],
+        "constraints": [{"name", "group": "joints" | "drivers", "type", "i", "j", "bodies": [name],
         "point_i": [x, y], "point_j": [x, y], "axis_i": angle, "axis_j": angle,
-        "rows": [start, stop], "equations": [{"name", "unit"}]}],
-        "forces": [{"name", "type", "i", "j", "parts": ["stiffness", "damping"]}]}``; the first
-        body is ground.
+        "rows": [start, stop], "equations": [{"name", "unit"}],
+        "columns": [start, stop], "coordinates": [{"name", "unit"}]}],
+        "forces": [{"name", "type", "i", "j", "bodies": [name], "parts": ["stiffness", "damping"],
+        "points": null | [[x, y], [x, y]], "places": [start, stop], "states": [{"name", "unit"}],
+        "reaction": null | joint}]}``; the first body is ground. ``columns`` of a body are its
+        coordinates in q, those of a constraint its internal coordinates; ``places`` of a force are
+        its states in z.
         """
 
     def symbols(self) -> str:
@@ -105,10 +110,12 @@ class Run:
     """(n_t, n_q)."""
     v: _F
     """(n_t, n_q)."""
+    z: _F
+    """(n_t, n_z)."""
     dense_t: _F | None
     """(k + 1,), s: the boundaries of the steps."""
     dense_y: _F | None
-    """(k, n_y): y = [q, v, quadratures] at the start of each step."""
+    """(k, n_y): y = [q, v, z, works] at the start of each step."""
     dense_c: _F | None
     """(k, n_y, 4): y(t_old + θ h) = y_old + h Σ_k c[:, k] θ^(k + 1)."""
     status: str
@@ -131,8 +138,9 @@ def assemble(
     t: float,
     q: _F | None,
     v: _F | None,
+    z: _F | None,
     from_guess: bool = False,
-) -> tuple[float, _F, _F, str]:
+) -> tuple[float, _F, _F, _F, str]:
     """Assemble a mechanism.
 
     Args:
@@ -142,10 +150,11 @@ def assemble(
         t: time, s.
         q: guess of all coordinates, (n_q,).
         v: guess of all velocities, (n_q,).
+        z: first-order states of the result, (n_z,); zeros without a whole guess.
         from_guess: whether the Newton iteration starts from the guess with open loops.
 
     Returns:
-        t, q, v and a report as JSON: ``{"iterations": [{"residual", "step", "damping"}],
+        t, q, v, z and a report as JSON: ``{"iterations": [{"residual", "step", "damping"}],
         "degrees_of_freedom", "modes": [{"bodies", "joint", "side": "left" | "right" |
         "ahead" | "behind"}],
         "alternatives": int, "warnings": [text]}``.
@@ -159,6 +168,7 @@ def dynamics(
     t: float,
     q: _F,
     v: _F,
+    z: _F,
     options: str,
     progress: Callable[[float], None] | None,
     t_end: float | None = None,
@@ -170,6 +180,7 @@ def dynamics(
         t: time of the state, s.
         q: (n_q,).
         v: (n_q,).
+        z: (n_z,).
         options: JSON, an entry of ``analyses`` as in a file.
         progress: function that is called repeatedly with the time reached, s.
         t_end: end time, s; replaces the one in the options. The options are parsed once for each
@@ -180,7 +191,7 @@ def dynamics(
             as for ``KeyboardInterrupt``.
     """
 
-def evaluate(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
+def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F) -> tuple[_F, _F]:
     """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂."""
 
 def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
@@ -190,11 +201,23 @@ def reaction(model: Model, joint: str, on: str, frame: str, t: _F, q: _F, lam: _
     """Force and torque about the joint point of a joint on a body: (n_t, 3), N and N·m."""
 
 def force(
-    model: Model, name: str, on: str, part: str | None, frame: str, t: _F, q: _F, v: _F
+    model: Model,
+    name: str,
+    on: str,
+    part: str | None,
+    frame: str,
+    t: _F,
+    q: _F,
+    v: _F,
+    z: _F,
+    lam: _F | None = None,
 ) -> _F:
-    """Force and torque of a force element on a body about its origin: (n_t, 3)."""
+    """Force and torque of a force element on a body about its origin: (n_t, 3).
 
-def matrices(model: Model, t: float, q: _F, v: _F, set: str) -> dict[str, _F]:  # noqa: A002
+    ``lam`` are the multipliers, (n_t, n_rows), for an element into which a reaction enters.
+    """
+
+def matrices(model: Model, t: float, q: _F, v: _F, z: _F, set: str) -> dict[str, _F]:  # noqa: A002
     """``M``, ``Phi``, ``Phi_q``, ``nu``, ``gamma``, ``Q`` and ``kkt`` at a state.
 
     Args:
@@ -202,6 +225,7 @@ def matrices(model: Model, t: float, q: _F, v: _F, set: str) -> dict[str, _F]:  
         t: time, s.
         q: (n_q,).
         v: (n_q,).
+        z: (n_z,).
         set: further driver rows, as in ``assemble``.
     """
 

@@ -1,4 +1,4 @@
-"""Write what follows from the catalogue of the core: ``python -m kempe._generate``.
+"""Write the files that follow from the catalogue of the core: ``python -m kempe._generate``.
 
 The catalogue is the one statement of the fields of elements, analyses and options. The typed
 dataclasses and the methods of ``Model`` in ``elements.py`` follow from it, and so do the classes in
@@ -168,7 +168,7 @@ def option_type(field: dict[str, Any], classes: dict[str, str]) -> str:
 def method(table: dict[str, Any]) -> str:
     """The method of ``Model`` that adds one element."""
     name, fields = table["name"], table["fields"]
-    # What may be left out goes by its name, lest two bodies be taken for each other.
+    # Optional fields are passed by name, so that two bodies cannot be confused.
     positional = [f for f in fields if f["shape"] in REFERENCES and f["default"] is None]
     keyword = [f for f in fields if f not in positional]
     arguments = [f"{f['name']}: str{default(f)}" for f in positional]

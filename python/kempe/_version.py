@@ -1,3 +1,3 @@
-"""The version, alone, so that asking for it loads nothing else."""
+"""Only the version, so that a query for it loads no other module."""
 
 __version__ = "0.1.0"

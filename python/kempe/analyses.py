@@ -59,19 +59,20 @@ def assemble(
     """
     compiled = _allowing(compiled_model(model), redundancy)
     held = encode(numbers(set or {}, "set"))
-    q = v = None
+    q = v = z = None
     if isinstance(guess, State):
         _refuse_foreign(compiled, guess)
         q, v, hint = np.array(guess.q), np.array(guess.v), "{}"
+        z = np.array(guess.z) if len(guess.z) == compiled.n_z else np.zeros(compiled.n_z)
     else:
         hint = encode(numbers(guess or {}, "guess"))
-    t_found, q_found, v_found, text = _core.assemble(
-        compiled.core, held, hint, _time(t), q, v, from_guess
+    t_found, q_found, v_found, z_found, text = _core.assemble(
+        compiled.core, held, hint, _time(t), q, v, z, from_guess
     )
     report = AssemblyReport.from_json(text)
     for warning in report.warnings:
         warnings.warn(warning, AssemblyWarning, stacklevel=2)
-    return State(compiled, t_found, q_found, v_found, report)
+    return State(compiled, t_found, q_found, v_found, report, z=z_found)
 
 
 def dynamics(
@@ -136,7 +137,8 @@ def _simulate(
     _refuse_foreign(model, start)
     t, text = float(start.t), wanted.text
     try:
-        run = _core.dynamics(model.core, t, start.q, start.v, text, progress, wanted.t_end)
+        at = start.q, start.v, start.z
+        run = _core.dynamics(model.core, t, *at, text, progress, wanted.t_end)
     except BaseException as error:  # including interruptions and exceptions of progress
         partial = getattr(error, "run", None)
         if partial is not None and len(partial.t):

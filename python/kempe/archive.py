@@ -41,6 +41,7 @@ class _Stored:
     t: Floats
     q: Floats
     v: Floats
+    z: Floats
     a: Floats
     lam: Floats
     energy: Floats
@@ -60,7 +61,7 @@ class _Stored:
 
 def save(solution: Solution, path: Path | str) -> None:
     """Write a solution completely or not at all; see ``Solution.save``."""
-    arrays = {name: getattr(solution, name) for name in ("t", "q", "v", "a", "lam")}
+    arrays = {name: getattr(solution, name) for name in ("t", "q", "v", "z", "a", "lam")}
     energy = solution.energy
     arrays["energy"] = np.column_stack(
         [
@@ -136,6 +137,8 @@ def _stored(about: dict[str, Any], arrays: dict[str, Floats], model: CompiledMod
     n = len(arrays["t"])
     shapes = {"t": (n,), "energy": (n, 5), "lam": (n, model.n_rows)}
     shapes |= dict.fromkeys(("q", "v", "a"), (n, model.n_q))
+    arrays.setdefault("z", np.zeros((n, model.n_z)))  # files of version 0.1 have no z
+    shapes["z"] = (n, model.n_z)
     for name, shape in shapes.items():
         if arrays[name].shape != shape:
             raise ValueError(f"{name} is {arrays[name].shape}, must be {shape}")

@@ -1,4 +1,4 @@
-"""Entries for bodies: the slender bar and the general body."""
+"""Entries for bodies: the slender bar, the general body and the point mass."""
 
 from __future__ import annotations
 
@@ -64,3 +64,19 @@ class Body(Element):
         "points": "points",
         "through": "points",
     }
+
+
+@dataclass(frozen=True)
+class PointMass(Element):
+    """A point with mass and one named point, P. It has no angle.
+
+    Attributes:
+        mass: kg.
+        at: position in the global frame when assembly starts, m.
+    """
+
+    mass: Number
+    at: Pair | None = None
+    section: ClassVar[str] = "bodies"
+    kind: ClassVar[str] = "point_mass"
+    shapes: ClassVar[Mapping[str, str]] = {"mass": "number", "at": "pair"}

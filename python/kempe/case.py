@@ -1,4 +1,4 @@
-"""A case: a model, a start and any number of analyses; what a file holds."""
+"""A case: a model, a start and any number of analyses; the content of a file."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from kempe.values import Number, number, numbers
 
 FORMATS = {".toml": "toml", ".json": "json"}
 
-#: What carries out an analysis, by its ``type``.
+#: The function that runs an analysis, by its ``type``.
 _Runner = Callable[[CompiledModel, State, Mapping[str, Any], "Progress | None"], Solution]
 _RUNNERS: dict[str, _Runner] = {"dynamics": simulate}
 
@@ -139,7 +139,7 @@ class Case:
         return dict(self._start.set)
 
     def run(self, progress: Progress | None = None) -> Results:
-        """Carry out all analyses, in order.
+        """Run all analyses, in order.
 
         Args:
             progress: called now and then with the time reached, s.
@@ -152,7 +152,7 @@ class Case:
     def each(
         self, progress: Progress | None = None, start: State | None = None
     ) -> Iterator[tuple[str, Solution]]:
-        """Carry out the analyses one by one and give each as soon as it is there.
+        """Run the analyses one by one and yield each solution at once.
 
         Args:
             progress: called now and then with the time reached, s.

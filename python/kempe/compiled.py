@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
@@ -31,6 +31,7 @@ class BodyInfo:
         inertia: about the mass centre, kg·m².
         center: mass centre in the body's frame, m.
         points: named points in the body's frame, m.
+        columns: slice of its coordinates in q: x, y, angle; x, y of a point mass; empty for ground.
     """
 
     name: str
@@ -40,11 +41,22 @@ class BodyInfo:
     inertia: float
     center: Vector
     points: Mapping[str, Vector]
+    columns: slice
 
     @property
-    def columns(self) -> slice:
-        """Slice of its coordinates in q; empty for ground."""
-        return slice(max(0, 3 * self.number - 3), 3 * self.number)
+    def count(self) -> int:
+        """Number of its coordinates."""
+        return int(self.columns.stop - self.columns.start)
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Names of its coordinates: ``x``, ``y`` and ``angle``."""
+        return COORDINATES[: self.count]
+
+    @property
+    def turns(self) -> bool:
+        """Whether it has an angle."""
+        return "angle" in self.quantities
 
 
 @dataclass(frozen=True)
@@ -55,11 +67,14 @@ class ConstraintInfo:
         name: name of the joint or driver.
         group: "joints" or "drivers".
         type: the ``type`` in the file.
-        i, j: the connected bodies.
+        i, j: the first two connected bodies.
+        bodies: all connected bodies.
         point_i, point_j: the joint point in the frame of each body, m.
         axis_i, axis_j: angle of the joint's x axis in the frame of each body, rad.
         rows: slice of its equations in Φ and λ.
         equations: names and units of the equations.
+        columns: slice of its internal coordinates in q; empty for most joints.
+        coordinates: names and units of its internal coordinates.
     """
 
     name: str
@@ -73,6 +88,9 @@ class ConstraintInfo:
     axis_j: float
     rows: slice
     equations: tuple[tuple[str, str], ...]
+    bodies: tuple[str, ...]
+    columns: slice
+    coordinates: tuple[tuple[str, str], ...]
 
 
 @dataclass(frozen=True)
@@ -82,10 +100,14 @@ class ForceInfo:
     Attributes:
         name: name of the element.
         type: the ``type`` in the file.
-        i, j: the bodies on which it acts.
+        i, j: the first two bodies on which it acts.
+        bodies: all bodies on which it acts.
         parts: names of its parts, such as "stiffness" and "damping".
         points: the two points of a force along a line, in the frames of bodies i and j, m; None for
             other forces.
+        places: slice of its first-order states in z; empty for most forces.
+        states: names and units of its first-order states, such as ``("current", "A")``.
+        reaction: the joint whose reaction enters it; None for most forces.
     """
 
     name: str
@@ -94,6 +116,10 @@ class ForceInfo:
     j: str
     parts: tuple[str, ...]
     points: tuple[Vector, Vector] | None
+    bodies: tuple[str, ...]
+    places: slice
+    states: tuple[tuple[str, str], ...]
+    reaction: str | None
 
 
 class CompiledModel:
@@ -155,8 +181,13 @@ class CompiledModel:
 
     @property
     def n_q(self) -> int:
-        """Number of coordinates: 3 for each moving body."""
+        """Number of coordinates: those of the moving bodies and the internal ones of joints."""
         return int(self._about["n_q"])
+
+    @property
+    def n_z(self) -> int:
+        """Number of first-order states of force elements."""
+        return int(self._about["n_z"])
 
     @property
     def n_rows(self) -> int:
@@ -217,8 +248,26 @@ class CompiledModel:
         return self.all_bodies[name]
 
     def column_names(self) -> list[str]:
-        """Names of the coordinates in the order of q, such as ``crank.angle``."""
-        return [f"{body}.{name}" for body in self.bodies for name in COORDINATES]
+        """Names of the coordinates in the order of q, such as ``crank.angle``.
+
+        The coordinates of the moving bodies come first, then the internal ones of joints.
+        """
+        return self._column_names(COORDINATES, "")
+
+    def rate_names(self) -> list[str]:
+        """Names of the velocities in the order of v, such as ``crank.omega``.
+
+        The rate of an internal coordinate ``A.u`` has the name ``A.u_rate``.
+        """
+        return self._column_names(RATES, "_rate")
+
+    def state_names(self) -> list[str]:
+        """Names of the first-order states in the order of z, such as ``motor.current``."""
+        return [f"{f.name}.{name}" for f in self.forces.values() for name, _ in f.states]
+
+    def state_units(self) -> list[str]:
+        """Units of the first-order states in the order of z."""
+        return [unit for f in self.forces.values() for _, unit in f.states]
 
     def row_names(self) -> list[str]:
         """Names of the constraint equations in the order of Φ, such as ``A.x``."""
@@ -234,6 +283,15 @@ class CompiledModel:
         yield from self.constraints
         yield from self.forces
 
+    def _column_names(self, of_body: Sequence[str], suffix: str) -> list[str]:
+        names = [f"{b.name}.{name}" for b in self.bodies.values() for name in of_body[: b.count]]
+        own = [
+            f"{c.name}.{name}{suffix}"
+            for c in self.constraints.values()
+            for name, _ in c.coordinates
+        ]
+        return names + own
+
     def _group(self, group: str) -> Mapping[str, ConstraintInfo]:
         return MappingProxyType({k: c for k, c in self.constraints.items() if c.group == group})
 
@@ -241,6 +299,11 @@ class CompiledModel:
 def _vector(two: list[float] | None) -> Vector:
     x, y = two or (0.0, 0.0)
     return float(x), float(y)
+
+
+def _units(entries: list[dict[str, str]]) -> tuple[tuple[str, str], ...]:
+    """Names and units."""
+    return tuple((entry["name"], entry["unit"]) for entry in entries)
 
 
 def _body(number: int, entry: dict[str, Any]) -> BodyInfo:
@@ -253,6 +316,7 @@ def _body(number: int, entry: dict[str, Any]) -> BodyInfo:
         inertia=float(entry["inertia"] or 0.0),
         center=_vector(entry["center"]),
         points=MappingProxyType(points),
+        columns=slice(*entry["columns"]),
     )
 
 
@@ -268,7 +332,10 @@ def _constraint(entry: dict[str, Any]) -> ConstraintInfo:
         axis_i=float(entry["axis_i"]),
         axis_j=float(entry["axis_j"]),
         rows=slice(*entry["rows"]),
-        equations=tuple((equation["name"], equation["unit"]) for equation in entry["equations"]),
+        equations=_units(entry["equations"]),
+        bodies=tuple(entry["bodies"]),
+        columns=slice(*entry["columns"]),
+        coordinates=_units(entry["coordinates"]),
     )
 
 
@@ -281,4 +348,8 @@ def _force(entry: dict[str, Any]) -> ForceInfo:
         j=entry["j"],
         parts=tuple(entry["parts"]),
         points=None if points is None else (_vector(points[0]), _vector(points[1])),
+        bodies=tuple(entry["bodies"]),
+        places=slice(*entry["places"]),
+        states=_units(entry["states"]),
+        reaction=entry["reaction"],
     )

@@ -12,7 +12,7 @@ from kempe.errors import ModelError
 
 @dataclass(frozen=True)
 class DenseOutput:
-    """y(t_old + θ h) = y_old + h Σ_k c_k θ^(k+1) in every step, with y = [q, v, quadratures].
+    """y(t_old + θ h) = y_old + h Σ_k c_k θ^(k+1) in every step, with y = [q, v, z, works].
 
     Attributes:
         t: boundaries of the k steps, (k + 1,), s.
@@ -45,6 +45,11 @@ class DenseOutput:
         for k in reversed(range(self.c.shape[2])):  # Horner
             total = (total + self.c[step, :, k]) * theta
         return np.asarray(self.y[step] + h[..., None] * total, dtype=np.float64)
+
+    def parts(self, t: Floats, n_q: int, n_z: int) -> tuple[Floats, Floats, Floats]:
+        """q, v and z at times of any shape, (…, n_q), (…, n_q) and (…, n_z)."""
+        y = self(t)
+        return y[..., :n_q], y[..., n_q : 2 * n_q], y[..., 2 * n_q : 2 * n_q + n_z]
 
     def _refuse_outside(self, t: Floats) -> None:
         slack = 1e-12 * max(abs(self.t[0]), abs(self.t[-1]))

@@ -126,7 +126,7 @@ class TorsionSpring(Element):
         j: Body j.
         stiffness: Torque per angle [N*m/rad].
         damping: Torque per angular velocity [N*m*s/rad].
-        free_angle: Relative angle without torque [rad].
+        free_angle: Relative angle at which the spring is relaxed [rad].
     """
 
     i: str
@@ -159,7 +159,7 @@ class SpringDamper(Element):
         j: Point of body j, as `body.point`.
         stiffness: Force per length [N/m].
         damping: Force per velocity [N*s/m].
-        free_length: Distance of the points without force [m].
+        free_length: Distance of the points at which the spring is relaxed [m].
     """
 
     i: str
@@ -289,7 +289,7 @@ class ElementMethods:
             j: Body j.
             stiffness: Torque per angle [N*m/rad].
             damping: Torque per angular velocity [N*m*s/rad].
-            free_angle: Relative angle without torque [rad].
+            free_angle: Relative angle at which the spring is relaxed [rad].
         """
         return self._add(
             TorsionSpring(
@@ -325,7 +325,7 @@ class ElementMethods:
             j: Point of body j, as `body.point`.
             stiffness: Force per length [N/m].
             damping: Force per velocity [N*s/m].
-            free_length: Distance of the points without force [m].
+            free_length: Distance of the points at which the spring is relaxed [m].
         """
         return self._add(
             SpringDamper(

@@ -22,7 +22,7 @@ class Problem:
     """One of possibly many things that are wrong with a model or a file.
 
     Attributes:
-        message: what is wrong, and what to do.
+        message: the fault and its remedy.
         path: where in the model, such as ``joints.C.i``; may be empty.
         line: line in the file, from 1; None for a model built in Python.
         column: column in the file, from 1; None for a model built in Python.
@@ -47,7 +47,7 @@ class KempeError(Exception):
     Attributes:
         name: the joint or body at fault, or None.
         t: the time of the failure in s, or None.
-        hint: what to do about it, or None.
+        hint: the remedy, or None.
         problems: all that is wrong, in the order of the file; may be empty.
     """
 
@@ -88,10 +88,10 @@ class SingularityError(KempeError):
 
 
 class IntegrationError(KempeError):
-    """The integrator could not go on.
+    """The integrator failed.
 
     Attributes:
-        solution: what was computed before the failure, or None.
+        solution: the results before the failure, or None.
     """
 
     def __init__(

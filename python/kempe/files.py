@@ -1,4 +1,4 @@
-"""Reading and writing of files: whole or not at all, and errors that say what to do.
+"""Reading and writing of files: completely or not at all; errors contain a remedy.
 
 A file is written beside its place under another name, flushed to the disk and then moved over the
 old one, so that a reader sees the old or the new content and never a part (POSIX rename).
@@ -32,8 +32,8 @@ def trouble(path: Path | str, doing: str, error: OSError) -> FileError:
 
     Args:
         path: the file.
-        doing: what was tried, such as "read".
-        error: what the system said.
+        doing: the attempted operation, such as "read".
+        error: the error of the system.
     """
     for kind, what, remedy in _REMEDIES:
         if isinstance(error, kind):

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from kempe import _core
-from kempe.bodies import Bar, Body
+from kempe.bodies import Bar, Body, PointMass
 from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
@@ -135,6 +135,16 @@ class Model(ElementMethods):
             through: global coordinates of two named points, m.
         """
         return self._add(Body(name, mass, inertia, center, points, through))
+
+    def point_mass(self, name: str, *, mass: Number, at: Pair | None = None) -> PointMass:
+        """Add a point with mass. It has no angle and one named point, P.
+
+        Args:
+            name: name of the point mass.
+            mass: kg.
+            at: position in the global frame when assembly starts, m.
+        """
+        return self._add(PointMass(name, mass, at))
 
     def _add(self, element: E) -> E:
         self._refuse_taken(element)

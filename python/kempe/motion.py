@@ -23,15 +23,21 @@ class Motion:
     Attributes:
         model: the compiled model.
         t: (n_t,) or (), s.
-        q: (n_t, n_q) or (n_q,): x, y, angle of each moving body in order, m and rad.
-        v: their rates, m/s and rad/s.
+        q: (n_t, n_q) or (n_q,): x, y, angle of each moving body in order, m and rad, then the
+            internal coordinates of joints; see ``model.column_names()``.
+        v: their rates, per s.
+        z: (n_t, n_z) or (n_z,): first-order states of force elements, such as the current of a
+            motor; see ``model.state_names()``. Empty for most models.
     """
 
-    def __init__(self, model: CompiledModel, t: Floats, q: Floats, v: Floats) -> None:
+    def __init__(
+        self, model: CompiledModel, t: Floats, q: Floats, v: Floats, z: Floats | None = None
+    ) -> None:
         self.model = model
         self.t = fixed(t)
         self.q = fixed(q)
         self.v = fixed(v)
+        self.z = fixed(np.zeros((*self.t.shape, model.n_z)) if z is None else z)
 
     @property
     def a(self) -> Floats:
@@ -55,7 +61,7 @@ class Motion:
 
     @cached_property
     def _dynamics(self) -> tuple[Floats, Floats]:
-        a, lam = _core.evaluate(self.model.core, *self._rows())
+        a, lam = _core.evaluate(self.model.core, *self._rows(), np.atleast_2d(self.z))
         return self._as_given(a), self._as_given(lam)
 
     @cached_property
@@ -72,8 +78,10 @@ class Motion:
 
     def action(self, name: str, on: str, part: str | None, frame: str) -> Floats:
         """Force and torque of a force element on a body, (…, 3); see ``ForceView``."""
-        rows = self._rows()
-        return self._as_given(_core.force(self.model.core, name, on, part, frame, *rows))
+        rows = *self._rows(), np.atleast_2d(self.z)
+        seen = self.model.forces[name].reaction is not None
+        lam = np.atleast_2d(self.lam) if seen else None
+        return self._as_given(_core.force(self.model.core, name, on, part, frame, *rows, lam))
 
     def _rows(self) -> tuple[Floats, Floats, Floats]:
         """t, q, v with a time axis, as required by the core."""

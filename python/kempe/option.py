@@ -1,4 +1,4 @@
-"""What all options and analyses have in common: fields of declared shapes, written as in a file.
+"""The base of all options and analyses: fields of declared shapes, written as in a file.
 
 The core checks the numbers, so that a file and a program are refused in the same words.
 """
@@ -57,7 +57,7 @@ class Analysis:
 
 
 def core_options(entry: Mapping[str, Any]) -> dict[str, Any]:
-    """The part of an entry that the core reads: all but where it starts."""
+    """The part of an entry that the core reads: everything except its start."""
     return {key: value for key, value in entry.items() if key != "from"}
 
 

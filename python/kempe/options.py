@@ -17,9 +17,9 @@ class Auto(Option):
 
     DOP853, and Radau where the model is stiff. At the start the fastest damped motion of the
     linearised equations is compared with the pace of the other motions: if it is far faster and
-    has decayed, Radau begins, else DOP853. Where a damped motion holds the steps of DOP853 at
-    the limit of stability, Radau takes over; where that does not lengthen the steps, DOP853
-    returns. The statistics name the last method and the reason.
+    has decayed, Radau begins, otherwise DOP853. If a damped motion holds the steps of DOP853 at
+    the limit of stability, Radau takes over; if this does not lengthen the steps, DOP853
+    returns. The statistics contain the last method and the reason.
 
     Attributes:
         rtol: Relative tolerance of one step.
@@ -50,8 +50,8 @@ class RK45(Option):
     Attributes:
         rtol: Relative tolerance of one step.
         atol: Absolute tolerance of one step, in the units of the state.
-        step: Constant step, whatever the tolerances; if absent, the step is controlled. Not
-            together with first_step and max_step [s].
+        step: Constant step, independent of the tolerances; if absent, the step is controlled.
+            Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -83,8 +83,8 @@ class DOP853(Option):
     Attributes:
         rtol: Relative tolerance of one step.
         atol: Absolute tolerance of one step, in the units of the state.
-        step: Constant step, whatever the tolerances; if absent, the step is controlled. Not
-            together with first_step and max_step [s].
+        step: Constant step, independent of the tolerances; if absent, the step is controlled.
+            Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -133,10 +133,10 @@ class GeneralizedAlpha(Option):
     Attributes:
         rho: Spectral radius at infinite frequency, in [0, 1): a smaller one damps high
             frequencies more.
-        rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 of methods of order 2; with
-            step that of Newton's iteration, 1e-10 if absent.
-        atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 of methods of order 2; with
-            step that of Newton's iteration, 1e-12 if absent.
+        rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With
+            a constant step, the tolerance of Newton's iteration, 1e-10 if absent.
+        atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 for methods of order 2. With
+            a constant step, the tolerance of Newton's iteration, 1e-12 if absent.
         step: Constant step, without control of the error; if absent, the step is controlled.
             Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
@@ -169,10 +169,10 @@ class HHT(Option):
 
     Attributes:
         alpha: In [-1/3, 0): a smaller one damps high frequencies more.
-        rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 of methods of order 2; with
-            step that of Newton's iteration, 1e-10 if absent.
-        atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 of methods of order 2; with
-            step that of Newton's iteration, 1e-12 if absent.
+        rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With
+            a constant step, the tolerance of Newton's iteration, 1e-10 if absent.
+        atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 for methods of order 2. With
+            a constant step, the tolerance of Newton's iteration, 1e-12 if absent.
         step: Constant step, without control of the error; if absent, the step is controlled.
             Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
@@ -206,10 +206,10 @@ class Radau(Option):
     order 4 and velocities with order 3.
 
     Attributes:
-        rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 of methods of order 2; with
-            step that of Newton's iteration, 1e-10 if absent.
-        atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 of methods of order 2; with
-            step that of Newton's iteration, 1e-12 if absent.
+        rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With
+            a constant step, the tolerance of Newton's iteration, 1e-10 if absent.
+        atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 for methods of order 2. With
+            a constant step, the tolerance of Newton's iteration, 1e-12 if absent.
         step: Constant step, without control of the error; if absent, the step is controlled.
             Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
@@ -263,8 +263,8 @@ class Baumgarte(Option):
         alpha: Factor of the rate of the constraints, as 2 alpha; 10 if absent [1/s].
         beta: Factor of the constraints, as beta^2; 200 if absent. Stability limits the step to
             about 3/beta [1/s].
-        gains: "step" computes them from each step h that is tried, alpha = 7/(12 h) and beta =
-            1/(sqrt(3) h), and holds the term over the step, which neither limits the step nor
+        gains: "step" computes them from each trial step h, alpha = 7/(12 h) and beta =
+            1/(sqrt(3) h), and holds the term over the step. This neither limits the step nor
             lowers the order of the method. Not together with alpha and beta.
     """
 
@@ -301,18 +301,19 @@ class Dynamics(Analysis):
         output_step: Time between the reported states; if absent, the steps of the solver are
             reported. Not together with output [s].
         method: Method of integration.
-        stabilization: What keeps the constraints from drifting.
-        max_steps: Most steps before the solver gives up; if steps of bounded length cannot
-            reach t_end with so many, at once. If absent, 1 000 000 over the number of moving
-            bodies, at least 50 000. Half as many rejected steps end the run too, if they are
-            over 10 000.
+        stabilization: Stabilization of the constraints against drift.
+        max_steps: Largest number of steps. The run fails when it needs more, or at once if so
+            many steps of the largest allowed length cannot reach t_end. If absent, 1 000 000
+            over the number of moving bodies, at least 50 000. Half as many rejected steps, if
+            over 10 000, end the run too.
         dense_output: Whether the solution can be evaluated at any time.
-        t_start: Time at which it starts; if absent, that of the state it starts from [s].
+        t_start: Time at which the simulation starts; if absent, the time of the first state
+            [s].
         singularity: At a singular position where the motion does not decide its branch: "stop"
             with an error, or "pass".
         output: "steps" reports the steps of the solver, as without this option.
-        after: Where it starts: "start" or the name of an earlier analysis; if absent, where the
-            analysis before it ended.
+        after: State at which it starts: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
         name: its name in the case.
     """
 

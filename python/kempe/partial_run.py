@@ -45,6 +45,11 @@ class PartialRun:
         return self.run.v[: self.rows]
 
     @property
+    def z(self) -> Floats:
+        """First-order states."""
+        return self.run.z[: self.rows]
+
+    @property
     def statistics(self) -> str:
         """Steps, evaluations and times of the whole run, as JSON."""
         return self.run.statistics

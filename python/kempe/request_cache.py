@@ -61,10 +61,9 @@ def request(asked: Asked, dense_output: bool, singularity: str) -> Request:
     """
     key = _key(asked, dense_output, singularity)
     known = None if key is None else _kept.get(key)
-    if known is not None:
-        t_end = number(asked[0], f"analyses.{Dynamics.name}.t_end")
-        if not isinstance(t_end, str):
-            return Request({**known.entry, "t_end": t_end}, known.text, float(t_end))
+    t_end = number(asked[0], f"analyses.{Dynamics.name}.t_end")
+    if known is not None and not isinstance(t_end, str):
+        return Request({**known.entry, "t_end": t_end}, known.text, float(t_end))
     entry = Dynamics(*asked, dense_output, singularity=singularity).tree()
     made = Request(entry, encode(core_options(entry)))
     if key is not None and not isinstance(entry["t_end"], str):

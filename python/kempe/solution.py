@@ -56,12 +56,13 @@ class Solution(Motion):
         model: the compiled model.
         t: (n_t,), s.
         q, v: (n_t, n_q), m, rad and per s.
+        z: (n_t, n_z): first-order states of force elements; empty for most models.
         status: 0 if the end was reached, -1 otherwise.
         message: reason for the end of the run.
     """
 
     def __init__(self, model: CompiledModel, run: _core.Run) -> None:
-        super().__init__(model, run.t, run.q, run.v)
+        super().__init__(model, run.t, run.q, run.v, run.z)
         self._run = run
         self.status = REACHED if run.status == "reached" else STOPPED
         self.message = run.message
@@ -94,7 +95,8 @@ class Solution(Motion):
         if not len(self.t):  # the run failed before the first output
             return None
         if not len(run.dense_y):
-            return DenseOutput.of_an_instant(self.t[0], np.concatenate([self.q[0], self.v[0]]))
+            y = np.concatenate([self.q[0], self.v[0], self.z[0]])
+            return DenseOutput.of_an_instant(self.t[0], y)
         return DenseOutput(fixed(run.dense_t), fixed(run.dense_y), fixed(run.dense_c))
 
     @cached_property
@@ -144,12 +146,12 @@ class Solution(Motion):
     @property
     def initial(self) -> State:
         """The state at the first time."""
-        return State(self.model, float(self.t[0]), self.q[0], self.v[0])
+        return State(self.model, float(self.t[0]), self.q[0], self.v[0], z=self.z[0])
 
     @property
     def final(self) -> State:
         """The state at the last time."""
-        return State(self.model, float(self.t[-1]), self.q[-1], self.v[-1])
+        return State(self.model, float(self.t[-1]), self.q[-1], self.v[-1], z=self.z[-1])
 
     def __call__(self, t: float | Floats) -> Motion:
         """The motion at any time within the solution, from the interpolant of the integrator.
@@ -165,11 +167,10 @@ class Solution(Motion):
         at = np.asarray(t, dtype=np.float64)
         if at.ndim > 1:
             raise ModelError(f"t has {at.ndim} dimensions; must be one time or an array of times")
-        n, y = self.model.n_q, self.dense(at)
-        q, v = y[..., :n], y[..., n : 2 * n]
+        q, v, z = self.dense.parts(at, self.model.n_q, self.model.n_z)
         if at.ndim == 0:
-            return State(self.model, float(at), q, v)
-        return Motion(self.model, at, q, v)
+            return State(self.model, float(at), q, v, z=z)
+        return Motion(self.model, at, q, v, z)
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A pandas data frame with a column for each quantity, such as ``rocker.angle``.

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from kempe.arrays import Floats, fixed
-from kempe.compiled import COORDINATES, RATES, CompiledModel
+from kempe.compiled import CompiledModel
 from kempe.matrices import Matrices, matrices
 from kempe.motion import Motion
 from kempe.values import Number
@@ -110,9 +110,10 @@ class State(Motion):
     Attributes:
         model: the compiled model.
         t: time, s.
-        q: (n_q,): x, y, angle of each moving body, m and rad; read-only.
-        v: (n_q,): their rates, m/s and rad/s; read-only.
-        z: first-order states of elements; empty for most models.
+        q: (n_q,): x, y, angle of each moving body, m and rad, then the internal coordinates of
+            joints; read-only.
+        v: (n_q,): their rates, per s; read-only.
+        z: (n_z,): first-order states of force elements; empty for most models; read-only.
         report: report of the assembly; None if the state is not the result of an assembly.
     """
 
@@ -123,9 +124,10 @@ class State(Motion):
         q: Floats,
         v: Floats,
         report: AssemblyReport | None = None,
+        *,
+        z: Floats | None = None,
     ) -> None:
-        super().__init__(model, fixed(t), q, v)
-        self.z = fixed(np.empty(0))
+        super().__init__(model, fixed(t), q, v, z)
         self.report = report
 
     def matrices(self, set: Mapping[str, Number] | None = None) -> Matrices:  # noqa: A002
@@ -137,11 +139,24 @@ class State(Motion):
         return matrices(self, set or {})
 
     def coordinates(self) -> dict[str, float]:
-        """Coordinates and rates by name: ``{"crank.x": …, "crank.omega": …}``, m, rad and per s."""
-        names = [f"{body}.{name}" for body in self.model.bodies for name in COORDINATES]
-        rates = [f"{body}.{name}" for body in self.model.bodies for name in RATES]
-        values = [*self.q.tolist(), *self.v.tolist()]
-        return dict(zip([*names, *rates], values, strict=True))
+        """Coordinates, rates and first-order states by name, in SI units.
+
+        For example ``{"crank.x": …, "crank.omega": …, "motor.current": …}``.
+        """
+        model = self.model
+        names = [*model.column_names(), *model.rate_names(), *model.state_names()]
+        values = [*self.q.tolist(), *self.v.tolist(), *self.z.tolist()]
+        return dict(zip(names, values, strict=True))
+
+    def _further(self) -> Iterator[tuple[str, float, str]]:
+        """Names, values and units of internal coordinates and first-order states."""
+        own = [c for c in self.model.constraints.values() if c.coordinates]
+        for info in own:
+            values = self.q[info.columns].tolist()
+            for (name, unit), value in zip(info.coordinates, values, strict=True):
+                yield f"{info.name}.{name}", value, unit
+        names, units = self.model.state_names(), self.model.state_units()
+        yield from zip(names, self.z.tolist(), units, strict=True)
 
     def __str__(self) -> str:
         width = max((len(name) for name in self.model.bodies), default=4)
@@ -150,8 +165,13 @@ class State(Motion):
         for name in self.model.bodies:
             body = self.body(name)
             numbers = [body.x, body.y, np.degrees(body.angle), body.vx, body.vy, body.omega]
-            row = "".join(f"{float(number) + 0.0:15.6g}" for number in numbers)
-            lines.append(f"{name:<{width}}{row}")
+            absent = () if body.info.turns else (2, 5)
+            row = "".join(
+                f"{'':>15}" if k in absent else f"{float(number) + 0.0:15.6g}"
+                for k, number in enumerate(numbers)
+            )
+            lines.append(f"{name:<{width}}{row}".rstrip())
+        lines += [f"{name} = {value:.6g} {unit}" for name, value, unit in self._further()]
         report = [] if self.report is None else [str(self.report)]
         return "\n".join([f"t = {float(self.t):g} s", *lines, *report])
 

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
     from kempe.solution import Solution
 
-_UNITS = ("m", "m", "rad", "m/s", "m/s", "rad/s", "m/s^2", "m/s^2", "rad/s^2")
+#: Units of coordinates, rates and accelerations of a body.
+_UNITS = (("m", "m", "rad"), ("m/s", "m/s", "rad/s"), ("m/s^2", "m/s^2", "rad/s^2"))
 _ENERGIES = ("kinetic", "potential", "dissipated", "work", "total")
 #: A multiplier times its residual is an energy, so its unit is J per unit of the residual.
 _MULTIPLIER_UNITS = {"m": "N", "rad": "N*m"}
@@ -41,23 +42,48 @@ class Column:
 
 
 def columns(solution: Solution) -> list[Column]:
-    """Time, motion of each body, multipliers, torques and energies."""
+    """Time, coordinates, multipliers, first-order states, torques and energies."""
     table = [Column("t", "s", solution.t)]
     for name in solution.model.bodies:
         body = solution.body(name)
-        for quantity, unit in zip((*COORDINATES, *RATES, *ACCELERATIONS), _UNITS, strict=True):
+        for quantity, unit in _quantities(body.info.count):
             table.append(Column(f"{name}.{quantity}", unit, getattr(body, quantity)))
+    table += _internal(solution)
     rows = zip(solution.model.row_names(), solution.model.row_units(), strict=True)
     for k, (name, unit) in enumerate(rows):
         constraint, _, equation = name.rpartition(".")
         label = f"{constraint}.lambda_{equation}"
         table.append(Column(label, _MULTIPLIER_UNITS.get(unit, f"J/{unit}"), solution.lam[:, k]))
+    states = zip(solution.model.state_names(), solution.model.state_units(), strict=True)
+    for k, (name, unit) in enumerate(states):
+        table.append(Column(name, unit, solution.z[:, k]))
     for info in solution.model.forces.values():
         torque = solution.force(info.name).torque(on=info.j)
         table.append(Column(f"{info.name}.torque_on_{info.j}", "N*m", torque))
     for name in _ENERGIES:
         table.append(Column(f"energy.{name}", "J", getattr(solution.energy, name)))
     return table
+
+
+def _quantities(count: int) -> list[tuple[str, str]]:
+    """Coordinates, rates and accelerations of a body with so many coordinates, with units."""
+    families = (COORDINATES, RATES, ACCELERATIONS)
+    return [
+        pair
+        for names, units in zip(families, _UNITS, strict=True)
+        for pair in zip(names[:count], units[:count], strict=True)
+    ]
+
+
+def _internal(solution: Solution) -> list[Column]:
+    """Internal coordinates of joints and their rates."""
+    found = []
+    for info in solution.model.constraints.values():
+        first = info.columns.start
+        for k, (name, unit) in enumerate(info.coordinates, first):
+            found.append(Column(f"{info.name}.{name}", unit, solution.q[:, k]))
+            found.append(Column(f"{info.name}.{name}_rate", f"{unit}/s", solution.v[:, k]))
+    return found
 
 
 def dataframe(solution: Solution) -> pandas.DataFrame:

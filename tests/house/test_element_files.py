@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from house.places import CORE, PACKAGE, ROOT
 
-LIST = CORE / "elements" / "list.rs"
+LIST = CORE / "elements" / "mod.rs"
 GENERATED = "@generated"
 
 #: Types whose names are also words of mechanics. These are allowed where they do not name a type.
@@ -73,8 +73,7 @@ def others(element: Element) -> list[Path]:
     folders = (CORE, ROOT / "bindings", PACKAGE)
     suffixes = (".rs", ".py", ".pyi", ".js", ".html")
     found = [path for folder in folders for path in folder.rglob("*") if path.suffix in suffixes]
-    beside = {element.source, element.source.with_name("mod.rs"), LIST}
-    return [path for path in sorted(found) if path not in beside]
+    return [path for path in sorted(found) if path not in (element.source, LIST)]
 
 
 ELEMENTS = elements()

@@ -25,10 +25,10 @@ CLASSES = [
 #: types matter.
 CASE = _core.Case((ROOT / "examples/four_bar.toml").read_text("utf-8"), "toml", None)
 MODEL = CASE.model("{}")
-T, Q, V, _ = _core.assemble(MODEL, '{"crank.angle": "70*deg"}', "{}", 0.0, None, None)
-TIMES, ROW, LAM = np.array([T]), Q[None, :], np.zeros((1, 8))
+T, Q, V, Z, _ = _core.assemble(MODEL, '{"crank.angle": "70*deg"}', "{}", 0.0, None, None, None)
+TIMES, ROW, STATES, LAM = np.array([T]), Q[None, :], Z[None, :], np.zeros((1, 8))
 OPTIONS = '{"type": "dynamics", "t_end": 0.01}'
-RUN = _core.dynamics(MODEL, T, Q, V, OPTIONS, None)
+RUN = _core.dynamics(MODEL, T, Q, V, Z, OPTIONS, None)
 
 CALLS: dict[str, Callable[[], object]] = {
     "version": _core.version,
@@ -44,15 +44,17 @@ CALLS: dict[str, Callable[[], object]] = {
     "Model.describe": MODEL.describe,
     "Model.symbols": MODEL.symbols,
     "Model.allowing_redundancy": MODEL.allowing_redundancy,
-    "assemble": lambda: _core.assemble(MODEL, "{}", "{}", 0.0, Q, V),
-    "dynamics": lambda: _core.dynamics(MODEL, T, Q, V, OPTIONS, None),
+    "assemble": lambda: _core.assemble(MODEL, "{}", "{}", 0.0, Q, V, Z),
+    "dynamics": lambda: _core.dynamics(MODEL, T, Q, V, Z, OPTIONS, None),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
-    "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW),
+    "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW, STATES),
     "residual": lambda: _core.residual(MODEL, TIMES, ROW, ROW),
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
-    "force": lambda: _core.force(MODEL, "spring", "rocker", None, "global", TIMES, ROW, ROW),
-    "matrices": lambda: _core.matrices(MODEL, T, Q, V, "{}"),
+    "force": lambda: _core.force(
+        MODEL, "spring", "rocker", None, "global", TIMES, ROW, ROW, STATES
+    ),
+    "matrices": lambda: _core.matrices(MODEL, T, Q, V, Z, "{}"),
     "formulas": lambda: _core.formulas(MODEL, "C", {}, "latex"),
     "_raise": lambda: _core._raise("ModelError", "wrong"),
 }

@@ -8,7 +8,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import _core, _generate, options
-from kempe.bodies import Bar, Body
+from kempe.bodies import Bar, Body, PointMass
 from kempe.option import Option
 
 CATALOGUE = json.loads(_core.catalogue())
@@ -42,7 +42,7 @@ def test_options_are_those_of_the_core(table: dict) -> None:
     assert defaults(kind) == declared(table)
 
 
-@pytest.mark.parametrize("kind", [Bar, Body])
+@pytest.mark.parametrize("kind", [Bar, Body, PointMass])
 def test_bodies_are_those_of_the_core(kind: type) -> None:
     (table,) = (table for table in CATALOGUE["bodies"] if table["name"] == kind.kind)
     assert defaults(kind) == declared(table)

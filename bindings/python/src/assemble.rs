@@ -9,8 +9,10 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use serde_json::{json, Value};
 
-/// Time, q, v, and the report as JSON.
-type Assembled<'py> = (f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, String);
+/// A row of numbers for Python.
+type Array<'py> = Bound<'py, PyArray1<f64>>;
+/// Time, q, v, z, and the report as JSON.
+type Assembled<'py> = (f64, Array<'py>, Array<'py>, Array<'py>, String);
 
 /// Targets from a JSON text.
 pub fn targets(
@@ -30,7 +32,7 @@ pub fn targets(
 /// Puts a mechanism together.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
-#[pyo3(signature = (model, set, guess, t, q, v, from_guess=false))]
+#[pyo3(signature = (model, set, guess, t, q, v, z, from_guess=false))]
 pub fn assemble<'py>(
     py: Python<'py>,
     model: &PyModel,
@@ -39,11 +41,12 @@ pub fn assemble<'py>(
     t: f64,
     q: Option<Row<'py>>,
     v: Option<Row<'py>>,
+    z: Option<Row<'py>>,
     from_guess: bool,
 ) -> PyResult<Assembled<'py>> {
     guard("assemble", || {
-        let given = match (q, v) {
-            (Some(q), Some(v)) => Some(state(py, &model.model, t, &q, &v)?),
+        let given = match (q, v, z) {
+            (Some(q), Some(v), Some(z)) => Some(state(py, &model.model, t, [&q, &v, &z])?),
             _ => None,
         };
         let request = Request {
@@ -56,8 +59,8 @@ pub fn assemble<'py>(
         let core_model = std::sync::Arc::clone(&model.model);
         let outcome = py.detach(|| core::assemble(&core_model, &request));
         let (state, report) = outcome.map_err(|failure| raise(py, &failure))?;
-        let (q, v) = (state.q.into_pyarray(py), state.v.into_pyarray(py));
-        Ok((state.t, q, v, describe(&report).to_string()))
+        let [q, v, z] = [state.q, state.v, state.z].map(|row| row.into_pyarray(py));
+        Ok((state.t, q, v, z, describe(&report).to_string()))
     })
 }
 

@@ -56,10 +56,9 @@ pub fn rows(
 }
 
 /// A state of a model.
-pub fn state(py: Python<'_>, model: &Model, t: f64, q: &Row<'_>, v: &Row<'_>) -> PyResult<State> {
-    let n = model.layout.n_q;
-    let (q, v) = (row(py, "q", q, n)?, row(py, "v", v, n)?);
-    let z = vec![0.0; model.layout.n_z];
+pub fn state(py: Python<'_>, model: &Model, t: f64, [q, v, z]: [&Row<'_>; 3]) -> PyResult<State> {
+    let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
+    let (q, v, z) = (row(py, "q", q, n_q)?, row(py, "v", v, n_q)?, row(py, "z", z, n_z)?);
     Ok(State { t: number(py, "t", t)?, q, v, z })
 }
 

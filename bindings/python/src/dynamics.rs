@@ -16,9 +16,6 @@ use pyo3::prelude::*;
 use serde_json::json;
 use std::sync::Arc;
 
-/// Columns of dissipated energy and works.
-const WORKS: usize = core::ENERGIES - 2;
-
 /// What an integration gave.
 #[pyclass(name = "Run", module = "kempe._core", frozen)]
 pub struct PyRun {
@@ -28,7 +25,9 @@ pub struct PyRun {
     q: Py<PyArray2<f64>>,
     #[pyo3(get)]
     v: Py<PyArray2<f64>>,
-    /// Dissipated energy and works, rows of three.
+    #[pyo3(get)]
+    z: Py<PyArray2<f64>>,
+    /// Dissipated energy and works, rows of n_works.
     works: Vec<f64>,
     model: Arc<Prepared<Arc<Model>>>,
     passing: bool,
@@ -65,7 +64,8 @@ impl PyRun {
     fn energies<'py>(&self, py: Python<'py>, rows: Option<usize>) -> PyResult<Table<'py>> {
         guard("Run.energies", || {
             self.with_states(py, rows, |states| {
-                let works = &self.works[..self.works.len().min(WORKS * states.t.len())];
+                let width = self.model.model().layout.n_works;
+                let works = &self.works[..self.works.len().min(width * states.t.len())];
                 energies(py, &self.model, states, works)
             })
         })
@@ -103,27 +103,30 @@ impl PyRun {
         fn numbers<'a, D: Dimension>(rows: &'a PyReadonlyArray<'_, f64, D>) -> PyResult<&'a [f64]> {
             Ok(rows.as_slice()?)
         }
-        let (t, q, v) = (self.t.bind(py), self.q.bind(py), self.v.bind(py));
-        let (t, q, v) = (t.try_readonly()?, q.try_readonly()?, v.try_readonly()?);
-        let (t, n) = (numbers(&t)?, self.model.model().layout.n_q);
+        let t = self.t.bind(py).try_readonly()?;
+        let [q, v, z] = [&self.q, &self.v, &self.z].map(|table| table.bind(py).try_readonly());
+        let (q, v, z) = (q?, v?, z?);
+        let (t, layout) = (numbers(&t)?, &self.model.model().layout);
         let count = rows.map_or(t.len(), |rows| rows.min(t.len()));
-        let (q, v) = (&numbers(&q)?[..n * count], &numbers(&v)?[..n * count]);
-        give(core::States { t: &t[..count], q, v, z: &[] })
+        let (n_q, n_z) = (layout.n_q * count, layout.n_z * count);
+        let (q, v, z) = (&numbers(&q)?[..n_q], &numbers(&v)?[..n_q], &numbers(&z)?[..n_z]);
+        give(core::States { t: &t[..count], q, v, z })
     }
 
     fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {
-        let n = model.model.layout.n_q;
-        let core::Trajectory { t, q, v, works, .. } = run.trajectory;
+        let layout = &model.model.layout;
+        let core::Trajectory { t, q, v, z, works } = run.trajectory;
         let count = t.len();
         let rows = |values, width| table(py, values, (count, width)).map(|t| frozen(t).unbind());
         let (dense_t, dense_y, dense_c) = match run.dense {
-            Some(dense) => dense_arrays(py, dense, model.model.layout.n_y())?,
+            Some(dense) => dense_arrays(py, dense, layout.n_y())?,
             None => (None, None, None),
         };
         Ok(Self {
             t: frozen(t.into_pyarray(py)).unbind(),
-            q: rows(q, n)?,
-            v: rows(v, n)?,
+            q: rows(q, layout.n_q)?,
+            v: rows(v, layout.n_q)?,
+            z: rows(z, layout.n_z)?,
             works,
             model: Arc::clone(&model.prepared),
             passing: run.passing,
@@ -160,7 +163,7 @@ fn dense_arrays(
 
 /// Simulates the motion from a state.
 #[pyfunction]
-#[pyo3(signature = (model, t, q, v, options, progress, t_end=None))]
+#[pyo3(signature = (model, t, q, v, z, options, progress, t_end=None))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn dynamics(
     py: Python<'_>,
@@ -168,12 +171,13 @@ pub fn dynamics(
     t: f64,
     q: Row<'_>,
     v: Row<'_>,
+    z: Row<'_>,
     options: &str,
     progress: Option<Py<PyAny>>,
     t_end: Option<f64>,
 ) -> PyResult<PyRun> {
     guard("dynamics", || {
-        let start = state(py, &model.model, t, &q, &v)?;
+        let start = state(py, &model.model, t, [&q, &v, &z])?;
         let options = options::read(py, model, options, t_end)?;
         let mut watch = Watch::new(progress.as_ref());
         let outcome = py.detach(|| model.prepared.dynamics(&start, &options, |t| watch.look(t)));

@@ -18,14 +18,14 @@ use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// States as rows.
-struct States {
+/// Positions and velocities as rows.
+struct Rates {
     t: Vec<f64>,
     q: Vec<f64>,
     v: Vec<f64>,
 }
 
-impl States {
+impl Rates {
     fn read(
         py: Python<'_>,
         model: &Model,
@@ -52,18 +52,19 @@ impl States {
 
 /// Accelerations and multipliers at states, with γ, not γ̂.
 #[pyfunction]
-#[pyo3(signature = (model, t, q, v))]
+#[pyo3(signature = (model, t, q, v, z))]
 pub fn evaluate<'py>(
     py: Python<'py>,
     model: &PyModel,
     t: Row<'py>,
     q: Rows<'py>,
     v: Rows<'py>,
+    z: Rows<'py>,
 ) -> PyResult<(Table<'py>, Table<'py>)> {
     guard("evaluate", || {
-        let states = States::read(py, &model.model, &t, &q, &v)?;
-        let States { t, q, v } = &states;
-        responses(py, &model.prepared, core::States { t, q, v, z: &[] }, false)
+        let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
+        let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
+        responses(py, &model.prepared, core::States { t, q, v, z }, false)
     })
 }
 
@@ -79,7 +80,7 @@ pub fn residual<'py>(
 ) -> PyResult<(Table<'py>, Table<'py>)> {
     guard("residual", || {
         let model = &*model.model;
-        let states = States::read(py, model, &t, &q, &v)?;
+        let states = Rates::read(py, model, &t, &q, &v)?;
         let shape = (states.t.len(), model.layout.n_rows);
         let (mut phi, mut rate) = (vec![0.0; shape.0 * shape.1], vec![0.0; shape.0 * shape.1]);
         let mut gamma = vec![0.0; shape.1];
@@ -141,7 +142,7 @@ pub fn reaction<'py>(
         let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
         let frame = frame_named(py, frame)?;
         let body = one_of(py, model, &model.constraints[k].bodies, joint, on)?;
-        let states = States::read(py, model, &t, &q, &q)?;
+        let states = Rates::read(py, model, &t, &q, &q)?;
         let m = model.layout.n_rows;
         let lam = rows(py, "lam", &lam, (states.t.len(), m))?;
         let own = model.layout.constraints[k].rows.clone();
@@ -158,7 +159,7 @@ pub fn reaction<'py>(
 
 /// Force, and torque about the body's origin, of a force element or one of its parts on a body.
 #[pyfunction]
-#[pyo3(signature = (model, name, on, part, frame, t, q, v))]
+#[pyo3(signature = (model, name, on, part, frame, t, q, v, z, lam=None))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn force<'py>(
     py: Python<'py>,
@@ -170,6 +171,8 @@ pub fn force<'py>(
     t: Row<'py>,
     q: Rows<'py>,
     v: Rows<'py>,
+    z: Rows<'py>,
+    lam: Option<Rows<'py>>,
 ) -> PyResult<Table<'py>> {
     guard("force", || {
         let model = &*model.model;
@@ -184,11 +187,15 @@ pub fn force<'py>(
                 Some(found.ok_or_else(|| unknown(py, "part", part))?)
             }
         };
-        let states = States::read(py, model, &t, &q, &v)?;
-        let mut out = Vec::with_capacity(3 * states.t.len());
-        states.each(model, |_, t, motions| {
+        let states = Rates::read(py, model, &t, &q, &v)?;
+        let (count, n_z, m) = (states.t.len(), model.layout.n_z, model.layout.n_rows);
+        let z = rows(py, "z", &z, (count, n_z))?;
+        let lam = lam.map(|lam| rows(py, "lam", &lam, (count, m))).transpose()?;
+        let mut out = Vec::with_capacity(3 * count);
+        states.each(model, |at, t, motions| {
             let mut sum = Wrench::zero();
-            let acting = Acting { z: &[], lam: None, t };
+            let lam = lam.as_ref().map(|lam| &lam[at * m..(at + 1) * m]);
+            let acting = Acting { z: &z[at * n_z..(at + 1) * n_z], lam, t };
             forces::each_wrench(model, k, motions, acting, |part, at, wrench| {
                 if at == body && wanted.is_none_or(|wanted| wanted == part) {
                     sum = sum + wrench;
@@ -198,23 +205,25 @@ pub fn force<'py>(
             let force = if in_body { [turned.x, turned.y] } else { [sum.force.x, sum.force.y] };
             out.extend([force[0], force[1], sum.torque]);
         });
-        table(py, out, (states.t.len(), 3))
+        table(py, out, (count, 3))
     })
 }
 
 /// The matrices and right sides of the equations at a state; `set` adds driver rows as in assembly.
 #[pyfunction]
-#[pyo3(signature = (model, t, q, v, set))]
+#[pyo3(signature = (model, t, q, v, z, set))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn matrices<'py>(
     py: Python<'py>,
     model: &PyModel,
     t: f64,
     q: Row<'py>,
     v: Row<'py>,
+    z: Row<'py>,
     set: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
     guard("matrices", || {
-        let state = state(py, &model.model, t, &q, &v)?;
+        let state = state(py, &model.model, t, [&q, &v, &z])?;
         let set = targets(py, model, "set", set)?;
         let extended = holding(&model.model, &Request { set, t, ..Request::default() });
         let all = kempe::equations::dense::matrices(&extended, t, [&state.q, &state.v, &state.z]);

@@ -3,11 +3,12 @@
 use crate::guard::guard;
 use crate::recent_options::RecentOptions;
 use kempe::analyses::dynamics::Prepared;
-use kempe::elements::{SceneSymbol, SymbolEnd};
+use kempe::elements::{BodyId, OwnState, SceneSymbol, SymbolEnd};
 use kempe::math::Local;
-use kempe::model::{Body, ConstraintItem, ForceItem, Model};
+use kempe::model::{Body, Columns, Model};
 use pyo3::prelude::*;
 use serde_json::{json, Map, Value};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A compiled model: immutable.
@@ -74,22 +75,23 @@ fn describe(model: &Model) -> Value {
     let names = &model.blueprint.parameters;
     let parameters: Map<String, Value> =
         names.iter().zip(&model.parameters).map(|(n, x)| (n.clone(), json!(x))).collect();
-    let rows = model.layout.constraints.iter().map(|slots| &slots.rows);
+    let layout = &model.layout;
+    let bodies = model.bodies.iter().zip(&layout.bodies);
     json!({
         "title": model.blueprint.title,
         "gravity": [model.gravity.x, model.gravity.y],
         "parameters": parameters,
         "redundancy": if model.allow_redundancy { "allow" } else { "refuse" },
-        "n_q": model.layout.n_q,
-        "n_rows": model.layout.n_rows,
-        "bodies": model.bodies.iter().map(body).collect::<Vec<_>>(),
-        "constraints": model.constraints.iter().zip(rows)
-            .map(|(item, rows)| constraint(model, item, rows)).collect::<Vec<_>>(),
-        "forces": model.forces.iter().map(|item| force(model, item)).collect::<Vec<_>>(),
+        "n_q": layout.n_q,
+        "n_z": layout.n_z,
+        "n_rows": layout.n_rows,
+        "bodies": bodies.map(|(item, columns)| body(item, *columns)).collect::<Vec<_>>(),
+        "constraints": (0..model.constraints.len()).map(|k| constraint(model, k)).collect::<Vec<_>>(),
+        "forces": (0..model.forces.len()).map(|k| force(model, k)).collect::<Vec<_>>(),
     })
 }
 
-fn body(body: &Body) -> Value {
+fn body(body: &Body, columns: Columns) -> Value {
     let points: Map<String, Value> =
         body.points.iter().map(|(name, s)| (name.clone(), pair(s))).collect();
     json!({
@@ -99,11 +101,34 @@ fn body(body: &Body) -> Value {
         "inertia": body.inertia,
         "center": pair(&body.center),
         "points": points,
+        "columns": span(&columns.range()),
     })
 }
 
-fn constraint(model: &Model, item: &ConstraintItem, rows: &std::ops::Range<usize>) -> Value {
-    let [i, j] = [0, 1].map(|k| model.bodies[item.bodies[k].0].name.as_str());
+fn span(range: &Range<usize>) -> Value {
+    json!([range.start, range.end])
+}
+
+/// Names of the bodies of an element: i and j first. An element of one body has it as i and as j.
+fn connected<'a>(model: &'a Model, bodies: &[BodyId]) -> (Value, Value, Vec<&'a str>) {
+    let names: Vec<&str> = bodies.iter().map(|body| model.bodies[body.0].name.as_str()).collect();
+    let at = |k: usize| json!(names.get(k.min(names.len().saturating_sub(1))));
+    (at(0), at(1), names)
+}
+
+/// Names and units of the internal coordinates of an element: u, or u1, u2 and u3. The assembly
+/// treats them as lengths.
+fn internal(columns: Columns) -> Vec<Value> {
+    let name = |k: usize| match columns.count {
+        1 => "u".to_string(),
+        _ => format!("u{}", k + 1),
+    };
+    (0..columns.count).map(|k| json!({ "name": name(k), "unit": "m" })).collect()
+}
+
+fn constraint(model: &Model, k: usize) -> Value {
+    let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
+    let (i, j, bodies) = connected(model, &item.bodies);
     let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.unit });
     json!({
         "name": item.name,
@@ -115,13 +140,18 @@ fn constraint(model: &Model, item: &ConstraintItem, rows: &std::ops::Range<usize
         "point_j": pair(&item.element.attachment(1).s),
         "axis_i": item.element.attachment(0).axis,
         "axis_j": item.element.attachment(1).axis,
-        "rows": [rows.start, rows.end],
+        "bodies": bodies,
+        "columns": span(&slots.own.range()),
+        "coordinates": internal(slots.own),
+        "rows": span(&slots.rows),
         "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
     })
 }
 
-fn force(model: &Model, item: &ForceItem) -> Value {
-    let [i, j] = [0, 1].map(|k| model.bodies[item.bodies[k].0].name.as_str());
+fn force(model: &Model, k: usize) -> Value {
+    let (item, places) = (&model.forces[k], &model.layout.states[k]);
+    let (i, j, bodies) = connected(model, &item.bodies);
+    let state = |state: &OwnState| json!({ "name": state.name, "unit": state.unit });
     let parts: Vec<&str> = item.element.parts().iter().map(|p| p.name).collect();
     let points = item.element.points();
     json!({
@@ -129,7 +159,11 @@ fn force(model: &Model, item: &ForceItem) -> Value {
         "type": item.element.kind(),
         "i": i,
         "j": j,
+        "bodies": bodies,
         "parts": parts,
+        "places": span(places),
+        "states": item.states.iter().map(state).collect::<Vec<_>>(),
+        "reaction": item.reaction.map(|joint| model.constraints[joint.0].name.as_str()),
         "points": points.map(|ends| ends.each_ref().map(pair)),
     })
 }

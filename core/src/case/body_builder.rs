@@ -10,6 +10,9 @@ pub enum Ground {}
 /// A uniform slender bar.
 #[derive(Clone, Copy, Debug)]
 pub enum Bar {}
+/// A point with mass.
+#[derive(Clone, Copy, Debug)]
+pub enum PointMass {}
 /// A rigid body of any form.
 #[derive(Clone, Copy, Debug)]
 pub enum General {}
@@ -24,11 +27,6 @@ pub struct BodyBuilder<'m, Type> {
 impl<'m, Type> BodyBuilder<'m, Type> {
     pub(super) fn new(entry: &'m mut Entry) -> Self {
         Self { entry, kind: PhantomData }
-    }
-
-    /// A named point in the frame of the body, m.
-    pub fn point(self, name: &str, x: impl Into<Number>, y: impl Into<Number>) -> Self {
-        self.place("points", name, Pair::from((x, y)))
     }
 
     fn with(self, field: &str, value: impl Into<Value>) -> Self {
@@ -50,15 +48,36 @@ impl<'m, Type> BodyBuilder<'m, Type> {
     }
 }
 
-/// Methods of all bodies that move.
-macro_rules! moving {
+/// Methods of all bodies that have named points.
+macro_rules! extended {
+    ($($Type:ident),+) => {
+        $(impl BodyBuilder<'_, $Type> {
+            /// A named point in the frame of the body, m.
+            pub fn point(self, name: &str, x: impl Into<Number>, y: impl Into<Number>) -> Self {
+                self.place("points", name, Pair::from((x, y)))
+            }
+        })+
+    };
+}
+extended!(Ground, Bar, General);
+
+/// Methods of all bodies that have mass.
+macro_rules! heavy {
     ($($Type:ident),+) => {
         $(impl BodyBuilder<'_, $Type> {
             /// Mass, kg.
             pub fn mass(self, mass: impl Into<Number>) -> Self {
                 self.with("mass", mass.into())
             }
+        })+
+    };
+}
+heavy!(Bar, PointMass, General);
 
+/// Methods of all bodies that turn.
+macro_rules! moving {
+    ($($Type:ident),+) => {
+        $(impl BodyBuilder<'_, $Type> {
             /// The global position of a named point of the body when assembly starts, m. Two such points place
             /// the body; a bar with two of them needs no length and no ends.
             pub fn through(self, name: &str, x: impl Into<Number>, y: impl Into<Number>) -> Self {
@@ -78,6 +97,13 @@ impl BodyBuilder<'_, Bar> {
     /// Names of the points at (-length/2, 0) and (length/2, 0).
     pub fn ends(self, first: &str, last: &str) -> Self {
         self.with("ends", Value::List(vec![first.into(), last.into()]))
+    }
+}
+
+impl BodyBuilder<'_, PointMass> {
+    /// Position in the global frame when assembly starts, m.
+    pub fn at(self, x: impl Into<Number>, y: impl Into<Number>) -> Self {
+        self.with("at", Pair::from((x, y)))
     }
 }
 

@@ -1,6 +1,6 @@
 //! A model written in Rust, with the same checks as a file.
 
-use super::body_builder::{Bar, BodyBuilder, General, Ground};
+use super::body_builder::{Bar, BodyBuilder, General, Ground, PointMass};
 use super::{read, write, Case, Format};
 use crate::elements::{catalogue, Element, Group, Number, Pair, Value, Written};
 use crate::model::{build, Definition, Entry, Model, Problem, Problems};
@@ -65,6 +65,11 @@ impl ModelBuilder {
     /// A uniform slender bar: its frame is at its centre with x along it, its inertia is m L²/12.
     pub fn bar(&mut self, name: &str) -> BodyBuilder<'_, Bar> {
         BodyBuilder::new(self.body_of_type(name, "bar"))
+    }
+
+    /// A point with mass and the named point P; it has no angle.
+    pub fn point_mass(&mut self, name: &str) -> BodyBuilder<'_, PointMass> {
+        BodyBuilder::new(self.body_of_type(name, "point_mass"))
     }
 
     /// A rigid body of any form.

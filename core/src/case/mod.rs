@@ -38,7 +38,7 @@ mod write_json;
 mod write_toml;
 mod write_value;
 
-pub use body_builder::{Bar, BodyBuilder, General, Ground};
+pub use body_builder::{Bar, BodyBuilder, General, Ground, PointMass};
 pub use builder::ModelBuilder;
 pub use contents::{Case, Format, Start, FORMAT_VERSION, MOST_BYTES, MOST_REPORTED};
 use diagnostic::shown;

@@ -1,5 +1,5 @@
 //! Dispatch from an entry of a model to the physics of its type: enums over all types, and pools of
-//! elements by type. The macros are called once, in `list.rs`.
+//! elements by type. The macros are called once, in `mod.rs`.
 
 use super::declare::Table;
 use super::force_trait::Force;
@@ -179,7 +179,7 @@ macro_rules! constraints {
             $($($(#[$on])* $Name: Vec<Pooled<$Name<S>>>,)+)+
         }
 
-        impl<S> Default for JointPools<S> {
+        impl<S> std::default::Default for JointPools<S> {
             fn default() -> Self {
                 Self { $($($(#[$on])* $Name: Vec::new(),)+)+ }
             }
@@ -314,7 +314,7 @@ macro_rules! forces {
             $($(#[$on])* $Name: Vec<Pooled<$Name<S>>>,)+
         }
 
-        impl<S> Default for ForcePools<S> {
+        impl<S> std::default::Default for ForcePools<S> {
             fn default() -> Self {
                 Self { $($(#[$on])* $Name: Vec::new(),)+ }
             }

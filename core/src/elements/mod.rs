@@ -1,9 +1,9 @@
-//! Elements: joints, drivers and forces. Each element has one file.
+//! Elements: joints, drivers and forces. Each element has one file, and this file is the one list of them.
 //!
 //! An element declares its fields once ([`element!`](crate::element)) and states its physics once ([`Joint`] or
 //! [`Force`]), generic in the scalar. The reader of files, the JSON schema, the Python class, the
 //! reference page and all derivatives follow from these two. To add an element, write its file, name it
-//! in `list.rs`, and give it a test sample and a page. No other file names it.
+//! here, and give it a test sample and a page. No other source file names it.
 
 mod declare;
 pub(crate) mod derive;
@@ -12,30 +12,95 @@ mod field;
 mod force_trait;
 mod joint_trait;
 mod kinds;
-mod list;
 mod symbols;
 mod value;
 mod written;
 
-pub mod drivers;
-pub mod forces;
-pub mod joints;
+/// Joints: holonomic constraints between bodies, without time.
+pub mod joints {
+    mod distance;
+    mod revolute;
+    mod translational;
+
+    pub use distance::Distance;
+    pub use revolute::Revolute;
+    pub use translational::Translational;
+}
+
+/// Drivers: constraints that prescribe a motion in time.
+pub mod drivers {
+    mod coordinate_driver;
+
+    pub use coordinate_driver::CoordinateDriver;
+}
+
+/// Forces: what acts on bodies beside joints and gravity.
+pub mod forces {
+    mod spring_damper;
+    mod torque;
+    mod torsion_spring;
+
+    pub use spring_damper::SpringDamper;
+    pub use torque::Torque;
+    pub use torsion_spring::TorsionSpring;
+}
+
 #[cfg(feature = "test-elements")]
 #[path = "../../tests/elements/mod.rs"]
 pub mod test_elements;
 
+use crate::expression::Tape;
+use crate::math::{Lift, Local, Pose, Real, Wrench};
 use declare::join;
 pub use declare::{Element, Table};
+use dispatch::{constraints, declared, forces};
 pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
+use drivers::*;
 pub use field::{Default, Field, Shape};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation};
+use forces::*;
 pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
+use joints::*;
 pub use kinds::{
     body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, JointId,
     Kind, PointOn, Source,
 };
-pub use list::{catalogue, holding, states_of, Constraint, ForceElement, ForcePools, JointPools};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
+#[cfg(feature = "test-elements")]
+use test_elements::*;
 pub use value::{Number, Pair, Value};
 pub use written::Written;
 pub(crate) use written::{argument, declare as element};
+
+constraints! {
+    Joints {
+        Revolute,
+        Translational,
+        Distance,
+        #[cfg(feature = "test-elements")] TurnedPin,
+        #[cfg(feature = "test-elements")] Bead,
+        #[cfg(feature = "test-elements")] Levels,
+        #[cfg(feature = "test-elements")] Pulley,
+    }
+    Drivers { CoordinateDriver }
+}
+
+forces! {
+    TorsionSpring,
+    SpringDamper,
+    Torque,
+    #[cfg(feature = "test-elements")] Lag,
+    #[cfg(feature = "test-elements")] Rubbing,
+}
+
+/// The declarations of all elements, in the order of the list.
+pub fn catalogue() -> Vec<(Group, Table)> {
+    let mut tables = constraint_tables();
+    tables.extend(force_tables());
+    tables
+}
+
+/// The driver that holds a coordinate at a value: assembly holds by it what is `set`.
+pub fn holding(coordinate: CoordinateOf, value: Tape) -> Constraint<Tape> {
+    Constraint::CoordinateDriver(CoordinateDriver { coordinate, value })
+}

@@ -66,7 +66,8 @@ pub struct Workspace<S = f64> {
     powers: Powers<S>,
     /// A constant vector that is subtracted from γ; empty if absent.
     offset: Vec<S>,
-    /// Whether the matrix always differs from that of the equations: inertia is added, or redundant rows are damped.
+    /// Whether one elimination does not solve the equations: inertia is added, redundant rows are damped, or forces
+    /// depend on reactions.
     modified: bool,
     /// The rows of the multipliers on which forces depend.
     reactive: Vec<usize>,
@@ -187,7 +188,8 @@ impl<S: Real> Workspace<S> {
         saddle.finish(&plan.pattern, solution)
     }
 
-    /// The same by the whole matrix; the factor may be that of a modified matrix.
+    /// The same by the whole matrix; the factor may be that of a modified matrix. Forces that depend on reactions are
+    /// iterated.
     fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
         let Self { motions, z, compiled, matrix, solution, powers, offset, reactive, .. } = self;
         let (n, padded) = (self.n_q, self.n_unknowns);

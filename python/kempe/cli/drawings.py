@@ -35,7 +35,7 @@ def write_drawings(solution: Solution, folder: Path, video: Form | None) -> list
 
 
 def refuse_impossible(video: Form | None) -> None:
-    """Say before a simulation, not after it, that a video cannot be made.
+    """Report before a simulation, not after it, that a video cannot be made.
 
     Raises:
         FileError: there is no ffmpeg for an MP4.

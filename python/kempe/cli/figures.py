@@ -1,4 +1,4 @@
-"""What the commands that write figures have in common."""
+"""Functions for all commands that write figures."""
 
 from __future__ import annotations
 

@@ -51,8 +51,9 @@ def show_configuration(console: Console, state: State) -> None:
     rows = []
     for name in state.model.bodies:
         body = state.body(name)
-        place = (body.x, body.y, np.degrees(body.angle), body.vx, body.vy, body.omega)
-        rows.append((name, *(figure(float(value)) for value in place)))
+        angle, omega = (np.degrees(body.angle), body.omega) if body.info.turns else (None, None)
+        place = (body.x, body.y, angle, body.vx, body.vy, omega)
+        rows.append((name, *("" if value is None else figure(float(value)) for value in place)))
     header = ("body", "x / m", "y / m", "angle / °", "vx / m/s", "vy / m/s", "omega / rad/s")
     table(console, header, rows)
     if state.report is not None:

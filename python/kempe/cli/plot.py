@@ -37,7 +37,7 @@ def plot(  # noqa: PLR0917 - typer distinguishes options by their annotations
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="Folder for figures; beside the results if absent."),
+        typer.Option("--output", "-o", help="Folder for figures; by default beside the results."),
     ] = None,
     index_base: figures.IndexBase = 1,
     form: Annotated[
@@ -57,7 +57,7 @@ def plot(  # noqa: PLR0917 - typer distinguishes options by their annotations
 
 
 def _folder(file: Path, output: Path | None, analysis: str) -> Path:
-    """Beside the results of the analysis, or in the folder that was named."""
+    """The folder of the figures: the given one, or one beside the results of the analysis."""
     return results_folder(file) / analysis / "figures" if output is None else output / analysis
 
 

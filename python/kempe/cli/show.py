@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from kempe.case import Case
     from kempe.state import State
 
-#: Endings of the name of an output file, and the format that each stands for.
+#: Endings of the name of an output file, and the format of each.
 FORMATS = {"text": ".txt", "csv": ".csv", "latex": ".tex"}
 
 EXAMPLES = """Examples:

@@ -1,4 +1,4 @@
-"""``kempe study``: what stabilization, scheme and tolerance do to a simulation."""
+"""``kempe study``: the effect of stabilization, scheme and tolerance on a simulation."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def study(
     ] = None,
     settings: Settings = None,
 ) -> None:
-    """Compute an analysis in many ways, compare them, and say what is found."""
+    """Compute an analysis with many options, compare the results and summarize them."""
     import warnings
 
     from kempe.analyses import AssemblyWarning

@@ -62,7 +62,7 @@ def animate(
     """
     kind = Path(path).suffix.lstrip(".").lower()
     if kind not in FORMATS:
-        raise ModelError(f"cannot tell what {path} is to be", hint="end it in .html, .mp4 or .gif")
+        raise ModelError(f"{path}: the format is unknown", hint="end it in .html, .mp4 or .gif")
     _refuse_wrong(fps=fps, speed=speed)
     if kind == "html":
         return player(solution, path, speed=speed)

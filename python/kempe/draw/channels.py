@@ -17,7 +17,7 @@ _NOTHING = 1e-9
 
 
 def channels(motion: Motion) -> list[dict[str, Any]]:
-    """Angles, angular velocities, forces, reactions and the residual at the frames.
+    """Angles, angular velocities, states, forces, reactions and the residual at the frames.
 
     Returns:
         ``{"name", "group", "unit", "values"}`` for each; those that stay at zero are left out where
@@ -30,16 +30,20 @@ def channels(motion: Motion) -> list[dict[str, Any]]:
 
 
 def numbers_per_frame(model: CompiledModel) -> int:
-    """How many numbers tell one frame, poses, rates, reactions and channels together, about."""
+    """Approximate count of the numbers of a frame: poses, rates, reactions and channels."""
     return 8 * len(model.bodies) + 4 * len(model.constraints) + 2 * len(model.forces) + 2
 
 
 def _all(motion: Motion) -> Iterator[tuple[str, str, str, Floats]]:
     model = motion.model
-    for name in model.bodies:
+    turning = [name for name, info in model.bodies.items() if info.turns]
+    for name in turning:
         yield f"{name}.angle", "angles", "rad", motion.body(name).angle
-    for name in model.bodies:
+    for name in turning:
         yield f"{name}.omega", "angular velocities", "rad/s", motion.body(name).omega
+    states = zip(model.state_names(), model.state_units(), strict=True)
+    for k, (name, unit) in enumerate(states):
+        yield name, "states", unit, motion.z[:, k]
     for name, info in model.forces.items():
         element = motion.force(name)
         yield from _acting(name, "forces", element.force(on=info.j), element.torque(on=info.j))

@@ -1,4 +1,4 @@
-"""The display list of a scene: what figures, frames and the page paint.
+"""The display list of a scene, which figures, frames and the page paint.
 
 Symbols are chosen by the physics that the elements declare, names are laid out once for the whole
 motion, and names of what coincides are written once.
@@ -33,9 +33,9 @@ _LINK, _EDGE, _TINT = 8.0, 1.0, 0.72
 _NUMBER = 7.0  # radius of the circle around a number
 _MOST_OBSTACLES = 60  # corners of one item
 
-#: Role, names and frame of what has one place.
+#: Role, names and frame of objects at one place.
 _Named = tuple[str, list[str], Frame]
-#: A name that waits for its place: of what, words, role, and the frame of its anchor.
+#: A name without a place yet: its object, words, role, and the frame of its anchor.
 _Name = tuple[str, str, str, Frame]
 
 
@@ -63,7 +63,7 @@ class Places:
         return len(self._paths) - 1
 
     def is_new(self, path: Floats) -> bool:
-        """Whether a path has a place of its own, which it takes."""
+        """Whether a path has a place of its own; it is then taken."""
         before = 0 if self._paths is None else len(self._paths)
         return self.index(path) == before
 
@@ -72,7 +72,7 @@ class Display:
     """A display list in the making.
 
     Args:
-        scene: what is drawn.
+        scene: the scene.
         view: the scale and the edges for which names are laid out.
     """
 
@@ -249,7 +249,7 @@ class Display:
             yield one
 
     def taken(self) -> Taken:
-        """What names must not lie on: lines, texts and what is outside of the view."""
+        """Areas that names must not cover: lines, texts and the outside of the view."""
         count = len(self.poses)
         segments, reach, boxes = [np.empty((count, 0, 2, 2))], [], [np.empty((count, 0, 4))]
         for item in self._items:

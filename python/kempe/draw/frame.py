@@ -35,7 +35,7 @@ _PIECES = 4
 
 
 def frame_view(scene: Scene) -> View:
-    """What a frame shows: everything, with room around."""
+    """The visible area of a frame: everything, with a margin."""
     return view_of(limits(scene["bounds"], SIZE[0] / SIZE[1]), 72.0 * SIZE[0])
 
 
@@ -48,7 +48,7 @@ class Frame:
     """A picture whose moving parts can be put at any frame of a scene.
 
     Args:
-        scene: what is drawn.
+        scene: the scene.
         dpi: dots for each inch of a picture of 7.2 by 4.05 inches.
     """
 
@@ -95,7 +95,7 @@ class Frame:
         self.axes.text(middle, y + 3.0 * point, told, ha="center", va="bottom", fontsize=8)
 
     def _path(self, number: int) -> Floats:
-        """Poses of a body, also between the frames where the scene says that this may be."""
+        """Poses of a body, also between the frames where the scene allows this."""
         poses, frames = self._poses[:, number], self._scene["frames"]
         if self._scene["interpolation"] != "cubic":
             return poses

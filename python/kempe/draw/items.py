@@ -28,7 +28,7 @@ Frame: TypeAlias = dict[str, Any]
 Rows: TypeAlias = list[list[float]]
 At: TypeAlias = Sequence[float]
 
-#: What covers what: an item of a higher layer is painted later.
+#: Layers: an item of a higher layer is painted later.
 GROUND, BODY, SYMBOL, PIN, NUMBER, NAME = range(6)
 
 ORIGIN = (0.0, 0.0)
@@ -133,7 +133,7 @@ def text(
 
     Args:
         of: the body or element that it names.
-        frame: what it follows.
+        frame: the frame that it follows.
         point: its row.
         words: the text.
         role: a key of ``LOOKS``.

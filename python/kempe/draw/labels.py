@@ -1,4 +1,4 @@
-"""Where to write names so that they lie on nothing else, at rest and while the mechanism moves."""
+"""Places of names that cover nothing else, at rest and while the mechanism moves."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from kempe.arrays import Floats
 _ANGLES = np.deg2rad(np.arange(16) * 22.5 + 22.5)
 _UNITS = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)])
 _GAPS = (3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0)
-#: As many of them while the anchors move: a name that is far away belongs to nothing.
+#: The same while the anchors move; a name must not be far from its anchor.
 _GAPS_IN_MOTION = 4
 #: Room to keep between a name and everything else.
 CLEARANCE = 2.0
@@ -44,7 +44,7 @@ def measured(words: str, size: float, bold: bool, slanted: bool) -> tuple[float,
 
 @dataclass(frozen=True)
 class Taken:
-    """What names must not lie on, at some instants of a motion; points of print.
+    """Areas that names must not cover, at some instants of a motion; points of print.
 
     Attributes:
         segments: lines, (n_t, m, 2, 2).
@@ -68,7 +68,7 @@ def place_labels(anchors: Floats, sizes: Floats, taken: Taken) -> Floats:
     Args:
         anchors: (n_t, n, 2), points of print.
         sizes: widths and heights, (n, 2).
-        taken: what else there is.
+        taken: the other areas.
 
     Returns:
         The offsets, (n, 2).
@@ -97,7 +97,7 @@ def _candidates(size: Floats, gaps: Sequence[float]) -> Floats:
 
 
 def _cost(centres: Floats, size: Floats, taken: Taken, t: int) -> Floats:
-    """What the box of a name touches at each of its candidates at the t-th instant, points."""
+    """Overlap of the box of a name at each of its candidates at the t-th instant, points."""
     segments, boxes = taken.segments[t], taken.boxes[t]
     half = size / 2.0 + CLEARANCE
     low, high = centres - half, centres + half

@@ -9,7 +9,7 @@ from kempe.arrays import Floats
 
 
 def plain(values: Floats) -> Any:
-    """Nested lists of the values to nine significant digits; None for what is not finite."""
+    """Nested lists of the values to nine significant digits; None for non-finite values."""
     return rounded_all(values.tolist())
 
 
@@ -23,7 +23,7 @@ def rounded_all(data: Any) -> Any:
 
 
 def rounded(value: float) -> float | None:
-    """Nine significant digits, no negative zero; None for what is not finite."""
+    """Nine significant digits, no negative zero; None for values that are not finite."""
     return float(f"{value:.9g}") + 0.0 if math.isfinite(value) else None
 
 

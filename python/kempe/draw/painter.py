@@ -49,7 +49,7 @@ class Painting(Artist):
             axes.add_artist(artist)
 
     def view(self) -> View:
-        """What is seen, in points of print from the lower left corner of the figure."""
+        """The visible area, in points of print from the lower left corner of the figure."""
         return view_on(self._on, self._metres)
 
     @allow_rasterization  # type: ignore[untyped-decorator]
@@ -69,7 +69,7 @@ class Painting(Artist):
 
 
 def view_on(axes: Axes, metres: float = 1.0) -> View:
-    """What axes show, in points of print from the lower left corner of their figure."""
+    """The area of axes, in points of print from the lower left corner of their figure."""
     corners = axes.transData.transform([(0.0, 0.0), (1.0, 1.0)]) * 72.0 / axes.figure.dpi
     scale = float(corners[1, 0] - corners[0, 0]) / metres
     size = np.array(axes.figure.bbox.size) * 72.0 / axes.figure.dpi

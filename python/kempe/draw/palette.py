@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-#: Okabe & Ito (2008), told apart with any colour vision, the darker ones first.
+#: Okabe & Ito (2008), distinguishable with any colour vision, the darker ones first.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 GROUND = "#444444"
 #: Longest name in a drawing, in characters.
 LONGEST_NAME = 24
 
-#: What a colour of the display list means on white paper; the page has its own list.
+#: The colours of the display list on white paper; the page has its own list.
 _ROLES = {
     "paper": "#FFFFFF",
     "ink": "#000000",
@@ -39,7 +39,7 @@ def rgb(role: str, tint: float = 0.0) -> tuple[float, float, float]:
 
 
 def verbatim(text: str) -> str:
-    """Text that matplotlib is to show as it is, not to read as mathematics."""
+    """Text that matplotlib shows unchanged, not as mathematics."""
     return text.replace("$", r"\$")
 
 

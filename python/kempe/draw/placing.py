@@ -1,4 +1,4 @@
-"""Where the items of a display list are at one instant: the only place where metres become points.
+"""Places of the items of a display list at one instant; only here metres become points.
 
 ``assets/place.js`` has the same rules for the page.
 """
@@ -56,7 +56,7 @@ def place(item: Item, poses: Floats, view: View) -> Floats:
     Args:
         item: of a display list.
         poses: x, y and angle of each body, ground first, (n_bodies, 3).
-        view: what is seen.
+        view: the visible area.
     """
     origin, angle, local = _in_frame(
         item["frame"], np.asarray(item["points"], dtype=np.float64), poses, view

@@ -46,7 +46,7 @@ def player(solution: Solution | State, path: Path | str, *, speed: float = 1.0) 
     """Write a page that plays a motion; any browser opens it, also without a network.
 
     Args:
-        solution: what is shown; a state is shown standing still.
+        solution: the motion; a state is shown at rest.
         path: where to, such as ``animation.html``.
         speed: 2 plays twice as fast at the start; it can be changed on the page.
 
@@ -82,7 +82,7 @@ def page(shown: Scene) -> str:
 
 
 def _json_for_html(shown: Scene) -> str:
-    """JSON in ASCII in which nothing can end the element that holds it."""
+    """JSON in ASCII that cannot end the HTML element around it."""
     text = json.dumps(shown, allow_nan=False, separators=(",", ":"), ensure_ascii=True)
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 

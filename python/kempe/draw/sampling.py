@@ -30,7 +30,7 @@ def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int)
     Args:
         drawn: a solution, or a state, which is one frame.
         frames: how many; chosen when None.
-        numbers_per_frame: how much there is to tell of one frame.
+        numbers_per_frame: how many numbers a frame has.
 
     Raises:
         ModelError: ``frames`` is less than 1.
@@ -38,7 +38,7 @@ def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int)
     if frames is not None and frames < 1:
         raise ModelError(f"frames={frames}: must be 1 or more")
     if isinstance(drawn, State):
-        return Motion(drawn.model, drawn.t[None], drawn.q[None], drawn.v[None])
+        return Motion(drawn.model, drawn.t[None], drawn.q[None], drawn.v[None], drawn.z[None])
     begin, end = sorted((float(drawn.t[0]), float(drawn.t[-1])))
     count = frames or _count(end - begin, numbers_per_frame)
     if drawn.dense is None:
@@ -61,10 +61,11 @@ def _count(duration: float, numbers_per_frame: int) -> int:
 
 
 class _Outputs(Motion):
-    """Some outputs of a solution, with what was computed there."""
+    """Some outputs of a solution, with the quantities computed there."""
 
     def __init__(self, solution: Solution, kept: NDArray[np.intp]) -> None:
-        super().__init__(solution.model, solution.t[kept], solution.q[kept], solution.v[kept])
+        rows = (values[kept] for values in (solution.t, solution.q, solution.v, solution.z))
+        super().__init__(solution.model, *rows)
         self._computed = fixed(solution.a[kept]), fixed(solution.lam[kept])
 
     @property
@@ -112,5 +113,7 @@ def _misplaced(guess: Floats, exact: Floats, motion: Motion, name: str) -> float
     error = (guess - exact)[:, info.columns]
     shift = np.hypot(error[:, 0], error[:, 1])
     arms = [math.hypot(*corner) for corner in (*info.points.values(), info.center)]
+    if not info.turns:
+        return float(shift.max())
     chord = 2.0 * np.abs(np.sin(error[:, 2] / 2.0))
     return float((shift + max(arms) * chord).max())

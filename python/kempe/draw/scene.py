@@ -30,7 +30,7 @@ UNITS = {"time": "s", "length": "m", "angle": "rad", "force": "N", "torque": "NÂ
 _LONGEST_ARROW = 0.3
 #: Points no farther apart than this share of the drawing are seen as one.
 _SAME_PLACE = 1e-3
-#: A motion is shown in real time if that takes so long, s.
+#: Shortest and longest motion that is shown in real time, s.
 _SHORTEST, _LONGEST = 2.0, 60.0
 
 
@@ -43,7 +43,7 @@ def scene(
     """Describe a motion, or one instant, for drawing.
 
     Args:
-        solution_or_state: what is drawn.
+        solution_or_state: the motion or the state.
         frames: number of frames, evenly spread; by default 60 for each second, at most 1200, and
             fewer for a mechanism of very many bodies.
         traces: points whose paths are drawn, such as ``["coupler.P"]``; by default every named
@@ -87,7 +87,7 @@ def scene(
 
 
 def _length(size: float) -> dict[str, Any]:
-    """The unit in which the drawing counts lengths, and what it is in m."""
+    """The unit of lengths in the drawing, and its value in m."""
     chosen = scale("m", size)
     return {"unit": chosen.unit, "metres": chosen.divisor}
 
@@ -150,7 +150,7 @@ def _trace(model: CompiledModel, body: str, point: str) -> dict[str, Any]:
 def _moving_points(motion: Motion, size: float) -> list[dict[str, Any]]:
     """Points that move, without those that go with one before them."""
     near = _SAME_PLACE * size
-    # A few frames tell whether two points go together; all of them would take long for many bodies.
+    # A few frames show whether two points coincide; all of them would take long for many bodies.
     some = np.unique(np.linspace(0, len(motion.t) - 1, 16).round().astype(int))
     kept: list[dict[str, Any]] = []
     paths = np.empty((0, len(some), 2))

@@ -1,4 +1,4 @@
-"""What is drawn: outlines of bodies, joints and symbols with their places on two bodies."""
+"""Shapes: outlines of bodies, and joints and symbols with their places on two bodies."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def joint(model: CompiledModel, name: str) -> dict[str, Any]:
 
 
 def symbols(motion: Motion) -> list[dict[str, Any]]:
-    """What is drawn for joints, drivers and forces: marks with their places on two bodies.
+    """Marks of joints, drivers and forces, with their places on two bodies.
 
     A mark without points is drawn around the joint that its two bodies share, otherwise at the mass
     centre of body j.
@@ -143,7 +143,7 @@ def _turn(a: Floats, b: Floats, c: Floats) -> float:
 
 
 def bounds(motion: Motion, bodies: list[dict[str, Any]], joints: list[dict[str, Any]]) -> Floats:
-    """What the drawing covers over all frames: least x and y, largest x and y, m."""
+    """The area of the drawing over all frames: least x and y, largest x and y, m."""
     low, high = np.full(2, np.inf), np.full(2, -np.inf)
     for entry in bodies:
         corners = [*entry["outline"], *(point["at"] for point in entry["points"])]

@@ -16,7 +16,7 @@ from kempe.draw.items import Item, between, fill, line, metres, on_body, print_p
 PIN_RADIUS = 3.0
 _BLOCK = np.array([[-13.0, -7.5], [13.0, -7.5], [13.0, 7.5], [-13.0, 7.5]])
 _RAIL, _OVERHANG = 9.0, 24.0
-#: Where the bars of a spring beside a dashpot are, as a share of the distance, and their distance.
+#: Place of the bars of a spring beside a dashpot, as a part of the distance, and their distance.
 _BAR, _ASIDE = 0.15, 6.5
 _ROOM = 60.0  # of a dashpot along its line
 _SPIRAL = (4.5, 12.0)  # inner and outer radius
@@ -29,7 +29,7 @@ Symbol = dict[str, Any]
 
 
 class Rings:
-    """Radii for what is drawn around one point, from the inside to the outside."""
+    """Radii of the symbols around one point, from the inside to the outside."""
 
     def __init__(self) -> None:
         self._used: dict[tuple[int, float, float], float] = {}
@@ -48,7 +48,7 @@ def draw(symbol: Symbol, rings: Rings, aside: float = 0.0) -> Iterator[Item]:
 
     Args:
         symbol: an entry of the scene.
-        rings: what is around each point already.
+        rings: the symbols around each point so far.
         aside: distance from the line of a symbol drawn in parallel to others; 0 for one alone.
     """
     mark = symbol["mark"]

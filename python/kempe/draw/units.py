@@ -28,8 +28,8 @@ class Scale:
     """How an axis counts.
 
     Attributes:
-        divisor: what the values in SI units are divided by.
-        unit: what stands on the axis, such as "kN".
+        divisor: divisor of the values in SI units.
+        unit: unit on the axis, such as "kN".
     """
 
     divisor: float

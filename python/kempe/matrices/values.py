@@ -57,7 +57,7 @@ class Matrices:
 def matrices(state: State, held: Mapping[str, Number]) -> Matrices:
     """The matrices at a state, with rows for the coordinates held as in an assembly."""
     text = json.dumps(numbers(held, "set"), allow_nan=False)
-    found = _core.matrices(state.model.core, float(state.t), state.q, state.v, text)
+    found = _core.matrices(state.model.core, float(state.t), state.q, state.v, state.z, text)
     names = ("M", "Phi", "Phi_q", "nu", "gamma", "Q", "kkt")
     arrays = {name: fixed(found[name]) for name in names}
     rows = state.model.row_names()

@@ -15,6 +15,7 @@ from kempe.plot.time_axis import show_time
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
     from numpy.typing import ArrayLike
 
     from kempe.arrays import Floats
@@ -45,6 +46,8 @@ def positions(
     index_base: int = 1,
 ) -> Axes:
     """Draw x and y of a body over time, and its angle on an axis of its own to the right.
+
+    A point mass has no angle.
 
     Args:
         motion: a solution, or the motion at some times of it.
@@ -123,7 +126,13 @@ def _draw(
             if names[0] == "angle":
                 _add_degrees(axes)
         else:
-            _draw_all(axes, motion, body, names, Panel("", "", title, cut, legend=False))
+            _draw_all(
+                axes,
+                motion,
+                body,
+                names[: info.count or None],
+                Panel("", "", title, cut, legend=False),
+            )
         return axes
 
 
@@ -143,22 +152,27 @@ def _add_degrees(axes: Axes) -> None:
 
 
 def _draw_all(axes: Axes, motion: Motion, body: str, names: Sequence[str], common: Panel) -> None:
-    """Both directions on the axes, the turning on a twin of them."""
+    """Both directions on the axes, the turning, if any, on a twin of them."""
     view, t = motion.body(body), motion.t
-    x, y, turn = (
+    x, y, *turn = (
         Curve(QUANTITIES[name][0], getattr(view, name), style.line(k))
         for k, name in enumerate(names)
     )
     unit = QUANTITIES[names[0]][1]
     draw(axes, t, [x, y], Panel(f"{x.label}, {y.label}", unit, common.title, common.cut, False))
+    lines = [*axes.lines]
+    if turn:
+        lines += _draw_turning(axes, t, turn[0], QUANTITIES[names[2]][1], common.cut)
+    axes.legend(handles=lines, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=3)
+
+
+def _draw_turning(
+    axes: Axes, t: Floats, turn: Curve, unit: str, cut: float | None
+) -> Sequence[Line2D]:
+    """An angle or its rate on a twin of the axes; returns its lines."""
     twin = axes.twinx()
     twin.grid(visible=False)
     twin.spines["right"].set_visible(True)
-    draw(twin, t, [turn], Panel(turn.label, QUANTITIES[names[2]][1], legend=False))
-    show_time(twin, np.atleast_1d(t), common.cut, label=False)
-    axes.legend(
-        handles=[*axes.lines, *twin.lines],
-        loc="lower right",
-        bbox_to_anchor=(1.0, 0.98),
-        ncols=3,
-    )
+    draw(twin, t, [turn], Panel(turn.label, unit, legend=False))
+    show_time(twin, np.atleast_1d(t), cut, label=False)
+    return [*twin.lines]

@@ -25,7 +25,7 @@ def configuration(
     """Draw where all bodies are, with numbers and names.
 
     Args:
-        solution_or_state: what is drawn.
+        solution_or_state: the solution or the state.
         t: the time within a solution, s; its first when None.
         ax: where to; a figure of its own when None.
         index_base: number of the first body.

@@ -37,12 +37,12 @@ class Curve:
 
 @dataclass(frozen=True)
 class Panel:
-    """What all curves of a panel have in common.
+    """The common properties of the curves of a panel.
 
     Attributes:
         symbol: of the quantity, such as "F".
         unit: SI unit of the values.
-        title: stands above the panel to the left.
+        title: title above the panel, to the left.
         cut: time after which the axis is compressed, s; see ``show_time``.
         legend: whether to write one, above the panel to the right.
     """
@@ -61,7 +61,7 @@ def draw(axes: Axes, t: Floats, curves: Sequence[Curve], panel: Panel) -> None:
         axes: where to.
         t: (n_t,) or (), s.
         curves: of one unit.
-        panel: what they have in common.
+        panel: their common properties.
     """
     peaks = [float(np.abs(curve.values).max(initial=0.0)) for curve in curves]
     chosen = scale(panel.unit, max(peaks, default=0.0))

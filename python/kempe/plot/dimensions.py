@@ -12,7 +12,7 @@ from kempe.draw.geometry import placed
 from kempe.draw.items import GROUND, arrow_head, between, fill, line, print_points, text, upright
 from kempe.draw.labels import Taken, clipped_lengths, measured
 
-#: Distance of a dimension line from what it measures, tried in turn, points.
+#: Distances of a dimension line from its object, tried in turn, points.
 _DISTANCES = (20.0, 32.0, 44.0)
 #: More lengths than this are not read off a drawing.
 _MOST = 7
@@ -81,7 +81,7 @@ def _best_distance(made: Display, dots: Floats, along: Floats, half: Floats) -> 
 
 
 def _touched(taken: Taken, dots: Floats, half: Floats) -> float:
-    """What lies on a dimension line: lines and boxes of texts, at places along it."""
+    """Lines and boxes of texts that cover a dimension line, at places along it."""
     boxes, reach = taken.boxes[0], taken.reach
     cost = 0.0
     for share in np.linspace(0.05, 0.95, 13):

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
     from kempe.state import State
 
-#: What stands beside and above and below the axes, mm.
+#: Margins beside, above and below the axes, mm.
 _BESIDE, _ABOVE = 16.0, 18.0
 _HIGHEST = 170.0
 

@@ -1,4 +1,4 @@
-"""Where the energy goes over time, and how well it is kept."""
+"""The parts of the energy over time, and the error of the energy balance."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def energy(solution: Solution, *, ax: Axes | None = None, cut: float | None = No
     """Draw kinetic, potential and dissipated energy, work, and T + V + dissipated - work.
 
     Args:
-        solution: what is drawn.
+        solution: the solution.
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
@@ -38,10 +38,10 @@ def energy(solution: Solution, *, ax: Axes | None = None, cut: float | None = No
 
 
 def energy_balance(solution: Solution, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
-    """Draw by how much T + V + D - W changes, relative to the largest kinetic energy.
+    """Draw the change of T + V + D - W, relative to the largest kinetic energy.
 
     Args:
-        solution: what is drawn.
+        solution: the solution.
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """

@@ -21,7 +21,7 @@ def mechanism(solution_or_state: Solution | State, *, ax: Axes | None = None) ->
     """Draw the mechanism with its dimensions.
 
     Args:
-        solution_or_state: what is drawn; a solution as it starts.
+        solution_or_state: the solution, drawn at its start, or the state.
         ax: where to; a figure of its own when None.
     """
     with style.on(ax) as axes:

@@ -1,4 +1,4 @@
-"""A figure of the report: its name, its size, how it is drawn, and how it becomes files."""
+"""A figure of the report: its name, its size, its drawing, and its files."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ def pages(solution: Solution, index_base: int = 1, most: int | None = None) -> l
     """All figures of a solution; each is drawn on request.
 
     Args:
-        solution: what is drawn.
+        solution: the solution.
         index_base: number of the first body.
         most: of figures of one kind, such as those of the joints; any number when None.
 

@@ -67,7 +67,7 @@ def reactions(
 
 
 def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
-    """Draw the magnitude of the force of every joint and driver that carries one.
+    """Draw the magnitude of the force of every joint and driver that has one.
 
     Args:
         motion: a solution, or the motion at some times of it.

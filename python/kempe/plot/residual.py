@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from kempe.solution import Solution
 
-#: Under the resolution of the numbers nothing is read off.
+#: Least value of the axis: the resolution of the numbers.
 _LOWEST = 1e-18
 
 
@@ -23,7 +23,7 @@ def residual(solution: Solution, *, ax: Axes | None = None, cut: float | None = 
     """Draw the largest |Φ| and the largest |Φ_q q̇ + Φ_t| on a logarithmic axis.
 
     Args:
-        solution: what is drawn.
+        solution: the solution.
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """

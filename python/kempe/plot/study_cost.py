@@ -1,4 +1,4 @@
-"""What the variants of a study cost, and what one gets for it."""
+"""Cost and accuracy of the variants of a study."""
 
 from __future__ import annotations
 

@@ -103,4 +103,6 @@ def state_at(solution: Solution, k: int) -> State:
     """The k-th output as a state."""
     from kempe.state import State
 
-    return State(solution.model, float(solution.t[k]), solution.q[k], solution.v[k])
+    return State(
+        solution.model, float(solution.t[k]), solution.q[k], solution.v[k], z=solution.z[k]
+    )

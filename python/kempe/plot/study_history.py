@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
     from kempe.studies import Outcome, Study
 
-#: Below it there is nothing to see on a logarithmic axis, m.
+#: Least value of the logarithmic axis, m.
 FLOOR = 1e-16
 #: Spans of time of which the largest value is drawn.
 BINS = 200
@@ -66,7 +66,7 @@ def _draw(ax: Axes, outcomes: Sequence[Outcome], value: Callable[[Solution], Flo
 
 
 def envelope(t: Floats, y: Floats) -> tuple[Floats, Floats]:
-    """The largest value in each of BINS spans of time: what oscillates becomes one clear line."""
+    """The largest value in each of BINS spans of time; an oscillation becomes one clear line."""
     if len(t) <= BINS:
         return t, y
     edges = np.linspace(0, len(t), BINS + 1).astype(int)[:-1]

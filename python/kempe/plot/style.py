@@ -1,4 +1,4 @@
-"""What all figures have in common: sizes for print, fonts, colours that everybody can distinguish."""
+"""The style of all figures: sizes for print, fonts, colours that everybody can distinguish."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: The lines of one panel in order: in print without colours the dashes tell them apart.
+#: The lines of one panel in order: in print without colours the dashes distinguish them.
 DASHES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 2)))
 SUM = {"color": "#000000", "linestyle": "-", "linewidth": 1.6, "zorder": 1.9}
 EARLIER = "#BBBBBB"

@@ -64,7 +64,7 @@ def show_time(axes: Axes, t: Floats, cut: float | None, *, label: bool = True) -
         axes: where to.
         t: (n_t,), s.
         cut: after this time the axis is compressed and its background grey; never when None.
-        label: whether to write what it is.
+        label: whether to write the label of the axis.
     """
     first, last = float(t.min()), float(t.max())
     told = ""
@@ -80,7 +80,7 @@ def show_time(axes: Axes, t: Floats, cut: float | None, *, label: bool = True) -
 
 
 def _compress(axes: Axes, first: float, cut: float, last: float) -> None:
-    """Two linear parts that meet at ``cut``: one axis, so that every line stays whole."""
+    """Two linear parts that meet at ``cut``: one axis, so that no line is interrupted."""
     from kempe.plot import style
 
     slow, fast = SHARE / (cut - first), (1.0 - SHARE) / (last - cut)

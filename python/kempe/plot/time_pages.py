@@ -24,15 +24,15 @@ if TYPE_CHECKING:
 
 #: More panels than this do not fit on a page.
 _MOST_PANELS = 12
-#: Height of a panel, and of what stands above and below all of them, mm.
+#: Height of a panel, and of the texts above and below all panels, mm.
 _PANEL, _AROUND = 38.0, 14.0
 
 
 def of_coordinate(
     solution: Solution, quantity: str, cut: float | None, index_base: int
 ) -> list[Page]:
-    """One coordinate of all bodies, a panel for each; more pages where there are many bodies."""
-    bodies = list(solution.model.bodies)
+    """One coordinate of all bodies that have it, a panel for each; more pages for many bodies."""
+    bodies = [name for name, info in solution.model.bodies.items() if quantity in info.quantities]
     count = math.ceil(len(bodies) / _MOST_PANELS)
     found = []
     for k in range(count):
@@ -72,15 +72,19 @@ def _draw_coordinate(
 def of_body(solution: Solution, body: str, file: str, cut: float | None, index_base: int) -> Page:
     """Velocities of a body to the left, accelerations to the right."""
     draw = partial(_draw_body, solution, body, cut, index_base)
-    return Page(0, file, body, 3 * _PANEL + _AROUND, draw)
+    rows = solution.model.bodies[body].count
+    return Page(0, file, body, rows * _PANEL + _AROUND, draw)
 
 
 def _draw_body(
     solution: Solution, body: str, cut: float | None, index_base: int, figure: Figure
 ) -> None:
-    panels = _grid(figure, 6, 2)
+    count = solution.model.bodies[body].count
+    panels = _grid(figure, 2 * count, 2)
     common: dict[str, Any] = {"cut": cut, "index_base": index_base}
-    for k, (rate, acceleration) in enumerate(zip(RATES, ACCELERATIONS, strict=True)):
+    for k, (rate, acceleration) in enumerate(
+        zip(RATES[:count], ACCELERATIONS[:count], strict=True)
+    ):
         velocities(solution, body, rate, ax=panels[2 * k], **common)
         accelerations(solution, body, acceleration, ax=panels[2 * k + 1], **common)
     for panel in panels:
@@ -92,7 +96,7 @@ def _draw_body(
 
 
 def only_turns(solution: Solution, force: str) -> bool:
-    """Whether a force element exerts torques alone."""
+    """Whether a force element exerts only torques."""
     view = solution.force(force)
     return not view.force(on=view.info.j).any()
 
@@ -172,7 +176,7 @@ def of_residual(solution: Solution, cut: float | None) -> Page:
 
 
 def of_energy(solution: Solution, cut: float | None) -> Page:
-    """Where the energy goes, and below it how well the balance is kept."""
+    """The parts of the energy, and below them the error of the balance."""
 
     def draw(figure: Figure) -> None:
         upper, lower = figure.subplots(2, 1, height_ratios=[3, 2])
@@ -207,7 +211,7 @@ def _share_limits(panels: Sequence[Axes]) -> None:
 
 
 def _label_lowest(panels: Sequence[Axes], columns: int) -> None:
-    """Times stand only below the lowest panel of each column."""
+    """Write times only below the lowest panel of each column."""
     for panel in panels[:-columns]:
         panel.set_xlabel("")
         panel.tick_params(labelbottom=False)

@@ -1,4 +1,4 @@
-"""A study: one analysis computed in many ways, and what stabilization, scheme, tolerance do."""
+"""A study: one analysis with many stabilizations, schemes and tolerances, and a comparison."""
 
 from kempe.studies.outcome import Outcome
 from kempe.studies.run import Study, study

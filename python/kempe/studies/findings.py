@@ -1,4 +1,4 @@
-"""What a study found, in sentences whose every number is computed from its outcomes."""
+"""The findings of a study, in sentences with numbers computed from its outcomes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 if TYPE_CHECKING:
     from kempe.studies.outcome import Outcome, Outcomes
 
-#: Below it differences from the reference say nothing, since the reference has errors of its own.
+#: Smaller differences from the reference have no meaning, since the reference has errors too.
 DOUBT = 1e-9
 
 
@@ -29,7 +29,7 @@ def findings(study: Outcomes) -> list[str]:
 
 
 def _stabilization(study: Outcomes) -> Iterator[str]:
-    """What each pair of gains leaves open, at each tolerance."""
+    """The remaining error of each pair of gains, at each tolerance."""
     by_number = groupby(study.group("stabilization"), key=lambda o: o.variant.number)
     for number, group in by_number:
         outcomes = [o for o in group if not o.diverged]

@@ -1,4 +1,4 @@
-"""What the variants of a study gave."""
+"""The outcomes of the variants of a study."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a variant gave.
+    """The outcome of a variant.
 
     Attributes:
-        variant: how it was computed.
+        variant: its options.
         solution: on the common output times, or until it diverged; None if not even the start
             could be computed.
-        diverged_at: time of the divergence, s; None if it got to the end.
+        diverged_at: time of the divergence, s; None if it reached the end.
         reason: why it diverged; empty if it did not.
         angle_error: largest difference of any body's angle from the reference, rad; NaN if
             it diverged.
@@ -50,7 +50,7 @@ class Outcome:
 
     @property
     def diverged(self) -> bool:
-        """Whether it did not get to the end."""
+        """Whether it failed before the end."""
         return bool(self.reason)
 
 

@@ -1,4 +1,4 @@
-"""Carries a study out: every variant from the same state, on the same output times."""
+"""Runs a study: every variant from the same state, with the same output times."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ MOST_STEPS = 300_000
 
 
 class Study(Outcomes):
-    """The outcomes of a study, with what they say."""
+    """The outcomes of a study, with the findings."""
 
     def findings(self) -> list[str]:
-        """What the numbers say, in sentences."""
+        """The findings, in sentences."""
         return findings(self)
 
     def table(self) -> str:
@@ -66,7 +66,7 @@ def study(
     bodies and output times.
 
     Args:
-        case: what is computed.
+        case: the case.
         analysis: name of the analysis; the first when None.
         ways: the variants, the most accurate first; ``variants()`` when None.
         progress: called with the name of each variant before it is computed.

@@ -1,4 +1,4 @@
-"""What a study varies: stabilization, scheme and tolerance, each with its own stated numbers."""
+"""The variants of a study: stabilization, scheme and tolerance, each with stated numbers."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Variant:
     """One way to compute an analysis.
 
     Attributes:
-        group: what is varied: a key of ``GROUPS``.
+        group: the varied option, a key of ``GROUPS``.
         alpha: of Baumgarte's stabilization, 1/s.
         beta: of Baumgarte's stabilization, 1/s; with α = β = 0 there is none.
         scheme: "RK45", "DOP853" or "RK4".

@@ -46,7 +46,7 @@ class BodyView:
 
     @property
     def angle(self) -> Floats:
-        """Angle of the frame, rad, continuous."""
+        """Angle of the frame, rad, continuous; zero for a point mass, which does not turn."""
         return self._column(self._motion.q, 2)
 
     @property
@@ -61,7 +61,7 @@ class BodyView:
 
     @property
     def omega(self) -> Floats:
-        """Angular velocity, rad/s."""
+        """Angular velocity, rad/s; zero for a point mass."""
         return self._column(self._motion.v, 2)
 
     @property
@@ -76,7 +76,7 @@ class BodyView:
 
     @property
     def alpha(self) -> Floats:
-        """Angular acceleration, rad/s²."""
+        """Angular acceleration, rad/s²; zero for a point mass."""
         return self._acceleration(2)
 
     @property
@@ -109,10 +109,10 @@ class BodyView:
         return PointView(self, s, name)
 
     def _acceleration(self, k: int) -> Floats:
-        return self._column(self._motion.a if self.info.number else self._motion.v, k)
+        return self._column(self._motion.a if k < self.info.count else self._motion.v, k)
 
     def _column(self, values: Floats, k: int) -> Floats:
-        if not self.info.number:  # ground has no columns; its coordinates are zero
+        if k >= self.info.count:  # ground does not move, and a point mass does not turn
             return fixed(np.zeros(np.shape(self._motion.t)))
         return fixed(values[..., self.info.columns][..., k])
 

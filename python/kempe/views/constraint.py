@@ -35,7 +35,7 @@ class ConstraintView:
         """Force that the joint exerts on a body, (n_t, 2), N.
 
         Args:
-            on: the body; one of the two connected bodies.
+            on: the body; one of the connected bodies.
             frame: "global", "body" (axes of this body) or "joint" (axes of the joint on this body).
                 The components on the two bodies are opposite in the global frame only.
 
@@ -61,6 +61,11 @@ class ConstraintView:
     def residual_rate(self) -> Floats:
         """Φ_q q̇ + Φ_t of the joint, (n_t, m), m/s or rad/s."""
         return fixed(self._motion.residuals[1][..., self.info.rows])
+
+    @property
+    def coordinates(self) -> Floats:
+        """Internal coordinates of the joint, (n_t, n); none for most joints."""
+        return fixed(self._motion.q[..., self.info.columns])
 
     @property
     def lam(self) -> Floats:

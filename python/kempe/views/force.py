@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from kempe.arrays import Floats, fixed
 from kempe.compiled import ForceInfo
@@ -21,7 +20,8 @@ class ForceView:
     """A force element of a motion.
 
     Each part has its own ``<part>_torque(on=…)`` and ``<part>_force(on=…)``, such as
-    ``stiffness_torque`` and ``damping_torque`` of a torsion spring.
+    ``stiffness_torque`` and ``damping_torque`` of a torsion spring. Each first-order state is an
+    attribute, such as ``current`` of a motor, (n_t,).
 
     Attributes:
         info: the element.
@@ -45,7 +45,7 @@ class ForceView:
         """Force on a body, (n_t, 2), N.
 
         Args:
-            on: the body; one of the two that the element connects.
+            on: the body; one of those that the element connects.
             frame: "global" or "body" (axes of this body).
             part: name of one part; the sum of all parts by default.
 
@@ -58,7 +58,7 @@ class ForceView:
         """Torque on a body about the origin of its frame, (n_t,), N·m.
 
         Args:
-            on: the body; one of the two that the element connects.
+            on: the body; one of those that the element connects.
             part: name of one part; the sum of all parts by default.
 
         Raises:
@@ -72,10 +72,31 @@ class ForceView:
         body, axes = checked_body(self.info, on), checked_frame(frame, _FRAMES)
         return self._motion.action(self.name, body, part, axes)
 
-    def __getattr__(self, name: str) -> Callable[..., Floats]:
+    @property
+    def states(self) -> tuple[str, ...]:
+        """Names of the first-order states."""
+        return tuple(name for name, _ in self.info.states)
+
+    def state(self, name: str) -> Floats:
+        """A first-order state by name, (n_t,), in its SI unit.
+
+        Raises:
+            ModelError: the element has no such state.
+        """
+        if name not in self.states:
+            raise unknown(f"state of {self.name}", name, self.states)
+        return fixed(self._motion.z[..., self.info.places][..., self.states.index(name)])
+
+    def __getattr__(self, name: str) -> Any:  # an array for a state, a function for a part
+        if name.startswith("_") or name == "info":
+            raise AttributeError(name)  # while a copy is made
+        if name in self.states:
+            return self.state(name)
         part, _, what = name.rpartition("_")
         if what not in ("force", "torque") or part not in self.info.parts:
-            raise AttributeError(f"{self!r} has no {name!r}; its parts: {', '.join(self.parts)}")
+            states = f"; its states: {', '.join(self.states)}" if self.states else ""
+            parts = ", ".join(self.parts)
+            raise AttributeError(f"{self!r} has no {name!r}; its parts: {parts}{states}")
         whole = self.force if what == "force" else self.torque
 
         def of_part(*, on: str, **frame: str) -> Floats:
@@ -85,7 +106,7 @@ class ForceView:
 
     def __dir__(self) -> list[str]:
         made = [f"{part}_{what}" for part in self.parts for what in ("force", "torque")]
-        return [*super().__dir__(), *made]
+        return [*super().__dir__(), *made, *self.states]
 
     def __repr__(self) -> str:
         return f"<{self.info.type} {self.name!r}: {self.info.i} - {self.info.j}>"

@@ -15,7 +15,7 @@ def checked_body(element: ConstraintInfo | ForceInfo, on: str) -> str:
     Raises:
         ModelError: the element does not act on this body.
     """
-    return one_of(f"body in on= for {element.name}", on, dict.fromkeys([element.i, element.j]))
+    return one_of(f"body in on= for {element.name}", on, dict.fromkeys(element.bodies))
 
 
 def checked_frame(frame: str, allowed: tuple[str, ...] = FRAMES) -> str:

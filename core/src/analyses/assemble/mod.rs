@@ -78,10 +78,9 @@ pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box
 
 /// First-order states: those that are set, else guessed, else given, else zero.
 fn states(model: &Model, request: &Request) -> Vec<f64> {
-    let mut z = match &request.state {
-        Some(state) => state.z.clone(),
-        None => vec![0.0; model.layout.n_z],
-    };
+    let n_z = model.layout.n_z;
+    let given = request.state.as_ref().map(|state| state.z.clone()).filter(|z| z.len() == n_z);
+    let mut z = given.unwrap_or_else(|| vec![0.0; n_z]);
     for target in request.guess.iter().chain(&request.set) {
         if let Target::State { place, value } = target {
             z[*place] = *value;

@@ -5,7 +5,7 @@ use crate::elements::{BodyId, Coordinate};
 use crate::equations::at;
 use crate::model::{did_you_mean, Model, Problem, Reach, Scope, Value};
 
-/// A requested value of a coordinate or a rate.
+/// A value given for a coordinate or a rate of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoordinateTarget {
     /// The moving body.
@@ -16,7 +16,7 @@ pub struct CoordinateTarget {
     pub value: f64,
 }
 
-/// A requested value at the start.
+/// A value given for the start.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     /// Of a body.

@@ -8,17 +8,19 @@ export function choices(scene) {
   const groups = new Map();
   for (const channel of scene.channels) groups.set(channel.group, [...(groups.get(channel.group) ?? []), channel]);
   return [...groups].flatMap(([group, channels]) => {
-    const alone = channels.map((channel, k) => ({ group, name: channel.name, curves: [curve(channel, k)] }));
+    const curves = channels.map((channel, k) => curve(channel, k, scene.bodies));
+    const alone = channels.map((channel, k) => ({ group, name: channel.name, curves: [curves[k]] }));
     const units = new Set(channels.map(({ unit }) => unit));
     const together = channels.length > 1 && channels.length <= MOST_TOGETHER && units.size === 1;
-    const all = { group, name: `All ${group}`, curves: channels.map(curve) };
+    const all = { group, name: `All ${group}`, curves };
     return together ? [all, ...alone] : alone;
   });
 }
 
-/** A curve in the colour of its place in its group, which for angles is that of the body. */
-function curve(channel, k) {
-  return { channel, colour: (colours) => colours.body(k + 1) };
+/** A curve in the colour of the body whose angle or angular velocity it is, else of its place in its group. */
+function curve(channel, k, bodies) {
+  const body = bodies.find(({ name }) => [`${name}.angle`, `${name}.omega`].includes(channel.name));
+  return { channel, colour: (colours) => colours.body(body?.number ?? k + 1) };
 }
 
 /** Fill the list of choices; names are text, whatever they contain. */
