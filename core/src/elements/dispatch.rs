@@ -203,6 +203,7 @@ macro_rules! constraints {
             }
         }
 
+        #[allow(clippy::vec_init_then_push)] // entries have conditions, which vec! does not accept
         fn constraint_tables() -> Vec<(Group, Table)> {
             let mut all = Vec::new();
             $($($(#[$on])* all.push(declared::<$Name>(Group::$Group));)+)+
@@ -338,6 +339,7 @@ macro_rules! forces {
             }
         }
 
+        #[allow(clippy::vec_init_then_push)] // entries have conditions, which vec! does not accept
         fn force_tables() -> Vec<(Group, Table)> {
             let mut all = Vec::new();
             $($(#[$on])* all.push(declared::<$Name>(Group::Forces));)+
