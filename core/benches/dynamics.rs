@@ -6,7 +6,7 @@
 //! cargo bench --bench dynamics -- flagship chain    these, or set-up
 //! ```
 //!
-//! The flagship; a four-bar linkage that nothing was tuned on (frames off the mass centres, joints
+//! The flagship; a four-bar linkage not used for tuning (frames off the mass centres, joints
 //! in another order and direction); and the N-four-bar chain of the IFToMM benchmark library, whose
 //! cost for each window must not depend on N. Then the time in which order and plan of elimination of the chains are found.
 

@@ -1,4 +1,4 @@
-//! Work and precision of forward dynamics: what a tolerance costs and what it gives, for each method
+//! Work and precision of forward dynamics: cost and accuracy of each tolerance, for each method
 //! and stabilization.
 //!
 //! ```text

@@ -1,4 +1,4 @@
-//! Models written in Rust are those of files, and are refused in the same words.
+//! Models written in Rust equal those of files, with the same error messages.
 
 use kempe::case::{self, Format};
 use kempe::drivers::CoordinateDriver;

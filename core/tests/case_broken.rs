@@ -1,4 +1,4 @@
-//! Broken files: each fault is found where it is, and says what is wrong and what to do.
+//! Broken files: each fault is reported with its place, a description and a remedy.
 
 use kempe::case::{self, Diagnostic, Format};
 

@@ -4,7 +4,7 @@ use kempe::case::{self, Format, MOST_BYTES, MOST_DEPTH, MOST_REPORTED};
 
 const FOUR_BAR: &str = include_str!("../../examples/four_bar.toml");
 
-/// Reads a text and, if it is a case, what is written of it.
+/// Reads a text and, if it is a case, writes it and reads the result.
 fn survives(text: &str, format: Format) {
     match case::read(text, format) {
         Ok((read, _)) => {

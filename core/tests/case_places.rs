@@ -1,4 +1,4 @@
-//! Places: what is reported later, from outside the reader, is shown in the text.
+//! Places: faults found after reading are shown in the text.
 
 use kempe::case::{self, Document, Format};
 use kempe::model::Problem;

@@ -1,4 +1,4 @@
-//! Reading: the flagship as a case, and what the text of TOML and JSON may do.
+//! Reading: the flagship as a case, and the syntax of TOML and JSON.
 
 use kempe::analyses::dynamics::{self, Options, Scheme, Stabilization};
 use kempe::analyses::options::Member;

@@ -1,4 +1,4 @@
-//! The schema says what the reader reads.
+//! The schema agrees with the reader.
 
 use kempe::case::{self, Format};
 use kempe::elements::catalogue;

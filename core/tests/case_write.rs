@@ -1,4 +1,4 @@
-//! Writing: what is written reads as the same case.
+//! Writing: a written case reads as the same case.
 
 use kempe::case::{self, Case, Format, Start};
 use kempe::elements::{catalogue, Coordinate, Group, Shape, Table};
@@ -7,7 +7,7 @@ use kempe::model::{body_tables, Definition, Entry, Value};
 const FOUR_BAR: &str = include_str!("../../examples/four_bar.toml");
 const FORMATS: [Format; 2] = [Format::Toml, Format::Json];
 
-/// The text without comments and what stood before them.
+/// The text without comments and the blanks before them.
 fn bare(toml: &str) -> String {
     toml.lines()
         .map(|line| line.split(" #").next().unwrap_or("").trim_end().to_string() + "\n")
@@ -25,7 +25,7 @@ fn the_flagship_goes_through_json() {
     let (case, _) = case::read(FOUR_BAR, Format::Toml).expect("the example is right");
     let json = case::write(&case, Format::Json);
     assert!(json.contains("\n    \"crank\": { \"type\": \"bar\", \"mass\": 3, \"length\": \"L1\""));
-    let (read, _) = case::read(&json, Format::Json).expect("what is written is right");
+    let (read, _) = case::read(&json, Format::Json).expect("the written text is valid");
     assert_eq!(read, case);
 }
 
@@ -171,7 +171,7 @@ impl Dice {
     }
 }
 
-/// The analysis without what refers to others or excludes other fields.
+/// The analysis without fields that refer to other analyses or exclude other fields.
 fn consistent(mut analysis: Entry) -> Entry {
     analysis.fields.retain(|(key, _)| key != "from" && key != "output");
     analysis

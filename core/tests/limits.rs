@@ -1,4 +1,4 @@
-//! What no run and no assembly may give, at the edges of numbers: found by random runs.
+//! Results that no run and no assembly may give, with extreme numbers; found by random runs.
 
 mod mechanisms;
 
@@ -43,7 +43,7 @@ fn a_kinetic_energy_that_is_no_number_is_no_success() {
     }
 }
 
-/// The rows before are kept, and what the integrator would have made of the others does not matter.
+/// The rows before are kept; the later rows do not matter.
 #[test]
 fn a_partial_solution_is_finite() {
     let m = model(

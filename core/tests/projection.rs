@@ -1,4 +1,4 @@
-//! Projection on mechanisms of every kind, and what it promises about one state.
+//! Projection on mechanisms of every kind, and its guarantees for one state.
 
 mod mechanisms;
 

@@ -6,7 +6,7 @@ mod mechanisms;
 use kempe::equations::Plan;
 use mechanisms::chain;
 
-/// What the second half of the windows adds is what the first half took, to one in a hundred.
+/// The second half of the windows takes as long as the first half, to one in a hundred.
 #[test]
 fn the_elimination_is_linear() {
     let sizes = [100, 200, 400, 800, 1600];

@@ -1,4 +1,4 @@
-//! What is measured: the flagship, a four-bar linkage that nothing was tuned on, and chains; not every
+//! The measured mechanisms: the flagship, a four-bar linkage not used for tuning, and chains; not every
 //! benchmark uses all of it.
 #![allow(dead_code)]
 

@@ -203,7 +203,7 @@ macro_rules! constraints {
             }
         }
 
-        #[allow(clippy::vec_init_then_push)] // entries have conditions, which vec! does not accept
+        #[allow(clippy::vec_init_then_push)] // some entries exist only with a feature
         fn constraint_tables() -> Vec<(Group, Table)> {
             let mut all = Vec::new();
             $($($(#[$on])* all.push(declared::<$Name>(Group::$Group));)+)+
@@ -339,7 +339,7 @@ macro_rules! forces {
             }
         }
 
-        #[allow(clippy::vec_init_then_push)] // entries have conditions, which vec! does not accept
+        #[allow(clippy::vec_init_then_push)] // some entries exist only with a feature
         fn force_tables() -> Vec<(Group, Table)> {
             let mut all = Vec::new();
             $($(#[$on])* all.push(declared::<$Name>(Group::Forces));)+

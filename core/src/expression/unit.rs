@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::ops::Range;
 
-/// Exponents of the SI base units of mechanics.
+/// Exponents of the SI base units of mechanics and electricity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Dimension {
     /// Exponent of the metre.
@@ -22,12 +22,14 @@ pub struct Dimension {
     pub kg: i8,
     /// Exponent of the second.
     pub s: i8,
+    /// Exponent of the ampere.
+    pub a: i8,
 }
 
 impl Dimension {
     /// m^m kg^kg s^s.
     pub const fn new(m: i8, kg: i8, s: i8) -> Self {
-        Self { m, kg, s }
+        Self { m, kg, s, a: 0 }
     }
 
     /// The dimension of `self` · `other`^`power`; `None` beyond the range of `i8`.
@@ -37,6 +39,7 @@ impl Dimension {
             m: exponent(self.m, other.m)?,
             kg: exponent(self.kg, other.kg)?,
             s: exponent(self.s, other.s)?,
+            a: exponent(self.a, other.a)?,
         })
     }
 }
@@ -44,7 +47,7 @@ impl Dimension {
 /// In SI base units, as a unit is written: `kg*m^2*s^-2`; `1` without dimension.
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let factors: Vec<String> = [("kg", self.kg), ("m", self.m), ("s", self.s)]
+        let factors: Vec<String> = [("kg", self.kg), ("m", self.m), ("s", self.s), ("A", self.a)]
             .into_iter()
             .filter(|(_, exponent)| *exponent != 0)
             .map(|(base, exponent)| match exponent {
@@ -73,6 +76,11 @@ pub struct Unit {
 
 const fn unit(numerator: f64, denominator: f64, m: i8, kg: i8, s: i8) -> Unit {
     Unit { numerator, denominator, dimension: Dimension::new(m, kg, s) }
+}
+
+/// A unit of electricity.
+const fn electric(numerator: f64, denominator: f64, [m, kg, s, a]: [i8; 4]) -> Unit {
+    Unit { numerator, denominator, dimension: Dimension { m, kg, s, a } }
 }
 
 /// The units that products are made of. `t` is the time, not the tonne; `Hz` is left out because
@@ -119,6 +127,17 @@ pub const UNITS: &[(&str, Unit)] = &[
     ("mW", unit(1.0, 1e3, 2, 1, -3)),
     ("kW", unit(1e3, 1.0, 2, 1, -3)),
     ("MW", unit(1e6, 1.0, 2, 1, -3)),
+    // electricity
+    ("A", electric(1.0, 1.0, [0, 0, 0, 1])),
+    ("mA", electric(1.0, 1e3, [0, 0, 0, 1])),
+    ("V", electric(1.0, 1.0, [2, 1, -3, -1])),
+    ("mV", electric(1.0, 1e3, [2, 1, -3, -1])),
+    ("kV", electric(1e3, 1.0, [2, 1, -3, -1])),
+    ("Ohm", electric(1.0, 1.0, [2, 1, -3, -2])),
+    ("mOhm", electric(1.0, 1e3, [2, 1, -3, -2])),
+    ("kOhm", electric(1e3, 1.0, [2, 1, -3, -2])),
+    ("H", electric(1.0, 1.0, [2, 1, -2, -2])),
+    ("mH", electric(1.0, 1e3, [2, 1, -2, -2])),
 ];
 
 impl Unit {
@@ -197,6 +216,7 @@ pub(super) fn atom(name: &str) -> Option<Unit> {
         "°" => "deg",
         "µm" | "μm" => "um", // micro sign and Greek mu
         "µs" | "μs" => "us",
+        "Ω" => "Ohm",
         _ => name,
     };
     UNITS.iter().find(|(known, _)| *known == name).map(|(_, unit)| *unit)

@@ -1,4 +1,4 @@
-//! What assembly says when a position cannot be.
+//! The errors of assembly at impossible positions.
 
 use crate::mechanisms::{asked, close, model, refused, FOUR_BAR};
 use kempe::analyses::assemble::{assemble, targets, Fault, Request, Target};

@@ -190,7 +190,7 @@ fn constant_columns_are_minus_and_plus_one() {
     });
 }
 
-/// What a joint declares for assembly holds where its residual is zero, and only there.
+/// The geometry that a joint declares for assembly holds exactly where its residual is zero.
 #[test]
 fn joints_fix_what_they_declare() {
     each(|c, at| {

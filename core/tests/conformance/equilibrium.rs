@@ -134,7 +134,7 @@ fn of_every_body() {
             all = all + force;
             all_moments += moment;
         }
-        // inner forces cancel: what is left acts on ground, opposite
+        // internal forces cancel: the remaining force acts on ground, opposite
         let (force, moment) = at.loads(&m, BodyId::GROUND);
         let size = 1.0 + force.norm() + moment.abs();
         close("force on ground", (force + all).norm(), 0.0, 1e-11 * size);

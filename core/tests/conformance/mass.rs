@@ -7,7 +7,7 @@ use kempe::equations::{energy, kinematics, mass, Compiled};
 use kempe::math::{Dual, Lift};
 use kempe::model::Model;
 
-/// A double pendulum whose frames stand off the mass centres by `c1` and `c2`; the mechanism is the
+/// A double pendulum whose frames are off the mass centres by `c1` and `c2`; the mechanism is the
 /// same for all of them.
 fn pendulum([x1, y1]: [f64; 2], [x2, y2]: [f64; 2]) -> Model {
     let points = |name: &str, list: &[(&str, f64, f64)], [cx, cy]: [f64; 2]| {

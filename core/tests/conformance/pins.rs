@@ -122,7 +122,7 @@ fn an_evaluation_leaves_the_entries() {
     }
 }
 
-/// What projection looks at, in one pass, is what constraints say one by one; so are its entries, after an evaluation.
+/// The residuals and entries of projection, computed in one pass, equal those of the single constraints.
 #[test]
 fn residuals_are_those_of_the_constraints() {
     for model in mechanisms() {

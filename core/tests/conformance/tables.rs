@@ -1,4 +1,4 @@
-//! What elements, bodies and analyses declare of themselves.
+//! The declarations of elements, bodies and analyses.
 
 use kempe::analyses::{declarations, option_families};
 use kempe::elements::{catalogue, Shape, Table};

@@ -1,4 +1,4 @@
-//! Elements for tests alone: each uses an ability that few or no elements of the list use. They belong
+//! Elements for tests only: each uses an ability that few or no elements of the list use. They belong
 //! to the core where the feature `test-elements` is on, as in its tests.
 
 mod bead;

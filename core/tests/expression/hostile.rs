@@ -1,4 +1,4 @@
-//! Whatever the text: an answer, quickly, and no panic.
+//! Every text gives a quick answer and no panic.
 
 use super::{error, Model};
 use kempe::expression::{Expression, MAX_DEPTH, MAX_LENGTH, MAX_OPERANDS};

@@ -52,6 +52,21 @@ fn powers_of_units_agree_with_each_other() {
     assert_eq!(Unit::parse("J").unwrap().dimension, Unit::parse("N*m").unwrap().dimension);
     assert_eq!(Unit::parse("W").unwrap().dimension, Unit::parse("N*m*rad/s").unwrap().dimension);
     assert_eq!(Unit::parse("1/s").unwrap(), Unit::parse("s^-1").unwrap());
+    for (electric, same) in [
+        ("V*A", "W"),
+        ("V", "Ohm*A"),
+        ("H", "Ohm*s"),
+        ("V/rad*s", "N*m/A"),
+        ("mH*kV", "H*V"),
+        ("mOhm*kOhm", "Ω^2"),
+        ("mV*kV*mA", "V*mA*V"),
+    ] {
+        let [electric, same] = [electric, same].map(|text| Unit::parse(text).unwrap());
+        assert_eq!(electric.dimension, same.dimension);
+        assert_eq!(electric.scale(1.0), same.scale(1.0));
+    }
+    let current = Unit::parse("mA").unwrap();
+    assert_eq!((current.scale(5.0), current.dimension.to_string().as_str()), (Some(0.005), "A"));
     assert_eq!(Unit::parse("N/mm").unwrap().scale(1.0), Unit::parse("kN/m").unwrap().scale(1.0));
 }
 

@@ -149,7 +149,7 @@ fn controlled_steps_find_the_same_events() {
     assert!(back.windows(2).all(|pair| pair[1] < pair[0]));
 }
 
-/// A stop by who looks ends the run at the step that is looked at.
+/// A stop by the observer ends the run at the observed step.
 #[test]
 fn an_event_may_end_a_run() {
     let ((m, from), [turn, _]) = crank();

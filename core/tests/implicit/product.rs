@@ -1,4 +1,4 @@
-//! What every method has to do: laws, drivers, bodies without inertia, redundancy, energy, both directions
+//! Abilities of every method: laws, drivers, bodies without inertia, redundancy, energy, both directions
 //! of time, errors that help.
 
 use crate::mechanisms::{
@@ -53,7 +53,7 @@ fn agree(m: &Model, state: &State, t_end: f64, bounds: [f64; 2]) {
     }
 }
 
-/// What acts on the driven double pendulum: friction, and a torque of time.
+/// Forces on the driven double pendulum: friction, and a torque that depends on time.
 const FORCES: &str = r#"
 [forces.friction]
 type = "torsion_spring"

@@ -55,7 +55,7 @@ fn a_stiff_damper_takes_few_steps() {
         let off = worst(&found.trajectory.q, &exact.trajectory.q);
         assert!(off < error, "{told}: {off:.1e}");
     }
-    // what an explicit method would need, from how far a thousand steps take it
+    // number of steps of an explicit method, from the time that a thousand steps cover
     let explicit = options(
         15.0,
         Scheme::Rk45(Rk45 {

@@ -190,7 +190,7 @@ fn products_with_the_tangent() {
     }
 }
 
-/// Revolute joints couple no two bodies in K: a block for each would cost time for nothing.
+/// Revolute joints do not couple bodies in K; blocks for them would waste time.
 #[test]
 fn only_what_an_element_couples_has_a_block() {
     let m = model(EVERYTHING);

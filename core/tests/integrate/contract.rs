@@ -1,4 +1,4 @@
-//! What systems and observers are promised.
+//! The guarantees for systems and observers.
 
 use super::*;
 use kempe::integrate::{Ended, Manifold, Rk4, Rk45, Structure};

@@ -117,7 +117,7 @@ fn at_equal_error_it_costs_what_scipy_does() {
             let method = Dop853::new(rtol, 1e-3 * rtol);
             let done = ends(&method, plain(y0.len(), f), (0.0, t_end), &mut y);
             let worse = ((y[0] - truth).abs() / error).powf(1.0 / 8.0);
-            // scipy evaluates at the end of every trial, here only of those that stand
+            // scipy evaluates at the end of every trial, kempe only of the accepted ones
             let counted = (done.evaluations + done.rejected) as f64;
             let dearer = counted / f64::from(evaluations) * worse;
             assert!(dearer < 1.3, "{t_end} {rtol}: {dearer}");
@@ -255,7 +255,7 @@ fn projection_is_taken_up_by_state_derivative_and_extension() {
     assert!((y[0] - 5.0_f64.cos()).abs() < 1e-3);
 }
 
-/// Where only an extra stage leaves the domain the step stands, with the lesser extension.
+/// If only an extra stage leaves the domain, the step is accepted with the lesser extension.
 #[test]
 fn an_extra_stage_off_the_domain_costs_the_extension_alone() {
     let mut calls = 0;

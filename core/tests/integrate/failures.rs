@@ -240,7 +240,7 @@ fn a_run_that_gets_nowhere_ends_before_its_steps_are_counted_out() {
     assert!((20_000..20_006).contains(&found.rejected) && found.steps < 3_400, "{found:?}");
 }
 
-/// Nothing is evaluated where it is known before that the steps do not reach the end.
+/// Nothing is evaluated if the steps cannot reach the end.
 #[test]
 fn too_many_steps_are_refused_before_the_first() {
     fn check(method: &impl ExplicitMethod, needed: f64, step: f64) {

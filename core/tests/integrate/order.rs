@@ -97,7 +97,7 @@ fn fixed_steps_land_without_drift() {
     }
 }
 
-/// The tolerances have no say: 1e-14 would ask for hundreds of steps.
+/// The tolerances have no effect: 1e-14 would need hundreds of steps.
 #[test]
 fn a_pair_with_a_constant_step_lands_as_well() {
     for (t0, t_end, step, count) in [(0.0, 1.0, 0.1, 10), (0.3, 0.75, 0.2, 3), (1.0, -1.0, 0.3, 7)]

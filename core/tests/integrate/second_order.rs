@@ -41,7 +41,7 @@ fn oscillating(told: bool) -> Mass<impl Fn(f64, f64) -> f64> {
     Mass { a: |_, q: f64| -q, told, changes: false }
 }
 
-/// Largest errors between the ends of steps against a `truth` of (q, v, w), w over the step alone.
+/// Largest errors between the ends of steps against a `truth` of (q, v, w), w only over the step.
 struct Errors<F> {
     truth: F,
     look: bool,
@@ -177,7 +177,7 @@ fn it_does_without_where_equations_change_or_steps_differ_much() {
     assert_eq!((done.steps, done.evaluations), (4, 1 + 4 * 15));
 }
 
-/// Where it cannot be evaluated inside, the step stands with the lesser extension.
+/// If it cannot be evaluated inside, the step is accepted with the lesser extension.
 #[test]
 fn a_state_inside_off_the_domain_costs_the_extension_alone() {
     let calls = std::cell::Cell::new(0);

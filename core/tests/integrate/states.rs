@@ -285,7 +285,7 @@ fn stiff_states_are_integrated_implicitly() {
     assert!(explicit.is_err(), "an explicit method is held by stability");
 }
 
-/// At a restart there are two states at one time; every method goes on from the second as from a start.
+/// At a restart there are two states at one time; every method continues from the second as from a start.
 #[test]
 fn a_stepper_locates_an_event_and_restarts() {
     let mut system = SMOOTH;

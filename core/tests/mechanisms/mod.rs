@@ -139,7 +139,7 @@ pub fn request(model: &Model, set: &[(&str, &str)], guess: &[(&str, &str)]) -> R
     }
 }
 
-/// Assembles, or panics with what is wrong.
+/// Assembles, or panics with the error.
 pub fn start(model: &Model, set: &[(&str, &str)], guess: &[(&str, &str)]) -> (State, Report) {
     assemble(model, &request(model, set, guess)).unwrap_or_else(|f| panic!("{f}"))
 }
@@ -163,7 +163,7 @@ pub fn tolerances(t_end: f64, rtol: f64, atol: f64) -> Options {
     Options { method: scheme, dense_output: false, ..Options::classical(t_end) }
 }
 
-/// Runs to the end, or panics with what is wrong.
+/// Runs to the end, or panics with the error.
 pub fn run(model: &Model, state: &State, options: &Options) -> Run {
     dynamics(model, state, options, |_| Flow::Continue).unwrap_or_else(|f| panic!("{}", f.reason))
 }
@@ -212,7 +212,7 @@ pub fn largest(a: &[f64]) -> f64 {
     worst(a, &vec![0.0; a.len()])
 }
 
-/// Asserts |a - b| <= tolerance, naming what it is.
+/// Asserts |a - b| <= tolerance, with a name in the message.
 #[track_caller]
 pub fn close(what: &str, a: f64, b: f64, tolerance: f64) {
     let error = (a - b).abs();

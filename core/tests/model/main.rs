@@ -1,4 +1,4 @@
-//! Building models, and running those at the edge of what can be run.
+//! Building of models, and runs of extreme models.
 
 #[path = "../mechanisms/mod.rs"]
 mod mechanisms;

@@ -1,4 +1,4 @@
-//! What cannot be right is refused, with its name and what to do.
+//! Impossible values are errors, with the name of the value and a remedy.
 
 use crate::mechanisms::faults;
 

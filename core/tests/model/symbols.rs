@@ -1,4 +1,4 @@
-//! What a drawing shows follows from the numbers of the model.
+//! The symbols of a drawing follow from the numbers of the model.
 
 use crate::mechanisms::{close, model, with};
 use kempe::elements::{Mark, SceneSymbol};

@@ -60,7 +60,7 @@ fn right_side(m: &Matrix, random: &mut Random) -> Vec<f64> {
     (0..m.n()).map(|_| random.next()).collect()
 }
 
-/// Without what pads the last group.
+/// Without the padding of the last group.
 fn unpadded(m: &Matrix, pattern: &Pattern, x: &[f64]) -> Vec<f64> {
     [&x[..m.unknowns()], &x[pattern.n_unknowns()..]].concat()
 }
@@ -71,7 +71,7 @@ fn padded(m: &Matrix, pattern: &Pattern, x: &[f64]) -> Vec<f64> {
     [&x[..m.unknowns()], &padding, &x[m.unknowns()..]].concat()
 }
 
-/// Solved with the factor at hand, to a relative residual; the same with the right side beside the blocks.
+/// Solved with the current factor, to a relative residual; the same with the right side beside the blocks.
 fn solved(
     m: &Matrix,
     (pattern, saddle): (&Pattern, &mut Saddle<f64>),

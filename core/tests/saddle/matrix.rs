@@ -124,7 +124,7 @@ impl Matrix {
         saddle
     }
 
-    /// Pairs of rows at one group of three unknowns alone, one for each group that has any.
+    /// Pairs of rows at only one group of three unknowns, at most one for each group.
     pub fn condensable(&self) -> Vec<usize> {
         let mut held: Vec<bool> = self.sizes.iter().map(|size| *size < 3).collect();
         let holds = |b: &RowBlock| b.size == 2 && b.touches.len() == 1;

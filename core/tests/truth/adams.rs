@@ -52,7 +52,7 @@ fn compare(case: &str, text: &str) {
         let on_ground = reaction(&m, 0, BodyId::GROUND, Frame::Global, &motions, t, &lam).unwrap();
         let force = [on_ground.force.x, on_ground.force.y];
         assert!(worst(&force, &numbers(&truth["Rforce"])) < 2e-6, "{case} t = {t}: {force:?}");
-        // what ADAMS printed, to its digits
+        // the numbers printed by ADAMS, to their digits
         assert!(worst(&state.q[..2], &numbers(&truth["adams_pos"])) < 1e-4, "{case} t = {t}");
         assert!(worst(&state.v[..2], &numbers(&truth["adams_vel"])) < 1e-3, "{case} t = {t}");
         let printed = numbers(&truth["adams_Rforce"]);

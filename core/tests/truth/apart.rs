@@ -29,7 +29,7 @@ fn failed(options: &Options) -> (Failure, f64) {
     );
     assert!(["A.", "B.", "C.", "D."].iter().any(|name| message.contains(name)), "{message}");
     assert!(["projection", "tolerance", "gains"].iter().all(|word| hint.contains(word)), "{hint}");
-    // what came before is kept, and is no worse than allowed
+    // the earlier states are kept, with gaps below the limit
     let n = m.layout.n_q;
     for (t, q) in failure.run.trajectory.t.iter().zip(failure.run.trajectory.q.chunks_exact(n)) {
         let state = State { t: *t, q: q.to_vec(), v: Vec::new(), z: Vec::new() };
@@ -72,7 +72,7 @@ fn a_start_that_is_open() {
     assert!(failure.run.trajectory.t.is_empty());
 }
 
-/// Neither the documented drift nor what is stabilized well is disturbed.
+/// Runs with the documented drift, and well stabilized runs, are not disturbed.
 #[test]
 fn others_go_on() {
     let (m, start) = four_bar();

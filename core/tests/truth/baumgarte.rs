@@ -133,7 +133,7 @@ fn the_order_is_kept() {
     }
 }
 
-/// Fixed gains hold the steps at the limit of stability, and leave what a longer step need not.
+/// Fixed gains hold the steps at the limit of stability, and leave larger errors than gains from the step.
 #[test]
 fn fewer_evaluations_leave_less_than_fixed_gains() {
     for ((m, from), rtol) in [(four_bar(), 1e-8), (slider_crank(), 1e-10)] {
@@ -179,7 +179,7 @@ fn constant_steps_leave_a_hundredth_of_what_fixed_gains_do() {
     }
 }
 
-/// The first steps of a run grow tenfold; what is open at its start closes all the same.
+/// The first steps of a run grow tenfold; joints that are open at its start close nevertheless.
 #[test]
 fn a_start_off_the_constraints_comes_back() {
     let (m, mut from) = four_bar();

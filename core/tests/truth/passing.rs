@@ -84,7 +84,7 @@ fn a_thousand_windows_pass() {
     assert!(error < 1e-6, "{error}");
 }
 
-/// The error goes with the tolerance, whatever steps that brings.
+/// The error is proportional to the tolerance.
 #[test]
 fn no_tolerance_is_unlucky() {
     for n in [1, 2, 40] {
@@ -125,7 +125,7 @@ fn what_comes_near_slowly_turns_or_passes() {
     }
 }
 
-/// What comes to rest on the line could go on along either branch.
+/// A mechanism at rest on the line could continue along either branch.
 #[test]
 fn what_comes_to_rest_on_the_line_is_undecided() {
     for below in [0.3, 0.8] {

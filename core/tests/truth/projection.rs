@@ -85,7 +85,7 @@ fn compare(m: &Model, run: &Run) {
     }
 }
 
-/// What projection does to the energy is booked nowhere, so the balance shows it.
+/// The change of energy by projection is not a work, so the balance shows it.
 #[test]
 fn the_energy_balance_tells_the_tolerance() {
     let (m, start) = four_bar();
