@@ -73,8 +73,7 @@ def others(element: Element) -> list[Path]:
     folders = (CORE, ROOT / "bindings", PACKAGE)
     suffixes = (".rs", ".py", ".pyi", ".js", ".html")
     found = [path for folder in folders for path in folder.rglob("*") if path.suffix in suffixes]
-    beside = {element.source, LIST}
-    return [path for path in sorted(found) if path not in beside]
+    return [path for path in sorted(found) if path not in (element.source, LIST)]
 
 
 ELEMENTS = elements()
