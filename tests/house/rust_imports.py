@@ -131,8 +131,8 @@ def graph(folder: Name, files: dict[Name, Source]) -> dict[str, set[str]]:
 def loops(edges: dict[str, set[str]]) -> list[set[str]]:
     """The strongly connected sets of more than one entry."""
     reached: dict[str, set[str]] = {}
-    for start in edges:
-        seen, todo = set(), list(edges[start])
+    for start, imported in edges.items():
+        seen, todo = set(), list(imported)
         while todo:
             at = todo.pop()
             if at not in seen:

@@ -58,7 +58,8 @@ def names(line: str, element: Element) -> bool:
         called = re.search(rf"\.{element.kind}\(", line)
         return bool(re.search(rf"\b{element.struct}\b", line) or quoted or called)
     of_type = quoted and re.search(r"(?i)\b(?:type|kind)\b", line)
-    # `Enum::Torque` and `Torque(S)` are variants; `joints::Torque`, `Torque<S>`, `Torque::…` name the struct
+    # `Enum::Torque` and `Torque(S)` are variants; `joints::Torque`, `Torque<S>` and `Torque::…`
+    # name the struct
     struct = re.search(
         rf"\b(?:joints|drivers|forces|elements|Constraint|ForceElement)::(?:\{{[^}}]*)?\b{element.struct}\b"
         rf"|(?<!::)\b{element.struct}(?:<|::|\s*\{{)",

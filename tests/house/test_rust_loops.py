@@ -1,4 +1,4 @@
-"""Files of one folder of the core import each other in one direction, except for the loops listed here."""
+"""Files of one folder of the core import each other in one direction, except for listed loops."""
 
 import pytest
 from house.places import ROOT
