@@ -28,8 +28,7 @@ def leaves(tree: str) -> Iterator[tuple[Name, str]]:
     if not brace:
         path = [word for word in base if word != "as"]
         renamed = "as" in base
-        name = "*" if tree.rstrip().endswith("*") else path[-1]
-        yield tuple(path[:-1] if renamed else path), name
+        yield tuple(path[:-1] if renamed else path), path[-1] if path else "*"
         return
     depth, begin, inner = 0, 0, tree[len(head) + 1 : closing_brace(tree, len(head))] + ","
     for at, character in enumerate(inner):
@@ -60,38 +59,25 @@ def without_tests(code: str) -> str:
     return code
 
 
-def modules(code: str, module: Name) -> Iterator[tuple[Name, str]]:
-    """The code of a file without its inline modules, and that of each inline module."""
-    while match := re.search(r"(?:pub(?:\([^)]*\))?\s+)?mod\s+(\w+)\s*\{", code):
-        end = closing_brace(code, match.end() - 1)
-        yield from modules(code[match.end() : end], (*module, match[1]))
-        code = f"{code[: match.start()]}mod {match[1]};{code[end + 1 :]}"
-    yield module, code
-
-
 class Source:
-    """The imports of one module."""
+    """The imports of one file: its text and its module."""
 
-    def __init__(self, code: str, module: Name) -> None:
+    def __init__(self, text: str, module: Name) -> None:
+        code = without_tests(code_only(text))
         self.module = module
         #: Modules that the file declares.
         self.children = set(_CHILD.findall(code))
-        #: Local name → imported item, for each `use`; the modules of which everything is imported.
+        #: Local name → imported item, for each `use`.
         self.used: dict[str, Name] = {}
-        self.globs: set[Name] = set()
         for match in _USE.finditer(code):
             for item, name in leaves(match[1]):
-                found = absolute(item, self.module, self.children)
-                if found and name == "*":
-                    self.globs.add(found)
-                elif found:
+                if found := absolute(item, self.module, self.children):
                     self.used[name] = found
         self.body = _USE.sub("", _CHILD.sub("", code))
 
     def imports(self) -> set[Name]:
         """Everything that the code of the file uses; a re-export alone is not an import."""
-        found = set(self.globs)
-        found |= {
+        found = {
             item
             for name, item in self.used.items()
             if not self.children or re.search(rf"\b{name}\b", self.body)
@@ -107,19 +93,11 @@ class Source:
         return found
 
 
-def parsed(texts: dict[Name, str]) -> dict[Name, Source]:
-    """All modules of files, inline modules included."""
-    return {
-        module: Source(code, module)
-        for file, text in texts.items()
-        for module, code in modules(without_tests(code_only(text)), file)
-    }
-
-
 def sources() -> dict[Name, Source]:
-    """All modules of the core, without lib.rs."""
+    """All files of the core by module, without lib.rs."""
     paths = [path for path in sorted(CORE.rglob("*.rs")) if path.name != "lib.rs"]
-    return parsed({module_of(path): path.read_text(encoding="utf-8") for path in paths})
+    texts = {module_of(path): path.read_text(encoding="utf-8") for path in paths}
+    return {module: Source(text, module) for module, text in texts.items()}
 
 
 def defined_in(item: Name, files: dict[Name, Source]) -> Name:
@@ -153,8 +131,8 @@ def graph(folder: Name, files: dict[Name, Source]) -> dict[str, set[str]]:
 def loops(edges: dict[str, set[str]]) -> list[set[str]]:
     """The strongly connected sets of more than one entry."""
     reached: dict[str, set[str]] = {}
-    for start, targets in edges.items():
-        seen, todo = set(), list(targets)
+    for start, imported in edges.items():
+        seen, todo = set(), list(imported)
         while todo:
             at = todo.pop()
             if at not in seen:

@@ -58,10 +58,10 @@ def names(line: str, element: Element) -> bool:
         called = re.search(rf"\.{element.kind}\(", line)
         return bool(re.search(rf"\b{element.struct}\b", line) or quoted or called)
     of_type = quoted and re.search(r"(?i)\b(?:type|kind)\b", line)
-    # `joints::Torque`, `Torque<S>` and `Torque::…` name the struct, other `Enum::Torque` a variant
-    homes = "joints|drivers|forces|elements|Constraint|ForceElement"
+    # `Enum::Torque` and `Torque(S)` are variants; `joints::Torque`, `Torque<S>` and `Torque::…`
+    # name the struct
     struct = re.search(
-        rf"\b(?:{homes})::(?:\{{[^}}]*)?\b{element.struct}\b"
+        rf"\b(?:joints|drivers|forces|elements|Constraint|ForceElement)::(?:\{{[^}}]*)?\b{element.struct}\b"
         rf"|(?<!::)\b{element.struct}(?:<|::|\s*\{{)",
         line,
     )
@@ -73,7 +73,8 @@ def others(element: Element) -> list[Path]:
     folders = (CORE, ROOT / "bindings", PACKAGE)
     suffixes = (".rs", ".py", ".pyi", ".js", ".html")
     found = [path for folder in folders for path in folder.rglob("*") if path.suffix in suffixes]
-    return [path for path in sorted(found) if path not in (element.source, LIST)]
+    beside = {element.source, LIST}
+    return [path for path in sorted(found) if path not in beside]
 
 
 ELEMENTS = elements()
