@@ -15,24 +15,6 @@ KNOWN: dict[str, list[tuple[set[str], str]]] = {
             "Joint::linearize has a default, which derives Φ_q and γ from Joint::residual",
         ),
     ],
-    "equations": [
-        (
-            {
-                "augmented",
-                "compiled",
-                "constraints",
-                "energy",
-                "forces",
-                "grounded",
-                "motion",
-                "plan",
-                "reactions",
-                "refine",
-                "roles",
-            },
-            "`Gains` is declared in motion and `Powers` in energy, but files below them use both",
-        ),
-    ],
     "math": [
         (
             {"lanes", "real", "sine"},

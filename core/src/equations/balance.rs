@@ -1,9 +1,9 @@
 //! The residuals that implicit methods reduce to zero: r = M a + Φ_qᵀ λ - Q, Φ, Φ_q v + Φ_t, and the rates
 //! ż of first-order states, at any (q, v, a, λ, z). They are evaluated without the solution of equations.
 
-use super::energy::Powers;
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
+use super::powers::Powers;
 use super::{constraints, mass, Compiled};
 use crate::model::Model;
 

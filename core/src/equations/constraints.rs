@@ -4,9 +4,9 @@
 //! derived: dual numbers over each body that it touches, and a jet in time, with the law evaluated over
 //! the same scalar.
 
+use super::gains::Gains;
 use super::kinematics::Motions;
 use super::laws::{self, Laws};
-use super::motion::Gains;
 use crate::elements::derive::{
     columns_of, moving, participants, seeded, terms, with_values, ByThree,
 };

@@ -4,7 +4,6 @@
 
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
-use crate::elements::Nature;
 use crate::math::{Motion, Real, Twist};
 use crate::model::{Body, Model};
 
@@ -38,32 +37,4 @@ fn moving<'a, S>(
     motions: &'a [Motion<S>],
 ) -> impl Iterator<Item = (&'a Body<S>, &'a Motion<S>)> {
     model.bodies.iter().zip(motions).skip(1)
-}
-
-/// Powers that the energy balance integrates, W.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Powers<S = f64> {
-    /// Lost in dampers and friction.
-    pub dissipated: S,
-    /// Put in by drivers: -λᵀ Φ_q q̇ over their rows.
-    pub drivers: S,
-    /// Put in by forces that are neither conservative nor dissipative.
-    pub applied: S,
-}
-
-impl<S: Real> Powers<S> {
-    /// No power.
-    pub fn zero() -> Self {
-        Self { dissipated: S::zero(), drivers: S::zero(), applied: S::zero() }
-    }
-
-    /// Adds the power of a part of a force; `law`: whether time or state enters its formulas.
-    #[inline(always)]
-    pub(super) fn add(&mut self, nature: Nature, law: bool, power: impl Fn() -> S) {
-        match (law, nature) {
-            (false, Nature::Conservative) | (_, Nature::Exchanged) => {}
-            (_, Nature::Dissipative) => self.dissipated -= power(),
-            _ => self.applied += power(), // a law of time or state has no potential
-        }
-    }
 }

@@ -1,8 +1,8 @@
 //! Generalized forces Q: gravity, force elements, and the φ̇² term of frames off the mass centre; and
 //! the rates of the first-order states of elements.
 
-use super::energy::Powers;
 use super::kinematics::Motions;
+use super::powers::Powers;
 use super::reactions::{self, Frame};
 use super::{laws, Compiled, Inertia};
 use crate::elements::derive::with_values;

@@ -9,24 +9,16 @@
 
 use super::augmented::{Augmented, Dependent, NearSingular};
 use super::constraints::{self, Stabilized};
-use super::energy::Powers;
 use super::forces::{self, Acting};
+use super::gains::Gains;
 use super::kinematics::Motions;
 use super::plan::Plan;
+use super::powers::Powers;
 use super::roles::{self, Roles};
 use super::{mass, reactive, refine, Compiled};
 use crate::math::Real;
 use crate::model::Model;
 use std::sync::Arc;
-
-/// Baumgarte's gains; with zeros γ is unchanged.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Gains {
-    /// α, 1/s.
-    pub alpha: f64,
-    /// β, 1/s.
-    pub beta: f64,
-}
 
 /// The equations of motion have no unique solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
