@@ -58,7 +58,7 @@ fn general<S: AsRef<[f64]>>(model: &Model, states: &[S], calls: usize) -> f64 {
     time(states, calls, |state, before| {
         y.copy_from_slice(state.as_ref());
         y[2] += NOTHING * before;
-        let outcome = workspace.accelerate(model, 0.0, &y[..n], &y[n..], GAINS);
+        let outcome = workspace.accelerate(model, 0.0, [&y[..n], &y[n..], &[]], GAINS);
         outcome.expect("the positions are regular");
         black_box(workspace.lam());
         black_box(workspace.a())[2]
