@@ -93,6 +93,33 @@ class Distance(Element):
 
 
 @dataclass(frozen=True)
+class Weld(Element):
+    """An element of type ``weld``.
+
+    Weld: two points coincide and the bodies do not turn against each other, Φ = (point_j -
+    point_i, angle_j - angle_i - angle). The force of the weld on body i is +(λ1, λ2), on body j
+    is -(λ1, λ2), in the global frame; its torque about the points is +λ3 on body i, -λ3 on body
+    j.
+
+    Attributes:
+        i: Point of body i, as `body.point`.
+        j: Point of body j, as `body.point`.
+        angle: Angle of body j against body i [rad].
+    """
+
+    i: str
+    j: str
+    angle: Number = 0.0
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "weld"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "angle": "number",
+    }
+
+
+@dataclass(frozen=True)
 class CoordinateDriver(Element):
     """An element of type ``coordinate_driver``.
 
@@ -254,6 +281,22 @@ class ElementMethods:
             length: Length of the rod [m].
         """
         return self._add(Distance(name, i=i, j=j, length=length))
+
+    def weld(self, name: str, i: str, j: str, *, angle: Number = 0.0) -> Weld:
+        """Add an element of type ``weld`` and return it.
+
+        Weld: two points coincide and the bodies do not turn against each other, Φ = (point_j -
+        point_i, angle_j - angle_i - angle). The force of the weld on body i is +(λ1, λ2), on body j
+        is -(λ1, λ2), in the global frame; its torque about the points is +λ3 on body i, -λ3 on body
+        j.
+
+        Args:
+            name: its name in the model.
+            i: Point of body i, as `body.point`.
+            j: Point of body j, as `body.point`.
+            angle: Angle of body j against body i [rad].
+        """
+        return self._add(Weld(name, i=i, j=j, angle=angle))
 
     def coordinate_driver(self, name: str, coordinate: str, *, value: Number) -> CoordinateDriver:
         """Add an element of type ``coordinate_driver`` and return it.

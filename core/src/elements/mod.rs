@@ -21,10 +21,12 @@ pub mod joints {
     mod distance;
     mod revolute;
     mod translational;
+    mod weld;
 
     pub use distance::Distance;
     pub use revolute::Revolute;
     pub use translational::Translational;
+    pub use weld::Weld;
 }
 
 /// Drivers: constraints that prescribe a motion in time.
@@ -77,6 +79,7 @@ constraints! {
         Revolute,
         Translational,
         Distance,
+        Weld,
         #[cfg(feature = "test-elements")] TurnedPin,
         #[cfg(feature = "test-elements")] Bead,
         #[cfg(feature = "test-elements")] Levels,

@@ -3,7 +3,7 @@
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{SpringDamper, Torque, TorsionSpring};
-use kempe::elements::joints::{Distance, Revolute, Translational};
+use kempe::elements::joints::{Distance, Revolute, Translational, Weld};
 use kempe::elements::test_elements::{Bead, Lag, Levels, Pulley, Rubbing, TurnedPin};
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, JointId,
@@ -30,6 +30,7 @@ pub fn constraints() -> Vec<Constraint> {
             axes: [0.7, -0.3],
         }),
         Constraint::Distance(Distance { i: on(1, 0.6, -0.2), j: on(2, -0.3, 0.8), length: 1.4 }),
+        Constraint::Weld(Weld { i: on(1, -0.2, 0.6), j: on(2, 0.7, -0.5), angle: 0.8 }),
         Constraint::TurnedPin(TurnedPin { i: on(1, 0.3, -0.7), j: on(2, -1.1, 0.4) }),
         Constraint::Bead(Bead { i: on(1, 0.2, 0.5), j: BodyId(2), bend: 0.8 }),
         Constraint::Levels(Levels { i: BodyId(1), j: BodyId(2), k: BodyId(3), steps: [0.3, -0.4] }),
