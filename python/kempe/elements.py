@@ -230,6 +230,42 @@ class Torque(Element):
     }
 
 
+@dataclass(frozen=True)
+class Motor(Element):
+    """An element of type ``motor``.
+
+    Direct-current motor: torque = torque_constant × current on body j, opposite on body i,
+    which is ground unless given. inductance × d current/dt = voltage - resistance × current -
+    torque_constant × omega with omega = omega_j - omega_i. With an inductance, `current` is a
+    state of the motor, 0 at the start unless set.
+
+    Attributes:
+        j: Body j, the rotor.
+        voltage: Voltage; may use `t` and the state [V].
+        resistance: Resistance of the winding [Ohm].
+        torque_constant: Torque over current, which is also voltage over rate [N*m/A].
+        inductance: Inductance of the winding [H].
+        i: Body i, the stator.
+    """
+
+    j: str
+    voltage: Number
+    resistance: Number
+    torque_constant: Number
+    inductance: Number = 0.0
+    i: str = "ground"
+    section: ClassVar[str] = "forces"
+    kind: ClassVar[str] = "motor"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "j": "body",
+        "voltage": "law",
+        "resistance": "number",
+        "torque_constant": "number",
+        "inductance": "number",
+        "i": "body",
+    }
+
+
 class ElementMethods:
     """The methods of ``Model`` that add an element."""
 
@@ -394,3 +430,42 @@ class ElementMethods:
             i: Body i, which takes the opposite torque.
         """
         return self._add(Torque(name, j=j, torque=torque, i=i))
+
+    def motor(
+        self,
+        name: str,
+        j: str,
+        *,
+        voltage: Number,
+        resistance: Number,
+        torque_constant: Number,
+        inductance: Number = 0.0,
+        i: str = "ground",
+    ) -> Motor:
+        """Add an element of type ``motor`` and return it.
+
+        Direct-current motor: torque = torque_constant × current on body j, opposite on body i,
+        which is ground unless given. inductance × d current/dt = voltage - resistance × current -
+        torque_constant × omega with omega = omega_j - omega_i. With an inductance, `current` is a
+        state of the motor, 0 at the start unless set.
+
+        Args:
+            name: its name in the model.
+            j: Body j, the rotor.
+            voltage: Voltage; may use `t` and the state [V].
+            resistance: Resistance of the winding [Ohm].
+            torque_constant: Torque over current, which is also voltage over rate [N*m/A].
+            inductance: Inductance of the winding [H].
+            i: Body i, the stator.
+        """
+        return self._add(
+            Motor(
+                name,
+                j=j,
+                voltage=voltage,
+                resistance=resistance,
+                torque_constant=torque_constant,
+                inductance=inductance,
+                i=i,
+            )
+        )

@@ -38,10 +38,12 @@ pub mod drivers {
 
 /// Forces: what acts on bodies beside joints and gravity.
 pub mod forces {
+    mod motor;
     mod spring_damper;
     mod torque;
     mod torsion_spring;
 
+    pub use motor::Motor;
     pub use spring_damper::SpringDamper;
     pub use torque::Torque;
     pub use torsion_spring::TorsionSpring;
@@ -92,6 +94,7 @@ forces! {
     TorsionSpring,
     SpringDamper,
     Torque,
+    Motor,
     #[cfg(feature = "test-elements")] Lag,
     #[cfg(feature = "test-elements")] Rubbing,
 }

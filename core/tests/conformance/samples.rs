@@ -2,7 +2,7 @@
 
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
-use kempe::elements::forces::{SpringDamper, Torque, TorsionSpring};
+use kempe::elements::forces::{Motor, SpringDamper, Torque, TorsionSpring};
 use kempe::elements::joints::{Distance, Revolute, Translational, Weld};
 use kempe::elements::test_elements::{Bead, Lag, Levels, Pulley, Rubbing, TurnedPin};
 use kempe::elements::{
@@ -58,6 +58,16 @@ pub fn forces() -> Vec<ForceElement> {
     all.push(ForceElement::Lag(Lag { i: BodyId(1), j: BodyId(2), stiffness: 4.0, time: 0.3 }));
     let (joint, i, j) = (JointId(0), BodyId(1), BodyId(2));
     all.push(ForceElement::Rubbing(Rubbing { joint, i, j, arm: 0.05, speed: 0.4 }));
+    for inductance in [0.0, 0.3] {
+        all.push(ForceElement::Motor(Motor {
+            i: BodyId(1),
+            j: BodyId(2),
+            voltage: 2.4,
+            resistance: 1.7,
+            torque_constant: 0.6,
+            inductance,
+        }));
+    }
     for free_length in [0.0, 0.9] {
         all.push(ForceElement::SpringDamper(SpringDamper {
             i: on(1, 0.3, -0.7),
