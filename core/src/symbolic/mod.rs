@@ -1,7 +1,7 @@
 //! A scalar that records formulas: the same code that computes numbers gives its equations as text.
 //!
 //! A [`Symbolic`] is an index into an arena of expression nodes. Equal expressions are stored once.
-//! The arena belongs to one call of [`record`] and is freed at its end; a value from another call
+//! The arena belongs to one call of [`record`](fn@record) and is freed at its end; a value from another call
 //! counts as NaN. Every operation returns a simplified expression: like terms are merged, and the
 //! sums of products of sines and cosines are written with sums of angles.
 //!

@@ -11,7 +11,7 @@ use crate::integrate::all_finite;
 use crate::math::{Lanes, Real};
 use crate::model::{Model, WORKS};
 
-/// Number of columns of [`Run::energies`].
+/// Number of columns of [`Run::energies`](super::Run::energies).
 pub const ENERGIES: usize = 2 + WORKS;
 
 /// See [`Prepared::energies`](super::Prepared::energies).

@@ -24,7 +24,7 @@ impl Run {
     }
 
     /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces at the reported states, J:
-    /// rows of [`ENERGIES`].
+    /// rows of [`ENERGIES`](super::ENERGIES).
     ///
     /// # Errors
     /// As [`Prepared::energies`](super::Prepared::energies).
