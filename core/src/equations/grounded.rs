@@ -35,8 +35,12 @@ pub(super) fn grounded<S: Real>(model: &Model<S>, added: &[S]) -> Vec<Grounded<S
             holds[body.0] = Some((k, pin));
         }
     }
+    let motions = Motions::at_rest(&model.layout, &vec![S::zero(); model.layout.n_q]);
     let bodies = holds.into_iter().enumerate();
-    bodies.filter_map(|(body, hold)| Some(Grounded::new(model, BodyId(body), hold?))).collect()
+    let grounded = |(body, hold): (usize, Option<_>)| {
+        Some(Grounded::new(model, &motions, BodyId(body), hold?))
+    };
+    bodies.filter_map(grounded).collect()
 }
 
 /// The body that a joint of two rows with constant fields holds to ground.
@@ -49,14 +53,19 @@ fn held<S>(item: &ConstraintItem<S>, slots: &Slots) -> Option<BodyId> {
 }
 
 impl<S: Real> Grounded<S> {
-    fn new(model: &Model<S>, body: BodyId, (constraint, pin): (usize, bool)) -> Self {
-        let motions = Motions::at_rest(&model.layout, &vec![S::zero(); model.layout.n_q]);
+    /// With the bodies at rest in the origin.
+    fn new(
+        model: &Model<S>,
+        motions: &Motions<S>,
+        body: BodyId,
+        (constraint, pin): (usize, bool),
+    ) -> Self {
         let block = mass::block(&model.bodies[body.0], &motions[body.0]);
         let moment = [block.coupling.x, block.coupling.y];
         let mass = CondensedGroup::new(block.mass, moment, block.inertia);
         let about_pin = pin.then(|| {
             let mut rows = [[S::zero(); 3]; 2];
-            constraints::columns_by_body(model, constraint, &motions, S::zero(), body, &mut rows);
+            constraints::columns_by_body(model, constraint, motions, S::zero(), body, &mut rows);
             let sign = model.layout.constraints[constraint].blocks[0].sign;
             S::one() / mass.about_pin(sign, rows.map(|row| row[2])).1
         });
