@@ -142,7 +142,15 @@ impl<S: Real> Workspace<S> {
     #[inline(always)]
     pub fn place(&mut self, model: &Model<S>, [q, v, z]: [&[S]; 3]) {
         self.motions.place(&model.layout, q, v);
-        self.z.copy_from_slice(z);
+        self.place_states(z);
+    }
+
+    /// Sets the first-order states, shape (n_z).
+    #[inline(always)]
+    pub fn place_states(&mut self, z: &[S]) {
+        if !z.is_empty() {
+            self.z.copy_from_slice(z);
+        }
     }
 
     /// The same at the state that was [placed](Self::place).
@@ -172,7 +180,8 @@ impl<S: Real> Workspace<S> {
             mass::turn(&compiled.inertias[k], &motions[k + 1], &mut saddle.masses[k]);
         }
         let (x, right) = solution.split_at_mut(self.n_unknowns);
-        *powers = forces::generalized(model, compiled, motions, Acting { z, lam: None, t }, x);
+        let acting = Acting { z, lam: None, t };
+        forces::generalized(model, compiled, motions, acting, x, powers);
         roles::put_others(roles, at, saddle, right);
         roles::condense(roles, at, saddle, (x, right));
         saddle.divide_by_masses(&plan.pattern, x);
@@ -193,8 +202,8 @@ impl<S: Real> Workspace<S> {
         let mut respond = |lam: Option<&[S]>| -> Result<Vec<S>, Dependent> {
             let mut x = vec![S::zero(); n];
             x.extend_from_slice(&right);
-            *powers =
-                forces::generalized(model, compiled, motions, Acting { z, lam, t }, &mut x[..n]);
+            let acting = Acting { z, lam, t };
+            forces::generalized(model, compiled, motions, acting, &mut x[..n], powers);
             let outcome = refine::solve((model, compiled), motions, matrix, &mut x);
             solution[..n].copy_from_slice(&x[..n]);
             solution[padded..].copy_from_slice(&x[n..]);

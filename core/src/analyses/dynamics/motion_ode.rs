@@ -95,7 +95,7 @@ impl<'a> MotionOde<'a> {
         if !placed {
             self.workspace.place(self.model, [q, v, z]);
         }
-        self.workspace.z.copy_from_slice(z); // projection does not set z
+        self.workspace.place_states(z); // projection does not set z
         if let Err(singular) = self.workspace.respond(self.model, t, self.gains) {
             dy.fill(f64::NAN);
             return stop_if_finite(singular, t, y);

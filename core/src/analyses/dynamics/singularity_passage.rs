@@ -11,7 +11,7 @@ use super::options::{Options, Singularity};
 use super::singularity_forecast::SingularityForecast;
 use crate::equations::augmented::Dependent;
 use crate::equations::forces::Acting;
-use crate::equations::{constraints, forces, mass, Singular, Workspace};
+use crate::equations::{constraints, forces, mass, Powers, Singular, Workspace};
 use crate::model::{size, Model};
 use crate::stabilize::Fault;
 
@@ -119,7 +119,8 @@ impl SingularityPassage {
     fn rests(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
         self.loads.resize(v.len(), 0.0);
         let acting = Acting { z: &work.z, lam: None, t };
-        forces::generalized(model, &work.compiled, &work.motions, acting, &mut self.loads);
+        let powers = &mut Powers::zero();
+        forces::generalized(model, &work.compiled, &work.motions, acting, &mut self.loads, powers);
         let (mut twice, mut pull, mut applied, mut mass_all) = (0.0, 0.0, 0.0, 0.0);
         let bodies = model.bodies.iter().zip(work.motions.iter()).zip(&model.layout.bodies).skip(1);
         for ((body, motion), columns) in bodies {
