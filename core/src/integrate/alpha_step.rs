@@ -344,7 +344,7 @@ impl AlphaStep {
         let ImplicitState { q, v, z, .. } = &mut self.end;
         self.normal.copy_from_slice(v);
         let state = DaeState { q, v, z };
-        let changed = system.system.project(t + h, state).map_err(Cause::Equations)?;
+        let changed = system.project(t + h, state)?;
         for (normal, v) in self.normal.iter_mut().zip(&self.end.v) {
             *normal = (*normal - v) / (h * h);
         }

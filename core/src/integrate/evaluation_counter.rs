@@ -1,6 +1,6 @@
 //! Counts the evaluations of a DAE by an implicit method.
 
-use super::dae::{ConstraintLevel, Dae, DaeResidual, Iterate, NewtonCoefficients};
+use super::dae::{ConstraintLevel, Dae, DaeResidual, DaeState, Iterate, NewtonCoefficients};
 use super::error_weights::ErrorWeights;
 use super::failure::Cause;
 use super::implicit_state::ImplicitState;
@@ -20,7 +20,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
     pub fn accelerate(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.counts.evaluations += 1;
         let (at, out) = state.rates();
-        self.system.accelerate(t, at, out).map_err(Cause::Equations)
+        self.system.accelerate(t, at, out).map_err(|error| Cause::Equations { t, error })
     }
 
     /// The same where it has to be finite.
@@ -30,6 +30,11 @@ impl<Y: Dae> CountedDae<'_, Y> {
             true => Ok(()),
             false => Err(Cause::NotFinite { t }),
         }
+    }
+
+    /// Projects a state; returns whether it changed.
+    pub fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Cause<Y::Stop>> {
+        self.system.project(t, state).map_err(|error| Cause::Equations { t, error })
     }
 
     /// Hairer's choice of the magnitude of the first step from `start`, at the cost of one evaluation.

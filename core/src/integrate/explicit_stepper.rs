@@ -301,7 +301,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
             let at_best = self.placement.at_best(norm, self.control.rtol);
             let placed = self.placed(rhs, t_new).filter(|_| !at_best);
             match trial {
-                Err(stop @ Cause::Equations(_)) => return Err(stop),
+                Err(stop @ Cause::Equations { .. }) => return Err(stop),
                 _ if placed.is_some() => size.size = placed.unwrap_or(size.size),
                 Ok(norm) if norm < 1.0 || at_best => match self.settle(rhs, t_new)? {
                     Ok(projected) => {

@@ -49,7 +49,12 @@ pub enum Cause<E> {
         most: usize,
     },
     /// An error of the system.
-    Equations(E),
+    Equations {
+        /// Time of the evaluation.
+        t: f64,
+        /// The error.
+        error: E,
+    },
 }
 
 /// A failed integration, with the time and state reached.
@@ -80,7 +85,7 @@ impl<E: fmt::Display> fmt::Display for Failure<E> {
             Cause::TooManySteps { needed, step, most } => {
                 write!(f, "{needed} steps of {step} are more than {most}")
             }
-            Cause::Equations(stop) => stop.fmt(f),
+            Cause::Equations { error, .. } => error.fmt(f),
         }
     }
 }

@@ -296,8 +296,8 @@ impl AlphaStepper {
     fn gave_up<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>, h: f64) -> Cause<Y::Stop> {
         let (t, start) = (self.steps.t, &self.step.start);
         if self.singular {
-            if let Some(stop) = dae.system.singular(t, [&start.q, &start.v, &start.z]) {
-                return Cause::Equations(stop);
+            if let Some(error) = dae.system.singular(t, [&start.q, &start.v, &start.z]) {
+                return Cause::Equations { t, error };
             }
         }
         Cause::Newton { t, h }

@@ -305,8 +305,8 @@ impl RadauStepper {
     ) -> Cause<Y::Stop> {
         let (t, start) = (self.steps.t, &self.step.start);
         if singular {
-            if let Some(stop) = dae.system.singular(t, [&start.q, &start.v, &start.z]) {
-                return Cause::Equations(stop);
+            if let Some(error) = dae.system.singular(t, [&start.q, &start.v, &start.z]) {
+                return Cause::Equations { t, error };
             }
         }
         if unsolved {
@@ -337,7 +337,7 @@ impl RadauStepper {
         let (q, rest) = y_new.split_at_mut(n);
         let (v, rest) = rest.split_at_mut(n);
         let state = DaeState { q, v, z: &rest[..lengths.states] };
-        let changed = dae.system.project(t_new, state).map_err(Cause::Equations)?;
+        let changed = dae.project(t_new, state)?;
         if !all_finite(y_new) {
             return Err(Cause::NotFinite { t: t_new });
         }

@@ -28,7 +28,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
             trial.copy_from_slice(y_new);
             match manifold.project(t_new, &mut y_new.as_flattened_mut()[..self.n]) {
                 Ok(changed) => projected = changed,
-                Err(stop) => return Ok(Err(Cause::Equations(stop))),
+                Err(error) => return Ok(Err(Cause::Equations { t: t_new, error })),
             }
         }
         if projected {

@@ -10,15 +10,12 @@ use crate::integrate::{
     BoxedStepper, Cause, Dop853, ExplicitMethod, ImplicitMethod, Radau, Statistics, Step,
     StepControl, Stepper,
 };
-use crate::stabilize::Fault;
-
-/// Time and reason of a failure of the equations of motion.
-pub(super) type Stop = (f64, Fault);
+use crate::solve::Breakdown;
 
 /// The stepper of one method.
 enum Piece<'a> {
-    Explicit(BoxedStepper<MotionOde<'a>, Stop>),
-    Implicit(BoxedStepper<MotionDae<'a>, Stop>),
+    Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
+    Implicit(BoxedStepper<MotionDae<'a>, Breakdown>),
 }
 
 /// A stepper that changes between an explicit and an implicit method.
@@ -51,7 +48,7 @@ impl<'a> MethodSwitching<'a> {
         auto: &Auto,
         t: f64,
         y: &[f64],
-    ) -> Result<Self, Cause<Stop>> {
+    ) -> Result<Self, Cause<Breakdown>> {
         let span = (t, options.t_end);
         // invalid options are an error before the first evaluation
         let piece = Piece::Explicit(Dop853 { control: auto.control.clone() }.start(ode, span, y)?);
@@ -97,7 +94,7 @@ impl<'a> MethodSwitching<'a> {
     }
 
     /// Changes to the other method.
-    fn switch(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Stop>> {
+    fn switch(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
         self.due = false;
         let (t, y) = (self.t(), self.y().to_vec());
         self.total = self.statistics();
@@ -199,8 +196,8 @@ impl<'a> MethodSwitching<'a> {
     }
 }
 
-impl<'a> Stepper<MotionOde<'a>, Stop> for MethodSwitching<'a> {
-    fn step(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Stop>> {
+impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
+    fn step(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
         if self.due {
             self.switch(ode)?;
         }
@@ -217,7 +214,7 @@ impl<'a> Stepper<MotionOde<'a>, Stop> for MethodSwitching<'a> {
         Ok(())
     }
 
-    fn prepare_interpolant(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Stop>> {
+    fn prepare_interpolant(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
         match &mut self.piece {
             Piece::Explicit(stepper) => stepper.prepare_interpolant(ode),
             Piece::Implicit(_) => Ok(()),
@@ -249,7 +246,7 @@ impl<'a> Stepper<MotionOde<'a>, Stop> for MethodSwitching<'a> {
         }
     }
 
-    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Stop>> {
+    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         match &mut self.piece {
             Piece::Explicit(stepper) => stepper.restart(t, y)?,
             Piece::Implicit(stepper) => stepper.restart(t, y)?,

@@ -5,11 +5,12 @@ use super::lane_batch::LaneBatch;
 use super::methods::Scheme;
 use super::motion_ode::MotionOde;
 use super::options::Options;
-use super::report_projection::{Halt, ReportProjection};
+use super::report_projection::ReportProjection;
 use super::trajectory::{PiecewiseInterpolant, Trajectory};
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
 use crate::model::Model;
+use crate::solve::Breakdown;
 
 /// Whether a grid has so many states that a model over lanes, which solves several at once, is faster.
 pub(super) fn many(output_step: Option<f64>, span: f64) -> bool {
@@ -76,8 +77,8 @@ pub(super) struct Recorder<'a> {
     one: ReportProjection<'a>,
     /// The same for the states of a grid, if they are many.
     many: Option<LaneBatch<'a>>,
-    /// The failure that stops it, and its time.
-    pub halt: Option<(f64, Halt)>,
+    /// The breakdown that stops it, and its time.
+    pub breakdown: Option<(f64, Breakdown)>,
 }
 
 impl<'a> Recorder<'a> {
@@ -106,7 +107,7 @@ impl<'a> Recorder<'a> {
             coefficients: Vec::new(),
             one: ReportProjection::new(model, options, system.workspace.clone()),
             many: wide.map(|wide| LaneBatch::new(wide, options, &system.workspace)),
-            halt: None,
+            breakdown: None,
         };
         recorder.go_on_beyond(t);
         recorder
@@ -130,7 +131,7 @@ impl<'a> Recorder<'a> {
             return Flow::Stop;
         }
         let apart = self.one.apart(t, y);
-        self.keep(t, y, apart.map_or(Ok(()), |apart| Err(Halt::Violation(apart))))
+        self.keep(t, y, apart.map_or(Ok(()), Err))
     }
 
     /// Reports the state of a step at a time between its ends; a failure may appear later, when it is projected.
@@ -177,19 +178,19 @@ impl<'a> Recorder<'a> {
     }
 
     /// Keeps a projected state.
-    fn keep(&mut self, t: f64, y: &[f64], placed: Result<(), Halt>) -> Flow {
-        if let Err(halt) = placed {
-            return self.stop(t, halt);
+    fn keep(&mut self, t: f64, y: &[f64], placed: Result<(), Breakdown>) -> Flow {
+        if let Err(breakdown) = placed {
+            return self.stop(t, breakdown);
         }
         if !all_finite(y) {
-            return self.stop(t, Halt::NotFinite);
+            return self.stop(t, Breakdown::NotFinite);
         }
         self.trajectory.add(&self.one.model.layout, t, y);
         Flow::Continue
     }
 
-    fn stop(&mut self, t: f64, halt: Halt) -> Flow {
-        self.halt = Some((t, halt));
+    fn stop(&mut self, t: f64, breakdown: Breakdown) -> Flow {
+        self.breakdown = Some((t, breakdown));
         Flow::Stop
     }
 
@@ -197,7 +198,7 @@ impl<'a> Recorder<'a> {
     pub fn step(&mut self, step: &Step<'_>, watch: &mut impl FnMut(f64) -> Flow) -> Flow {
         if let Some(dense) = &mut self.dense {
             if !dense.add(step, &mut self.coefficients) {
-                return self.stop(step.t, Halt::NotFinite);
+                return self.stop(step.t, Breakdown::NotFinite);
             }
         }
         if self.output_step.is_none() {
@@ -226,7 +227,7 @@ impl<'a> Recorder<'a> {
         }
         *since = 0;
         match self.one.apart(step.t, step.y) {
-            Some(apart) => self.stop(step.t, Halt::Violation(apart)),
+            Some(apart) => self.stop(step.t, apart),
             None => Flow::Continue,
         }
     }

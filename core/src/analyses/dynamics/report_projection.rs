@@ -5,25 +5,15 @@
 //! gap that does not close, or with a number that is not finite), each is projected separately.
 
 use super::branch_averaging;
-use super::constraint_violation::{Violation, ViolationCheck};
+use super::constraint_violation::ViolationCheck;
 use super::options::Options;
 use super::stabilizations::Stabilization;
 use crate::equations::{Gains, Workspace};
 use crate::integrate::all_finite;
 use crate::math::Real;
 use crate::model::Model;
-use crate::stabilize::{Fault, Projector};
-
-/// The reason for which a state cannot be reported.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Halt {
-    /// It cannot be projected, or has no unique accelerations.
-    Fault(Fault),
-    /// Its joints are apart.
-    Violation(Violation),
-    /// A number of it is not finite.
-    NotFinite,
-}
+use crate::solve::Breakdown;
+use crate::stabilize::Projector;
 
 /// Projects reported states, one at a time or one in each lane.
 pub(super) struct ReportProjection<'a, S = f64> {
@@ -48,7 +38,7 @@ impl<'a, S: Real> ReportProjection<'a, S> {
     }
 
     /// The joint that is open too far at y, if there is one.
-    pub fn apart(&mut self, t: S, y: &[S]) -> Option<Violation> {
+    pub fn apart(&mut self, t: S, y: &[S]) -> Option<Breakdown> {
         self.guard.as_ref()?;
         self.set_motions(y);
         self.guard.as_mut()?.look(self.model, t, &self.workspace.motions)
@@ -63,14 +53,13 @@ impl<'a, S: Real> ReportProjection<'a, S> {
     /// unchanged, so the energy balance shows the change of energy by projection.
     ///
     /// # Errors
-    /// [`Halt`]; over lanes, that of one of them.
-    pub fn place(&mut self, t: S, y: &mut [S]) -> Result<(), Halt> {
+    /// [`Breakdown`]; over lanes, that of one of them.
+    pub fn place(&mut self, t: S, y: &mut [S]) -> Result<(), Breakdown> {
         let Some(projector) = &mut self.projector else {
-            return self.apart(t, y).map_or(Ok(()), |apart| Err(Halt::Violation(apart)));
+            return self.apart(t, y).map_or(Ok(()), Err);
         };
         let [q, v, ..] = self.model.layout.split_mut(y);
-        let changed = projector.project(&mut self.workspace, t, (q, v), false);
-        self.changed = changed.map_err(Halt::Fault)?;
+        self.changed = projector.project(&mut self.workspace, t, (q, v), false)?;
         Ok(())
     }
 
@@ -90,17 +79,16 @@ impl ReportProjection<'_> {
     /// Checks that the joints are closed at y, and that the equations of motion have a solution there.
     ///
     /// # Errors
-    /// [`Halt`].
-    pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Halt> {
+    /// [`Breakdown`].
+    pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Breakdown> {
         if let Some(apart) = self.apart(t, y) {
-            return Err(Halt::Violation(apart));
+            return Err(apart);
         }
         self.set_motions(y);
-        let solved = self.workspace.respond(self.model, t, Gains::default());
-        solved.map_err(|singular| Halt::Fault(Fault::Singular(singular)))?;
+        self.workspace.respond(self.model, t, Gains::default())?;
         match [self.workspace.a(), self.workspace.lam()].into_iter().all(all_finite) {
             true => Ok(()),
-            false => Err(Halt::NotFinite),
+            false => Err(Breakdown::NotFinite),
         }
     }
 
@@ -108,8 +96,8 @@ impl ReportProjection<'_> {
     /// rates less.
     ///
     /// # Errors
-    /// [`Halt`].
-    pub fn place_on_branch(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
+    /// [`Breakdown`].
+    pub fn place_on_branch(&mut self, t: f64, y: &mut [f64]) -> Result<(), Breakdown> {
         let given = y.to_vec();
         let layout = &self.model.layout;
         let turned =

@@ -9,11 +9,10 @@
 
 use super::options::{Options, Singularity};
 use super::singularity_forecast::SingularityForecast;
-use crate::equations::augmented::Dependent;
 use crate::equations::forces::Acting;
-use crate::equations::{constraints, forces, mass, Singular, Workspace};
+use crate::equations::{constraints, forces, mass, Workspace};
 use crate::model::{size, Model};
-use crate::stabilize::Fault;
+use crate::solve::Breakdown;
 
 /// Branches cannot be distinguished if the ratio of a pivot to its largest summand is below this: a part of 1e-3 of
 /// the mechanism's size.
@@ -32,7 +31,7 @@ pub(super) struct SingularityPassage {
     /// Whether a stage of the current trial was near a singular position.
     pub near: bool,
     /// Reason and time of the last undecided trial state.
-    pub undecided: Option<(f64, Fault)>,
+    pub undecided: Option<(f64, Breakdown)>,
     singularity: Singularity,
     /// Whether singular positions are passed at all.
     passing: bool,
@@ -55,7 +54,7 @@ impl SingularityPassage {
     }
 
     /// Checks the accelerations that were just computed. Returns whether the motion decides its branch, or continues
-    /// anyway. If not, the fault is kept in [`undecided`](Self::undecided): the state may be a trial, and the fault
+    /// anyway. If not, the breakdown is kept in [`undecided`](Self::undecided): the state may be a trial, and the breakdown
     /// counts only if no shorter step avoids it.
     #[inline(always)]
     pub fn watch(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
@@ -63,13 +62,19 @@ impl SingularityPassage {
             return true;
         }
         let looked = self.look(model, work, t, v);
-        self.undecided = looked.err().map(|fault| (t, fault)).or(self.undecided);
+        self.undecided = looked.err().map(|breakdown| (t, breakdown)).or(self.undecided);
         looked.is_ok()
     }
 
     /// The same near a singular position.
     #[cold]
-    fn look(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> Result<(), Fault> {
+    fn look(
+        &mut self,
+        model: &Model,
+        work: &Workspace,
+        t: f64,
+        v: &[f64],
+    ) -> Result<(), Breakdown> {
         let ridged = work.matrix.regularised();
         self.near = true;
         let Some((row, kept)) = work.matrix.cancellation() else { return Ok(()) };
@@ -77,12 +82,11 @@ impl SingularityPassage {
         if !ridged || self.singularity == Singularity::Pass || kept > UNTOLD {
             return Ok(());
         }
-        let singular = Singular::Dependent(Dependent::Row(row));
         if self.unmet(model, work, t) {
-            return Err(Fault::Singular(singular));
+            return Err(Breakdown::Row(row));
         }
         if self.rests(model, work, t, v) {
-            return Err(Fault::AtRest(singular));
+            return Err(Breakdown::AtRest(row));
         }
         Ok(())
     }
