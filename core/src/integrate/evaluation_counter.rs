@@ -4,8 +4,10 @@ use super::dae::{ConstraintLevel, Dae, DaeResidual, DaeState, Iterate, NewtonCoe
 use super::error_weights::ErrorWeights;
 use super::failure::Cause;
 use super::implicit_state::ImplicitState;
+use super::implicit_steps::ImplicitSteps;
 use super::right_hand_side::all_finite;
 use super::statistics::Statistics;
+use super::step_control::StepControl;
 use super::step_size::{initial_step, probing_step};
 use crate::math::Complex;
 
@@ -37,8 +39,50 @@ impl<Y: Dae> CountedDae<'_, Y> {
         self.system.project(t, state).map_err(|error| Cause::Equations { t, error })
     }
 
+    /// Sets the state at the start of an integration, and returns the magnitude of the first step.
+    pub fn start(
+        &mut self,
+        control: &StepControl,
+        steps: &ImplicitSteps,
+        (start, probe): (&mut ImplicitState, &mut ImplicitState),
+        weights: &mut ErrorWeights,
+        error_order: i32,
+    ) -> Result<f64, Cause<Y::Stop>> {
+        start.set(&steps.y);
+        self.begin(steps.t, start)?;
+        if let Some(h) = control.step.or(control.first_step) {
+            return Ok(h);
+        }
+        let first =
+            self.first_step((steps.t, steps.t_end), (start, probe), weights, error_order)?;
+        Ok(first.min(control.max_step))
+    }
+
+    /// Refuses another step if the allowed number was taken.
+    pub fn check_count(&self, control: &StepControl) -> Result<(), Cause<Y::Stop>> {
+        let steps = self.counts.steps;
+        match control.max_steps.is_some_and(|most| steps >= most) {
+            true => Err(Cause::MaxSteps { steps }),
+            false => Ok(()),
+        }
+    }
+
+    /// The reason for which no step from a state was found: an error of the system where the matrix was singular, or
+    /// another one.
+    pub fn unsolved(
+        &mut self,
+        singular: bool,
+        t: f64,
+        start: &ImplicitState,
+        other: Cause<Y::Stop>,
+    ) -> Cause<Y::Stop> {
+        let state = [&start.q[..], &start.v, &start.z];
+        let error = if singular { self.system.singular(t, state) } else { None };
+        error.map_or(other, |error| Cause::Equations { t, error })
+    }
+
     /// Hairer's choice of the magnitude of the first step from `start`, at the cost of one evaluation.
-    pub fn first_step(
+    fn first_step(
         &mut self,
         (t, t_end): (f64, f64),
         (start, probe): (&ImplicitState, &mut ImplicitState),

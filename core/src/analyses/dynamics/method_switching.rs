@@ -63,7 +63,7 @@ impl<'a> MethodSwitching<'a> {
             piece,
             due: false,
             step: None,
-            total: Statistics::none(t),
+            total: Statistics::default(),
             explicit_evaluations: 0,
             tried: (t, 0, t),
             choice: MethodChoice { method: "dop853", why: String::new() },
@@ -268,7 +268,6 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
             jacobians: before.jacobians + now.jacobians,
             factorisations: before.factorisations + now.factorisations,
             iterations: before.iterations + now.iterations,
-            ..now
         }
     }
 }
