@@ -169,8 +169,8 @@ impl AlphaStep {
         scale: &mut ErrorWeights,
     ) -> bool {
         self.predict(h);
-        let at_hand = self.factored.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs());
-        if at_hand && self.newton(system, (t, h), scale, SLOW) {
+        let reusable = self.factored.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs());
+        if reusable && self.newton(system, (t, h), scale, SLOW) {
             return true;
         }
         self.predict(h);

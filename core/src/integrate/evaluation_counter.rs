@@ -134,11 +134,11 @@ impl<Y: Dae> CountedDae<'_, Y> {
     /// Whether the matrix has a factorisation.
     pub fn factor(&mut self, coefficients: NewtonCoefficients) -> bool {
         self.counts.factorisations += 1;
-        self.system.factor(coefficients).is_ok()
+        self.system.factor(coefficients)
     }
 
     pub fn factor_complex(&mut self, coefficients: NewtonCoefficients<Complex>) -> bool {
         self.counts.factorisations += 1;
-        self.system.factor_complex(coefficients).is_ok()
+        self.system.factor_complex(coefficients)
     }
 }

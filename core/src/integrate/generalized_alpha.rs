@@ -209,11 +209,11 @@ impl AlphaStepper {
             } else {
                 let norm = self.method.step.error(dae, h, &self.scale);
                 if norm < 1.0 {
-                    let at_hand = size.size;
+                    let current = size.size;
                     size.accept(h.abs(), norm);
                     size.size = size.size.min(GROWTH * h.abs());
-                    if t_new != t_end && (at_hand..KEEP * at_hand).contains(&size.size) {
-                        size.size = at_hand;
+                    if t_new != t_end && (current..KEEP * current).contains(&size.size) {
+                        size.size = current;
                     }
                     return Ok(t_new);
                 }

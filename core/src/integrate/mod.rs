@@ -75,7 +75,6 @@ pub use alpha_parameters::AlphaParameters;
 pub(crate) use component_polynomials::HIGHEST;
 pub use dae::{
     ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
-    SingularMatrix,
 };
 pub use dop853::Dop853;
 pub use events::{locate, Direction};

@@ -41,7 +41,7 @@ impl<S: Real> ViolationCheck<S> {
     }
 
     /// [`Breakdown::Apart`] of the row with the largest residual, if it is too large; over lanes, in any of them.
-    pub fn look(&mut self, model: &Model<S>, t: S, motions: &Motions<S>) -> Option<Breakdown> {
+    pub fn largest(&mut self, model: &Model<S>, t: S, motions: &Motions<S>) -> Option<Breakdown> {
         constraints::residual(model, motions, t, &mut self.residual);
         let gaps = || self.residual.iter().map(|gap| gap.largest_magnitude());
         if gaps().zip(&self.most).all(|(gap, most)| gap <= *most) {

@@ -82,7 +82,7 @@ impl<'a> MethodSwitching<'a> {
             self.step = self.control.first_step;
             self.due = true;
         } else {
-            self.detector.foretold = Some(fastest.rate);
+            self.detector.predicted = Some(fastest.rate);
         }
     }
 
@@ -120,18 +120,18 @@ impl<'a> MethodSwitching<'a> {
         let Piece::Explicit(stepper) = &self.piece else { return };
         let Some(step) = stepper.last_step() else { return };
         self.step = Some((step.t - step.t_old).abs());
-        let foretold = self.detector.foretold.is_some();
+        let predicted = self.detector.predicted.is_some();
         if !self.detector.stiff(&step, self.options.t_end) {
             return;
         }
         let (fastest, h) = self.detector.seen.expect("stiffness was seen");
-        let told = match foretold && self.detector.foretold.is_none() {
+        let origin = match predicted && self.detector.predicted.is_none() {
             true => " (predicted at the start)",
             false => "",
         };
         let why = format!(
             "stiff from t = {:.4} s on: a damped motion with a rate of {:.2e} 1/s limited the steps of \
-            dop853 to {h:.1e} s{told}",
+            dop853 to {h:.1e} s{origin}",
             step.t, fastest.rate,
         );
         self.choice = MethodChoice { method: "radau", why };

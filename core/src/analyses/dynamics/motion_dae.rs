@@ -9,7 +9,6 @@ use crate::equations::tangent::Tangent;
 use crate::equations::{constraints, Gains, Workspace};
 use crate::integrate::{
     ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
-    SingularMatrix,
 };
 use crate::math::Complex;
 use crate::model::Model;
@@ -123,19 +122,16 @@ impl Dae for MotionDae<'_> {
         self.tangent.linearize(self.model, motions, t, [at.a, at.lam, at.z]);
     }
 
-    fn factor(&mut self, coefficients: NewtonCoefficients) -> Result<(), SingularMatrix> {
+    fn factor(&mut self, coefficients: NewtonCoefficients) -> bool {
         assemble(&self.places, &self.tangent, Self::coefficients(coefficients), &mut self.real);
-        self.real.factor(&self.places.plan).map_err(|_| SingularMatrix)
+        self.real.factor(&self.places.plan).is_ok()
     }
 
-    fn factor_complex(
-        &mut self,
-        coefficients: NewtonCoefficients<Complex>,
-    ) -> Result<(), SingularMatrix> {
+    fn factor_complex(&mut self, coefficients: NewtonCoefficients<Complex>) -> bool {
         let plan = &self.places.plan;
         let lu = self.complex.get_or_insert_with(|| BlockLu::new(plan));
         assemble(&self.places, &self.tangent, Self::coefficients(coefficients), lu);
-        lu.factor(plan).map_err(|_| SingularMatrix)
+        lu.factor(plan).is_ok()
     }
 
     fn solve(&mut self, x: &mut [f64]) {

@@ -22,19 +22,19 @@ const IN_A_STEP: usize = 4;
 
 /// Steps without a reported state after which the joints are checked, for steps chosen by the error control. Joints
 /// then open over many steps, and each check costs two fifths of the instructions of an evaluation.
-const UNSEEN: usize = 4;
+const UNREPORTED: usize = 4;
 
 /// The same for a scheme: an unstable constant step opens joints within few steps.
-fn unseen(scheme: &Scheme) -> usize {
+fn unreported(scheme: &Scheme) -> usize {
     let constant = match scheme {
         Scheme::GeneralizedAlpha(_) | Scheme::Radau(_) | Scheme::Auto(_) => None,
         explicit => explicit.control().step,
     };
-    constant.map_or(UNSEEN, |_| 1)
+    constant.map_or(UNREPORTED, |_| 1)
 }
 
 /// Number of states of a grid; zero if the steps are reported.
-fn asked(output_step: Option<f64>, span: f64) -> usize {
+fn grid_states(output_step: Option<f64>, span: f64) -> usize {
     output_step.map_or(0, |h| ((span / h).abs() + 2.0) as usize) // NaN gives none
 }
 
@@ -44,7 +44,7 @@ pub(super) fn tables(
     options: &Options,
     t0: f64,
 ) -> (Trajectory, Option<PiecewiseInterpolant>) {
-    let (layout, states) = (&model.layout, asked(options.output_step, options.t_end - t0));
+    let (layout, states) = (&model.layout, grid_states(options.output_step, options.t_end - t0));
     // all steps get the highest degree of the method from the start
     let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
     let degree = if several { HIGHEST } else { 0 };
@@ -65,7 +65,7 @@ pub(super) struct Recorder<'a> {
     /// The next time of the grid, beyond t_end once it has been reached.
     upcoming: f64,
     /// Steps since the last check of the joints, and the number of steps between checks.
-    unseen: [usize; 2],
+    unreported: [usize; 2],
     /// The latest requested time.
     latest: f64,
     y: Vec<f64>,
@@ -99,7 +99,7 @@ impl<'a> Recorder<'a> {
             direction: (options.t_end - t0).signum(),
             next: 0,
             upcoming: t0,
-            unseen: [0, unseen(&options.method)],
+            unreported: [0, unreported(&options.method)],
             latest: t,
             y: vec![0.0; model.layout.n_y()],
             trajectory,
@@ -121,8 +121,8 @@ impl<'a> Recorder<'a> {
 
     /// Reports the start. The run stops here if the equations of motion have no solution at the start.
     pub fn begin(&mut self, t: f64, y: &[f64]) -> Flow {
-        let begun = self.one.begin(t, y);
-        self.keep(t, y, begun)
+        let solved = self.one.begin(t, y);
+        self.keep(t, y, solved)
     }
 
     /// Reports a state given as (q, v, works), unchanged.
@@ -130,8 +130,8 @@ impl<'a> Recorder<'a> {
         if self.flush() == Flow::Stop {
             return Flow::Stop;
         }
-        let apart = self.one.apart(t, y);
-        self.keep(t, y, apart.map_or(Ok(()), Err))
+        let violation = self.one.violation(t, y);
+        self.keep(t, y, violation.map_or(Ok(()), Err))
     }
 
     /// Reports the state of a step at a time between its ends; a failure may appear later, when it is projected.
@@ -204,7 +204,7 @@ impl<'a> Recorder<'a> {
         if self.output_step.is_none() {
             return self.report(step.t, step.y);
         }
-        let mut flow = self.look_apart(step);
+        let mut flow = self.check_joints(step);
         while let (Flow::Continue, Some(t)) = (flow, self.due(step.t)) {
             self.latest = t;
             self.go_on();
@@ -218,16 +218,16 @@ impl<'a> Recorder<'a> {
     }
 
     /// Checks the joints at the end of a step, after so many steps without reported states.
-    fn look_apart(&mut self, step: &Step<'_>) -> Flow {
+    fn check_joints(&mut self, step: &Step<'_>) -> Flow {
         let due = self.due(step.t).is_some();
-        let [since, most] = &mut self.unseen;
+        let [since, most] = &mut self.unreported;
         *since = if due { 0 } else { *since + 1 };
         if *since < *most {
             return Flow::Continue;
         }
         *since = 0;
-        match self.one.apart(step.t, step.y) {
-            Some(apart) => self.stop(step.t, apart),
+        match self.one.violation(step.t, step.y) {
+            Some(violation) => self.stop(step.t, violation),
             None => Flow::Continue,
         }
     }

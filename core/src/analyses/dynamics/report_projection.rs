@@ -20,7 +20,7 @@ pub(super) struct ReportProjection<'a, S = f64> {
     pub model: &'a Model<S>,
     workspace: Workspace<S>,
     projector: Option<Projector<'a, S>>,
-    guard: Option<ViolationCheck<S>>,
+    check: Option<ViolationCheck<S>>,
     /// Whether projection changed the last state.
     changed: bool,
 }
@@ -33,15 +33,15 @@ impl<'a, S: Real> ReportProjection<'a, S> {
             _ => None,
         };
         let projector = projector.map(Projector::for_reports);
-        let guard = ViolationCheck::new(model, options);
-        Self { model, workspace, projector, guard, changed: false }
+        let check = ViolationCheck::new(model, options);
+        Self { model, workspace, projector, check, changed: false }
     }
 
     /// The joint that is open too far at y, if there is one.
-    pub fn apart(&mut self, t: S, y: &[S]) -> Option<Breakdown> {
-        self.guard.as_ref()?;
+    pub fn violation(&mut self, t: S, y: &[S]) -> Option<Breakdown> {
+        self.check.as_ref()?;
         self.set_motions(y);
-        self.guard.as_mut()?.look(self.model, t, &self.workspace.motions)
+        self.check.as_mut()?.largest(self.model, t, &self.workspace.motions)
     }
 
     fn set_motions(&mut self, y: &[S]) {
@@ -56,7 +56,7 @@ impl<'a, S: Real> ReportProjection<'a, S> {
     /// [`Breakdown`]; over lanes, that of one of them.
     pub fn place(&mut self, t: S, y: &mut [S]) -> Result<(), Breakdown> {
         let Some(projector) = &mut self.projector else {
-            return self.apart(t, y).map_or(Ok(()), Err);
+            return self.violation(t, y).map_or(Ok(()), Err);
         };
         let [q, v, ..] = self.model.layout.split_mut(y);
         self.changed = projector.project(&mut self.workspace, t, (q, v), false)?;
@@ -81,8 +81,8 @@ impl ReportProjection<'_> {
     /// # Errors
     /// [`Breakdown`].
     pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Breakdown> {
-        if let Some(apart) = self.apart(t, y) {
-            return Err(apart);
+        if let Some(violation) = self.violation(t, y) {
+            return Err(violation);
         }
         self.set_motions(y);
         self.workspace.respond(self.model, t, Gains::default())?;

@@ -114,8 +114,8 @@ fn run_phase<W: FnMut(f64) -> Flow>(
     let tables = (std::mem::take(&mut run.trajectory), run.dense.take());
     let mut recorder = Recorder::new(&ode, wide, options, (at.t0, at.t), tables);
     let q = model.layout.split(&at.y)[0].to_vec();
-    let begun = ode.begin_phase(at.t, &mut at.y, phase.project_velocities);
-    let outcome = match begun {
+    let started = ode.begin_phase(at.t, &mut at.y, phase.project_velocities);
+    let outcome = match started {
         Err(breakdown) => Err(Failure::at_state(model, at.t, &q, breakdown)),
         Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(Flow::Stop),
         Ok(()) => step_through(ode, phase, at, options, (&mut recorder, watcher), run),

@@ -42,8 +42,8 @@ impl<'a> Stepper<'a> {
         let mut ode = MotionOde::new(model, options, ModelCache::default().plan(model));
         let mut y = [&start.q[..], &start.v, &start.z].concat();
         y.resize(model.layout.n_y(), 0.0);
-        let begun = ode.begin_phase(t, &mut y, false);
-        begun.map_err(|breakdown| Failure::at_state(model, t, &start.q, breakdown))?;
+        let outcome = ode.begin_phase(t, &mut y, false);
+        outcome.map_err(|breakdown| Failure::at_state(model, t, &start.q, breakdown))?;
         let inner = MotionStepper::new(ode, options, t, &y)
             .map_err(|cause| Failure::of_integrator(model, cause, t, &y))?;
         Ok(Self { model, t_end: options.t_end, inner })
@@ -116,8 +116,8 @@ impl<'a> Stepper<'a> {
             None => self.works().to_vec(),
         };
         y.extend(works);
-        let begun = self.inner.ode.begin_phase(state.t, &mut y, false);
-        begun.map_err(|breakdown| Failure::at_state(self.model, state.t, &state.q, breakdown))?;
+        let outcome = self.inner.ode.begin_phase(state.t, &mut y, false);
+        outcome.map_err(|breakdown| Failure::at_state(self.model, state.t, &state.q, breakdown))?;
         self.inner.restart(state.t, &y).map_err(|cause| self.inner.failure(cause))
     }
 
