@@ -13,9 +13,9 @@ use crate::model::{row_scales, Model};
 
 /// Largest opening of a joint: lengths relative to the size of the mechanism, angles in rad. The classical gains at
 /// their smallest, α = 1, β = 20 at rtol 1e-3, open the flagship by 6e-4.
-const APART: f64 = 1e-2;
+pub(super) const APART: f64 = 1e-2;
 /// The same without stabilization.
-const ADRIFT: f64 = 1.0;
+pub(super) const ADRIFT: f64 = 1.0;
 
 /// A row of Φ that is open.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -23,6 +23,17 @@ pub enum Reason {
         /// Description.
         message: String,
     },
+    /// The first state does not meet the constraints.
+    Start {
+        /// Its time, s.
+        t: f64,
+        /// The joint or driver that is open.
+        name: String,
+        /// Description, with the gap.
+        message: String,
+        /// Remedy.
+        hint: &'static str,
+    },
     /// An option with an impossible value.
     Option {
         /// Its name.
@@ -208,6 +219,7 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Singular { message, .. }
+            | Self::Start { message, .. }
             | Self::Option { message, .. }
             | Self::Integration { message, .. } => f.write_str(message),
         }

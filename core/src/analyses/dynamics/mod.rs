@@ -6,6 +6,7 @@
 //! | file | concept |
 //! |---|---|
 //! | `options`, `option_checks` | options, and the combinations that are refused |
+//! | `start_check` | states from which a run may start |
 //! | `run`, `run_results`, `stepper` | a run through its phases; a stepper for callers |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
@@ -42,6 +43,7 @@ mod run_results;
 mod singularity_forecast;
 mod singularity_passage;
 mod stabilizations;
+mod start_check;
 mod stepper;
 mod stiffness_detection;
 mod trajectory;

@@ -8,6 +8,7 @@ use super::motion_ode::MotionOde;
 use super::motion_stepper::MotionStepper;
 use super::options::Options;
 use super::recorder::{self, Recorder};
+use super::start_check::StartCheck;
 use super::stiffness_detection::MethodChoice;
 use super::trajectory::{PiecewiseInterpolant, States, Trajectory};
 use crate::analyses::State;
@@ -189,6 +190,12 @@ fn run_phase<W: FnMut(f64) -> Flow>(
     watcher: &mut Watcher<'_, W>,
 ) -> Result<Ended, Reason> {
     let model = phase.model;
+    let first = run.phases.is_empty();
+    let check =
+        if first { StartCheck::of_run(options) } else { StartCheck::of_continuation(options) };
+    let check = if phase.project_velocities { check.of_positions() } else { check };
+    let [q, v, z, _] = model.layout.split(&at.y);
+    check.check(model, at.t, [q, v, z])?;
     let mut ode = MotionOde::new(model, options, cache.plan(model));
     run.phases.push(run.trajectory.t.len());
     run.passing = ode.passing;
