@@ -121,7 +121,7 @@ impl Reason {
             "projection fails at t = {t:.6} s: constraint {}.{} stays open by {gap:.1e}",
             item.name, item.equations[equation].name
         );
-        let hint = "use smaller steps or tolerances; a start must meet the constraints";
+        let hint = "use smaller steps or tolerances";
         Self::Integration { t, message, hint }
     }
 

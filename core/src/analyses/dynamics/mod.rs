@@ -6,6 +6,7 @@
 //! | file | concept |
 //! |---|---|
 //! | `options`, `option_checks` | options, and the combinations that are refused |
+//! | `absolute_tolerance` | absolute tolerances of lengths, angles and first-order states |
 //! | `start_check` | states from which a run may start |
 //! | `run`, `run_results`, `stepper` | a run through its phases; a stepper for callers |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
@@ -18,6 +19,7 @@
 //! | `prepared`, `model_cache` | a model for many runs |
 //! | `failure`, `clock` | errors in terms of the mechanism; wall time |
 
+mod absolute_tolerance;
 mod accelerations;
 mod branch_averaging;
 mod clock;
