@@ -191,8 +191,18 @@ def dynamics(
             as for ``KeyboardInterrupt``.
     """
 
-def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F) -> tuple[_F, _F]:
-    """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂."""
+def evaluate(
+    model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False
+) -> tuple[_F, _F]:
+    """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂.
+
+    With ``passing`` near singular positions as well, as in runs that pass them.
+    """
+
+def project(
+    model: Model, tolerance: float, t: _F, q: _F, v: _F, z: _F
+) -> tuple[_F, _F]:
+    """States of an interpolant, projected as reported states are: q and v, (n_t, n_q)."""
 
 def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
     """Φ and Φ_q q̇ + Φ_t at states, (n_t, n_rows) each."""

@@ -52,7 +52,7 @@ pub fn because(py: Python<'_>, reason: core::Reason) -> PyErr {
 }
 
 /// The error of a state that is there, of which something does not follow.
-fn missing(py: Python<'_>, reason: core::Reason) -> PyErr {
+pub fn missing(py: Python<'_>, reason: core::Reason) -> PyErr {
     let hint = match reason {
         core::Reason::Integration { .. } => "check forces and laws at this state",
         _ => "positions and velocities are there; look at times beside it, or change the mechanism",

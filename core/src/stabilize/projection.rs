@@ -55,6 +55,8 @@ impl Default for Projection {
 pub enum Fault {
     /// Φ_q lost rank.
     Singular(Singular),
+    /// Φ_q lost rank where a run with projection continues.
+    Passable(Singular),
     /// Φ_q lost rank where the mechanism is almost at rest under load.
     AtRest(Singular),
     /// A row of Φ remains open.

@@ -21,9 +21,9 @@ impl AbsoluteTolerance {
         match given {
             None => Atol::Scaled(usual),
             Some(Self::Uniform(atol)) => Atol::Scalar(atol),
-            Some(Self::ByKind(all)) => {
-                Atol::Each(all.into_iter().map(|(own, scale)| own.unwrap_or(usual * scale)).collect())
-            }
+            Some(Self::ByKind(all)) => Atol::Each(
+                all.into_iter().map(|(own, scale)| own.unwrap_or(usual * scale)).collect(),
+            ),
         }
     }
 }

@@ -113,6 +113,13 @@ impl Reason {
             Fault::Singular(singular) | Fault::AtRest(singular) => {
                 return Self::singular(model, t, q, singular)
             }
+            Fault::Passable(singular) => {
+                let mut reason = Self::singular(model, t, q, singular);
+                if let Self::Singular { message, .. } = &mut reason {
+                    message.push_str("; a run with stabilization projection passes this position");
+                }
+                return reason;
+            }
             Fault::Open { row, gap } => (row, gap),
         };
         let (k, equation) = model.layout.owner(row);

@@ -82,12 +82,7 @@ macro_rules! implicit {
     };
 }
 
-fn control(
-    rtol: f64,
-    atol: Atol,
-    first_step: Option<f64>,
-    max_step: Option<f64>,
-) -> StepControl {
+fn control(rtol: f64, atol: Atol, first_step: Option<f64>, max_step: Option<f64>) -> StepControl {
     let max_step = max_step.unwrap_or(f64::INFINITY);
     StepControl { atol, first_step, max_step, ..StepControl::new(rtol, 0.0) }
 }

@@ -14,6 +14,7 @@
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
 //! | `singularity_passage`, `singularity_forecast`, `branch_averaging` | singular positions |
 //! | `recorder`, `trajectory`, `report_projection`, `lane_batch` | reported states |
+//! | `interpolated_states` | states between them |
 //! | `constraint_violation` | joints that open too far |
 //! | `accelerations`, `energies` | quantities that follow from reported states |
 //! | `prepared`, `model_cache` | a model for many runs |
@@ -27,6 +28,7 @@ mod constraint_violation;
 mod energies;
 mod failure;
 mod initial_stiffness;
+mod interpolated_states;
 mod lane_batch;
 mod method_options;
 mod method_switching;

@@ -1,7 +1,7 @@
 //! The equations of motion as a first-order system y = (q, v, z, works).
 
 use super::options::Options;
-use super::singularity_passage::SingularityPassage;
+use super::singularity_passage::{would_pass, SingularityPassage};
 use super::stabilizations::Stabilization;
 use crate::analyses::mobility;
 use crate::equations::augmented::{Dependent, NearSingular};
@@ -98,7 +98,7 @@ impl<'a> MotionOde<'a> {
         self.workspace.z.copy_from_slice(z); // projection does not set z
         if let Err(singular) = self.workspace.respond(self.model, t, self.gains) {
             dy.fill(f64::NAN);
-            return stop_if_finite(singular, t, y);
+            return self.stop_if_finite(singular, t, y);
         }
         if !self.passage.watch(self.model, &self.workspace, t, v) {
             dy.fill(f64::NAN); // a shorter step may avoid it
@@ -113,6 +113,18 @@ impl<'a> MotionOde<'a> {
         Ok(())
     }
 
+    /// Stops where the accelerations are not unique. A trial state that is not finite is rejected, because a shorter
+    /// step may avoid it.
+    #[cold]
+    fn stop_if_finite(&self, singular: Singular, t: f64, y: &[f64]) -> Result<(), (f64, Fault)> {
+        if !all_finite(y) {
+            return Ok(());
+        }
+        let [q, v, z, _] = self.model.layout.split(y);
+        let passable = self.projector.is_none() && would_pass(self.model, t, [q, v, z]);
+        Err((t, if passable { Fault::Passable(singular) } else { Fault::Singular(singular) }))
+    }
+
     /// Projects y if projection is an option of the run; returns whether y changed. The works are unchanged, so the
     /// energy balance shows the change of energy by projection.
     fn project_state(
@@ -124,16 +136,6 @@ impl<'a> MotionOde<'a> {
         let Some(projector) = &mut self.projector else { return Ok(false) };
         let [q, v, ..] = self.model.layout.split_mut(y);
         projector.project(&mut self.workspace, t, (q, v), factored).map_err(|fault| (t, fault))
-    }
-}
-
-/// Stops where the accelerations are not unique. A trial state that is not finite is rejected, because a shorter step
-/// may avoid it.
-#[cold]
-fn stop_if_finite(singular: Singular, t: f64, y: &[f64]) -> Result<(), (f64, Fault)> {
-    match all_finite(y) {
-        true => Err((t, Fault::Singular(singular))),
-        false => Ok(()),
     }
 }
 

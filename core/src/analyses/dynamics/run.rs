@@ -8,12 +8,14 @@ use super::motion_ode::MotionOde;
 use super::motion_stepper::MotionStepper;
 use super::options::Options;
 use super::recorder::{self, Recorder};
+use super::stabilizations::Stabilization;
 use super::start_check::StartCheck;
 use super::stiffness_detection::MethodChoice;
 use super::trajectory::{PiecewiseInterpolant, States, Trajectory};
 use crate::analyses::State;
 use crate::integrate::{self, Cause, Direction, Ended, Flow, Step};
 use crate::model::Model;
+use crate::stabilize::Projection;
 
 /// Counts of an integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,6 +67,8 @@ pub struct Run {
     pub reached: bool,
     /// Whether it passes singular positions, as runs with projection do.
     pub passing: bool,
+    /// Projection of its states; None with another stabilization. See [`Prepared::project`](super::Prepared::project).
+    pub projection: Option<Projection>,
 }
 
 impl Run {
@@ -199,6 +203,10 @@ fn run_phase<W: FnMut(f64) -> Flow>(
     let mut ode = MotionOde::new(model, options, cache.plan(model));
     run.phases.push(run.trajectory.t.len());
     run.passing = ode.passing;
+    run.projection = match options.stabilization {
+        Stabilization::Projection(projection) => Some(projection),
+        _ => None,
+    };
     let wide = recorder::many(options.output_step, options.t_end - at.t).then(|| cache.wide(model));
     let tables = (std::mem::take(&mut run.trajectory), run.dense.take());
     let mut recorder = Recorder::new(&ode, wide, options, (at.t0, at.t), tables);

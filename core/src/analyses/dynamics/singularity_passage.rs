@@ -9,9 +9,10 @@
 
 use super::options::{Options, Singularity};
 use super::singularity_forecast::SingularityForecast;
-use crate::equations::augmented::Dependent;
+use crate::analyses::mobility;
+use crate::equations::augmented::{Dependent, NearSingular};
 use crate::equations::forces::Acting;
-use crate::equations::{constraints, forces, mass, Singular, Workspace};
+use crate::equations::{constraints, forces, mass, Gains, Singular, Workspace};
 use crate::model::{size, Model};
 use crate::stabilize::Fault;
 
@@ -39,6 +40,18 @@ pub(super) struct SingularityPassage {
     approach: SingularityForecast,
     residual: Vec<f64>,
     loads: Vec<f64>,
+}
+
+/// Whether a run with projection passes the singular position at this state.
+pub(super) fn would_pass(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> bool {
+    if model.allow_redundancy || !mobility(model, t, q).redundant.is_empty() {
+        return false;
+    }
+    let mut work = Workspace::new(model);
+    work.matrix.set_near_singular(NearSingular::Regularise);
+    let solved = work.accelerate(model, t, [q, v, z], Gains::default());
+    let mut passage = SingularityPassage::new(&Options::new(t), true);
+    solved.is_ok() && !passage.unmet(model, &work, t) && !passage.rests(model, &work, t, v)
 }
 
 impl SingularityPassage {
