@@ -68,7 +68,7 @@ def assemble(
     hint = encode(numbers(guess or {}, "guess"))
     if from_state is not None:
         _refuse_foreign(compiled, from_state)
-        t = from_state.t if t is None else t
+        t = float(from_state.t) if t is None else t
         q, v, z = (np.array(part) for part in (from_state.q, from_state.v, from_state.z))
         z = z if len(z) == compiled.n_z else np.zeros(compiled.n_z)
     t_found, q_found, v_found, z_found, text = _core.assemble(
@@ -115,8 +115,8 @@ def dynamics(
             ends the simulation.
 
     Raises:
-        AssemblyError: the start does not meet the constraints; ``assemble(model, from_state=start)``
-            assembles it anew.
+        AssemblyError: the start does not meet the constraints;
+            ``assemble(model, from_state=start)`` assembles it anew.
         IntegrationError: the integrator cannot continue. ``solution`` holds the solution up to that
             time, as it does for a SingularityError and an interruption (``KeyboardInterrupt``).
         SingularityError: the motion is not unique in a singular position.

@@ -18,8 +18,13 @@ Shape: TypeAlias = "str | tuple[str, ...]"
 
 #: Families of options, each with an example for messages.
 _FAMILIES = {"method": "kp.RK45(rtol=1e-6)", "stabilization": "kp.Projection()"}
-_CHECKS = {**CHECKS, "count": number, "flag": lambda value, _: bool(value), "name": reference,
-    "tolerance": tolerance}
+_CHECKS = {
+    **CHECKS,
+    "count": number,
+    "flag": lambda value, _: bool(value),
+    "name": reference,
+    "tolerance": tolerance,
+}
 #: Fields whose keys in the file are words of Python.
 _KEYS = {"after": "from"}
 

@@ -64,16 +64,22 @@ def test_a_case_with_other_parameters_starts_where_the_file_says(case: kp.Case) 
 def test_the_command_line_starts_where_the_file_says(
     four_bar_file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = ["run", str(four_bar_file), "--set", "L2=27", "--no-figures", "-o", str(tmp_path / "out")]
+    words = [
+        "run",
+        str(four_bar_file),
+        "--set",
+        "L2=27",
+        "--no-figures",
+        "-o",
+        str(tmp_path / "out"),
+    ]
     assert cli(words) == 0
     assert "70" in capsys.readouterr().out
     solution = kp.load_solution(tmp_path / "out" / "solution.npz")
     assert solution["crank"].angle[0] == pytest.approx(np.deg2rad(70), abs=1e-12)
 
 
-def test_assembly_from_a_state_moves_as_little_as_it_can(
-    model: kp.Model, start: kp.State
-) -> None:
+def test_assembly_from_a_state_moves_as_little_as_it_can(model: kp.Model, start: kp.State) -> None:
     longer = model.with_parameters({"L2": 26.01})
     near = kp.assemble(longer, from_state=start)
     scale = np.array([20.0, 20.0, 1.0] * 3)

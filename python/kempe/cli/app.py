@@ -92,7 +92,7 @@ def exit_code(error: errors.KempeError) -> int:
     return next(code for kind, code in _CODES if isinstance(error, kind))
 
 
-def _print_warning(message: Warning | str, *_: object) -> None:
+def _print_warning(message: Warning | str, *_: object, **__: object) -> None:
     console = Console(stderr=True, highlight=False, soft_wrap=True)
     console.print(Text.assemble(("warning: ", "bold yellow"), str(message)))
 

@@ -159,7 +159,16 @@ impl<'a> MotionStepper<'a> {
             (Cause::NotFinite { .. }, Some((t, fault))) => {
                 Reason::fault(model, t, model.layout.split(y)[0], fault)
             }
-            _ => Reason::from_integrator(model, cause, self.t(), y),
+            _ => {
+                let mut reason = Reason::from_integrator(model, cause.clone(), self.t(), y);
+                if let (Cause::StepTooSmall { .. }, Reason::Integration { hint, .. }, None) =
+                    (&cause, &mut reason, &self.ode.projector)
+                {
+                    *hint = "a singular position or a discontinuity lies here; a run with stabilization projection \
+                             passes singular positions; look at the solution so far";
+                }
+                reason
+            }
         }
     }
 
