@@ -63,11 +63,13 @@ def test_the_motion_is_the_same_at_a_billionth_of_the_size(seed: int) -> None:
     assert isinstance(nanometre, kp.Solution)
     lengths = np.array([not name.endswith(".angle") for name in metre.model.column_names()])
     scale = np.where(lengths, SCALE, 1.0)
-    rows = min(len(metre.t), len(nanometre.t))
-    assert rows > 1 or len(metre.t) == len(nanometre.t)
-    # the same steps, until rounding errors of a chaotic motion differ
-    same = np.isclose(metre.t[:rows], nanometre.t[:rows], rtol=1e-6, atol=0).cumprod().sum()
-    assert same > rows // 2
-    off = np.abs(nanometre.q[:same] / scale - metre.q[:same])
+    last = min(metre.t[-1], nanometre.t[-1])
+    if last == 0.0:  # at rest in a singular position, where rounding errors decide
+        assert "singular position" in metre.message + nanometre.message
+        return
+    assert last > 0.99 * max(metre.t[-1], nanometre.t[-1])
+    common = np.linspace(0, last, 100)
+    off = np.abs(nanometre(common).q / scale - metre(common).q)
     assert off.max() < 1e-4 * max(1.0, np.abs(metre.q).max())
-    assert nanometre.energy.balance[:same] == pytest.approx(metre.energy.balance[:same], abs=1e-4)
+    worst = [np.abs(solution.energy.balance).max() for solution in (metre, nanometre)]
+    assert worst[1] < 3 * worst[0] + 1e-5

@@ -159,16 +159,15 @@ impl<'a> MotionStepper<'a> {
             (Cause::NotFinite { .. }, Some((t, fault))) => {
                 Reason::fault(model, t, model.layout.split(y)[0], fault)
             }
-            _ => {
-                let mut reason = Reason::from_integrator(model, cause.clone(), self.t(), y);
-                if let (Cause::StepTooSmall { .. }, Reason::Integration { hint, .. }, None) =
-                    (&cause, &mut reason, &self.ode.projector)
-                {
+            (Cause::StepTooSmall { .. }, _) if self.ode.projector.is_none() && !model.driven => {
+                let mut reason = Reason::from_integrator(model, cause, self.t(), y);
+                if let Reason::Integration { hint, .. } = &mut reason {
                     *hint = "a singular position or a discontinuity lies here; a run with stabilization projection \
                              passes singular positions; look at the solution so far";
                 }
                 reason
             }
+            _ => Reason::from_integrator(model, cause, self.t(), y),
         }
     }
 
