@@ -145,12 +145,12 @@ fn steppers_and_phases_refuse_open_joints() {
     for stabilization in all() {
         let options = options(stabilization);
         let begun = Stepper::new(&longer, &state, &options).map(|_| ());
-        assert!(begun.is_err_and(|reason| is_start(&reason)));
+        assert!(begun.is_err_and(|failure| is_start(&failure.reason)));
         let mut stepper = Stepper::new(&m, &state, &options).unwrap();
         stepper.step().unwrap();
         let mut open = stepper.state();
         open.q[0] += 30.0; // farther than the mechanism is large
-        assert!(is_start(&stepper.restart(&open).unwrap_err()));
+        assert!(is_start(&stepper.restart(&open).unwrap_err().reason));
         // the second phase has a coupler that does not fit by more than a hundredth of its size
         let short = Phase { t_end: Some(0.005), ..Phase::new(&m) };
         let phases = [short, Phase::new(&longer)];

@@ -87,7 +87,7 @@ pub fn project<'py>(
         let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
         let (states, projection) = (core::States { t, q, v, z }, Projection { tolerance });
         let found = py.detach(|| model.prepared.project(states, projection));
-        let [q, v] = found.map_err(|reason| missing(py, reason))?;
+        let [q, v] = found.map_err(|failure| missing(py, failure.reason))?;
         let shape = (t.len(), model.model.layout.n_q);
         Ok((table(py, q, shape)?, table(py, v, shape)?))
     })

@@ -1,7 +1,7 @@
 //! States between the reported ones. An interpolant leaves the constraints by the error of integration. Near a singular
 //! position this error is large in the velocities, so that these states are projected as reported ones are.
 
-use super::failure::Reason;
+use super::failure::Failure;
 use super::model_cache::ModelCache;
 use super::options::Options;
 use super::report_projection::ReportProjection;
@@ -17,7 +17,7 @@ pub(super) fn project(
     (model, cache): (&Model, &ModelCache),
     states: States<'_>,
     projection: Projection,
-) -> Result<[Vec<f64>; 2], Reason> {
+) -> Result<[Vec<f64>; 2], Box<Failure>> {
     let States { t, q, v, z } = states;
     let (n, n_z) = (model.layout.n_q, model.layout.n_z);
     let lengths = [n, n, n_z].map(|width| width * t.len());
@@ -38,7 +38,7 @@ pub(super) fn project(
         to_v.copy_from_slice(&v[row.clone()]);
         to_z.copy_from_slice(&z[k * n_z..(k + 1) * n_z]);
         let placed = placer.place_on_branch(t, &mut y);
-        placed.map_err(|halt| Reason::halt(model, t, &q[row.clone()], halt))?;
+        placed.map_err(|breakdown| Failure::at_state(model, t, &q[row.clone()], breakdown))?;
         let [of_q, of_v, ..] = model.layout.split(&y);
         projected[0][row.clone()].copy_from_slice(of_q);
         projected[1][row].copy_from_slice(of_v);

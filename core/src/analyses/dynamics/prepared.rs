@@ -4,11 +4,12 @@ use super::accelerations::accelerations;
 use super::accelerations::Accelerations;
 use super::clock::{system_clock, Clock};
 use super::energies::energies;
-use super::failure::Reason;
+use super::failure::Failure;
 use super::interpolated_states;
 use super::model_cache::ModelCache;
 use super::options::Options;
-use super::run::{simulate, Failure, Phase, Run, Watcher};
+use super::run::{simulate, Phase, Watcher};
+use super::run_results::Run;
 use super::trajectory::States;
 use crate::analyses::State;
 use crate::integrate::Flow;
@@ -72,7 +73,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
     /// do. `watch` is called with the times and may stop the computation; then the rows so far are returned.
     ///
     /// # Errors
-    /// [`Reason`] of the first state where accelerations and multipliers are not unique, or not finite.
+    /// [`Failure`] of the first state where accelerations and multipliers are not unique, or not finite.
     ///
     /// # Panics
     /// If the rows do not fit the model or each other.
@@ -81,7 +82,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         states: States<'_>,
         passing: bool,
         watch: impl FnMut(f64) -> Flow,
-    ) -> Result<Accelerations, Reason> {
+    ) -> Result<Accelerations, Box<Failure>> {
         accelerations((&self.model, &self.cache), states, passing, watch)
     }
 
@@ -89,7 +90,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
     /// be reported at these times. `projection` is that of the run.
     ///
     /// # Errors
-    /// [`Reason`] of the first state that cannot be projected.
+    /// [`Failure`] at the first state that cannot be projected.
     ///
     /// # Panics
     /// If the rows do not fit the model or each other.
@@ -97,7 +98,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         &self,
         states: States<'_>,
         projection: Projection,
-    ) -> Result<[Vec<f64>; 2], Reason> {
+    ) -> Result<[Vec<f64>; 2], Box<Failure>> {
         interpolated_states::project((&self.model, &self.cache), states, projection)
     }
 
@@ -105,11 +106,11 @@ impl<M: Deref<Target = Model>> Prepared<M> {
     /// rows of three, become rows of [`ENERGIES`](super::ENERGIES).
     ///
     /// # Errors
-    /// [`Reason`] of the first state where one of them is not finite.
+    /// [`Failure`] of the first state where one of them is not finite.
     ///
     /// # Panics
     /// If the rows do not fit the model or each other.
-    pub fn energies(&self, states: States<'_>, works: &[f64]) -> Result<Vec<f64>, Reason> {
+    pub fn energies(&self, states: States<'_>, works: &[f64]) -> Result<Vec<f64>, Box<Failure>> {
         energies((&self.model, &self.cache), states, works)
     }
 }

@@ -5,7 +5,7 @@
 //! moved: the run would then start elsewhere than its caller believes.
 
 use super::constraint_violation::{ADRIFT, APART};
-use super::failure::Reason;
+use super::failure::{Failure, Reason};
 use super::options::Options;
 use super::stabilizations::Stabilization;
 use crate::equations::augmented::NearSingular;
@@ -83,8 +83,8 @@ impl StartCheck {
     /// Checks a state.
     ///
     /// # Errors
-    /// [`Reason::Start`], which names the joint that is open farthest.
-    pub fn check(&self, model: &Model, t: f64, state: [&[f64]; 3]) -> Result<(), Reason> {
+    /// [`Failure`] with [`Reason::Start`], which names the joint that is open farthest.
+    pub fn check(&self, model: &Model, t: f64, state: [&[f64]; 3]) -> Result<(), Box<Failure>> {
         let [q, v, _] = state;
         let m = model.layout.n_rows;
         let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
@@ -109,7 +109,7 @@ impl StartCheck {
 }
 
 impl Level<'_> {
-    fn check(&self, model: &Model, t: f64, hint: &'static str) -> Result<(), Reason> {
+    fn check(&self, model: &Model, t: f64, hint: &'static str) -> Result<(), Box<Failure>> {
         // NaN is no closed joint
         let over = self.rows.iter().zip(&self.most).map(|(gap, most)| gap.abs() / most);
         let over = over.map(|over| if over.is_nan() { f64::INFINITY } else { over });
@@ -127,7 +127,7 @@ impl Level<'_> {
              most {most:.1e} {unit}{per} is accepted",
             item.name
         );
-        Err(Reason::Start { t, name: item.name.clone(), message, hint })
+        Err(Reason::Start { t, name: item.name.clone(), message, hint }.into())
     }
 }
 
