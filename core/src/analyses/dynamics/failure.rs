@@ -78,13 +78,7 @@ impl Failure {
                 );
                 (name(row), message)
             }
-            Breakdown::Passable(row) => {
-                let mut failure = Self::at_state(model, t, q, Breakdown::Row(row));
-                if let Reason::Singular { message, .. } = &mut failure.reason {
-                    message.push_str("; a run with stabilization projection passes this position");
-                }
-                return failure;
-            }
+            Breakdown::Passable(row) => return Self::passable(model, t, q, row),
             Breakdown::AtRest(row) => {
                 let message = format!(
                     "singular position at t = {t:.6} s: the mechanism is almost at rest where its motion can \
@@ -126,6 +120,15 @@ impl Failure {
             }
         };
         Reason::Singular { t, name, message }.into()
+    }
+
+    /// A row depends on the others where a run with projection continues.
+    fn passable(model: &Model, t: f64, q: &[f64], row: usize) -> Box<Self> {
+        let mut failure = Self::at_state(model, t, q, Breakdown::Row(row));
+        if let Reason::Singular { message, .. } = &mut failure.reason {
+            message.push_str("; a run with stabilization projection passes this position");
+        }
+        failure
     }
 
     /// The integrator stopped at a time `t` and a state `y`.

@@ -110,7 +110,7 @@ impl StartCheck {
 
 impl Level<'_> {
     fn check(&self, model: &Model, t: f64, hint: &'static str) -> Result<(), Box<Failure>> {
-        // NaN is no closed joint
+        // NaN counts as open
         let over = self.rows.iter().zip(&self.most).map(|(gap, most)| gap.abs() / most);
         let over = over.map(|over| if over.is_nan() { f64::INFINITY } else { over });
         let widest = over.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
