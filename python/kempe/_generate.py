@@ -25,6 +25,7 @@ TYPES = dict.fromkeys(REFERENCES, "str") | {
     "count": "int",
     "flag": "bool",
     "name": "str",
+    "tolerance": "Tolerance",
 }
 #: Sections of options, each with the first line of the docstrings of its classes.
 OPTIONS = {
@@ -64,7 +65,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from kempe.option import Analysis, Option, Shape
-from kempe.values import Number
+from kempe.values import Number, Tolerance
 '''
 
 METHODS = '''\

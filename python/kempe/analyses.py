@@ -31,9 +31,10 @@ class AssemblyWarning(UserWarning):
 def assemble(
     model: Model | CompiledModel,
     set: Coordinates | None = None,  # noqa: A002
-    guess: Coordinates | State | None = None,
-    t: float = 0.0,
+    guess: Coordinates | None = None,
+    t: float | None = None,
     *,
+    from_state: State | None = None,
     redundancy: str | None = None,
     from_guess: bool = False,
 ) -> State:
@@ -42,8 +43,10 @@ def assemble(
     Args:
         model: the mechanism.
         set: prescribed coordinates and rates, m, rad, per s: ``{"crank.angle": "70*deg"}``.
-        guess: starting values of coordinates and rates, or a state; can be incomplete.
-        t: time, s.
+        guess: starting values of coordinates and rates; can be incomplete.
+        t: time, s; None means that of ``from_state``, or 0.
+        from_state: a state of the same bodies, from which the mechanism moves as little as it can:
+            of another set of parameters, or one that drifted. ``set`` and ``guess`` come before it.
         redundancy: "allow" accepts redundant constraints in the assembly and in simulations that
             start from the state; None uses the setting of the model.
         from_guess: start the Newton iteration from the guess with open loops, without closing
@@ -61,13 +64,15 @@ def assemble(
     held = encode(numbers(set or {}, "set"))
     q = v = z = None
     if isinstance(guess, State):
-        _refuse_foreign(compiled, guess)
-        q, v, hint = np.array(guess.q), np.array(guess.v), "{}"
-        z = np.array(guess.z) if len(guess.z) == compiled.n_z else np.zeros(compiled.n_z)
-    else:
-        hint = encode(numbers(guess or {}, "guess"))
+        raise ModelError("guess: a State", hint="pass it as from_state=")
+    hint = encode(numbers(guess or {}, "guess"))
+    if from_state is not None:
+        _refuse_foreign(compiled, from_state)
+        t = float(from_state.t) if t is None else t
+        q, v, z = (np.array(part) for part in (from_state.q, from_state.v, from_state.z))
+        z = z if len(z) == compiled.n_z else np.zeros(compiled.n_z)
     t_found, q_found, v_found, z_found, text = _core.assemble(
-        compiled.core, held, hint, _time(t), q, v, z, from_guess
+        compiled.core, held, hint, _time(0.0 if t is None else t), q, v, z, from_guess
     )
     report = AssemblyReport.from_json(text)
     for warning in report.warnings:
@@ -93,7 +98,8 @@ def dynamics(
 
     Args:
         model: the mechanism.
-        start: the initial state, for example from ``assemble``.
+        start: the initial state, for example from ``assemble``. Its joints must be closed, to 1e-9
+            of the size of the mechanism.
         t_end: end time, s.
         output_step: time between outputs, s; None makes every step an output.
         method: the integrator.
@@ -109,6 +115,8 @@ def dynamics(
             ends the simulation.
 
     Raises:
+        AssemblyError: the start does not meet the constraints;
+            ``assemble(model, from_state=start)`` assembles it anew.
         IntegrationError: the integrator cannot continue. ``solution`` holds the solution up to that
             time, as it does for a SingularityError and an interruption (``KeyboardInterrupt``).
         SingularityError: the motion is not unique in a singular position.
@@ -170,7 +178,9 @@ def _time(t: float) -> float:
 
 
 def _refuse_foreign(model: CompiledModel, state: State) -> None:
-    """Refuse a state with other bodies. Other numbers in the model are allowed."""
+    """Refuse a state with other bodies. The core refuses one that does not meet the constraints."""
+    if not isinstance(state, State):
+        raise ModelError(f"from_state: {state!r} is not a State")
     if list(state.model.bodies) != list(model.bodies):
         raise ModelError(
             f"the state has the bodies {', '.join(state.model.bodies)}; "

@@ -51,6 +51,7 @@ class _Stored:
     status: str
     message: str
     statistics: str
+    projection: float | None
 
     def responses(self) -> tuple[Floats, Floats]:
         return self.a, self.lam
@@ -91,6 +92,7 @@ def _about(solution: Solution) -> dict[str, Any]:
         "status": "reached" if solution.status == REACHED else "stopped",
         "message": solution.message,
         "statistics": dict(solution.statistics),
+        "projection": solution._run.projection,
     }
 
 
@@ -150,6 +152,7 @@ def _stored(about: dict[str, Any], arrays: dict[str, Floats], model: CompiledMod
         status=about["status"],
         message=about["message"],
         statistics=json.dumps(about["statistics"]),
+        projection=about.get("projection"),
     )
 
 

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from kempe import _core, files
-from kempe.analyses import Coordinates, Progress, assemble, simulate
+from kempe.analyses import AssemblyWarning, Coordinates, Progress, assemble, simulate
 from kempe.compiled import CompiledModel
-from kempe.errors import FileError, ModelError
+from kempe.errors import AssemblyError, FileError, ModelError
 from kempe.model import Model
 from kempe.names import unknown
 from kempe.options import Dynamics
@@ -154,6 +155,10 @@ class Case:
     ) -> Iterator[tuple[str, Solution]]:
         """Run the analyses one by one and yield each solution at once.
 
+        An analysis starts in the state in which the one before it ended. If the joints drifted
+        until then, as they do with Baumgarte's stabilization, it starts in the nearest state that
+        meets the constraints, with an ``AssemblyWarning`` that names the gap.
+
         Args:
             progress: called now and then with the time reached, s.
             start: the assembled mechanism; assembled here when None.
@@ -165,9 +170,30 @@ class Case:
         for analysis in json.loads(self._core().analyses()):
             name, after = analysis["name"], analysis.get("from")
             begin = state if after is None else ends[after]
-            solution = _RUNNERS[analysis["type"]](model, begin, self._entries[name], progress)
+            runner, entry = _RUNNERS[analysis["type"]], self._entries[name]
+            try:
+                solution = runner(model, begin, entry, progress)
+            except AssemblyError as error:
+                if begin is ends["start"]:
+                    raise
+                # the joints drifted in the analysis before
+                warnings.warn(
+                    f"{name}: {error.args[0]}; it starts from the nearest state that does",
+                    AssemblyWarning,
+                    stacklevel=2,
+                )
+                begin = assemble(model, from_state=begin)
+                solution = runner(model, begin, entry, progress)
             yield name, solution
             state = ends[name] = solution.final
+
+    def with_parameters(self, parameters: Mapping[str, Number]) -> Case:
+        """The same case with other values of some parameters; ``start()`` uses them.
+
+        Raises:
+            ModelError: a value is invalid, or there is no parameter of that name.
+        """
+        return Case(self.model.with_parameters(parameters), self._start, self._entries)
 
     def with_analysis(self, name: str, **changes: Any) -> Case:
         """The same case with some fields of one analysis changed, as ``t_end=30``.

@@ -30,6 +30,9 @@ class Motion:
             motor; see ``model.state_names()``. Empty for most models.
     """
 
+    #: Whether accelerations are computed near singular positions too, as in runs that pass them.
+    _passing = False
+
     def __init__(
         self, model: CompiledModel, t: Floats, q: Floats, v: Floats, z: Floats | None = None
     ) -> None:
@@ -61,7 +64,8 @@ class Motion:
 
     @cached_property
     def _dynamics(self) -> tuple[Floats, Floats]:
-        a, lam = _core.evaluate(self.model.core, *self._rows(), np.atleast_2d(self.z))
+        rows = *self._rows(), np.atleast_2d(self.z)
+        a, lam = _core.evaluate(self.model.core, *rows, self._passing)
         return self._as_given(a), self._as_given(lam)
 
     @cached_property

@@ -50,6 +50,11 @@ class PartialRun:
         return self.run.z[: self.rows]
 
     @property
+    def projection(self) -> float | None:
+        """Tolerance of the projection of its states."""
+        return self.run.projection
+
+    @property
     def statistics(self) -> str:
         """Steps, evaluations and times of the whole run, as JSON."""
         return self.run.statistics

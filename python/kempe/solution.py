@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kempe import _core
 from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
 from kempe.dense import DenseOutput
@@ -24,8 +25,6 @@ from kempe.state import State
 
 if TYPE_CHECKING:
     import pandas
-
-    from kempe import _core
 
 #: Values of ``status``, as in scipy's ``solve_ivp``.
 REACHED, STOPPED = 0, -1
@@ -64,6 +63,7 @@ class Solution(Motion):
     def __init__(self, model: CompiledModel, run: _core.Run) -> None:
         super().__init__(model, run.t, run.q, run.v, run.z)
         self._run = run
+        self._passing = run.projection is not None and model.redundancy != "allow"
         self.status = REACHED if run.status == "reached" else STOPPED
         self.message = run.message
 
@@ -146,31 +146,45 @@ class Solution(Motion):
     @property
     def initial(self) -> State:
         """The state at the first time."""
-        return State(self.model, float(self.t[0]), self.q[0], self.v[0], z=self.z[0])
+        return self._state(float(self.t[0]), self.q[0], self.v[0], self.z[0])
 
     @property
     def final(self) -> State:
         """The state at the last time."""
-        return State(self.model, float(self.t[-1]), self.q[-1], self.v[-1], z=self.z[-1])
+        return self._state(float(self.t[-1]), self.q[-1], self.v[-1], self.z[-1])
+
+    def _state(self, t: float, q: Floats, v: Floats, z: Floats) -> State:
+        state = State(self.model, t, q, v, z=z)
+        state._passing = self._passing
+        return state
 
     def __call__(self, t: float | Floats) -> Motion:
         """The motion at any time within the solution, from the interpolant of the integrator.
+
+        If the states of the solution are projected, so are these: they are the states that an
+        output at these times reports.
 
         Args:
             t: s; one time gives a ``State``, an array (n,) gives a ``Motion``.
 
         Raises:
             ModelError: the time is outside the solution, or the interpolant was not kept.
+            IntegrationError, SingularityError: a state cannot be projected.
         """
         if self.dense is None:
             raise ModelError("the solution has no interpolant", hint="use dense_output=True")
         at = np.asarray(t, dtype=np.float64)
         if at.ndim > 1:
             raise ModelError(f"t has {at.ndim} dimensions; must be one time or an array of times")
-        q, v, z = self.dense.parts(at, self.model.n_q, self.model.n_z)
+        times = np.atleast_1d(at)
+        q, v, z = self.dense.parts(times, self.model.n_q, self.model.n_z)
+        if (tolerance := self._run.projection) is not None:
+            q, v = _core.project(self.model.core, tolerance, times, q, v, z)
         if at.ndim == 0:
-            return State(self.model, float(at), q, v, z=z)
-        return Motion(self.model, at, q, v, z)
+            return self._state(float(at), q[0], v[0], z[0])
+        motion = Motion(self.model, at, q, v, z)
+        motion._passing = self._passing
+        return motion
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A pandas data frame with a column for each quantity, such as ``rocker.angle``.

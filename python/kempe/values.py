@@ -16,6 +16,8 @@ from kempe.errors import ModelError, Problem
 Number: TypeAlias = "float | str"
 #: Two numbers or formulas, such as a point or a vector.
 Pair: TypeAlias = "Sequence[float | str]"
+#: A number for all quantities, or one for each of ``length``, ``angle`` and ``z``.
+Tolerance: TypeAlias = "float | str | Mapping[str, float | str]"
 #: Named points of a body, in its frame, m.
 Points: TypeAlias = "Mapping[str, Sequence[float | str]]"
 
@@ -89,6 +91,11 @@ def numbers(value: object, path: str) -> dict[str, float | str]:
         reference(name, path): number(entry, f"{path}.{name}")
         for name, entry in _items(value, path, "{'name': number}")
     }
+
+
+def tolerance(value: object, path: str) -> float | str | dict[str, float | str]:
+    """A number, or a mapping with numbers for some of ``length``, ``angle`` and ``z``."""
+    return numbers(value, path) if isinstance(value, Mapping) else number(value, path)
 
 
 def _two(value: object, path: str, what: str) -> tuple[object, object]:

@@ -200,7 +200,7 @@ def test_the_jacobian_at_the_start_has_names(start: kp.State) -> None:
 
 
 def test_a_state_serves_as_guess(model: kp.Model, start: kp.State) -> None:
-    again = kp.assemble(model, set={"crank.angle": "71*deg"}, guess=start)
+    again = kp.assemble(model, set={"crank.angle": "71*deg"}, from_state=start)
     assert again["crank"].angle == pytest.approx(np.deg2rad(71))
     assert again["rocker"].angle == pytest.approx(float(start["rocker"].angle), abs=0.1)
 

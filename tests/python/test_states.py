@@ -49,6 +49,7 @@ def run(start: kp.State) -> SimpleNamespace:
         status="reached",
         message="t_end was reached",
         statistics='{"steps": 2}',
+        projection=None,
         responses=lambda: (np.zeros((3, n)), np.zeros((3, m))),
         energies=lambda: np.zeros((3, 5)),
     )

@@ -31,6 +31,9 @@ pub struct PyRun {
     works: Vec<f64>,
     model: Arc<Prepared<Arc<Model>>>,
     passing: bool,
+    /// Tolerance of the projection of its states.
+    #[pyo3(get)]
+    projection: Option<f64>,
     #[pyo3(get)]
     dense_t: Option<Py<PyArray1<f64>>>,
     #[pyo3(get)]
@@ -130,6 +133,7 @@ impl PyRun {
             works,
             model: Arc::clone(&model.prepared),
             passing: run.passing,
+            projection: run.projection.map(|projection| projection.tolerance),
             dense_t,
             dense_y,
             dense_c,

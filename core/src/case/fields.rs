@@ -2,7 +2,7 @@
 
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
-use super::values::{count, number, pair, points, two_names, word, wrong};
+use super::values::{count, number, pair, points, tolerance, two_names, word, wrong};
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
 use crate::elements::{catalogue, Field, Shape, Table as Declaration};
@@ -90,6 +90,7 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Points, _) => points(report, node),
         (Shape::Names, _) => two_names(report, node),
         (Shape::Count, _) => count(report, node),
+        (Shape::Tolerance, _) => tolerance(report, node),
         (Shape::Word(words), _) => word(report, node, words),
         (Shape::Options(family), _) => chosen(report, node, family),
         (Shape::Flag, Data::Flag(_)) => {}

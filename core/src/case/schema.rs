@@ -5,7 +5,7 @@ use serde_json::{json, Map, Value};
 use super::check::REDUNDANCY;
 use super::FORMAT_VERSION;
 use crate::analyses::{declarations, option_families};
-use crate::elements::{catalogue, Default, Field, Group, Shape, Table};
+use crate::elements::{catalogue, Default, Field, Group, Shape, Table, TOLERANCES};
 use crate::model::body_tables;
 
 /// The JSON Schema (draft 2020-12) of a case, for editors: sections, types, fields, descriptions and
@@ -117,6 +117,7 @@ fn property(f: &Field) -> Value {
         Shape::Points => reference("points"),
         Shape::Names => reference("names"),
         Shape::Count => reference("count"),
+        Shape::Tolerance => reference("tolerance"),
         Shape::Options(family) => reference(family),
     };
     let unit = if f.unit.is_empty() { String::new() } else { format!(" ({})", f.unit) };
@@ -143,6 +144,9 @@ fn definitions() -> Value {
         "names": two_of(json!({ "type": "string" })),
         "count": { "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string" }] },
     });
+    let kinds = TOLERANCES.iter().map(|kind| (kind.to_string(), reference("number")));
+    let by_kind = object(Value::Object(kinds.collect()), &[]);
+    definitions["tolerance"] = json!({ "anyOf": [reference("number"), by_kind] });
     for family in option_families() {
         definitions[family.name] = one_of(family.options.iter().map(|options| &options.table));
     }

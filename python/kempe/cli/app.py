@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 
 import typer
@@ -70,7 +71,9 @@ def _options(
 def run(words: Sequence[str]) -> int:
     """Run one command line; an error of kempe is printed on stderr without a traceback."""
     try:
-        app(args=list(words), prog_name="kempe")
+        with warnings.catch_warnings():
+            warnings.showwarning = _print_warning
+            app(args=list(words), prog_name="kempe")
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else exit_codes.OK
     except errors.KempeError as error:
@@ -87,6 +90,11 @@ def exit_code(error: errors.KempeError) -> int:
     if isinstance(error, errors.FileError) and error.problems:
         return exit_codes.BAD_INPUT
     return next(code for kind, code in _CODES if isinstance(error, kind))
+
+
+def _print_warning(message: Warning | str, *_: object, **__: object) -> None:
+    console = Console(stderr=True, highlight=False, soft_wrap=True)
+    console.print(Text.assemble(("warning: ", "bold yellow"), str(message)))
 
 
 def _print_error(error: errors.KempeError) -> None:

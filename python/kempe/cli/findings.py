@@ -69,10 +69,8 @@ def _show_accuracy(console: Console, summary: dict[str, Any]) -> None:
         value = f"{worst['value']:.3g} {worst['unit']}"
         text = f"largest residual {value} in {worst['equation']} at {figure(worst['at'])} s"
         console.print(Text(f"  {text}"))
-    kinetic = f"largest kinetic energy {figure(energy['largest_kinetic'])} J"
-    console.print(
-        Text(f"  energy balance within {energy['largest_imbalance']:.2g} of the {kinetic}")
-    )
+    scale = f"largest energy {figure(energy['scale'])} J"
+    console.print(Text(f"  energy balance within {energy['largest_imbalance']:.2g} of the {scale}"))
 
 
 def _show_settling(console: Console, settling: list[dict[str, Any]]) -> None:

@@ -38,7 +38,7 @@ def energy(solution: Solution, *, ax: Axes | None = None, cut: float | None = No
 
 
 def energy_balance(solution: Solution, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
-    """Draw the change of T + V + D - W, relative to the largest kinetic energy.
+    """Draw the change of T + V + D - W, relative to the largest energy.
 
     Args:
         solution: the solution.
@@ -54,7 +54,11 @@ def energy_balance(solution: Solution, *, ax: Axes | None = None, cut: float | N
             axes,
             solution.t,
             Panel(
-                "", "", "Energy balance: change of T + V + D − W over largest T", cut, legend=False
+                "",
+                "",
+                "Energy balance: change of T + V + D − W over the largest energy",
+                cut,
+                legend=False,
             ),
         )
         return axes

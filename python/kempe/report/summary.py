@@ -107,12 +107,16 @@ def residual(solution: Solution) -> dict[str, Any] | None:
 
 
 def energy(solution: Solution) -> dict[str, float]:
-    """Largest kinetic energy, dissipated energy, work, and largest error of the balance."""
+    """Largest kinetic energy, dissipated energy, work, and largest error of the balance.
+
+    The error is relative to ``scale``, the largest energy of the run.
+    """
     found = solution.energy
     return {
         "largest_kinetic": float(found.kinetic.max(initial=0.0)),
         "dissipated": float(found.dissipated[-1]),
         "work": float(found.work[-1]),
+        "scale": found.scale,
         "largest_imbalance": float(np.abs(found.balance).max(initial=0.0)),
     }
 

@@ -29,7 +29,7 @@ class Outcome:
         position_error: the same of any body's position, m.
         residual: largest |Φ| over time, of lengths and of angles, m and rad; NaN if diverged.
         residual_at: when, s.
-        imbalance: largest error of the energy balance, relative to the largest kinetic energy.
+        imbalance: largest error of the energy balance, relative to ``Energy.scale``.
         steps: steps taken.
         evaluations: evaluations of the accelerations.
         seconds: time that the integration took, s.

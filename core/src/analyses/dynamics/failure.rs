@@ -29,6 +29,17 @@ pub enum Reason {
         /// Description.
         message: String,
     },
+    /// The first state does not meet the constraints.
+    Start {
+        /// Its time, s.
+        t: f64,
+        /// The joint or driver that is open.
+        name: String,
+        /// Description, with the gap.
+        message: String,
+        /// Remedy.
+        hint: &'static str,
+    },
     /// An option with an impossible value.
     Option {
         /// Its name.
@@ -67,6 +78,7 @@ impl Failure {
                 );
                 (name(row), message)
             }
+            Breakdown::Passable(row) => return Self::passable(model, t, q, row),
             Breakdown::AtRest(row) => {
                 let message = format!(
                     "singular position at t = {t:.6} s: the mechanism is almost at rest where its motion can \
@@ -89,7 +101,7 @@ impl Failure {
                     "projection fails at t = {t:.6} s: constraint {} stays open by {gap:.1e}",
                     equation(model, row).0
                 );
-                let hint = "use smaller steps or tolerances; a start must meet the constraints";
+                let hint = "use smaller steps or tolerances";
                 return Reason::Integration { t, message, hint }.into();
             }
             Breakdown::Apart { row, gap, most } => {
@@ -108,6 +120,15 @@ impl Failure {
             }
         };
         Reason::Singular { t, name, message }.into()
+    }
+
+    /// A row depends on the others where a run with projection continues.
+    fn passable(model: &Model, t: f64, q: &[f64], row: usize) -> Box<Self> {
+        let mut failure = Self::at_state(model, t, q, Breakdown::Row(row));
+        if let Reason::Singular { message, .. } = &mut failure.reason {
+            message.push_str("; a run with stabilization projection passes this position");
+        }
+        failure
     }
 
     /// The integrator stopped at a time `t` and a state `y`.
@@ -204,6 +225,7 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Singular { message, .. }
+            | Self::Start { message, .. }
             | Self::Option { message, .. }
             | Self::Integration { message, .. } => f.write_str(message),
         }

@@ -48,13 +48,18 @@ impl Options {
                 "absent: the automatic choice of the method controls its steps",
             )?;
         }
-        let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
-        for (name, part, n) in [("q", &start.q, n_q), ("v", &start.v, n_q), ("z", &start.z, n_z)] {
-            let must = format!("as long as the state of the model, {n}");
-            require(name, part.len() as f64, part.len() == n, &must)?;
-        }
-        Ok(())
+        check_lengths(model, start)
     }
+}
+
+/// Checks that a state has the lengths of the model.
+pub(super) fn check_lengths(model: &Model, state: &State) -> Result<(), Box<Failure>> {
+    let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
+    for (name, part, n) in [("q", &state.q, n_q), ("v", &state.v, n_q), ("z", &state.z, n_z)] {
+        let must = format!("as long as the state of the model, {n}");
+        require(name, part.len() as f64, part.len() == n, &must)?;
+    }
+    Ok(())
 }
 
 /// Checks that a number is finite and within the bounds of its kind.

@@ -1,5 +1,6 @@
 //! Options of forward dynamics.
 
+use super::absolute_tolerance;
 use super::methods::Scheme;
 use super::stabilizations::Stabilization;
 use crate::analyses::options::{
@@ -91,11 +92,14 @@ impl Options {
         }
     }
 
-    /// The method with a bound on its steps: its own, that of the run, or [`most_steps`].
+    /// The method with a bound on its steps (its own, that of the run, or [`most_steps`]) and with an absolute tolerance
+    /// for this model.
     pub(super) fn bounded_method(&self, model: &Model) -> Scheme {
         let mut bounded = self.method.clone();
         let most = self.max_steps.unwrap_or_else(|| most_steps(model));
-        bounded.control_mut().max_steps.get_or_insert(most);
+        let control = bounded.control_mut();
+        control.max_steps.get_or_insert(most);
+        control.atol = absolute_tolerance::for_model(model, &control.atol);
         bounded
     }
 
