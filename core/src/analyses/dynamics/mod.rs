@@ -25,6 +25,7 @@ mod energies;
 mod failure;
 mod initial_stiffness;
 mod lane_batch;
+mod law_fault;
 mod method_options;
 mod method_switching;
 mod methods;
