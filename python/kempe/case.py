@@ -18,7 +18,7 @@ from kempe.names import unknown
 from kempe.options import Dynamics
 from kempe.solution import Solution
 from kempe.state import State
-from kempe.values import Number, number, numbers
+from kempe.values import Number, data, number, numbers
 
 FORMATS = {".toml": "toml", ".json": "json"}
 
@@ -123,7 +123,7 @@ class Case:
         start = self._start.tree()
         tree = self.model.tree()
         tree |= {"start": start} if start else {}
-        tree |= {"analyses": self.analyses} if self._entries else {}
+        tree |= {"analyses": data(self._entries)} if self._entries else {}
         return tree
 
     def start(self) -> State:

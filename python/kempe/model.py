@@ -12,7 +12,7 @@ from kempe.bodies import Bar, Body, PointMass
 from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
-from kempe.values import Number, Pair, Points, numbers, pair, points, refuse
+from kempe.values import Number, Pair, Points, data, numbers, pair, points, refuse
 
 #: Version of the case format.
 FORMAT = 1
@@ -212,7 +212,7 @@ class Model(ElementMethods):
     def tree(self) -> dict[str, Any]:
         """A copy of the model as nested mappings with the structure of a case file."""
         kept = {key: value for key, value in self._tree.items() if value not in ({}, "")}
-        return copy.deepcopy(kept)
+        return {key: data(value) for key, value in kept.items()}
 
     def compile(self) -> CompiledModel:
         """The compiled model; it is kept until the model changes.

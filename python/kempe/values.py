@@ -115,6 +115,13 @@ def _items(value: object, path: str, form: str) -> list[tuple[object, object]]:
     return list(value.items())
 
 
+def data(value: Any) -> Any:
+    """A copy as data of a file: mappings and lists."""
+    if isinstance(value, Mapping):
+        return {key: data(entry) for key, entry in value.items()}
+    return [data(entry) for entry in value] if isinstance(value, list | tuple) else value
+
+
 #: The check for each kind of field.
 CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "body": reference,

@@ -111,6 +111,18 @@ impl StepControl {
         Self { first_step: None, ..self.clone() }.begin(span, state, controlled)
     }
 
+    /// The same checks without a system.
+    ///
+    /// # Errors
+    /// An impossible option or time; more steps than allowed.
+    pub fn check_times<E>(&self, t0: f64, t_end: f64) -> Result<(), Cause<E>> {
+        let controlled = match &self.atol {
+            Atol::Scalar(_) => 0,
+            Atol::Each(atol) => atol.len(),
+        };
+        self.begin((t0, t_end), (&[], 0), controlled).map(|_| ())
+    }
+
     fn check<E>(&self, controlled: usize, interval: f64) -> Result<(), Cause<E>> {
         not_negative("rtol", self.rtol)?;
         match &self.atol {

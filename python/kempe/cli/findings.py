@@ -83,5 +83,7 @@ def _show_settling(console: Console, settling: list[dict[str, Any]]) -> None:
             settled = "does not settle"
         else:
             settled = f"{figure(body['time'])} s"
-        rows.append((body["body"], settled, f"{figure(math.degrees(body['angle']))}°"))
+        # adding 0.0 removes the sign of zero
+        angle = math.degrees(body["angle"] if body["moves"] else round(body["angle"], 8) + 0.0)
+        rows.append((body["body"], settled, f"{figure(angle)}°"))
     table(console, ("body", "settled at", "last angle"), rows)

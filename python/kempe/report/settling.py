@@ -10,6 +10,9 @@ from kempe.arrays import Floats
 
 #: Half width of the settling band, relative to the largest deviation from the final value.
 BAND = 0.005
+#: An angle that changes by less, in rad or relative to it, does not turn: this is the size of
+#: errors of integration.
+STILL = 1e-8
 #: A motion has settled only if it stays in the band for this share of the time, at the end.
 QUIET_SHARE = 0.1
 
@@ -36,7 +39,7 @@ def settling(t: Floats, values: Floats) -> Settling:
     """
     deviation = np.abs(values - values[-1])
     peak = float(deviation.max())
-    if peak <= 1e-12 * max(1.0, float(np.abs(values).max())):
+    if peak <= STILL * max(1.0, float(np.abs(values).max())):
         return Settling(moves=False, time=None)
     outside = np.flatnonzero(deviation > BAND * peak)
     entered = float(t[outside[-1] + 1])  # the last value is inside the band

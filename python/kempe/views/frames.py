@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kempe.compiled import ConstraintInfo, ForceInfo
-from kempe.names import one_of
+from kempe.names import UnknownNameError, one_of
 
 #: Global axes; axes of the body given by ``on=``; axes of the joint on this body (Haug 6.6.8).
 FRAMES = ("global", "body", "joint")
@@ -24,4 +24,12 @@ def checked_frame(frame: str, allowed: tuple[str, ...] = FRAMES) -> str:
     Raises:
         ModelError: there is no such frame.
     """
+    if frame in ("local", "ground") and frame not in allowed:
+        # "local" resembles "global", its opposite
+        meant = "body" if frame == "local" else "global"
+        raise UnknownNameError(
+            f"unknown frame {frame!r}",
+            name=frame,
+            hint=f"write {meant!r}; there is {', '.join(allowed)}",
+        )
     return one_of("frame", frame, allowed)
