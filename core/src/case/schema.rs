@@ -212,7 +212,7 @@ fn definitions() -> Value {
         "count": { "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string" }] },
     });
     let kinds = TOLERANCES.iter().map(|kind| (kind.to_string(), reference("number")));
-    let by_kind = object(Value::Object(kinds.collect()), &[]);
+    let by_kind = closed(kinds.collect(), json!({}));
     definitions["tolerance"] = json!({ "anyOf": [reference("number"), by_kind] });
     for family in option_families() {
         definitions[family.name] = options(&family.options);
