@@ -11,7 +11,7 @@ import numpy as np
 from kempe import _core
 from kempe.compiled import CompiledModel
 from kempe.errors import ModelError
-from kempe.model import Model
+from kempe.model import Model, compiled_model
 from kempe.names import one_of
 from kempe.option import Option, core_options
 from kempe.options import Auto, Dynamics, Projection
@@ -114,7 +114,7 @@ def dynamics(
         SingularityError: the motion is not unique in a singular position.
         ModelError: an option is invalid.
     """
-    inherited = start.model.redundancy if isinstance(start, State) else None
+    inherited = start.compiled.redundancy if isinstance(start, State) else None
     compiled = _allowing(compiled_model(model), redundancy or inherited)
     fields = (t_end, output_step, method, stabilization, max_steps)
     wanted = request(fields, dense_output, singularity)
@@ -135,25 +135,22 @@ def _simulate(
     if not isinstance(start, State):
         raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
     _refuse_foreign(model, start)
-    t, text = float(start.t), wanted.text
+    t, text, method = start.t, wanted.text, _method(wanted.entry)
     try:
         at = start.q, start.v, start.z
         run = _core.dynamics(model.core, t, *at, text, progress, wanted.t_end)
     except BaseException as error:  # including interruptions and exceptions of progress
-        partial = getattr(error, "run", None)
+        partial = vars(error).pop("run", None)  # which cannot be pickled with the error
         if partial is not None and len(partial.t):
-            error.solution = Solution(model, partial)  # type: ignore[attr-defined]
+            error.solution = Solution(model, partial, method)  # type: ignore[attr-defined]
         raise
-    return Solution(model, run)
+    return Solution(model, run, method)
 
 
-def compiled_model(model: Model | CompiledModel) -> CompiledModel:
-    """The compiled model."""
-    if isinstance(model, CompiledModel):
-        return model
-    if isinstance(model, Model):
-        return model.compile()
-    raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) creates one")
+def _method(entry: Mapping[str, Any]) -> str:
+    """The type of the method in an entry of ``[analyses]``."""
+    method = entry.get("method", Auto.kind)
+    return str(method["type"] if isinstance(method, Mapping) else method)
 
 
 def _allowing(model: CompiledModel, redundancy: str | None) -> CompiledModel:
@@ -171,9 +168,9 @@ def _time(t: float) -> float:
 
 def _refuse_foreign(model: CompiledModel, state: State) -> None:
     """Refuse a state with other bodies. Other numbers in the model are allowed."""
-    if list(state.model.bodies) != list(model.bodies):
+    if list(state.compiled.bodies) != list(model.bodies):
         raise ModelError(
-            f"the state has the bodies {', '.join(state.model.bodies)}; "
+            f"the state has the bodies {', '.join(state.compiled.bodies)}; "
             f"the model has the bodies {', '.join(model.bodies)}",
             hint="assemble this model",
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -112,6 +113,10 @@ class Case:
         case._entries = dict(tree.get("analyses", {}))
         return case
 
+    def __copy__(self) -> Case:
+        """A case with a model of its own, which can be changed without changing this one."""
+        return copy.deepcopy(self)
+
     @property
     def analyses(self) -> Mapping[str, Mapping[str, Any]]:
         """The analyses by name, as in a file; a copy."""
@@ -159,7 +164,7 @@ class Case:
             start: the assembled mechanism; assembled here when None.
         """
         compiled = self.model.compile()
-        model = CompiledModel(compiled.core, json.dumps(self.tree()))
+        model = CompiledModel(compiled.core, json.dumps(self.tree()), self.model)
         state = start or self.start()
         ends = {"start": state}
         for analysis in json.loads(self._core().analyses()):
@@ -225,10 +230,11 @@ def schema() -> str:
 
 
 def _format(path: Path | str, doing: str) -> str:
-    suffix = Path(path).suffix.lower()
+    where = files.checked_path(path, doing)
+    suffix = where.suffix.lower()
     if suffix in FORMATS:
         return FORMATS[suffix]
-    if Path(path).is_dir():
+    if where.is_dir():
         raise files.trouble(path, doing, IsADirectoryError())
     raise FileError(f"cannot {doing} {path}: the name must end in .toml or .json", name=str(path))
 

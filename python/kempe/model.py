@@ -12,6 +12,8 @@ from kempe.bodies import Bar, Body, PointMass
 from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
+from kempe.errors import ModelError
+from kempe.names import unknown
 from kempe.values import Number, Pair, Points, numbers, pair, points, refuse
 
 #: Version of the case format.
@@ -34,7 +36,8 @@ class Ground:
         self._model._ground_points(points)
 
     def __repr__(self) -> str:
-        return f"ground of {self._model!r}"
+        points = self._model.tree().get("bodies", {}).get("ground", {}).get("points", {})
+        return f"<ground of {self._model.title!r}: points {', '.join(points) or 'none'}>"
 
 
 class Model(ElementMethods):
@@ -195,16 +198,30 @@ class Model(ElementMethods):
         model._source = None if source is None else (source, {})
         return model
 
+    @classmethod
+    def of_compiled(cls, compiled: CompiledModel) -> Model:
+        """The model of a compiled one that was made from a text."""
+        model = cls.from_tree(json.loads(compiled.case))
+        model._compiled = compiled
+        return model
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Everything that the text of the model contains; a copy has a tree of its own."""
+        tree = copy.deepcopy(self._tree)
+        return {**vars(self), "_tree": tree, "_source": None, "_compiled": None}
+
     def with_parameters(self, parameters: Mapping[str, Number]) -> Model:
         """A copy of the model with other values of some parameters.
 
         Raises:
-            ModelError: a value is not a number or a formula. An unknown parameter raises the error
-                when the model is compiled.
+            ModelError: the model has no such parameter, or a value is not a number or a formula.
         """
         changed = numbers(parameters, "parameters")
+        for name in changed:
+            if name not in self._tree["parameters"]:
+                raise unknown("parameter", name, self._tree["parameters"])
         model = Model.from_tree(self._tree)
-        source, overrides = self._source or (_core.Case(self._json(), "json", None), {})
+        source, overrides = self._source or (_core.Case(self.json(), "json", None), {})
         model._source = (source, {**overrides, **changed})
         model._tree["parameters"].update(changed)
         return model
@@ -221,12 +238,13 @@ class Model(ElementMethods):
             ModelError: the model is invalid; ``problems`` lists all problems.
         """
         if self._compiled is None:
-            source, overrides = self._source or (_core.Case(self._json(), "json", None), {})
+            source, overrides = self._source or (_core.Case(self.json(), "json", None), {})
             core = source.model(json.dumps(overrides, allow_nan=False))
-            self._compiled = CompiledModel(core, self._json())
+            self._compiled = CompiledModel(core, self.json(), self)
         return self._compiled
 
-    def _json(self) -> str:
+    def json(self) -> str:
+        """The tree as JSON."""
         return json.dumps(self.tree(), allow_nan=False)
 
     @property
@@ -236,8 +254,13 @@ class Model(ElementMethods):
 
     @property
     def n_q(self) -> int:
-        """Number of coordinates: 3 for each moving body."""
+        """Number of coordinates: those of the moving bodies and the internal ones of joints."""
         return self.compile().n_q
+
+    @property
+    def n_z(self) -> int:
+        """Number of first-order states of force elements."""
+        return self.compile().n_z
 
     @property
     def n_rows(self) -> int:
@@ -274,8 +297,65 @@ class Model(ElementMethods):
         """The force elements with numerical values."""
         return self.compile().forces
 
+    @property
+    def constraints(self) -> Mapping[str, ConstraintInfo]:
+        """Joints and drivers with numerical values, in the order of Φ."""
+        return self.compile().constraints
+
+    @property
+    def all_bodies(self) -> Mapping[str, BodyInfo]:
+        """Ground and the moving bodies with numerical values, in the order of q."""
+        return self.compile().all_bodies
+
+    @property
+    def symbols(self) -> tuple[dict[str, Any], ...]:
+        """The symbols of a drawing of the model; see ``CompiledModel.symbols``."""
+        return self.compile().symbols
+
+    @property
+    def redundancy(self) -> str:
+        """Whether redundant constraints are accepted: "allow" or "refuse"."""
+        return self.compile().redundancy
+
+    def column_names(self) -> list[str]:
+        """Names of the coordinates in the order of q, such as ``crank.angle``."""
+        return self.compile().column_names()
+
+    def rate_names(self) -> list[str]:
+        """Names of the velocities in the order of v, such as ``crank.omega``."""
+        return self.compile().rate_names()
+
+    def state_names(self) -> list[str]:
+        """Names of the first-order states in the order of z, such as ``motor.current``."""
+        return self.compile().state_names()
+
+    def state_units(self) -> list[str]:
+        """Units of the first-order states in the order of z."""
+        return self.compile().state_units()
+
+    def row_names(self) -> list[str]:
+        """Names of the constraint equations in the order of Φ, such as ``A.x``."""
+        return self.compile().row_names()
+
+    def row_units(self) -> list[str]:
+        """Units of the constraint equations in the order of Φ: m or rad."""
+        return self.compile().row_units()
+
     def __repr__(self) -> str:
         moving = {section: dict(self._tree[section]) for section in SECTIONS}
         moving["bodies"].pop("ground", None)
         parts = [f"{section} {', '.join(names)}" for section, names in moving.items() if names]
         return f"<Model {self.title!r}: {'; '.join(parts) or 'empty'}>"
+
+
+def compiled_model(model: Model | CompiledModel) -> CompiledModel:
+    """The compiled model.
+
+    Raises:
+        ModelError: the argument is not a model, or the model is invalid.
+    """
+    if isinstance(model, CompiledModel):
+        return model
+    if isinstance(model, Model):
+        return model.compile()
+    raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) creates one")

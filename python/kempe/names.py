@@ -7,6 +7,9 @@ from difflib import get_close_matches
 
 from kempe.errors import ModelError
 
+#: The largest number of existing names in a message.
+_MOST = 24
+
 
 class UnknownNameError(ModelError, KeyError):
     """The model has no such name. This is also a ``KeyError``, as for any mapping."""
@@ -25,7 +28,8 @@ def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
     if near:
         hint = f"did you mean {near[0]!r}?"
     elif names:
-        hint = f"there is {', '.join(names)}"
+        more = f" and {len(names) - _MOST} more" if len(names) > _MOST else ""
+        hint = f"there is {', '.join(names[:_MOST])}{more}"
     else:
         hint = "there is none"
     text = repr(name) if isinstance(name, str) else f"{name!r} (not a text)"

@@ -17,15 +17,16 @@ from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
 from kempe.dense import DenseOutput
 from kempe.energy import Energy
-from kempe.errors import IntegrationError, ModelError, SingularityError
+from kempe.errors import IntegrationError, KempeError, ModelError, SingularityError
 from kempe.motion import Motion
-from kempe.partial_run import PartialRun
+from kempe.runs import PartialRun, StoredRun
 from kempe.state import State
 
 if TYPE_CHECKING:
     import pandas
 
-    from kempe import _core
+    from kempe.model import Model
+    from kempe.runs import Run
 
 #: Values of ``status``, as in scipy's ``solve_ivp``.
 REACHED, STOPPED = 0, -1
@@ -43,17 +44,21 @@ class Drift:
     position: Floats
     velocity: Floats
 
+    def __repr__(self) -> str:
+        largest = float(self.position.max(initial=0.0)), float(self.velocity.max(initial=0.0))
+        return f"<Drift: position up to {largest[0]:.3g}, velocity up to {largest[1]:.3g}>"
+
 
 class Solution(Motion):
     """The solution of a simulation: arrays with time first, read-only, SI units.
 
     Examples: ``sol["rocker"].angle``, ``sol["C"].force(on="coupler")``,
-    ``sol["spring"].torque(on="rocker")``, and ``sol(0.123)`` between the outputs. The names ``t``,
-    ``nfev``, ``njev``, ``nlu``, ``status``, ``message`` and ``success`` have the meaning they have
-    in scipy.
+    ``sol["rocker.angle"]``, and ``sol(0.123)`` between the outputs. The names ``t``, ``nfev``,
+    ``njev``, ``nlu``, ``status``, ``message`` and ``success`` have the meaning they have in scipy.
 
     Attributes:
-        model: the compiled model.
+        model: the model of the user.
+        compiled: the compiled model at the time of the run.
         t: (n_t,), s.
         q, v: (n_t, n_q), m, rad and per s.
         z: (n_t, n_z): first-order states of force elements; empty for most models.
@@ -61,11 +66,40 @@ class Solution(Motion):
         message: reason for the end of the run.
     """
 
-    def __init__(self, model: CompiledModel, run: _core.Run) -> None:
+    def __init__(self, model: Model | CompiledModel, run: Run, method: str = "unknown") -> None:
         super().__init__(model, run.t, run.q, run.v, run.z)
         self._run = run
+        self._method = method
         self.status = REACHED if run.status == "reached" else STOPPED
         self.message = run.message
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Solution, (self.compiled, self.stored())
+
+    def stored(self) -> StoredRun:
+        """The run with all its results, for a copy or a file."""
+        run = self._run
+        accelerations: tuple[Floats, Floats] | KempeError
+        energy: Floats | KempeError
+        try:
+            accelerations = self._dynamics
+        except KempeError as error:
+            accelerations = error
+        try:
+            energy = self.energy.columns
+        except KempeError as error:
+            energy = error
+        return StoredRun(
+            **{name: getattr(self, name) for name in ("t", "q", "v", "z")},
+            accelerations=accelerations,
+            energy=energy,
+            dense_t=run.dense_t,
+            dense_y=run.dense_y,
+            dense_c=run.dense_c,
+            status=run.status,
+            message=run.message,
+            statistics=json.dumps(dict(self.statistics)),
+        )
 
     @cached_property
     def energy(self) -> Energy:
@@ -82,9 +116,9 @@ class Solution(Motion):
         """Cost of the run.
 
         ``steps``, ``rejected``, ``evaluations``, ``jacobians``, ``iterations`` (Newton),
-        ``factorisations``, ``seconds``; with ``kp.Auto`` also ``method`` and ``why``.
+        ``factorisations``, ``seconds`` and ``method``; with ``kp.Auto`` also ``why``.
         """
-        return MappingProxyType(json.loads(self._run.statistics))
+        return MappingProxyType({"method": self._method, **json.loads(self._run.statistics)})
 
     @cached_property
     def dense(self) -> DenseOutput | None:
@@ -111,10 +145,12 @@ class Solution(Motion):
         try:
             yield
         except (IntegrationError, SingularityError) as error:
+            if getattr(error, "solution", None) is not None:
+                raise
             rows = int(np.count_nonzero(np.cumsum(self.t == error.t) == 0))
             if rows:
                 kept = PartialRun(self._run, rows, str(error))
-                error.solution = Solution(self.model, kept)  # type: ignore[arg-type,union-attr]
+                error.solution = Solution(self.compiled, kept, self._method)  # type: ignore[union-attr]
             raise
 
     @property
@@ -146,12 +182,12 @@ class Solution(Motion):
     @property
     def initial(self) -> State:
         """The state at the first time."""
-        return State(self.model, float(self.t[0]), self.q[0], self.v[0], z=self.z[0])
+        return State(self.compiled, float(self.t[0]), self.q[0], self.v[0], z=self.z[0])
 
     @property
     def final(self) -> State:
         """The state at the last time."""
-        return State(self.model, float(self.t[-1]), self.q[-1], self.v[-1], z=self.z[-1])
+        return State(self.compiled, float(self.t[-1]), self.q[-1], self.v[-1], z=self.z[-1])
 
     def __call__(self, t: float | Floats) -> Motion:
         """The motion at any time within the solution, from the interpolant of the integrator.
@@ -167,10 +203,10 @@ class Solution(Motion):
         at = np.asarray(t, dtype=np.float64)
         if at.ndim > 1:
             raise ModelError(f"t has {at.ndim} dimensions; must be one time or an array of times")
-        q, v, z = self.dense.parts(at, self.model.n_q, self.model.n_z)
+        q, v, z = self.dense.parts(at, self.compiled.n_q, self.compiled.n_z)
         if at.ndim == 0:
-            return State(self.model, float(at), q, v, z=z)
-        return Motion(self.model, at, q, v, z)
+            return State(self.compiled, float(at), q, v, z=z)
+        return Motion(self.compiled, at, q, v, z)
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A pandas data frame with a column for each quantity, such as ``rocker.angle``.
@@ -205,6 +241,7 @@ class Solution(Motion):
         save(self, path)
 
     def __repr__(self) -> str:
-        span = f"t = {self.t[0]:g} … {self.t[-1]:g} s, {len(self.t)} outputs"
+        count = len(self.t)
+        span = f"t = {self.t[0]:g} … {self.t[-1]:g} s, {count} outputs" if count else "no outputs"
         steps = f"{self.statistics['steps']} steps"
-        return f"<Solution of {self.model.title!r}: {span}, {steps}; {self.message}>"
+        return f"<Solution of {self.compiled.title!r}: {span}, {steps}; {self.message}>"

@@ -9,11 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from kempe.arrays import Floats, fixed
+from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
 from kempe.matrices import Matrices, matrices
+from kempe.model import Model
 from kempe.motion import Motion
 from kempe.values import Number
+from kempe.views import BodyView, ConstraintView, ForceView
 
 
 @dataclass(frozen=True)
@@ -105,11 +107,20 @@ def _place(mode: Mode) -> str:
 
 
 class State(Motion):
-    """A mechanism at one time: ``state["crank"].angle``, ``state["C"].residual``.
+    """A mechanism at one time: ``state["crank.angle"]``, ``state["C"].residual``.
+
+    ``kp.State(model, t, q, v)`` makes a state from numbers, ``kp.assemble`` one that closes.
+
+    Args:
+        model: the mechanism.
+        t: time, s.
+        q: (n_q,), in the order of ``model.column_names()``.
+        v: (n_q,), in the order of ``model.rate_names()``.
+        report: report of the assembly.
+        z: (n_z,), in the order of ``model.state_names()``; zeros by default.
 
     Attributes:
-        model: the compiled model.
-        t: time, s.
+        t: time, s; a float.
         q: (n_q,): x, y, angle of each moving body, m and rad, then the internal coordinates of
             joints; read-only.
         v: (n_q,): their rates, per s; read-only.
@@ -117,9 +128,11 @@ class State(Motion):
         report: report of the assembly; None if the state is not the result of an assembly.
     """
 
+    t: float  # type: ignore[assignment]
+
     def __init__(
         self,
-        model: CompiledModel,
+        model: Model | CompiledModel,
         t: float,
         q: Floats,
         v: Floats,
@@ -127,8 +140,52 @@ class State(Motion):
         *,
         z: Floats | None = None,
     ) -> None:
-        super().__init__(model, fixed(t), q, v, z)
+        super().__init__(model, t, q, v, z)
+        self.t = float(self.t)
         self.report = report
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.compiled, self.t, self.q, self.v, self.report, self.z)
+
+    def body(self, name: str) -> BodyView[float]:  # type: ignore[override]
+        """A body by name, including ground.
+
+        Raises:
+            ModelError: there is no such body; the error is also a ``KeyError``.
+        """
+        return super().body(name)  # type: ignore[return-value]
+
+    def constraint(self, name: str) -> ConstraintView[float]:  # type: ignore[override]
+        """A joint or driver by name.
+
+        Raises:
+            ModelError: there is no such joint or driver; the error is also a ``KeyError``.
+        """
+        return super().constraint(name)  # type: ignore[return-value]
+
+    def joint(self, name: str) -> ConstraintView[float]:  # type: ignore[override]
+        """A joint by name.
+
+        Raises:
+            ModelError: there is no such joint; the error is also a ``KeyError``.
+        """
+        return super().joint(name)  # type: ignore[return-value]
+
+    def driver(self, name: str) -> ConstraintView[float]:  # type: ignore[override]
+        """A driver by name.
+
+        Raises:
+            ModelError: there is no such driver; the error is also a ``KeyError``.
+        """
+        return super().driver(name)  # type: ignore[return-value]
+
+    def force(self, name: str) -> ForceView[float]:  # type: ignore[override]
+        """A force element by name.
+
+        Raises:
+            ModelError: there is no such force element; the error is also a ``KeyError``.
+        """
+        return super().force(name)  # type: ignore[return-value]
 
     def matrices(self, set: Mapping[str, Number] | None = None) -> Matrices:  # noqa: A002
         """The matrices of the equations of motion in this state.
@@ -143,26 +200,26 @@ class State(Motion):
 
         For example ``{"crank.x": …, "crank.omega": …, "motor.current": …}``.
         """
-        model = self.model
+        model = self.compiled
         names = [*model.column_names(), *model.rate_names(), *model.state_names()]
         values = [*self.q.tolist(), *self.v.tolist(), *self.z.tolist()]
         return dict(zip(names, values, strict=True))
 
     def _further(self) -> Iterator[tuple[str, float, str]]:
         """Names, values and units of internal coordinates and first-order states."""
-        own = [c for c in self.model.constraints.values() if c.coordinates]
+        own = [c for c in self.compiled.constraints.values() if c.coordinates]
         for info in own:
             values = self.q[info.columns].tolist()
             for (name, unit), value in zip(info.coordinates, values, strict=True):
                 yield f"{info.name}.{name}", value, unit
-        names, units = self.model.state_names(), self.model.state_units()
+        names, units = self.compiled.state_names(), self.compiled.state_units()
         yield from zip(names, self.z.tolist(), units, strict=True)
 
     def __str__(self) -> str:
-        width = max((len(name) for name in self.model.bodies), default=4)
+        width = max((len(name) for name in self.compiled.bodies), default=4)
         units = ("x / m", "y / m", "angle / °", "vx / m/s", "vy / m/s", "omega / rad/s")
         lines = [" " * width + "".join(f"{unit:>15}" for unit in units)]
-        for name in self.model.bodies:
+        for name in self.compiled.bodies:
             body = self.body(name)
             numbers = [body.x, body.y, np.degrees(body.angle), body.vx, body.vy, body.omega]
             absent = () if body.info.turns else (2, 5)
@@ -173,7 +230,19 @@ class State(Motion):
             lines.append(f"{name:<{width}}{row}".rstrip())
         lines += [f"{name} = {value:.6g} {unit}" for name, value, unit in self._further()]
         report = [] if self.report is None else [str(self.report)]
-        return "\n".join([f"t = {float(self.t):g} s", *lines, *report])
+        return "\n".join([f"t = {self.t:g} s", *lines, *report])
 
     def __repr__(self) -> str:
-        return f"<State of {self.model.title!r} at t = {float(self.t):g} s>\n{self}"
+        bodies = ", ".join(self.compiled.bodies)
+        return f"<State of {self.compiled.title!r} at t = {self.t:g} s: {bodies}>"
+
+
+def _restored(  # noqa: PLR0917 - a pickle passes positional arguments
+    model: CompiledModel,
+    t: float,
+    q: Floats,
+    v: Floats,
+    report: AssemblyReport | None,
+    z: Floats,
+) -> State:
+    return State(model, t, q, v, report, z=z)

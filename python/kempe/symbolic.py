@@ -99,7 +99,7 @@ def equations(model: Model | CompiledModel) -> list[Equations]:
     Args:
         model: the mechanism.
     """
-    from kempe.analyses import compiled_model
+    from kempe.model import compiled_model
 
     compiled = compiled_model(model)
     tree = json.loads(compiled.case)

@@ -121,7 +121,7 @@ def show(
     if what in ("a", "lam"):
         if assembly:
             raise ModelError(f"{what} is not of the assembly", hint="leave assembly out")
-        rows = state.model.column_names() if what == "a" else state.model.row_names()
+        rows = state.compiled.column_names() if what == "a" else state.compiled.row_names()
         return Labelled(what, getattr(state, what), tuple(rows), ())
     return _of(state.matrices(assembly), what)
 
@@ -140,5 +140,5 @@ def _of(found: Matrices, what: str) -> Labelled:
 
 
 def _refuse_foreign(model: Model | CompiledModel, state: State) -> None:
-    if list(model.bodies) != list(state.model.bodies):
+    if list(model.bodies) != list(state.compiled.bodies):
         raise ModelError("the state is of another model", hint="assemble this model")

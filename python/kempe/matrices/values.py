@@ -57,10 +57,10 @@ class Matrices:
 def matrices(state: State, held: Mapping[str, Number]) -> Matrices:
     """The matrices at a state, with rows for the coordinates held as in an assembly."""
     text = json.dumps(numbers(held, "set"), allow_nan=False)
-    found = _core.matrices(state.model.core, float(state.t), state.q, state.v, state.z, text)
+    found = _core.matrices(state.compiled.core, float(state.t), state.q, state.v, state.z, text)
     names = ("M", "Phi", "Phi_q", "nu", "gamma", "Q", "kkt")
     arrays = {name: fixed(found[name]) for name in names}
-    rows = state.model.row_names()
+    rows = state.compiled.row_names()
     extra = [f"set.{name}" for name in held]
     labels = (*rows, *extra)[: len(arrays["Phi"])]
-    return Matrices(**arrays, rows=labels, columns=tuple(state.model.column_names()))
+    return Matrices(**arrays, rows=labels, columns=tuple(state.compiled.column_names()))

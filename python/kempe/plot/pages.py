@@ -34,7 +34,7 @@ def pages(solution: Solution, index_base: int = 1, most: int | None = None) -> l
 
 
 def _families(solution: Solution, index_base: int, most: int | None) -> Iterator[list[Page]]:
-    model, cut = solution.model, transient(solution)
+    model, cut = solution.compiled, transient(solution)
     yield [drawing_pages.of_mechanism(solution)]
     yield [drawing_pages.of_configuration("initial", solution.initial, index_base)]
     yield [drawing_pages.of_configuration("final", solution.final, index_base)]

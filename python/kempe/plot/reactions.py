@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from kempe.motion import Motion
+    from kempe.views.frames import Frame
 
 #: How a component is written in each frame: x″ is along the joint's axis, x′ along the body's.
 _PRIMES = {"global": "", "body": "′", "joint": "″"}
@@ -24,7 +25,7 @@ def reactions(
     joint: str,
     *,
     on: str | None = None,
-    frame: str = "global",
+    frame: Frame = "global",
     quantity: str = "force",
     ax: Axes | None = None,
     cut: float | None = None,
@@ -75,10 +76,10 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
     curves = []
-    for name, info in motion.model.constraints.items():
+    for name, info in motion.compiled.constraints.items():
         force = motion.constraint(name).force(on=info.j)
         magnitude = np.hypot(force[..., 0], force[..., 1])
-        if name in motion.model.joints or magnitude.any():
+        if name in motion.compiled.joints or magnitude.any():
             curves.append(Curve(style.short(name), magnitude))
     with style.on(ax) as axes:
         draw(axes, motion.t, curves, Panel("|F|", "N", "Reactions", cut))

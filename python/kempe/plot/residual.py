@@ -28,7 +28,7 @@ def residual(solution: Solution, *, ax: Axes | None = None, cut: float | None = 
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
     drift = solution.drift
-    units = list(dict.fromkeys(solution.model.row_units())) or ["m"]
+    units = list(dict.fromkeys(solution.compiled.row_units())) or ["m"]
     curves = [
         Curve("position, max |Φ|", drift.position),
         Curve("velocity, max |dΦ/dt|", drift.velocity),

@@ -21,7 +21,7 @@ def summary(solution: Solution) -> dict[str, Any]:
     """
     return {
         "kempe": __version__,
-        "title": solution.model.title,
+        "title": solution.compiled.title,
         "success": solution.success,
         "message": solution.message,
         "time": {
@@ -33,20 +33,20 @@ def summary(solution: Solution) -> dict[str, Any]:
         "start": solution.initial.coordinates(),
         "end": solution.final.coordinates(),
         "peaks": {
-            "reactions": [reaction(solution, name) for name in solution.model.constraints],
-            "forces": [force(solution, name) for name in solution.model.forces],
+            "reactions": [reaction(solution, name) for name in solution.compiled.constraints],
+            "forces": [force(solution, name) for name in solution.compiled.forces],
             "residual": residual(solution),
             "residual_rate": float(solution.drift.velocity.max(initial=0.0)),
         },
         "energy": energy(solution),
-        "settling": [settling_of(solution, name) for name in solution.model.bodies],
+        "settling": [settling_of(solution, name) for name in solution.compiled.bodies],
         "statistics": dict(solution.statistics),
     }
 
 
 def mechanism(solution: Solution) -> dict[str, Any]:
     """Elements of the mechanism, and its degrees of freedom at the start."""
-    model = solution.model
+    model = solution.compiled
     return {
         "bodies": list(model.bodies),
         "joints": list(model.joints),
@@ -94,14 +94,14 @@ def force(solution: Solution, name: str) -> dict[str, Any]:
 
 def residual(solution: Solution) -> dict[str, Any] | None:
     """Largest constraint violation with its equation and time; None without constraints."""
-    if not solution.model.n_rows:
+    if not solution.compiled.n_rows:
         return None
     opening = np.abs(solution.residuals[0])
     k, row = np.unravel_index(int(opening.argmax()), opening.shape)
     return {
         "value": float(opening[k, row]),
-        "equation": solution.model.row_names()[row],
-        "unit": solution.model.row_units()[row],
+        "equation": solution.compiled.row_names()[row],
+        "unit": solution.compiled.row_units()[row],
         "at": float(solution.t[k]),
     }
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Literal, TypeAlias
+
 from kempe.compiled import ConstraintInfo, ForceInfo
 from kempe.names import one_of
 
+Frame: TypeAlias = Literal["global", "body", "joint"]
 #: Global axes; axes of the body given by ``on=``; axes of the joint on this body (Haug 6.6.8).
 FRAMES = ("global", "body", "joint")
 
