@@ -20,6 +20,7 @@ from kempe import _core, files
 from kempe._version import __version__
 from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
+from kempe.dense import WORKS
 from kempe.errors import FileError, KempeError
 from kempe.runs import StoredRun
 from kempe.solution import REACHED, Solution
@@ -29,8 +30,6 @@ KIND = "kempe solution"
 LAYOUT = 1
 #: The largest JSON text, bytes: a case has at most 16 MiB, and NumPy takes 4 bytes for a letter.
 _LARGEST_TEXT = 16 * files.LARGEST_TEXT
-#: Integrals that the interpolant contains behind q, v and z.
-_WORKS = 3
 _HIGHEST_DEGREE = 32
 #: Accelerations of a file agree with its model to this share of the largest.
 _AGREEMENT = 1e-6
@@ -178,7 +177,7 @@ def _shapes(stored: zipfile.ZipFile, model: CompiledModel) -> dict[str, _Shape]:
     if "z.npy" in present or model.n_z:
         shapes["z"] = ("n", model.n_z)
     if present & {f"{name}.npy" for name in _DENSE}:
-        n_y = 2 * model.n_q + model.n_z + _WORKS
+        n_y = 2 * model.n_q + model.n_z + WORKS
         shapes |= {"dense_t": ("k + 1",), "dense_y": ("k", n_y), "dense_c": ("k", n_y, "degree")}
     return shapes
 
@@ -197,7 +196,7 @@ def _check_header(
     must = tuple(sizes.get(size, -1) if isinstance(size, str) else size for size in shape)
     if found != must:
         told = tuple(sizes.get(size, size) if isinstance(size, str) else size for size in shape)
-        _refuse(f"{name} is {found}, must be {told}")
+        _refuse(f"{name} is {found}, must be {told}".replace("'", ""))
 
 
 def _floats(stored: zipfile.ZipFile, name: str) -> Floats:

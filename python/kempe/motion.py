@@ -41,26 +41,16 @@ class Motion:
         v: Floats,
         z: Floats | None = None,
     ) -> None:
-        self.compiled = compiled_model(model)
+        self.compiled = compiled = compiled_model(model)
+        if compiled is not model:  # arrays of a user
+            shape = np.shape(t)
+            t = _checked("t", t, shape)
+            q, v = (_checked(*pair, (*shape, compiled.n_q)) for pair in (("q", q), ("v", v)))
+            z = None if z is None else _checked("z", z, (*shape, compiled.n_z))
         self.t = fixed(t)
         self.q = fixed(q)
         self.v = fixed(v)
-        self.z = fixed(np.zeros((*self.t.shape, self.compiled.n_z)) if z is None else z)
-        if not isinstance(model, CompiledModel):
-            self._check()
-
-    def _check(self) -> None:
-        """Refuse arrays of a user that do not fit the model."""
-        compiled = self.compiled
-        for name, count in (("q", compiled.n_q), ("v", compiled.n_q), ("z", compiled.n_z)):
-            found, shape = getattr(self, name), (*np.shape(self.t), count)
-            if found.shape != shape:
-                hint = "model.column_names() gives the order of q"
-                raise ModelError(f"{name} has shape {found.shape}; must be {shape}", hint=hint)
-            if not np.isfinite(found).all():
-                raise ModelError(f"{name} contains a number that is not finite")
-        if not np.isfinite(self.t).all():
-            raise ModelError("t is not finite")
+        self.z = fixed(np.zeros((*self.t.shape, compiled.n_z)) if z is None else z)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Motion, (self.compiled, np.array(self.t), self.q, self.v, self.z)
@@ -203,3 +193,17 @@ class Motion:
     def __repr__(self) -> str:
         span = f"{len(self.t)} times from {self.t[0]:g} to {self.t[-1]:g} s" if len(self.t) else ""
         return f"<Motion of {self.compiled.title!r}: {span or 'no times'}>"
+
+
+def _checked(name: str, values: object, shape: tuple[int, ...]) -> Floats:
+    """Finite numbers of the given shape."""
+    try:
+        found = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ModelError(f"{name} must be numbers: {error}") from error
+    if found.shape != shape:
+        hint = "model.column_names() gives the order of q"
+        raise ModelError(f"{name} has shape {found.shape}; must be {shape}", hint=hint)
+    if not np.isfinite(found).all():
+        raise ModelError(f"{name} contains a number that is not finite")
+    return found

@@ -24,9 +24,9 @@ def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
         known: the existing names, in the order of the message.
     """
     names = list(known)
-    near = get_close_matches(str(name), names, n=1)
-    if near:
-        hint = f"did you mean {near[0]!r}?"
+    near = _nearest(str(name), names)
+    if near is not None:
+        hint = f"did you mean {near!r}?"
     elif names:
         more = f" and {len(names) - _MOST} more" if len(names) > _MOST else ""
         hint = f"there is {', '.join(names[:_MOST])}{more}"
@@ -34,6 +34,13 @@ def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
         hint = "there is none"
     text = repr(name) if isinstance(name, str) else f"{name!r} (not a text)"
     return UnknownNameError(f"unknown {what} {text}", name=str(name), hint=hint)
+
+
+def _nearest(name: str, names: list[str]) -> str | None:
+    """The most similar name; capital letters count little."""
+    same = [known for known in names if known.casefold() == name.casefold()]
+    near = same or get_close_matches(name, names, n=1)
+    return near[0] if near else None
 
 
 def one_of(what: str, value: str, known: Iterable[str]) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 
 from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
-from kempe.dense import DenseOutput
+from kempe.dense import WORKS, DenseOutput
 from kempe.energy import Energy
 from kempe.errors import IntegrationError, KempeError, ModelError, SingularityError
 from kempe.motion import Motion
@@ -129,7 +129,7 @@ class Solution(Motion):
         if not len(self.t):  # the run failed before the first output
             return None
         if not len(run.dense_y):
-            y = np.concatenate([self.q[0], self.v[0], self.z[0]])
+            y = np.concatenate([self.q[0], self.v[0], self.z[0], np.zeros(WORKS)])
             return DenseOutput.of_an_instant(self.t[0], y)
         return DenseOutput(fixed(run.dense_t), fixed(run.dense_y), fixed(run.dense_c))
 

@@ -38,7 +38,9 @@ def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int)
     if frames is not None and frames < 1:
         raise ModelError(f"frames={frames}: must be 1 or more")
     if isinstance(drawn, State):
-        return Motion(drawn.compiled, np.array([drawn.t]), drawn.q[None], drawn.v[None], drawn.z[None])
+        return Motion(
+            drawn.compiled, np.array([drawn.t]), drawn.q[None], drawn.v[None], drawn.z[None]
+        )
     begin, end = sorted((float(drawn.t[0]), float(drawn.t[-1])))
     count = frames or _count(end - begin, numbers_per_frame)
     if drawn.dense is None:
