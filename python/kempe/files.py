@@ -86,6 +86,15 @@ def read_text(path: Path | str) -> str:
         ) from error
 
 
+def csv_cell(text: str) -> str:
+    """A text as a field of a CSV file (RFC 4180) that no spreadsheet takes for a formula.
+
+    A text that begins with = + - @ or a control character gets an apostrophe before it.
+    """
+    safe = f"'{text}" if text[:1] in {*"=+-@\t\r\n"} else text
+    return '"' + safe.replace('"', '""') + '"' if set(safe) & set(',"\r\n') else safe
+
+
 @contextmanager
 def writing(path: Path | str) -> Iterator[BinaryIO]:
     """A binary file that appears at ``path`` when the block ends well, and not otherwise.

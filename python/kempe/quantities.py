@@ -18,6 +18,7 @@ from kempe.arrays import Floats, scalar
 from kempe.compiled import ACCELERATIONS, COORDINATES, RATES, BodyInfo, ConstraintInfo, ForceInfo
 from kempe.names import unknown
 from kempe.relative import Line, Slide, turning
+from kempe.views.frames import FRAMES
 
 if TYPE_CHECKING:
     from kempe.motion import Motion
@@ -26,7 +27,7 @@ UNITS = (("m", "m", "rad"), ("m/s", "m/s", "rad/s"), ("m/s^2", "m/s^2", "rad/s^2
 _LINE = (("length", "m"), ("rate", "m/s"), ("acceleration", "m/s^2"))
 _SLIDE = (("displacement", "m"), ("rate", "m/s"), ("acceleration", "m/s^2"))
 _TURN = (("angle", "rad"), ("omega", "rad/s"), ("alpha", "rad/s^2"))
-_ENERGIES = ("kinetic", "potential", "dissipated", "work", "total")
+ENERGIES = ("kinetic", "potential", "dissipated", "work", "total")
 #: A multiplier times its residual is an energy, so its unit is J per unit of the residual.
 _MULTIPLIER_UNITS = {"m": "N", "rad": "N*m"}
 
@@ -125,6 +126,8 @@ def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
     found = _free(motion, info) if info.group == "joints" else _driving(motion, info)
     found |= _acting(partial(view.force, on=info.j), partial(view.torque, on=info.j))
     found["force"] = Quantity("N", lambda: _size(view.force(on=info.j)))
+    for body in dict.fromkeys(info.bodies):
+        found |= _reaction(motion, info.name, body)
     for k, (name, unit) in enumerate(info.coordinates, info.columns.start):
         found[name] = Quantity(unit, partial(_column, partial(getattr, motion, "q"), k))
         rate = partial(_column, partial(getattr, motion, "v"), k)
@@ -134,6 +137,31 @@ def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
         multiplier = partial(_column, partial(getattr, view, "lam"), k)
         found[f"lambda_{name}"] = Quantity(of, multiplier)
     return found
+
+
+def reaction_name(joint: str, kind: str, body: str, frame: str) -> str:
+    """Name of a component of a reaction, such as ``C.fx_on_coupler`` or ``C.joint_fx_on_coupler``.
+
+    Args:
+        joint: the joint or driver.
+        kind: "fx", "fy" or "torque".
+        body: the body on which it acts.
+        frame: "global", "body" or "joint".
+    """
+    return f"{joint}.{'' if frame == FRAMES[0] else f'{frame}_'}{kind}_on_{body}"
+
+
+def _reaction(motion: Motion, joint: str, body: str) -> dict[str, Quantity]:
+    """The reaction of a joint on one of its bodies, in each frame."""
+    view = motion.constraint(joint)
+    found = {}
+    for frame in FRAMES:
+        force = partial(view.force, on=body, frame=frame)
+        for k, kind in enumerate(("fx", "fy")):
+            name = reaction_name("", kind, body, frame)[1:]
+            found[name] = Quantity("N", partial(_column, force, k))
+    torque = reaction_name("", "torque", body, FRAMES[0])[1:]
+    return {**found, torque: Quantity("N*m", partial(view.torque, on=body))}
 
 
 def _free(motion: Motion, info: ConstraintInfo) -> dict[str, Quantity]:
@@ -233,7 +261,7 @@ def _size(vectors: Floats) -> Any:
 def _of_run(motion: Motion, owner: str) -> Family | None:
     """Energies, which only a solution has, and drift."""
     if owner == "energy" and hasattr(type(motion), "energy"):
-        return {name: Quantity("J", partial(_energy, motion, name)) for name in _ENERGIES}
+        return {name: Quantity("J", partial(_energy, motion, name)) for name in ENERGIES}
     if owner == "drift":
         return {
             "position": Quantity("m or rad", lambda: _largest(motion.residuals[0])),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from kempe.model import Model
     from kempe.runs import Run
+    from kempe.views.frames import Frame
 
 #: Values of ``status``, as in scipy's ``solve_ivp``.
 REACHED, STOPPED = 0, -1
@@ -208,27 +209,49 @@ class Solution(Motion):
             return State(self.compiled, float(at), q, v, z=z)
         return Motion(self.compiled, at, q, v, z)
 
-    def to_dataframe(self) -> pandas.DataFrame:
+    def to_dataframe(
+        self, *, frames: Sequence[Frame] = ("global",), points: Sequence[str] | bool = ()
+    ) -> pandas.DataFrame:
         """A pandas data frame with a column for each quantity, such as ``rocker.angle``.
 
-        Units are in ``attrs["units"]``.
+        Units are those chosen by ``kp.units``; they are in ``attrs["units"]``.
+
+        Args:
+            frames: frames of the reactions, as in ``to_csv``.
+            points: points whose paths are columns, as in ``to_csv``.
 
         Raises:
-            ModelError: pandas is not installed.
+            ModelError: pandas is not installed, or there is no such frame or point.
         """
-        from kempe.table import dataframe
+        from kempe.table import Extent, dataframe
 
-        return dataframe(self)
+        return dataframe(self, Extent(frames, points))
 
-    def to_csv(self, path: Path | str) -> None:
+    def to_csv(
+        self,
+        path: Path | str,
+        *,
+        frames: Sequence[Frame] = ("global",),
+        points: Sequence[str] | bool = (),
+    ) -> None:
         """Write all quantities as CSV, one line per time, with units in the header.
+
+        Units are those chosen by ``kp.units``. The name of each column is valid in ``sol[name]``.
+
+        Args:
+            path: the file.
+            frames: frames in which reactions on each moving body are written: "global", "body",
+                "joint"; none to leave them out.
+            points: points whose paths are written, such as ``["coupler.P"]``; True for all named
+                points of moving bodies.
 
         Raises:
             FileError: the file cannot be written; an existing file is not changed.
+            ModelError: there is no such frame or point.
         """
-        from kempe.table import write_csv
+        from kempe.table import Extent, write_csv
 
-        write_csv(self, path)
+        write_csv(self, path, Extent(frames, points))
 
     def save(self, path: Path | str) -> None:
         """Write the solution and its case to a file of NumPy arrays (``.npz``).

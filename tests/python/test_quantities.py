@@ -1,6 +1,7 @@
 """Quantities by name agree with hand-derived values and with differences of the interpolant."""
 
 import math
+from itertools import pairwise
 
 import kempe as kp
 import numpy as np
@@ -53,7 +54,7 @@ TRIPLES = [
 def test_rates_and_accelerations_are_derivatives(rig: kp.Solution, names: tuple[str, ...]) -> None:
     owner, *family = names
     t, h = np.linspace(0.1, 0.9, 17), 1e-4
-    for value, rate in zip(family, family[1:], strict=False):
+    for value, rate in pairwise(family):
         after, before = rig(t + h)[f"{owner}.{value}"], rig(t - h)[f"{owner}.{value}"]
         found = rig(t)[f"{owner}.{rate}"]
         np.testing.assert_allclose(found, (after - before) / (2 * h), atol=1e-5, rtol=1e-6)
