@@ -14,11 +14,13 @@ from kempe.analyses import Coordinates, Progress, assemble, simulate
 from kempe.compiled import CompiledModel
 from kempe.errors import FileError, ModelError
 from kempe.model import Model
-from kempe.names import unknown
+from kempe.names import entry as named
+from kempe.names import one_of, unknown
+from kempe.option import Option
 from kempe.options import Dynamics
 from kempe.solution import Solution
 from kempe.state import State
-from kempe.values import Number, number, numbers
+from kempe.values import Number, listed, mapping, numbers, plain, reference
 
 FORMATS = {".toml": "toml", ".json": "json"}
 
@@ -60,9 +62,7 @@ class Results(Mapping[str, Solution]):
         """
         if isinstance(key, int):
             return list(self._solutions.values())[key]
-        if key not in self._solutions:
-            raise unknown("analysis", key, self._solutions)
-        return self._solutions[key]
+        return named("analysis", key, self._solutions)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._solutions)
@@ -180,12 +180,12 @@ class Case:
         Raises:
             ModelError: there is no analysis of that name, or a field is not what it must be.
         """
-        if name not in self._entries:
-            raise unknown("analysis", name, self._entries)
+        one_of("analysis", name, self._entries)
+        given: dict[str, Any] = {}
         for key, value in changes.items():
-            if isinstance(value, float):
-                number(value, f"analyses.{name}.{key}")
-        entries = {**self._entries, name: {**self._entries[name], **changes}}
+            path = f"analyses.{name}.{key}"
+            given[key] = value.tree(path) if isinstance(value, Option) else plain(value, path)
+        entries = {**self._entries, name: {**self._entries[name], **given}}
         return Case(self.model, self._start, entries)
 
     def save(self, path: Path | str) -> None:
@@ -218,8 +218,9 @@ def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) ->
     form = _format(path, "read")
     core = _core.Case(files.read_text(path), form, str(path))
     case = Case._loaded(core)
-    if parameters:
-        case.model = case.model.with_parameters(parameters)
+    given = numbers(parameters, "parameters")
+    if given:
+        case.model = case.model.with_parameters(given)
     core.check(case.model.compile().core)
     return case
 
@@ -242,7 +243,7 @@ def _format(path: Path | str, doing: str) -> str:
 def _start(start: Start | Mapping[str, Coordinates] | None) -> Start:
     if isinstance(start, Start):
         return start
-    given = dict(start or {})
+    given = mapping(start, "start", "{'set': {…}, 'guess': {…}}")
     for key in given:
         if key not in ("set", "guess"):
             raise unknown("key of start", key, ["set", "guess"])
@@ -261,10 +262,15 @@ def _flat(coordinates: Mapping[str, Any]) -> dict[str, Any]:
 def _entries(
     analyses: Sequence[Dynamics] | Mapping[str, Mapping[str, Any]],
 ) -> dict[str, dict[str, Any]]:
+    form = "{'type': 'dynamics', 't_end': 1}"
     if isinstance(analyses, Mapping):
-        return {name: dict(entry) for name, entry in analyses.items()}
+        found = {}
+        for name, entry in analyses.items():
+            path = f"analyses.{reference(name, 'name of an analysis')}"
+            found[name] = plain(mapping(entry, path, form), path)
+        return found
     entries: dict[str, dict[str, Any]] = {}
-    for analysis in analyses:
+    for analysis in listed(analyses, "analyses"):
         if not isinstance(analysis, Dynamics):
             raise ModelError(f"{analysis!r} is not an analysis", hint="kp.Dynamics(…) makes one")
         if analysis.name in entries:

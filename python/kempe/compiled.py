@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from kempe import _core
-from kempe.names import unknown
+from kempe.names import entry
 
 if TYPE_CHECKING:
     from kempe.model import Model
@@ -271,9 +271,7 @@ class CompiledModel:
         Raises:
             ModelError: there is no such body.
         """
-        if name not in self.all_bodies:
-            raise unknown("body", name, self.all_bodies)
-        return self.all_bodies[name]
+        return entry("body", name, self.all_bodies)
 
     def column_names(self) -> list[str]:
         """Names of the coordinates in the order of q, such as ``crank.angle``.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import json
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 from kempe import _core
 from kempe.bodies import Bar, Body, PointMass
@@ -14,10 +14,12 @@ from kempe.element import Element
 from kempe.elements import E, ElementMethods
 from kempe.errors import ModelError
 from kempe.names import unknown
-from kempe.values import Number, Pair, Points, numbers, pair, points, refuse
+from kempe.values import Number, Pair, Points, mapping, numbers, pair, points, refuse
 
 #: Version of the case format.
 FORMAT = 1
+#: Whether redundant constraints are accepted.
+Redundancy: TypeAlias = Literal["refuse", "allow"]
 SECTIONS = ("bodies", "joints", "drivers", "forces")
 
 
@@ -71,18 +73,20 @@ class Model(ElementMethods):
         *,
         gravity: Pair = (0.0, 0.0),
         parameters: Mapping[str, Number] | None = None,
-        redundancy: str | None = None,
+        redundancy: Redundancy | None = None,
     ) -> None:
         if not isinstance(title, str):
             refuse("title", f"{title!r} is not a text")
-        if redundancy not in (None, "refuse", "allow"):
+        if redundancy is not None and not (
+            isinstance(redundancy, str) and redundancy in ("refuse", "allow")
+        ):
             refuse("redundancy", f"{redundancy!r} is neither 'refuse' nor 'allow'")
         self._tree: dict[str, Any] = {
             "kempe": FORMAT,
             "title": title,
             "gravity": pair(gravity, "gravity"),
             **({"redundancy": redundancy} if redundancy else {}),
-            "parameters": numbers(parameters or {}, "parameters"),
+            "parameters": numbers(parameters, "parameters"),
             **{section: {} for section in SECTIONS},
         }
         self._source: tuple[_core.Case, dict[str, float | str]] | None = None
@@ -193,6 +197,7 @@ class Model(ElementMethods):
             source: the case in the core with the same tree; its errors contain line numbers.
         """
         model = cls()
+        tree = mapping(tree, "tree", "{'bodies': {…}}")
         kept = {key: tree[key] for key in model._tree if key in tree}
         model._tree.update(copy.deepcopy(kept))
         model._source = None if source is None else (source, {})

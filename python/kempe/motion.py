@@ -12,7 +12,7 @@ from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel, ConstraintInfo
 from kempe.errors import ModelError
 from kempe.model import Model, compiled_model
-from kempe.names import unknown
+from kempe.names import entry, unknown
 from kempe.views import BodyView, ConstraintView, ForceView
 
 
@@ -144,12 +144,8 @@ class Motion:
         return ConstraintView(self, self._named("driver", name, "drivers"))
 
     def _named(self, what: str, name: str, group: str = "") -> ConstraintInfo:
-        known = self.compiled.constraints
-        info = known.get(name)
-        if info is None or (group and info.group != group):
-            alike = [n for n, c in known.items() if not group or c.group == group]
-            raise unknown(what, name, alike)
-        return info
+        known = self.compiled.constraints.items()
+        return entry(what, name, {n: c for n, c in known if group in ("", c.group)})
 
     def force(self, name: str) -> ForceView[Floats]:
         """A force element by name.
@@ -157,9 +153,7 @@ class Motion:
         Raises:
             ModelError: there is no such force element; the error is also a ``KeyError``.
         """
-        if name not in self.compiled.forces:
-            raise unknown("force", name, self.compiled.forces)
-        return ForceView(self, self.compiled.forces[name])
+        return ForceView(self, entry("force", name, self.compiled.forces))
 
     # The type of the result depends on the name, which a type checker cannot follow. Checked code
     # uses the methods above.
@@ -173,18 +167,21 @@ class Motion:
             ModelError: the name is unknown; the error is also a ``KeyError``.
         """
         compiled = self.compiled
+        if not isinstance(name, str):
+            raise unknown("body, joint, driver or force", name, compiled.names())
         if name in compiled.all_bodies:
             return self.body(name)
         if name in compiled.constraints:
             return self.constraint(name)
         if name in compiled.forces:
             return self.force(name)
-        if isinstance(name, str) and "." in name:
+        if "." in name:
             return quantities.named(self, name).read()
         raise unknown("body, joint, driver or force", name, compiled.names())
 
     def __contains__(self, name: object) -> bool:
-        return name in set(self.compiled.names()) or name in set(quantities.names(self))
+        names = (*self.compiled.names(), *quantities.names(self))
+        return isinstance(name, str) and name in names
 
     def _ipython_key_completions_(self) -> list[str]:
         """Names for completion in ``motion["…"]``."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
+from typing import TypeVar
 
 from kempe.errors import ModelError
+
+T = TypeVar("T")
 
 #: The largest number of existing names in a message.
 _MOST = 24
@@ -43,6 +46,17 @@ def _nearest(name: str, names: list[str]) -> str | None:
     return near[0] if near else None
 
 
+def entry(what: str, name: object, known: Mapping[str, T]) -> T:
+    """The value of a name.
+
+    Raises:
+        ModelError: there is no such name.
+    """
+    if isinstance(name, str) and name in known:
+        return known[name]
+    raise unknown(what, name, known)
+
+
 def one_of(what: str, value: str, known: Iterable[str]) -> str:
     """The value, if it is one of the known names.
 
@@ -50,6 +64,6 @@ def one_of(what: str, value: str, known: Iterable[str]) -> str:
         ModelError: the value is unknown.
     """
     names = list(known)
-    if value not in names:
+    if not isinstance(value, str) or value not in names:
         raise unknown(what, value, names)
     return value

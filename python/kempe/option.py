@@ -11,14 +11,14 @@ from typing import Any, ClassVar, TypeAlias
 
 from kempe.errors import ModelError
 from kempe.names import one_of
-from kempe.values import CHECKS, number, reference
+from kempe.values import CHECKS, flag, number, reference
 
 #: The values that a field accepts: the name of a shape, the name of a family of options, or words.
 Shape: TypeAlias = "str | tuple[str, ...]"
 
 #: Families of options, each with an example for messages.
 _FAMILIES = {"method": "kp.RK45(rtol=1e-6)", "stabilization": "kp.Projection()"}
-_CHECKS = {**CHECKS, "count": number, "flag": lambda value, _: bool(value), "name": reference}
+_CHECKS = {**CHECKS, "count": number, "flag": flag, "name": reference}
 #: Fields whose keys in the file are words of Python.
 _KEYS = {"after": "from"}
 

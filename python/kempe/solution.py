@@ -201,7 +201,10 @@ class Solution(Motion):
         """
         if self.dense is None:
             raise ModelError("the solution has no interpolant", hint="use dense_output=True")
-        at = np.asarray(t, dtype=np.float64)
+        try:
+            at = np.asarray(t, dtype=np.float64)
+        except (TypeError, ValueError, OverflowError) as error:
+            raise ModelError(f"t must be one time or an array of times: {error}") from error
         if at.ndim > 1:
             raise ModelError(f"t has {at.ndim} dimensions; must be one time or an array of times")
         q, v, z = self.dense.parts(at, self.compiled.n_q, self.compiled.n_z)

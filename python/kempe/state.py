@@ -14,7 +14,7 @@ from kempe.compiled import CompiledModel
 from kempe.matrices import Matrices, matrices
 from kempe.model import Model
 from kempe.motion import Motion
-from kempe.values import Number
+from kempe.values import Number, mapping
 from kempe.views import BodyView, ConstraintView, ForceView
 
 
@@ -193,7 +193,7 @@ class State(Motion):
         Args:
             set: prescribed coordinates, as in an assembly; each adds a row.
         """
-        return matrices(self, set or {})
+        return matrices(self, mapping(set, "set", "{'crank.angle': 1}"))
 
     def coordinates(self) -> dict[str, float]:
         """Coordinates, rates and first-order states by name, in SI units.

@@ -14,6 +14,7 @@ from kempe import files, quantities
 from kempe.arrays import Floats
 from kempe.display_units import display
 from kempe.errors import ModelError
+from kempe.values import texts
 from kempe.views.frames import FRAMES, Frame, checked_frame
 
 if TYPE_CHECKING:
@@ -80,10 +81,9 @@ def _names(solution: Solution, extent: Extent) -> Iterator[str]:
         for coordinate, _ in joint.coordinates:
             yield from (f"{name}.{coordinate}", f"{name}.{coordinate}_rate")
     yield from (f"{name}.lambda_{row}" for name, _, row in map(_parted, compiled.row_names()))
-    if isinstance(extent.frames, str):
-        raise ModelError(f"frames={extent.frames!r} is one text", hint='write frames=("global",)')
+    frames = texts(extent.frames, "frames")
     for name in compiled.constraints:
-        for frame in map(checked_frame, extent.frames):
+        for frame in map(checked_frame, frames):
             yield from _reactions(solution, name, frame)
     yield from compiled.state_names()
     for name, force in compiled.forces.items():
@@ -109,11 +109,10 @@ def _points(solution: Solution, wanted: Sequence[str] | bool) -> list[str]:
     known = [f"{name}.{p}" for name, body in solution.compiled.bodies.items() for p in body.points]
     if isinstance(wanted, bool):
         return known if wanted else []
-    if isinstance(wanted, str):
-        raise ModelError(f"points={wanted!r} is one text", hint=f'write points=("{wanted}",)')
-    for name in wanted:
+    points = texts(wanted, "points")
+    for name in points:
         quantities.named(solution, f"{name}.x")
-    return list(wanted)
+    return points
 
 
 def dataframe(solution: Solution, extent: Extent | None = None) -> pandas.DataFrame:

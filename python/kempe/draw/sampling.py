@@ -35,7 +35,7 @@ def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int)
     Raises:
         ModelError: ``frames`` is less than 1.
     """
-    if frames is not None and frames < 1:
+    if frames is not None and not (isinstance(frames, int) and frames >= 1):
         raise ModelError(f"frames={frames}: must be 1 or more")
     if isinstance(drawn, State):
         return Motion(

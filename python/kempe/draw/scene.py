@@ -20,6 +20,7 @@ from kempe.motion import Motion
 from kempe.names import unknown
 from kempe.solution import Solution
 from kempe.state import State
+from kempe.values import instance, texts
 
 Scene: TypeAlias = dict[str, Any]
 
@@ -55,6 +56,7 @@ def scene(
     Raises:
         ModelError: a traced point or its body does not exist, or ``frames`` is less than 1.
     """
+    instance(solution_or_state, (Solution, State), "a solution or a state")
     model = solution_or_state.compiled
     motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model))
     bodies = [shapes.body(model, name) for name in model.all_bodies]
@@ -129,7 +131,7 @@ def _traces(motion: Motion, size: float, wished: Sequence[str] | None) -> list[d
     model = motion.compiled
     if wished is None:
         return _moving_points(motion, size)
-    return [_trace(model, *_named(model, name)) for name in wished]
+    return [_trace(model, *_named(model, name)) for name in texts(wished, "traces")]
 
 
 def _named(model: CompiledModel, name: str) -> tuple[str, str]:

@@ -12,6 +12,7 @@ from kempe.arrays import Floats
 from kempe.errors import ModelError
 from kempe.matrices import writing
 from kempe.names import one_of
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from kempe.compiled import CompiledModel
@@ -140,5 +141,9 @@ def _of(found: Matrices, what: str) -> Labelled:
 
 
 def _refuse_foreign(model: Model | CompiledModel, state: State) -> None:
-    if list(model.bodies) != list(state.compiled.bodies):
+    from kempe.model import compiled_model
+    from kempe.state import State
+
+    instance(state, State, "a state")
+    if list(compiled_model(model).bodies) != list(state.compiled.bodies):
         raise ModelError("the state is of another model", hint="assemble this model")

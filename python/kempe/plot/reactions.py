@@ -6,14 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe.motion import Motion
 from kempe.names import one_of
 from kempe.plot import style
 from kempe.plot.curves import Curve, Panel, draw
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.motion import Motion
     from kempe.views.frames import Frame
 
 #: How a component is written in each frame: x″ is along the joint's axis, x′ along the body's.
@@ -46,6 +47,7 @@ def reactions(
     Raises:
         ModelError: there is no such joint, body, frame or quantity.
     """
+    instance(motion, Motion, "a solution or a motion")
     view = motion.constraint(joint)
     body = view.info.j if on is None else on
     one_of("quantity", quantity, ("force", "torque"))
@@ -75,6 +77,7 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
+    instance(motion, Motion, "a solution or a motion")
     curves = []
     for name, info in motion.compiled.constraints.items():
         force = motion.constraint(name).force(on=info.j)

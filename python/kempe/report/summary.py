@@ -11,10 +11,11 @@ from kempe._version import __version__
 from kempe.arrays import Floats
 from kempe.report.extremes import Sampled
 from kempe.report.settling import settling
+from kempe.solution import Solution
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from kempe.motion import Motion
-    from kempe.solution import Solution
 
 #: Angles below this are rounding errors, rad.
 _NO_ANGLE = 1e-9
@@ -28,6 +29,7 @@ def summary(solution: Solution) -> dict[str, Any]:
     the interpolant has an error of its own. The result can be written as JSON. Units: m, rad, N,
     N·m, J, s.
     """
+    instance(solution, Solution, "a solution")
     sampled = Sampled(solution)
     compiled = solution.compiled
     return {

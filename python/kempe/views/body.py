@@ -12,7 +12,8 @@ import numpy as np
 
 from kempe.arrays import Floats, pairs, rotated, scalar
 from kempe.compiled import BodyInfo, Vector
-from kempe.names import unknown
+from kempe.names import entry
+from kempe.values import vector
 
 if TYPE_CHECKING:
     from kempe.motion import Motion
@@ -106,13 +107,15 @@ class BodyView(Generic[S]):
         Raises:
             ModelError: the body has no such point.
         """
-        if name not in self.info.points:
-            raise unknown(f"point of {self.name}", name, self.info.points)
-        return self.at(self.info.points[name], name)
+        return self.at(entry(f"point of {self.name}", name, self.info.points), name)
 
     def at(self, s: Vector, name: str = "") -> PointView:
-        """A point of the body, given by its coordinates in the frame of the body, m."""
-        return PointView(cast("BodyView[Floats]", self), s, name)
+        """A point of the body, given by its coordinates in the frame of the body, m.
+
+        Raises:
+            ModelError: the coordinates are not two numbers.
+        """
+        return PointView(cast("BodyView[Floats]", self), vector(s, f"point of {self.name}"), name)
 
     def _acceleration(self, k: int) -> S:
         return self._column(self._motion.a if k < self.info.count else self._motion.v, k)

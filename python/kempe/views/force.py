@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, cast
 
 from kempe.arrays import Floats, fixed, scalar
 from kempe.compiled import ForceInfo
-from kempe.names import unknown
+from kempe.names import one_of
 from kempe.views.body import S
 from kempe.views.frames import checked_body, checked_frame
 
@@ -74,8 +74,8 @@ class ForceView(Generic[S]):
         return cast(S, scalar(self._action(on, "global", part)[..., 2]))
 
     def _action(self, on: str, frame: str, part: str | None) -> Floats:
-        if part is not None and part not in self.parts:
-            raise unknown(f"part of {self.name}", part, self.parts)
+        if part is not None:
+            one_of(f"part of {self.name}", part, self.parts)
         body, axes = checked_body(self.info, on), checked_frame(frame, _FRAMES)
         return self._motion.action(self.name, body, part, axes)
 
@@ -90,8 +90,7 @@ class ForceView(Generic[S]):
         Raises:
             ModelError: the element has no such state.
         """
-        if name not in self.states:
-            raise unknown(f"state of {self.name}", name, self.states)
+        one_of(f"state of {self.name}", name, self.states)
         values = self._motion.z[..., self.info.places][..., self.states.index(name)]
         return cast(S, scalar(values))
 
