@@ -15,7 +15,7 @@ from kempe.compiled import CompiledModel
 from kempe.errors import FileError, ModelError
 from kempe.model import Model
 from kempe.names import entry as named
-from kempe.names import one_of, unknown
+from kempe.names import few, one_of, unknown
 from kempe.option import Option
 from kempe.options import Dynamics
 from kempe.solution import Solution
@@ -199,8 +199,11 @@ class Case:
     def _core(self) -> _core.Case:
         return _core.Case(json.dumps(self.tree(), allow_nan=False), "json", None)
 
+    def _repr_html_(self) -> str:
+        return self.model._repr_html_()
+
     def __repr__(self) -> str:
-        names = ", ".join(self._entries) or "none"
+        names = few(self._entries) or "none"
         return f"<Case {self.model.title!r}; analyses: {names}>"
 
 

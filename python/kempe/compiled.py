@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from kempe import _core
-from kempe.names import entry
+from kempe.names import entry, few
 
 if TYPE_CHECKING:
     from kempe.model import Model
@@ -22,7 +22,7 @@ ACCELERATIONS = ("ax", "ay", "alpha")
 Vector = tuple[float, float]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class BodyInfo:
     """A body with numerical values.
 
@@ -46,6 +46,10 @@ class BodyInfo:
     points: Mapping[str, Vector]
     columns: slice
 
+    def __repr__(self) -> str:
+        points = f", points {few(self.points)}" if self.points else ""
+        return f"<{self.type or 'ground'} {self.name!r}: {self.mass:g} kg{points}>"
+
     def __reduce__(self) -> tuple[Any, ...]:
         """A view of a mapping cannot be pickled; the mapping can."""
         values = {field.name: getattr(self, field.name) for field in fields(self)}
@@ -67,7 +71,7 @@ class BodyInfo:
         return "angle" in self.quantities
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ConstraintInfo:
     """A joint or a driver with numerical values.
 
@@ -100,8 +104,11 @@ class ConstraintInfo:
     columns: slice
     coordinates: tuple[tuple[str, str], ...]
 
+    def __repr__(self) -> str:
+        return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class ForceInfo:
     """A force element with numerical values.
 
@@ -128,6 +135,9 @@ class ForceInfo:
     places: slice
     states: tuple[tuple[str, str], ...]
     reaction: str | None
+
+    def __repr__(self) -> str:
+        return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
 
 
 class CompiledModel:

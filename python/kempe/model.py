@@ -13,7 +13,7 @@ from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
 from kempe.errors import ModelError
-from kempe.names import unknown
+from kempe.names import few, unknown
 from kempe.values import Number, Pair, Points, mapping, numbers, pair, points, refuse
 
 #: Version of the case format.
@@ -349,8 +349,13 @@ class Model(ElementMethods):
     def __repr__(self) -> str:
         moving = {section: dict(self._tree[section]) for section in SECTIONS}
         moving["bodies"].pop("ground", None)
-        parts = [f"{section} {', '.join(names)}" for section, names in moving.items() if names]
+        parts = [f"{section} {few(names)}" for section, names in moving.items() if names]
         return f"<Model {self.title!r}: {'; '.join(parts) or 'empty'}>"
+
+    def _repr_html_(self) -> str:
+        from kempe.notebook import of_model
+
+        return of_model(self)
 
 
 def compiled_model(model: Model | CompiledModel) -> CompiledModel:

@@ -31,8 +31,7 @@ def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
     if near is not None:
         hint = f"did you mean {near!r}?"
     elif names:
-        more = f" and {len(names) - _MOST} more" if len(names) > _MOST else ""
-        hint = f"there is {', '.join(names[:_MOST])}{more}"
+        hint = f"there is {few(names, _MOST)}"
     else:
         hint = "there is none"
     text = repr(name) if isinstance(name, str) else f"{name!r} (not a text)"
@@ -44,6 +43,13 @@ def _nearest(name: str, names: list[str]) -> str | None:
     same = [known for known in names if known.casefold() == name.casefold()]
     near = same or get_close_matches(name, names, n=1)
     return near[0] if near else None
+
+
+def few(names: Iterable[str], most: int = 6) -> str:
+    """Names in one line: all of a few, or the first ones and the number of the others."""
+    given = list(names)
+    more = f" and {len(given) - most} more" if len(given) > most else ""
+    return ", ".join(given[:most]) + more
 
 
 def entry(what: str, name: object, known: Mapping[str, T]) -> T:

@@ -266,8 +266,13 @@ class Solution(Motion):
 
         save(self, path)
 
+    def _repr_html_(self) -> str:
+        from kempe.notebook import of_solution
+
+        return of_solution(self)
+
     def __repr__(self) -> str:
         count = len(self.t)
         span = f"t = {self.t[0]:g} … {self.t[-1]:g} s, {count} outputs" if count else "no outputs"
-        steps = f"{self.statistics['steps']} steps"
+        steps = f"{self.statistics['steps']} steps of {self.statistics['method']}"
         return f"<Solution of {self.compiled.title!r}: {span}, {steps}; {self.message}>"

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
+from kempe.display_units import display, heading
 from kempe.matrices import Matrices, matrices
 from kempe.model import Model
 from kempe.motion import Motion
+from kempe.names import few
 from kempe.values import Number, mapping
 from kempe.views import BodyView, ConstraintView, ForceView
 
@@ -53,7 +53,7 @@ class Mode:
     side: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class AssemblyReport:
     """Report of an assembly.
 
@@ -88,6 +88,11 @@ class AssemblyReport:
             warnings=tuple(report["warnings"]),
         )
 
+    def __repr__(self) -> str:
+        free = self.degrees_of_freedom
+        count = f"{len(self.iterations)} iteration{'s' * (len(self.iterations) != 1)}"
+        return f"<AssemblyReport: {count}, {free} degree{'s' * (free != 1)} of freedom>"
+
     def __str__(self) -> str:
         last = f", residual {self.iterations[-1].residual:.1e}" if self.iterations else ""
         count = len(self.iterations)
@@ -104,6 +109,17 @@ def _place(mode: Mode) -> str:
         first, slide = mode.anchors
         return f"{mode.side}{' of' * (mode.side == 'ahead')} {first} along the slide {slide}"
     return f"to the {mode.side} of {' → '.join(mode.anchors)}"
+
+
+#: Columns of a printed state: quantity, SI unit, and the unit where none was chosen.
+_COLUMNS = (
+    ("x", "m", None),
+    ("y", "m", None),
+    ("angle", "rad", "deg"),
+    ("vx", "m/s", None),
+    ("vy", "m/s", None),
+    ("omega", "rad/s", None),
+)
 
 
 class State(Motion):
@@ -215,26 +231,44 @@ class State(Motion):
         names, units = self.compiled.state_names(), self.compiled.state_units()
         yield from zip(names, self.z.tolist(), units, strict=True)
 
+    def table(self) -> tuple[list[str], list[list[str]]]:
+        """Position and velocity of each body in display units: header and rows of texts.
+
+        Angles are in degrees unless ``kp.units`` chose another unit.
+        """
+        header = [heading(name, unit, usual) for name, unit, usual in _COLUMNS]
+        rows = []
+        for name, info in self.compiled.bodies.items():
+            body, row = self.body(name), [name]
+            for quantity, unit, usual in _COLUMNS:
+                turning = quantity in ("angle", "omega")
+                value = getattr(body, quantity) / display(unit, usual).divisor
+                row.append("" if turning and not info.turns else f"{value + 0.0:.6g}")
+            rows.append(row)
+        return ["body", *header], rows
+
     def __str__(self) -> str:
-        width = max((len(name) for name in self.compiled.bodies), default=4)
-        units = ("x / m", "y / m", "angle / °", "vx / m/s", "vy / m/s", "omega / rad/s")
-        lines = [" " * width + "".join(f"{unit:>15}" for unit in units)]
-        for name in self.compiled.bodies:
-            body = self.body(name)
-            numbers = [body.x, body.y, np.degrees(body.angle), body.vx, body.vy, body.omega]
-            absent = () if body.info.turns else (2, 5)
-            row = "".join(
-                f"{'':>15}" if k in absent else f"{float(number) + 0.0:15.6g}"
-                for k, number in enumerate(numbers)
-            )
-            lines.append(f"{name:<{width}}{row}".rstrip())
-        lines += [f"{name} = {value:.6g} {unit}" for name, value, unit in self._further()]
+        header, rows = self.table()
+        width = max((len(row[0]) for row in rows), default=4)
+        table = [["", *header[1:]], *rows]
+        lines = [f"{name:<{width}}{''.join(f'{c:>15}' for c in cells)}" for name, *cells in table]
+        for name, value, unit in self._further():
+            shown = display(unit)
+            lines.append(f"{name} = {value / shown.divisor:.6g} {shown.unit}")
         report = [] if self.report is None else [str(self.report)]
-        return "\n".join([f"t = {self.t:g} s", *lines, *report])
+        time = display("s")
+        lines = [f"t = {self.t / time.divisor:g} {time.unit}", *map(str.rstrip, lines), *report]
+        return "\n".join(lines)
 
     def __repr__(self) -> str:
-        bodies = ", ".join(self.compiled.bodies)
-        return f"<State of {self.compiled.title!r} at t = {self.t:g} s: {bodies}>"
+        return (
+            f"<State of {self.compiled.title!r} at t = {self.t:g} s: {few(self.compiled.bodies)}>"
+        )
+
+    def _repr_html_(self) -> str:
+        from kempe.notebook import of_state
+
+        return of_state(self)
 
 
 def _restored(  # noqa: PLR0917 - a pickle passes positional arguments

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from kempe.state import State
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Matrices:
     """M a + Φ_qᵀ λ = Q, Φ_q a = γ (Haug 6.3.18), read-only, in SI units.
 
@@ -42,6 +42,9 @@ class Matrices:
     kkt: Floats
     rows: tuple[str, ...]
     columns: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        return f"<Matrices: {len(self.columns)} coordinates, {len(self.rows)} equations>"
 
     @property
     def rank(self) -> int:

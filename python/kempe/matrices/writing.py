@@ -84,13 +84,19 @@ def latex(name: str, rows: Sequence[str], columns: Sequence[str], values: Floats
     The names of the columns stand as the column that the matrix is multiplied with, which keeps
     wide matrices narrow.
     """
+    wide = f"\\setcounter{{MaxMatrixCols}}{{{len(columns)}}}\n" if len(columns) > 10 else ""
+    body = latex_body(name, rows, columns, values)
+    return wide + "\\begin{equation*}\n" + body + "\n\\end{equation*}\n"
+
+
+def latex_body(name: str, rows: Sequence[str], columns: Sequence[str], values: Floats) -> str:
+    """The formula without its environment."""
     lines = [r" & ".join(map(latex_number, row)) for row in values.tolist()]
     parts = [f"{_SYMBOLS[name]} =", _stack("matrix", [named(row) for row in rows])]
     parts.append(_stack("bmatrix", lines))
     if columns:
         parts.append(_stack("matrix", [named(column) for column in columns]))
-    wide = f"\\setcounter{{MaxMatrixCols}}{{{len(columns)}}}\n" if len(columns) > 10 else ""
-    return wide + "\\begin{equation*}\n" + "\n".join(parts) + "\n\\end{equation*}\n"
+    return "\n".join(parts)
 
 
 def _stack(kind: str, lines: Sequence[str]) -> str:

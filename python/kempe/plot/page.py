@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _LONGEST = 40
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Page:
     """A figure that can be drawn.
 
@@ -37,6 +37,9 @@ class Page:
     about: str
     height: float
     draw: Callable[[Figure], None]
+
+    def __repr__(self) -> str:
+        return f"<Page {self.number}: {self.about}>"
 
     @property
     def stem(self) -> str:
