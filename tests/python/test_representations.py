@@ -1,7 +1,10 @@
 """Representations: short texts, HTML with drawings and tables, LaTeX of matrices."""
 
+import inspect
+import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import kempe as kp
@@ -167,3 +170,32 @@ def test_equations_are_shown_in_latex(model: kp.Model) -> None:
 def test_a_long_table_is_cut() -> None:
     rows = cells(parsed(chain(60)._repr_html_()))
     assert ["… 30 more"] in rows
+
+
+def test_the_help_is_for_users_and_its_example_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = inspect.getdoc(kp) or ""
+    assert "_HOME" not in text
+    words = re.findall(
+        r"(?m)^    ((?:[\w.]+, )*[\w.]+)(?: {2,}|,?$| [a-z])", text.partition("Build:")[2]
+    )
+    listed = [name for line in words for name in line.split(", ")]
+    assert {"Model", "RK45", "Auto", "report.summary", "units"} <= set(listed)
+    for name in listed:
+        found: Any = kp
+        for part in name.split("."):
+            found = getattr(found, part)
+    example = re.search(r"released from rest::\n\n((?:    .*\n|\n)+)", text)
+    assert example
+    monkeypatch.chdir(tmp_path)
+    scope: dict[str, Any] = {}
+    exec(inspect.cleandoc("\n" + example[1]), scope)
+    assert scope["sol"]["rod.angle"][0] == pytest.approx(np.radians(-30))
+    assert (tmp_path / "pendulum.html").exists()
+
+
+def test_every_public_name_has_a_docstring() -> None:
+    for name in kp.__all__:
+        thing = getattr(kp, name)
+        assert name == "__version__" or (inspect.getdoc(thing) or "").strip(), name
