@@ -224,6 +224,8 @@ class Model(ElementMethods):
         changed = numbers(parameters, "parameters")
         for name in changed:
             if name not in self._tree["parameters"]:
+                if self._source is not None:  # the error gives the line of the file
+                    self._source[0].model(json.dumps(changed, allow_nan=False))
                 raise unknown("parameter", name, self._tree["parameters"])
         model = Model.from_tree(self._tree)
         source, overrides = self._source or (_core.Case(self.json(), "json", None), {})

@@ -33,6 +33,9 @@ class Motion:
             motor; see ``model.state_names()``. Empty for most models.
     """
 
+    #: The reaction that was computed last, with its joint, body and frame.
+    _last_reaction: tuple[tuple[str, ...], Floats] = ((), np.empty(0))
+
     def __init__(
         self,
         model: Model | CompiledModel,
@@ -93,9 +96,14 @@ class Motion:
 
     def reaction(self, joint: str, on: str, frame: str) -> Floats:
         """Force and torque of a joint on a body, (…, 3); see ``ConstraintView``."""
-        t, q, _ = self._rows()
-        lam = np.atleast_2d(self.lam)
-        return self._as_given(_core.reaction(self.compiled.core, joint, on, frame, t, q, lam))
+        kept, values = self._last_reaction
+        if kept != (joint, on, frame):  # its components are often read one after the other
+            t, q, _ = self._rows()
+            lam = np.atleast_2d(self.lam)
+            core = self.compiled.core
+            values = self._as_given(_core.reaction(core, joint, on, frame, t, q, lam))
+            self._last_reaction = (joint, on, frame), values
+        return values
 
     def action(self, name: str, on: str, part: str | None, frame: str) -> Floats:
         """Force and torque of a force element on a body, (…, 3); see ``ForceView``."""
@@ -144,8 +152,11 @@ class Motion:
         return ConstraintView(self, self._named("driver", name, "drivers"))
 
     def _named(self, what: str, name: str, group: str = "") -> ConstraintInfo:
-        known = self.compiled.constraints.items()
-        return entry(what, name, {n: c for n, c in known if group in ("", c.group)})
+        known = self.compiled.constraints
+        info = known.get(name) if isinstance(name, str) else None
+        if info is not None and group in ("", info.group):
+            return info
+        raise unknown(what, name, [n for n, c in known.items() if group in ("", c.group)])
 
     def force(self, name: str) -> ForceView[Floats]:
         """A force element by name.

@@ -75,8 +75,10 @@ class Sampled:
         reported = _largest(self.solution.t, read(self.solution))
         if not self.is_continuous:
             return reported
-        times, values = self.motion.t, read(self.motion)
-        around = _around(np.abs(values))
+        times, magnitude = self.motion.t, np.abs(read(self.motion))
+        if not magnitude.any():  # the torque of a pin
+            return reported
+        around = _around(magnitude)
         low, high = (times[np.clip(around + k, 0, len(times) - 1)] for k in (-1, 1))
         found = self._refined(read, low, high)
         return max(found, reported, key=lambda peak: abs(peak.value))
