@@ -93,9 +93,12 @@ def test_redundancy_that_was_allowed_stays_allowed(of: Callable[[Any], Any]) -> 
 
 def test_a_pair_of_model_and_solution_stays_together(pendulum: kp.Model) -> None:
     sol = kp.dynamics(pendulum, kp.assemble(pendulum), t_end=0.1)
-    model, other = pickle.loads(pickle.dumps((pendulum, sol)))
-    assert other.model is model
-    assert copy.copy(sol).model is pendulum
+    of_case = kp.Case(pendulum, analyses=[kp.Dynamics(0.1)]).run()[0]
+    model, *others = pickle.loads(pickle.dumps((pendulum, sol, of_case)))
+    for other in others:
+        assert other.model is model
+    for own in (sol, of_case):
+        assert copy.copy(own).model is pendulum
 
 
 def test_an_error_of_a_run_is_pickled_with_its_solution(pendulum: kp.Model) -> None:
