@@ -4,140 +4,39 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from kempe import _core
-from kempe.names import entry, few
+from kempe.infos import (
+    ACCELERATIONS,
+    COORDINATES,
+    RATES,
+    BodyInfo,
+    ConstraintInfo,
+    ForceInfo,
+    Vector,
+    body,
+    constraint,
+    force,
+    vector,
+)
+from kempe.names import entry
 
 if TYPE_CHECKING:
     from kempe.model import Model
 
-COORDINATES = ("x", "y", "angle")
-RATES = ("vx", "vy", "omega")
-ACCELERATIONS = ("ax", "ay", "alpha")
-
-Vector = tuple[float, float]
-
-
-@dataclass(frozen=True, repr=False)
-class BodyInfo:
-    """A body with numerical values.
-
-    Attributes:
-        name: name of the body.
-        type: such as "bar"; empty for ground.
-        number: 0 for ground; moving bodies count from 1.
-        mass: kg.
-        inertia: about the mass centre, kg·m².
-        center: mass centre in the body's frame, m.
-        points: named points in the body's frame, m.
-        columns: slice of its coordinates in q: x, y, angle; x, y of a point mass; empty for ground.
-    """
-
-    name: str
-    type: str
-    number: int
-    mass: float
-    inertia: float
-    center: Vector
-    points: Mapping[str, Vector]
-    columns: slice
-
-    def __repr__(self) -> str:
-        points = f", points {few(self.points)}" if self.points else ""
-        return f"<{self.type or 'ground'} {self.name!r}: {self.mass:g} kg{points}>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """A view of a mapping cannot be pickled; the mapping can."""
-        values = {field.name: getattr(self, field.name) for field in fields(self)}
-        return _body_of, ({**values, "points": dict(self.points)},)
-
-    @property
-    def count(self) -> int:
-        """Number of its coordinates."""
-        return int(self.columns.stop - self.columns.start)
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """Names of its coordinates: ``x``, ``y`` and ``angle``."""
-        return COORDINATES[: self.count]
-
-    @property
-    def turns(self) -> bool:
-        """Whether it has an angle."""
-        return "angle" in self.quantities
-
-
-@dataclass(frozen=True, repr=False)
-class ConstraintInfo:
-    """A joint or a driver with numerical values.
-
-    Attributes:
-        name: name of the joint or driver.
-        group: "joints" or "drivers".
-        type: the ``type`` in the file.
-        i, j: the first two connected bodies.
-        bodies: all connected bodies.
-        point_i, point_j: the joint point in the frame of each body, m.
-        axis_i, axis_j: angle of the joint's x axis in the frame of each body, rad.
-        rows: slice of its equations in Φ and λ.
-        equations: names and units of the equations.
-        columns: slice of its internal coordinates in q; empty for most joints.
-        coordinates: names and units of its internal coordinates.
-    """
-
-    name: str
-    group: str
-    type: str
-    i: str
-    j: str
-    point_i: Vector
-    point_j: Vector
-    axis_i: float
-    axis_j: float
-    rows: slice
-    equations: tuple[tuple[str, str], ...]
-    bodies: tuple[str, ...]
-    columns: slice
-    coordinates: tuple[tuple[str, str], ...]
-
-    def __repr__(self) -> str:
-        return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
-
-
-@dataclass(frozen=True, repr=False)
-class ForceInfo:
-    """A force element with numerical values.
-
-    Attributes:
-        name: name of the element.
-        type: the ``type`` in the file.
-        i, j: the first two bodies on which it acts.
-        bodies: all bodies on which it acts.
-        parts: names of its parts, such as "stiffness" and "damping".
-        points: the two points of a force along a line, in the frames of bodies i and j, m; None for
-            other forces.
-        places: slice of its first-order states in z; empty for most forces.
-        states: names and units of its first-order states, such as ``("current", "A")``.
-        reaction: the joint whose reaction enters it; None for most forces.
-    """
-
-    name: str
-    type: str
-    i: str
-    j: str
-    parts: tuple[str, ...]
-    points: tuple[Vector, Vector] | None
-    bodies: tuple[str, ...]
-    places: slice
-    states: tuple[tuple[str, str], ...]
-    reaction: str | None
-
-    def __repr__(self) -> str:
-        return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
+__all__ = [
+    "ACCELERATIONS",
+    "COORDINATES",
+    "RATES",
+    "BodyInfo",
+    "CompiledModel",
+    "ConstraintInfo",
+    "ForceInfo",
+    "Vector",
+]
 
 
 class CompiledModel:
@@ -210,7 +109,7 @@ class CompiledModel:
     @property
     def gravity(self) -> Vector:
         """Acceleration of free fall, m/s²."""
-        return _vector(self._about["gravity"])
+        return vector(self._about["gravity"])
 
     @property
     def parameters(self) -> Mapping[str, float]:
@@ -235,7 +134,7 @@ class CompiledModel:
     @cached_property
     def all_bodies(self) -> Mapping[str, BodyInfo]:
         """Ground and the moving bodies, in the order of q."""
-        infos = (_body(number, entry) for number, entry in enumerate(self._about["bodies"]))
+        infos = (body(number, entry) for number, entry in enumerate(self._about["bodies"]))
         return MappingProxyType({info.name: info for info in infos})
 
     @cached_property
@@ -246,7 +145,7 @@ class CompiledModel:
     @cached_property
     def constraints(self) -> Mapping[str, ConstraintInfo]:
         """Joints and drivers, in the order of Φ."""
-        infos = map(_constraint, self._about["constraints"])
+        infos = map(constraint, self._about["constraints"])
         return MappingProxyType({info.name: info for info in infos})
 
     @property
@@ -262,7 +161,7 @@ class CompiledModel:
     @cached_property
     def forces(self) -> Mapping[str, ForceInfo]:
         """The force elements."""
-        infos = map(_force, self._about["forces"])
+        infos = map(force, self._about["forces"])
         return MappingProxyType({info.name: info for info in infos})
 
     @cached_property
@@ -341,66 +240,3 @@ def _restored(model: Model, case: str, analyses: Mapping[str, Any] | None) -> Co
     made = model.compile() if model.json() == case else CompiledModel.from_case(case)
     made._model = model
     return made if analyses is None else made.with_analyses(analyses)
-
-
-def _body_of(values: dict[str, Any]) -> BodyInfo:
-    return BodyInfo(**{**values, "points": MappingProxyType(values["points"])})
-
-
-def _vector(two: list[float] | None) -> Vector:
-    x, y = two or (0.0, 0.0)
-    return float(x), float(y)
-
-
-def _units(entries: list[dict[str, str]]) -> tuple[tuple[str, str], ...]:
-    """Names and units."""
-    return tuple((entry["name"], entry["unit"]) for entry in entries)
-
-
-def _body(number: int, entry: dict[str, Any]) -> BodyInfo:
-    points = {name: _vector(point) for name, point in entry["points"].items()}
-    return BodyInfo(
-        name=entry["name"],
-        type=entry["type"] or "",
-        number=number,
-        mass=float(entry["mass"] or 0.0),
-        inertia=float(entry["inertia"] or 0.0),
-        center=_vector(entry["center"]),
-        points=MappingProxyType(points),
-        columns=slice(*entry["columns"]),
-    )
-
-
-def _constraint(entry: dict[str, Any]) -> ConstraintInfo:
-    return ConstraintInfo(
-        name=entry["name"],
-        group=entry["group"],
-        type=entry["type"],
-        i=entry["i"],
-        j=entry["j"],
-        point_i=_vector(entry["point_i"]),
-        point_j=_vector(entry["point_j"]),
-        axis_i=float(entry["axis_i"]),
-        axis_j=float(entry["axis_j"]),
-        rows=slice(*entry["rows"]),
-        equations=_units(entry["equations"]),
-        bodies=tuple(entry["bodies"]),
-        columns=slice(*entry["columns"]),
-        coordinates=_units(entry["coordinates"]),
-    )
-
-
-def _force(entry: dict[str, Any]) -> ForceInfo:
-    points = entry["points"]
-    return ForceInfo(
-        name=entry["name"],
-        type=entry["type"],
-        i=entry["i"],
-        j=entry["j"],
-        parts=tuple(entry["parts"]),
-        points=None if points is None else (_vector(points[0]), _vector(points[1])),
-        bodies=tuple(entry["bodies"]),
-        places=slice(*entry["places"]),
-        states=_units(entry["states"]),
-        reaction=entry["reaction"],
-    )

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 #: Width of a drawing, pixels.
 _WIDTH = 480
-#: A table has at most so many rows; the last row tells how many are left out.
+#: A table has at most so many rows; the last row gives the number of the others.
 _MOST_ROWS = 30
 
 

@@ -139,16 +139,16 @@ def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
     return found
 
 
-def reaction_name(joint: str, kind: str, body: str, frame: str) -> str:
+def reaction_name(joint: str, component: str, body: str, frame: str) -> str:
     """Name of a component of a reaction, such as ``C.fx_on_coupler`` or ``C.joint_fx_on_coupler``.
 
     Args:
         joint: the joint or driver.
-        kind: "fx", "fy" or "torque".
+        component: "fx", "fy" or "torque".
         body: the body on which it acts.
         frame: "global", "body" or "joint".
     """
-    return f"{joint}.{'' if frame == FRAMES[0] else f'{frame}_'}{kind}_on_{body}"
+    return f"{joint}.{'' if frame == FRAMES[0] else f'{frame}_'}{component}_on_{body}"
 
 
 def _reaction(motion: Motion, joint: str, body: str) -> dict[str, Quantity]:
