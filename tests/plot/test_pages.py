@@ -172,3 +172,16 @@ def test_pages_are_found_by_name_number_and_the_name_in_the_model() -> None:
     assert plot.select(found, []) == found
     with pytest.raises(kp.ModelError, match="did you mean 'residual'"):
         plot.select(found, ["residuals"])
+
+
+def test_pages_are_saved_in_a_folder_given_as_text(
+    flagship: kp.Solution, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = kp.plot.select(kp.plot.pages(flagship), ["energy"])[0]
+    monkeypatch.chdir(tmp_path)
+    assert kp.plot.save([page], "figures", "png") == [Path("figures") / f"{page.stem}.png"]
+    assert kp.plot.save(page, str(tmp_path / "one"), ["svg"])[0].exists()
+    with pytest.raises(kp.ModelError, match="unknown format 'jpg'"):
+        kp.plot.save([page], "figures", ["jpg"])
+    with pytest.raises(kp.ModelError, match="is not a page"):
+        kp.plot.save(["energy"], "figures")

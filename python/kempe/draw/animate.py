@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from kempe import files
 from kempe.draw.frame import SIZE, Frame, Picture
 from kempe.draw.player import player
 from kempe.draw.sampling import FRAMES_PER_SECOND
@@ -60,7 +61,7 @@ def animate(
         ModelError: an unknown ending, or ``fps`` or ``speed`` is not positive or too large.
         FileError: the file cannot be written, or there is no ffmpeg for an MP4.
     """
-    kind = Path(path).suffix.lstrip(".").lower()
+    kind = files.checked_path(path, "write").suffix.lstrip(".").lower()
     if kind not in FORMATS:
         raise ModelError(f"{path}: the format is unknown", hint="end it in .html, .mp4 or .gif")
     _refuse_wrong(fps=fps, speed=speed)

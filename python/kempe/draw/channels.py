@@ -35,7 +35,7 @@ def numbers_per_frame(model: CompiledModel) -> int:
 
 
 def _all(motion: Motion) -> Iterator[tuple[str, str, str, Floats]]:
-    model = motion.model
+    model = motion.compiled
     turning = [name for name, info in model.bodies.items() if info.turns]
     for name in turning:
         yield f"{name}.angle", "angles", "rad", motion.body(name).angle

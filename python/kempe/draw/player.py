@@ -59,7 +59,7 @@ def player(solution: Solution | State, path: Path | str, *, speed: float = 1.0) 
     shown = scene(solution)
     shown["playback"]["rate"] *= speed
     files.write_text(path, page(shown))
-    return Path(path)
+    return files.checked_path(path, "write")
 
 
 def page(shown: Scene) -> str:

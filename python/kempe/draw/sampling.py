@@ -35,10 +35,12 @@ def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int)
     Raises:
         ModelError: ``frames`` is less than 1.
     """
-    if frames is not None and frames < 1:
+    if frames is not None and not (isinstance(frames, int) and frames >= 1):
         raise ModelError(f"frames={frames}: must be 1 or more")
     if isinstance(drawn, State):
-        return Motion(drawn.model, drawn.t[None], drawn.q[None], drawn.v[None], drawn.z[None])
+        return Motion(
+            drawn.compiled, np.array([drawn.t]), drawn.q[None], drawn.v[None], drawn.z[None]
+        )
     begin, end = sorted((float(drawn.t[0]), float(drawn.t[-1])))
     count = frames or _count(end - begin, numbers_per_frame)
     if drawn.dense is None:
@@ -65,7 +67,7 @@ class _Outputs(Motion):
 
     def __init__(self, solution: Solution, kept: NDArray[np.intp]) -> None:
         rows = (values[kept] for values in (solution.t, solution.q, solution.v, solution.z))
-        super().__init__(solution.model, *rows)
+        super().__init__(solution.compiled, *rows)
         self._computed = fixed(solution.a[kept]), fixed(solution.lam[kept])
 
     @property
@@ -102,14 +104,14 @@ def interpolation(drawn: Solution | State, motion: Motion, size: float) -> str:
     middle = (q[:-1] + q[1:]) / 2.0 + h * (v[:-1] - v[1:]) / 8.0
     exact = drawn((motion.t[:-1] + motion.t[1:]) / 2.0).q
     worst = max(
-        (_misplaced(middle, exact, motion, name) for name in motion.model.bodies), default=0.0
+        (_misplaced(middle, exact, motion, name) for name in motion.compiled.bodies), default=0.0
     )
     return "cubic" if worst <= _INVISIBLE * size else "none"
 
 
 def _misplaced(guess: Floats, exact: Floats, motion: Motion, name: str) -> float:
     """How far the points of a body are from where they should be, at most, m."""
-    info = motion.model.bodies[name]
+    info = motion.compiled.bodies[name]
     error = (guess - exact)[:, info.columns]
     shift = np.hypot(error[:, 0], error[:, 1])
     arms = [math.hypot(*corner) for corner in (*info.points.values(), info.center)]

@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
+from kempe.display_units import chosen_for
+from kempe.motion import Motion
 from kempe.names import one_of
 from kempe.plot import style
 from kempe.plot.curves import Curve, Panel, draw
 from kempe.plot.time_axis import show_time
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,7 +23,6 @@ if TYPE_CHECKING:
 
     from kempe.arrays import Floats
     from kempe.compiled import BodyInfo
-    from kempe.motion import Motion
 
 #: Quantity → symbol and SI unit.
 QUANTITIES = {
@@ -115,6 +117,7 @@ def _draw(
     cut: float | None,
     index_base: int,
 ) -> Axes:
+    instance(motion, Motion, "a solution or a motion")
     info = motion.body(body).info
     title = body_title(info, index_base)
     with style.on(ax) as axes:
@@ -123,7 +126,7 @@ def _draw(
             symbol, unit = QUANTITIES[names[0]]
             curve = Curve(symbol, getattr(motion.body(body), names[0]), line)
             draw(axes, motion.t, [curve], Panel(symbol, unit, title, cut, legend=False))
-            if names[0] == "angle":
+            if names[0] == "angle" and chosen_for("rad") is None:
                 _add_degrees(axes)
         else:
             _draw_all(

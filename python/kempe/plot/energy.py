@@ -9,11 +9,11 @@ import numpy as np
 from kempe.plot import style
 from kempe.plot.curves import Curve, Panel, add_lines, draw, finish
 from kempe.plot.residual import logarithmic
+from kempe.solution import Solution
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from kempe.solution import Solution
 
 
 def energy(solution: Solution, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
@@ -24,6 +24,7 @@ def energy(solution: Solution, *, ax: Axes | None = None, cut: float | None = No
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
+    instance(solution, Solution, "a solution")
     found = solution.energy
     curves = [
         Curve("kinetic T", found.kinetic, style.line(0)),
@@ -45,6 +46,7 @@ def energy_balance(solution: Solution, *, ax: Axes | None = None, cut: float | N
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
+    instance(solution, Solution, "a solution")
     error = np.abs(solution.energy.balance)
     with style.on(ax) as axes:
         add_lines(axes, solution.t, [Curve("balance", error)])

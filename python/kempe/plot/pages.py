@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from kempe.compiled import COORDINATES
 from kempe.plot import drawing_pages, time_pages
 from kempe.plot.page import Page, file_names
 from kempe.plot.time_axis import transient
-
-if TYPE_CHECKING:
-    from kempe.solution import Solution
+from kempe.solution import Solution
+from kempe.values import instance
 
 
 def pages(solution: Solution, index_base: int = 1, most: int | None = None) -> list[Page]:
@@ -26,6 +24,7 @@ def pages(solution: Solution, index_base: int = 1, most: int | None = None) -> l
     Returns:
         The figures; those of one family, such as the joints, have the same number.
     """
+    instance(solution, Solution, "a solution")
     found: list[Page] = []
     for family in _families(solution, index_base, most):
         number = found[-1].number + 1 if found else 1
@@ -34,7 +33,7 @@ def pages(solution: Solution, index_base: int = 1, most: int | None = None) -> l
 
 
 def _families(solution: Solution, index_base: int, most: int | None) -> Iterator[list[Page]]:
-    model, cut = solution.model, transient(solution)
+    model, cut = solution.compiled, transient(solution)
     yield [drawing_pages.of_mechanism(solution)]
     yield [drawing_pages.of_configuration("initial", solution.initial, index_base)]
     yield [drawing_pages.of_configuration("final", solution.final, index_base)]

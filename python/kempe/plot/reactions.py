@@ -6,14 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe.motion import Motion
 from kempe.names import one_of
 from kempe.plot import style
 from kempe.plot.curves import Curve, Panel, draw
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.motion import Motion
+    from kempe.views.frames import Frame
 
 #: How a component is written in each frame: x″ is along the joint's axis, x′ along the body's.
 _PRIMES = {"global": "", "body": "′", "joint": "″"}
@@ -24,7 +26,7 @@ def reactions(
     joint: str,
     *,
     on: str | None = None,
-    frame: str = "global",
+    frame: Frame = "global",
     quantity: str = "force",
     ax: Axes | None = None,
     cut: float | None = None,
@@ -45,6 +47,7 @@ def reactions(
     Raises:
         ModelError: there is no such joint, body, frame or quantity.
     """
+    instance(motion, Motion, "a solution or a motion")
     view = motion.constraint(joint)
     body = view.info.j if on is None else on
     one_of("quantity", quantity, ("force", "torque"))
@@ -74,11 +77,12 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
+    instance(motion, Motion, "a solution or a motion")
     curves = []
-    for name, info in motion.model.constraints.items():
+    for name, info in motion.compiled.constraints.items():
         force = motion.constraint(name).force(on=info.j)
         magnitude = np.hypot(force[..., 0], force[..., 1])
-        if name in motion.model.joints or magnitude.any():
+        if name in motion.compiled.joints or magnitude.any():
             curves.append(Curve(style.short(name), magnitude))
     with style.on(ax) as axes:
         draw(axes, motion.t, curves, Panel("|F|", "N", "Reactions", cut))

@@ -9,11 +9,12 @@ from kempe.arrays import Floats
 from kempe.draw.units import Scale, power_of_ten
 from kempe.plot import style
 from kempe.plot.curves import Curve, Panel, add_lines, finish
+from kempe.solution import Solution
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.solution import Solution
 
 #: Least value of the axis: the resolution of the numbers.
 _LOWEST = 1e-18
@@ -27,8 +28,9 @@ def residual(solution: Solution, *, ax: Axes | None = None, cut: float | None = 
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
+    instance(solution, Solution, "a solution")
     drift = solution.drift
-    units = list(dict.fromkeys(solution.model.row_units())) or ["m"]
+    units = list(dict.fromkeys(solution.compiled.row_units())) or ["m"]
     curves = [
         Curve("position, max |Φ|", drift.position),
         Curve("velocity, max |dΦ/dt|", drift.velocity),

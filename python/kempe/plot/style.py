@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, Literal, TypeAlias
 
 from kempe.draw.palette import COLOURS, GROUND, LONGEST_NAME, colour, one_line, verbatim
 
@@ -27,7 +27,8 @@ MILLIMETRE = 1.0 / 25.4
 WIDTH = 160.0  # mm: the text of an A4 page
 HEIGHT = 75.0  # mm: of a figure with one panel
 DOTS_PER_INCH = 200
-FORMATS = ("png", "svg", "pdf")
+Format: TypeAlias = Literal["png", "svg", "pdf"]
+FORMATS: tuple[Format, ...] = ("png", "svg", "pdf")
 
 _FONTS: dict[Any, Any] = {
     "font.family": "sans-serif",

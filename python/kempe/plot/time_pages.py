@@ -32,7 +32,9 @@ def of_coordinate(
     solution: Solution, quantity: str, cut: float | None, index_base: int
 ) -> list[Page]:
     """One coordinate of all bodies that have it, a panel for each; more pages for many bodies."""
-    bodies = [name for name, info in solution.model.bodies.items() if quantity in info.quantities]
+    bodies = [
+        name for name, info in solution.compiled.bodies.items() if quantity in info.quantities
+    ]
     count = math.ceil(len(bodies) / _MOST_PANELS)
     found = []
     for k in range(count):
@@ -72,14 +74,14 @@ def _draw_coordinate(
 def of_body(solution: Solution, body: str, file: str, cut: float | None, index_base: int) -> Page:
     """Velocities of a body to the left, accelerations to the right."""
     draw = partial(_draw_body, solution, body, cut, index_base)
-    rows = solution.model.bodies[body].count
+    rows = solution.compiled.bodies[body].count
     return Page(0, file, body, rows * _PANEL + _AROUND, draw)
 
 
 def _draw_body(
     solution: Solution, body: str, cut: float | None, index_base: int, figure: Figure
 ) -> None:
-    count = solution.model.bodies[body].count
+    count = solution.compiled.bodies[body].count
     panels = _grid(figure, 2 * count, 2)
     common: dict[str, Any] = {"cut": cut, "index_base": index_base}
     for k, (rate, acceleration) in enumerate(
@@ -89,7 +91,7 @@ def _draw_body(
         accelerations(solution, body, acceleration, ax=panels[2 * k + 1], **common)
     for panel in panels:
         panel.set_title("", loc="left")
-    title = body_title(solution.model.bodies[body], index_base)
+    title = body_title(solution.compiled.bodies[body], index_base)
     panels[0].set_title(f"{title}: velocity", loc="left")
     panels[1].set_title("acceleration", loc="left")
     _label_lowest(panels, 2)

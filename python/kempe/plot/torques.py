@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from kempe.motion import Motion
 from kempe.plot import style
 from kempe.plot.curves import Curve, Panel, draw
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from kempe.motion import Motion
 
 
 def torques(
@@ -33,6 +33,7 @@ def torques(
     Raises:
         ModelError: there is no such element, or it does not act on that body.
     """
+    instance(motion, Motion, "a solution or a motion")
     view = motion.force(force)
     body = view.info.j if on is None else on
     total = Curve("sum", view.torque(on=body), style.SUM)
