@@ -49,6 +49,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
     "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW, STATES),
+    "energies": lambda: _core.energies(MODEL, TIMES, ROW, ROW, STATES, ROW),
     "residual": lambda: _core.residual(MODEL, TIMES, ROW, ROW),
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
     "force": lambda: _core.force(

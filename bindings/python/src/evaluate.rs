@@ -4,7 +4,7 @@ use crate::assemble::targets;
 use crate::convert::{refuse, rows, state, table, Row, Rows};
 use crate::guard::guard;
 use crate::model::PyModel;
-use crate::respond::{responses, Table};
+use crate::respond::{self, responses, Table};
 use kempe::analyses::assemble::{holding, Request};
 use kempe::analyses::dynamics as core;
 use kempe::elements::BodyId;
@@ -13,7 +13,7 @@ use kempe::equations::forces::{self, Acting};
 use kempe::equations::kinematics::Motions;
 use kempe::equations::reactions::{self, Frame};
 use kempe::math::Wrench;
-use kempe::model::Model;
+use kempe::model::{Model, WORKS};
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -65,6 +65,26 @@ pub fn evaluate<'py>(
         let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
         let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
         responses(py, &model.prepared, core::States { t, q, v, z }, false)
+    })
+}
+
+/// Kinetic, potential, dissipated energy, work of drivers, work of applied forces at states, with the works up to them.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, z, works))]
+pub fn energies<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+    works: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("energies", || {
+        let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
+        let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
+        let works = &rows(py, "works", &works, (t.len(), WORKS))?;
+        respond::energies(py, &model.prepared, core::States { t, q, v, z }, works)
     })
 }
 
