@@ -13,7 +13,7 @@ use kempe::equations::forces::{self, Acting};
 use kempe::equations::kinematics::Motions;
 use kempe::equations::reactions::{self, Frame};
 use kempe::math::Wrench;
-use kempe::model::{Model, WORKS};
+use kempe::model::Model;
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -68,7 +68,7 @@ pub fn evaluate<'py>(
     })
 }
 
-/// Kinetic, potential, dissipated energy, work of drivers, work of applied forces at states, with the works up to them.
+/// Energies at states, with the works up to them.
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, works))]
 pub fn energies<'py>(
@@ -81,10 +81,11 @@ pub fn energies<'py>(
     works: Rows<'py>,
 ) -> PyResult<Table<'py>> {
     guard("energies", || {
+        let layout = &model.model.layout;
         let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
-        let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
-        let works = &rows(py, "works", &works, (t.len(), WORKS))?;
-        respond::energies(py, &model.prepared, core::States { t, q, v, z }, works)
+        let z = &rows(py, "z", &z, (t.len(), layout.n_z))?;
+        let works = rows(py, "works", &works, (t.len(), layout.n_works))?;
+        respond::energies(py, &model.prepared, core::States { t, q, v, z }, &works)
     })
 }
 
