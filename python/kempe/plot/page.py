@@ -25,15 +25,13 @@ class Page:
         number: its place in the report; figures of one family share it.
         name: such as "reactions_C", fit for a file.
         about: the same with names as the model has them.
-        height: mm.
-        draw: draws it into an empty figure.
+        draw: draws it, as a figure without a window.
     """
 
     number: int
     name: str
     about: str
-    height: float
-    draw: Callable[[Figure], None]
+    draw: Callable[[], Figure]
 
     @property
     def stem(self) -> str:
@@ -43,9 +41,7 @@ class Page:
     def figure(self) -> Figure:
         """The figure, drawn, without a window."""
         with style.applied():
-            figure = style.figure(self.height)
-            self.draw(figure)
-            return figure
+            return self.draw()
 
 
 def save(
