@@ -45,8 +45,7 @@ class Scale:
 
 
 def axis_label(symbol: str, units: Sequence[str]) -> str:
-    """The label of an axis: quantity / unit, such as ``v / (m/s)``; several units in one pair of
-    parentheses."""
+    """The label of an axis: quantity / unit, such as ``v / (m/s)`` or ``x, φ / (m, rad)``."""
     text = ", ".join(units)
     return f"{symbol} / ({text})" if set(text) & set("/ ,") else f"{symbol} / {text}"
 

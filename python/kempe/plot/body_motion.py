@@ -18,6 +18,7 @@ from kempe.plot.time_axis import TimeAxis, show_time
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axes._secondary_axes import SecondaryAxis
     from matplotlib.lines import Line2D
     from numpy.typing import ArrayLike
 
@@ -151,11 +152,11 @@ def _draw(
             add_degrees(axes, panel)
         else:
             title = body_title(info, index_base)
-            _draw_all(axes, motion, body, names[: info.count or None], title, cut)
+            _draw_all(axes, motion, body, names[: info.count or None], title=title, cut=cut)
         return axes
 
 
-def add_degrees(axes: Axes, panel: Panel) -> Axes | None:
+def add_degrees(axes: Axes, panel: Panel) -> SecondaryAxis | None:
     """The same angle in degrees, to the right, if the panel has such an axis."""
     if not panel.degrees:
         return None
@@ -167,7 +168,7 @@ def add_degrees(axes: Axes, panel: Panel) -> Axes | None:
     def from_degrees(angle: ArrayLike) -> Floats:
         return np.radians(np.divide(angle, rad))
 
-    degrees: Axes = axes.secondary_yaxis("right", functions=(to_degrees, from_degrees))
+    degrees = axes.secondary_yaxis("right", functions=(to_degrees, from_degrees))
     degrees.spines["right"].set_visible(True)
     degrees.set_ylabel("φ / °")
     degrees.set_ylim(*to_degrees(axes.get_ylim()))
@@ -176,7 +177,7 @@ def add_degrees(axes: Axes, panel: Panel) -> Axes | None:
 
 
 def _draw_all(
-    axes: Axes, motion: Motion, body: str, names: Sequence[str], title: str, cut: float | None
+    axes: Axes, motion: Motion, body: str, names: Sequence[str], *, title: str, cut: float | None
 ) -> None:
     """Both directions on the axes, the turning, if any, on a twin of them."""
     x, y, *turn = (_curve(motion, body, name, style.line(k)) for k, name in enumerate(names))

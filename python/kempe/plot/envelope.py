@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -38,7 +39,7 @@ def envelope(t: Floats, y: Floats, bins: int = BINS) -> tuple[Floats, Floats, Fl
     return middle, np.minimum.reduceat(y, first), np.maximum.reduceat(y, first)
 
 
-def draw_envelope(axes: Axes, t: Floats, y: Floats, label: str, look: dict[str, object]) -> None:
+def draw_envelope(axes: Axes, t: Floats, y: Floats, label: str, look: Mapping[str, Any]) -> None:
     """The largest values as a line, and a light band down to the least values."""
     middle, low, high = envelope(t, y)
     axes.plot(middle, high, label=label, **look)

@@ -134,7 +134,6 @@ class _Drawing:
     def _draw_panel(
         self, panel: Panel, box: tuple[float, float, float, float], *, timed: bool
     ) -> None:
-        left, bottom, width, height = box
         axes = style.axes_at(self.figure, box, self.height)
         draw(
             axes,
@@ -146,7 +145,7 @@ class _Drawing:
         )
         degrees = add_degrees(axes, panel)
         if degrees is not None:
-            degrees.yaxis.set_label_coords(1.0 + 10.0 / width, 0.5, axes.transAxes)
+            degrees.yaxis.set_label_coords(1.0 + 10.0 / box[2], 0.5, axes.transAxes)
         if not timed:
             axes.set_xlabel("")
             axes.tick_params(labelbottom=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -94,6 +95,13 @@ def _beside(joint: str, body: str) -> str:
     return f"{style.short(joint, longest)} on {style.short(body, longest)}"
 
 
+def _magnitude(joint: str, at: Motion) -> Floats:
+    """Magnitude of the force of a joint on its body j."""
+    view = at.constraint(joint)
+    found: Floats = np.hypot(*view.force(on=view.info.j).T)
+    return found
+
+
 def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
     """Draw the magnitude of the force of every joint and driver that has one.
 
@@ -104,14 +112,10 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
-    curves = []
-    for name, info in motion.model.constraints.items():
-        one = curve(
-            motion,
-            style.short(name),
-            lambda at, name=name, on=info.j: np.hypot(*at.constraint(name).force(on=on).T),
-            style.line(len(curves)),
-        )
+    curves: list[Curve] = []
+    for name in motion.model.constraints:
+        magnitude = partial(_magnitude, name)
+        one = curve(motion, style.short(name), magnitude, style.line(len(curves)))
         if name in motion.model.joints or one.values.any():
             curves.append(one)
     panel = Panel("|F|", "N", curves, "Reactions", "reactions")

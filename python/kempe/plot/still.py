@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe.arrays import Floats
 from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
 from kempe.draw.units import Scale, scale
 from kempe.fine import fine
@@ -25,8 +26,8 @@ def largest_values(motion: Motion) -> dict[str, float]:
     motion = fine(motion)
     found: dict[str, float] = {}
 
-    def note(unit: str, values: object) -> None:
-        found[unit] = max(found.get(unit, 0.0), float(np.abs(values).max(initial=0.0)))  # type: ignore[arg-type]
+    def note(unit: str, values: Floats) -> None:
+        found[unit] = max(found.get(unit, 0.0), float(np.abs(values).max(initial=0.0)))
 
     for name in motion.model.bodies:
         body = motion.body(name)
@@ -40,7 +41,8 @@ def largest_values(motion: Motion) -> dict[str, float]:
     for name, info in motion.model.forces.items():
         note("N·m", motion.force(name).torque(on=info.j))
     # A torque about a point follows from forces at distances, and so does its rounding error.
-    note("N·m", found.get("N", 0.0) * found.get("m", 0.0))
+    turning = found.get("N", 0.0) * found.get("m", 0.0)
+    found["N·m"] = max(found.get("N·m", 0.0), turning)
     return found
 
 
@@ -73,7 +75,7 @@ def drawn_and_left_out(
     return kept, f"Not drawn: {'; '.join([*told, *equal])}." if told or equal else ""
 
 
-def _is_constant(values: np.ndarray) -> bool:
+def _is_constant(values: Floats) -> bool:
     return bool(np.ptp(values) <= CONSTANT * np.abs(values).max(initial=0.0))
 
 

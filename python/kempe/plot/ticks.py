@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from kempe.draw.labels import measured
@@ -37,7 +38,7 @@ def labels(ticks: Sequence[float]) -> list[str]:
     """Numbers with as many decimals as the distances of the ticks need."""
     if len(ticks) < 2:
         return [_minus(f"{tick:.6g}") for tick in ticks]
-    step = min(abs(b - a) for a, b in zip(ticks, ticks[1:], strict=False))
+    step = min(abs(b - a) for a, b in pairwise(ticks))
     decimals = next((k for k in range(15) if math.isclose(round(step, k), step, rel_tol=1e-6)), 15)
     return [_minus(f"{tick:.{decimals}f}") for tick in ticks]
 
@@ -49,13 +50,17 @@ def _minus(text: str) -> str:
 
 def _length(axis: Axis) -> float:
     box = axis.axes.bbox
-    side = box.width if axis.axis_name == "x" else box.height
+    side = box.width if _is_horizontal(axis) else box.height
     return float(side) * 72.0 / float(axis.axes.figure.dpi)
+
+
+def _is_horizontal(axis: Axis) -> bool:
+    return axis is axis.axes.xaxis
 
 
 def _needed(axis: Axis, words: Sequence[str]) -> float:
     """Length that the numbers need, points."""
-    if axis.axis_name == "y":
+    if not _is_horizontal(axis):
         return len(words) * (_SIZE + _ABOVE)
     widths = [measured(word, _SIZE, bold=False, slanted=False)[0] for word in words]
     return max(widths, default=0.0) * len(words) + _BESIDE * len(words)
