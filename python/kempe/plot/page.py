@@ -27,6 +27,7 @@ class Page:
         about: the same with names as the model has them.
         height: mm.
         draw: draws it into an empty figure.
+        key: whether it belongs to the few that show a run at a glance.
     """
 
     number: int
@@ -34,6 +35,7 @@ class Page:
     about: str
     height: float
     draw: Callable[[Figure], None]
+    key: bool = False
 
     @property
     def stem(self) -> str:
