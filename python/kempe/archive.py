@@ -121,6 +121,7 @@ def load_solution(path: Path | str) -> Solution:
 
 def _read(path: Path | str) -> tuple[dict[str, Any], dict[str, Floats]]:
     try:
+        files.refuse_pipe(path)
         with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as stored:
             arrays = {name: stored[name] for name in stored.files}
         about = json.loads(str(arrays.pop("about")))

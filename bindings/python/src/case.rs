@@ -80,11 +80,13 @@ impl PyCase {
                 let read = kempe::analyses::assemble::targets(&model.model, section, targets);
                 found.extend(read.err().unwrap_or_default());
             }
+            let mut options = Vec::with_capacity(self.case.analyses.len());
             for entry in &self.case.analyses {
                 let path = ["analyses".to_string(), entry.name.clone()];
                 let read = kempe::analyses::dynamics::read(&model.model, &entry.fields, &path);
-                found.extend(read.err().unwrap_or_default());
+                options.push(read.map_err(|problems| found.extend(problems)).ok());
             }
+            found.extend(case::backward(&self.case, &options));
             if found.is_empty() {
                 return Ok(());
             }

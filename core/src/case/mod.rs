@@ -11,6 +11,7 @@
 //! | `diagnostic`, `document` | places → line, column, excerpt |
 //! | `report` | problems by path |
 //! | `names`, `values`, `fields`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
+//! | `times` | analyses that end before they begin |
 //! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
 //! | `schema` | the JSON Schema |
 
@@ -29,6 +30,7 @@ mod report;
 mod schema;
 mod start;
 mod start_builder;
+mod times;
 mod toml;
 mod toml_tables;
 mod tree;
@@ -45,6 +47,7 @@ use diagnostic::shown;
 pub use diagnostic::Diagnostic;
 pub use document::Document;
 pub use schema::schema;
+pub use times::backward;
 pub use tree::{MOST_DEPTH, MOST_VALUES};
 pub use write::write;
 

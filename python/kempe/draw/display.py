@@ -273,13 +273,20 @@ class Display:
         return np.array([place(item, poses, self.view) for poses in self.poses])
 
 
-def display(scene: Scene, view: View) -> list[Item]:
-    """The display list of frames and of the page: everything numbered and named."""
+def display(scene: Scene, view: View, *, labels: bool = True) -> list[Item]:
+    """The display list of frames and of the page.
+
+    Args:
+        scene: the scene.
+        view: the visible area.
+        labels: whether to write numbers and names.
+    """
     made = Display(scene, view)
     made.draw_mechanism()
-    made.number_bodies()
-    made.name_joints()
-    made.name_elements()
+    if labels:
+        made.number_bodies()
+        made.name_joints()
+        made.name_elements()
     return made.finish()
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +23,16 @@ _FEWEST_FRAMES = 60
 _INVISIBLE = 1e-3
 
 
-def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int) -> Motion:
+#: First and last time, s.
+Span: TypeAlias = tuple[float, float]
+
+
+def sampled(
+    drawn: Solution | State,
+    frames: int | None,
+    numbers_per_frame: int,
+    span: Span | None = None,
+) -> Motion:
     """The motion at the frames, in the order of time.
 
     Evenly spread where the solution can be evaluated anywhere, otherwise at the outputs.
@@ -31,25 +41,29 @@ def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int)
         drawn: a solution, or a state, which is one frame.
         frames: how many; chosen when None.
         numbers_per_frame: how many numbers a frame has.
+        span: the part of the time that is drawn; all when None.
 
     Raises:
-        ModelError: ``frames`` is less than 1.
+        ModelError: ``frames`` is less than 1, or the span is not in the solution.
     """
     if frames is not None and frames < 1:
         raise ModelError(f"frames={frames}: must be 1 or more")
     if isinstance(drawn, State):
         return Motion(drawn.model, drawn.t[None], drawn.q[None], drawn.v[None], drawn.z[None])
-    begin, end = sorted((float(drawn.t[0]), float(drawn.t[-1])))
+    begin, end = whole = float(drawn.t[0]), float(drawn.t[-1])
+    if span is not None:
+        begin, end = span
+        _refuse_outside(span, whole)
     count = frames or _count(end - begin, numbers_per_frame)
     if drawn.dense is None:
-        return _at_outputs(drawn, count)
+        return _at_outputs(drawn, count, (begin, end))
     if begin == end:
         count = 1
     motion = drawn(np.linspace(begin, end, count))
     try:
         _ = motion.lam
     except KempeError:  # a solution may end in a position in which reactions have no answer
-        return _at_outputs(drawn, count)
+        return _at_outputs(drawn, count, (begin, end))
     return motion
 
 
@@ -77,8 +91,21 @@ class _Outputs(Motion):
         return self._computed[1]
 
 
-def _at_outputs(solution: Solution, count: int) -> Motion:
-    order = np.argsort(solution.t, kind="stable")
+def _refuse_outside(span: Span, whole: Span) -> None:
+    first, last = span
+    if not whole[0] <= first <= last <= whole[1]:
+        asked = f"t = {first:g} s is" if first == last else f"{first:g} to {last:g} s are"
+        raise ModelError(f"{asked} not within the motion, {whole[0]:g} to {whole[1]:g} s")
+
+
+def _at_outputs(solution: Solution, count: int, span: Span) -> Motion:
+    inside = (solution.t >= span[0]) & (solution.t <= span[1])
+    if not inside.any():
+        raise ModelError(
+            f"the solution has no output from {span[0]:g} to {span[1]:g} s",
+            hint="choose a longer part, or simulate with dense_output = true",
+        )
+    order = np.flatnonzero(inside)
     kept = order[np.unique(np.linspace(0, len(order) - 1, count).round().astype(int))]
     return _Outputs(solution, kept)
 

@@ -39,6 +39,7 @@ def scene(
     *,
     frames: int | None = None,
     traces: Sequence[str] | None = None,
+    span: sampling.Span | None = None,
 ) -> Scene:
     """Describe a motion, or one instant, for drawing.
 
@@ -48,15 +49,17 @@ def scene(
             fewer for a mechanism of very many bodies.
         traces: points whose paths are drawn, such as ``["coupler.P"]``; by default every named
             point of a moving body that moves, once where several bodies share it.
+        span: first and last time that are drawn, s; the whole motion by default.
 
     Returns:
         The scene; see ``docs/scene.md``. Numbers have nine significant digits.
 
     Raises:
-        ModelError: a traced point or its body does not exist, or ``frames`` is less than 1.
+        ModelError: a traced point or its body does not exist, ``frames`` is less than 1, or the
+            span is not within the motion.
     """
     model = solution_or_state.model
-    motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model))
+    motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model), span)
     bodies = [shapes.body(model, name) for name in model.all_bodies]
     joints = [shapes.joint(model, name) for name in model.joints]
     bounds = shapes.bounds(motion, bodies, joints)

@@ -25,6 +25,8 @@ _LEFT, _RIGHT, _DEGREES = 19.0, 4.0, 16.0
 _TITLE, _TIME, _GAP, _LINE = 7.0, 11.0, 2.5, 4.0
 #: Height of axes, of those that are alone, and of a legend above all panels, mm.
 _HIGH, _ALONE, _LEGEND = 26.0, 57.0, 5.0
+#: Names in a row of the legend.
+_NAMES = 4
 #: Characters in a line of the note.
 _WIDE = 98
 
@@ -64,10 +66,12 @@ def sheet_figure(sheet: Sheet, t: Floats, cut: float | None, fixed: Mapping[str,
     figure = style.figure(height, layout=None)
     drawing = _Drawing(figure, height, t, cut, _scales(sheet.panels, fixed), _spans(sheet))
     drawing.draw(rows, _top(sheet))
-    if sheet.legend and drawing.axes:
-        handles, words = drawing.axes[0].get_legend_handles_labels()
+    if _names(sheet):
+        fullest = max(drawing.axes, key=lambda axes: len(axes.lines))
+        handles, words = fullest.get_legend_handles_labels()
         place = (1.0 - _RIGHT / style.WIDTH, 1.0)
-        figure.legend(handles, words, loc="upper right", bbox_to_anchor=place, ncols=len(words))
+        columns = min(len(words), _NAMES)
+        figure.legend(handles, words, loc="upper right", bbox_to_anchor=place, ncols=columns)
     for k, line in enumerate(reversed(note)):
         y = (1.5 + k * _LINE) / height
         figure.text(_GAP / style.WIDTH, y, line, fontsize=8.0, va="bottom")
@@ -75,7 +79,14 @@ def sheet_figure(sheet: Sheet, t: Floats, cut: float | None, fixed: Mapping[str,
 
 
 def _top(sheet: Sheet) -> float:
-    return _LEGEND if sheet.legend else 0.0
+    return _LEGEND * math.ceil(len(_names(sheet)) / _NAMES)
+
+
+def _names(sheet: Sheet) -> list[str]:
+    """The lines of the legend that all panels share."""
+    if not sheet.legend or not sheet.panels:
+        return []
+    return [curve.label for curve in max(sheet.panels, key=lambda p: len(p.curves)).curves]
 
 
 def _high(rows: Sequence[Sequence[Panel]]) -> float:

@@ -26,12 +26,14 @@ class Page:
         name: such as "reactions_C", fit for a file.
         about: the same with names as the model has them.
         draw: draws it, as a figure without a window.
+        key: whether it belongs to the few that show a run at a glance.
     """
 
     number: int
     name: str
     about: str
     draw: Callable[[], Figure]
+    key: bool = False
 
     @property
     def stem(self) -> str:

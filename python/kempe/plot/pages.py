@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
 
 
+#: The figures that show a run at a glance, which ``kempe run`` draws by default.
+KEY = ("mechanism", "residual", "energy", "reactions", "motion")
+
+
 def pages(
     solution: Solution, index_base: int = 1, most: int | None = None, *, compressed: bool = False
 ) -> list[Page]:
@@ -31,17 +35,18 @@ def pages(
     Returns:
         The figures; those of one family, such as the joints, have the same number.
     """
+    cut = transient(solution) if compressed else None
     found: list[Page] = []
-    for family in _families(solution, index_base, most, compressed):
+    for family in _families(solution, index_base, most, cut):
         number = found[-1].number + 1 if found else 1
-        found += [replace(page, number=number) for page in family]
+        found += [replace(page, number=number, key=page.name in KEY) for page in family]
     return found
 
 
 def _families(
-    solution: Solution, index_base: int, most: int | None, compressed: bool
+    solution: Solution, index_base: int, most: int | None, cut: float | None
 ) -> Iterator[list[Page]]:
-    model, cut = solution.model, transient(solution) if compressed else None
+    model = solution.model
     yield [drawing_pages.of_mechanism(solution)]
     yield [drawing_pages.of_configuration("initial", solution.initial, index_base)]
     yield [drawing_pages.of_configuration("final", solution.final, index_base)]
@@ -56,6 +61,7 @@ def _families(
     yield [over_time.of_residual()]
     yield [over_time.of_energy()]
     yield [over_time.of_all_reactions()]
+    yield [over_time.of_motion()]
 
 
 def _filed(names: Iterable[str]) -> list[tuple[str, str]]:

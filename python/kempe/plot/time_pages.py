@@ -8,14 +8,15 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
-from kempe.compiled import ACCELERATIONS, RATES
+from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
 from kempe.draw.units import Scale
+from kempe.fine import fine
 from kempe.plot import style
-from kempe.plot.body_motion import body_panel, body_title
+from kempe.plot.body_motion import QUANTITIES, body_panel, body_title
 from kempe.plot.energy import energy, energy_balance
 from kempe.plot.grid import Sheet, sheet_figure
 from kempe.plot.page import Page
-from kempe.plot.panel import Panel, times
+from kempe.plot.panel import Curve, Panel, times
 from kempe.plot.reactions import all_reactions, force_panel
 from kempe.plot.reactions import torque_panel as reaction_torque
 from kempe.plot.residual import residual
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
 
 #: More panels than this do not fit on a page.
 _MOST_PANELS = 12
+#: More lines than this cannot be distinguished.
+_MOST_BODIES = 24
 
 
 @dataclass(frozen=True)
@@ -125,6 +128,36 @@ class TimePages:
         count = columns or (1 if len(kept) <= 4 else 2)
         sheet = Sheet(kept, min(count, max(len(kept), 1)), note, shared, legend)
         return sheet_figure(sheet, times(self.solution), self.cut, fixed)
+
+    def of_motion(self) -> Page:
+        """x, y and angle of all bodies, a line for each."""
+        return Page(0, "motion", "motion", self._motion)
+
+    def _motion(self) -> Figure:
+        known = list(self.solution.model.bodies)
+        panels = [self._together(quantity, known[:_MOST_BODIES]) for quantity in COORDINATES]
+        few = f" of the first {_MOST_BODIES} of {len(known)} bodies" if known[_MOST_BODIES:] else ""
+        return self._figure(
+            [panel for panel in panels if panel.curves],
+            columns=1,
+            title=f"Motion{few}",
+            legend=True,
+        )
+
+    def _together(self, quantity: str, bodies: Sequence[str]) -> Panel:
+        """One coordinate of several bodies; none is marked."""
+        infos = [self.solution.model.bodies[name] for name in bodies]
+        curves = [
+            Curve(
+                body_title(info, self.index_base),
+                getattr(fine(self.solution).body(info.name), quantity),
+                style.line(info.number - 1),
+            )
+            for info in infos
+            if quantity in info.quantities
+        ]
+        symbol, unit = QUANTITIES[quantity]
+        return Panel(symbol, unit, curves, name=symbol)
 
     def of_residual(self) -> Page:
         """By how much the constraints are not met."""

@@ -12,6 +12,7 @@ from kempe.report.settling import settling
 
 if TYPE_CHECKING:
     from kempe.solution import Solution
+    from kempe.state import State
 
 
 def summary(solution: Solution) -> dict[str, Any]:
@@ -29,7 +30,7 @@ def summary(solution: Solution) -> dict[str, Any]:
             "end": float(solution.t[-1]),
             "outputs": len(solution.t),
         },
-        "mechanism": mechanism(solution),
+        "mechanism": mechanism(solution.initial),
         "start": solution.initial.coordinates(),
         "end": solution.final.coordinates(),
         "peaks": {
@@ -44,9 +45,9 @@ def summary(solution: Solution) -> dict[str, Any]:
     }
 
 
-def mechanism(solution: Solution) -> dict[str, Any]:
-    """Elements of the mechanism, and its degrees of freedom at the start."""
-    model = solution.model
+def mechanism(state: State) -> dict[str, Any]:
+    """Elements of the mechanism, and its degrees of freedom in a state."""
+    model = state.model
     return {
         "bodies": list(model.bodies),
         "joints": list(model.joints),
@@ -54,7 +55,7 @@ def mechanism(solution: Solution) -> dict[str, Any]:
         "forces": list(model.forces),
         "coordinates": model.n_q,
         "equations": model.n_rows,
-        "degrees_of_freedom": solution.initial.matrices().degrees_of_freedom,
+        "degrees_of_freedom": state.matrices().degrees_of_freedom,
     }
 
 
