@@ -152,7 +152,7 @@ def test_gaps_are_those_of_the_residual_and_magnified_by_a_round_factor(found: k
     begin, along = joint_gaps(state)
     np.testing.assert_allclose(along.ravel(), state.residuals[0], atol=1e-12)
     assert begin.shape == (4, 2)
-    assert magnification(0.0085, 25.0) == 200.0
+    assert magnification(0.0085, 25.0) == 500.0
     assert magnification(0.0, 25.0) == 1.0
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from kempe.arrays import Floats
 from kempe.draw.units import NOISE, Scale, scale
 from kempe.plot import style
+from kempe.plot.legend import above_or_beside
 from kempe.plot.panel import CONSTANT, Curve, Panel
 from kempe.plot.peaks import ROOM, add_peaks, chosen_peaks
 from kempe.plot.ticks import set_ticks
@@ -88,21 +89,4 @@ def finish(axes: Axes, time: TimeAxis, panel: Panel) -> None:
     if panel.title:
         axes.set_title(panel.title, loc="left")
     if panel.legend:
-        legend_above(axes)
-
-
-def legend_above(axes: Axes) -> None:
-    """The legend where no line can be: above the panel, or beside it if there are many lines."""
-    handles, labels = axes.get_legend_handles_labels()
-    if len(labels) > 5 or sum(map(len, labels)) > 60:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.02), ncols=1 + len(labels) // 16)
-    elif len(labels) > 1:
-        axes.legend(
-            handles,
-            labels,
-            loc="lower right",
-            bbox_to_anchor=(1.0, 0.98),
-            ncols=len(labels),
-            columnspacing=1.2,
-            borderaxespad=0.2,
-        )
+        above_or_beside(axes)

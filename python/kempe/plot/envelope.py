@@ -47,12 +47,13 @@ def draw_envelope(axes: Axes, t: Floats, y: Floats, label: str, look: Mapping[st
         axes.fill_between(middle, low, high, color=look["color"], alpha=0.18, linewidth=0.0)
 
 
-def logarithmic(axes: Axes, drawn: list[Floats]) -> None:
+def logarithmic(axes: Axes, drawn: list[Floats], most: int = _MOST) -> None:
     """A logarithmic axis that leaves out zeros; linear where there is nothing else.
 
     Args:
         axes: where to.
         drawn: the values that must be seen.
+        most: decades of the axis, at most; the largest ones are shown.
     """
     positive = [values[values > 0.0] for values in drawn]
     lowest = min((float(values.min()) for values in positive if len(values)), default=None)
@@ -61,7 +62,7 @@ def logarithmic(axes: Axes, drawn: list[Floats]) -> None:
     highest = max(float(values.max()) for values in positive if len(values))
     # Whole decades: their numbers are short.
     top = math.ceil(math.log10(highest))
-    bottom = min(max(math.floor(math.log10(lowest)), top - _MOST), top - _FEWEST)
+    bottom = min(max(math.floor(math.log10(lowest)), top - most), top - _FEWEST)
     axes.set_yscale("log", nonpositive="mask")
     axes.set_ylim(10.0**bottom, 10.0**top)
     step = math.ceil((top - bottom) / 6)

@@ -49,7 +49,7 @@ class Panel:
         name: its name in a sentence on the page.
         legend: whether to write one, above the panel to the right.
         degrees: whether an axis to the right gives an angle in degrees.
-        turning_points: whether extreme values at the first and the last time are no peaks.
+        turning_points: whether extreme values at the first and the last time stay unmarked.
     """
 
     symbol: str

@@ -33,7 +33,7 @@ def chosen_peaks(curves: Sequence[Curve], *, turning_points: bool) -> list[Mark]
 
     Args:
         curves: the curves.
-        turning_points: whether extreme values at the first and the last time are no peaks.
+        turning_points: whether extreme values at the first and the last time stay unmarked.
     """
     found: list[Mark] = []
     for k, curve in enumerate(curves):

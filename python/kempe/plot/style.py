@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 
 #: The lines of one panel in order: in print without colours the dashes distinguish them.
 DASHES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 2)))
+#: Of the curves of a study: ten colours, dashes and markers, each only once.
+_MANY_COLOURS = (*COLOURS, "#7A3DB8", "#8B5A2B", "#7F7F7F")
+_MANY_DASHES = (*DASHES, (0, (8, 2, 1, 2)), (0, (12, 3)), (0, (4, 1, 1, 1, 1, 1, 1, 1)))
+MARKERS = "osD^vP*X<>"
 SUM = {"color": "#000000", "linestyle": "-", "linewidth": 1.6, "zorder": 1.9}
 EARLIER = "#BBBBBB"
 QUIET = "#F2F2F2"
@@ -84,6 +88,15 @@ def line(k: int) -> dict[str, Any]:
     return {
         "color": COLOURS[k % len(COLOURS)],
         "linestyle": DASHES[(k + shift) % len(DASHES)],
+    }
+
+
+def marked_line(k: int) -> dict[str, Any]:
+    """Colour, dashes and marker of the k-th curve of a study, from 0; all of ten are different."""
+    return {
+        "color": _MANY_COLOURS[k % len(_MANY_COLOURS)],
+        "linestyle": _MANY_DASHES[k % len(_MANY_DASHES)],
+        "marker": MARKERS[k % len(MARKERS)],
     }
 
 
