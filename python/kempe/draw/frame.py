@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -87,6 +88,7 @@ class Frame:
         self.axes.set_xlim(left, right)
         self.axes.set_ylim(bottom, top)
         self._draw_still()
+        self._labels = labels
         items = frame_items(scene, size, labels=labels)
         self.painting = Painting(self.axes, items, self._poses[0])
         self._clock = self.axes.text(
@@ -126,7 +128,7 @@ class Frame:
         self._clock.set_text(f"t = {self._scene['frames']['t'][k]:.3f} s")
 
     def save(self, k: int, path: Path | str) -> None:
-        """Write frame k as PNG, whole or not at all.
+        """Write frame k as PNG, whole or not at all; its names are laid out as in a figure.
 
         Raises:
             FileError: the file cannot be written.
@@ -134,8 +136,24 @@ class Frame:
         from kempe.draw.painter import any_character
 
         self.put(k)
-        with files.writing(path) as file, any_character():
+        with self._laid_out_at(k), files.writing(path) as file, any_character():
             self.figure.savefig(file, format="png")
+
+    @contextmanager
+    def _laid_out_at(self, k: int) -> Iterator[None]:
+        """Names in places for frame k alone, while those for the whole motion are hidden."""
+        from kempe.draw.painter import Painting
+
+        alone = {**self._scene["frames"], "poses": [self._scene["frames"]["poses"][k]]}
+        shown = {**self._scene, "frames": alone}
+        items = frame_items(shown, self._size, labels=self._labels)
+        painting = Painting(self.axes, items, self._poses[k])
+        self.painting.show(visible=False)
+        try:
+            yield
+        finally:
+            painting.remove_all()
+            self.painting.show(visible=True)
 
     def pixels(self, k: int) -> Picture:
         """Frame k as RGBA, (height, width, 4), valid until the next one is drawn.

@@ -72,7 +72,7 @@ def scene(
         "units": dict(UNITS),
         "gravity": plain(np.array(model.gravity)),
         "bounds": plain(bounds),
-        "length": _length(size),
+        "length": _length(shapes.own_size(bodies, joints) or size),
         "bodies": bodies,
         "joints": joints,
         "symbols": shapes.symbols(motion),
