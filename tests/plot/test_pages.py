@@ -1,6 +1,7 @@
 """The figures of the report: which there are, that they can be read, and that they stay so."""
 
 import math
+import time
 from pathlib import Path
 
 import kempe as kp
@@ -32,6 +33,7 @@ FLAGSHIP = [
     "12_residual",
     "13_energy",
     "14_reactions",
+    "15_motion",
 ]
 
 
@@ -60,6 +62,16 @@ def test_names_lie_on_no_link(flagship_pages: list[plot.Page], name: str) -> Non
     for text, box in boxes(figure):
         if text not in numbers:
             assert clipped_lengths(box.min, box.max, np.array(ends)).sum() == 0.0, text
+
+
+def test_the_key_figures_are_few_and_take_little_time(
+    flagship_pages: list[plot.Page], tmp_path: Path
+) -> None:
+    key = [page for page in flagship_pages if page.key]
+    assert [page.name for page in key] == ["mechanism", "residual", "energy", "reactions", "motion"]
+    begin = time.process_time()
+    plot.save(key, tmp_path)
+    assert time.process_time() - begin < 3.0
 
 
 def test_overlaps_are_seen() -> None:

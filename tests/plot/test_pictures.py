@@ -98,7 +98,7 @@ def check(name: str, picture: Image.Image) -> None:
     path = FOLDER / f"{name}.png"
     if os.environ.get("KEMPE_WRITE"):
         FOLDER.mkdir(exist_ok=True)
-        picture.quantize(16).save(path, optimize=True)
+        picture.save(path, optimize=True)
     if mpl.__version__ != pinned():
         pytest.skip(f"pictures are made with Matplotlib {pinned()}, this is {mpl.__version__}")
     with Image.open(path) as expected:
