@@ -85,7 +85,10 @@ def test_a_wrong_start_is_refused(
 # --- method and tolerances ------------------------------------------------------------------------
 
 
-def test_the_methods_are_those_of_the_core(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_methods_are_those_of_the_core(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
     kinds = {kind.kind for kind in Option.__subclasses__()}
     methods = {name.value for name in Method}
     assert methods == kinds - {"projection", "baumgarte", "none"}
@@ -137,7 +140,6 @@ def test_all_analyses_get_the_method() -> None:
         (["--method", "euler"], "'rk45'"),
         (["--method", "rk4"], "step"),
         (["--rtol", "-1"], "rtol"),
-        (["--rtol", "0"], "rtol"),
         (["--rtol", "small"], "--rtol"),
         (["--method", "rk4", "--step", "0.01", "--rtol", "1e-3"], "rtol"),
     ],

@@ -119,7 +119,11 @@ def test_a_case_comes_from_standard_input(form: str, tmp_path: Path) -> None:
     ("text", "code", "told"),
     [
         ("", 2, "kempe"),
-        ("kempe = 1\n[bodies.a]\nmas = 1\n", 2, "standard input: bodies.a"),
+        (
+            "kempe = 1\n[bodies.a]\nmas = 1\n",
+            2,
+            "error: standard input: 2 problems\nbodies.a.inertia",
+        ),
         (b"\xff\xfe", 4, "cannot read standard input: not UTF-8"),
         ("#" * (16 * 2**20 + 1), 4, "larger than 16 MiB"),
     ],

@@ -137,9 +137,7 @@ def _put(text: str, output: Path | None) -> None:
     files.write_text(output, text)
 
 
-def _matrices(
-    case: Case, state: State, wanted: list[str], assembly: bool
-) -> Iterator[Labelled]:
+def _matrices(case: Case, state: State, wanted: list[str], assembly: bool) -> Iterator[Labelled]:
     from kempe.matrices import show as labelled
 
     held = case.held if assembly else {}
