@@ -14,7 +14,10 @@ fn backward(analyses: &str) -> Vec<(String, usize)> {
     let read = |entry: &model::Entry| dynamics::read(&model, &entry.fields, &[]).ok();
     let options: Vec<_> = case.analyses.iter().map(read).collect();
     let found = case::backward(&case, &options);
-    found.iter().map(|p| (p.to_string(), document.diagnose(p).line - HEAD.lines().count())).collect()
+    found
+        .iter()
+        .map(|p| (p.to_string(), document.diagnose(p).line - HEAD.lines().count()))
+        .collect()
 }
 
 fn analysis(name: &str, fields: &str) -> String {
@@ -43,7 +46,9 @@ fn an_analysis_starts_where_the_one_before_it_ends() {
 #[test]
 fn from_and_t_start_give_the_start() {
     let three = |third: &str| {
-        backward(&(analysis("a", "t_end = 1") + &analysis("b", "t_end = 2") + &analysis("c", third)))
+        backward(
+            &(analysis("a", "t_end = 1") + &analysis("b", "t_end = 2") + &analysis("c", third)),
+        )
     };
     assert_eq!(three("t_end = 1.5\nfrom = 'a'"), []);
     assert_eq!(three("t_end = 0.5\nfrom = 'start'"), []);
