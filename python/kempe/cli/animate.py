@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.text import Text
@@ -51,37 +51,48 @@ class Form(str, Enum):
     gif = "gif"
 
 
+Output = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", help="The file; by default animation.* beside the results."),
+]
+FormOption = Annotated[
+    Form | None, typer.Option("--format", help="By default, from the ending of the file.")
+]
+FramesPerSecond = Annotated[
+    float | None, typer.Option("--fps", help="Pictures per second of a video or GIF.")
+]
+Speed = Annotated[float, typer.Option("--speed", help="2 plays twice as fast, 0.1 in slow motion.")]
+Size = Annotated[
+    str | None,
+    typer.Option(
+        "--size", metavar="WIDTHxHEIGHT", help="Pixels of a video, GIF or picture: 1280x720."
+    ),
+]
+Begin = Annotated[
+    float | None,
+    typer.Option("--from", metavar="SECONDS", help="First time that is shown, s."),
+]
+End = Annotated[
+    float | None, typer.Option("--to", metavar="SECONDS", help="Last time that is shown, s.")
+]
+At = Annotated[
+    float | None,
+    typer.Option("--at", metavar="SECONDS", help="Write a picture (PNG) of this time only, s."),
+]
+Labels = Annotated[bool, typer.Option("--labels/--no-labels", help="Write numbers and names.")]
+
+
 def animate(  # noqa: PLR0917 - typer distinguishes options by their annotations
     file: CaseOrSolution,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="The file; by default animation.* beside the results."),
-    ] = None,
-    form: Annotated[
-        Form | None, typer.Option("--format", help="By default, from the ending of the file.")
-    ] = None,
-    fps: Annotated[
-        float | None, typer.Option("--fps", help="Pictures per second of a video or GIF.")
-    ] = None,
-    speed: Annotated[
-        float, typer.Option("--speed", help="2 plays twice as fast, 0.1 in slow motion.")
-    ] = 1.0,
-    size: Annotated[
-        str | None,
-        typer.Option(
-            "--size", metavar="WIDTHxHEIGHT", help="Pixels of a video, GIF or picture: 1280x720."
-        ),
-    ] = None,
-    begin: Annotated[
-        float | None, typer.Option("--from", help="First time that is shown, s.")
-    ] = None,
-    end: Annotated[float | None, typer.Option("--to", help="Last time that is shown, s.")] = None,
-    at: Annotated[
-        float | None, typer.Option("--at", help="Write a picture (PNG) of this time only, s.")
-    ] = None,
-    labels: Annotated[
-        bool, typer.Option("--labels/--no-labels", help="Write numbers and names.")
-    ] = True,
+    output: Output = None,
+    form: FormOption = None,
+    fps: FramesPerSecond = None,
+    speed: Speed = 1.0,
+    size: Size = None,
+    begin: Begin = None,
+    end: End = None,
+    at: At = None,
+    labels: Labels = True,
     settings: Settings = None,
     t_end: EndTime = None,
     method: MethodName = None,
@@ -94,29 +105,19 @@ def animate(  # noqa: PLR0917 - typer distinguishes options by their annotations
     from kempe.draw import still
 
     pixels = _pixels(size)
-    shape = {} if pixels is None else {"size": pixels}
+    look: dict[str, Any] = {"labels": labels} | ({} if pixels is None else {"size": pixels})
     if at is not None and (begin is not None or end is not None or form is not None):
         raise ModelError("--at is one time", hint="leave --from, --to and --format out")
     console = answers()
     found = list(solved(file, Changes(settings, t_end, method, rtol, atol, step)))
     for name, solution, (first, last) in _parts(found, *((begin, end) if at is None else (at, at))):
         if at is not None:
-            path = _picture(file, output, name)
-            still(solution, path, at, labels=labels, **shape)
+            path = still(solution, _picture(file, output, name), at, **look)
         else:
             path = _path(file, output, form, name)
+            look |= {"fps": fps, "speed": speed, "begin": first, "end": last}
             with drawing(path.name) as progress:
-                write(
-                    solution,
-                    path,
-                    fps=fps,
-                    speed=speed,
-                    begin=first,
-                    end=last,
-                    labels=labels,
-                    progress=progress,
-                    **shape,
-                )
+                write(solution, path, progress=progress, **look)
         console.print(Text(str(path)))
 
 

@@ -45,7 +45,9 @@ Settings = Annotated[
         "can be repeated.",
     ),
 ]
-EndTime = Annotated[str | None, typer.Option("--t-end", help="End time of the last analysis, s.")]
+EndTime = Annotated[
+    str | None, typer.Option("--t-end", metavar="SECONDS", help="End time of the last analysis, s.")
+]
 MethodName = Annotated[
     Method | None, typer.Option("--method", help="Method of integration of all analyses.")
 ]
@@ -56,7 +58,10 @@ AbsoluteTolerance = Annotated[
     float | None, typer.Option("--atol", help="Absolute tolerance of a step.")
 ]
 Step = Annotated[
-    float | None, typer.Option("--step", help="Constant step, s, without control of the error.")
+    float | None,
+    typer.Option(
+        "--step", metavar="SECONDS", help="Constant step, s, without control of the error."
+    ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print only the result, as JSON.")]
 

@@ -79,7 +79,7 @@ def error_tree(error: errors.KempeError) -> dict[str, Any]:
         ),
         "message": str(error.args[0]),
         "hint": error.hint,
-        "name": error.name,
+        "name": error.name or None,
         "t": error.t,
         "problems": [asdict(problem) for problem in error.problems],
         "exit_code": exit_code(error),

@@ -53,6 +53,18 @@ def _flag(name: str, told: str) -> Any:
     return typer.Option(f"--{name}", help=told)
 
 
+Time = Annotated[
+    float | None,
+    typer.Option("--t", metavar="SECONDS", help="Time of the simulation, s; its start if absent."),
+]
+FormOption = Annotated[
+    Form | None, typer.Option("--format", help="By default, from the ending of -o, or text.")
+]
+Output = Annotated[
+    Path | None, typer.Option("--output", "-o", help="A file in place of the terminal.")
+]
+
+
 def show(  # noqa: PLR0917 - typer distinguishes options by their annotations
     file: CaseOrSolution,
     jacobian: Annotated[bool, _flag("jacobian", "Φ_q; shown if nothing is named.")] = False,
@@ -72,15 +84,9 @@ def show(  # noqa: PLR0917 - typer distinguishes options by their annotations
     assembly: Annotated[
         bool, _flag("assembly", "With the driver rows of the coordinates that the start sets.")
     ] = False,
-    t: Annotated[
-        float | None, typer.Option("--t", help="Time of the simulation, s; its start if absent.")
-    ] = None,
-    form: Annotated[
-        Form | None, typer.Option("--format", help="By default, from the ending of -o, or text.")
-    ] = None,
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="A file in place of the terminal.")
-    ] = None,
+    t: Time = None,
+    form: FormOption = None,
+    output: Output = None,
     settings: Settings = None,
     as_json: AsJson = False,
 ) -> None:

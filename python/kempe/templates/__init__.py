@@ -30,7 +30,7 @@ def template(name: str) -> str:
     """
     one_of("example", name, NAMES)
     file = FILES[name]
-    # A program is stored as text, because it is no module of the package.
+    # A program is stored as text, so that it is not a module of the package.
     stored = f"{file}.txt" if file.endswith(".py") else file
     return files.read_text(Path(__file__).with_name(stored))
 

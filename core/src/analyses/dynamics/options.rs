@@ -100,9 +100,8 @@ impl Options {
         let begin = self.t_start.unwrap_or(t);
         (self.t_end < begin).then(|| {
             let message = format!("{} s lies before {begin} s, where the run starts", self.t_end);
-            Problem::at(path, message).hint(format!(
-                "t_end is a time, not a duration; it must be at least {begin} s"
-            ))
+            Problem::at(path, message)
+                .hint(format!("t_end is a time, not a duration; it must be at least {begin} s"))
         })
     }
 
