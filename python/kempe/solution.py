@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kempe import _core
 from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
 from kempe.dense import DenseOutput
@@ -24,8 +25,6 @@ from kempe.state import State
 
 if TYPE_CHECKING:
     import pandas
-
-    from kempe import _core
 
 #: Values of ``status``, as in scipy's ``solve_ivp``.
 REACHED, STOPPED = 0, -1
@@ -171,6 +170,22 @@ class Solution(Motion):
         if at.ndim == 0:
             return State(self.model, float(at), q, v, z=z)
         return Motion(self.model, at, q, v, z)
+
+    def energy_at(self, t: Floats) -> Energy:
+        """Energies at any times within the solution, from the interpolant of the integrator.
+
+        Args:
+            t: (n,), s.
+
+        Raises:
+            ModelError: a time is outside the solution, or the interpolant was not kept.
+            IntegrationError: an energy is not finite.
+        """
+        motion = self(t)
+        assert self.dense is not None  # otherwise the line before raises the error
+        works = self.dense(motion.t)[..., 2 * self.model.n_q + self.model.n_z :]
+        rows = (np.atleast_2d(values) for values in (motion.q, motion.v, motion.z, works))
+        return Energy(_core.energies(self.model.core, np.atleast_1d(motion.t), *rows))
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A pandas data frame with a column for each quantity, such as ``rocker.angle``.

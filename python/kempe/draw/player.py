@@ -39,6 +39,7 @@ MODULES = (
     "measure",
     "drawing",
     "axes",
+    "ranges",
     "plot",
     "quantities",
     "timespan",

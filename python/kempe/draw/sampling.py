@@ -8,11 +8,10 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe import _core
 from kempe.arrays import Floats, fixed
+from kempe.draw.numbers import rounded
 from kempe.energy import Energy
 from kempe.errors import KempeError, ModelError
-from kempe.draw.numbers import rounded
 from kempe.motion import Motion
 from kempe.solution import Solution
 from kempe.state import State
@@ -123,10 +122,7 @@ def energy(drawn: Solution | State, motion: Motion) -> Energy | None:
     try:
         if isinstance(motion, _Outputs):
             return drawn.energy.at(motion.kept)
-        assert drawn.dense is not None
-        works = drawn.dense(motion.t)[:, 2 * motion.model.n_q + motion.model.n_z :]
-        states = (motion.t, motion.q, motion.v, motion.z)
-        return Energy(_core.energies(motion.model.core, *states, works))
+        return drawn.energy_at(motion.t)
     except KempeError:
         return None
 
@@ -134,23 +130,31 @@ def energy(drawn: Solution | State, motion: Motion) -> Energy | None:
 def accuracy(drawn: Solution | State, motion: Motion) -> float | None:
     """The largest error of accelerations and multipliers between two frames.
 
-    The page interpolates them by cubic polynomials with central differences as slopes.
+    The page interpolates them by cubic polynomials with central differences as slopes. Columns of
+    one unit are compared with their largest value.
 
     Returns:
-        The largest error half-way between frames, as a share of the largest value; None where there
-        is no interpolant or no answer half-way.
+        The largest error half-way between frames, as a share of the largest value; None if the
+        solution has no interpolant, or its reactions are undefined half-way.
     """
     if isinstance(drawn, State) or isinstance(motion, _Outputs) or len(motion.t) < 3:
         return None
     try:
         middle = drawn((motion.t[:-1] + motion.t[1:]) / 2.0)
-        pairs = [(motion.a, middle.a), (motion.lam, middle.lam)]
+        a, lam = (motion.a, middle.a), (motion.lam, middle.lam)
     except KempeError:
         return None
-    return max(_error_half_way(motion.t, frames, exact) for frames, exact in pairs)
+    turning = np.array([name.endswith(".angle") for name in motion.model.column_names()], bool)
+    units = np.array(motion.model.row_units())
+    groups = [(a, turning), (a, ~turning), *((lam, units == unit) for unit in set(units))]
+    return max(
+        _error_half_way(motion.t, frames[:, of_one_unit], exact[:, of_one_unit])
+        for (frames, exact), of_one_unit in groups
+    )
 
 
 def _error_half_way(t: Floats, frames: Floats, exact: Floats) -> float:
+    """The largest error as a share of the largest value, for columns of one unit."""
     largest = float(np.abs(frames).max(initial=0.0))
     h = np.diff(t)[:, None]
     inner = (frames[2:] - frames[:-2]) / (h[1:] + h[:-1])

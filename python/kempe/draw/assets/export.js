@@ -1,6 +1,5 @@
 // Files that the page offers: pictures, and the plotted curves as a table.
-import { colourOf, dashOf } from "./plot.js";
-import { font } from "./surface.js";
+import { colourOf, dashOf, font } from "./surface.js";
 
 /** Pixels of a picture for each pixel of the page. */
 const SHARPNESS = 2;
@@ -52,7 +51,7 @@ export function plotsPicture(cards, t, title, colours) {
     context.translate(0, TITLE);
     for (const card of cards) {
       context.save();
-      card.plot.paint(Number(t), null, colours, context);
+      card.plot.paintAll(context, Number(t), colours);
       context.restore();
       context.translate(0, card.plot.height);
       card.entries.forEach((entry, k) => paintEntry(context, entry, (k % columns) * (width / columns), Math.floor(k / columns), colours));

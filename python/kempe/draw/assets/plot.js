@@ -1,24 +1,15 @@
 // A plot over time with a cursor at the present, and the values under the pointer.
 import { Axes } from "./axes.js";
-import { axisLabel, fixed, scaled } from "./numbers.js";
-import { BODY_COLOURS, cleared, font, rimmed, sharpen } from "./surface.js";
+import { axisLabel, fixed, scaled, significant, withUnit } from "./numbers.js";
+import { exponents, widened } from "./ranges.js";
+import { cleared, colourOf, dashOf, font, rimmed, sharpen } from "./surface.js";
 
-const DASHES = [[], [7, 4], [2, 4], [9, 3, 2, 3]];
 const DEGREES = 180 / Math.PI;
-
-/** The colour of a curve, and its dashes once the colours are used up. */
-export function colourOf({ look }, colours) {
-  return colours.body(look + 1);
-}
-
-export function dashOf({ look }) {
-  return DASHES[Math.floor(look / BODY_COLOURS) % DASHES.length];
-}
 
 /** Plots curves of one unit on a canvas. */
 export class Plot {
   constructor(canvas, motion, span) {
-    Object.assign(this, { canvas, motion, span, curves: [], symbol: "", log: false, degrees: false, pointer: null });
+    Object.assign(this, { canvas, motion, span, curves: [], symbol: "", log: false, degrees: false, pointer: null, version: 0 });
     this.scale();
   }
 
@@ -42,6 +33,7 @@ export class Plot {
     this.peaks = this.peaks.map((one) => one / written.factor);
     this.unit = written.unit;
     this.onLog = this.log && peak > 0;
+    this.version += 1;
     this.range = this.onLog ? exponents(values) : widened(values, written.factor);
     this.label = axisLabel(this.onLog && !this.symbol.startsWith("|") ? `|${this.symbol}|` : this.symbol, this.unit);
   }
@@ -57,9 +49,17 @@ export class Plot {
     return this.factor * curve.at(t);
   }
 
-  /** A value as text, with the decimals of its curve. */
+  /** A value as text with its unit: on a linear axis with the decimals of its curve. */
   write(curve, t) {
-    return fixed(this.shown(curve, t), this.peaks[this.curves.indexOf(curve)]);
+    const value = this.shown(curve, t);
+    const text = this.onLog ? significant(value) : fixed(value, this.peaks[this.curves.indexOf(curve)]);
+    return withUnit(text, this.unit);
+  }
+
+  /** Characters of the longest text of a curve. */
+  widest(curve) {
+    const peak = this.peaks[this.curves.indexOf(curve)];
+    return withUnit(this.onLog ? significant(-peak) : fixed(-peak, peak), this.unit).length;
   }
 
   timeAt(px) {
@@ -67,18 +67,46 @@ export class Plot {
   }
 
   /** Draw with the cursor at t and, if a time is looked at, a line there. */
-  paint(t, looked, colours, context = cleared(this.canvas)) {
+  paint(t, looked, colours) {
+    const context = cleared(this.canvas);
     if (!this.curves.length) return;
+    context.drawImage(this.picture(colours), 0, 0, this.width, this.height);
+    this.paintLine(context, t, colours.text);
+    if (looked !== null) this.paintLine(context, looked, colours.accent);
+    this.paintDots(context, looked ?? t, colours);
+    this.reading = looked !== null && this.pointer ? this.paintReading(context, looked, colours) : "";
+  }
+
+  /** Axes and curves, painted anew only when they change. */
+  picture(colours) {
+    const key = JSON.stringify([this.width, this.height, this.canvas.width, this.span.from, this.span.to, this.version, colours.text]);
+    if (key !== this.key) {
+      this.kept = document.createElement("canvas");
+      this.kept.width = this.canvas.width;
+      this.kept.height = this.canvas.height;
+      const context = this.kept.getContext("2d");
+      context.scale(this.kept.width / this.width, this.kept.height / this.height);
+      context.lineCap = context.lineJoin = "round";
+      this.paintStill(context, colours);
+      this.key = key;
+    }
+    return this.kept;
+  }
+
+  paintStill(context, colours) {
     this.axes = new Axes(context, this, this.span, { range: this.range, log: this.onLog });
     this.axes.paint(context, this.label, colours);
     context.save();
     this.axes.clip(context);
     for (const curve of this.curves) this.paintCurve(context, curve, colours);
     context.restore();
+  }
+
+  /** For a picture: axes, curves and the cursor at t. */
+  paintAll(context, t, colours) {
+    this.paintStill(context, colours);
     this.paintLine(context, t, colours.text);
-    if (looked !== null) this.paintLine(context, looked, colours.accent);
-    this.paintDots(context, looked ?? t, colours);
-    this.reading = looked !== null && this.pointer ? this.paintReading(context, looked, colours) : "";
+    this.paintDots(context, t, colours);
   }
 
   /** The place of a value on the canvas; null where a logarithm has none. */
@@ -145,7 +173,7 @@ export class Plot {
   /** Time and value of the curve nearest to the pointer, as text beside the line. */
   paintReading(context, t, colours) {
     const curve = this.nearest(t);
-    const text = `${curve.name} = ${this.write(curve, t)} ${this.unit}`;
+    const text = `${curve.name} = ${this.write(curve, t)}`;
     context.font = font(12, 600);
     context.textBaseline = "top";
     context.textAlign = "left";
@@ -154,25 +182,4 @@ export class Plot {
     rimmed(context, text, [Math.max(4, Math.min(x, this.width - width - 6)), 24], colours.text, colours.panel);
     return text;
   }
-}
-
-/** The least and the largest value, with some room. */
-function widened(values, divisor) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of values.flat()) [low, high] = [Math.min(low, value / divisor), Math.max(high, value / divisor)];
-  if (!(high >= low)) return [0, 1];
-  const room = 0.06 * (high - low) || 0.5 * Math.abs(high) || 1;
-  return [low === 0 ? 0 : low - room, high + room];
-}
-
-/** The powers of ten around the magnitudes, zeros left out. */
-function exponents(values) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of values.flat()) {
-    if (value === 0) continue;
-    const exponent = Math.log10(Math.abs(value));
-    [low, high] = [Math.min(low, exponent), Math.max(high, exponent)];
-  }
-  const [first, last] = [Math.floor(Math.max(low, high - 16)), Math.ceil(high)];
-  return [first, Math.max(last, first + 1)];
 }
