@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from kempe import _core
-from kempe.names import unknown
+from kempe.names import entry, few
+
+if TYPE_CHECKING:
+    from kempe.model import Model
 
 COORDINATES = ("x", "y", "angle")
 RATES = ("vx", "vy", "omega")
@@ -19,7 +22,7 @@ ACCELERATIONS = ("ax", "ay", "alpha")
 Vector = tuple[float, float]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class BodyInfo:
     """A body with numerical values.
 
@@ -43,6 +46,15 @@ class BodyInfo:
     points: Mapping[str, Vector]
     columns: slice
 
+    def __repr__(self) -> str:
+        points = f", points {few(self.points)}" if self.points else ""
+        return f"<{self.type or 'ground'} {self.name!r}: {self.mass:g} kg{points}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A view of a mapping cannot be pickled; the mapping can."""
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        return _body_of, ({**values, "points": dict(self.points)},)
+
     @property
     def count(self) -> int:
         """Number of its coordinates."""
@@ -59,7 +71,7 @@ class BodyInfo:
         return "angle" in self.quantities
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ConstraintInfo:
     """A joint or a driver with numerical values.
 
@@ -92,8 +104,11 @@ class ConstraintInfo:
     columns: slice
     coordinates: tuple[tuple[str, str], ...]
 
+    def __repr__(self) -> str:
+        return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class ForceInfo:
     """A force element with numerical values.
 
@@ -121,6 +136,9 @@ class ForceInfo:
     states: tuple[tuple[str, str], ...]
     reaction: str | None
 
+    def __repr__(self) -> str:
+        return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
+
 
 class CompiledModel:
     """A model with numerical values, created by ``Model.compile()``.
@@ -129,8 +147,9 @@ class CompiledModel:
         core: the compiled model of the core.
     """
 
-    def __init__(self, core: _core.Model, case: str) -> None:
+    def __init__(self, core: _core.Model, case: str, model: Model | None = None) -> None:
         self.core = core
+        self._model = model
         self._case = case
         self._analyses: Mapping[str, Any] | None = None
         self._about: dict[str, Any] = json.loads(core.describe())
@@ -140,12 +159,31 @@ class CompiledModel:
         """Compile the model of a case given as JSON."""
         return cls(_core.Case(case, "json", None).model("{}"), case)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled as text; compiled again when it is read."""
+        return _restored, (self.model, self._case, self._analyses)
+
+    @property
+    def model(self) -> Model:
+        """The model that was compiled; made from the case where there was none."""
+        if self._model is None:
+            from kempe.model import Model
+
+            self._model = Model.of_compiled(self)
+        return self._model
+
     @property
     def case(self) -> str:
         """JSON of a case from which the model can be compiled again."""
         if self._analyses is None:
             return self._case
         return json.dumps({**json.loads(self._case), "analyses": self._analyses})
+
+    @cached_property
+    def tree(self) -> Mapping[str, Any]:
+        """The case as nested mappings, structured as a file."""
+        tree: dict[str, Any] = json.loads(self._case)
+        return MappingProxyType(tree)
 
     def with_analyses(self, analyses: Mapping[str, Any]) -> CompiledModel:
         """The same model with other analyses in its case."""
@@ -157,7 +195,7 @@ class CompiledModel:
     def allowing_redundancy(self) -> CompiledModel:
         """The same model with redundant constraints accepted."""
         case = json.dumps({**json.loads(self.case), "redundancy": "allow"})
-        return CompiledModel(self.core.allowing_redundancy(), case)
+        return CompiledModel(self.core.allowing_redundancy(), case, self._model)
 
     @property
     def redundancy(self) -> str:
@@ -243,9 +281,7 @@ class CompiledModel:
         Raises:
             ModelError: there is no such body.
         """
-        if name not in self.all_bodies:
-            raise unknown("body", name, self.all_bodies)
-        return self.all_bodies[name]
+        return entry("body", name, self.all_bodies)
 
     def column_names(self) -> list[str]:
         """Names of the coordinates in the order of q, such as ``crank.angle``.
@@ -277,6 +313,10 @@ class CompiledModel:
         """Units of the constraint equations in the order of Φ: m or rad."""
         return [unit for c in self.constraints.values() for _, unit in c.equations]
 
+    def __repr__(self) -> str:
+        counts = f"{len(self.bodies)} bodies, {self.n_q} coordinates, {self.n_rows} equations"
+        return f"<CompiledModel {self.title!r}: {counts}>"
+
     def names(self) -> Iterator[str]:
         """Names of all bodies, joints, drivers and forces."""
         yield from self.all_bodies
@@ -294,6 +334,17 @@ class CompiledModel:
 
     def _group(self, group: str) -> Mapping[str, ConstraintInfo]:
         return MappingProxyType({k: c for k, c in self.constraints.items() if c.group == group})
+
+
+def _restored(model: Model, case: str, analyses: Mapping[str, Any] | None) -> CompiledModel:
+    """A compiled model from its text; that of the user's model if the text is the same."""
+    made = model.compile() if model.json() == case else CompiledModel.from_case(case)
+    made._model = model
+    return made if analyses is None else made.with_analyses(analyses)
+
+
+def _body_of(values: dict[str, Any]) -> BodyInfo:
+    return BodyInfo(**{**values, "points": MappingProxyType(values["points"])})
 
 
 def _vector(two: list[float] | None) -> Vector:

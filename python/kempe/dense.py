@@ -9,6 +9,9 @@ import numpy as np
 from kempe.arrays import Floats
 from kempe.errors import ModelError
 
+#: Number of the works that the integrator integrates with the motion.
+WORKS = 3
+
 
 @dataclass(frozen=True)
 class DenseOutput:
@@ -28,6 +31,9 @@ class DenseOutput:
     def of_an_instant(cls, t: float, y: Floats) -> DenseOutput:
         """The interpolant of a simulation without steps."""
         return cls(np.array([t, t]), y[None], np.zeros((1, len(y), 1)))
+
+    def __repr__(self) -> str:
+        return f"<DenseOutput: {len(self.y)} steps, degree {self.c.shape[2]}>"
 
     def __call__(self, t: Floats) -> Floats:
         """State y at times of any shape, (…, n_y).

@@ -149,6 +149,11 @@ def display(unit: str, otherwise: str | None = None) -> Shown:
     return Shown(unit) if otherwise is None else Shown(otherwise, _parsed(otherwise)[1])
 
 
+def heading(symbol: str, unit: str, otherwise: str | None = None) -> str:
+    """Header of a column, such as ``x / mm``; see ``display``."""
+    return f"{symbol} / {display(unit, otherwise).symbol}"
+
+
 def _set(chosen: Units) -> Units:
     global _current  # noqa: PLW0603 - one choice for all tables and figures
     _current = chosen

@@ -20,6 +20,15 @@ class Energy:
         """The energies at some of the times."""
         return Energy(self._columns[rows])
 
+    @property
+    def columns(self) -> Floats:
+        """Kinetic, potential, dissipated, work of drivers, work of applied forces, (n_t, 5)."""
+        return self._columns
+
+    def __repr__(self) -> str:
+        largest = float(self.kinetic.max(initial=0.0))
+        return f"<Energy at {len(self._columns)} times: kinetic up to {largest:.6g} J>"
+
     @cached_property
     def kinetic(self) -> Floats:
         """Kinetic energy T."""

@@ -7,7 +7,6 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from kempe import _core
 from kempe.arrays import Floats
 from kempe.energy import Energy
 from kempe.errors import KempeError
@@ -56,7 +55,7 @@ def _instants(solution: Solution) -> Floats:
     assert solution.dense is not None
     bounds = solution.dense.t
     steps = len(bounds) - 1
-    numbers = 4 * solution.model.n_q + solution.model.n_rows + 1
+    numbers = 4 * solution.compiled.n_q + solution.compiled.n_rows + 1
     most = max(2, min(_MOST_INSTANTS, _MOST_NUMBERS // numbers))
     pieces = min(max(_LEAST, math.ceil(_WISHED / steps)), _MOST)
     if pieces * steps > most:
@@ -67,27 +66,9 @@ def _instants(solution: Solution) -> Floats:
     return found[:: math.ceil(len(found) / most)] if len(found) > 2 * most else found
 
 
-def energies(solution: Solution, t: Floats) -> Energy:
-    """Energies at any times within a solution, from its interpolant.
-
-    Args:
-        solution: a solution that has an interpolant.
-        t: (n,), s.
-
-    Raises:
-        IntegrationError: an energy is not finite.
-    """
-    assert solution.dense is not None
-    y = solution.dense(t)
-    n, n_z = solution.model.n_q, solution.model.n_z
-    q, v, z, works = np.split(y, np.cumsum([n, n, n_z]), axis=1)
-    rows = (np.ascontiguousarray(part) for part in (q, v, z, works))
-    return Energy(_core.energies(solution.model.core, t, *rows))
-
-
 def fine_energies(solution: Solution) -> tuple[Floats, Energy]:
     """Times and energies on the interpolant; those at the outputs if there is no interpolant."""
     motion = fine(solution)
     if motion is solution:
         return solution.t, solution.energy
-    return motion.t, energies(solution, motion.t)
+    return motion.t, solution.energy_at(motion.t)

@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from kempe.option import Analysis, Option, Shape
 from kempe.values import Number
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Auto(Option):
     """Method of integration ``auto``.
 
@@ -41,7 +41,7 @@ class Auto(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RK45(Option):
     """Method of integration ``rk45``.
 
@@ -71,7 +71,7 @@ class RK45(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class DOP853(Option):
     """Method of integration ``dop853``.
 
@@ -104,7 +104,7 @@ class DOP853(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RK4(Option):
     """Method of integration ``rk4``.
 
@@ -121,7 +121,7 @@ class RK4(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class GeneralizedAlpha(Option):
     """Method of integration ``generalized_alpha``.
 
@@ -160,7 +160,7 @@ class GeneralizedAlpha(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class HHT(Option):
     """Method of integration ``hht``.
 
@@ -196,7 +196,7 @@ class HHT(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Radau(Option):
     """Method of integration ``radau``.
 
@@ -231,7 +231,7 @@ class Radau(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Projection(Option):
     """Stabilization ``projection``.
 
@@ -252,7 +252,7 @@ class Projection(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Baumgarte(Option):
     """Stabilization ``baumgarte``.
 
@@ -270,7 +270,7 @@ class Baumgarte(Option):
 
     alpha: Number | None = None
     beta: Number | None = None
-    gains: str | None = None
+    gains: Literal["step"] | None = None
     kind: ClassVar[str] = "baumgarte"
     shapes: ClassVar[Mapping[str, Shape]] = {
         "alpha": "number",
@@ -279,7 +279,7 @@ class Baumgarte(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class NoStabilization(Option):
     """Stabilization ``none``.
 
@@ -290,7 +290,7 @@ class NoStabilization(Option):
     shapes: ClassVar[Mapping[str, Shape]] = {}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Dynamics(Analysis):
     """Analysis of type ``dynamics``, an entry of ``[analyses]``.
 
@@ -324,8 +324,8 @@ class Dynamics(Analysis):
     max_steps: int | None = None
     dense_output: bool = True
     t_start: Number | None = None
-    singularity: str = "stop"
-    output: str | None = None
+    singularity: Literal["stop", "pass"] = "stop"
+    output: Literal["steps"] | None = None
     after: str | None = None
     name: str = "dynamics"
     kind: ClassVar[str] = "dynamics"

@@ -111,3 +111,32 @@ def test_a_figure_shows_the_chosen_units() -> None:
     assert angle.get_ylabel() == "φ / °"
     np.testing.assert_allclose(angle.lines[0].get_ydata(), np.degrees(sol[body].angle))
     assert not [axes for axes in angle.child_axes if axes.get_ylabel() == "φ / °"]
+
+
+def test_printed_tables_have_the_chosen_units(capsys: pytest.CaptureFixture[str]) -> None:
+    from kempe.cli.console import answers
+    from kempe.cli.findings import show_findings
+    from kempe.cli.mechanism import show_configuration
+    from kempe.report import summary
+
+    case = kp.load(ROOT / "examples/four_bar.toml").with_analysis("release", t_end=5)
+    sol = case.run()[0]
+    found = summary(sol)
+    kp.units("mm", "rad", "kN", "kN*m", "ms", "kJ")
+    show_configuration(answers(), case.start())
+    show_findings(answers(), "release", found)
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ["crank", "1710.1", "4698.46", "1.22173", "0", "0", "0"] in lines
+    reaction = found["peaks"]["reactions"][2]
+    assert ["C", "rocker", f"{reaction['force'] / 1e3:.6g}", "0"] in lines
+    assert ["joint", "on", "force", "/", "kN", "at", "/", "ms"] in lines
+    settled = found["settling"][2]
+    row = ["rocker", f"{settled['time'] * 1e3:.6g}", "ms", f"{settled['angle']:.6g}", "rad"]
+    assert row in lines
+    kinetic = f"{found['energy']['largest_kinetic'] / 1e3:.6g}"
+    assert any(line[-2:] == [kinetic, "kJ"] for line in lines)
+    spring = found["peaks"]["forces"][0]["torque_by_part"]
+    told = ["stiffness", f"{spring['stiffness'] / 1e3:.6g},"]
+    assert any(line[-4:-2] == told for line in lines if line[:1] == ["spring"])
+    residual = found["peaks"]["residual"]
+    assert any(f"{residual['value'] * 1e3:.3g}" in line and "mm" in line for line in lines)

@@ -123,7 +123,7 @@ def test_between_the_outputs(solution: kp.Solution) -> None:
     assert isinstance(one, kp.State)
     np.testing.assert_allclose(one.q, solution.q[25], atol=1e-6)
     np.testing.assert_allclose(one.a, solution.a[25], rtol=1e-3, atol=1e-2)
-    assert one["rocker"].angle.shape == ()
+    assert isinstance(one["rocker"].angle, float)
     assert one["C"].force(on="rocker").shape == (2,)
     many = solution(solution.t)
     np.testing.assert_allclose(many.q, solution.q, atol=1e-6)
@@ -185,7 +185,7 @@ def test_wrong_arguments_are_refused(solution: kp.Solution) -> None:
 
 
 def test_a_state_is_printed_in_full(start: kp.State) -> None:
-    text = repr(start)
+    text = str(start)
     assert "crank" in text
     assert "iteration" in text
     assert start.coordinates()["crank.angle"] == pytest.approx(np.deg2rad(70))
@@ -206,7 +206,7 @@ def test_the_jacobian_at_the_start_has_names(start: kp.State) -> None:
 def test_a_state_serves_as_guess(model: kp.Model, start: kp.State) -> None:
     again = kp.assemble(model, set={"crank.angle": "71*deg"}, guess=start)
     assert again["crank"].angle == pytest.approx(np.deg2rad(71))
-    assert again["rocker"].angle == pytest.approx(float(start["rocker"].angle), abs=0.1)
+    assert again["rocker"].angle == pytest.approx(start["rocker"].angle, abs=0.1)
 
 
 def test_a_state_of_another_mechanism_is_refused(start: kp.State) -> None:

@@ -129,7 +129,7 @@ def _read(file: Path, changes: Changes) -> tuple[Case, Solution | None]:
     from kempe.case import parsed
 
     solution = stored(file, changes)
-    return parsed(solution.model.case, "json", str(file)), solution
+    return parsed(solution.compiled.case, "json", str(file)), solution
 
 
 def _put(text: str, output: Path | None) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from kempe import files
 from kempe.draw.frame import Frame, Picture
 from kempe.draw.pixels import Pixels, format_of
 from kempe.draw.player import player
@@ -82,7 +83,7 @@ def animate(
             size is impossible, or the times are not within the motion.
         FileError: the file cannot be written, or there is no ffmpeg for an MP4.
     """
-    kind = Path(path).suffix.lstrip(".").lower()
+    kind = files.checked_path(path, "write").suffix.lstrip(".").lower()
     if kind not in FORMATS:
         raise ModelError(f"{path}: the format is unknown", hint="end it in .html, .mp4 or .gif")
     _refuse_wrong(fps=fps, speed=speed)

@@ -76,12 +76,12 @@ def numbers_per_frame(model: CompiledModel) -> int:
 
 def _all(motion: Motion, energy: Energy | None) -> Iterator[_Channel]:
     yield from _coordinates(motion)
-    for name, info in motion.model.forces.items():
+    for name, info in motion.compiled.forces.items():
         element = motion.force(name)
         yield from _acting(
             "forces", name, element.force(on=info.j), element.torque(on=info.j), whole=True
         )
-    for name, joint in motion.model.constraints.items():
+    for name, joint in motion.compiled.constraints.items():
         view, driver = motion.constraint(name), joint.group == "drivers"
         yield from _acting(
             "reactions", name, view.force(on=joint.j), view.torque(on=joint.j), whole=driver
@@ -89,9 +89,9 @@ def _all(motion: Motion, energy: Energy | None) -> Iterator[_Channel]:
     if energy is not None:
         for name in _ENERGIES:
             yield _Channel("energy", "", f"energy.{name}", "J", getattr(energy, name))
-    if motion.model.n_rows:
+    if motion.compiled.n_rows:
         residual = np.abs(motion.residuals[0])
-        units = np.array(motion.model.row_units())
+        units = np.array(motion.compiled.row_units())
         for unit in dict.fromkeys(units):
             largest = residual[:, units == unit].max(axis=1)
             yield _Channel("accuracy", "", f"residual.{_KINDS.get(unit, unit)}", unit, largest)
@@ -99,12 +99,12 @@ def _all(motion: Motion, energy: Energy | None) -> Iterator[_Channel]:
 
 def _coordinates(motion: Motion) -> Iterator[_Channel]:
     """First-order states of forces and internal coordinates of joints."""
-    for info in motion.model.forces.values():
+    for info in motion.compiled.forces.values():
         for (name, unit), values in zip(info.states, motion.z[:, info.places].T, strict=True):
             yield _Channel("states", info.name, name, unit, values)
-    for joint in motion.model.constraints.values():
+    for joint in motion.compiled.constraints.values():
         for (name, unit), k in zip(
-            joint.coordinates, range(motion.model.n_q)[joint.columns], strict=True
+            joint.coordinates, range(motion.compiled.n_q)[joint.columns], strict=True
         ):
             yield _Channel("coordinates", joint.name, name, unit, motion.q[:, k])
             yield _Channel("coordinates", joint.name, f"{name}_rate", f"{unit}/s", motion.v[:, k])

@@ -80,7 +80,7 @@ def player(
     shown = scene(solution, span=span)
     shown["playback"]["rate"] *= speed
     files.write_text(path, page(shown, labels=labels))
-    return Path(path)
+    return files.checked_path(path, "write")
 
 
 def page(shown: Scene, *, labels: bool = True) -> str:

@@ -48,10 +48,11 @@ def sampled(
     Raises:
         ModelError: ``frames`` is less than 1, or the span is not in the solution.
     """
-    if frames is not None and frames < 1:
+    if frames is not None and not (isinstance(frames, int) and frames >= 1):
         raise ModelError(f"frames={frames}: must be 1 or more")
     if isinstance(drawn, State):
-        return Motion(drawn.model, drawn.t[None], drawn.q[None], drawn.v[None], drawn.z[None])
+        t = np.array([drawn.t])
+        return Motion(drawn.compiled, t, drawn.q[None], drawn.v[None], drawn.z[None])
     begin, end = whole = float(drawn.t[0]), float(drawn.t[-1])
     if span is not None:
         begin, end = span
@@ -83,7 +84,7 @@ class _Outputs(Motion):
 
     def __init__(self, solution: Solution, kept: NDArray[np.intp]) -> None:
         rows = (values[kept] for values in (solution.t, solution.q, solution.v, solution.z))
-        super().__init__(solution.model, *rows)
+        super().__init__(solution.compiled, *rows)
         self.kept = kept
         self._computed = fixed(solution.a[kept]), fixed(solution.lam[kept])
 
@@ -144,8 +145,8 @@ def accuracy(drawn: Solution | State, motion: Motion) -> float | None:
         a, lam = (motion.a, middle.a), (motion.lam, middle.lam)
     except KempeError:
         return None
-    turning = np.array([name.endswith(".angle") for name in motion.model.column_names()], bool)
-    units = np.array(motion.model.row_units())
+    turning = np.array([name.endswith(".angle") for name in motion.compiled.column_names()], bool)
+    units = np.array(motion.compiled.row_units())
     groups = [(a, turning), (a, ~turning), *((lam, units == unit) for unit in set(units))]
     return max(
         _error_half_way(motion.t, frames[:, of_one_unit], exact[:, of_one_unit])
@@ -187,14 +188,14 @@ def interpolation(drawn: Solution | State, motion: Motion, size: float) -> str:
     middle = _half_way(motion.q, motion.v, np.diff(motion.t)[:, None])
     exact = drawn((motion.t[:-1] + motion.t[1:]) / 2.0).q
     worst = max(
-        (_misplaced(middle, exact, motion, name) for name in motion.model.bodies), default=0.0
+        (_misplaced(middle, exact, motion, name) for name in motion.compiled.bodies), default=0.0
     )
     return "cubic" if worst <= _INVISIBLE * size else "none"
 
 
 def _misplaced(guess: Floats, exact: Floats, motion: Motion, name: str) -> float:
     """How far the points of a body are from where they should be, at most, m."""
-    info = motion.model.bodies[name]
+    info = motion.compiled.bodies[name]
     error = (guess - exact)[:, info.columns]
     shift = np.hypot(error[:, 0], error[:, 1])
     arms = [math.hypot(*corner) for corner in (*info.points.values(), info.center)]

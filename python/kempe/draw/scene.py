@@ -21,6 +21,7 @@ from kempe.motion import Motion
 from kempe.names import unknown
 from kempe.solution import Solution
 from kempe.state import State
+from kempe.values import instance, texts
 
 Scene: TypeAlias = dict[str, Any]
 
@@ -61,7 +62,8 @@ def scene(
         ModelError: a traced point or its body does not exist, ``frames`` is less than 1, or the
             span is not within the motion.
     """
-    model = solution_or_state.model
+    instance(solution_or_state, (Solution, State), "a solution or a state")
+    model = solution_or_state.compiled
     motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model), span)
     bodies = [shapes.body(model, name) for name in model.all_bodies]
     joints = [shapes.joint(model, name) for name in model.joints]
@@ -106,8 +108,8 @@ def _length(size: float) -> dict[str, Any]:
 
 def _of_bodies(motion: Motion, quantities: Sequence[str]) -> Floats:
     """Three quantities of each moving body, (n_t, n_bodies, 3)."""
-    found = np.empty((len(motion.t), len(motion.model.bodies), len(quantities)))
-    for k, name in enumerate(motion.model.bodies):
+    found = np.empty((len(motion.t), len(motion.compiled.bodies), len(quantities)))
+    for k, name in enumerate(motion.compiled.bodies):
         for c, quantity in enumerate(quantities):
             found[:, k, c] = getattr(motion.body(name), quantity)
     return found
@@ -115,8 +117,8 @@ def _of_bodies(motion: Motion, quantities: Sequence[str]) -> Floats:
 
 def _reactions(motion: Motion) -> Floats:
     """Force of each joint on its body j, global, (n_t, n_joints, 2), N."""
-    found = np.zeros((len(motion.t), len(motion.model.joints), 2))
-    for k, (name, info) in enumerate(motion.model.joints.items()):
+    found = np.zeros((len(motion.t), len(motion.compiled.joints), 2))
+    for k, (name, info) in enumerate(motion.compiled.joints.items()):
         found[:, k] = motion.constraint(name).force(on=info.j)
     return found
 
@@ -138,10 +140,10 @@ def playback_rate(duration: float) -> float:
 
 
 def _traces(motion: Motion, size: float, wished: Sequence[str] | None) -> list[dict[str, Any]]:
-    model = motion.model
+    model = motion.compiled
     if wished is None:
         return _moving_points(motion, size)
-    return [_trace(model, *_named(model, name)) for name in wished]
+    return [_trace(model, *_named(model, name)) for name in texts(wished, "traces")]
 
 
 def _named(model: CompiledModel, name: str) -> tuple[str, str]:
@@ -166,12 +168,12 @@ def _moving_points(motion: Motion, size: float) -> list[dict[str, Any]]:
     some = np.unique(np.linspace(0, len(motion.t) - 1, 16).round().astype(int))
     kept: list[dict[str, Any]] = []
     paths = np.empty((0, len(some), 2))
-    for body, info in motion.model.bodies.items():
+    for body, info in motion.compiled.bodies.items():
         for point in info.points:
             path = motion.body(body).point(point).position
             together = np.abs(paths - path[some]).max(axis=(1, 2), initial=0.0) < near
             if np.ptp(path, axis=0).max(initial=0.0) < near or together.any():
                 continue
             paths = np.append(paths, path[None, some], axis=0)
-            kept.append(_trace(motion.model, body, point))
+            kept.append(_trace(motion.compiled, body, point))
     return kept

@@ -45,7 +45,7 @@ def symbols(motion: Motion) -> list[dict[str, Any]]:
     A mark without points is drawn around the joint that its two bodies share, otherwise at the mass
     centre of body j.
     """
-    return [_symbol(motion, told) for told in motion.model.symbols]
+    return [_symbol(motion, told) for told in motion.compiled.symbols]
 
 
 def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
@@ -54,7 +54,7 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         "element": told["element"],
         "mark": told["mark"],
         "bodies": [i["body"], j["body"]],
-        "points": [i["point"], j["point"] or _pivot(motion.model, i["body"], j["body"])],
+        "points": [i["point"], j["point"] or _pivot(motion.compiled, i["body"], j["body"])],
         "axes": [i["axis"], j["axis"]],
         "radius": told["radius"],
         "reach": None,
@@ -70,7 +70,7 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
 
 
 def _name(motion: Motion, number: int) -> str:
-    return list(motion.model.all_bodies)[number]
+    return list(motion.compiled.all_bodies)[number]
 
 
 def _pivot(model: CompiledModel, i: int, j: int) -> list[float]:

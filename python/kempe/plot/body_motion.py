@@ -9,12 +9,14 @@ import numpy as np
 
 from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
 from kempe.display_units import chosen_for
+from kempe.motion import Motion
 from kempe.names import one_of
 from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
 from kempe.plot.ticks import set_ticks
 from kempe.plot.time_axis import TimeAxis, show_time
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,7 +26,6 @@ if TYPE_CHECKING:
 
     from kempe.arrays import Floats
     from kempe.compiled import BodyInfo
-    from kempe.motion import Motion
 
 #: Quantity → symbol and SI unit.
 QUANTITIES = {
@@ -144,6 +145,7 @@ def _draw(
     cut: float | None,
     index_base: int,
 ) -> Axes:
+    instance(motion, Motion, "a solution or a motion")
     info = motion.body(body).info
     with style.on(ax) as axes:
         if len(names) == 1:

@@ -12,11 +12,11 @@ from kempe.plot.curves import draw, finish
 from kempe.plot.envelope import draw_envelope, envelope, logarithmic
 from kempe.plot.panel import Curve, Panel
 from kempe.plot.time_axis import TimeAxis
+from kempe.solution import Solution
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from kempe.solution import Solution
 
 
 def energy(solution: Solution, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
@@ -29,6 +29,7 @@ def energy(solution: Solution, *, ax: Axes | None = None, cut: float | None = No
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
+    instance(solution, Solution, "a solution")
     t, found = fine_energies(solution)
     curves = [
         Curve("kinetic T", found.kinetic, style.line(0)),
@@ -51,6 +52,7 @@ def energy_balance(solution: Solution, *, ax: Axes | None = None, cut: float | N
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
+    instance(solution, Solution, "a solution")
     error = np.abs(solution.energy.balance)
     time = TimeAxis.of(solution.t, cut)
     t = solution.t / time.unit.divisor

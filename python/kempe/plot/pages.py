@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from kempe.compiled import COORDINATES
 from kempe.plot import drawing_pages
 from kempe.plot.page import Page, file_names
 from kempe.plot.time_axis import transient
 from kempe.plot.time_pages import TimePages, only_turns
-
-if TYPE_CHECKING:
-    from kempe.solution import Solution
-
+from kempe.solution import Solution
+from kempe.values import instance
 
 #: The figures that show a run at a glance, which ``kempe run`` draws by default.
 KEY = ("mechanism", "residual", "energy", "reactions", "motion")
@@ -35,6 +32,7 @@ def pages(
     Returns:
         The figures; those of one family, such as the joints, have the same number.
     """
+    instance(solution, Solution, "a solution")
     cut = transient(solution) if compressed else None
     found: list[Page] = []
     for family in _families(solution, index_base, most, cut):
@@ -46,7 +44,7 @@ def pages(
 def _families(
     solution: Solution, index_base: int, most: int | None, cut: float | None
 ) -> Iterator[list[Page]]:
-    model = solution.model
+    model = solution.compiled
     yield [drawing_pages.of_mechanism(solution)]
     yield [drawing_pages.of_configuration("initial", solution.initial, index_base)]
     yield [drawing_pages.of_configuration("final", solution.final, index_base)]

@@ -9,18 +9,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.draw.units import scale
+from kempe.motion import Motion
 from kempe.names import one_of
 from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
 from kempe.plot.peaks import peak_text
 from kempe.plot.time_axis import TimeAxis
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from kempe.arrays import Floats
-    from kempe.motion import Motion
+    from kempe.views.frames import Frame
 
 #: How a component is written in each frame: x″ is along the joint's axis, x′ along the body's.
 _PRIMES = {"global": "", "body": "′", "joint": "″"}
@@ -33,7 +35,7 @@ def reactions(
     joint: str,
     *,
     on: str | None = None,
-    frame: str = "global",
+    frame: Frame = "global",
     quantity: str = "force",
     ax: Axes | None = None,
     cut: float | None = None,
@@ -54,6 +56,7 @@ def reactions(
     Raises:
         ModelError: there is no such joint, body, frame or quantity.
     """
+    instance(motion, Motion, "a solution or a motion")
     body = motion.constraint(joint).info.j if on is None else on
     one_of("quantity", quantity, ("force", "torque"))
     if quantity == "torque":
@@ -65,7 +68,7 @@ def reactions(
         return axes
 
 
-def force_panel(motion: Motion, joint: str, body: str, frame: str) -> Panel:
+def force_panel(motion: Motion, joint: str, body: str, frame: Frame) -> Panel:
     """Components and magnitude of the force of a joint on a body in a frame."""
 
     def force(at: Motion) -> Floats:
@@ -112,11 +115,12 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
+    instance(motion, Motion, "a solution or a motion")
     curves: list[Curve] = []
-    for name in motion.model.constraints:
+    for name in motion.compiled.constraints:
         magnitude = partial(_magnitude, name)
         one = curve(motion, style.short(name), magnitude, style.line(len(curves)))
-        if name in motion.model.joints or one.values.any():
+        if name in motion.compiled.joints or one.values.any():
             curves.append(one)
     panel = Panel("|F|", "N", curves, "Reactions", "reactions")
     unit, time = scale("N", panel.peak), TimeAxis.of(times(motion)).unit

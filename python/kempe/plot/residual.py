@@ -10,11 +10,11 @@ from kempe.plot.curves import finish
 from kempe.plot.envelope import draw_envelope, envelope, logarithmic
 from kempe.plot.panel import Panel
 from kempe.plot.time_axis import TimeAxis
+from kempe.solution import Solution
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from kempe.solution import Solution
 
 
 def residual(solution: Solution, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
@@ -25,8 +25,9 @@ def residual(solution: Solution, *, ax: Axes | None = None, cut: float | None = 
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
+    instance(solution, Solution, "a solution")
     drift = solution.drift
-    units = list(dict.fromkeys(solution.model.row_units())) or ["m"]
+    units = list(dict.fromkeys(solution.compiled.row_units())) or ["m"]
     time = TimeAxis.of(solution.t, cut)
     t = solution.t / time.unit.divisor
     drawn = {"position, max |Φ|": drift.position, "velocity, max |dΦ/dt|": drift.velocity}

@@ -29,16 +29,16 @@ def largest_values(motion: Motion) -> dict[str, float]:
     def note(unit: str, values: Floats) -> None:
         found[unit] = max(found.get(unit, 0.0), float(np.abs(values).max(initial=0.0)))
 
-    for name in motion.model.bodies:
+    for name in motion.compiled.bodies:
         body = motion.body(name)
         for quantity in (*COORDINATES, *RATES, *ACCELERATIONS):
             note(QUANTITIES[quantity][1], getattr(body, quantity))
-    for name, joint in motion.model.constraints.items():
+    for name, joint in motion.compiled.constraints.items():
         reaction = motion.constraint(name)
         for on in dict.fromkeys((joint.i, joint.j)):
             note("N", reaction.force(on=on))
             note("N·m", reaction.torque(on=on))
-    for name, info in motion.model.forces.items():
+    for name, info in motion.compiled.forces.items():
         note("N·m", motion.force(name).torque(on=info.j))
     # A torque about a point follows from forces at distances, and so does its rounding error.
     turning = found.get("N", 0.0) * found.get("m", 0.0)

@@ -49,7 +49,7 @@ def gaps(study: Study, ax: Axes) -> None:
     factor = magnification(float(np.hypot(*along.T).max(initial=0.0)), float((high - low).max()))
     when = f"t = {float(state.t):.3g} s, gaps magnified {factor:g} times"
     made = drawn(ax, shown, style.verbatim(f"{outcome.variant.name}\n{when}"))
-    for name, point, gap in zip(state.model.joints, begin, along, strict=True):
+    for name, point, gap in zip(state.compiled.joints, begin, along, strict=True):
         length = float(np.hypot(*gap))
         if length == 0.0:
             continue
@@ -72,7 +72,7 @@ def joint_gaps(state: State) -> tuple[Floats, Floats]:
     Along a slide the points may be apart; only what the joint forbids counts as its gap.
     """
     begin, along = [], []
-    for info in state.model.joints.values():
+    for info in state.compiled.joints.values():
         at_i = state.body(info.i).at(info.point_i).position
         gap = state.body(info.j).at(info.point_j).position - at_i
         units = [unit for _, unit in info.equations]
@@ -108,5 +108,5 @@ def state_at(solution: Solution, k: int) -> State:
     from kempe.state import State
 
     return State(
-        solution.model, float(solution.t[k]), solution.q[k], solution.v[k], z=solution.z[k]
+        solution.compiled, float(solution.t[k]), solution.q[k], solution.v[k], z=solution.z[k]
     )

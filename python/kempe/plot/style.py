@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, BinaryIO, Literal
+from typing import TYPE_CHECKING, Any, BinaryIO, Literal, TypeAlias
 
 from kempe.draw.palette import COLOURS, GROUND, LONGEST_NAME, colour, one_line, verbatim
 
@@ -33,7 +33,8 @@ HEIGHT = 75.0  # mm: of a figure with one panel
 DOTS_PER_INCH = 200
 #: Distances of the labels from their axes, mm.
 _X_LABEL, _Y_LABEL = 6.3, 14.3
-FORMATS = ("png", "svg", "pdf")
+Format: TypeAlias = Literal["png", "svg", "pdf"]
+FORMATS: tuple[Format, ...] = ("png", "svg", "pdf")
 
 _FONTS: dict[Any, Any] = {
     "font.family": "sans-serif",

@@ -60,7 +60,7 @@ def transient(motion: Motion) -> float | None:
     duration = float(t[-1] - t[0])
     if len(t) < 3 or duration <= 0.0:
         return None
-    bodies = [motion.body(name) for name in motion.model.bodies]
+    bodies = [motion.body(name) for name in motion.compiled.bodies]
     angles = [body.angle for body in bodies]
     places = [values for body in bodies for values in (body.x, body.y)]
     times = []

@@ -56,7 +56,7 @@ class TimePages:
 
     def of_coordinate(self, quantity: str) -> list[Page]:
         """One coordinate of all bodies, a panel for each; more pages for many bodies."""
-        found = self.solution.model.bodies.items()
+        found = self.solution.compiled.bodies.items()
         bodies = [name for name, info in found if quantity in info.quantities]
         count = math.ceil(len(bodies) / _MOST_PANELS)
         pages = []
@@ -75,7 +75,7 @@ class TimePages:
         return Page(0, file, body, partial(self._body, body))
 
     def _body(self, body: str) -> Figure:
-        info = self.solution.model.bodies[body]
+        info = self.solution.compiled.bodies[body]
         pairs = zip(RATES[: info.count], ACCELERATIONS[: info.count], strict=True)
         quantities = [quantity for pair in pairs for quantity in pair]
         panels = [body_panel(self.solution, body, one, self.index_base) for one in quantities]
@@ -134,7 +134,7 @@ class TimePages:
         return Page(0, "motion", "motion", self._motion)
 
     def _motion(self) -> Figure:
-        known = list(self.solution.model.bodies)
+        known = list(self.solution.compiled.bodies)
         panels = [self._together(quantity, known[:_MOST_BODIES]) for quantity in COORDINATES]
         few = f" of the first {_MOST_BODIES} of {len(known)} bodies" if known[_MOST_BODIES:] else ""
         return self._figure(
@@ -146,7 +146,7 @@ class TimePages:
 
     def _together(self, quantity: str, bodies: Sequence[str]) -> Panel:
         """One coordinate of several bodies; none is marked."""
-        infos = [self.solution.model.bodies[name] for name in bodies]
+        infos = [self.solution.compiled.bodies[name] for name in bodies]
         curves = [
             Curve(
                 body_title(info, self.index_base),

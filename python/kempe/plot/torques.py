@@ -5,15 +5,16 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from kempe.motion import Motion
 from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Panel, curve, times
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from kempe.arrays import Floats
-    from kempe.motion import Motion
 
 
 def torques(
@@ -38,6 +39,7 @@ def torques(
     Raises:
         ModelError: there is no such element, or it does not act on that body.
     """
+    instance(motion, Motion, "a solution or a motion")
     panel = torque_panel(motion, force, on)
     with style.on(ax) as axes:
         draw(axes, times(motion), panel, cut=cut)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Literal, TypeAlias
+
 from kempe.compiled import ConstraintInfo, ForceInfo
 from kempe.names import one_of
 
+Frame: TypeAlias = Literal["global", "body", "joint"]
 #: Global axes; axes of the body given by ``on=``; axes of the joint on this body (Haug 6.6.8).
-FRAMES = ("global", "body", "joint")
+FRAMES: tuple[Frame, ...] = ("global", "body", "joint")
 
 
 def checked_body(element: ConstraintInfo | ForceInfo, on: str) -> str:
@@ -18,7 +22,7 @@ def checked_body(element: ConstraintInfo | ForceInfo, on: str) -> str:
     return one_of(f"body in on= for {element.name}", on, dict.fromkeys(element.bodies))
 
 
-def checked_frame(frame: str, allowed: tuple[str, ...] = FRAMES) -> str:
+def checked_frame(frame: str, allowed: Sequence[str] = FRAMES) -> str:
     """The frame, if the name is valid.
 
     Raises:
