@@ -16,6 +16,8 @@ from kempe.solution import Solution
 #: A quantity of a motion, (n_t,), such as ``lambda motion: motion.body("crank").omega``.
 Quantity = Callable[[Motion], Floats]
 
+#: Local extreme values above this share of the largest sample are refined, so many at most.
+_SHARE, _CANDIDATES = 0.9, 3
 #: A bracket is divided so often into so many intervals; each time it shrinks by half as much.
 _ROUNDS, _INTERVALS = 4, 16
 #: Values that differ by less than this share of the largest are the same value.
@@ -60,41 +62,51 @@ def peak(motion: Motion, quantity: Quantity) -> Extreme:
 
 def _extreme(motion: Motion, quantity: Quantity, sign: float) -> Extreme:
     """The largest value of sign times the quantity."""
-    output, _ = _best(motion, quantity, sign, _SAME)
+    output = _first(motion, sign * np.atleast_1d(quantity(motion)), sign)
     dense = fine(motion)
     if dense is motion:
         return output
-    found, bracket = _best(dense, quantity, sign, _SAME)
-    for _ in range(_ROUNDS):
-        try:
-            closer, bracket = _best(_between(motion, *bracket), quantity, sign, 0.0)
-        except KempeError:  # no unique reactions at an instant between those that are known
-            break
-        if sign * closer.value >= sign * found.value:
-            found = closer
+    values = sign * np.atleast_1d(quantity(dense))
+    found = _first(dense, values, sign)
+    if np.ptp(values) > _SAME * float(np.abs(values).max()):
+        assert isinstance(motion, Solution)
+        closer = _refined(motion, quantity, sign, _brackets(dense.t, values))
+        found = max(found, closer, key=lambda extreme: sign * extreme.value)
     room = _SAME * abs(output.value)
     return output if sign * output.value > sign * found.value + room else found
 
 
-def _best(
-    motion: Motion, quantity: Quantity, sign: float, room: float
-) -> tuple[Extreme, tuple[float, float]]:
-    """The extreme value at the times of a motion, and the times before and after it.
-
-    Of values within a share ``room`` of the extreme one the first counts.
-    """
-    t = np.atleast_1d(motion.t)
-    values = sign * np.atleast_1d(quantity(motion))
-    near = values >= values.max() - room * float(np.abs(values).max())
-    k = int(np.argmax(near))
-    extreme = Extreme(float(sign * values[k]), float(t[k]))
-    if room and near[k : k + 3].all():  # constant there
-        return extreme, (extreme.t, extreme.t)
-    return extreme, (float(t[max(k - 1, 0)]), float(t[min(k + 1, len(t) - 1)]))
+def _first(motion: Motion, values: Floats, sign: float) -> Extreme:
+    """The largest of the values at the times of a motion, and the first time at which it occurs."""
+    k = int(np.argmax(values >= values.max() - _SAME * float(np.abs(values).max())))
+    return Extreme(float(sign * values[k]), float(np.atleast_1d(motion.t)[k]))
 
 
-def _between(motion: Motion, begin: float, end: float) -> Motion:
-    assert isinstance(motion, Solution)
-    found = motion(np.linspace(begin, end, _INTERVALS + 1))
-    assert isinstance(found, Motion)
+def _brackets(t: Floats, values: Floats) -> Floats:
+    """Times before and after the largest local maxima, (n, 2)."""
+    padded = np.concatenate([[-np.inf], values, [-np.inf]])
+    is_peak = (values >= padded[:-2]) & (values >= padded[2:])
+    high = values >= values.max() - (1.0 - _SHARE) * float(np.abs(values).max())
+    peaks = np.flatnonzero(is_peak & high)
+    kept = peaks[np.argsort(-values[peaks], kind="stable")[:_CANDIDATES]]
+    found: Floats = t[np.clip(kept[:, None] + [-1, 1], 0, len(t) - 1)]
     return found
+
+
+def _refined(solution: Solution, quantity: Quantity, sign: float, brackets: Floats) -> Extreme:
+    """The largest value in some brackets; each shrinks to the parts beside its largest value."""
+    share = np.linspace(0.0, 1.0, _INTERVALS + 1)
+    rows = np.arange(len(brackets))
+    best = Extreme(-sign * np.inf, float(brackets[0, 0]))
+    for _ in range(_ROUNDS):
+        times = brackets[:, :1] + share * np.diff(brackets)
+        try:
+            values = sign * np.asarray(quantity(solution(times.ravel()))).reshape(times.shape)
+        except KempeError:  # no unique reactions at an instant between those that are known
+            break
+        k = values.argmax(axis=1)
+        row = int(values[rows, k].argmax())
+        best = Extreme(float(sign * values[row, k[row]]), float(times[row, k[row]]))
+        ends = np.clip(k[:, None] + [-1, 1], 0, _INTERVALS)
+        brackets = np.take_along_axis(times, ends, axis=1)
+    return best
