@@ -17,11 +17,13 @@ from kempe.solution import Solution
 Quantity = Callable[[Motion], Floats]
 
 #: Local extreme values above this share of the largest sample are refined, so many at most.
-_SHARE, _CANDIDATES = 0.9, 3
+_SHARE, _CANDIDATES = 0.9, 8
 #: A bracket is divided so often into so many intervals; each time it shrinks by half as much.
 _ROUNDS, _INTERVALS = 4, 16
 #: Values that differ by less than this share of the largest are the same value.
 _SAME = 1e-12
+#: Maxima that differ by less than this share are equal within the error of the interpolant.
+_EQUAL = 1e-7
 
 
 class Extreme(NamedTuple):
@@ -71,7 +73,8 @@ def _extreme(motion: Motion, quantity: Quantity, sign: float) -> Extreme:
     if np.ptp(values) > _SAME * float(np.abs(values).max()):
         assert isinstance(motion, Solution)
         closer = _refined(motion, quantity, sign, _brackets(dense.t, values))
-        found = max(found, closer, key=lambda extreme: sign * extreme.value)
+        room = _EQUAL * abs(found.value)
+        found = closer if sign * closer.value >= sign * found.value - room else found
     room = _SAME * abs(output.value)
     return output if sign * output.value > sign * found.value + room else found
 
@@ -94,19 +97,24 @@ def _brackets(t: Floats, values: Floats) -> Floats:
 
 
 def _refined(solution: Solution, quantity: Quantity, sign: float, brackets: Floats) -> Extreme:
-    """The largest value in some brackets; each shrinks to the parts beside its largest value."""
+    """The largest value in some brackets, the first of equal ones.
+
+    Each bracket shrinks to the parts beside its largest value.
+    """
     share = np.linspace(0.0, 1.0, _INTERVALS + 1)
     rows = np.arange(len(brackets))
-    best = Extreme(-sign * np.inf, float(brackets[0, 0]))
+    highest, at = np.full(len(brackets), -np.inf), brackets[:, 0]
     for _ in range(_ROUNDS):
         times = brackets[:, :1] + share * np.diff(brackets)
         try:
             values = sign * np.asarray(quantity(solution(times.ravel()))).reshape(times.shape)
         except KempeError:  # no unique reactions at an instant between those that are known
-            break
+            return Extreme(-sign * np.inf, float(at[0]))
         k = values.argmax(axis=1)
-        row = int(values[rows, k].argmax())
-        best = Extreme(float(sign * values[row, k[row]]), float(times[row, k[row]]))
+        highest, at = values[rows, k], times[rows, k]
         ends = np.clip(k[:, None] + [-1, 1], 0, _INTERVALS)
         brackets = np.take_along_axis(times, ends, axis=1)
+    equal = np.flatnonzero(highest >= highest.max() - _EQUAL * abs(float(highest.max())))
+    first = equal[int(np.abs(at[equal] - float(solution.t[0])).argmin())]
+    best = Extreme(float(sign * highest[first]), float(at[first]))
     return best

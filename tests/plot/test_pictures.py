@@ -34,7 +34,7 @@ PICTURES = {
     "four_bar_torque": ("flagship", "torque_spring"),
     "four_bar_frame": ("flagship", "frame 40"),
     "six_bar_angle": ("six_bar", "angle"),
-    "six_bar_final": ("six_bar", "final"),
+    "six_bar_energy": ("six_bar", "energy"),
     "six_bar_residual": ("six_bar", "residual"),
     "six_bar_motion": ("six_bar", "motion"),
     "slider_crank_slider": ("crank", "slider"),
@@ -73,7 +73,7 @@ def squares(picture: Image.Image) -> np.ndarray:
 
 
 def unlike(one: Image.Image, other: Image.Image) -> str:
-    """What tells two pictures apart; empty if the eye sees none."""
+    """The visible difference of two pictures; empty if there is none."""
     if max(abs(a - b) for a, b in zip(one.size, other.size, strict=True)) > SQUARE:
         return f"size {one.size}, not {other.size}"
     a, b = squares(one), squares(other)
