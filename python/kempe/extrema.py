@@ -116,5 +116,4 @@ def _refined(solution: Solution, quantity: Quantity, sign: float, brackets: Floa
         brackets = np.take_along_axis(times, ends, axis=1)
     equal = np.flatnonzero(highest >= highest.max() - _EQUAL * abs(float(highest.max())))
     first = equal[int(np.abs(at[equal] - float(solution.t[0])).argmin())]
-    best = Extreme(float(sign * highest[first]), float(at[first]))
-    return best
+    return Extreme(float(sign * highest[first]), float(at[first]))
