@@ -92,8 +92,8 @@ def test_the_page_of_motion_shows_every_coordinate_of_every_body(
     figure = plot.select(flagship_pages, ["motion"])[0].figure()
     for axes, name in zip(figure.axes, ("x", "y", "angle"), strict=True):
         for line, body in zip(axes.lines, ("crank", "coupler", "rocker"), strict=True):
-            np.testing.assert_array_equal(line.get_xdata(), flagship.t)
-            np.testing.assert_array_equal(line.get_ydata(), getattr(flagship.body(body), name))
+            t, drawn = line.get_data()
+            np.testing.assert_array_equal(drawn, getattr(flagship(t).body(body), name))
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert labels == ["1 crank", "2 coupler", "3 rocker"]
 
