@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from kempe.draw.animate import animate as animate
     from kempe.draw.player import player as player
     from kempe.draw.scene import scene as scene
+    from kempe.draw.still import still as still
     from kempe.energy import Energy as Energy
     from kempe.errors import AssemblyError as AssemblyError
     from kempe.errors import FileError as FileError
@@ -152,6 +153,7 @@ _HOME = {
     "report": "",
     "scene": "draw.scene",
     "show": "matrices",
+    "still": "draw.still",
     "study": "studies",
     "units": "display_units",
 }

@@ -78,6 +78,8 @@ def load_solution(path: Path | str) -> Solution:
             model, or needs a newer kempe.
     """
     where = files.checked_path(path, "read")
+    with _only_file_errors(where):
+        files.refuse_pipe(where)
     with _only_file_errors(where), where.open("rb") as file, zipfile.ZipFile(file) as stored:
         about = _read_about(stored)
         if about.get("kind") != KIND:

@@ -214,6 +214,17 @@ class Case:
         entries = {**self._entries, name: {**self._entries[name], **given}}
         return Case(self.model, self._start, entries)
 
+    def with_start(self, coordinates: Coordinates) -> Case:
+        """The same case with other coordinates and rates set at the start: ``{"crank.angle": 1}``.
+
+        They replace those of the same name in ``set`` and in ``guess``; all others remain.
+
+        Raises:
+            ModelError: there is no such coordinate, or a value is not a number or a formula.
+        """
+        guess = {key: value for key, value in self._start.guess.items() if key not in coordinates}
+        return Case(self.model, Start({**self._start.set, **coordinates}, guess), self._entries)
+
     def save(self, path: Path | str) -> None:
         """Write the case as TOML or JSON, by the suffix of the name; nothing is lost.
 
@@ -245,7 +256,24 @@ def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) ->
         ModelError: the model is wrong; with all ``problems``, each with line and column.
     """
     form = _format(path, "read")
-    core = _core.Case(files.read_text(path), form, str(path))
+    return parsed(files.read_text(path), form, str(path), parameters)
+
+
+def parsed(
+    text: str, form: str, origin: str, parameters: Mapping[str, Number] | None = None
+) -> Case:
+    """The case in a text.
+
+    Args:
+        text: the text of a file.
+        form: "toml" or "json".
+        origin: name of the file, for messages.
+        parameters: other values for some of its parameters.
+
+    Raises:
+        FileError, ModelError: as ``load``.
+    """
+    core = _core.Case(text, form, origin)
     case = Case._loaded(core)
     given = numbers(parameters, "parameters")
     if given:

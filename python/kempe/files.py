@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import re
 import secrets
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -43,6 +44,23 @@ def trouble(path: Path | str, doing: str, error: OSError) -> FileError:
     return FileError(f"cannot {doing} {path}: {reason}", name=str(path), hint="check the disk")
 
 
+def refuse_pipe(path: Path | str) -> None:
+    """Refuse a pipe or a device, since reading it may wait forever.
+
+    Raises:
+        FileError: it is one.
+        OSError, ValueError: the file is missing, or its name is impossible.
+    """
+    mode = Path(path).stat().st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise FileError(
+            f"cannot read {path}: it is a pipe or a device",
+            name=str(path),
+            hint="copy its content to a file; the commands also read a case from standard input, "
+            "with - in place of the name",
+        )
+
+
 def checked_path(path: object, doing: str) -> Path:
     """A path that the operating system can take.
 
@@ -65,14 +83,28 @@ def read_text(path: Path | str) -> str:
     """The text of a UTF-8 file.
 
     Raises:
-        FileError: missing, a folder, not permitted, too large or not UTF-8.
+        FileError: missing, a folder, a pipe, not permitted, too large or not UTF-8.
     """
     where = checked_path(path, "read")
     try:
+        refuse_pipe(where)
         with where.open("rb") as file:
             data = file.read(LARGEST_TEXT + 1)
     except OSError as error:
         raise trouble(path, "read", error) from error
+    return decoded(data, path)
+
+
+def decoded(data: bytes, path: Path | str) -> str:
+    """The text of the bytes of a file.
+
+    Args:
+        data: the bytes, at most one more than ``LARGEST_TEXT``.
+        path: the file, for messages.
+
+    Raises:
+        FileError: too large or not UTF-8.
+    """
     if len(data) > LARGEST_TEXT:
         megabytes = LARGEST_TEXT // 2**20
         raise FileError(f"cannot read {path}: larger than {megabytes} MiB", hint="is it a case?")

@@ -229,6 +229,22 @@ class Solution(Motion):
         motion._passing = self._passing
         return motion
 
+    def energy_at(self, t: Floats) -> Energy:
+        """Energies at any times within the solution, from the interpolant of the integrator.
+
+        Args:
+            t: (n,), s.
+
+        Raises:
+            ModelError: a time is outside the solution, or the interpolant was not kept.
+            IntegrationError: an energy is not finite.
+        """
+        motion = self(t)
+        assert self.dense is not None  # otherwise the line before raises the error
+        works = self.dense(motion.t)[..., 2 * self.compiled.n_q + self.compiled.n_z :]
+        rows = (np.atleast_2d(values) for values in (motion.q, motion.v, motion.z, works))
+        return Energy(_core.energies(self.compiled.core, np.atleast_1d(motion.t), *rows))
+
     def to_dataframe(
         self, *, frames: Sequence[Frame] = ("global",), points: Sequence[str] | bool = ()
     ) -> pandas.DataFrame:

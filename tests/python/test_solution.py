@@ -130,11 +130,15 @@ def test_between_the_outputs(solution: kp.Solution) -> None:
     assert many["C"].force(on="rocker").shape == (101, 2)
 
 
-def test_time_may_run_backwards(model: kp.Model, start: kp.State) -> None:
-    sol = kp.dynamics(model, start, t_end=-0.1, output_step=0.01, stabilization=None)
-    np.testing.assert_allclose(sol(sol.t).q, sol.q, atol=1e-9)
-    forth = kp.dynamics(model, sol.final, t_end=0, stabilization=None)
-    np.testing.assert_allclose(forth.q[-1], start.q, atol=1e-4)
+def test_a_run_must_not_end_before_it_begins(model: kp.Model, start: kp.State) -> None:
+    with pytest.raises(kp.ModelError, match=r"t_end: -0.1 s lies before 0 s") as caught:
+        kp.dynamics(model, start, t_end=-0.1)
+    assert "t_end is a time, not a duration; it must be at least 0 s" in str(caught.value)
+    first = kp.dynamics(model, start, t_end=0.1)
+    with pytest.raises(kp.ModelError, match=r"0.05 s lies before 0.1 s") as caught:
+        kp.dynamics(model, first.final, t_end=0.05)  # a duration instead of a time
+    assert "at least 0.1 s" in str(caught.value)
+    assert kp.dynamics(model, first.final, t_end=0.1).success  # the remedy
 
 
 def test_a_simulation_without_a_step_is_its_start(model: kp.Model, start: kp.State) -> None:

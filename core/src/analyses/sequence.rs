@@ -26,6 +26,8 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
                     let keys: Vec<&str> = keys.collect();
                     Problem::at(&keys, fault.message).maybe_hint(fault.hint.map(str::to_string))
                 }));
+                let path = ["analyses", &entry.name, "t_end"];
+                problems.extend(begin.and_then(|begin| options.backward(begin, &path)));
                 Some(options.t_end)
             }
         };

@@ -215,7 +215,7 @@ fn analyses(report: &mut Report, node: &Node) -> Vec<Entry> {
     entries(report, node, |report, name, table| {
         match name {
             "start" => report.say_of_key("'start' is where a case starts and cannot be a name"),
-            _ => names::key(report, name),
+            _ => names::folder(report, name, &earlier),
         }
         fields::options(report, table, analyses::declarations(), "analysis");
         from(report, table, &earlier);

@@ -50,6 +50,35 @@ pub(super) fn value(report: &mut Report, name: &str) {
     }
 }
 
+/// Characters that separate folders or that some file systems do not allow.
+const NOT_IN_FOLDERS: [char; 9] = ['/', '\\', ':', '*', '?', '"', '<', '>', '|'];
+
+/// Checks the present key as the name of an analysis, whose results go to a folder of this name.
+pub(super) fn folder(report: &mut Report, name: &str, earlier: &[String]) {
+    key(report, name);
+    let hint = "its results go to a folder of this name";
+    let mut wrong = |message: String| report.add(report.here(message).at_key().hint(hint));
+    if let Some(found) = name.chars().find(|c| NOT_IN_FOLDERS.contains(c)) {
+        wrong(format!("the name of an analysis must not contain '{found}'"));
+    } else if name.trim() != name {
+        wrong("the name of an analysis must not begin or end with a blank".to_string());
+    } else if name.len() > MOST_CHARACTERS {
+        wrong(format!(
+            "the name of an analysis takes {} bytes; at most {MOST_CHARACTERS} are allowed",
+            name.len()
+        ));
+    } else if let Some(other) = earlier.iter().find(|other| alike(other, name)) {
+        wrong(format!(
+            "differs from '{}' only in upper and lower case, which some file systems do not distinguish",
+            super::shown(other)
+        ));
+    }
+}
+
+fn alike(one: &str, other: &str) -> bool {
+    one.to_lowercase() == other.to_lowercase()
+}
+
 /// Checks the present key as the name of a parameter or an element.
 pub(super) fn unreserved_key(report: &mut Report, name: &str) {
     if RESERVED.contains(&name) {

@@ -5,13 +5,14 @@ The player, the pictures and the videos draw only this; ``docs/scene.md`` descri
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.compiled import COORDINATES, RATES, CompiledModel
+from kempe.compiled import ACCELERATIONS, COORDINATES, RATES, CompiledModel
 from kempe.draw import channels, sampling, shapes
 from kempe.draw.numbers import plain, round_below, rounded
 from kempe.draw.units import scale
@@ -27,6 +28,8 @@ Scene: TypeAlias = dict[str, Any]
 #: Version of the format.
 FORMAT = 2
 UNITS = {"time": "s", "length": "m", "angle": "rad", "force": "N", "torque": "N·m"}
+#: Points are computed from poses; after many turns, angles need more digits than other numbers.
+_DIGITS_OF_POSES = 12
 #: Length of the arrow of the largest reaction, as a share of the size of the drawing.
 _LONGEST_ARROW = 0.3
 #: Points no farther apart than this share of the drawing are seen as one.
@@ -40,6 +43,7 @@ def scene(
     *,
     frames: int | None = None,
     traces: Sequence[str] | None = None,
+    span: sampling.Span | None = None,
 ) -> Scene:
     """Describe a motion, or one instant, for drawing.
 
@@ -49,16 +53,18 @@ def scene(
             fewer for a mechanism of very many bodies.
         traces: points whose paths are drawn, such as ``["coupler.P"]``; by default every named
             point of a moving body that moves, once where several bodies share it.
+        span: first and last time that are drawn, s; the whole motion by default.
 
     Returns:
         The scene; see ``docs/scene.md``. Numbers have nine significant digits.
 
     Raises:
-        ModelError: a traced point or its body does not exist, or ``frames`` is less than 1.
+        ModelError: a traced point or its body does not exist, ``frames`` is less than 1, or the
+            span is not within the motion.
     """
     instance(solution_or_state, (Solution, State), "a solution or a state")
     model = solution_or_state.compiled
-    motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model))
+    motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model), span)
     bodies = [shapes.body(model, name) for name in model.all_bodies]
     joints = [shapes.joint(model, name) for name in model.joints]
     bounds = shapes.bounds(motion, bodies, joints)
@@ -70,22 +76,28 @@ def scene(
         "units": dict(UNITS),
         "gravity": plain(np.array(model.gravity)),
         "bounds": plain(bounds),
-        "length": _length(size),
+        "length": _length(shapes.own_size(bodies, joints) or size),
         "bodies": bodies,
         "joints": joints,
         "symbols": shapes.symbols(motion),
         "traces": _traces(motion, size, traces),
         "frames": {
             "t": plain(motion.t),
-            "poses": plain(_of_bodies(motion, COORDINATES)),
+            "poses": plain(_of_bodies(motion, COORDINATES), _DIGITS_OF_POSES),
             "rates": plain(_of_bodies(motion, RATES)),
+            "accelerations": plain(_of_bodies(motion, ACCELERATIONS)),
             "reactions": plain(reactions),
         },
         "interpolation": sampling.interpolation(solution_or_state, motion, size),
+        "accuracy": _short(sampling.accuracy(solution_or_state, motion)),
         "playback": {"rate": playback_rate(float(motion.t[-1] - motion.t[0]))},
         "reaction_scale": _reaction_scale(reactions, size),
-        "channels": channels.channels(motion),
+        "channels": channels.channels(motion, sampling.energy(solution_or_state, motion)),
     }
+
+
+def _short(share: float | None) -> float | None:
+    return None if share is None or not math.isfinite(share) else float(f"{share:.2g}")
 
 
 def _length(size: float) -> dict[str, Any]:

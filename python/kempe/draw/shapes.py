@@ -142,6 +142,22 @@ def _turn(a: Floats, b: Floats, c: Floats) -> float:
     return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
 
+def own_size(bodies: list[dict[str, Any]], joints: list[dict[str, Any]]) -> float:
+    """The largest extent of a body, ground included, in its own frame, m.
+
+    It does not depend on the motion, so that all drawings of a model have the same unit of length.
+    """
+    sizes = [0.0]
+    for entry in bodies:
+        corners = [*entry["outline"], *(point["at"] for point in entry["points"])]
+        for one in joints:
+            pairs = zip(one["bodies"], one["points"], strict=True)
+            corners += [at for number, at in pairs if number == entry["number"]]
+        if corners:
+            sizes.append(float(np.ptp(np.array(corners), axis=0).max()))
+    return max(sizes)
+
+
 def bounds(motion: Motion, bodies: list[dict[str, Any]], joints: list[dict[str, Any]]) -> Floats:
     """The area of the drawing over all frames: least x and y, largest x and y, m."""
     low, high = np.full(2, np.inf), np.full(2, -np.inf)

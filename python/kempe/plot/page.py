@@ -28,15 +28,15 @@ class Page:
         number: its place in the report; figures of one family share it.
         name: such as "reactions_C", fit for a file.
         about: the same with names as the model has them.
-        height: mm.
-        draw: draws it into an empty figure.
+        draw: draws it, as a figure without a window.
+        key: whether it belongs to the few that show a run at a glance.
     """
 
     number: int
     name: str
     about: str
-    height: float
-    draw: Callable[[Figure], None]
+    draw: Callable[[], Figure]
+    key: bool = False
 
     def __repr__(self) -> str:
         return f"<Page {self.number}: {self.about}>"
@@ -49,9 +49,7 @@ class Page:
     def figure(self) -> Figure:
         """The figure, drawn, without a window."""
         with style.applied():
-            figure = style.figure(self.height)
-            self.draw(figure)
-            return figure
+            return self.draw()
 
 
 def save(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.draw.items import NUMBER, arrow_head, fill, line, on_body
+from kempe.draw.items import PIN, arrow_head, fill, line, on_body
 from kempe.draw.scene import scene
 from kempe.plot import style
 from kempe.plot.picture import drawn, paint
@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from kempe.studies import Study
 
 #: The largest gap is drawn about this long, as a share of the drawing.
-LENGTH = 0.15
+LENGTH = 0.25
+_WIDTH, _HEAD = 2.2, 10.0  # of an arrow, points
 
 
 def gaps(study: Study, ax: Axes) -> None:
@@ -54,10 +55,13 @@ def gaps(study: Study, ax: Axes) -> None:
             continue
         angle = float(np.arctan2(gap[1], gap[0]))
         frame = on_body(0, [float(x) for x in point], turn=angle)
-        shaft = [[0.0, 0.0, 0.0, 0.0], [factor * length, 0.0, -4.0, 0.0]]
-        head = [[factor * length, 0.0, *at] for at in arrow_head((0.0, 0.0), 0.0)]
-        made.add([line(name, frame, shaft, "reaction", 1.5, layer=NUMBER)])
-        made.add([fill(name, frame, head, "reaction", layer=NUMBER)])
+        shaft = [[0.0, 0.0, 0.0, 0.0], [factor * length, 0.0, -0.6 * _HEAD, 0.0]]
+        head = [[factor * length, 0.0, *at] for at in arrow_head((0.0, 0.0), 0.0, _HEAD)]
+        edge = [[factor * length, 0.0, *at] for at in arrow_head((1.5, 0.0), 0.0, _HEAD + 4.0)]
+        made.add([line(name, frame, shaft, "paper", _WIDTH + 2.0, layer=PIN)])
+        made.add([fill(name, frame, edge, "paper", layer=PIN)])
+        made.add([line(name, frame, shaft, "reaction", _WIDTH, layer=PIN)])
+        made.add([fill(name, frame, head, "reaction", layer=PIN)])
         made.name("joint", f"{name}: {1e3 * length:.3g} mm", frame)
     paint(ax, made)
 

@@ -16,6 +16,7 @@ from kempe.values import instance
 
 if TYPE_CHECKING:
     from kempe.motion import Motion
+    from kempe.state import State
 
 #: Angles below this are rounding errors, rad.
 _NO_ANGLE = 1e-9
@@ -42,7 +43,7 @@ def summary(solution: Solution) -> dict[str, Any]:
             "end": float(solution.t[-1]),
             "outputs": len(solution.t),
         },
-        "mechanism": mechanism(solution),
+        "mechanism": mechanism(solution.initial),
         "start": solution.initial.coordinates(),
         "end": solution.final.coordinates(),
         "peaks": {
@@ -57,9 +58,9 @@ def summary(solution: Solution) -> dict[str, Any]:
     }
 
 
-def mechanism(solution: Solution) -> dict[str, Any]:
-    """Elements of the mechanism, and its degrees of freedom at the start."""
-    model = solution.compiled
+def mechanism(state: State) -> dict[str, Any]:
+    """Elements of the mechanism, and its degrees of freedom in a state."""
+    model = state.compiled
     return {
         "bodies": list(model.bodies),
         "joints": list(model.joints),
@@ -67,7 +68,7 @@ def mechanism(solution: Solution) -> dict[str, Any]:
         "forces": list(model.forces),
         "coordinates": model.n_q,
         "equations": model.n_rows,
-        "degrees_of_freedom": solution.initial.matrices().degrees_of_freedom,
+        "degrees_of_freedom": state.matrices().degrees_of_freedom,
     }
 
 
