@@ -15,7 +15,7 @@ mod mechanisms;
 use kempe::analyses::dynamics::{dynamics, Options, Run, Scheme, Stabilization};
 use kempe::analyses::State;
 use kempe::equations::{constraints, kinematics};
-use kempe::integrate::{Atol, Dop853, ExplicitMethod, Flow, Ode, Rk45, Step, StepControl};
+use kempe::integrate::{Atol, Dop853, ExplicitMethod, Flow, Ode, Rk45, StepControl};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 use mechanisms::chain;
@@ -62,11 +62,11 @@ fn truth(windows: usize) -> Vec<[f64; 2]> {
     let mut all = vec![[0.0, 1.0]];
     for k in 0..(T_END / GRID).round() as usize {
         let ends = (k as f64 * GRID, (k + 1) as f64 * GRID);
-        let done =
-            method.integrate(&mut Pendulum(w2), ends.0, ends.1, &mut y, &mut |_: &Step<'_>| {
-                Flow::Continue
-            });
-        done.expect("a pendulum swings");
+        let mut stepper = method.start(&Pendulum(w2), ends, &y).expect("a pendulum swings");
+        while stepper.t() != ends.1 {
+            stepper.step(&mut Pendulum(w2)).expect("a pendulum swings");
+        }
+        y.copy_from_slice(stepper.y());
         all.push([y[0].sin(), y[0].cos()]);
     }
     all

@@ -7,7 +7,8 @@ use kempe::analyses::State;
 use kempe::equations::{dense, energy, kinematics, mass, Workspace};
 use kempe::integrate::{Flow, Rk4};
 use kempe::model::Model;
-use kempe::stabilize::{Fault, Projection, Projector};
+use kempe::solve::Breakdown;
+use kempe::stabilize::{Projection, Projector};
 use mechanisms::{
     every, four_bar, largest, model, rate, residual, run, start, tolerances, worst, Random,
     SLIDER_CRANK,
@@ -17,7 +18,7 @@ fn projected(options: Options) -> Options {
     Options { stabilization: Stabilization::Projection(Projection::default()), ..options }
 }
 
-fn project(m: &Model, state: &State) -> Result<(State, bool), Fault> {
+fn project(m: &Model, state: &State) -> Result<(State, bool), Breakdown> {
     let (mut projector, mut workspace) =
         (Projector::new(m, Projection::default()), Workspace::new(m));
     let mut out = state.clone();
@@ -253,7 +254,9 @@ fn coordinates_without_digits_left_are_refused() {
         |angle: f64| State { t: 0.0, q: vec![-1.0, 0.5, angle], v: vec![0.0; 3], z: vec![] };
     let (found, _) = project(&m, &turned(1e6)).unwrap();
     assert!(largest(&residual(&m, &found)) < 1e-8);
-    let Fault::Open { gap, .. } = project(&m, &turned(1e16)).unwrap_err() else { panic!("open") };
+    let Breakdown::Open { gap, .. } = project(&m, &turned(1e16)).unwrap_err() else {
+        panic!("open")
+    };
     assert!(gap.abs() > 1e-8, "{gap:.1e}");
 }
 

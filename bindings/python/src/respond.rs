@@ -24,7 +24,7 @@ pub fn responses<'py>(
     if let Some(error) = watch.raised {
         return Err(error);
     }
-    let core::Accelerations { a, lam } = found.map_err(|reason| missing(py, reason))?;
+    let core::Accelerations { a, lam } = found.map_err(|failure| missing(py, failure.reason))?;
     let model = model.model();
     let (n, m, count) = (model.layout.n_q, model.layout.n_rows, states.t.len());
     Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?))
@@ -38,7 +38,7 @@ pub fn energies<'py>(
     works: &[f64],
 ) -> PyResult<Table<'py>> {
     let found = py.detach(|| model.energies(states, works));
-    let found = found.map_err(|reason| missing(py, reason))?;
+    let found = found.map_err(|failure| missing(py, failure.reason))?;
     table(py, found, (states.t.len(), core::ENERGIES))
 }
 

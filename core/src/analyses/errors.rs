@@ -13,5 +13,3 @@ impl fmt::Display for dynamics::Failure {
 }
 
 impl Error for dynamics::Failure {}
-
-impl Error for dynamics::Reason {}

@@ -1,6 +1,6 @@
 //! Named results of a run: coordinates and rates of bodies, reactions of joints.
 
-use super::dynamics::{Reason, Run};
+use super::dynamics::{Failure, Run};
 use crate::elements::Coordinate;
 use crate::equations::kinematics::Motions;
 use crate::equations::reactions::{reaction, Frame};
@@ -14,14 +14,14 @@ pub enum NoResult {
     /// The model has nothing of this name, or the body does not belong to the joint.
     Unknown(String),
     /// Accelerations and multipliers cannot be computed at a reported state.
-    Unsolved(Reason),
+    Unsolved(Box<Failure>),
 }
 
 impl fmt::Display for NoResult {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unknown(message) => write!(f, "{message}"),
-            Self::Unsolved(reason) => write!(f, "{reason}"),
+            Self::Unsolved(failure) => write!(f, "{failure}"),
         }
     }
 }

@@ -67,7 +67,7 @@ fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, V
     found
 }
 
-/// Checks the name of a coordinate. Only the model knows the states of elements.
+/// Checks the name of a coordinate. The states of elements are in the model only.
 fn coordinate(report: &mut Report, root: &Table, (owner, name): (&str, &str)) {
     if Coordinate::named(name).is_none() && !is_element(root, owner) {
         let known = Coordinate::ALL.map(Coordinate::name);

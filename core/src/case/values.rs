@@ -6,9 +6,9 @@ use super::tree::{Data, Node};
 use crate::expression::suggest::did_you_mean;
 
 /// Reports a value of the wrong shape.
-pub(super) fn wrong(report: &mut Report, node: &Node, wanted: &str) {
+pub(super) fn wrong(report: &mut Report, node: &Node, expected: &str) {
     if !matches!(node.data, Data::Refused(_)) {
-        report.say(format!("{}; must be {wanted}", node.noun()));
+        report.say(format!("{}; must be {expected}", node.noun()));
     }
 }
 

@@ -172,34 +172,41 @@ macro_rules! constraints {
             }
         }
 
-        /// Joints and drivers, stored together by type.
+        /// Joints and drivers, stored together by type; only the types that occur.
         #[derive(Clone, Debug)]
-        #[allow(non_snake_case)] // one list for each type
-        pub struct JointPools<S = f64> {
-            $($($(#[$on])* $Name: Vec<Pooled<$Name<S>>>,)+)+
+        pub struct JointPools<S = f64>(Vec<JointPool<S>>);
+
+        /// All joints or drivers of one type.
+        #[derive(Clone, Debug)]
+        enum JointPool<S> {
+            $($($(#[$on])* $Name(Vec<Pooled<$Name<S>>>),)+)+
         }
 
         impl<S> std::default::Default for JointPools<S> {
             fn default() -> Self {
-                Self { $($($(#[$on])* $Name: Vec::new(),)+)+ }
+                Self(Vec::new())
             }
         }
 
         impl<S: Real> JointPools<S> {
-            /// Adds a constraint.
+            /// Adds a joint or a driver.
             pub fn push(&mut self, constraint: &Constraint<S>, place: Place) {
                 match constraint { $($($(#[$on])* Constraint::$Name(e) => {
-                    self.$Name.push(Pooled { element: e.clone(), place });
+                    let entry = Pooled { element: e.clone(), place };
+                    for pool in &mut self.0 {
+                        if let JointPool::$Name(pool) = pool {
+                            return pool.push(entry);
+                        }
+                    }
+                    self.0.push(JointPool::$Name(vec![entry]));
                 })+)+ }
             }
             /// Passes every type that occurs to the visitor.
             #[inline(always)]
             pub fn visit(&self, visitor: &mut impl VisitJoints<S>) {
-                $($($(#[$on])* {
-                    if !self.$Name.is_empty() {
-                        visitor.visit::<$Name>(&self.$Name);
-                    }
-                })+)+
+                for pool in &self.0 {
+                    match pool { $($($(#[$on])* JointPool::$Name(p) => visitor.visit::<$Name>(p),)+)+ }
+                }
             }
         }
 
@@ -279,7 +286,7 @@ macro_rules! forces {
 
         impl<S: Real> ForceElement<S> {
             /// The wrench of each part on each body, see [`Force::action`].
-            pub fn action(&self, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {
+            pub fn action(&self, at: &Situation<'_, S>, out: impl Wrenches<S>) {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::action(e, at, out),)+ }
             }
             /// ż of the element.
@@ -308,16 +315,19 @@ macro_rules! forces {
             }
         }
 
-        /// Forces, stored together by type.
+        /// Forces, stored together by type; only the types that occur.
         #[derive(Clone, Debug)]
-        #[allow(non_snake_case)] // one list for each type
-        pub struct ForcePools<S = f64> {
-            $($(#[$on])* $Name: Vec<Pooled<$Name<S>>>,)+
+        pub struct ForcePools<S = f64>(Vec<ForcePool<S>>);
+
+        /// All forces of one type.
+        #[derive(Clone, Debug)]
+        enum ForcePool<S> {
+            $($(#[$on])* $Name(Vec<Pooled<$Name<S>>>),)+
         }
 
         impl<S> std::default::Default for ForcePools<S> {
             fn default() -> Self {
-                Self { $($(#[$on])* $Name: Vec::new(),)+ }
+                Self(Vec::new())
             }
         }
 
@@ -325,17 +335,21 @@ macro_rules! forces {
             /// Adds a force.
             pub fn push(&mut self, force: &ForceElement<S>, place: Place) {
                 match force { $($(#[$on])* ForceElement::$Name(e) => {
-                    self.$Name.push(Pooled { element: e.clone(), place });
+                    let entry = Pooled { element: e.clone(), place };
+                    for pool in &mut self.0 {
+                        if let ForcePool::$Name(pool) = pool {
+                            return pool.push(entry);
+                        }
+                    }
+                    self.0.push(ForcePool::$Name(vec![entry]));
                 })+ }
             }
             /// Passes every type that occurs to the visitor.
             #[inline(always)]
             pub fn visit(&self, visitor: &mut impl VisitForces<S>) {
-                $($(#[$on])* {
-                    if !self.$Name.is_empty() {
-                        visitor.visit::<$Name>(&self.$Name);
-                    }
-                })+
+                for pool in &self.0 {
+                    match pool { $($(#[$on])* ForcePool::$Name(p) => visitor.visit::<$Name>(p),)+ }
+                }
             }
         }
 

@@ -8,8 +8,10 @@ use crate::math::{Local, Motion, Real, Wrench};
 /// The quantities that a force may depend on.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a, S = f64> {
-    /// Motion of each body, in the order of [`Force::bodies`].
-    pub bodies: &'a [Motion<S>],
+    /// Motion of every body of the model, ground first.
+    pub motions: &'a [Motion<S>],
+    /// The bodies on which the force acts, in the order of [`Force::bodies`].
+    pub bodies: &'a [BodyId],
     /// First-order states of the element, in the order of [`Force::states`].
     pub z: &'a [S],
     /// Reaction of the joint that [`Force::reaction`] names, on its body j at its joint point, in the
@@ -20,15 +22,20 @@ pub struct Situation<'a, S = f64> {
 }
 
 impl<S> Situation<'_, S> {
+    /// Motion of a body of the force, by its place in [`Force::bodies`].
+    #[inline(always)]
+    pub fn body(&self, place: usize) -> &Motion<S> {
+        &self.motions[self.bodies[place].0]
+    }
     /// Motion of body i, the first one.
     #[inline(always)]
     pub fn i(&self) -> &Motion<S> {
-        &self.bodies[0]
+        self.body(0)
     }
     /// Motion of body j, the second one.
     #[inline(always)]
     pub fn j(&self) -> &Motion<S> {
-        &self.bodies[1]
+        self.body(1)
     }
 }
 
@@ -43,6 +50,16 @@ pub enum Nature {
     Applied,
     /// An exchange between the bodies and the states of the element; the powers of the element count instead.
     Exchanged,
+}
+
+impl Nature {
+    /// The nature of a part with a law of time or state: it has no potential.
+    pub fn under_law(self) -> Self {
+        match self {
+            Self::Conservative => Self::Applied,
+            other => other,
+        }
+    }
 }
 
 /// A named part of a force, such as `stiffness`.
@@ -72,17 +89,29 @@ pub struct OwnPowers<S> {
     pub applied: S,
 }
 
+/// Takes the wrenches of a force.
+pub trait Wrenches<S> {
+    /// Takes the wrench of a part on a body about the origin of its frame. `part` is a place in [`Force::PARTS`], `body`
+    /// a place in [`Force::bodies`].
+    fn put(&mut self, part: usize, body: usize, wrench: Wrench<S>);
+}
+
+impl<S, F: FnMut(usize, usize, Wrench<S>)> Wrenches<S> for F {
+    fn put(&mut self, part: usize, body: usize, wrench: Wrench<S>) {
+        self(part, body, wrench);
+    }
+}
+
 /// A force element: named parts, each with a wrench on every body.
 pub trait Force: Element {
-    /// The parts, in the order of [`Force::action`].
+    /// The parts; [`Force::action`] refers to them by their places.
     const PARTS: &'static [Part];
 
     /// The bodies on which the force acts: i and j first.
     fn bodies<S>(e: &Self::Over<S>) -> Vec<BodyId>;
 
-    /// The wrench of each part on each body about the origin of its frame: part p on body b at
-    /// `p n + b`, n the number of bodies.
-    fn action<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>, out: &mut [Wrench<S>]);
+    /// Puts the wrench of each part on each body into `out`. A wrench that is left out is zero.
+    fn action<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>, out: impl Wrenches<S>);
 
     /// The first-order states of an element for which the named fields are `given` and not zero.
     fn states(given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {

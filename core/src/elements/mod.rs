@@ -54,14 +54,14 @@ pub mod forces {
 pub mod test_elements;
 
 use crate::expression::Tape;
-use crate::math::{Lift, Local, Pose, Real, Wrench};
+use crate::math::{Lift, Local, Pose, Real};
 use declare::join;
 pub use declare::{Element, Table};
 use dispatch::{constraints, declared, forces};
 pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
 use drivers::*;
 pub use field::{Default, Field, Shape};
-pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation};
+pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
 pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
 use joints::*;

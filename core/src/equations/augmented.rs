@@ -7,8 +7,7 @@ use super::plan::Plan;
 use super::{mass, Compiled};
 use crate::math::{Motion, Real};
 use crate::model::Model;
-pub use crate::solve::Dependent;
-use crate::solve::{InverseMass, Saddle};
+use crate::solve::{Breakdown, InverseMass, Saddle};
 use std::sync::Arc;
 
 /// ε² near singular positions. A small ε amplifies the rounding errors of positions by 1/ε; a large ε disturbs the
@@ -149,15 +148,15 @@ impl<S: Real> Augmented<S> {
     ///
     /// # Errors
     /// The row of Φ_q that depends on the others, or a coordinate without mass.
-    pub fn factor(&mut self) -> Result<(), Dependent> {
+    pub fn factor(&mut self) -> Result<(), Breakdown> {
         self.regularised = false;
         let refused = match self.saddle.factor(&self.plan.pattern) {
-            Err(Dependent::Row(row)) if self.near_singular != NearSingular::Ignore => row,
+            Err(Breakdown::Row(row)) if self.near_singular != NearSingular::Ignore => row,
             outcome => return outcome,
         };
         self.regularised = self.saddle.factor_regularised(&self.plan.pattern, RIDGE)?;
         match self.regularised && self.near_singular == NearSingular::Refuse {
-            true => Err(Dependent::Row(refused)),
+            true => Err(Breakdown::Row(refused)),
             false => Ok(()),
         }
     }

@@ -53,7 +53,7 @@ impl Balance {
         constraints::velocity_terms(model, motions, t, position, rate, gamma);
         constraints::jacobian(model, motions, t, jacobian);
         let acting = Acting { z, lam: Some(lam), t };
-        self.powers = forces::generalized(model, &self.compiled, motions, acting, applied);
+        forces::generalized(model, &self.compiled, motions, acting, applied, &mut self.powers);
         forces::state_rates(model, motions, acting, &mut self.state_rates);
         out.iter_mut().zip(&*applied).for_each(|(out, applied)| *out = -applied);
         mass::add_times(model, motions, a, out);

@@ -7,7 +7,7 @@ use super::added_inertia;
 use super::grounded::{grounded, Grounded};
 use super::inertia::{inertias, Inertia};
 use crate::elements::{ForcePools, JointPools, Place};
-use crate::math::Real;
+use crate::math::{Real, Vec2};
 use crate::model::Model;
 
 /// Data derived from a [`Model`]; immutable.
@@ -15,6 +15,10 @@ use crate::model::Model;
 pub struct Compiled<S = f64> {
     /// Inertia of the moving bodies, without ground.
     pub inertias: Vec<Inertia<S>>,
+    /// The moving bodies whose mass centre is off the frame's origin, as places in `inertias`.
+    pub off_center: Vec<usize>,
+    /// Weight of the bodies as generalized force, shape (n_q).
+    pub weight: Vec<S>,
     /// Moments of inertia that are added to bodies without their own while the equations are solved, kg·m²; `refine`
     /// corrects the solution for them. One for each moving body, zero for most.
     pub added_inertia: Vec<S>,
@@ -53,12 +57,16 @@ impl<S: Real> Compiled<S> {
                 Some(_) => forces_with_laws.push(k),
             }
         }
+        let inertias = inertias(&model.blueprint.bodies, &model.bodies, &added_inertia);
+        let off_center = (0..inertias.len()).filter(|k| inertias[*k].coupled).collect();
         Self {
+            off_center,
+            weight: weight(model),
             joints,
             joints_with_laws,
             forces,
             forces_with_laws,
-            inertias: inertias(&model.blueprint.bodies, &model.bodies, &added_inertia),
+            inertias,
             grounded: grounded(model, &added_inertia),
             own_mass: added_inertia::own_mass(&model.bodies),
             adds_mass: model.layout.owners.len() >= model.bodies.len()
@@ -66,4 +74,14 @@ impl<S: Real> Compiled<S> {
             added_inertia: added_inertia[1..].to_vec(),
         }
     }
+}
+
+/// Weight of the bodies as generalized force, shape (n_q).
+fn weight<S: Real>(model: &Model<S>) -> Vec<S> {
+    let mut weight = vec![S::zero(); model.layout.n_q];
+    for (body, columns) in model.bodies.iter().zip(&model.layout.bodies).skip(1) {
+        let Vec2 { x, y } = model.gravity.scale(body.mass);
+        columns.add([x, y, S::zero()], &mut weight);
+    }
+    weight
 }

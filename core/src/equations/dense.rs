@@ -2,6 +2,7 @@
 
 use super::forces::Acting;
 use super::kinematics::Motions;
+use super::powers::Powers;
 use super::{constraints, forces, mass, Compiled};
 use crate::model::Model;
 
@@ -32,7 +33,8 @@ pub fn matrices(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Matrices {
     constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
     let mut q_forces = vec![0.0; n];
     let acting = Acting { z, lam: None, t };
-    forces::generalized(model, &Compiled::new(model), &motions, acting, &mut q_forces);
+    let powers = &mut Powers::zero();
+    forces::generalized(model, &Compiled::new(model), &motions, acting, &mut q_forces, powers);
     let mass = mass_matrix(model, &motions);
     let jacobian = jacobian(model, &motions, t);
     let kkt = augmented(&mass, &jacobian, n, m);

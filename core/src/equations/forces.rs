@@ -5,8 +5,9 @@ use super::kinematics::Motions;
 use super::powers::Powers;
 use super::reactions::{self, Frame};
 use super::{laws, Compiled, Inertia};
-use crate::elements::derive::with_values;
-use crate::elements::{BodyId, Force, ForceElement, Part, Pooled, Situation, VisitForces};
+use crate::elements::{
+    BodyId, Force, ForceElement, Nature, Pooled, Situation, VisitForces, Wrenches,
+};
 use crate::math::{Motion, Real, Vec2, Wrench};
 use crate::model::{ForceItem, Model};
 
@@ -21,21 +22,22 @@ pub struct Acting<'a, S> {
     pub t: S,
 }
 
-/// Writes Q into `out`, shape (n_q), and returns the powers of the force elements.
+/// Writes Q into `out`, shape (n_q), and the powers of the force elements into `powers`.
 pub fn generalized<S: Real>(
     model: &Model<S>,
     compiled: &Compiled<S>,
     motions: &Motions<S>,
     acting: Acting<'_, S>,
     out: &mut [S],
-) -> Powers<S> {
+    powers: &mut Powers<S>,
+) {
     body_forces(model, compiled, motions, out);
-    let mut sum = Sum { model, motions, acting, out, powers: Powers::zero() };
+    *powers = Powers::zero();
+    let mut sum = Sum { model, motions, acting, out, powers };
     compiled.forces.visit(&mut sum);
     for &k in &compiled.forces_with_laws {
         sum.law(&model.forces[k], k);
     }
-    sum.powers
 }
 
 /// Weight, and the centrifugal force of mass centres off the frame's origin.
@@ -45,20 +47,12 @@ fn body_forces<S: Real>(
     motions: &Motions<S>,
     out: &mut [S],
 ) {
-    let bodies = compiled.inertias.iter().zip(&motions[1..]).zip(&model.layout.bodies[1..]);
-    for ((inertia, motion), columns) in bodies {
-        let weight = model.gravity.scale(inertia.mass);
-        let out = &mut out[columns.range()];
-        (out[0], out[1]) = (weight.x, weight.y);
-        let Some(turning) = out.get_mut(2) else { continue };
-        *turning = S::zero();
-        if inertia.coupled {
-            let w = off_center(inertia, motion, weight);
-            out.copy_from_slice(&[w.force.x, w.force.y, w.torque]);
-        }
+    out[..compiled.weight.len()].copy_from_slice(&compiled.weight);
+    for &k in &compiled.off_center {
+        let [weight_x, weight_y, _] = model.layout.bodies[k + 1].of(out);
+        let w = off_center(&compiled.inertias[k], &motions[k + 1], Vec2::new(weight_x, weight_y));
+        out[model.layout.bodies[k + 1].range()].copy_from_slice(&[w.force.x, w.force.y, w.torque]);
     }
-    let own = model.layout.owners[model.bodies.len() - 1..].iter();
-    own.for_each(|columns| out[columns.range()].fill(S::zero()));
 }
 
 /// Weight, and the centrifugal force m A c′ φ̇², of a mass centre off the frame's origin.
@@ -76,29 +70,17 @@ struct Sum<'a, S> {
     acting: Acting<'a, S>,
     /// Q.
     out: &'a mut [S],
-    powers: Powers<S>,
+    powers: &'a mut Powers<S>,
 }
 
 impl<S: Real> VisitForces<S> for Sum<'_, S> {
     #[inline(never)] // one loop for each type
     fn visit<E: Force>(&mut self, pool: &[Pooled<E::Over<S>>]) {
         for Pooled { element, place } in pool {
-            let item = place.item as usize;
-            let bodies = &self.model.forces[item].bodies;
-            let (model, motions, acting) = (self.model, self.motions, self.acting);
-            situation(model, item, motions, acting, |at| {
-                with_values(
-                    E::PARTS.len() * bodies.len(),
-                    |_| Wrench::zero(),
-                    |wrenches| {
-                        E::action(element, at, wrenches);
-                        self.add(bodies, E::PARTS, false, wrenches);
-                    },
-                );
-                let own = E::own_powers(element, at);
-                self.powers.dissipated += own.dissipated;
-                self.powers.applied += own.applied;
-            });
+            let at = situation(self.model, place.item as usize, self.motions, self.acting);
+            let nature = |part: usize| E::PARTS[part].nature;
+            E::action(element, &at, Add { sum: self, at: &at, nature });
+            self.powers.add_own(E::own_powers(element, &at));
         }
     }
 }
@@ -106,39 +88,29 @@ impl<S: Real> VisitForces<S> for Sum<'_, S> {
 impl<S: Real> Sum<'_, S> {
     /// A force with a law of time or state.
     fn law(&mut self, item: &ForceItem<S>, k: usize) {
-        let (model, motions, acting) = (self.model, self.motions, self.acting);
-        let element = at_state(model, item, motions, acting);
-        let parts = element.parts();
-        situation(model, k, motions, acting, |at| {
-            with_values(
-                parts.len() * item.bodies.len(),
-                |_| Wrench::zero(),
-                |wrenches| {
-                    element.action(at, wrenches);
-                    self.add(&item.bodies, parts, true, wrenches);
-                },
-            );
-            let own = element.own_powers(at);
-            self.powers.dissipated += own.dissipated;
-            self.powers.applied += own.applied;
-        });
+        let at = situation(self.model, k, self.motions, self.acting);
+        let element = at_state(self.model, item, self.motions, self.acting);
+        let nature = |part: usize| element.parts()[part].nature.under_law();
+        element.action(&at, Add { sum: self, at: &at, nature });
+        self.powers.add_own(element.own_powers(&at));
     }
+}
 
-    /// Adds the wrenches of all parts; `law`: whether time or state enters the formulas.
+/// Adds the wrenches of one force to a sum.
+struct Add<'a, 'b, S, N> {
+    sum: &'a mut Sum<'b, S>,
+    at: &'a Situation<'b, S>,
+    /// The nature of each part.
+    nature: N,
+}
+
+impl<S: Real, N: Fn(usize) -> Nature> Wrenches<S> for Add<'_, '_, S, N> {
     #[inline(always)]
-    fn add(&mut self, bodies: &[BodyId], parts: &[Part], law: bool, wrenches: &[Wrench<S>]) {
-        for (part, own) in parts.iter().zip(wrenches.chunks_exact(bodies.len())) {
-            let power = || {
-                let both = bodies.iter().zip(own);
-                let each = both.map(|(body, w)| w.power(self.motions[body.0].twist));
-                each.fold(S::zero(), |sum, power| sum + power)
-            };
-            self.powers.add(part.nature, law, power);
-            for (body, w) in bodies.iter().zip(own) {
-                let columns = self.model.layout.bodies[body.0];
-                columns.add([w.force.x, w.force.y, w.torque], self.out);
-            }
-        }
+    fn put(&mut self, part: usize, body: usize, w: Wrench<S>) {
+        let power = || w.power(self.at.body(body).twist);
+        self.sum.powers.add((self.nature)(part), power);
+        let columns = self.sum.model.layout.bodies[self.at.bodies[body].0];
+        columns.add([w.force.x, w.force.y, w.torque], self.sum.out);
     }
 }
 
@@ -158,25 +130,21 @@ fn at_state<S: Real>(
     }
 }
 
-/// Calls `take` with the situation of force `k`.
+/// The situation of force `k`.
 #[inline(always)]
-fn situation<S: Real, R>(
-    model: &Model<S>,
+fn situation<'a, S: Real>(
+    model: &'a Model<S>,
     k: usize,
-    motions: &Motions<S>,
-    Acting { z, lam, t }: Acting<'_, S>,
-    take: impl FnOnce(&Situation<'_, S>) -> R,
-) -> R {
+    motions: &'a Motions<S>,
+    Acting { z, lam, t }: Acting<'a, S>,
+) -> Situation<'a, S> {
     let item = &model.forces[k];
     let reaction = match (item.reaction, lam) {
         (Some(joint), Some(lam)) => seen(model, joint.0, motions, lam, t),
         _ => Wrench::zero(),
     };
-    with_values(
-        item.bodies.len(),
-        |b| motions[item.bodies[b].0],
-        |bodies| take(&Situation { bodies, z: &z[model.layout.states[k].clone()], reaction, t }),
-    )
+    let z = &z[model.layout.states[k].clone()];
+    Situation { motions, bodies: &item.bodies, z, reaction, t }
 }
 
 /// The reaction of a joint on its body j at its joint point, in the global frame.
@@ -204,18 +172,8 @@ pub fn each_wrench<S: Real>(
 ) {
     let item = &model.forces[k];
     let element = at_state(model, item, motions, acting);
-    situation(model, k, motions, acting, |at| {
-        let n = item.bodies.len();
-        with_values(
-            element.parts().len() * n,
-            |_| Wrench::zero(),
-            |wrenches| {
-                element.action(at, wrenches);
-                let all = wrenches.iter().enumerate();
-                all.for_each(|(place, w)| visit(place / n, item.bodies[place % n], *w));
-            },
-        );
-    });
+    let at = situation(model, k, motions, acting);
+    element.action(&at, |part, body, w| visit(part, at.bodies[body], w));
 }
 
 /// ż of all elements into `out`, shape (n_z).
@@ -239,7 +197,7 @@ pub(super) fn state_rates_of<S: Real>(
     out: &mut [S],
 ) {
     let element = at_state(model, &model.forces[k], motions, acting);
-    situation(model, k, motions, acting, |at| element.state_rates(at, out));
+    element.state_rates(&situation(model, k, motions, acting), out);
 }
 
 /// Potential energy of force `k`, zero where a law makes it non-conservative, and the energy stored in its
@@ -251,9 +209,10 @@ pub fn potential<S: Real>(
     acting: Acting<'_, S>,
 ) -> S {
     let item = &model.forces[k];
-    situation(model, k, motions, acting, |at| match &item.law {
+    let at = &situation(model, k, motions, acting);
+    match &item.law {
         None => item.element.potential(at) + item.element.own_energy(at),
         Some(_) if item.states.is_empty() => S::zero(),
         Some(_) => at_state(model, item, motions, acting).own_energy(at),
-    })
+    }
 }

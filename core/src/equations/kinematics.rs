@@ -60,8 +60,10 @@ impl<S: Real> Motions<S> {
             }
             put_rates(&v[columns.range()], &mut motion.twist);
         }
-        self.own.copy_from_slice(&q[self.first_own..]);
-        self.own_rates.copy_from_slice(&v[self.first_own..]);
+        if !self.own.is_empty() {
+            self.own.copy_from_slice(&q[self.first_own..]);
+            self.own_rates.copy_from_slice(&v[self.first_own..]);
+        }
     }
 
     /// Sets the rates `v`, shape (n_q); positions stay.

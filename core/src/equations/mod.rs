@@ -33,7 +33,7 @@ pub use compiled::Compiled;
 pub use gains::Gains;
 pub use inertia::Inertia;
 pub use laws::{at, Laws};
-pub use motion::{Singular, Workspace};
+pub use motion::Workspace;
 pub use plan::Plan;
 pub use powers::Powers;
 pub use residuals::Residuals;

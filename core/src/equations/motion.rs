@@ -7,7 +7,7 @@
 //!
 //! For the integrator γ may be replaced by Baumgarte's γ̂ = γ - 2α Φ̇ - β² Φ (Haug 7.3.8).
 
-use super::augmented::{Augmented, Dependent, NearSingular};
+use super::augmented::{Augmented, NearSingular};
 use super::constraints::{self, Stabilized};
 use super::forces::{self, Acting};
 use super::gains::Gains;
@@ -18,22 +18,8 @@ use super::roles::{self, Roles};
 use super::{mass, reactive, refine, Compiled};
 use crate::math::Real;
 use crate::model::Model;
+use crate::solve::Breakdown;
 use std::sync::Arc;
-
-/// The equations of motion have no unique solution.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Singular {
-    /// A row of Φ_q depends on the others, or a coordinate has no inertia.
-    Dependent(Dependent),
-    /// No reactions agree with the forces that depend on them. The first row of such a reaction.
-    Reaction(usize),
-}
-
-impl From<Dependent> for Singular {
-    fn from(dependent: Dependent) -> Self {
-        Self::Dependent(dependent)
-    }
-}
 
 /// Memory for the equations of motion of one model, and the results of the last evaluation: motions, accelerations,
 /// multipliers, powers, Φ_q and the factors of the matrix.
@@ -126,14 +112,14 @@ impl<S: Real> Workspace<S> {
     /// Solves the equations of motion at a state; then [`a`](Self::a), [`lam`](Self::lam).
     ///
     /// # Errors
-    /// [`Singular`] where Φ_q loses rank, and where a torque acts on an angle without inertia.
+    /// [`Breakdown`] where Φ_q loses rank, and where a torque acts on an angle without inertia.
     pub fn accelerate(
         &mut self,
         model: &Model<S>,
         t: S,
         [q, v, z]: [&[S]; 3],
         gains: Gains,
-    ) -> Result<(), Singular> {
+    ) -> Result<(), Breakdown> {
         self.place(model, [q, v, z]);
         self.respond(model, t, gains)
     }
@@ -142,7 +128,15 @@ impl<S: Real> Workspace<S> {
     #[inline(always)]
     pub fn place(&mut self, model: &Model<S>, [q, v, z]: [&[S]; 3]) {
         self.motions.place(&model.layout, q, v);
-        self.z.copy_from_slice(z);
+        self.place_states(z);
+    }
+
+    /// Sets the first-order states, shape (n_z).
+    #[inline(always)]
+    pub fn place_states(&mut self, z: &[S]) {
+        if !z.is_empty() {
+            self.z.copy_from_slice(z);
+        }
     }
 
     /// The same at the state that was [placed](Self::place).
@@ -150,11 +144,11 @@ impl<S: Real> Workspace<S> {
     /// # Errors
     /// As [`accelerate`](Self::accelerate).
     #[inline(always)]
-    pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
+    pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         if !self.modified {
             match self.solve_directly(model, t, gains) {
-                Err(Dependent::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
-                outcome => return outcome.map_err(Singular::Dependent),
+                Err(Breakdown::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
+                outcome => return outcome,
             }
         }
         self.solve_and_refine(model, t, gains)
@@ -162,7 +156,7 @@ impl<S: Real> Workspace<S> {
 
     /// q̈ and λ if the matrix is that of the equations: each joint is put into it when it is evaluated.
     #[inline(always)]
-    fn solve_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Dependent> {
+    fn solve_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         let Self { motions, z, compiled, roles, matrix, solution, powers, offset, .. } = self;
         let (plan, saddle) = matrix.parts_mut();
         let stabilized = Stabilized::new(gains);
@@ -172,7 +166,8 @@ impl<S: Real> Workspace<S> {
             mass::turn(&compiled.inertias[k], &motions[k + 1], &mut saddle.masses[k]);
         }
         let (x, right) = solution.split_at_mut(self.n_unknowns);
-        *powers = forces::generalized(model, compiled, motions, Acting { z, lam: None, t }, x);
+        let acting = Acting { z, lam: None, t };
+        forces::generalized(model, compiled, motions, acting, x, powers);
         roles::put_others(roles, at, saddle, right);
         roles::condense(roles, at, saddle, (x, right));
         saddle.divide_by_masses(&plan.pattern, x);
@@ -182,7 +177,7 @@ impl<S: Real> Workspace<S> {
 
     /// The same by the whole matrix; the factor may be that of a modified matrix. Forces that depend on reactions are
     /// iterated.
-    fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Singular> {
+    fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         let Self { motions, z, compiled, matrix, solution, powers, offset, reactive, .. } = self;
         let (n, padded) = (self.n_q, self.n_unknowns);
         let mut right = vec![S::zero(); model.layout.n_rows];
@@ -190,11 +185,11 @@ impl<S: Real> Workspace<S> {
         right.iter_mut().zip(offset).for_each(|(right, offset)| *right -= *offset);
         matrix.set_mass(compiled, motions);
         matrix.factor()?;
-        let mut respond = |lam: Option<&[S]>| -> Result<Vec<S>, Dependent> {
+        let mut respond = |lam: Option<&[S]>| -> Result<Vec<S>, Breakdown> {
             let mut x = vec![S::zero(); n];
             x.extend_from_slice(&right);
-            *powers =
-                forces::generalized(model, compiled, motions, Acting { z, lam, t }, &mut x[..n]);
+            let acting = Acting { z, lam, t };
+            forces::generalized(model, compiled, motions, acting, &mut x[..n], powers);
             let outcome = refine::solve((model, compiled), motions, matrix, &mut x);
             solution[..n].copy_from_slice(&x[..n]);
             solution[padded..].copy_from_slice(&x[n..]);
@@ -203,7 +198,7 @@ impl<S: Real> Workspace<S> {
         let mut lam = respond(None)?;
         if let Some(&row) = reactive.first() {
             let converged = reactive::solve(reactive, &mut lam, |lam| respond(Some(lam)))?;
-            return if converged { Ok(()) } else { Err(Singular::Reaction(row)) };
+            return if converged { Ok(()) } else { Err(Breakdown::Reaction(row)) };
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Powers of forces and drivers.
 
-use crate::elements::Nature;
+use crate::elements::{Nature, OwnPowers};
 use crate::math::Real;
 
 /// Powers that the energy balance integrates, W.
@@ -20,13 +20,20 @@ impl<S: Real> Powers<S> {
         Self { dissipated: S::zero(), drivers: S::zero(), applied: S::zero() }
     }
 
-    /// Adds the power of a part of a force; `law`: whether time or state enters its formulas.
+    /// Adds the powers of an element beside those of its wrenches.
     #[inline(always)]
-    pub(super) fn add(&mut self, nature: Nature, law: bool, power: impl Fn() -> S) {
-        match (law, nature) {
-            (false, Nature::Conservative) | (_, Nature::Exchanged) => {}
-            (_, Nature::Dissipative) => self.dissipated -= power(),
-            _ => self.applied += power(), // a law of time or state has no potential
+    pub(super) fn add_own(&mut self, own: OwnPowers<S>) {
+        self.dissipated += own.dissipated;
+        self.applied += own.applied;
+    }
+
+    /// Adds the power of a part of a force.
+    #[inline(always)]
+    pub(super) fn add(&mut self, nature: Nature, power: impl Fn() -> S) {
+        match nature {
+            Nature::Conservative | Nature::Exchanged => {}
+            Nature::Dissipative => self.dissipated -= power(),
+            Nature::Applied => self.applied += power(),
         }
     }
 }

@@ -6,11 +6,12 @@
 //! inertia ε by ε / (ε + J), where J is the inertia of the bodies that the angle moves through its joints. It
 //! multiplies the error of redundant rows by their damping (the method of multipliers).
 
-use super::augmented::{Augmented, Dependent};
+use super::augmented::Augmented;
 use super::kinematics::Motions;
 use super::{constraints, mass, Compiled};
 use crate::math::Real;
 use crate::model::Model;
+use crate::solve::Breakdown;
 
 /// Steps for redundant rows, whose error falls by ten digits in each, and near singular positions,
 /// where it falls by ε² / (σ² + ε²).
@@ -31,7 +32,7 @@ pub(super) fn solve<S: Real>(
     motions: &Motions<S>,
     matrix: &Augmented<S>,
     x: &mut [S],
-) -> Result<(), Dependent> {
+) -> Result<(), Breakdown> {
     let (b, correction) = (x.to_vec(), &mut *vec![S::zero(); x.len()]);
     let n = model.layout.n_q;
     matrix.solve(x);
@@ -50,7 +51,7 @@ pub(super) fn solve<S: Real>(
         }
         last = relative;
     }
-    Err(Dependent::Column(unresisted(model, &compiled.added_inertia, correction)))
+    Err(Breakdown::Column(unresisted(model, &compiled.added_inertia, correction)))
 }
 
 fn step<S: Real>(

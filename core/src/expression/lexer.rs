@@ -48,9 +48,9 @@ impl<'a> Lexer<'a> {
     }
 
     /// Skips characters of a kind; how many bytes they were.
-    fn skip(&mut self, wanted: impl Fn(char) -> bool) -> usize {
+    fn skip(&mut self, accepts: impl Fn(char) -> bool) -> usize {
         let rest = self.rest();
-        let length = rest.len() - rest.trim_start_matches(wanted).len();
+        let length = rest.len() - rest.trim_start_matches(accepts).len();
         self.position += length;
         length
     }

@@ -20,7 +20,7 @@ pub trait Names {
     /// Where the time has no meaning, `"t"` is `None`. `pi` and `deg` are never passed to it.
     fn resolve(&self, name: &str) -> Option<Symbol>;
 
-    /// Every name that [`resolve`](Names::resolve) knows, for suggestions.
+    /// Every name that [`resolve`](Names::resolve) accepts, for suggestions.
     fn known(&self) -> Vec<String>;
 }
 

@@ -12,8 +12,8 @@ pub fn closest<T: AsRef<str>>(
     word: &str,
     candidates: impl IntoIterator<Item = T>,
 ) -> Option<String> {
-    let wanted = word.to_lowercase();
-    let length = wanted.chars().count();
+    let lower_word = word.to_lowercase();
+    let length = lower_word.chars().count();
     if length > LONGEST {
         return None;
     }
@@ -27,7 +27,7 @@ pub fn closest<T: AsRef<str>>(
         if length.abs_diff(other) > limit {
             continue;
         }
-        let distance = strsim::osa_distance(&wanted, &lower);
+        let distance = strsim::osa_distance(&lower_word, &lower);
         if distance <= limit && best.as_ref().is_none_or(|(least, _)| distance < *least) {
             best = Some((distance, candidate.to_string()));
         }

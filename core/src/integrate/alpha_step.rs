@@ -169,8 +169,8 @@ impl AlphaStep {
         scale: &mut ErrorWeights,
     ) -> bool {
         self.predict(h);
-        let at_hand = self.factored.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs());
-        if at_hand && self.newton(system, (t, h), scale, SLOW) {
+        let reusable = self.factored.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs());
+        if reusable && self.newton(system, (t, h), scale, SLOW) {
             return true;
         }
         self.predict(h);
@@ -344,7 +344,7 @@ impl AlphaStep {
         let ImplicitState { q, v, z, .. } = &mut self.end;
         self.normal.copy_from_slice(v);
         let state = DaeState { q, v, z };
-        let changed = system.system.project(t + h, state).map_err(Cause::Equations)?;
+        let changed = system.project(t + h, state)?;
         for (normal, v) in self.normal.iter_mut().zip(&self.end.v) {
             *normal = (*normal - v) / (h * h);
         }

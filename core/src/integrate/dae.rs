@@ -122,10 +122,6 @@ pub struct NewtonCoefficients<F = f64> {
     pub state_rate: F,
 }
 
-/// The matrix cannot be factorised at the state where it was linearised; a shorter step may help.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SingularMatrix;
-
 /// A constrained mechanical system.
 pub trait Dae {
     /// The error of the system; it is passed on unchanged.
@@ -152,20 +148,11 @@ pub trait Dae {
     /// Computes and stores M, D, K, B, Φ_q and the derivatives of Q and f at an iterate.
     fn linearize(&mut self, t: f64, at: Iterate<'_>);
 
-    /// Factorises the matrix with the last tangent.
-    ///
-    /// # Errors
-    /// [`SingularMatrix`].
-    fn factor(&mut self, coefficients: NewtonCoefficients) -> Result<(), SingularMatrix>;
+    /// Factorises the matrix with the last tangent. Returns false if it is singular; a shorter step may help.
+    fn factor(&mut self, coefficients: NewtonCoefficients) -> bool;
 
     /// The same with complex coefficients; both factors are kept.
-    ///
-    /// # Errors
-    /// [`SingularMatrix`].
-    fn factor_complex(
-        &mut self,
-        coefficients: NewtonCoefficients<Complex>,
-    ) -> Result<(), SingularMatrix>;
+    fn factor_complex(&mut self, coefficients: NewtonCoefficients<Complex>) -> bool;
 
     /// Solves with the real factors, in place; (q part, z part, λ part).
     fn solve(&mut self, x: &mut [f64]);

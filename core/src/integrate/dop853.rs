@@ -13,18 +13,16 @@
 //! without: one evaluation less than scipy's for every step that is rejected.
 
 use super::dop853_coefficients::*;
-use super::explicit_stepper::start;
 use super::failure::Cause;
 use super::ode::Ode;
-use super::right_hand_side::RightHandSide;
 use super::runge_kutta::RungeKutta;
 use super::stages::{rows, rows_mut, sum_at, Block};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
-use super::stepper::{BoxedStepper, ExplicitMethod};
 use super::tolerances::Tolerances;
 use super::trial::Trial;
+use std::borrow::Cow;
 
 /// DOP853 with its options.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,19 +37,6 @@ impl Dop853 {
         Self { control: StepControl::new(rtol, atol) }
     }
 }
-
-impl ExplicitMethod for Dop853 {
-    fn start<Y: Ode>(
-        &self,
-        system: &Y,
-        span: (f64, f64),
-        y: &[f64],
-    ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
-        start::<Pair, Y>(&self.control, system, span, y)
-    }
-}
-
-struct Pair;
 
 /// Stages of a step, the derivative at its end included.
 const STAGES: usize = 13;
@@ -113,7 +98,7 @@ const fn weight(row: &[f64], stage: usize) -> f64 {
     }
 }
 
-impl RungeKutta for Pair {
+impl RungeKutta for Dop853 {
     const ERROR_ORDER: i32 = 7;
     const LAST_IN_ERROR: bool = false;
     const CONTROL: Control = Control { safety: 0.8, hold: 1.1 };
@@ -126,17 +111,16 @@ impl RungeKutta for Pair {
     const DOUBLE_QUADRATURE: &'static [f64] = &DOUBLE_QUADRATURE;
     const WITHOUT_EXTRA: &'static [f64] = &HERMITE;
 
+    fn control(&self) -> Cow<'_, StepControl> {
+        Cow::Borrowed(&self.control)
+    }
+
     fn advance<Y: Ode>(
-        rhs: &mut RightHandSide<'_, Y>,
-        (t, t_new): (f64, f64),
-        y: &[Block],
+        trial: &mut Trial<'_, '_, Y>,
         k: &mut [Block],
-        work: &mut [Block],
         y_new: &mut [Block],
     ) -> Result<(), Cause<Y::Stop>> {
-        let h = t_new - t;
-        let [k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12] = rows_mut(k, y.len());
-        let mut trial = Trial::new(rhs, (t, h), y, work);
+        let [k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12] = rows_mut(k, trial.y.len());
         trial.stage(C[0], A2, [k1], k2)?;
         trial.stage(C[1], A3, [k1, k2], k3)?;
         trial.stage(C[2], A4, [k1, k3], k4)?;
@@ -151,21 +135,13 @@ impl RungeKutta for Pair {
         trial.end(B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new)
     }
 
-    fn extend<Y: Ode>(
-        rhs: &mut RightHandSide<'_, Y>,
-        (t, t_new): (f64, f64),
-        y: &[Block],
-        k: &mut [Block],
-        work: &mut [Block],
-    ) -> Result<(), Cause<Y::Stop>> {
-        let rows = rows_mut(k, y.len());
+    fn extend<Y: Ode>(trial: &mut Trial<'_, '_, Y>, k: &mut [Block]) -> Result<(), Cause<Y::Stop>> {
+        let rows = rows_mut(k, trial.y.len());
         let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16] = rows;
-        let h = t_new - t;
-        let mut trial = Trial::new(rhs, (t, h), y, work);
         trial.stage(C_EXTRA[0], A14, [k1, k7, k8, k9, k10, k11, k12, k13], k14)?;
         trial.stage(C_EXTRA[1], A15, [k1, k6, k7, k8, k11, k12, k13, k14], k15)?;
         trial.stage(C_EXTRA[2], A16, [k1, k6, k7, k8, k9, k13, k14, k15], k16)?;
-        rhs.finite(t + C_EXTRA[2] * h, k16)
+        trial.finite(k16)
     }
 
     fn error_norm(

@@ -1,11 +1,13 @@
 //! Counts the evaluations of a DAE by an implicit method.
 
-use super::dae::{ConstraintLevel, Dae, DaeResidual, Iterate, NewtonCoefficients};
+use super::dae::{ConstraintLevel, Dae, DaeResidual, DaeState, Iterate, NewtonCoefficients};
 use super::error_weights::ErrorWeights;
 use super::failure::Cause;
 use super::implicit_state::ImplicitState;
+use super::implicit_steps::ImplicitSteps;
 use super::right_hand_side::all_finite;
 use super::statistics::Statistics;
+use super::step_control::StepControl;
 use super::step_size::{initial_step, probing_step};
 use crate::math::Complex;
 
@@ -20,7 +22,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
     pub fn accelerate(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.counts.evaluations += 1;
         let (at, out) = state.rates();
-        self.system.accelerate(t, at, out).map_err(Cause::Equations)
+        self.system.accelerate(t, at, out).map_err(|error| Cause::Equations { t, error })
     }
 
     /// The same where it has to be finite.
@@ -32,8 +34,55 @@ impl<Y: Dae> CountedDae<'_, Y> {
         }
     }
 
+    /// Projects a state; returns whether it changed.
+    pub fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Cause<Y::Stop>> {
+        self.system.project(t, state).map_err(|error| Cause::Equations { t, error })
+    }
+
+    /// Sets the state at the start of an integration, and returns the magnitude of the first step.
+    pub fn start(
+        &mut self,
+        control: &StepControl,
+        steps: &ImplicitSteps,
+        (start, probe): (&mut ImplicitState, &mut ImplicitState),
+        weights: &mut ErrorWeights,
+        error_order: i32,
+    ) -> Result<f64, Cause<Y::Stop>> {
+        start.set(&steps.y);
+        self.begin(steps.t, start)?;
+        if let Some(h) = control.step.or(control.first_step) {
+            return Ok(h);
+        }
+        let first =
+            self.first_step((steps.t, steps.t_end), (start, probe), weights, error_order)?;
+        Ok(first.min(control.max_step))
+    }
+
+    /// Refuses another step if the allowed number was taken.
+    pub fn check_count(&self, control: &StepControl) -> Result<(), Cause<Y::Stop>> {
+        let steps = self.counts.steps;
+        match control.max_steps.is_some_and(|most| steps >= most) {
+            true => Err(Cause::MaxSteps { steps }),
+            false => Ok(()),
+        }
+    }
+
+    /// The reason for which no step from a state was found: an error of the system where the matrix was singular, or
+    /// another one.
+    pub fn unsolved(
+        &mut self,
+        singular: bool,
+        t: f64,
+        start: &ImplicitState,
+        other: Cause<Y::Stop>,
+    ) -> Cause<Y::Stop> {
+        let state = [&start.q[..], &start.v, &start.z];
+        let error = if singular { self.system.singular(t, state) } else { None };
+        error.map_or(other, |error| Cause::Equations { t, error })
+    }
+
     /// Hairer's choice of the magnitude of the first step from `start`, at the cost of one evaluation.
-    pub fn first_step(
+    fn first_step(
         &mut self,
         (t, t_end): (f64, f64),
         (start, probe): (&ImplicitState, &mut ImplicitState),
@@ -85,11 +134,11 @@ impl<Y: Dae> CountedDae<'_, Y> {
     /// Whether the matrix has a factorisation.
     pub fn factor(&mut self, coefficients: NewtonCoefficients) -> bool {
         self.counts.factorisations += 1;
-        self.system.factor(coefficients).is_ok()
+        self.system.factor(coefficients)
     }
 
     pub fn factor_complex(&mut self, coefficients: NewtonCoefficients<Complex>) -> bool {
         self.counts.factorisations += 1;
-        self.system.factor_complex(coefficients).is_ok()
+        self.system.factor_complex(coefficients)
     }
 }

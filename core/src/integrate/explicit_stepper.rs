@@ -15,8 +15,9 @@ use super::step::Step;
 use super::step_control::StepControl;
 use super::step_placement::StepPlacement;
 use super::step_size::{initial_step, least_step, probing_step, StepSize};
-use super::stepper::{BoxedStepper, Stepper};
+use super::stepper::{BoxedStepper, ExplicitMethod, Stepper};
 use super::tolerances::Tolerances;
+use super::trial::Trial;
 use crate::math::Lanes;
 use std::marker::PhantomData;
 
@@ -85,8 +86,8 @@ pub(super) enum Prepared {
 /// The state of an integration by the method `P`.
 pub(super) struct ExplicitStepper<P> {
     control: StepControl,
-    /// The ends of constant steps, and the steps taken on them.
-    grid: Option<(Grid, usize)>,
+    /// The ends of constant steps.
+    grid: Option<Grid>,
     pub n: usize,
     /// The beginning of the step.
     pub t: f64,
@@ -94,56 +95,51 @@ pub(super) struct ExplicitStepper<P> {
     /// The step to try next, once the first derivative was evaluated.
     size: Option<StepSize>,
     pub accepted: Option<Accepted>,
-    steps: usize,
-    rejected: usize,
-    evaluations: usize,
+    counts: Statistics,
     placement: StepPlacement,
     pub work: Work,
     method: PhantomData<P>,
 }
 
-/// Starts the method `P`; the body of [`ExplicitMethod::start`](super::ExplicitMethod::start).
-pub(super) fn start<P: RungeKutta, Y: Ode>(
-    control: &StepControl,
-    system: &Y,
-    (t0, t_end): (f64, f64),
-    y: &[f64],
-) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
-    let control = control.usable();
-    let n = system.len();
-    let grid = control.begin((t0, t_end), (y, n), system.structure().controlled())?;
-    let stepper: ExplicitStepper<P> = ExplicitStepper {
-        work: Work::new::<P>(system, &control, y),
-        control,
-        grid: grid.map(|grid| (grid, 0)),
-        n,
-        t: t0,
-        t_end,
-        size: None,
-        accepted: None,
-        steps: 0,
-        rejected: 0,
-        evaluations: 0,
-        placement: StepPlacement::default(),
-        method: PhantomData,
-    };
-    Ok(Box::new(stepper))
+impl<P: RungeKutta> ExplicitMethod for P {
+    fn start<Y: Ode>(
+        &self,
+        system: &Y,
+        (t0, t_end): (f64, f64),
+        y: &[f64],
+    ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
+        let control = self.control().usable();
+        let n = system.len();
+        Ok(Box::new(ExplicitStepper::<P> {
+            grid: control.begin((t0, t_end), (y, n), system.structure().controlled())?,
+            work: Work::new::<P>(system, &control, y),
+            control,
+            n,
+            t: t0,
+            t_end,
+            size: None,
+            accepted: None,
+            counts: Statistics::default(),
+            placement: StepPlacement::default(),
+            method: PhantomData,
+        }))
+    }
 }
 
 impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
     fn step(&mut self, system: &mut Y) -> Result<(), Cause<Y::Stop>> {
         self.move_on();
         assert!(self.t != self.t_end, "a step beyond t_end");
-        let mut rhs = RightHandSide { system, evaluations: self.evaluations };
+        let mut rhs = RightHandSide { system, evaluations: self.counts.evaluations };
         let outcome = self.next(&mut rhs);
-        self.evaluations = rhs.evaluations;
+        self.counts.evaluations = rhs.evaluations;
         outcome
     }
 
     fn prepare_interpolant(&mut self, system: &mut Y) -> Result<(), Cause<Y::Stop>> {
-        let mut rhs = RightHandSide { system, evaluations: self.evaluations };
+        let mut rhs = RightHandSide { system, evaluations: self.counts.evaluations };
         let outcome = self.extend(&mut rhs);
-        self.evaluations = rhs.evaluations;
+        self.counts.evaluations = rhs.evaluations;
         outcome
     }
 
@@ -165,9 +161,8 @@ impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
     }
 
     fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Y::Stop>> {
-        let plain = StepControl { first_step: None, ..self.control.clone() };
-        let grid = plain.begin((t, self.t_end), (y, self.n), self.work.tolerances.controlled)?;
-        self.grid = grid.map(|grid| (grid, 0));
+        let controlled = self.work.tolerances.controlled;
+        self.grid = self.control.restart((t, self.t_end), (y, self.n), controlled)?;
         self.control.first_step = self.size.as_ref().map(|size| size.size);
         (self.t, self.size, self.accepted) = (t, None, None);
         self.placement = StepPlacement::default();
@@ -177,12 +172,7 @@ impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
     }
 
     fn statistics(&self) -> Statistics {
-        Statistics {
-            steps: self.steps,
-            rejected: self.rejected,
-            evaluations: self.evaluations,
-            ..Statistics::none(self.accepted.map_or(self.t, |accepted| accepted.t))
-        }
+        self.counts
     }
 }
 
@@ -203,7 +193,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         };
         self.size = Some(size);
         let (t, projected) = taken?;
-        self.steps += 1;
+        self.counts.steps += 1;
         let accepted = Accepted { t, projected, interpolant: Prepared::Plain };
         self.measure(accepted);
         self.accepted = Some(accepted);
@@ -227,10 +217,11 @@ impl<P: RungeKutta> ExplicitStepper<P> {
 
     fn check_counts<E>(&self, size: &StepSize) -> Result<(), Cause<E>> {
         let Some(most) = self.control.max_steps else { return Ok(()) };
-        if self.steps >= most {
-            return Err(Cause::MaxSteps { steps: self.steps });
+        let Statistics { steps, rejected, .. } = self.counts;
+        if steps >= most {
+            return Err(Cause::MaxSteps { steps });
         }
-        if self.rejected >= (most / 2).max(MANY) {
+        if rejected >= (most / 2).max(MANY) {
             return Err(Cause::StepTooSmall { t: self.t, h: size.size });
         }
         Ok(())
@@ -241,9 +232,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
     ) -> Result<(f64, bool), Cause<Y::Stop>> {
-        let Some((grid, taken)) = &mut self.grid else { unreachable!("a constant step") };
-        let t_new = grid.end(*taken + 1, self.t)?;
-        *taken += 1;
+        let Some(grid) = &mut self.grid else { unreachable!("a constant step") };
+        let t_new = grid.next(self.t)?;
         self.advance(rhs, t_new)?;
         let projected = self.settle(rhs, t_new)??;
         Ok((t_new, projected))
@@ -301,7 +291,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
             let at_best = self.placement.at_best(norm, self.control.rtol);
             let placed = self.placed(rhs, t_new).filter(|_| !at_best);
             match trial {
-                Err(stop @ Cause::Equations(_)) => return Err(stop),
+                Err(stop @ Cause::Equations { .. }) => return Err(stop),
                 _ if placed.is_some() => size.size = placed.unwrap_or(size.size),
                 Ok(norm) if norm < 1.0 || at_best => match self.settle(rhs, t_new)? {
                     Ok(projected) => {
@@ -326,7 +316,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
                     size.reject(h.abs(), f64::NAN);
                 }
             }
-            self.rejected += 1;
+            self.counts.rejected += 1;
         }
     }
 
@@ -360,7 +350,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         if rhs.before_trial(self.t, t_new - self.t, y, row_mut(k, *width, 0))? {
             hermite_birkhoff.iter_mut().for_each(HermiteBirkhoff::forget);
         }
-        P::advance(rhs, (self.t, t_new), y, k, trial, y_new)?;
+        P::advance(&mut Trial::new(rhs, (self.t, t_new), y, trial), k, y_new)?;
         if !P::LAST_IN_ERROR && rhs.system.times_to_avoid().is_some_and(|avoid| avoid.may_be_near())
         {
             rhs.at(t_new, y_new, row_mut(k, *width, P::STAGES - 1))?;

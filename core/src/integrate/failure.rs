@@ -1,8 +1,5 @@
 //! Failures of an integration.
 
-use super::statistics::Statistics;
-use std::fmt;
-
 /// The cause of a failure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cause<E> {
@@ -49,40 +46,10 @@ pub enum Cause<E> {
         most: usize,
     },
     /// An error of the system.
-    Equations(E),
+    Equations {
+        /// Time of the evaluation.
+        t: f64,
+        /// The error.
+        error: E,
+    },
 }
-
-/// A failed integration, with the time and state reached.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Failure<E> {
-    /// The cause.
-    pub cause: Cause<E>,
-    /// Last accepted time.
-    pub t: f64,
-    /// State there.
-    pub y: Box<[f64]>,
-    /// Steps and evaluations up to the failure.
-    pub statistics: Statistics,
-}
-
-impl<E: fmt::Display> fmt::Display for Failure<E> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.cause {
-            Cause::Argument { name, value, must } => write!(f, "{name}: {value}; must be {must}"),
-            Cause::StepTooSmall { t, h } => {
-                write!(f, "step of {h:.1e} at t = {t} falls below the spacing of numbers")
-            }
-            Cause::NotFinite { t } => write!(f, "the derivative is not finite at t = {t}"),
-            Cause::Newton { t, h } => {
-                write!(f, "Newton's iteration does not converge at t = {t} with a step of {h:.1e}")
-            }
-            Cause::MaxSteps { steps } => write!(f, "{steps} steps taken at t = {}", self.t),
-            Cause::TooManySteps { needed, step, most } => {
-                write!(f, "{needed} steps of {step} are more than {most}")
-            }
-            Cause::Equations(stop) => stop.fmt(f),
-        }
-    }
-}
-
-impl<E: fmt::Debug + fmt::Display> std::error::Error for Failure<E> {}

@@ -1,6 +1,6 @@
 //! Steps of constant length: their ends, and a check of their number.
 
-use super::arguments::{finite, positive, refusal, step_count, ROUNDING};
+use super::arguments::{finite, positive, step_count, ROUNDING};
 use super::failure::Cause;
 
 /// The ends of the steps: t0 + k step, by multiplication and so without drift; the last is t_end.
@@ -10,7 +10,9 @@ pub(super) struct Grid {
     /// With the sign of the direction.
     step: f64,
     /// Number of steps.
-    pub count: usize,
+    count: usize,
+    /// Steps tried.
+    taken: usize,
 }
 
 impl Grid {
@@ -22,18 +24,21 @@ impl Grid {
         max_steps: Option<usize>,
     ) -> Result<Self, Cause<E>> {
         let interval = (t_end - t0).abs();
-        positive("step", step).and_then(|()| finite("step", step)).map_err(refusal)?;
+        positive("step", step)?;
+        finite("step", step)?;
         affordable(interval, step, max_steps)?;
-        let count = step_count(step, interval).map_err(refusal)?;
-        Ok(Self { t0, t_end, step: step.copysign(t_end - t0), count })
+        let count = step_count(step, interval)?;
+        Ok(Self { t0, t_end, step: step.copysign(t_end - t0), count, taken: 0 })
     }
 
-    /// The end of step `k`, counted from 1, which begins at `t`.
-    pub fn end<E>(&self, k: usize, t: f64) -> Result<f64, Cause<E>> {
+    /// The end of the next step, which begins at `t`.
+    pub fn next<E>(&mut self, t: f64) -> Result<f64, Cause<E>> {
+        let k = self.taken + 1;
         let end = if k == self.count { self.t_end } else { self.t0 + k as f64 * self.step };
         if end == t {
             return Err(Cause::StepTooSmall { t, h: self.step.abs() });
         }
+        self.taken = k;
         Ok(end)
     }
 }

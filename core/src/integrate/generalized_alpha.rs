@@ -5,19 +5,16 @@
 
 use super::alpha_parameters::AlphaParameters;
 use super::alpha_step::AlphaStep;
-use super::arguments::{refusal, Refused};
-use super::dae::{Dae, DaeLengths};
-use super::error_weights::ErrorWeights;
+use super::arguments::require;
+use super::dae::Dae;
 use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
-use super::fixed_step::Grid;
+use super::implicit_stepper::{ImplicitScheme, ImplicitStepper};
 use super::implicit_steps::ImplicitSteps;
 use super::interpolant::HERMITE;
-use super::statistics::Statistics;
-use super::step::Step;
 use super::step_control::StepControl;
 use super::step_size::{least_step, Control, StepSize};
-use super::stepper::{BoxedStepper, ImplicitMethod, Stepper};
+use super::stepper::{BoxedStepper, ImplicitMethod};
 
 /// Order of the error estimate.
 const ERROR_ORDER: i32 = 2;
@@ -51,29 +48,19 @@ impl GeneralizedAlpha {
         Self { parameters, control }
     }
 
-    fn check(&self) -> Result<(), Refused> {
+    fn check<E>(&self) -> Result<(), Cause<E>> {
         let AlphaParameters { alpha_m, alpha_f, beta, gamma } = self.parameters;
         // of order 2, and with damping at infinite frequency (α_m < α_f), which index 3 needs
-        if !(alpha_m < alpha_f && alpha_f < 1.0 && beta > 0.0 && gamma > 0.0) {
-            return Err(("alpha_m", alpha_m, "below alpha_f, and alpha_f below 1"));
-        }
-        Ok(())
+        let holds = alpha_m < alpha_f && alpha_f < 1.0 && beta > 0.0 && gamma > 0.0;
+        require(holds, "alpha_m", alpha_m, "below alpha_f, and alpha_f below 1")
     }
 }
 
-/// The state of an integration.
-struct AlphaStepper {
-    control: StepControl,
-    /// The ends of constant steps, and the steps taken on them.
-    grid: Option<(Grid, usize)>,
-    lengths: DaeLengths,
-    counts: Statistics,
-    steps: ImplicitSteps,
+/// The state between the steps.
+struct State {
     step: AlphaStep,
-    scale: ErrorWeights,
     /// The step to try, once the derivative at the start is known.
     size: Option<StepSize>,
-    singular: bool,
 }
 
 impl ImplicitMethod for GeneralizedAlpha {
@@ -83,99 +70,51 @@ impl ImplicitMethod for GeneralizedAlpha {
         span: (f64, f64),
         y: &[f64],
     ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
-        self.check().map_err(refusal)?;
+        self.check()?;
         let lengths = system.lengths();
-        let grid = self.control.begin(span, (y, lengths.total()), lengths.controlled())?;
-        Ok(Box::new(AlphaStepper {
-            control: self.control.clone(),
-            grid: grid.map(|grid| (grid, 0)),
-            lengths,
-            counts: Statistics::none(span.0),
-            steps: ImplicitSteps::new(span, y, 3),
-            step: AlphaStep::new(self.parameters, lengths),
-            scale: ErrorWeights::new(&self.control, lengths.controlled()),
-            size: None,
-            singular: false,
-        }))
+        let state = State { step: AlphaStep::new(self.parameters, lengths), size: None };
+        ImplicitStepper::start(self.control.clone(), lengths, span, y, state)
     }
 }
 
-impl<Y: Dae> Stepper<Y, Y::Stop> for AlphaStepper {
-    fn step(&mut self, system: &mut Y) -> Result<(), Cause<Y::Stop>> {
-        self.steps.move_on();
-        let mut dae = CountedDae { system, counts: self.counts };
-        let outcome = self.next(&mut dae);
-        self.counts = dae.counts;
-        outcome
+impl ImplicitScheme for State {
+    const ROWS: usize = 3;
+    const DEGREE: usize = 4;
+
+    fn table() -> &'static [f64] {
+        &HERMITE
     }
 
-    fn prepare_interpolant(&mut self, _: &mut Y) -> Result<(), Cause<Y::Stop>> {
-        Ok(())
+    fn next<Y: Dae>(
+        stepper: &mut AlphaStepper,
+        dae: &mut CountedDae<'_, Y>,
+    ) -> Result<(), Cause<Y::Stop>> {
+        let mut size = match stepper.method.size.take() {
+            Some(size) => size,
+            None => stepper.begin(dae)?,
+        };
+        let taken = dae.check_count(&stepper.control).and_then(|()| match stepper.grid {
+            Some(_) => stepper.constant_step(dae),
+            None => stepper.accepted_step(dae, &mut size),
+        });
+        stepper.method.size = Some(size);
+        stepper.finish(dae, taken?)
     }
 
-    fn last_step(&self) -> Option<Step<'_>> {
-        self.steps.view(&HERMITE, 4)
-    }
-
-    fn t(&self) -> f64 {
-        self.steps.t()
-    }
-
-    fn t_end(&self) -> f64 {
-        self.steps.t_end
-    }
-
-    fn y(&self) -> &[f64] {
-        self.steps.y()
-    }
-
-    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Y::Stop>> {
-        let plain = StepControl { first_step: None, ..self.control.clone() };
-        let lengths = (self.lengths.total(), self.lengths.controlled());
-        let grid = plain.begin((t, self.steps.t_end), (y, lengths.0), lengths.1)?;
-        self.grid = grid.map(|grid| (grid, 0));
-        self.control.first_step = self.size.take().map(|size| size.size);
-        self.steps.restart(t, y);
+    fn forget(&mut self) -> Option<f64> {
         self.step.forget();
-        Ok(())
-    }
-
-    fn statistics(&self) -> Statistics {
-        Statistics { t: self.steps.t(), ..self.counts }
+        self.size.take().map(|size| size.size)
     }
 }
+
+type AlphaStepper = ImplicitStepper<State>;
 
 impl AlphaStepper {
-    /// The next accepted step.
-    fn next<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<(), Cause<Y::Stop>> {
-        let mut size = match self.size.take() {
-            Some(size) => size,
-            None => self.begin(dae)?,
-        };
-        let taken = match (&self.grid, self.control.max_steps) {
-            (_, Some(most)) if dae.counts.steps >= most => {
-                Err(Cause::MaxSteps { steps: dae.counts.steps })
-            }
-            (Some(_), _) => self.constant_step(dae),
-            (None, _) => self.accepted_step(dae, &mut size),
-        };
-        self.size = Some(size);
-        self.finish(dae, taken?)
-    }
-
     /// The derivative at the start, the first step, and the initial deviations that order 2 needs.
     fn begin<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<StepSize, Cause<Y::Stop>> {
-        let Self { step, scale, steps, .. } = self;
-        step.start.set(&steps.y);
-        dae.begin(steps.t, &mut step.start)?;
-        let first = match (self.control.step, self.control.first_step) {
-            (Some(h), _) | (None, Some(h)) => h,
-            (None, None) => {
-                let states = (&step.start, &mut step.end);
-                let first = dae.first_step((steps.t, steps.t_end), states, scale, ERROR_ORDER)?;
-                first.min(self.control.max_step)
-            }
-        };
+        let Self { method, control, scale, steps, .. } = self;
+        let AlphaStep { start, end, .. } = &mut method.step;
+        let first = dae.start(control, steps, (start, end), scale, ERROR_ORDER)?;
         self.begin_rates(dae, first.copysign(self.steps.direction()))?;
         Ok(StepSize::new(first, ERROR_ORDER, Control::ELEMENTARY))
     }
@@ -188,7 +127,7 @@ impl AlphaStepper {
         h: f64,
     ) -> Result<(), Cause<Y::Stop>> {
         let delta = PROBE * h;
-        let (t, step) = (self.steps.t, &mut self.step);
+        let (t, step) = (self.steps.t, &mut self.method.step);
         let (start, end) = (&mut step.start, &mut step.end);
         for i in 0..start.q.len() {
             end.q[i] = start.q[i] + delta * (start.v[i] + 0.5 * delta * start.a[i]);
@@ -234,9 +173,8 @@ impl AlphaStepper {
         dae: &mut CountedDae<'_, Y>,
     ) -> Result<f64, Cause<Y::Stop>> {
         let t = self.steps.t;
-        let Some((grid, taken)) = &mut self.grid else { unreachable!("a constant step") };
-        let t_new = grid.end(*taken + 1, t)?;
-        *taken += 1;
+        let Some(grid) = &mut self.grid else { unreachable!("a constant step") };
+        let t_new = grid.next(t)?;
         let h = t_new - t;
         if self.attempt(dae, h) {
             return Ok(t_new);
@@ -269,13 +207,13 @@ impl AlphaStepper {
             if unsolved {
                 size.size = SHORTEN * h.abs();
             } else {
-                let norm = self.step.error(dae, h, &self.scale);
+                let norm = self.method.step.error(dae, h, &self.scale);
                 if norm < 1.0 {
-                    let at_hand = size.size;
+                    let current = size.size;
                     size.accept(h.abs(), norm);
                     size.size = size.size.min(GROWTH * h.abs());
-                    if t_new != t_end && (at_hand..KEEP * at_hand).contains(&size.size) {
-                        size.size = at_hand;
+                    if t_new != t_end && (current..KEEP * current).contains(&size.size) {
+                        size.size = current;
                     }
                     return Ok(t_new);
                 }
@@ -287,20 +225,14 @@ impl AlphaStepper {
 
     /// One step; whether its equations could be solved.
     fn attempt<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>, h: f64) -> bool {
-        let converged = self.step.advance(dae, (self.steps.t, h), &mut self.scale);
-        self.singular = self.step.singular;
-        converged && self.step.finite()
+        let step = &mut self.method.step;
+        step.advance(dae, (self.steps.t, h), &mut self.scale) && step.finite()
     }
 
     /// The reason for which no step of length `h` was found.
-    fn gave_up<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>, h: f64) -> Cause<Y::Stop> {
-        let (t, start) = (self.steps.t, &self.step.start);
-        if self.singular {
-            if let Some(stop) = dae.system.singular(t, [&start.q, &start.v, &start.z]) {
-                return Cause::Equations(stop);
-            }
-        }
-        Cause::Newton { t, h }
+    fn gave_up<Y: Dae>(&self, dae: &mut CountedDae<'_, Y>, h: f64) -> Cause<Y::Stop> {
+        let (t, step) = (self.steps.t, &self.method.step);
+        dae.unsolved(step.singular, t, &step.start, Cause::Newton { t, h })
     }
 
     /// Projects the accepted state onto the constraints.
@@ -310,8 +242,8 @@ impl AlphaStepper {
         t_new: f64,
     ) -> Result<(), Cause<Y::Stop>> {
         let h = t_new - self.steps.t;
-        self.step.project(dae, (self.steps.t, h))?;
-        let Self { step, steps, lengths, .. } = self;
+        self.method.step.project(dae, (self.steps.t, h))?;
+        let Self { method: State { step, .. }, steps, lengths, .. } = self;
         let ImplicitSteps { y, y_new, dy, rows, .. } = steps;
         if !step.finite() {
             return Err(Cause::NotFinite { t: t_new });

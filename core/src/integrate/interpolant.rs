@@ -96,7 +96,7 @@ impl<'a> Stages<'a> {
     /// out = y_old + ahead Σₛ wₛ(θ) / θ kₛ. Not inlined, since polynomials of components need none of its registers.
     #[inline(never)]
     fn evaluate(&self, degree: usize, y_old: &[f64], at: (f64, f64), out: &mut [f64]) {
-        // with a degree that the compiler knows, inner loops unroll: here and for the coefficients
+        // with a constant degree, inner loops unroll: here and for the coefficients
         let mut weights = [0.0; MOST];
         match degree {
             4 => self.weigh(4, at, &mut weights),

@@ -1,8 +1,8 @@
 //! Initial value problems, without mechanics: y′ = f(t, y), and constrained systems for implicit methods.
 //!
 //! A method ([`ExplicitMethod`], [`ImplicitMethod`]) starts a [`Stepper`], which advances the state by one accepted step
-//! at a time, can restart from another state at the same time, and locates events. [`integrate`] is the loop over a
-//! stepper that shows every [`Step`] with its interpolant to an [`Observer`].
+//! at a time, can restart from another state at the same time, and locates events. It shows the last [`Step`] with its
+//! interpolant.
 //!
 //! # Properties of a system
 //!
@@ -20,7 +20,7 @@
 //! | file | concept |
 //! |---|---|
 //! | `ode`, `dae` | the systems |
-//! | `stepper`, `step` | the interface of all methods; an accepted step and its observer |
+//! | `stepper`, `step` | the interface of all methods; an accepted step |
 //! | `failure`, `arguments` | causes of failure; checks of arguments before the first evaluation |
 //! | `step_control`, `step_size`, `fixed_step` | options of steps; choice of the step from the error; constant steps |
 //! | `events` | where a function of the state changes sign |
@@ -28,7 +28,8 @@
 //! | `explicit_stepper`, `step_acceptance`, `step_placement` | the stepper of explicit methods; the end of a step; steps that avoid a time |
 //! | `runge_kutta`, `rk45`, `dop853`, `rk4` | the definition of an explicit method, and three of them |
 //! | `right_hand_side`, `stages`, `tolerances` | evaluations of f, sums over stages, error norm |
-//! | `implicit_state`, `implicit_steps`, `error_weights`, `evaluation_counter` | parts that implicit methods share |
+//! | `implicit_stepper` | the stepper of implicit methods |
+//! | `implicit_state`, `implicit_steps`, `error_weights`, `evaluation_counter` | its parts |
 //! | `alpha_parameters`, `alpha_step`, `generalized_alpha` | generalized-α at index 3 |
 //! | `radau_coefficients`, `radau_step`, `radau` | Radau IIA of order 5 at index 2 |
 
@@ -48,6 +49,7 @@ mod fixed_step;
 mod generalized_alpha;
 mod hermite_birkhoff;
 mod implicit_state;
+mod implicit_stepper;
 mod implicit_steps;
 mod interpolant;
 mod ode;
@@ -73,11 +75,10 @@ pub use alpha_parameters::AlphaParameters;
 pub(crate) use component_polynomials::HIGHEST;
 pub use dae::{
     ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
-    SingularMatrix,
 };
 pub use dop853::Dop853;
 pub use events::{locate, Direction};
-pub use failure::{Cause, Failure};
+pub use failure::Cause;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use interpolant::Interpolant;
 pub use ode::{Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
@@ -85,7 +86,7 @@ pub use radau::Radau;
 pub(crate) use right_hand_side::all_finite;
 pub use rk4::Rk4;
 pub use rk45::Rk45;
-pub use statistics::{Ended, Statistics};
-pub use step::{Flow, Observer, Step};
+pub use statistics::Statistics;
+pub use step::{Flow, Step};
 pub use step_control::{Atol, StepControl};
-pub use stepper::{integrate, BoxedStepper, ExplicitMethod, ImplicitMethod, Stepper};
+pub use stepper::{BoxedStepper, ExplicitMethod, ImplicitMethod, Stepper};

@@ -5,20 +5,17 @@
 //! while Newton's iteration converges fast, and the factors while the step is unchanged (Hairer and Wanner, *Solving
 //! Ordinary Differential Equations II*, IV.8). The collocation polynomials interpolate between the steps.
 
-use super::dae::{Dae, DaeLengths, DaeState};
-use super::error_weights::ErrorWeights;
+use super::dae::{Dae, DaeState};
 use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
-use super::fixed_step::Grid;
+use super::implicit_stepper::{ImplicitScheme, ImplicitStepper};
 use super::implicit_steps::ImplicitSteps;
 use super::radau_coefficients::{DEGREE, EXTENSION};
 use super::radau_step::{NewtonLimits, NewtonOutcome, RadauStep, ROWS};
 use super::right_hand_side::all_finite;
-use super::statistics::Statistics;
-use super::step::Step;
 use super::step_control::StepControl;
 use super::step_size::least_step;
-use super::stepper::{BoxedStepper, ImplicitMethod, Stepper};
+use super::stepper::{BoxedStepper, ImplicitMethod};
 
 /// Order of the error estimate.
 const ERROR_ORDER: i32 = 3;
@@ -59,16 +56,9 @@ impl Radau {
     }
 }
 
-/// The state of an integration.
-struct RadauStepper {
-    control: StepControl,
-    /// The ends of constant steps, and the steps taken on them.
-    grid: Option<(Grid, usize)>,
-    lengths: DaeLengths,
-    counts: Statistics,
-    steps: ImplicitSteps,
+/// The state between the steps.
+struct State {
     step: RadauStep,
-    scale: ErrorWeights,
     /// Magnitude of the step to try, once the derivative at the start is known.
     size: Option<f64>,
     /// Whether the tangent of an earlier step is still good.
@@ -84,99 +74,53 @@ impl ImplicitMethod for Radau {
         span: (f64, f64),
         y: &[f64],
     ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
-        let (control, lengths) = (self.control.usable(), system.lengths());
-        let grid = control.begin(span, (y, lengths.total()), lengths.controlled())?;
-        Ok(Box::new(RadauStepper {
-            grid: grid.map(|grid| (grid, 0)),
-            lengths,
-            counts: Statistics::none(span.0),
-            steps: ImplicitSteps::new(span, y, ROWS),
-            step: RadauStep::new(lengths),
-            scale: ErrorWeights::new(&control, lengths.controlled()),
-            control,
-            size: None,
-            keep_tangent: false,
-            before: None,
-        }))
+        let lengths = system.lengths();
+        let step = RadauStep::new(lengths);
+        let state = State { step, size: None, keep_tangent: false, before: None };
+        ImplicitStepper::start(self.control.usable(), lengths, span, y, state)
     }
 }
 
-impl<Y: Dae> Stepper<Y, Y::Stop> for RadauStepper {
-    fn step(&mut self, system: &mut Y) -> Result<(), Cause<Y::Stop>> {
-        self.steps.move_on();
-        let mut dae = CountedDae { system, counts: self.counts };
-        let outcome = self.next(&mut dae);
-        self.counts = dae.counts;
-        outcome
+impl ImplicitScheme for State {
+    const ROWS: usize = ROWS;
+    const DEGREE: usize = DEGREE;
+
+    fn table() -> &'static [f64] {
+        &*EXTENSION
     }
 
-    fn prepare_interpolant(&mut self, _: &mut Y) -> Result<(), Cause<Y::Stop>> {
-        Ok(())
+    fn next<Y: Dae>(
+        stepper: &mut RadauStepper,
+        dae: &mut CountedDae<'_, Y>,
+    ) -> Result<(), Cause<Y::Stop>> {
+        let size = match stepper.method.size {
+            Some(size) => size,
+            None => stepper.begin(dae)?,
+        };
+        dae.check_count(&stepper.control)?;
+        let t_new = match stepper.grid {
+            Some(_) => stepper.constant_step(dae)?,
+            None => stepper.accepted_step(dae, size)?,
+        };
+        stepper.finish(dae, t_new)
     }
 
-    fn last_step(&self) -> Option<Step<'_>> {
-        self.steps.view(&*EXTENSION, DEGREE)
-    }
-
-    fn t(&self) -> f64 {
-        self.steps.t()
-    }
-
-    fn t_end(&self) -> f64 {
-        self.steps.t_end
-    }
-
-    fn y(&self) -> &[f64] {
-        self.steps.y()
-    }
-
-    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Y::Stop>> {
-        let plain = StepControl { first_step: None, ..self.control.clone() };
-        let lengths = (self.lengths.total(), self.lengths.controlled());
-        let grid = plain.begin((t, self.steps.t_end), (y, lengths.0), lengths.1)?;
-        self.grid = grid.map(|grid| (grid, 0));
-        self.control.first_step = self.size.take();
+    fn forget(&mut self) -> Option<f64> {
         (self.keep_tangent, self.before) = (false, None);
-        self.steps.restart(t, y);
         self.step.forget();
-        Ok(())
-    }
-
-    fn statistics(&self) -> Statistics {
-        Statistics { t: self.steps.t(), ..self.counts }
+        self.size.take()
     }
 }
+
+type RadauStepper = ImplicitStepper<State>;
 
 impl RadauStepper {
-    /// The next accepted step.
-    fn next<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<(), Cause<Y::Stop>> {
-        let size = match self.size {
-            Some(size) => size,
-            None => self.begin(dae)?,
-        };
-        if self.control.max_steps.is_some_and(|most| dae.counts.steps >= most) {
-            return Err(Cause::MaxSteps { steps: dae.counts.steps });
-        }
-        let t_new = match self.grid {
-            Some(_) => self.constant_step(dae)?,
-            None => self.accepted_step(dae, size)?,
-        };
-        self.finish(dae, t_new)
-    }
-
     /// The derivative at the start, and the first step.
     fn begin<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<f64, Cause<Y::Stop>> {
-        let Self { step, scale, steps, .. } = self;
-        step.start.set(&steps.y);
-        dae.begin(steps.t, &mut step.start)?;
-        let first = match (self.control.step, self.control.first_step) {
-            (Some(h), _) | (None, Some(h)) => h,
-            (None, None) => {
-                let states = (&step.start, &mut step.stages[0]);
-                dae.first_step((steps.t, steps.t_end), states, scale, ERROR_ORDER)?
-            }
-        };
-        self.size = Some(first);
+        let Self { method, control, scale, steps, .. } = self;
+        let RadauStep { start, stages, .. } = &mut method.step;
+        let first = dae.start(control, steps, (start, &mut stages[0]), scale, ERROR_ORDER)?;
+        self.method.size = Some(first);
         Ok(first)
     }
 
@@ -186,22 +130,22 @@ impl RadauStepper {
         dae: &mut CountedDae<'_, Y>,
     ) -> Result<f64, Cause<Y::Stop>> {
         let t = self.steps.t;
-        let Some((grid, taken)) = &mut self.grid else { unreachable!("a constant step") };
-        let t_new = grid.end(*taken + 1, t)?;
-        *taken += 1;
+        let Some(grid) = &mut self.grid else { unreachable!("a constant step") };
+        let t_new = grid.next(t)?;
         let mut singular = false;
         for fresh in [false, true] {
-            if fresh || !self.keep_tangent {
-                self.step.linearize(dae, t, t_new - t);
+            if fresh || !self.method.keep_tangent {
+                self.method.step.linearize(dae, t, t_new - t);
             }
-            let solved = self.step.advance(dae, (t, t_new - t), &mut self.scale, CONSTANT);
+            let solved = self.method.step.advance(dae, (t, t_new - t), &mut self.scale, CONSTANT);
             if let NewtonOutcome::Converged(_, rate) = solved {
-                self.keep_tangent = rate <= FAST;
+                self.method.keep_tangent = rate <= FAST;
                 return Ok(t_new);
             }
             singular = matches!(solved, NewtonOutcome::Singular);
         }
-        Err(self.gave_up(dae, (t_new - t).abs(), true, singular))
+        let other = Cause::Newton { t, h: (t_new - t).abs() };
+        Err(dae.unsolved(singular, t, &self.method.step.start, other))
     }
 
     /// Tries steps until one is accepted. Returns its time.
@@ -217,42 +161,45 @@ impl RadauStepper {
         let (mut unsolved, mut singular) = (false, false);
         loop {
             if size < least {
-                return Err(self.gave_up(dae, size, unsolved, singular));
+                let h = size;
+                let other =
+                    if unsolved { Cause::Newton { t, h } } else { Cause::StepTooSmall { t, h } };
+                return Err(dae.unsolved(singular, t, &self.method.step.start, other));
             }
             let mut t_new = t + size * direction;
             if direction * (t_new - t_end) >= 0.0 {
                 t_new = t_end;
             }
             let h = t_new - t;
-            if !self.step.fresh && !self.keep_tangent {
-                self.step.linearize(dae, t, h);
+            if !self.method.step.fresh && !self.method.keep_tangent {
+                self.method.step.linearize(dae, t, h);
             }
             let tolerance = newton_tolerance(self.control.rtol);
             let limits = NewtonLimits { tolerance, most: MOST };
-            let solved = self.step.advance(dae, (t, h), &mut self.scale, limits);
+            let solved = self.method.step.advance(dae, (t, h), &mut self.scale, limits);
             let NewtonOutcome::Converged(iterations, rate) = solved else {
                 singular = matches!(solved, NewtonOutcome::Singular);
                 unsolved = true;
                 // an old tangent is renewed before the step is shortened
-                if self.step.fresh {
+                if self.method.step.fresh {
                     size = SHORTEN * h.abs();
                     dae.counts.rejected += 1;
                     rejected = true;
                 }
-                self.keep_tangent = false;
+                self.method.keep_tangent = false;
                 continue;
             };
             unsolved = false;
             let norm = self.error(dae, (t, h), rejected)?;
             let safety = SAFETY * (2 * MOST + 1) as f64 / (2 * MOST + iterations) as f64;
-            let wanted = factor(norm, safety);
+            let factor = factor(norm, safety);
             if norm < 1.0 {
-                self.keep_tangent = rate <= FAST;
-                self.size = Some(size);
-                self.accept((h.abs(), norm), wanted, safety, rejected);
+                self.method.keep_tangent = rate <= FAST;
+                self.method.size = Some(size);
+                self.accept((h.abs(), norm), factor, safety, rejected);
                 return Ok(t_new);
             }
-            size = h.abs() * wanted.min(SAFETY);
+            size = h.abs() * factor.min(SAFETY);
             dae.counts.rejected += 1;
             rejected = true;
         }
@@ -266,9 +213,9 @@ impl RadauStepper {
         span: (f64, f64),
         rejected: bool,
     ) -> Result<f64, Cause<Y::Stop>> {
-        let Self { step, scale, .. } = self;
+        let Self { method: State { step, .. }, scale, .. } = self;
         let mut norm = step.error(dae, span, scale, false)?;
-        if norm >= 1.0 && (rejected || self.before.is_none()) {
+        if norm >= 1.0 && (rejected || self.method.before.is_none()) {
             norm = step.error(dae, span, scale, true)?;
         }
         // the state may have left the domain: as bad as can be
@@ -278,9 +225,9 @@ impl RadauStepper {
     /// The next step, by the error of this one and that before (Gustafsson, *Control-theoretic
     /// techniques for stepsize selection in implicit Runge–Kutta methods*, ACM Trans. Math. Softw. 20
     /// (1994) 496).
-    fn accept(&mut self, (h, norm): (f64, f64), wanted: f64, safety: f64, rejected: bool) {
-        let mut by = wanted;
-        if let Some((h_before, norm_before)) = self.before {
+    fn accept(&mut self, (h, norm): (f64, f64), factor: f64, safety: f64, rejected: bool) {
+        let mut by = factor;
+        if let Some((h_before, norm_before)) = self.method.before {
             let ratio = norm.max(f64::MIN_POSITIVE) * norm.max(f64::MIN_POSITIVE) / norm_before;
             let predicted = safety * h / h_before * ratio.powf(-1.0 / f64::from(ERROR_ORDER + 1));
             by = by.min(predicted.clamp(MIN_FACTOR, MAX_FACTOR));
@@ -288,31 +235,10 @@ impl RadauStepper {
         if rejected {
             by = by.min(1.0);
         }
-        self.before = Some((h, norm.max(LEAST_NORM)));
-        let short = self.size.is_some_and(|size| h < 0.99 * size); // the last step ends at t_end
-        if short || !(self.keep_tangent && (1.0..KEEP).contains(&by)) {
-            self.size = Some(h * by);
-        }
-    }
-
-    /// The reason for which no step of length `h` was found.
-    fn gave_up<Y: Dae>(
-        &mut self,
-        dae: &mut CountedDae<'_, Y>,
-        h: f64,
-        unsolved: bool,
-        singular: bool,
-    ) -> Cause<Y::Stop> {
-        let (t, start) = (self.steps.t, &self.step.start);
-        if singular {
-            if let Some(stop) = dae.system.singular(t, [&start.q, &start.v, &start.z]) {
-                return Cause::Equations(stop);
-            }
-        }
-        if unsolved {
-            Cause::Newton { t, h }
-        } else {
-            Cause::StepTooSmall { t, h }
+        self.method.before = Some((h, norm.max(LEAST_NORM)));
+        let short = self.method.size.is_some_and(|size| h < 0.99 * size); // the last step ends at t_end
+        if short || !(self.method.keep_tangent && (1.0..KEEP).contains(&by)) {
+            self.method.size = Some(h * by);
         }
     }
 
@@ -322,7 +248,7 @@ impl RadauStepper {
         dae: &mut CountedDae<'_, Y>,
         t_new: f64,
     ) -> Result<(), Cause<Y::Stop>> {
-        let Self { step, steps, lengths, .. } = self;
+        let Self { method: State { step, .. }, steps, lengths, .. } = self;
         let ImplicitSteps { t, y, y_new, dy, rows, .. } = steps;
         let (h, n, len) = (t_new - *t, lengths.coordinates, lengths.total());
         step.evaluate(dae, (*t, h)); // for the powers
@@ -337,7 +263,7 @@ impl RadauStepper {
         let (q, rest) = y_new.split_at_mut(n);
         let (v, rest) = rest.split_at_mut(n);
         let state = DaeState { q, v, z: &rest[..lengths.states] };
-        let changed = dae.system.project(t_new, state).map_err(Cause::Equations)?;
+        let changed = dae.project(t_new, state)?;
         if !all_finite(y_new) {
             return Err(Cause::NotFinite { t: t_new });
         }
@@ -359,8 +285,8 @@ impl RadauStepper {
 
 /// The factor on the step for an error norm.
 fn factor(norm: f64, safety: f64) -> f64 {
-    let wanted = safety * norm.max(f64::MIN_POSITIVE).powf(-1.0 / f64::from(ERROR_ORDER + 1));
-    wanted.clamp(MIN_FACTOR, MAX_FACTOR)
+    let factor = safety * norm.max(f64::MIN_POSITIVE).powf(-1.0 / f64::from(ERROR_ORDER + 1));
+    factor.clamp(MIN_FACTOR, MAX_FACTOR)
 }
 
 /// Residual that Newton's iteration may leave, as a part of the tolerance. It may be larger for small tolerances.

@@ -23,7 +23,7 @@ impl<Y: Ode> RightHandSide<'_, Y> {
         let n = self.system.len();
         self.evaluations += 1;
         let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
-        self.system.rate(t, y, rates).map_err(Cause::Equations)
+        self.system.rate(t, y, rates).map_err(|error| Cause::Equations { t, error })
     }
 
     /// dy = f(t, y), both in blocks.
@@ -46,7 +46,8 @@ impl<Y: Ode> RightHandSide<'_, Y> {
             None => return self.at(t, y, dy),
             Some(manifold) => {
                 let (y, rates) = (&y.as_flattened()[..n], &mut dy.as_flattened_mut()[..n]);
-                manifold.rate_projected(t, y, rates).map_err(Cause::Equations)?;
+                let rated = manifold.rate_projected(t, y, rates);
+                rated.map_err(|error| Cause::Equations { t, error })?;
             }
         }
         self.evaluations += 1;

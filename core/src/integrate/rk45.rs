@@ -4,18 +4,16 @@
 //! (1980) 19. Extension: Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135,
 //! with the optimal c₆. Control: that of `scipy.integrate.RK45`.
 
-use super::explicit_stepper::start;
 use super::failure::Cause;
 use super::ode::Ode;
-use super::right_hand_side::RightHandSide;
 use super::runge_kutta::RungeKutta;
 use super::stages::{rows, rows_mut, sum_at, Block};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
-use super::stepper::{BoxedStepper, ExplicitMethod};
 use super::tolerances::Tolerances;
 use super::trial::Trial;
+use std::borrow::Cow;
 
 /// Dormand–Prince 5(4) with its options.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,19 +28,6 @@ impl Rk45 {
         Self { control: StepControl::new(rtol, atol) }
     }
 }
-
-impl ExplicitMethod for Rk45 {
-    fn start<Y: Ode>(
-        &self,
-        system: &Y,
-        span: (f64, f64),
-        y: &[f64],
-    ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
-        start::<DormandPrince, Y>(&self.control, system, span, y)
-    }
-}
-
-struct DormandPrince;
 
 const C: [f64; 5] = [1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0];
 const A2: [f64; 1] = [1.0 / 5.0];
@@ -75,7 +60,7 @@ const P: [f64; 32] = [
     0.0, 3.0, -2.0, 0.0,
 ];
 
-impl RungeKutta for DormandPrince {
+impl RungeKutta for Rk45 {
     const ERROR_ORDER: i32 = 4;
     const LAST_IN_ERROR: bool = true;
     const CONTROL: Control = Control::ELEMENTARY;
@@ -85,24 +70,23 @@ impl RungeKutta for DormandPrince {
     const GAP: Gap = Gap { middle: 0.55, half: 0.25 };
     const TABLE: &'static [f64] = &P;
 
+    fn control(&self) -> Cow<'_, StepControl> {
+        Cow::Borrowed(&self.control)
+    }
+
     fn advance<Y: Ode>(
-        rhs: &mut RightHandSide<'_, Y>,
-        (t, t_new): (f64, f64),
-        y: &[Block],
+        trial: &mut Trial<'_, '_, Y>,
         k: &mut [Block],
-        work: &mut [Block],
         y_new: &mut [Block],
     ) -> Result<(), Cause<Y::Stop>> {
-        let h = t_new - t;
-        let [k1, k2, k3, k4, k5, k6, k7] = rows_mut(k, y.len());
-        let mut trial = Trial::new(rhs, (t, h), y, work);
+        let [k1, k2, k3, k4, k5, k6, k7] = rows_mut(k, trial.y.len());
         trial.stage(C[0], A2, [k1], k2)?;
         trial.stage(C[1], A3, [k1, k2], k3)?;
         trial.stage(C[2], A4, [k1, k2, k3], k4)?;
         trial.stage(C[3], A5, [k1, k2, k3, k4], k5)?;
         trial.stage(C[4], A6, [k1, k2, k3, k4, k5], k6)?;
         trial.end(B, [k1, k3, k4, k5, k6], y_new)?;
-        rhs.at(t_new, y_new, k7)
+        trial.rate_at_end(y_new, k7)
     }
 
     fn error_norm(

@@ -2,11 +2,13 @@
 
 use super::failure::Cause;
 use super::ode::Ode;
-use super::right_hand_side::RightHandSide;
 use super::stages::Block;
+use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
 use super::tolerances::Tolerances;
+use super::trial::Trial;
+use std::borrow::Cow;
 
 /// An explicit Runge–Kutta method that has the derivative at the end of a step as its last stage.
 pub(super) trait RungeKutta: 'static {
@@ -32,26 +34,19 @@ pub(super) trait RungeKutta: 'static {
     /// The table of a lesser extension, with zeros for the extra stages.
     const WITHOUT_EXTRA: &'static [f64] = Self::TABLE;
 
+    /// Tolerances and steps.
+    fn control(&self) -> Cow<'_, StepControl>;
+
     /// The stages after the first, which is given, in rows of `k`, the last one only if it is
-    /// [`LAST_IN_ERROR`](Self::LAST_IN_ERROR); the state at `t_new` into `y_new`. `work` is scratch as long
-    /// as y.
+    /// [`LAST_IN_ERROR`](Self::LAST_IN_ERROR); the state at the end into `y_new`.
     fn advance<Y: Ode>(
-        rhs: &mut RightHandSide<'_, Y>,
-        span: (f64, f64),
-        y: &[Block],
+        trial: &mut Trial<'_, '_, Y>,
         k: &mut [Block],
-        work: &mut [Block],
         y_new: &mut [Block],
     ) -> Result<(), Cause<Y::Stop>>;
 
     /// The extra stages of an accepted step, in the rows of `k` after the others.
-    fn extend<Y: Ode>(
-        _rhs: &mut RightHandSide<'_, Y>,
-        _span: (f64, f64),
-        _y: &[Block],
-        _k: &mut [Block],
-        _work: &mut [Block],
-    ) -> Result<(), Cause<Y::Stop>> {
+    fn extend<Y: Ode>(_: &mut Trial<'_, '_, Y>, _k: &mut [Block]) -> Result<(), Cause<Y::Stop>> {
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! Sums over the stages of a Runge–Kutta step.
 //!
 //! States and stages are rows of whole blocks with zeros behind the last number, so that sums over them are
-//! taken four numbers at once and know no remainder.
+//! taken four numbers at once without a remainder.
 
 use crate::math::{Lanes, Real};
 
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sums_tell_whether_they_are_finite() {
+    fn sums_report_whether_they_are_finite() {
         for n in [1, 4, 9, 21] {
             let rows = |x: f64| {
                 let mut row = room(1, n);

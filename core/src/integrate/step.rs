@@ -1,4 +1,4 @@
-//! An accepted step, and an observer of steps.
+//! An accepted step.
 
 use super::interpolant::Interpolant;
 
@@ -9,25 +9,6 @@ pub enum Flow {
     Continue,
     /// End here; a normal outcome.
     Stop,
-}
-
-/// Observes every accepted step.
-pub trait Observer {
-    /// Called with every step; the step is valid only during the call.
-    fn step(&mut self, step: &Step<'_>) -> Flow;
-
-    /// Whether it will evaluate the interpolant of the step that it is about to see. If not, a method may skip
-    /// evaluations that only the interpolant needs, which then has a lower order.
-    fn looks_inside(&self, t_old: f64, t: f64) -> bool {
-        let _ = (t_old, t);
-        true
-    }
-}
-
-impl<F: FnMut(&Step<'_>) -> Flow> Observer for F {
-    fn step(&mut self, step: &Step<'_>) -> Flow {
-        self(step)
-    }
 }
 
 /// An accepted step, from `t_old` to `t` (which is earlier when integrating backward).

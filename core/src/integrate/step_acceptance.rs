@@ -9,6 +9,7 @@ use super::right_hand_side::{all_finite, RightHandSide};
 use super::runge_kutta::RungeKutta;
 use super::stages::{chord, row, row_mut};
 use super::step::Step;
+use super::trial::Trial;
 use crate::math::Lanes;
 use std::mem::swap;
 
@@ -28,7 +29,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
             trial.copy_from_slice(y_new);
             match manifold.project(t_new, &mut y_new.as_flattened_mut()[..self.n]) {
                 Ok(changed) => projected = changed,
-                Err(stop) => return Ok(Err(Cause::Equations(stop))),
+                Err(error) => return Ok(Err(Cause::Equations { t: t_new, error })),
             }
         }
         if projected {
@@ -104,7 +105,10 @@ impl<P: RungeKutta> ExplicitStepper<P> {
                     Prepared::HermiteBirkhoff
                 })
             }
-            None => P::extend(rhs, (self.t, accepted.t), y, k, trial).map(|()| Prepared::Extended),
+            None => {
+                let trial = &mut Trial::new(rhs, (self.t, accepted.t), y, trial);
+                P::extend(trial, k).map(|()| Prepared::Extended)
+            }
         };
         match outcome {
             Ok(prepared) => accepted.interpolant = prepared,

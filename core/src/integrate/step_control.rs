@@ -1,6 +1,6 @@
 //! Tolerances and steps, which all methods share, with their defaults.
 
-use super::arguments::{check_problem, not_negative, positive, refusal, Refused};
+use super::arguments::{check_problem, not_negative, positive, require};
 use super::failure::Cause;
 use super::fixed_step::{affordable, Grid};
 
@@ -90,20 +90,37 @@ impl StepControl {
         (y, len): (&[f64], usize),
         controlled: usize,
     ) -> Result<Option<Grid>, Cause<E>> {
-        check_problem(t0, t_end, y, len)
-            .and_then(|()| self.check(controlled, (t_end - t0).abs()))
-            .map_err(refusal)?;
-        self.grid(t0, t_end)
+        check_problem(t0, t_end, y, len)?;
+        let interval = (t_end - t0).abs();
+        self.check(controlled, interval)?;
+        match self.step {
+            Some(step) => Grid::new(t0, t_end, step, self.max_steps).map(Some),
+            None => affordable(interval, self.max_step, self.max_steps).map(|()| None),
+        }
     }
 
-    fn check(&self, controlled: usize, interval: f64) -> Result<(), Refused> {
+    /// The same for a stepper that continues from another state; a first step that was an option is not checked again.
+    pub(super) fn restart<E>(
+        &self,
+        span: (f64, f64),
+        state: (&[f64], usize),
+        controlled: usize,
+    ) -> Result<Option<Grid>, Cause<E>> {
+        Self { first_step: None, ..self.clone() }.begin(span, state, controlled)
+    }
+
+    fn check<E>(&self, controlled: usize, interval: f64) -> Result<(), Cause<E>> {
         not_negative("rtol", self.rtol)?;
         match &self.atol {
             Atol::Scalar(atol) => not_negative("atol", *atol)?,
             Atol::Each(atol) => {
-                if atol.len() != controlled {
-                    return Err(("atol", atol.len() as f64, "one for each controlled component"));
-                }
+                let len = atol.len();
+                require(
+                    len == controlled,
+                    "atol",
+                    len as f64,
+                    "one for each controlled component",
+                )?;
                 atol.iter().try_for_each(|&a| not_negative("atol", a))?;
             }
         }
@@ -113,29 +130,17 @@ impl StepControl {
         }
         if let Some(h) = self.first_step {
             positive("first_step", h)?;
-            if h > interval && interval > 0.0 {
-                return Err(("first_step", h, "at most |t_end - t0|"));
-            }
+            let fits = h <= interval || interval == 0.0;
+            require(fits, "first_step", h, "at most |t_end - t0|")?;
         }
         Ok(())
     }
 
     /// A constant step leaves nothing to choose.
-    fn check_constant(&self) -> Result<(), Refused> {
+    fn check_constant<E>(&self) -> Result<(), Cause<E>> {
         const ABSENT: &str = "absent beside a constant step";
-        match self.first_step {
-            Some(h) => Err(("first_step", h, ABSENT)),
-            None if self.max_step < f64::INFINITY => Err(("max_step", self.max_step, ABSENT)),
-            None => Ok(()),
-        }
-    }
-
-    /// Refused where the end cannot be reached in `max_steps`.
-    fn grid<E>(&self, t0: f64, t_end: f64) -> Result<Option<Grid>, Cause<E>> {
-        match self.step {
-            Some(step) => Grid::new(t0, t_end, step, self.max_steps).map(Some),
-            None => affordable((t_end - t0).abs(), self.max_step, self.max_steps).map(|()| None),
-        }
+        require(self.first_step.is_none(), "first_step", self.first_step.unwrap_or(0.0), ABSENT)?;
+        require(self.max_step == f64::INFINITY, "max_step", self.max_step, ABSENT)
     }
 }
 

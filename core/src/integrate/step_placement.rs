@@ -43,7 +43,7 @@ pub(super) struct StepPlacement {
     met: bool,
     tried: usize,
     /// The step to continue with; 0 if the step was not placed.
-    wanted: f64,
+    resumed: f64,
     /// Whether the current trial is placed to pass the obstacle.
     passing: bool,
     /// Least error norm of the rejected trials to pass; None if no step was placed.
@@ -90,7 +90,7 @@ impl StepPlacement {
         }
         self.tried += 1;
         self.passing = passes;
-        self.wanted = self.wanted.max(passing);
+        self.resumed = self.resumed.max(passing);
         Some(placed)
     }
 
@@ -115,7 +115,7 @@ impl StepPlacement {
 
     /// The step after an accepted one whose error allows `next`.
     pub fn resume(&self, next: f64) -> f64 {
-        next.max(self.wanted)
+        next.max(self.resumed)
     }
 }
 

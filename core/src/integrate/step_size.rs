@@ -62,14 +62,14 @@ impl StepSize {
     /// After a step of magnitude `h` with an error norm below 1.
     pub fn accept(&mut self, h: f64, norm: f64) {
         let Control { safety, hold } = self.control;
-        let wanted = safety * norm.powf(self.exponent); // ∞ without an error
-                                                        // a division that changes nothing would be waited for
-        let held = match wanted > 1.0 && hold != 1.0 {
-            true => (wanted / hold).max(1.0),
-            false => wanted,
+        let factor = safety * norm.powf(self.exponent); // ∞ without an error
+                                                        // a division by 1 would only add latency
+        let factor = match factor > 1.0 && hold != 1.0 {
+            true => (factor / hold).max(1.0),
+            false => factor,
         };
         let most = if self.rejected { 1.0 } else { MAX_FACTOR };
-        self.size = h * held.min(most);
+        self.size = h * factor.min(most);
     }
 
     /// After a step of magnitude `h` with an error norm of 1 or more, or none at all (NaN).

@@ -1,14 +1,14 @@
 //! Steppers advance an initial value problem by one accepted step at a time.
 //!
 //! A [`Stepper`] is started by a method ([`ExplicitMethod`], [`ImplicitMethod`]) and works on a system `Y`, which
-//! it takes at each call. [`integrate`] is the loop over a stepper.
+//! it takes at each call.
 
 use super::dae::Dae;
 use super::events::{self, Direction};
-use super::failure::{Cause, Failure};
+use super::failure::Cause;
 use super::ode::Ode;
-use super::statistics::{Ended, Statistics};
-use super::step::{Flow, Observer, Step};
+use super::statistics::Statistics;
+use super::step::Step;
 
 /// Advances a system `Y`, whose own errors are `E`, by one accepted step at a time.
 pub trait Stepper<Y, E> {
@@ -77,52 +77,6 @@ pub trait Stepper<Y, E> {
 /// A stepper of a system `Y` whose own errors are `E`.
 pub type BoxedStepper<Y, E> = Box<dyn Stepper<Y, E>>;
 
-/// Takes steps to t_end and shows each to the observer, which may stop.
-///
-/// # Errors
-/// [`Cause`] of the step that failed.
-pub fn integrate<Y, E, O: Observer>(
-    stepper: &mut dyn Stepper<Y, E>,
-    system: &mut Y,
-    observer: &mut O,
-) -> Result<Ended, Cause<E>> {
-    while stepper.t() != stepper.t_end() {
-        let t_old = stepper.t();
-        stepper.step(system)?;
-        if observer.looks_inside(t_old, stepper.t()) {
-            stepper.prepare_interpolant(system)?;
-        }
-        let step = stepper.last_step().expect("a step was taken");
-        if observer.step(&step) == Flow::Stop {
-            return Ok(Ended::Stopped);
-        }
-    }
-    Ok(Ended::Reached)
-}
-
-/// From the beginning to the end, with the state in `y`.
-fn whole<Y, E, O: Observer>(
-    started: Result<BoxedStepper<Y, E>, Cause<E>>,
-    system: &mut Y,
-    t0: f64,
-    y: &mut [f64],
-    observer: &mut O,
-) -> Result<Statistics, Failure<E>> {
-    let mut stepper = started.map_err(|cause| Failure {
-        cause,
-        t: t0,
-        y: Box::from(&*y),
-        statistics: Statistics::none(t0),
-    })?;
-    let outcome = integrate(&mut *stepper, system, observer);
-    y.copy_from_slice(stepper.y());
-    let statistics = stepper.statistics();
-    match outcome {
-        Ok(ended) => Ok(Statistics { ended, ..statistics }),
-        Err(cause) => Err(Failure { cause, t: statistics.t, y: Box::from(&*y), statistics }),
-    }
-}
-
 /// An explicit method with its options.
 pub trait ExplicitMethod {
     /// A stepper from `y` at `t0` to `t_end`, forward or backward. Evaluates nothing.
@@ -135,23 +89,6 @@ pub trait ExplicitMethod {
         span: (f64, f64),
         y: &[f64],
     ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>>;
-
-    /// Integrates from `t0` to `t_end` in place: `y` holds the state at `t0` and afterwards the last accepted one,
-    /// of a failure too. With `t_end == t0` nothing is evaluated.
-    ///
-    /// # Errors
-    /// [`Failure`], with the time and the state reached.
-    fn integrate<Y: Ode, O: Observer>(
-        &self,
-        system: &mut Y,
-        t0: f64,
-        t_end: f64,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> Result<Statistics, Failure<Y::Stop>> {
-        let started = self.start(&*system, (t0, t_end), y);
-        whole(started, system, t0, y, observer)
-    }
 }
 
 /// An implicit method with its options.
@@ -166,20 +103,4 @@ pub trait ImplicitMethod {
         span: (f64, f64),
         y: &[f64],
     ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>>;
-
-    /// As [`ExplicitMethod::integrate`].
-    ///
-    /// # Errors
-    /// As there.
-    fn integrate<Y: Dae, O: Observer>(
-        &self,
-        system: &mut Y,
-        t0: f64,
-        t_end: f64,
-        y: &mut [f64],
-        observer: &mut O,
-    ) -> Result<Statistics, Failure<Y::Stop>> {
-        let started = self.start(&*system, (t0, t_end), y);
-        whole(started, system, t0, y, observer)
-    }
 }

@@ -9,8 +9,10 @@ use super::stages::{combine, Block};
 pub(super) struct Trial<'r, 's, Y> {
     rhs: &'r mut RightHandSide<'s, Y>,
     t: f64,
+    t_new: f64,
     h: f64,
-    y: &'r [Block],
+    /// The state at its beginning.
+    pub y: &'r [Block],
     /// The argument of the stage under way.
     work: &'r mut [Block],
     /// When the last stage was evaluated.
@@ -18,15 +20,15 @@ pub(super) struct Trial<'r, 's, Y> {
 }
 
 impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
-    /// Of length h from y at t; `work` is scratch.
+    /// From y at t to t_new; `work` is scratch as long as y.
     #[inline(always)]
     pub fn new(
         rhs: &'r mut RightHandSide<'s, Y>,
-        (t, h): (f64, f64),
+        (t, t_new): (f64, f64),
         y: &'r [Block],
         work: &'r mut [Block],
     ) -> Self {
-        Self { rhs, t, h, y, work, last: t }
+        Self { rhs, t, t_new, h: t_new - t, y, work, last: t }
     }
 
     /// out = f(t + c h, y + h Σₛ aₛ kₛ). The result is checked to be finite only in the sums that use it: the last of
@@ -59,5 +61,32 @@ impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
             true => Ok(()),
             false => Err(Cause::NotFinite { t: self.last }),
         }
+    }
+
+    /// out = y + (h / divisor) Σₛ aₛ kₛ, all finite.
+    #[inline(always)]
+    pub fn end_by_parts<const S: usize>(
+        &mut self,
+        divisor: f64,
+        a: [f64; S],
+        k: [&[Block]; S],
+        out: &mut [Block],
+    ) -> Result<(), Cause<Y::Stop>> {
+        match combine(self.y, self.h / divisor, a, k, out) {
+            true => Ok(()),
+            false => Err(Cause::NotFinite { t: self.t_new }),
+        }
+    }
+
+    /// dy = f at the end of the step.
+    #[inline(always)]
+    pub fn rate_at_end(&mut self, y_new: &[Block], dy: &mut [Block]) -> Result<(), Cause<Y::Stop>> {
+        self.rhs.at(self.t_new, y_new, dy)
+    }
+
+    /// Refuses the last stage if it is not finite.
+    #[inline(always)]
+    pub fn finite(&self, stage: &[Block]) -> Result<(), Cause<Y::Stop>> {
+        self.rhs.finite(self.last, stage)
     }
 }

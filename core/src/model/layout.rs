@@ -28,7 +28,15 @@ impl Columns {
     /// Adds the first numbers of three to these columns of `y`.
     #[inline(always)]
     pub fn add<S: crate::math::Real>(self, three: [S; 3], y: &mut [S]) {
-        y[self.range()].iter_mut().zip(three).for_each(|(y, x)| *y += x);
+        let y = &mut y[self.range()];
+        match y {
+            [x, y, angle] => {
+                *x += three[0];
+                *y += three[1];
+                *angle += three[2];
+            }
+            _ => y.iter_mut().zip(three).for_each(|(y, x)| *y += x),
+        }
     }
     /// These columns of `x`, padded with zeros to three.
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! The block-diagonal part W of a saddle-point matrix by the inverses of its blocks.
 
+use super::breakdown::Breakdown;
 use super::structure::Group;
 use crate::math::Real;
 
@@ -41,22 +42,13 @@ impl<S: Real> InverseMass<S> {
     }
 }
 
-/// The row or unknown that cannot be eliminated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dependent {
-    /// A row of A that depends on the others.
-    Row(usize),
-    /// An unknown whose pivot in W is not positive.
-    Column(usize),
-}
-
 /// Whether every pivot of W is positive and finite, in every lane; of groups that are not `free`, that along e.
 #[inline(always)]
 pub(super) fn check<S: Real>(
     masses: &[InverseMass<S>],
     free: &[u32],
     starts: &[u32],
-) -> Result<(), Dependent> {
+) -> Result<(), Breakdown> {
     let moves = |k: &u32| masses[*k as usize].translation.iter().all(|i| is_usable(*i));
     if masses.iter().all(|mass| is_usable(mass.along)) && free.iter().all(moves) {
         return Ok(());
@@ -68,7 +60,7 @@ pub(super) fn check<S: Real>(
         starts[*k as usize] as usize + first
     });
     let bad = turned.into_iter().chain(moved).min();
-    bad.map_or(Ok(()), |column| Err(Dependent::Column(column)))
+    bad.map_or(Ok(()), |column| Err(Breakdown::Column(column)))
 }
 
 /// Whether the inverse of a pivot is positive and finite, in every lane.

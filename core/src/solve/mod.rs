@@ -54,10 +54,12 @@
 //! | `lu_symbolic` | order and fill of an unsymmetric block matrix |
 //! | `block_lu` | its factors, real or complex, without allocation |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
+//! | `breakdown` | why a system has no usable solution |
 //! | `rank` | numerical rank, dependent rows and left null vectors |
 
 mod block;
 mod block_lu;
+mod breakdown;
 mod condensed;
 mod lu_symbolic;
 mod mass_block;
@@ -76,9 +78,10 @@ mod substitute;
 mod symbolic;
 
 pub use block_lu::{BlockLu, LOST};
+pub use breakdown::Breakdown;
 pub use condensed::{Condensation, CondensedGroup};
 pub use lu_symbolic::LuPlan;
-pub use mass_block::{Dependent, InverseMass, PIVOT_TOLERANCE};
+pub use mass_block::{InverseMass, PIVOT_TOLERANCE};
 pub use newton::Newton;
 pub use order::{groups_first, touched_first};
 pub use pattern::Pattern;

@@ -125,8 +125,8 @@ pub enum Outcome {
     NotFinite,
 }
 
-/// Part of ‖F‖ by which a full step must lower it (Armijo); small, since of a Gauss–Newton step towards
-/// a minimum that is not zero no more can be asked.
+/// Part of ‖F‖ by which a full step must lower it (Armijo); small, since a Gauss–Newton step towards a minimum
+/// that is not zero lowers it little.
 const SUFFICIENT: f64 = 1e-6;
 
 /// Memory and record of an iteration; may be used again for problems of any size.

@@ -12,7 +12,8 @@
 //! is factorised instead: multipliers along a left singular vector of the singular value σ (relative to
 //! the rows) are those of A times σ² / (σ² + ε²), so they stay bounded, and vanish with σ.
 
-use super::mass_block::{dot, Dependent, InverseMass, PIVOT_TOLERANCE};
+use super::breakdown::Breakdown;
+use super::mass_block::{dot, InverseMass, PIVOT_TOLERANCE};
 use super::pattern::Pattern;
 use super::saddle::Saddle;
 use crate::math::Real;
@@ -35,7 +36,7 @@ impl<S: Real> Saddle<S> {
     ///
     /// # Errors
     /// As [`factor`](Self::factor), with [`PIVOT_TOLERANCE`].
-    pub fn factor_regularised(&mut self, pattern: &Pattern, ridge: f64) -> Result<bool, Dependent> {
+    pub fn factor_regularised(&mut self, pattern: &Pattern, ridge: f64) -> Result<bool, Breakdown> {
         let near = self.least;
         let even = self.even_masses(pattern);
         let masses = std::mem::replace(&mut self.masses, even);

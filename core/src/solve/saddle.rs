@@ -15,8 +15,9 @@ use super::block::{
     add, columns, factorise, forward, part, part_mut, scaled, store, subtract, subtract_times,
     DiagonalBlock, DiagonalFactor, TransformedRow,
 };
+use super::breakdown::Breakdown;
 use super::condensed::CondensedGroup;
-use super::mass_block::{above_zero, check, is_usable, Dependent, InverseMass, PIVOT_TOLERANCE};
+use super::mass_block::{above_zero, check, is_usable, InverseMass, PIVOT_TOLERANCE};
 use super::pattern::Pattern;
 use super::pin_block::PinBlock;
 use super::records::{next, Ahead, Left, Row, Update};
@@ -82,17 +83,17 @@ impl<S: Real> Saddle<S> {
     ///
     /// # Panics
     /// If the matrix is of another pattern.
-    pub fn factor(&mut self, pattern: &Pattern) -> Result<(), Dependent> {
+    pub fn factor(&mut self, pattern: &Pattern) -> Result<(), Breakdown> {
         self.reduce_all(pattern);
         self.check(pattern)?;
         self.factor_reduced(pattern)
     }
 
     /// The same once condensed groups are reduced.
-    pub(super) fn factor_reduced(&mut self, pattern: &Pattern) -> Result<(), Dependent> {
+    pub(super) fn factor_reduced(&mut self, pattern: &Pattern) -> Result<(), Breakdown> {
         self.put_other_rows(pattern);
         self.put_all_pin_rows(pattern);
-        self.eliminate::<false>(pattern, &mut [])
+        self.eliminate::<false>(pattern, &mut []).map_err(Breakdown::Row)
     }
 
     /// Factorises as [`factor`](Self::factor) and solves as [`solve`](Self::solve). The right side is
@@ -103,7 +104,7 @@ impl<S: Real> Saddle<S> {
     ///
     /// # Panics
     /// As [`factor`](Self::factor) and [`solve`](Self::solve).
-    pub fn factor_and_solve(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
+    pub fn factor_and_solve(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Breakdown> {
         self.reduce_all(pattern);
         let (f, g) = self.begin(pattern, x);
         self.put_all_pin_rows(pattern);
@@ -145,23 +146,25 @@ impl<S: Real> Saddle<S> {
     /// # Errors
     /// As [`factor`](Self::factor); `x` is then lost.
     #[inline(always)] // once in an evaluation
-    pub fn finish(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Dependent> {
+    pub fn finish(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Breakdown> {
         self.put_other_rows(pattern);
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
         self.put_other_right_sides(pattern, f, g);
         // an unusable mass spoils a pivot, or else the unknowns of its group
-        self.eliminate::<true>(pattern, g).or_else(|row| self.check(pattern).and(Err(row)))?;
+        if let Err(row) = self.eliminate::<true>(pattern, g) {
+            return self.check(pattern).and(Err(Breakdown::Row(row)));
+        }
         self.substitute_back(pattern, g);
         self.update_groups(pattern, f, g);
         Ok(())
     }
 
     /// Whether every pivot of W is usable.
-    fn check(&self, pattern: &Pattern) -> Result<(), Dependent> {
+    fn check(&self, pattern: &Pattern) -> Result<(), Breakdown> {
         let useless = |group: u32| !is_usable(self.masses[group as usize].along);
         let mut rows = pattern.condensed.iter().filter(|place| place.sign == 0.0);
         match rows.find(|place| useless(place.group)) {
-            Some(place) => Err(Dependent::Row(place.row as usize)),
+            Some(place) => Err(Breakdown::Row(place.row as usize)),
             None => check(&self.masses, &pattern.free, &pattern.starts),
         }
     }
@@ -184,13 +187,9 @@ impl<S: Real> Saddle<S> {
         worst.map(|(row, lost)| (row, 1.0 / lost))
     }
 
-    /// Row by row; with `RHS` the right side as well.
+    /// Row by row; with `RHS` the right side as well. The error is the row that depends on others.
     #[inline(never)] // with few pointers, most of them stay in registers
-    fn eliminate<const RHS: bool>(
-        &mut self,
-        pattern: &Pattern,
-        g: &mut [S],
-    ) -> Result<(), Dependent> {
+    fn eliminate<const RHS: bool>(&mut self, pattern: &Pattern, g: &mut [S]) -> Result<(), usize> {
         let mut ahead = pattern.program.ahead();
         for row in &pattern.program.rows {
             if row.pins {
@@ -210,7 +209,7 @@ impl<S: Real> Saddle<S> {
         row: &Row,
         mut ahead: Ahead<'a>,
         g: &mut [S],
-    ) -> Result<Ahead<'a>, Dependent> {
+    ) -> Result<Ahead<'a>, usize> {
         match row.size {
             1 => self.row::<1, RHS, false>(row, &mut ahead, g),
             2 => self.row::<2, RHS, false>(row, &mut ahead, g),
@@ -226,7 +225,7 @@ impl<S: Real> Saddle<S> {
         row: &Row,
         ahead: &mut Ahead<'_>,
         g: &mut [S],
-    ) -> Result<(), Dependent> {
+    ) -> Result<(), usize> {
         let DiagonalBlock { mut s, magnitude } = DiagonalBlock::read(&self.factors, row.diagonal);
         let mut y = if RHS { *part(g, row.row) } else { [S::zero(); N] };
         if !RHS {
@@ -260,11 +259,11 @@ impl<S: Real> Saddle<S> {
         row: &Row,
         diagonal: &DiagonalFactor<S, N>,
         magnitude: &[S; N],
-    ) -> Result<(), Dependent> {
+    ) -> Result<(), usize> {
         for (i, magnitude) in magnitude.iter().enumerate() {
             let least = *magnitude * S::constant(self.least) + S::constant(LEAST_PIVOT);
             if !above_zero(diagonal.pivot[i] - least) {
-                return Err(Dependent::Row(row.row as usize + i));
+                return Err(row.row as usize + i);
             }
         }
         diagonal.store(&mut self.factors, row.diagonal, magnitude);

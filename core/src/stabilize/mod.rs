@@ -8,4 +8,4 @@ mod baumgarte;
 mod projection;
 
 pub use baumgarte::StepwiseBaumgarte;
-pub use projection::{Fault, Projection, Projector};
+pub use projection::{Projection, Projector};

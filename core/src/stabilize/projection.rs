@@ -14,9 +14,10 @@
 //! correction over the size of the mechanism. The matrix is factorised anew only if this is too slow.
 
 use crate::equations::kinematics::Motions;
-use crate::equations::{constraints, Residuals, Singular, Workspace};
+use crate::equations::{constraints, Residuals, Workspace};
 use crate::math::{Largest, Real};
 use crate::model::{column_scales, Model};
+use crate::solve::Breakdown;
 
 /// Largest number of iterations for positions, and for velocities.
 const MOST: usize = 12;
@@ -48,22 +49,6 @@ impl Default for Projection {
     fn default() -> Self {
         Self { tolerance: 1e-12 }
     }
-}
-
-/// Failure of a projection.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fault {
-    /// Φ_q lost rank.
-    Singular(Singular),
-    /// Φ_q lost rank where the mechanism is almost at rest under load.
-    AtRest(Singular),
-    /// A row of Φ remains open.
-    Open {
-        /// The row with the largest residual.
-        row: usize,
-        /// Its residual, m or rad, or the same per s.
-        gap: f64,
-    },
 }
 
 /// Memory for projections of one model. Over lanes, all states are projected until each meets the tolerance.
@@ -148,14 +133,14 @@ impl<'a, S: Real> Projector<'a, S> {
     /// new state. With `factored`, the matrix of the workspace holds the factor of a state nearby.
     ///
     /// # Errors
-    /// [`Fault`]; q and v are then invalid.
+    /// [`Breakdown`]; q and v are then invalid.
     pub fn project(
         &mut self,
         workspace: &mut Workspace<S>,
         t: S,
         (q, v): (&mut [S], &mut [S]),
         factored: bool,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, Breakdown> {
         (self.known, self.lowering) = (Known::Nothing, 1.0);
         match self.is_good(workspace, t, (&*q, &*v)) {
             true => Ok(false),
@@ -172,7 +157,7 @@ impl<'a, S: Real> Projector<'a, S> {
         workspace: &mut Workspace<S>,
         t: S,
         (q, v): (&mut [S], &mut [S]),
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, Breakdown> {
         (self.known, self.lowering) = (Known::Nothing, 1.0);
         self.meet(Level::Velocity, workspace, t, (q, v), &mut false)
     }
@@ -194,7 +179,7 @@ impl<'a, S: Real> Projector<'a, S> {
         t: S,
         (q, v): (&mut [S], &mut [S]),
         mut factored: bool,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, Breakdown> {
         let mut changed = false;
         for level in [Level::Position, Level::Velocity] {
             changed |= self.meet(level, workspace, t, (&mut *q, &mut *v), &mut factored)?;
@@ -210,7 +195,7 @@ impl<'a, S: Real> Projector<'a, S> {
         t: S,
         (q, v): (&mut [S], &mut [S]),
         factored: &mut bool,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, Breakdown> {
         let (mut last, mut newton) = (f64::INFINITY, false);
         let (mut target, mut rounding) = (0.0, 0.0);
         for iteration in 0..MOST {
@@ -255,7 +240,7 @@ impl<'a, S: Real> Projector<'a, S> {
     }
 
     /// The row with the largest residual at the last evaluation.
-    fn open(&self, level: Level) -> Fault {
+    fn open(&self, level: Level) -> Breakdown {
         let mut worst = (0, 0.0, 0.0);
         let rows = self.residuals.rows[level as usize].iter().zip(&self.residuals.per_scale);
         for (row, (r, per_scale)) in rows.enumerate() {
@@ -266,7 +251,7 @@ impl<'a, S: Real> Projector<'a, S> {
                 worst = (row, gap, scaled);
             }
         }
-        Fault::Open { row: worst.0, gap: worst.1 }
+        Breakdown::Open { row: worst.0, gap: worst.1 }
     }
 
     /// The target of the residual, and the residual that is accepted where rounding prevents the target.
@@ -315,12 +300,12 @@ impl<'a, S: Real> Projector<'a, S> {
     }
 
     /// Factorises at the state of the last call of `look`.
-    fn factor(&mut self, workspace: &mut Workspace<S>, t: S) -> Result<(), Fault> {
+    fn factor(&mut self, workspace: &mut Workspace<S>, t: S) -> Result<(), Breakdown> {
         let Workspace { motions, matrix, compiled, .. } = workspace;
         self.residuals.jacobian(self.model, motions, t, matrix.jacobian_mut());
         matrix.set_mass(compiled, motions);
         self.factorisations += 1;
-        matrix.factor().map_err(|dependent| Fault::Singular(dependent.into()))
+        matrix.factor()
     }
 
     /// One step with the current factor.

@@ -2,7 +2,7 @@
 
 use crate::mechanisms::{close, worst, Random};
 use crate::samples::{forces, later, motion, random};
-use kempe::elements::{ForceElement, Nature, Situation};
+use kempe::elements::{BodyId, ForceElement, Nature, Situation};
 use kempe::math::{Dual, Lanes, Lift, Motion, Real, Vec2, Wrench};
 
 fn each(mut check: impl FnMut(&ForceElement, [f64; 6], [f64; 6])) {
@@ -26,14 +26,15 @@ fn at<S: Real>(i: [S; 6], j: [S; 6]) -> Two<S> {
 impl<S: Real> Two<S> {
     fn situation(&self, f: &ForceElement<S>) -> Situation<'_, S> {
         assert_eq!(f.bodies().len(), 2, "{}", f.kind());
-        Situation { bodies: &self.0, z: &self.1, reaction: self.2, t: S::constant(0.7) }
+        let (motions, bodies) = (&self.0, &[BodyId(0), BodyId(1)]);
+        Situation { motions, bodies, z: &self.1, reaction: self.2, t: S::constant(0.7) }
     }
 }
 
 /// The wrenches on body i and body j of each part.
 fn actions<S: Real>(f: &ForceElement<S>, at: &Two<S>) -> Vec<[Wrench<S>; 2]> {
     let mut out = vec![Wrench::zero(); 2 * f.parts().len()];
-    f.action(&at.situation(f), &mut out);
+    f.action(&at.situation(f), |part, body, w| out[2 * part + body] = w);
     out.chunks_exact(2).map(|two| [two[0], two[1]]).collect()
 }
 

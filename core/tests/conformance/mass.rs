@@ -137,7 +137,15 @@ fn the_quadratic_term_is_that_of_lagrange() {
     let (after, before) = (momentum(&moved(h)), momentum(&moved(-h)));
     let mut force = vec![0.0; 6];
     let acting = kempe::equations::forces::Acting { z: &[], lam: None, t: 0.0 };
-    kempe::equations::forces::generalized(&m, &Compiled::new(&m), &at(&q), acting, &mut force);
+    let powers = &mut kempe::equations::Powers::zero();
+    kempe::equations::forces::generalized(
+        &m,
+        &Compiled::new(&m),
+        &at(&q),
+        acting,
+        &mut force,
+        powers,
+    );
     for k in 0..6 {
         let shifted = |h: f64| {
             let mut q = q.clone();

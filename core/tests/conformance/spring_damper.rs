@@ -20,13 +20,14 @@ fn together<S: Lift<f64>>(x: S) -> [Motion<S>; 2] {
 }
 
 fn at<S: Real>(bodies: &[Motion<S>; 2]) -> Situation<'_, S> {
-    Situation { bodies, z: &[], reaction: Wrench::zero(), t: S::zero() }
+    let (motions, bodies) = (bodies, &[BodyId(0), BodyId(1)]);
+    Situation { motions, bodies, z: &[], reaction: Wrench::zero(), t: S::zero() }
 }
 
 /// The wrenches of stiffness on i and j, then of damping.
 fn action<S: Real>(e: &SpringDamper<S>, bodies: &[Motion<S>; 2]) -> [Wrench<S>; 4] {
     let mut out = [Wrench::zero(); 4];
-    SpringDamper::action(e, &at(bodies), &mut out);
+    SpringDamper::action(e, &at(bodies), |part, body, w| out[2 * part + body] = w);
     out
 }
 

@@ -1,7 +1,7 @@
 //! A force that follows a displacement with a delay: ż = (x - z)/τ of the x of body j seen from body i,
 //! force -k z along global x on body j at its origin. The potential of the states is not known to it.
 
-use crate::elements::{element, BodyId, Force, Nature, OwnState, Part, Situation};
+use crate::elements::{element, BodyId, Force, Nature, OwnState, Part, Situation, Wrenches};
 use crate::math::{Real, Vec2, Wrench};
 
 element! {
@@ -25,10 +25,11 @@ impl Force for Lag {
         vec![e.i, e.j]
     }
 
-    fn action<S: Real>(e: &Lag<S>, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {
+    fn action<S: Real>(e: &Lag<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         let force = Vec2::new(-e.stiffness * at.z[0], S::zero());
         let arm = at.j().pose.r - at.i().pose.r;
-        out.copy_from_slice(&[-Wrench::at(arm, force), Wrench { force, torque: S::zero() }]);
+        out.put(0, 0, -Wrench::at(arm, force));
+        out.put(0, 1, Wrench { force, torque: S::zero() });
     }
 
     fn states(_: &dyn Fn(&str) -> bool) -> &'static [OwnState] {

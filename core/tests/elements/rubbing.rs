@@ -1,7 +1,7 @@
 //! Pin friction that depends on the reaction of its joint: torque on body j is -μ r |F| tanh(ω/ω₀) with
 //! |F| the force of the joint and ω = φ̇ⱼ - φ̇ᵢ.
 
-use crate::elements::{element, BodyId, Force, JointId, Nature, Part, Situation};
+use crate::elements::{element, BodyId, Force, JointId, Nature, Part, Situation, Wrenches};
 use crate::math::{Real, Wrench};
 
 element! {
@@ -31,11 +31,12 @@ impl Force for Rubbing {
         Some(e.joint)
     }
 
-    fn action<S: Real>(e: &Rubbing<S>, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {
+    fn action<S: Real>(e: &Rubbing<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         let squared = at.reaction.force.dot(at.reaction.force);
         let load = S::select(squared, squared.sqrt(), S::zero());
         let rate = at.j().twist.omega - at.i().twist.omega;
         let torque = -e.arm * load * (rate / e.speed).tanh();
-        out.copy_from_slice(&[Wrench::torque(-torque), Wrench::torque(torque)]);
+        out.put(0, 0, Wrench::torque(-torque));
+        out.put(0, 1, Wrench::torque(torque));
     }
 }

@@ -1,7 +1,7 @@
 //! The guarantees for systems and observers.
 
 use super::*;
-use kempe::integrate::{Ended, Manifold, Rk4, Rk45, Structure};
+use kempe::integrate::{Manifold, Rk4, Rk45, Structure};
 use std::f64::consts::PI;
 
 /// An oscillator that carries ∫ 1e6 y² dt as a quadrature.
@@ -66,7 +66,7 @@ impl Manifold for OnCircle {
     }
 }
 
-fn check_projection(method: &impl ExplicitMethod, evaluations: impl Fn(&Statistics) -> usize) {
+fn check_projection(method: &impl ExplicitMethod, evaluations: impl Fn(&Done) -> usize) {
     let mut system = OnCircle { calls: 0 };
     let mut last = [1.0, 0.0];
     let mut observer = |step: &Step<'_>| {
@@ -123,7 +123,7 @@ fn an_observer_stops_normally() {
 #[test]
 fn no_interval_no_evaluation() {
     let mut y = [1.0, 0.5];
-    let idle = |done: Statistics| (done.steps, done.evaluations, done.ended, done.t);
+    let idle = |done: Done| (done.steps, done.evaluations, done.ended, done.t);
     let a = run(&Rk45::default(), plain(2, oscillator), (3.0, 3.0), &mut y).unwrap();
     let b = run(&Rk4::new(0.1), plain(2, oscillator), (3.0, 3.0), &mut y).unwrap();
     assert_eq!(idle(a), (0, 0, Ended::Reached, 3.0));

@@ -1,7 +1,7 @@
 //! DOP853: pair, estimate and extension those of scipy, of order 8 and 7; steps of its own.
 
 use super::*;
-use kempe::integrate::{Atol, Dop853, Manifold, Observer, StepControl};
+use kempe::integrate::{Atol, Dop853, Manifold, StepControl};
 
 /// Sees the steps from their ends only.
 struct Ends;
@@ -20,7 +20,7 @@ fn ends<Y: Ode<Stop = String>>(
     mut system: Y,
     (t0, t_end): (f64, f64),
     y: &mut [f64],
-) -> Statistics {
+) -> Done {
     method.integrate(&mut system, t0, t_end, y, &mut Ends).unwrap()
 }
 

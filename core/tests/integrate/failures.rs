@@ -76,7 +76,7 @@ fn a_singularity_makes_the_step_too_small() {
         run(&Rk45::new(1e-6, 1e-9), plain(1, square), (0.0, 2.0), &mut [1.0]).unwrap_err();
     let Cause::StepTooSmall { t, h } = failure.cause else { panic!("{:?}", failure.cause) };
     assert!((t - 1.0).abs() < 1e-4 && h < 1e-14, "{t} {h}");
-    assert_eq!((failure.t, failure.statistics.t), (t, t));
+    assert_eq!(failure.t, t);
     assert!(failure.y[0] > 1e4 && failure.statistics.steps > 50);
 }
 
@@ -309,11 +309,14 @@ fn a_system_that_stops_is_a_failure_at_once() {
     for in_rate in [true, false] {
         for method in [0.3, 0.4] {
             let outcome = run(&Rk4::new(method), Stops { in_rate }, (0.0, 2.0), &mut [0.0]);
-            assert_eq!(cause(outcome), Cause::Equations("the crank locks".into()));
+            let Cause::Equations { t, error } = cause(outcome) else { panic!("the system fails") };
+            assert!(t > 1.0 && t <= 1.2 + 1e-12 && error == "the crank locks", "{error} at {t}");
         }
         let method = Rk45 { control: StepControl { max_step: 0.3, ..StepControl::default() } };
         let failure = run(&method, Stops { in_rate }, (0.0, 2.0), &mut [0.0]).unwrap_err();
-        assert_eq!(failure.to_string(), "the crank locks");
+        assert!(
+            matches!(failure.cause, Cause::Equations { error, .. } if error == "the crank locks")
+        );
         // an evaluation that stops does so at once; a refused end is tried nearer and nearer
         let least = if in_rate { 0.6 } else { 1.0 - 1e-9 };
         assert!(failure.t <= 1.0 && failure.t > least, "{}", failure.t);

@@ -8,8 +8,10 @@ mod order;
 mod scipy;
 mod second_order;
 mod states;
+mod whole;
 
-use kempe::integrate::{ExplicitMethod, Failure, Flow, Ode, Statistics, Step};
+use kempe::integrate::{ExplicitMethod, Flow, Ode, Step};
+use whole::{Done, Ended, Explicit, Failure, Implicit, Observer};
 
 /// A system by closure, without any stop.
 struct Plain<F> {
@@ -32,7 +34,7 @@ fn plain<F: FnMut(f64, &[f64], &mut [f64])>(len: usize, f: F) -> Plain<F> {
     Plain { len, f }
 }
 
-type Outcome = Result<Statistics, Failure<String>>;
+type Outcome = Result<Done, Failure<String>>;
 
 fn run<Y: Ode<Stop = String>>(
     method: &impl ExplicitMethod,

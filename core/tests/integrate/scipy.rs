@@ -1,7 +1,7 @@
 //! Step for step the control of scipy.
 
 use super::*;
-use kempe::integrate::{Atol, Ended, Rk45, StepControl};
+use kempe::integrate::{Atol, Rk45, StepControl};
 
 /// Steps, evaluations and last state of `scipy.integrate.solve_ivp(f, (t0, t1), y0, method="RK45",
 /// rtol=…, atol=…)`, scipy 1.17.1.

@@ -1,7 +1,7 @@
 //! The extension of DOP853 for systems of second order: one evaluation, through the step before.
 
 use super::*;
-use kempe::integrate::{Dop853, Observer, StepControl, Structure, TrialChanges};
+use kempe::integrate::{Dop853, StepControl, Structure, TrialChanges};
 
 /// q̈ = a(t, q) with w = ∫ q̇² dt; y = (q, v, w).
 struct Mass<F> {
@@ -76,7 +76,7 @@ fn circle(step: &Step<'_>, t: f64) -> [f64; 3] {
     [q * c + v * s, v * c - q * s, step.y_old[2] + w]
 }
 
-fn constant(told: bool, h: f64, look: bool) -> ([f64; 3], Statistics, [f64; 3]) {
+fn constant(told: bool, h: f64, look: bool) -> ([f64; 3], Done, [f64; 3]) {
     let mut observer = Errors { truth: circle, look, worst: [0.0; 3] };
     let (mut y, method) = (
         [1.0, 0.0, 0.0],

@@ -10,7 +10,7 @@ use super::*;
 use kempe::integrate::{
     AlphaParameters, ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Direction,
     Dop853, GeneralizedAlpha, ImplicitMethod, Iterate, NewtonCoefficients, Radau, Rk4, Rk45,
-    SingularMatrix, StepControl, Structure,
+    StepControl, Structure,
 };
 use kempe::math::{Complex, Field};
 
@@ -185,14 +185,14 @@ impl Dae for Constrained {
 
     fn linearize(&mut self, _: f64, _: Iterate<'_>) {}
 
-    fn factor(&mut self, c: NewtonCoefficients) -> Result<(), SingularMatrix> {
+    fn factor(&mut self, c: NewtonCoefficients) -> bool {
         self.real = self.matrix(c);
-        Ok(())
+        true
     }
 
-    fn factor_complex(&mut self, c: NewtonCoefficients<Complex>) -> Result<(), SingularMatrix> {
+    fn factor_complex(&mut self, c: NewtonCoefficients<Complex>) -> bool {
         self.complex = self.matrix(c);
-        Ok(())
+        true
     }
 
     fn solve(&mut self, x: &mut [f64]) {

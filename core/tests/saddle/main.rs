@@ -3,7 +3,7 @@
 mod matrix;
 
 use kempe::math::{Dual, Lanes, Real};
-use kempe::solve::{rank, Dependent, Group, InverseMass, Pattern, RowBlock, Saddle};
+use kempe::solve::{rank, Breakdown, Group, InverseMass, Pattern, RowBlock, Saddle};
 use matrix::{chain, four_bar, hub, inverse_mass, tangle, Matrix, Random};
 
 /// Gaussian elimination with partial pivoting.
@@ -189,7 +189,7 @@ fn condensed_rows_that_depend_on_each_other_are_refused() {
     m.entries[n - 1] = m.entries[n - 2];
     m.masses.iter_mut().for_each(|mass| mass[1] = mass[0]);
     let (pattern, mut saddle) = m.condensed();
-    assert_eq!(saddle.factor(&pattern), Err(Dependent::Row(m.rows() - 2)));
+    assert_eq!(saddle.factor(&pattern), Err(Breakdown::Row(m.rows() - 2)));
     let mut x = vec![1.0; m.n()];
     assert!(saddle.factor_and_solve(&pattern, &mut x).is_err());
 }
@@ -240,7 +240,7 @@ fn a_repeated_joint_is_refused_by_its_row_at_any_scale() {
         m.blocks.push(RowBlock { size: copied.size, touches, signs: vec![] });
         let pattern = m.pattern();
         let refused = m.saddle(&pattern).factor(&pattern).unwrap_err();
-        let Dependent::Row(row) = refused else { panic!("{refused:?}") };
+        let Breakdown::Row(row) = refused else { panic!("{refused:?}") };
         assert!((6..10).contains(&row), "{row}");
     }
 }
@@ -276,17 +276,17 @@ fn unusable_masses_and_rows_are_refused() {
     };
     assert_eq!(refused(0, 0, 1.0, good), None);
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(refused(0, 2, bad, good), Some(Dependent::Column(2)), "{bad}");
-        assert_eq!(refused(1, 0, bad, good), Some(Dependent::Column(3)), "{bad}");
+        assert_eq!(refused(0, 2, bad, good), Some(Breakdown::Column(2)), "{bad}");
+        assert_eq!(refused(1, 0, bad, good), Some(Breakdown::Column(3)), "{bad}");
     }
     for bad in [0.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(refused(0, 0, 1.0, [0.0, bad, 0.0]), Some(Dependent::Row(0)), "{bad}");
+        assert_eq!(refused(0, 0, 1.0, [0.0, bad, 0.0]), Some(Breakdown::Row(0)), "{bad}");
     }
     let mut lanes = Saddle::<Lanes>::new(&pattern);
     lanes.entries[0][0] = Lanes::new([1.0, 0.0, 1.0, 1.0]);
-    assert_eq!(lanes.factor(&pattern), Err(Dependent::Row(0)));
+    assert_eq!(lanes.factor(&pattern), Err(Breakdown::Row(0)));
     let nothing = Pattern::new(&[], &[RowBlock { size: 2, touches: vec![], signs: vec![] }], &[]);
-    assert_eq!(Saddle::<f64>::new(&nothing).factor(&nothing), Err(Dependent::Row(0)));
+    assert_eq!(Saddle::<f64>::new(&nothing).factor(&nothing), Err(Breakdown::Row(0)));
 }
 
 #[test]

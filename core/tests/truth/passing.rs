@@ -5,7 +5,7 @@ use crate::mechanisms::{close, run};
 use crate::n_four_bar::{upright, windows};
 use kempe::analyses::dynamics::{dynamics, Auto, Options, Reason, Scheme, Stabilization};
 use kempe::analyses::State;
-use kempe::integrate::{Dop853, ExplicitMethod, Flow, Ode, Step};
+use kempe::integrate::{Dop853, ExplicitMethod, Flow, Ode};
 use kempe::model::Model;
 use kempe::stabilize::Projection;
 
@@ -25,8 +25,11 @@ impl Pendulum {
         let mut y = start;
         let mut all = vec![start];
         for ends in times.windows(2) {
-            let quiet = &mut |_: &Step<'_>| Flow::Continue;
-            method.integrate(self, ends[0], ends[1], &mut y, quiet).expect("it swings");
+            let mut stepper = method.start(self, (ends[0], ends[1]), &y).expect("it swings");
+            while stepper.t() != ends[1] {
+                stepper.step(self).expect("it swings");
+            }
+            y.copy_from_slice(stepper.y());
             all.push(y);
         }
         all

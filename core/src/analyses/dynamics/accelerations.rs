@@ -4,17 +4,17 @@
 //! other, so several are solved at once, with the same formulas over lanes. If one of them is not regular (near a
 //! singular position, or with a number that is not finite), each is solved separately.
 
-use super::failure::Reason;
+use super::failure::Failure;
 use super::lane_batch::are_finite;
 use super::model_cache::ModelCache;
-use super::report_projection::Halt;
+use super::run_results::Run;
 use super::trajectory::States;
 use crate::equations::augmented::NearSingular;
 use crate::equations::{Gains, Workspace};
 use crate::integrate::{all_finite, Flow};
 use crate::math::{Lanes, Real};
 use crate::model::Model;
-use crate::stabilize::Fault;
+use crate::solve::Breakdown;
 
 /// Accelerations and multipliers of states, a row for each.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,13 +28,24 @@ pub struct Accelerations {
 /// Number of states from which a model over lanes, which solves several at once, is faster.
 pub(super) const MANY: usize = 4 * Lanes::WIDTH;
 
+impl Run {
+    /// Accelerations and multipliers at the reported states, without stabilization.
+    ///
+    /// # Errors
+    /// As [`Prepared::accelerations`](super::Prepared::accelerations).
+    pub fn accelerations(&self, model: &Model) -> Result<Accelerations, Box<Failure>> {
+        let (cache, states) = (ModelCache::default(), self.trajectory.states());
+        accelerations((model, &cache), states, self.passing, |_| Flow::Continue)
+    }
+}
+
 /// See [`Prepared::accelerations`](super::Prepared::accelerations).
 pub(super) fn accelerations(
     (model, cache): (&Model, &ModelCache),
     states: States<'_>,
     passing: bool,
     mut watch: impl FnMut(f64) -> Flow,
-) -> Result<Accelerations, Reason> {
+) -> Result<Accelerations, Box<Failure>> {
     let States { t, q, v, z } = states;
     let (n, n_z, count) = (model.layout.n_q, model.layout.n_z, t.len());
     let lengths = [n, n, n_z].map(|width| width * count);
@@ -71,19 +82,18 @@ fn one_by_one(
     workspace: &mut Workspace,
     States { t, q, v, z }: States<'_>,
     found: &mut Accelerations,
-) -> Result<(), Reason> {
+) -> Result<(), Box<Failure>> {
     let (n, n_z) = (model.layout.n_q, model.layout.n_z);
     for (k, &t) in t.iter().enumerate() {
         let row = k * n..(k + 1) * n;
         let (q, v, z) = (&q[row.clone()], &v[row], &z[k * n_z..(k + 1) * n_z]);
         workspace
             .accelerate(model, t, [q, v, z], Gains::default())
-            .map_err(|singular| Halt::Fault(Fault::Singular(singular)))
             .and_then(|()| match [workspace.a(), workspace.lam()].into_iter().all(all_finite) {
                 true => Ok(()),
-                false => Err(Halt::NotFinite),
+                false => Err(Breakdown::NotFinite),
             })
-            .map_err(|halt| Reason::halt(model, t, q, halt))?;
+            .map_err(|breakdown| Failure::at_state(model, t, q, breakdown))?;
         found.a.extend_from_slice(workspace.a());
         found.lam.extend_from_slice(workspace.lam());
     }

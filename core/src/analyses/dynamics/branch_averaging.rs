@@ -7,7 +7,8 @@
 
 use crate::equations::Workspace;
 use crate::math::Real;
-use crate::stabilize::{Fault, Projector};
+use crate::solve::Breakdown;
+use crate::stabilize::Projector;
 
 /// Largest change of the rates by projection on the right branch, as a part of the fastest rate.
 pub(super) const TURNED: f64 = 0.1;
@@ -26,13 +27,13 @@ pub(super) fn turn<S: Real>(projector: &Projector<'_, S>, given: &[S], v: &[S]) 
 /// Computes (q, v) from neighbouring states; they must be projected afterwards.
 ///
 /// # Errors
-/// [`Fault`] of a neighbouring state; q and v are then invalid.
+/// [`Breakdown`] of a neighbouring state; q and v are then invalid.
 pub(super) fn take(
     projector: &mut Projector<'_>,
     workspace: &mut Workspace,
     t: f64,
     (q, v): (&mut [f64], &mut [f64]),
-) -> Result<(), Fault> {
+) -> Result<(), Breakdown> {
     let fastest = projector.largest(v).max(f64::MIN_POSITIVE);
     for far in AHEAD {
         let [places, rates] = mean(projector, workspace, (t, far / fastest), (&*q, &*v))?;
@@ -48,7 +49,7 @@ fn mean(
     workspace: &mut Workspace,
     (t, dt): (f64, f64),
     (q, v): (&[f64], &[f64]),
-) -> Result<[Vec<f64>; 2], Fault> {
+) -> Result<[Vec<f64>; 2], Breakdown> {
     let mut means = [vec![0.0; q.len()], vec![0.0; v.len()]];
     for (ahead, weight) in AROUND {
         let mut places: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + ahead * dt * v).collect();

@@ -10,22 +10,13 @@ use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, Gains};
 use crate::math::Real;
 use crate::model::{row_scales, Model};
+use crate::solve::Breakdown;
 
 /// Largest opening of a joint: lengths relative to the size of the mechanism, angles in rad. The classical gains at
 /// their smallest, α = 1, β = 20 at rtol 1e-3, open the flagship by 6e-4.
 const APART: f64 = 1e-2;
 /// The same without stabilization.
 const ADRIFT: f64 = 1.0;
-
-/// A row of Φ that is open.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Violation {
-    pub row: usize,
-    /// Its residual, m or rad.
-    pub gap: f64,
-    /// The largest residual that is allowed.
-    pub most: f64,
-}
 
 /// Checks states for joints that opened too far.
 pub(super) struct ViolationCheck<S = f64> {
@@ -49,8 +40,8 @@ impl<S: Real> ViolationCheck<S> {
         })
     }
 
-    /// The row with the largest residual, if it is too large; over lanes, in any of them.
-    pub fn look(&mut self, model: &Model<S>, t: S, motions: &Motions<S>) -> Option<Violation> {
+    /// [`Breakdown::Apart`] of the row with the largest residual, if it is too large; over lanes, in any of them.
+    pub fn largest(&mut self, model: &Model<S>, t: S, motions: &Motions<S>) -> Option<Breakdown> {
         constraints::residual(model, motions, t, &mut self.residual);
         let gaps = || self.residual.iter().map(|gap| gap.largest_magnitude());
         if gaps().zip(&self.most).all(|(gap, most)| gap <= *most) {
@@ -59,6 +50,6 @@ impl<S: Real> ViolationCheck<S> {
         let over = gaps().zip(&self.most).map(|(gap, most)| gap / most);
         let (row, widest) = over.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let gap = self.residual[row].largest_magnitude();
-        (widest > 1.0).then(|| Violation { row, gap, most: self.most[row] })
+        (widest > 1.0).then(|| Breakdown::Apart { row, gap, most: self.most[row] })
     }
 }

@@ -1,25 +1,37 @@
 //! Energies at the states of a run, computed on request; several states at once over lanes.
 
 use super::accelerations::MANY;
-use super::failure::Reason;
+use super::failure::Failure;
 use super::model_cache::ModelCache;
-use super::report_projection::Halt;
+use super::run_results::Run;
 use super::trajectory::States;
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
 use crate::integrate::all_finite;
 use crate::math::{Lanes, Real};
 use crate::model::{Model, WORKS};
+use crate::solve::Breakdown;
 
 /// Number of columns of [`Run::energies`](super::Run::energies).
 pub const ENERGIES: usize = 2 + WORKS;
+
+impl Run {
+    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces at the reported states, J:
+    /// rows of [`ENERGIES`].
+    ///
+    /// # Errors
+    /// As [`Prepared::energies`](super::Prepared::energies).
+    pub fn energies(&self, model: &Model) -> Result<Vec<f64>, Box<Failure>> {
+        energies((model, &ModelCache::default()), self.trajectory.states(), &self.trajectory.works)
+    }
+}
 
 /// See [`Prepared::energies`](super::Prepared::energies).
 pub(super) fn energies(
     (model, cache): (&Model, &ModelCache),
     states: States<'_>,
     works: &[f64],
-) -> Result<Vec<f64>, Reason> {
+) -> Result<Vec<f64>, Box<Failure>> {
     let States { t, q, v, z } = states;
     let n = model.layout.n_q;
     let lengths = [n, n, model.layout.n_z, WORKS].map(|width| width * t.len());
@@ -28,7 +40,8 @@ pub(super) fn energies(
     let rows = mechanical((model, cache), states).into_iter().zip(works.chunks_exact(WORKS));
     for (k, (energies, works)) in rows.enumerate() {
         if !all_finite(&energies) {
-            return Err(Reason::halt(model, t[k], &q[k * n..(k + 1) * n], Halt::NotFinite));
+            let q = &q[k * n..(k + 1) * n];
+            return Err(Failure::at_state(model, t[k], q, Breakdown::NotFinite));
         }
         found.extend(energies);
         found.extend_from_slice(works);

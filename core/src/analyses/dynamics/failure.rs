@@ -1,15 +1,21 @@
 //! Failures of forward dynamics, in terms of the mechanism.
 
-use super::constraint_violation::Violation;
-use super::report_projection::Halt;
+use super::run_results::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
-use crate::equations::augmented::Dependent;
-use crate::equations::Singular;
 use crate::integrate::Cause;
 use crate::model::Model;
-use crate::stabilize::Fault;
+use crate::solve::Breakdown;
 use std::fmt;
+
+/// A failed run or evaluation, with the results before the failure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// The reason.
+    pub reason: Reason,
+    /// The results of a run before the failure; otherwise empty.
+    pub run: Run,
+}
 
 /// The reason for which the integration stopped.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,117 +47,83 @@ pub enum Reason {
     },
 }
 
-impl Reason {
-    pub(super) fn singular(model: &Model, t: f64, q: &[f64], singular: Singular) -> Self {
-        let (name, message) = match singular {
-            Singular::Reaction(row) => {
-                let name = model.constraints[model.layout.owner(row).0].name.clone();
+impl From<Reason> for Box<Failure> {
+    fn from(reason: Reason) -> Self {
+        Self::new(Failure { reason, run: Run::default() })
+    }
+}
+
+impl Failure {
+    /// The equations have no usable solution at a time and a position.
+    pub(super) fn at_state(model: &Model, t: f64, q: &[f64], breakdown: Breakdown) -> Box<Self> {
+        let name = |row| model.constraints[model.layout.owner(row).0].name.clone();
+        let (name, message) = match breakdown {
+            Breakdown::Row(row) => {
                 let message = format!(
-                    "no reaction of {name} at t = {t:.6} s agrees with the forces that depend on it: \
-                     with so much friction the mechanism jams; reduce the coefficient of friction"
-                );
-                (name, message)
-            }
-            Singular::Dependent(Dependent::Row(row)) => {
-                let (k, equation) = model.layout.owner(row);
-                let item = &model.constraints[k];
-                let what = format!("{}.{}", item.name, item.equations[equation].name);
-                let message = format!(
-                    "singular position at t = {t:.6} s: constraint {what} depends on the others, \
+                    "singular position at t = {t:.6} s: constraint {} depends on the others, \
                      so reactions and accelerations are not unique{}",
+                    equation(model, row).0,
                     place(model, t, q, row)
                 );
-                (item.name.clone(), message)
+                (name(row), message)
             }
-            Singular::Dependent(Dependent::Column(column)) => {
-                let body = model.layout.body_of(column).map_or(BodyId::GROUND, |(body, _)| body);
-                let body = &model.bodies[body.0];
-                let (name, inertia) = (body.name.clone(), body.inertia);
-                let (has, set) = match inertia > 0.0 {
-                    true => {
-                        (format!("hardly any moment of inertia ({inertia:.1e} kg·m²)"), "increase")
-                    }
-                    false => ("no moment of inertia".to_string(), "set"),
-                };
+            Breakdown::AtRest(row) => {
                 let message = format!(
-                    "a torque acts on {name} at t = {t:.6} s, but {name} has {has} and no joint prevents its \
-                    rotation; {set} its inertia"
+                    "singular position at t = {t:.6} s: the mechanism is almost at rest where its motion can \
+                     continue in more than one way{}",
+                    place(model, t, q, row)
                 );
-                (name, message)
+                (name(row), message)
             }
-        };
-        Self::Singular { t, name, message }
-    }
-
-    /// A mechanism at rest where branches of its motion meet.
-    fn at_rest(model: &Model, t: f64, q: &[f64], row: usize) -> Self {
-        let name = model.constraints[model.layout.owner(row).0].name.clone();
-        let message = format!(
-            "singular position at t = {t:.6} s: the mechanism is almost at rest where its motion can \
-            continue in more than one way{}",
-            place(model, t, q, row)
-        );
-        Self::Singular { t, name, message }
-    }
-
-    pub(super) fn fault(model: &Model, t: f64, q: &[f64], fault: Fault) -> Self {
-        let (row, gap) = match fault {
-            Fault::AtRest(Singular::Dependent(Dependent::Row(row))) => {
-                return Self::at_rest(model, t, q, row)
+            Breakdown::Reaction(row) => {
+                let message = format!(
+                    "no reaction of {} at t = {t:.6} s agrees with the forces that depend on it: \
+                     with so much friction the mechanism jams; reduce the coefficient of friction",
+                    name(row)
+                );
+                (name(row), message)
             }
-            Fault::Singular(singular) | Fault::AtRest(singular) => {
-                return Self::singular(model, t, q, singular)
+            Breakdown::Column(column) => no_inertia(model, t, column),
+            Breakdown::Open { row, gap } => {
+                let message = format!(
+                    "projection fails at t = {t:.6} s: constraint {} stays open by {gap:.1e}",
+                    equation(model, row).0
+                );
+                let hint = "use smaller steps or tolerances; a start must meet the constraints";
+                return Reason::Integration { t, message, hint }.into();
             }
-            Fault::Open { row, gap } => (row, gap),
-        };
-        let (k, equation) = model.layout.owner(row);
-        let item = &model.constraints[k];
-        let message = format!(
-            "projection fails at t = {t:.6} s: constraint {}.{} stays open by {gap:.1e}",
-            item.name, item.equations[equation].name
-        );
-        let hint = "use smaller steps or tolerances; a start must meet the constraints";
-        Self::Integration { t, message, hint }
-    }
-
-    /// Joints that open too far.
-    fn apart(model: &Model, t: f64, Violation { row, gap, most }: Violation) -> Self {
-        let (k, equation) = model.layout.owner(row);
-        let item = &model.constraints[k];
-        let Equation { name, unit } = item.equations[equation];
-        let message = format!(
-            "the joints come apart at t = {t:.6} s: constraint {}.{name} is open by {gap:.1e} {unit}, more \
-             than {most:.1e} {unit}",
-            item.name
-        );
-        let hint = "use stabilization projection, a smaller tolerance or step, or greater gains; a start must \
-                    meet the constraints";
-        Self::Integration { t, message, hint }
-    }
-
-    pub(super) fn halt(model: &Model, t: f64, q: &[f64], halt: Halt) -> Self {
-        match halt {
-            Halt::Fault(fault) => Self::fault(model, t, q, fault),
-            Halt::Violation(apart) => Self::apart(model, t, apart),
-            Halt::NotFinite => {
+            Breakdown::Apart { row, gap, most } => {
+                let (name, unit) = equation(model, row);
+                let message = format!(
+                    "the joints come apart at t = {t:.6} s: constraint {name} is open by {gap:.1e} {unit}, more \
+                     than {most:.1e} {unit}"
+                );
+                let hint = "use stabilization projection, a smaller tolerance or step, or greater gains; a start \
+                            must meet the constraints";
+                return Reason::Integration { t, message, hint }.into();
+            }
+            Breakdown::NotFinite => {
                 let (message, hint) = not_finite(t);
-                Self::Integration { t, message, hint }
+                return Reason::Integration { t, message, hint }.into();
             }
-        }
+        };
+        Reason::Singular { t, name, message }.into()
     }
 
-    pub(super) fn from_integrator(
+    /// The integrator stopped at a time `t` and a state `y`.
+    pub(super) fn of_integrator(
         model: &Model,
-        cause: Cause<(f64, Fault)>,
+        cause: Cause<Breakdown>,
         t: f64,
         y: &[f64],
-    ) -> Self {
+    ) -> Box<Self> {
         let (message, hint) = match cause {
-            Cause::Equations((at, fault)) => {
-                return Self::fault(model, at, model.layout.split(y)[0], fault)
+            Cause::Equations { t, error } => {
+                return Self::at_state(model, t, model.layout.split(y)[0], error)
             }
             Cause::Argument { name, value, must } => {
-                return Self::Option { name, message: format!("{name}: {value}; must be {must}") }
+                let message = format!("{name}: {value}; must be {must}");
+                return Reason::Option { name, message }.into();
             }
             Cause::StepTooSmall { h, .. } => (
                 format!("the step fell to {h:.1e} s at t = {t:.6} s: the tolerance cannot be met"),
@@ -179,13 +151,37 @@ impl Reason {
                 (message, "take larger steps, or raise max_steps")
             }
         };
-        Self::Integration { t, message, hint }
+        Reason::Integration { t, message, hint }.into()
     }
 }
 
 fn not_finite(t: f64) -> (String, &'static str) {
     let message = format!("the motion became infinite or undefined at t = {t:.6} s");
     (message, "use a smaller step or tolerance; check forces and laws at this state")
+}
+
+/// The name and unit of a row of Φ, such as `B.x`.
+fn equation(model: &Model, row: usize) -> (String, &'static str) {
+    let (k, equation) = model.layout.owner(row);
+    let item = &model.constraints[k];
+    let Equation { name, unit } = item.equations[equation];
+    (format!("{}.{name}", item.name), unit)
+}
+
+/// The name of a body without inertia on which a torque acts, and a message.
+fn no_inertia(model: &Model, t: f64, column: usize) -> (String, String) {
+    let body = model.layout.body_of(column).map_or(BodyId::GROUND, |(body, _)| body);
+    let body = &model.bodies[body.0];
+    let (name, inertia) = (body.name.clone(), body.inertia);
+    let (has, set) = match inertia > 0.0 {
+        true => (format!("hardly any moment of inertia ({inertia:.1e} kg·m²)"), "increase"),
+        false => ("no moment of inertia".to_string(), "set"),
+    };
+    let message = format!(
+        "a torque acts on {name} at t = {t:.6} s, but {name} has {has} and no joint prevents its \
+         rotation; {set} its inertia"
+    );
+    (name, message)
 }
 
 /// Largest number of bodies whose coordinates a message contains.

@@ -14,7 +14,7 @@ use crate::model::Model;
 pub(super) struct LaneBatch<'a> {
     pub placer: ReportProjection<'a, Lanes>,
     t: [f64; Lanes::WIDTH],
-    waiting: usize,
+    count: usize,
     /// The states as added, a row for each lane.
     given: Vec<f64>,
     /// Their rates.
@@ -32,7 +32,7 @@ impl<'a> LaneBatch<'a> {
         Self {
             placer: ReportProjection::new(model, options, workspace),
             t: [0.0; Lanes::WIDTH],
-            waiting: 0,
+            count: 0,
             given: vec![0.0; Lanes::WIDTH * len],
             rates: vec![Lanes::zero(); n],
             y: vec![Lanes::zero(); len],
@@ -41,25 +41,25 @@ impl<'a> LaneBatch<'a> {
 
     /// Adds the state of a step at a time; there must be a free lane.
     pub fn add(&mut self, step: &Step<'_>, t: f64) {
-        let (lane, len) = (self.waiting, self.y.len());
+        let (lane, len) = (self.count, self.y.len());
         self.t[lane] = t;
         step.interpolate(t, &mut self.given[lane * len..(lane + 1) * len]);
-        self.waiting += 1;
+        self.count += 1;
     }
 
     /// Whether it contains no state.
     pub fn is_empty(&self) -> bool {
-        self.waiting == 0
+        self.count == 0
     }
 
     /// Whether there is a state for each lane.
     pub fn is_full(&self) -> bool {
-        self.waiting == Lanes::WIDTH
+        self.count == Lanes::WIDTH
     }
 
     /// Returns the times of the states and empties the batch.
     pub fn take(&mut self) -> impl Iterator<Item = (usize, f64)> {
-        self.t.into_iter().enumerate().take(std::mem::take(&mut self.waiting))
+        self.t.into_iter().enumerate().take(std::mem::take(&mut self.count))
     }
 
     /// Projects all states; returns whether every one is regular. If not, the lanes are invalid.
@@ -75,7 +75,7 @@ impl<'a> LaneBatch<'a> {
 
     /// Free lanes repeat the last state.
     fn fill_up(&mut self) {
-        let (last, len) = (self.waiting.max(1) - 1, self.y.len());
+        let (last, len) = (self.count.max(1) - 1, self.y.len());
         for lane in last + 1..Lanes::WIDTH {
             self.t[lane] = self.t[last];
             self.given.copy_within(last * len..(last + 1) * len, lane * len);
@@ -84,7 +84,7 @@ impl<'a> LaneBatch<'a> {
 
     /// Records the projected states and empties the batch.
     pub fn keep(&mut self, trajectory: &mut Trajectory) {
-        let count = std::mem::take(&mut self.waiting);
+        let count = std::mem::take(&mut self.count);
         let parts = self.placer.model.layout.split(&self.y);
         let Trajectory { t, q, v, z, works } = trajectory;
         t.extend_from_slice(&self.t[..count]);

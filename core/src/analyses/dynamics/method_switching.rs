@@ -10,15 +10,12 @@ use crate::integrate::{
     BoxedStepper, Cause, Dop853, ExplicitMethod, ImplicitMethod, Radau, Statistics, Step,
     StepControl, Stepper,
 };
-use crate::stabilize::Fault;
-
-/// Time and reason of a failure of the equations of motion.
-pub(super) type Stop = (f64, Fault);
+use crate::solve::Breakdown;
 
 /// The stepper of one method.
 enum Piece<'a> {
-    Explicit(BoxedStepper<MotionOde<'a>, Stop>),
-    Implicit(BoxedStepper<MotionDae<'a>, Stop>),
+    Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
+    Implicit(BoxedStepper<MotionDae<'a>, Breakdown>),
 }
 
 /// A stepper that changes between an explicit and an implicit method.
@@ -51,7 +48,7 @@ impl<'a> MethodSwitching<'a> {
         auto: &Auto,
         t: f64,
         y: &[f64],
-    ) -> Result<Self, Cause<Stop>> {
+    ) -> Result<Self, Cause<Breakdown>> {
         let span = (t, options.t_end);
         // invalid options are an error before the first evaluation
         let piece = Piece::Explicit(Dop853 { control: auto.control.clone() }.start(ode, span, y)?);
@@ -66,7 +63,7 @@ impl<'a> MethodSwitching<'a> {
             piece,
             due: false,
             step: None,
-            total: Statistics::none(t),
+            total: Statistics::default(),
             explicit_evaluations: 0,
             tried: (t, 0, t),
             choice: MethodChoice { method: "dop853", why: String::new() },
@@ -85,7 +82,7 @@ impl<'a> MethodSwitching<'a> {
             self.step = self.control.first_step;
             self.due = true;
         } else {
-            self.detector.foretold = Some(fastest.rate);
+            self.detector.predicted = Some(fastest.rate);
         }
     }
 
@@ -97,7 +94,7 @@ impl<'a> MethodSwitching<'a> {
     }
 
     /// Changes to the other method.
-    fn switch(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Stop>> {
+    fn switch(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
         self.due = false;
         let (t, y) = (self.t(), self.y().to_vec());
         self.total = self.statistics();
@@ -123,18 +120,18 @@ impl<'a> MethodSwitching<'a> {
         let Piece::Explicit(stepper) = &self.piece else { return };
         let Some(step) = stepper.last_step() else { return };
         self.step = Some((step.t - step.t_old).abs());
-        let foretold = self.detector.foretold.is_some();
+        let predicted = self.detector.predicted.is_some();
         if !self.detector.stiff(&step, self.options.t_end) {
             return;
         }
         let (fastest, h) = self.detector.seen.expect("stiffness was seen");
-        let told = match foretold && self.detector.foretold.is_none() {
+        let origin = match predicted && self.detector.predicted.is_none() {
             true => " (predicted at the start)",
             false => "",
         };
         let why = format!(
             "stiff from t = {:.4} s on: a damped motion with a rate of {:.2e} 1/s limited the steps of \
-            dop853 to {h:.1e} s{told}",
+            dop853 to {h:.1e} s{origin}",
             step.t, fastest.rate,
         );
         self.choice = MethodChoice { method: "radau", why };
@@ -199,8 +196,8 @@ impl<'a> MethodSwitching<'a> {
     }
 }
 
-impl<'a> Stepper<MotionOde<'a>, Stop> for MethodSwitching<'a> {
-    fn step(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Stop>> {
+impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
+    fn step(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
         if self.due {
             self.switch(ode)?;
         }
@@ -217,7 +214,7 @@ impl<'a> Stepper<MotionOde<'a>, Stop> for MethodSwitching<'a> {
         Ok(())
     }
 
-    fn prepare_interpolant(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Stop>> {
+    fn prepare_interpolant(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
         match &mut self.piece {
             Piece::Explicit(stepper) => stepper.prepare_interpolant(ode),
             Piece::Implicit(_) => Ok(()),
@@ -249,7 +246,7 @@ impl<'a> Stepper<MotionOde<'a>, Stop> for MethodSwitching<'a> {
         }
     }
 
-    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Stop>> {
+    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         match &mut self.piece {
             Piece::Explicit(stepper) => stepper.restart(t, y)?,
             Piece::Implicit(stepper) => stepper.restart(t, y)?,
@@ -271,7 +268,6 @@ impl<'a> Stepper<MotionOde<'a>, Stop> for MethodSwitching<'a> {
             jacobians: before.jacobians + now.jacobians,
             factorisations: before.factorisations + now.factorisations,
             iterations: before.iterations + now.iterations,
-            ..now
         }
     }
 }

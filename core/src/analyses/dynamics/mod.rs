@@ -6,7 +6,7 @@
 //! | file | concept |
 //! |---|---|
 //! | `options`, `option_checks` | options, and the combinations that are refused |
-//! | `run`, `run_results`, `stepper` | a run through its phases; a stepper for callers |
+//! | `run`, `run_results`, `stepper` | a run through its phases, and its outcome; a stepper for callers |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
@@ -49,11 +49,12 @@ mod trajectory;
 pub use accelerations::Accelerations;
 pub use clock::{system_clock, Clock};
 pub use energies::ENERGIES;
-pub use failure::Reason;
+pub use failure::{Failure, Reason};
 pub use methods::{Auto, Scheme};
 pub use options::{most_steps, read, Options, Output, Singularity};
 pub use prepared::Prepared;
-pub use run::{Event, Failure, Phase, Run, Statistics};
+pub use run::{Event, Phase};
+pub use run_results::{Run, Statistics};
 pub use stabilizations::Stabilization;
 pub use stepper::Stepper;
 pub use stiffness_detection::MethodChoice;

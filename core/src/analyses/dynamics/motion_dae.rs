@@ -9,12 +9,11 @@ use crate::equations::tangent::Tangent;
 use crate::equations::{constraints, Gains, Workspace};
 use crate::integrate::{
     ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
-    SingularMatrix,
 };
 use crate::math::Complex;
 use crate::model::Model;
-use crate::solve::BlockLu;
-use crate::stabilize::{Fault, Projector};
+use crate::solve::{BlockLu, Breakdown};
+use crate::stabilize::Projector;
 
 /// The mechanism and the memory of implicit methods.
 pub(super) struct MotionDae<'a> {
@@ -69,7 +68,7 @@ impl<'a> MotionDae<'a> {
 }
 
 impl Dae for MotionDae<'_> {
-    type Stop = (f64, Fault);
+    type Stop = Breakdown;
 
     fn lengths(&self) -> DaeLengths {
         let layout = &self.model.layout;
@@ -89,9 +88,9 @@ impl Dae for MotionDae<'_> {
     ) -> Result<(), Self::Stop> {
         self.accelerations += 1;
         let outcome = self.workspace.accelerate(self.model, t, [q, v, z], Gains::default());
-        if let Err(singular) = outcome {
+        if let Err(breakdown) = outcome {
             if q.iter().chain(v).chain(z).all(|x| x.is_finite()) {
-                return Err((t, Fault::Singular(singular)));
+                return Err(breakdown);
             }
             out.a.fill(f64::NAN);
             return Ok(());
@@ -123,19 +122,16 @@ impl Dae for MotionDae<'_> {
         self.tangent.linearize(self.model, motions, t, [at.a, at.lam, at.z]);
     }
 
-    fn factor(&mut self, coefficients: NewtonCoefficients) -> Result<(), SingularMatrix> {
+    fn factor(&mut self, coefficients: NewtonCoefficients) -> bool {
         assemble(&self.places, &self.tangent, Self::coefficients(coefficients), &mut self.real);
-        self.real.factor(&self.places.plan).map_err(|_| SingularMatrix)
+        self.real.factor(&self.places.plan).is_ok()
     }
 
-    fn factor_complex(
-        &mut self,
-        coefficients: NewtonCoefficients<Complex>,
-    ) -> Result<(), SingularMatrix> {
+    fn factor_complex(&mut self, coefficients: NewtonCoefficients<Complex>) -> bool {
         let plan = &self.places.plan;
         let lu = self.complex.get_or_insert_with(|| BlockLu::new(plan));
         assemble(&self.places, &self.tangent, Self::coefficients(coefficients), lu);
-        lu.factor(plan).map_err(|_| SingularMatrix)
+        lu.factor(plan).is_ok()
     }
 
     fn solve(&mut self, x: &mut [f64]) {
@@ -170,13 +166,12 @@ impl Dae for MotionDae<'_> {
             // `normal` needs the factors of a state nearby, which projection would provide
             self.accelerations += 1;
             let outcome = self.workspace.accelerate(self.model, t, [q, v, z], Gains::default());
-            return outcome.map(|()| false).map_err(|singular| (t, Fault::Singular(singular)));
+            return outcome.map(|()| false);
         };
-        projector.project(&mut self.workspace, t, (q, v), false).map_err(|fault| (t, fault))
+        projector.project(&mut self.workspace, t, (q, v), false)
     }
 
     fn singular(&mut self, t: f64, state: [&[f64]; 3]) -> Option<Self::Stop> {
-        let outcome = self.workspace.accelerate(self.model, t, state, Gains::default());
-        outcome.err().map(|singular| (t, Fault::Singular(singular)))
+        self.workspace.accelerate(self.model, t, state, Gains::default()).err()
     }
 }

@@ -4,11 +4,12 @@ use super::options::Options;
 use super::singularity_passage::SingularityPassage;
 use super::stabilizations::Stabilization;
 use crate::analyses::mobility;
-use crate::equations::augmented::{Dependent, NearSingular};
-use crate::equations::{Gains, Plan, Singular, Workspace};
+use crate::equations::augmented::NearSingular;
+use crate::equations::{Gains, Plan, Workspace};
 use crate::integrate::{all_finite, Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 use crate::model::Model;
-use crate::stabilize::{Fault, Projection, Projector, StepwiseBaumgarte};
+use crate::solve::Breakdown;
+use crate::stabilize::{Projection, Projector, StepwiseBaumgarte};
 use std::sync::Arc;
 
 /// The right side of forward dynamics.
@@ -54,19 +55,24 @@ impl<'a> MotionOde<'a> {
     /// `velocities`, the velocities in any case. Fails if the constraints are redundant.
     ///
     /// # Errors
-    /// [`Fault`].
-    pub fn begin_phase(&mut self, t: f64, y: &mut [f64], velocities: bool) -> Result<(), Fault> {
+    /// [`Breakdown`].
+    pub fn begin_phase(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        velocities: bool,
+    ) -> Result<(), Breakdown> {
         if velocities && self.projector.is_none() {
             let mut projector = Projector::new(self.model, Projection::default());
             let [q, v, ..] = self.model.layout.split_mut(y);
             projector.project_velocities(&mut self.workspace, t, (q, v))?;
         }
-        self.project_state(t, y, false).map_err(|(_, fault)| fault)?;
-        self.begin(t, y).map_err(Fault::Singular)
+        self.project_state(t, y, false)?;
+        self.begin(t, y)
     }
 
     /// Fails at a start with redundant constraints; a singular position alone is allowed.
-    fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Singular> {
+    fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Breakdown> {
         let [q, v, z, _] = self.model.layout.split(y);
         if self.workspace.accelerate(self.model, t, [q, v, z], self.gains).is_err() {
             return Ok(()); // the first step fails
@@ -75,7 +81,7 @@ impl<'a> MotionOde<'a> {
         let near = self.workspace.matrix.regularised();
         match self.workspace.matrix.cancellation().filter(|_| near) {
             Some((row, _)) if !mobility(self.model, t, q).redundant.is_empty() => {
-                Err(Singular::Dependent(Dependent::Row(row)))
+                Err(Breakdown::Row(row))
             }
             _ => Ok(()),
         }
@@ -90,15 +96,15 @@ impl<'a> MotionOde<'a> {
         y: &[f64],
         dy: &mut [f64],
         placed: bool,
-    ) -> Result<(), (f64, Fault)> {
+    ) -> Result<(), Breakdown> {
         let [q, v, z, _] = self.model.layout.split(y);
         if !placed {
             self.workspace.place(self.model, [q, v, z]);
         }
-        self.workspace.z.copy_from_slice(z); // projection does not set z
-        if let Err(singular) = self.workspace.respond(self.model, t, self.gains) {
+        self.workspace.place_states(z); // projection does not set z
+        if let Err(breakdown) = self.workspace.respond(self.model, t, self.gains) {
             dy.fill(f64::NAN);
-            return stop_if_finite(singular, t, y);
+            return stop_if_finite(breakdown, y);
         }
         if !self.passage.watch(self.model, &self.workspace, t, v) {
             dy.fill(f64::NAN); // a shorter step may avoid it
@@ -115,30 +121,25 @@ impl<'a> MotionOde<'a> {
 
     /// Projects y if projection is an option of the run; returns whether y changed. The works are unchanged, so the
     /// energy balance shows the change of energy by projection.
-    fn project_state(
-        &mut self,
-        t: f64,
-        y: &mut [f64],
-        factored: bool,
-    ) -> Result<bool, (f64, Fault)> {
+    fn project_state(&mut self, t: f64, y: &mut [f64], factored: bool) -> Result<bool, Breakdown> {
         let Some(projector) = &mut self.projector else { return Ok(false) };
         let [q, v, ..] = self.model.layout.split_mut(y);
-        projector.project(&mut self.workspace, t, (q, v), factored).map_err(|fault| (t, fault))
+        projector.project(&mut self.workspace, t, (q, v), factored)
     }
 }
 
 /// Stops where the accelerations are not unique. A trial state that is not finite is rejected, because a shorter step
 /// may avoid it.
 #[cold]
-fn stop_if_finite(singular: Singular, t: f64, y: &[f64]) -> Result<(), (f64, Fault)> {
+fn stop_if_finite(breakdown: Breakdown, y: &[f64]) -> Result<(), Breakdown> {
     match all_finite(y) {
-        true => Err((t, Fault::Singular(singular))),
+        true => Err(breakdown),
         false => Ok(()),
     }
 }
 
 impl Ode for MotionOde<'_> {
-    type Stop = (f64, Fault);
+    type Stop = Breakdown;
 
     fn len(&self) -> usize {
         self.model.layout.n_y()
@@ -177,7 +178,7 @@ impl Ode for MotionOde<'_> {
 
 /// The manifold of the states that meet the constraints.
 impl Manifold for MotionOde<'_> {
-    type Stop = (f64, Fault);
+    type Stop = Breakdown;
 
     /// Uses the factor of the last evaluation, which was near the end of the step.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {

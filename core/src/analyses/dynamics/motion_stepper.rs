@@ -1,7 +1,7 @@
 //! The stepper of any method on the equations of motion of a model.
 
-use super::failure::Reason;
-use super::method_switching::{MethodSwitching, Stop};
+use super::failure::Failure;
+use super::method_switching::MethodSwitching;
 use super::methods::Scheme;
 use super::motion_dae::MotionDae;
 use super::motion_ode::MotionOde;
@@ -10,11 +10,12 @@ use super::stiffness_detection::MethodChoice;
 use crate::integrate::{
     BoxedStepper, Cause, Direction, ExplicitMethod, ImplicitMethod, Statistics, Step, Stepper,
 };
+use crate::solve::Breakdown;
 
 /// A method with its own form of the equations of motion, in addition to the ODE.
 enum Kind<'a> {
-    Explicit(BoxedStepper<MotionOde<'a>, Stop>),
-    Implicit(BoxedStepper<MotionDae<'a>, Stop>, Box<MotionDae<'a>>),
+    Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
+    Implicit(BoxedStepper<MotionDae<'a>, Breakdown>, Box<MotionDae<'a>>),
     Auto(Box<MethodSwitching<'a>>),
 }
 
@@ -34,7 +35,7 @@ impl<'a> MotionStepper<'a> {
         options: &Options,
         t: f64,
         y: &[f64],
-    ) -> Result<Self, Cause<Stop>> {
+    ) -> Result<Self, Cause<Breakdown>> {
         let (model, span) = (ode.model, (t, options.t_end));
         let dae = || Box::new(MotionDae::new(model, options));
         let kind = match &options.bounded_method(model) {
@@ -57,7 +58,7 @@ impl<'a> MotionStepper<'a> {
     }
 
     /// Takes the next accepted step.
-    pub fn step(&mut self) -> Result<(), Cause<Stop>> {
+    pub fn step(&mut self) -> Result<(), Cause<Breakdown>> {
         match &mut self.kind {
             Kind::Explicit(stepper) => stepper.step(&mut self.ode),
             Kind::Implicit(stepper, dae) => stepper.step(dae),
@@ -66,7 +67,7 @@ impl<'a> MotionStepper<'a> {
     }
 
     /// Computes the data that only the interpolant needs.
-    pub fn prepare_interpolant(&mut self) -> Result<(), Cause<Stop>> {
+    pub fn prepare_interpolant(&mut self) -> Result<(), Cause<Breakdown>> {
         match &mut self.kind {
             Kind::Explicit(stepper) => stepper.prepare_interpolant(&mut self.ode),
             Kind::Implicit(stepper, dae) => stepper.prepare_interpolant(dae),
@@ -98,7 +99,7 @@ impl<'a> MotionStepper<'a> {
         }
     }
 
-    pub fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Stop>> {
+    pub fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         match &mut self.kind {
             Kind::Explicit(stepper) => stepper.restart(t, y),
             Kind::Implicit(stepper, _) => stepper.restart(t, y),
@@ -119,7 +120,7 @@ impl<'a> MotionStepper<'a> {
         &mut self,
         g: &dyn Fn(f64, [&[f64]; 3]) -> f64,
         direction: Direction,
-    ) -> Result<Option<(f64, Vec<f64>)>, Cause<Stop>> {
+    ) -> Result<Option<(f64, Vec<f64>)>, Cause<Breakdown>> {
         let layout = &self.ode.model.layout;
         let mut of_y = |t: f64, y: &[f64]| {
             let [q, v, z, _] = layout.split(y);
@@ -142,7 +143,7 @@ impl<'a> MotionStepper<'a> {
     }
 
     /// A stepper from the beginning of the last step to another end.
-    pub fn again(self, options: &Options) -> Result<Self, Cause<Stop>> {
+    pub fn again(self, options: &Options) -> Result<Self, Cause<Breakdown>> {
         let (t, y) = match self.last_step() {
             Some(step) => (step.t_old, step.y_old.to_vec()),
             None => (self.t(), self.y().to_vec()),
@@ -153,13 +154,13 @@ impl<'a> MotionStepper<'a> {
     }
 
     /// A failure in terms of the mechanism.
-    pub fn reason(&self, cause: Cause<Stop>) -> Reason {
+    pub fn failure(&self, cause: Cause<Breakdown>) -> Box<Failure> {
         let (model, y) = (self.ode.model, self.y());
         match (&cause, self.ode.passage.undecided) {
-            (Cause::NotFinite { .. }, Some((t, fault))) => {
-                Reason::fault(model, t, model.layout.split(y)[0], fault)
+            (Cause::NotFinite { .. }, Some((t, breakdown))) => {
+                Failure::at_state(model, t, model.layout.split(y)[0], breakdown)
             }
-            _ => Reason::from_integrator(model, cause, self.t(), y),
+            _ => Failure::of_integrator(model, cause, self.t(), y),
         }
     }
 

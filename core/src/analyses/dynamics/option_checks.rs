@@ -1,6 +1,6 @@
 //! Checks of the options that every integration needs.
 
-use super::failure::Reason;
+use super::failure::{Failure, Reason};
 use super::methods::Scheme;
 use super::options::Options;
 use super::stabilizations::Stabilization;
@@ -15,7 +15,7 @@ const MOST_OUTPUTS: f64 = 1e6;
 
 impl Options {
     /// Checks the options that every integration needs. The method checks its own options.
-    pub(super) fn check(&self, model: &Model, start: &State) -> Result<(), Reason> {
+    pub(super) fn check(&self, model: &Model, start: &State) -> Result<(), Box<Failure>> {
         if let Some(h) = self.output_step {
             bounded::<positive>("output_step", h)?;
             let interval = (self.t_end - self.t_start.unwrap_or(start.t)).abs();
@@ -37,7 +37,8 @@ impl Options {
             let message = "stabilization: Baumgarte's changes the right side of explicit methods; an \
                            implicit one has the constraints among its equations: use projection or none, \
                            or method rk45, dop853 or rk4";
-            return Err(Reason::Option { name: "stabilization", message: message.to_string() });
+            let (name, message) = ("stabilization", message.to_string());
+            return Err(Reason::Option { name, message }.into());
         }
         if let (Scheme::Auto(_), Some(step)) = (&self.method, self.method.control().step) {
             require(
@@ -57,13 +58,13 @@ impl Options {
 }
 
 /// Checks that a number is finite and within the bounds of its kind.
-fn bounded<B: Bounded>(name: &'static str, value: f64) -> Result<(), Reason> {
+fn bounded<B: Bounded>(name: &'static str, value: f64) -> Result<(), Box<Failure>> {
     require(name, value, value.is_finite() && B::holds(value), &format!("{} and finite", B::MUST))
 }
 
-fn require(name: &'static str, value: f64, holds: bool, must: &str) -> Result<(), Reason> {
+fn require(name: &'static str, value: f64, holds: bool, must: &str) -> Result<(), Box<Failure>> {
     if holds {
         return Ok(());
     }
-    Err(Reason::Option { name, message: format!("{name}: {value}; must be {must}") })
+    Err(Reason::Option { name, message: format!("{name}: {value}; must be {must}") }.into())
 }

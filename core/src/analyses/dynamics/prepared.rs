@@ -4,10 +4,11 @@ use super::accelerations::accelerations;
 use super::accelerations::Accelerations;
 use super::clock::{system_clock, Clock};
 use super::energies::energies;
-use super::failure::Reason;
+use super::failure::Failure;
 use super::model_cache::ModelCache;
 use super::options::Options;
-use super::run::{simulate, Failure, Phase, Run, Watcher};
+use super::run::{simulate, Phase, Watcher};
+use super::run_results::Run;
 use super::trajectory::States;
 use crate::analyses::State;
 use crate::integrate::Flow;
@@ -70,7 +71,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
     /// do. `watch` is called with the times and may stop the computation; then the rows so far are returned.
     ///
     /// # Errors
-    /// [`Reason`] of the first state where accelerations and multipliers are not unique, or not finite.
+    /// [`Failure`] of the first state where accelerations and multipliers are not unique, or not finite.
     ///
     /// # Panics
     /// If the rows do not fit the model or each other.
@@ -79,7 +80,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         states: States<'_>,
         passing: bool,
         watch: impl FnMut(f64) -> Flow,
-    ) -> Result<Accelerations, Reason> {
+    ) -> Result<Accelerations, Box<Failure>> {
         accelerations((&self.model, &self.cache), states, passing, watch)
     }
 
@@ -87,11 +88,11 @@ impl<M: Deref<Target = Model>> Prepared<M> {
     /// rows of three, become rows of [`ENERGIES`](super::ENERGIES).
     ///
     /// # Errors
-    /// [`Reason`] of the first state where one of them is not finite.
+    /// [`Failure`] of the first state where one of them is not finite.
     ///
     /// # Panics
     /// If the rows do not fit the model or each other.
-    pub fn energies(&self, states: States<'_>, works: &[f64]) -> Result<Vec<f64>, Reason> {
+    pub fn energies(&self, states: States<'_>, works: &[f64]) -> Result<Vec<f64>, Box<Failure>> {
         energies((&self.model, &self.cache), states, works)
     }
 }

@@ -5,11 +5,12 @@ use super::lane_batch::LaneBatch;
 use super::methods::Scheme;
 use super::motion_ode::MotionOde;
 use super::options::Options;
-use super::report_projection::{Halt, ReportProjection};
+use super::report_projection::ReportProjection;
 use super::trajectory::{PiecewiseInterpolant, Trajectory};
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
 use crate::model::Model;
+use crate::solve::Breakdown;
 
 /// Whether a grid has so many states that a model over lanes, which solves several at once, is faster.
 pub(super) fn many(output_step: Option<f64>, span: f64) -> bool {
@@ -21,19 +22,19 @@ const IN_A_STEP: usize = 4;
 
 /// Steps without a reported state after which the joints are checked, for steps chosen by the error control. Joints
 /// then open over many steps, and each check costs two fifths of the instructions of an evaluation.
-const UNSEEN: usize = 4;
+const UNREPORTED: usize = 4;
 
 /// The same for a scheme: an unstable constant step opens joints within few steps.
-fn unseen(scheme: &Scheme) -> usize {
+fn unreported(scheme: &Scheme) -> usize {
     let constant = match scheme {
         Scheme::GeneralizedAlpha(_) | Scheme::Radau(_) | Scheme::Auto(_) => None,
         explicit => explicit.control().step,
     };
-    constant.map_or(UNSEEN, |_| 1)
+    constant.map_or(UNREPORTED, |_| 1)
 }
 
 /// Number of states of a grid; zero if the steps are reported.
-fn asked(output_step: Option<f64>, span: f64) -> usize {
+fn grid_states(output_step: Option<f64>, span: f64) -> usize {
     output_step.map_or(0, |h| ((span / h).abs() + 2.0) as usize) // NaN gives none
 }
 
@@ -43,7 +44,7 @@ pub(super) fn tables(
     options: &Options,
     t0: f64,
 ) -> (Trajectory, Option<PiecewiseInterpolant>) {
-    let (layout, states) = (&model.layout, asked(options.output_step, options.t_end - t0));
+    let (layout, states) = (&model.layout, grid_states(options.output_step, options.t_end - t0));
     // all steps get the highest degree of the method from the start
     let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
     let degree = if several { HIGHEST } else { 0 };
@@ -64,7 +65,7 @@ pub(super) struct Recorder<'a> {
     /// The next time of the grid, beyond t_end once it has been reached.
     upcoming: f64,
     /// Steps since the last check of the joints, and the number of steps between checks.
-    unseen: [usize; 2],
+    unreported: [usize; 2],
     /// The latest requested time.
     latest: f64,
     y: Vec<f64>,
@@ -76,8 +77,8 @@ pub(super) struct Recorder<'a> {
     one: ReportProjection<'a>,
     /// The same for the states of a grid, if they are many.
     many: Option<LaneBatch<'a>>,
-    /// The failure that stops it, and its time.
-    pub halt: Option<(f64, Halt)>,
+    /// The breakdown that stops it, and its time.
+    pub breakdown: Option<(f64, Breakdown)>,
 }
 
 impl<'a> Recorder<'a> {
@@ -98,7 +99,7 @@ impl<'a> Recorder<'a> {
             direction: (options.t_end - t0).signum(),
             next: 0,
             upcoming: t0,
-            unseen: [0, unseen(&options.method)],
+            unreported: [0, unreported(&options.method)],
             latest: t,
             y: vec![0.0; model.layout.n_y()],
             trajectory,
@@ -106,7 +107,7 @@ impl<'a> Recorder<'a> {
             coefficients: Vec::new(),
             one: ReportProjection::new(model, options, system.workspace.clone()),
             many: wide.map(|wide| LaneBatch::new(wide, options, &system.workspace)),
-            halt: None,
+            breakdown: None,
         };
         recorder.go_on_beyond(t);
         recorder
@@ -120,8 +121,8 @@ impl<'a> Recorder<'a> {
 
     /// Reports the start. The run stops here if the equations of motion have no solution at the start.
     pub fn begin(&mut self, t: f64, y: &[f64]) -> Flow {
-        let begun = self.one.begin(t, y);
-        self.keep(t, y, begun)
+        let solved = self.one.begin(t, y);
+        self.keep(t, y, solved)
     }
 
     /// Reports a state given as (q, v, works), unchanged.
@@ -129,8 +130,8 @@ impl<'a> Recorder<'a> {
         if self.flush() == Flow::Stop {
             return Flow::Stop;
         }
-        let apart = self.one.apart(t, y);
-        self.keep(t, y, apart.map_or(Ok(()), |apart| Err(Halt::Violation(apart))))
+        let violation = self.one.violation(t, y);
+        self.keep(t, y, violation.map_or(Ok(()), Err))
     }
 
     /// Reports the state of a step at a time between its ends; a failure may appear later, when it is projected.
@@ -177,19 +178,19 @@ impl<'a> Recorder<'a> {
     }
 
     /// Keeps a projected state.
-    fn keep(&mut self, t: f64, y: &[f64], placed: Result<(), Halt>) -> Flow {
-        if let Err(halt) = placed {
-            return self.stop(t, halt);
+    fn keep(&mut self, t: f64, y: &[f64], placed: Result<(), Breakdown>) -> Flow {
+        if let Err(breakdown) = placed {
+            return self.stop(t, breakdown);
         }
         if !all_finite(y) {
-            return self.stop(t, Halt::NotFinite);
+            return self.stop(t, Breakdown::NotFinite);
         }
         self.trajectory.add(&self.one.model.layout, t, y);
         Flow::Continue
     }
 
-    fn stop(&mut self, t: f64, halt: Halt) -> Flow {
-        self.halt = Some((t, halt));
+    fn stop(&mut self, t: f64, breakdown: Breakdown) -> Flow {
+        self.breakdown = Some((t, breakdown));
         Flow::Stop
     }
 
@@ -197,13 +198,13 @@ impl<'a> Recorder<'a> {
     pub fn step(&mut self, step: &Step<'_>, watch: &mut impl FnMut(f64) -> Flow) -> Flow {
         if let Some(dense) = &mut self.dense {
             if !dense.add(step, &mut self.coefficients) {
-                return self.stop(step.t, Halt::NotFinite);
+                return self.stop(step.t, Breakdown::NotFinite);
             }
         }
         if self.output_step.is_none() {
             return self.report(step.t, step.y);
         }
-        let mut flow = self.look_apart(step);
+        let mut flow = self.check_joints(step);
         while let (Flow::Continue, Some(t)) = (flow, self.due(step.t)) {
             self.latest = t;
             self.go_on();
@@ -217,16 +218,16 @@ impl<'a> Recorder<'a> {
     }
 
     /// Checks the joints at the end of a step, after so many steps without reported states.
-    fn look_apart(&mut self, step: &Step<'_>) -> Flow {
+    fn check_joints(&mut self, step: &Step<'_>) -> Flow {
         let due = self.due(step.t).is_some();
-        let [since, most] = &mut self.unseen;
+        let [since, most] = &mut self.unreported;
         *since = if due { 0 } else { *since + 1 };
         if *since < *most {
             return Flow::Continue;
         }
         *since = 0;
-        match self.one.apart(step.t, step.y) {
-            Some(apart) => self.stop(step.t, Halt::Violation(apart)),
+        match self.one.violation(step.t, step.y) {
+            Some(violation) => self.stop(step.t, violation),
             None => Flow::Continue,
         }
     }

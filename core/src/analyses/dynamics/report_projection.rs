@@ -5,32 +5,22 @@
 //! gap that does not close, or with a number that is not finite), each is projected separately.
 
 use super::branch_averaging;
-use super::constraint_violation::{Violation, ViolationCheck};
+use super::constraint_violation::ViolationCheck;
 use super::options::Options;
 use super::stabilizations::Stabilization;
 use crate::equations::{Gains, Workspace};
 use crate::integrate::all_finite;
 use crate::math::Real;
 use crate::model::Model;
-use crate::stabilize::{Fault, Projector};
-
-/// The reason for which a state cannot be reported.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Halt {
-    /// It cannot be projected, or has no unique accelerations.
-    Fault(Fault),
-    /// Its joints are apart.
-    Violation(Violation),
-    /// A number of it is not finite.
-    NotFinite,
-}
+use crate::solve::Breakdown;
+use crate::stabilize::Projector;
 
 /// Projects reported states, one at a time or one in each lane.
 pub(super) struct ReportProjection<'a, S = f64> {
     pub model: &'a Model<S>,
     workspace: Workspace<S>,
     projector: Option<Projector<'a, S>>,
-    guard: Option<ViolationCheck<S>>,
+    check: Option<ViolationCheck<S>>,
     /// Whether projection changed the last state.
     changed: bool,
 }
@@ -43,15 +33,15 @@ impl<'a, S: Real> ReportProjection<'a, S> {
             _ => None,
         };
         let projector = projector.map(Projector::for_reports);
-        let guard = ViolationCheck::new(model, options);
-        Self { model, workspace, projector, guard, changed: false }
+        let check = ViolationCheck::new(model, options);
+        Self { model, workspace, projector, check, changed: false }
     }
 
     /// The joint that is open too far at y, if there is one.
-    pub fn apart(&mut self, t: S, y: &[S]) -> Option<Violation> {
-        self.guard.as_ref()?;
+    pub fn violation(&mut self, t: S, y: &[S]) -> Option<Breakdown> {
+        self.check.as_ref()?;
         self.set_motions(y);
-        self.guard.as_mut()?.look(self.model, t, &self.workspace.motions)
+        self.check.as_mut()?.largest(self.model, t, &self.workspace.motions)
     }
 
     fn set_motions(&mut self, y: &[S]) {
@@ -63,14 +53,13 @@ impl<'a, S: Real> ReportProjection<'a, S> {
     /// unchanged, so the energy balance shows the change of energy by projection.
     ///
     /// # Errors
-    /// [`Halt`]; over lanes, that of one of them.
-    pub fn place(&mut self, t: S, y: &mut [S]) -> Result<(), Halt> {
+    /// [`Breakdown`]; over lanes, that of one of them.
+    pub fn place(&mut self, t: S, y: &mut [S]) -> Result<(), Breakdown> {
         let Some(projector) = &mut self.projector else {
-            return self.apart(t, y).map_or(Ok(()), |apart| Err(Halt::Violation(apart)));
+            return self.violation(t, y).map_or(Ok(()), Err);
         };
         let [q, v, ..] = self.model.layout.split_mut(y);
-        let changed = projector.project(&mut self.workspace, t, (q, v), false);
-        self.changed = changed.map_err(Halt::Fault)?;
+        self.changed = projector.project(&mut self.workspace, t, (q, v), false)?;
         Ok(())
     }
 
@@ -90,17 +79,16 @@ impl ReportProjection<'_> {
     /// Checks that the joints are closed at y, and that the equations of motion have a solution there.
     ///
     /// # Errors
-    /// [`Halt`].
-    pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Halt> {
-        if let Some(apart) = self.apart(t, y) {
-            return Err(Halt::Violation(apart));
+    /// [`Breakdown`].
+    pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Breakdown> {
+        if let Some(violation) = self.violation(t, y) {
+            return Err(violation);
         }
         self.set_motions(y);
-        let solved = self.workspace.respond(self.model, t, Gains::default());
-        solved.map_err(|singular| Halt::Fault(Fault::Singular(singular)))?;
+        self.workspace.respond(self.model, t, Gains::default())?;
         match [self.workspace.a(), self.workspace.lam()].into_iter().all(all_finite) {
             true => Ok(()),
-            false => Err(Halt::NotFinite),
+            false => Err(Breakdown::NotFinite),
         }
     }
 
@@ -108,8 +96,8 @@ impl ReportProjection<'_> {
     /// rates less.
     ///
     /// # Errors
-    /// [`Halt`].
-    pub fn place_on_branch(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
+    /// [`Breakdown`].
+    pub fn place_on_branch(&mut self, t: f64, y: &mut [f64]) -> Result<(), Breakdown> {
         let given = y.to_vec();
         let layout = &self.model.layout;
         let turned =

@@ -1,98 +1,17 @@
 //! A run: a sequence of phases, each with its own active constraints.
 
 use super::clock::Clock;
-use super::failure::Reason;
-use super::method_switching::Stop;
+use super::failure::Failure;
 use super::model_cache::ModelCache;
 use super::motion_ode::MotionOde;
 use super::motion_stepper::MotionStepper;
 use super::options::Options;
 use super::recorder::{self, Recorder};
-use super::stiffness_detection::MethodChoice;
-use super::trajectory::{PiecewiseInterpolant, States, Trajectory};
+use super::run_results::Run;
 use crate::analyses::State;
-use crate::integrate::{self, Cause, Direction, Ended, Flow, Step};
+use crate::integrate::{Cause, Direction, Flow, Step};
 use crate::model::Model;
-
-/// Counts of an integration.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Statistics {
-    /// Accepted steps.
-    pub steps: usize,
-    /// Rejected steps.
-    pub rejected: usize,
-    /// Evaluations of the equations of motion, without those for the output.
-    pub evaluations: usize,
-    /// Tangents of the equations of motion; zero for explicit methods.
-    pub jacobians: usize,
-    /// Steps of Newton's iteration; zero for explicit methods.
-    pub iterations: usize,
-    /// Factorisations of the augmented matrix, with those for the output, and of the matrices of
-    /// Newton's iteration.
-    pub factorisations: usize,
-    /// Wall time, s.
-    pub seconds: f64,
-}
-
-impl Statistics {
-    /// Adds the counts of a stepper and the factorisations that belong to it.
-    fn add(&mut self, counts: integrate::Statistics, factorisations: usize) {
-        self.steps += counts.steps;
-        self.rejected += counts.rejected;
-        self.evaluations += counts.evaluations;
-        self.jacobians += counts.jacobians as usize;
-        self.iterations += counts.iterations as usize;
-        self.factorisations += factorisations;
-    }
-}
-
-/// The outcome of forward dynamics.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Run {
-    /// Reported states.
-    pub trajectory: Trajectory,
-    /// The first row of each phase. The state at the end of a phase and the state at the start of the next have a
-    /// row each, at one time.
-    pub phases: Vec<usize>,
-    /// Interpolants of all steps, if the options request them.
-    pub dense: Option<PiecewiseInterpolant>,
-    /// Counts.
-    pub statistics: Statistics,
-    /// The method of the automatic choice.
-    pub choice: Option<MethodChoice>,
-    /// Whether t_end was reached; otherwise the observer stopped the run.
-    pub reached: bool,
-    /// Whether it passes singular positions, as runs with projection do.
-    pub passing: bool,
-}
-
-impl Run {
-    /// The phase of a row of the trajectory.
-    pub fn phase_of(&self, row: usize) -> usize {
-        self.phases.partition_point(|first| *first <= row).saturating_sub(1)
-    }
-
-    /// The reported states of a phase.
-    pub fn states_of(&self, phase: usize) -> States<'_> {
-        let end = |k: usize| self.phases.get(k).copied().unwrap_or(self.trajectory.t.len());
-        let (rows, count) = (end(phase)..end(phase + 1), self.trajectory.t.len().max(1));
-        let part = |table: &[f64]| -> std::ops::Range<usize> {
-            let width = table.len() / count;
-            rows.start * width..rows.end * width
-        };
-        let Trajectory { t, q, v, z, .. } = &self.trajectory;
-        States { t: &t[rows.clone()], q: &q[part(q)], v: &v[part(v)], z: &z[part(z)] }
-    }
-}
-
-/// A failed run with the results before the failure.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
-    /// The reason.
-    pub reason: Reason,
-    /// The results before the failure.
-    pub run: Run,
-}
+use crate::solve::Breakdown;
 
 /// A function of the state whose change of sign ends a phase.
 #[derive(Clone, Copy)]
@@ -144,9 +63,8 @@ pub(super) fn simulate<W: FnMut(f64) -> Flow>(
     mut watcher: Watcher<'_, W>,
 ) -> Result<Run, Box<Failure>> {
     let began = clock();
-    let refused = |reason| Box::new(Failure { reason, run: Run::default() });
     for (phase, _) in phases {
-        options.check(phase.model, start).map_err(refused)?;
+        options.check(phase.model, start)?;
     }
     let t0 = options.t_start.unwrap_or(start.t);
     let mut run = Run::default();
@@ -163,9 +81,9 @@ pub(super) fn simulate<W: FnMut(f64) -> Flow>(
         let outcome = run_phase((phase, cache), &mut at, &options, &mut run, &mut watcher);
         run.statistics.seconds = clock() - began;
         match outcome {
-            Ok(Ended::Reached) => {}
-            Ok(Ended::Stopped) => return Ok(run),
-            Err(reason) => return Err(Box::new(Failure { reason, run })),
+            Ok(Flow::Continue) => {}
+            Ok(Flow::Stop) => return Ok(run),
+            Err(failure) => return Err(Box::new(Failure { run, ..*failure })),
         }
     }
     run.reached = true;
@@ -180,14 +98,14 @@ struct At {
     y: Vec<f64>,
 }
 
-/// Integrates one phase; updates `at` and `run`.
+/// Integrates one phase; updates `at` and `run`. Returns whether the next phase follows.
 fn run_phase<W: FnMut(f64) -> Flow>(
     (phase, cache): (&Phase<'_>, &ModelCache),
     at: &mut At,
     options: &Options,
     run: &mut Run,
     watcher: &mut Watcher<'_, W>,
-) -> Result<Ended, Reason> {
+) -> Result<Flow, Box<Failure>> {
     let model = phase.model;
     let mut ode = MotionOde::new(model, options, cache.plan(model));
     run.phases.push(run.trajectory.t.len());
@@ -196,19 +114,21 @@ fn run_phase<W: FnMut(f64) -> Flow>(
     let tables = (std::mem::take(&mut run.trajectory), run.dense.take());
     let mut recorder = Recorder::new(&ode, wide, options, (at.t0, at.t), tables);
     let q = model.layout.split(&at.y)[0].to_vec();
-    let begun = ode.begin_phase(at.t, &mut at.y, phase.project_velocities);
-    let outcome = match begun {
-        Err(fault) => Err(Reason::fault(model, at.t, &q, fault)),
-        Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(Ended::Stopped),
+    let started = ode.begin_phase(at.t, &mut at.y, phase.project_velocities);
+    let outcome = match started {
+        Err(breakdown) => Err(Failure::at_state(model, at.t, &q, breakdown)),
+        Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(Flow::Stop),
         Ok(()) => step_through(ode, phase, at, options, (&mut recorder, watcher), run),
     };
     recorder.flush();
     run.statistics.factorisations += recorder.factorisations();
-    let Recorder { trajectory, dense, halt, .. } = recorder;
+    let Recorder { trajectory, dense, breakdown, .. } = recorder;
     (run.trajectory, run.dense) = (trajectory, dense);
     let last = run.trajectory.q.rchunks(model.layout.n_q.max(1)).next().unwrap_or(&q);
-    match halt {
-        Some((t, halt)) if outcome.is_ok() => Err(Reason::halt(model, t, last, halt)),
+    match breakdown {
+        Some((t, breakdown)) if outcome.is_ok() => {
+            Err(Failure::at_state(model, t, last, breakdown))
+        }
         _ => outcome,
     }
 }
@@ -221,19 +141,19 @@ fn step_through<W: FnMut(f64) -> Flow>(
     options: &Options,
     (recorder, watcher): (&mut Recorder<'_>, &mut Watcher<'_, W>),
     run: &mut Run,
-) -> Result<Ended, Reason> {
+) -> Result<Flow, Box<Failure>> {
     let model = ode.model;
-    let failed = |cause, t, y: &[f64]| Reason::from_integrator(model, cause, t, y);
+    let failed = |cause, t, y: &[f64]| Failure::of_integrator(model, cause, t, y);
     let mut stepper = MotionStepper::new(ode, options, at.t, &at.y)
         .map_err(|cause| failed(cause, at.t, &at.y))?;
     let mut event = phase.event;
     let outcome = loop {
         if stepper.t() == recorder.t_end {
-            break Ok(Ended::Reached);
+            break Ok(Flow::Continue);
         }
         match next_step(&mut stepper, &mut event, recorder, watcher) {
             Ok(Next::Step(Flow::Continue)) => {}
-            Ok(Next::Step(Flow::Stop)) => break Ok(Ended::Stopped),
+            Ok(Next::Step(Flow::Stop)) => break Ok(Flow::Stop),
             // the step is taken again, to end at the event
             Ok(Next::Event(t)) => {
                 run.statistics.add(stepper.statistics(), stepper.factorisations());
@@ -241,7 +161,7 @@ fn step_through<W: FnMut(f64) -> Flow>(
                 let again = stepper.again(&Options { t_end: t, ..options.clone() });
                 stepper = again.map_err(|cause| failed(cause, at.t, &at.y))?;
             }
-            Err(cause) => break Err(stepper.reason(cause)),
+            Err(cause) => break Err(stepper.failure(cause)),
         }
     };
     run.statistics.add(stepper.statistics(), stepper.factorisations());
@@ -264,7 +184,7 @@ fn next_step<W: FnMut(f64) -> Flow>(
     event: &mut Option<Event<'_>>,
     recorder: &mut Recorder<'_>,
     watcher: &mut Watcher<'_, W>,
-) -> Result<Next, Cause<Stop>> {
+) -> Result<Next, Cause<Breakdown>> {
     stepper.step()?;
     if let Some(Event { g, direction }) = *event {
         if let Some((t, _)) = stepper.locate(g, direction)? {

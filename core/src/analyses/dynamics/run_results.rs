@@ -1,34 +1,76 @@
-//! Quantities that follow from the reported states of a run.
+//! The outcome of a run.
 
-use super::accelerations::{accelerations, Accelerations};
-use super::energies::energies;
-use super::failure::Reason;
-use super::model_cache::ModelCache;
-use super::run::Run;
-use crate::integrate::Flow;
-use crate::model::Model;
+use super::stiffness_detection::MethodChoice;
+use super::trajectory::{PiecewiseInterpolant, States, Trajectory};
+use crate::integrate;
+
+/// Counts of an integration.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Rejected steps.
+    pub rejected: usize,
+    /// Evaluations of the equations of motion, without those for the output.
+    pub evaluations: usize,
+    /// Tangents of the equations of motion; zero for explicit methods.
+    pub jacobians: usize,
+    /// Steps of Newton's iteration; zero for explicit methods.
+    pub iterations: usize,
+    /// Factorisations of the augmented matrix, with those for the output, and of the matrices of
+    /// Newton's iteration.
+    pub factorisations: usize,
+    /// Wall time, s.
+    pub seconds: f64,
+}
+
+impl Statistics {
+    /// Adds the counts of a stepper and the factorisations that belong to it.
+    pub(super) fn add(&mut self, counts: integrate::Statistics, factorisations: usize) {
+        self.steps += counts.steps;
+        self.rejected += counts.rejected;
+        self.evaluations += counts.evaluations;
+        self.jacobians += counts.jacobians as usize;
+        self.iterations += counts.iterations as usize;
+        self.factorisations += factorisations;
+    }
+}
+
+/// The outcome of forward dynamics.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Run {
+    /// Reported states.
+    pub trajectory: Trajectory,
+    /// The first row of each phase. The state at the end of a phase and the state at the start of the next have a
+    /// row each, at one time.
+    pub phases: Vec<usize>,
+    /// Interpolants of all steps, if the options request them.
+    pub dense: Option<PiecewiseInterpolant>,
+    /// Counts.
+    pub statistics: Statistics,
+    /// The method of the automatic choice.
+    pub choice: Option<MethodChoice>,
+    /// Whether t_end was reached; otherwise the observer stopped the run.
+    pub reached: bool,
+    /// Whether it passes singular positions, as runs with projection do.
+    pub passing: bool,
+}
 
 impl Run {
-    /// Accelerations and multipliers at the reported states, without stabilization.
-    ///
-    /// # Errors
-    /// As [`Prepared::accelerations`](super::Prepared::accelerations).
-    pub fn accelerations(&self, model: &Model) -> Result<Accelerations, Reason> {
-        let watch = |_| Flow::Continue;
-        accelerations(
-            (model, &ModelCache::default()),
-            self.trajectory.states(),
-            self.passing,
-            watch,
-        )
+    /// The phase of a row of the trajectory.
+    pub fn phase_of(&self, row: usize) -> usize {
+        self.phases.partition_point(|first| *first <= row).saturating_sub(1)
     }
 
-    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces at the reported states, J:
-    /// rows of [`ENERGIES`](super::ENERGIES).
-    ///
-    /// # Errors
-    /// As [`Prepared::energies`](super::Prepared::energies).
-    pub fn energies(&self, model: &Model) -> Result<Vec<f64>, Reason> {
-        energies((model, &ModelCache::default()), self.trajectory.states(), &self.trajectory.works)
+    /// The reported states of a phase.
+    pub fn states_of(&self, phase: usize) -> States<'_> {
+        let end = |k: usize| self.phases.get(k).copied().unwrap_or(self.trajectory.t.len());
+        let (rows, count) = (end(phase)..end(phase + 1), self.trajectory.t.len().max(1));
+        let part = |table: &[f64]| -> std::ops::Range<usize> {
+            let width = table.len() / count;
+            rows.start * width..rows.end * width
+        };
+        let Trajectory { t, q, v, z, .. } = &self.trajectory;
+        States { t: &t[rows.clone()], q: &q[part(q)], v: &v[part(v)], z: &z[part(z)] }
     }
 }

@@ -1,4 +1,4 @@
-//! Forecast of the time of a singular position, from the least pivot on the way.
+//! Forecast of the time of a singular position, from the least pivot so far.
 //!
 //! If Φ_q loses rank at t_s, a pivot of Φ_q M⁻¹ Φ_qᵀ goes to zero as (t - t_s)². So its root falls to zero along a
 //! line, and the pivot itself is a parabola around t_s. Both give t_s well before a step comes near.
@@ -17,7 +17,7 @@ const MOST: usize = 64;
 /// A time, and the least ratio of a pivot to its largest summand.
 type Sample = (f64, f64);
 
-/// The samples on the way.
+/// The samples since the start of the step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SingularityForecast {
     /// At the start of the current step.
@@ -59,17 +59,17 @@ impl SingularityForecast {
             return None;
         }
         let step = end.0 - start.0;
-        let mut way = vec![start];
-        way.extend(stages);
-        way.push(end);
-        way.sort_by(|a, b| ((a.0 - b.0) * step).total_cmp(&0.0));
-        way.dedup_by(|a, b| (a.0 - b.0).abs() < APART * step.abs());
+        let mut samples = vec![start];
+        samples.extend(stages);
+        samples.push(end);
+        samples.sort_by(|a, b| ((a.0 - b.0) * step).total_cmp(&0.0));
+        samples.dedup_by(|a, b| (a.0 - b.0).abs() < APART * step.abs());
         let reached = |t: &f64| (0.0..2.0).contains(&((t - start.0) / step));
-        self.position = vanishing(&way).filter(reached);
+        self.position = vanishing(&samples).filter(reached);
         self.position
     }
 
-    /// Accepts the last trial with the sample at its end, which the trial knew only from a state nearby.
+    /// Accepts the last trial with the sample at its end, which the trial evaluated only at a state nearby.
     pub fn accept(&mut self, end: Option<Sample>) {
         self.end = end.or(self.end);
         if let (Some((from, _)), Some((to, _))) = (self.start, self.end) {
@@ -80,22 +80,22 @@ impl SingularityForecast {
 }
 
 /// The time at which the pivot vanishes; the samples are in the order of motion.
-fn vanishing(way: &[Sample]) -> Option<f64> {
-    let least = (1..way.len()).min_by(|a, b| way[*a].1.total_cmp(&way[*b].1))?;
-    let (t, kept) = way[least];
-    let (t_before, before) = way[least - 1];
-    if before <= kept {
+fn vanishing(samples: &[Sample]) -> Option<f64> {
+    let least = (1..samples.len()).min_by(|a, b| samples[*a].1.total_cmp(&samples[*b].1))?;
+    let (t, ratio) = samples[least];
+    let (t_before, before) = samples[least - 1];
+    if before <= ratio {
         return None;
     }
-    let Some((t_after, after)) = way.get(least + 1) else {
-        let (root, root_before) = (kept.sqrt(), before.sqrt());
+    let Some((t_after, after)) = samples.get(least + 1) else {
+        let (root, root_before) = (ratio.sqrt(), before.sqrt());
         return Some(t + root * (t - t_before) / (root_before - root));
     };
     // Newton's form through three points
-    let (left, right) = ((before - kept) / (t_before - t), (after - kept) / (t_after - t));
+    let (left, right) = ((before - ratio) / (t_before - t), (after - ratio) / (t_after - t));
     let curvature = (right - left) / (t_after - t_before);
     let slope = right - curvature * (t_after - t);
-    let bottom = kept - 0.25 * slope * slope / curvature;
+    let bottom = ratio - 0.25 * slope * slope / curvature;
     (bottom <= DEEP * before.max(*after)).then(|| t - 0.5 * slope / curvature)
 }
 

@@ -9,20 +9,19 @@
 
 use super::options::{Options, Singularity};
 use super::singularity_forecast::SingularityForecast;
-use crate::equations::augmented::Dependent;
 use crate::equations::forces::Acting;
-use crate::equations::{constraints, forces, mass, Singular, Workspace};
+use crate::equations::{constraints, forces, mass, Powers, Workspace};
 use crate::model::{size, Model};
-use crate::stabilize::Fault;
+use crate::solve::Breakdown;
 
 /// Branches cannot be distinguished if the ratio of a pivot to its largest summand is below this: a part of 1e-3 of
 /// the mechanism's size.
-const UNTOLD: f64 = 1e-6;
+const INDISTINCT: f64 = 1e-6;
 /// The same part: a mechanism counts as at rest within this distance of its turning point.
 const REST: f64 = 1e-3;
 /// Part of γ that may remain; the error of a trial state leaves far less.
-const UNMET: f64 = 0.05;
-/// Rounding of γ = 0, relative to the accelerations and divided by [`UNMET`].
+const REMAINDER: f64 = 0.05;
+/// Rounding of γ = 0, relative to the accelerations and divided by [`REMAINDER`].
 const ROUNDING: f64 = 1e-9;
 /// Loads count as balanced below this part of the joint forces.
 const BALANCED: f64 = 1e-9;
@@ -32,7 +31,7 @@ pub(super) struct SingularityPassage {
     /// Whether a stage of the current trial was near a singular position.
     pub near: bool,
     /// Reason and time of the last undecided trial state.
-    pub undecided: Option<(f64, Fault)>,
+    pub undecided: Option<(f64, Breakdown)>,
     singularity: Singularity,
     /// Whether singular positions are passed at all.
     passing: bool,
@@ -55,41 +54,46 @@ impl SingularityPassage {
     }
 
     /// Checks the accelerations that were just computed. Returns whether the motion decides its branch, or continues
-    /// anyway. If not, the fault is kept in [`undecided`](Self::undecided): the state may be a trial, and the fault
+    /// anyway. If not, the breakdown is kept in [`undecided`](Self::undecided): the state may be a trial, and the breakdown
     /// counts only if no shorter step avoids it.
     #[inline(always)]
     pub fn watch(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
         if !(work.matrix.regularised() || self.approach.in_reach()) {
             return true;
         }
-        let looked = self.look(model, work, t, v);
-        self.undecided = looked.err().map(|fault| (t, fault)).or(self.undecided);
-        looked.is_ok()
+        let checked = self.check(model, work, t, v);
+        self.undecided = checked.err().map(|breakdown| (t, breakdown)).or(self.undecided);
+        checked.is_ok()
     }
 
     /// The same near a singular position.
     #[cold]
-    fn look(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> Result<(), Fault> {
-        let ridged = work.matrix.regularised();
+    fn check(
+        &mut self,
+        model: &Model,
+        work: &Workspace,
+        t: f64,
+        v: &[f64],
+    ) -> Result<(), Breakdown> {
+        let regularised = work.matrix.regularised();
         self.near = true;
-        let Some((row, kept)) = work.matrix.cancellation() else { return Ok(()) };
-        self.approach.pass((t, kept));
-        if !ridged || self.singularity == Singularity::Pass || kept > UNTOLD {
+        let Some((row, ratio)) = work.matrix.cancellation() else { return Ok(()) };
+        self.approach.pass((t, ratio));
+        if !regularised || self.singularity == Singularity::Pass || ratio > INDISTINCT {
             return Ok(());
         }
-        let singular = Singular::Dependent(Dependent::Row(row));
-        if self.unmet(model, work, t) {
-            return Err(Fault::Singular(singular));
+        if self.misses_gamma(model, work, t) {
+            return Err(Breakdown::Row(row));
         }
         if self.rests(model, work, t, v) {
-            return Err(Fault::AtRest(singular));
+            return Err(Breakdown::AtRest(row));
         }
         Ok(())
     }
 
     /// The start of a run.
     pub fn begin(&mut self, t: f64, work: &Workspace) {
-        self.approach.begin(work.matrix.cancellation().map(|(_, kept)| (t, kept)));
+        self.approach.begin(work.matrix.cancellation().map(|(_, ratio)| (t, ratio)));
     }
 
     /// The singular position ahead, if a step of the length of the last trial can reach it.
@@ -98,8 +102,8 @@ impl SingularityPassage {
         if !self.passing {
             return None;
         }
-        let (_, kept) = work.matrix.cancellation()?;
-        self.approach.foresee((t, kept))
+        let (_, ratio) = work.matrix.cancellation()?;
+        self.approach.foresee((t, ratio))
     }
 
     /// Whether the trial of the last forecast is near a singular position.
@@ -110,7 +114,7 @@ impl SingularityPassage {
     /// Accepts the trial of the last forecast; the workspace belongs to its end.
     pub fn accept(&mut self, t: f64, work: &Workspace) {
         if self.passing {
-            self.approach.accept(work.matrix.cancellation().map(|(_, kept)| (t, kept)));
+            self.approach.accept(work.matrix.cancellation().map(|(_, ratio)| (t, ratio)));
         }
     }
 
@@ -119,7 +123,8 @@ impl SingularityPassage {
     fn rests(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
         self.loads.resize(v.len(), 0.0);
         let acting = Acting { z: &work.z, lam: None, t };
-        forces::generalized(model, &work.compiled, &work.motions, acting, &mut self.loads);
+        let powers = &mut Powers::zero();
+        forces::generalized(model, &work.compiled, &work.motions, acting, &mut self.loads, powers);
         let (mut twice, mut pull, mut applied, mut mass_all) = (0.0, 0.0, 0.0, 0.0);
         let bodies = model.bodies.iter().zip(work.motions.iter()).zip(&model.layout.bodies).skip(1);
         for ((body, motion), columns) in bodies {
@@ -142,7 +147,7 @@ impl SingularityPassage {
     }
 
     /// Whether Φ_q a = γ is violated.
-    fn unmet(&mut self, model: &Model, work: &Workspace, t: f64) -> bool {
+    fn misses_gamma(&mut self, model: &Model, work: &Workspace, t: f64) -> bool {
         self.residual.resize(model.layout.n_rows, 0.0);
         let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![0.0; model.layout.n_rows]);
         constraints::velocity_terms(model, &work.motions, t, &mut phi, &mut rate, &mut gamma);
@@ -152,6 +157,6 @@ impl SingularityPassage {
         let largest = gamma.iter().fold(ROUNDING * fastest, |m: f64, g| m.max(g.abs()));
         let missed =
             self.residual.iter().zip(&gamma).fold(0.0, |m: f64, (r, g)| m.max((r - g).abs()));
-        missed > UNMET * largest
+        missed > REMAINDER * largest
     }
 }

@@ -1,6 +1,6 @@
 //! A stepper for callers that take the steps themselves: a notebook, a web page, or another analysis.
 
-use super::failure::Reason;
+use super::failure::Failure;
 use super::model_cache::ModelCache;
 use super::motion_ode::MotionOde;
 use super::motion_stepper::MotionStepper;
@@ -13,7 +13,7 @@ use crate::model::Model;
 ///
 /// ```
 /// # use kempe::{analyses::{dynamics, State}, integrate::Direction, model::Model};
-/// # fn all(model: &Model, start: &State) -> Result<(), dynamics::Reason> {
+/// # fn all(model: &Model, start: &State) -> Result<(), Box<dynamics::Failure>> {
 /// let mut stepper = dynamics::Stepper::new(model, start, &dynamics::Options::new(1.0))?;
 /// while !stepper.is_at_end() {
 ///     stepper.step()?;
@@ -35,29 +35,29 @@ impl<'a> Stepper<'a> {
     /// projected onto the constraints.
     ///
     /// # Errors
-    /// [`Reason`]
-    pub fn new(model: &'a Model, start: &State, options: &Options) -> Result<Self, Reason> {
+    /// [`Failure`]
+    pub fn new(model: &'a Model, start: &State, options: &Options) -> Result<Self, Box<Failure>> {
         options.check(model, start)?;
         let t = options.t_start.unwrap_or(start.t);
         let mut ode = MotionOde::new(model, options, ModelCache::default().plan(model));
         let mut y = [&start.q[..], &start.v, &start.z].concat();
         y.resize(model.layout.n_y(), 0.0);
-        let begun = ode.begin_phase(t, &mut y, false);
-        begun.map_err(|fault| Reason::fault(model, t, &start.q, fault))?;
+        let outcome = ode.begin_phase(t, &mut y, false);
+        outcome.map_err(|breakdown| Failure::at_state(model, t, &start.q, breakdown))?;
         let inner = MotionStepper::new(ode, options, t, &y)
-            .map_err(|cause| Reason::from_integrator(model, cause, t, &y))?;
+            .map_err(|cause| Failure::of_integrator(model, cause, t, &y))?;
         Ok(Self { model, t_end: options.t_end, inner })
     }
 
     /// Takes the next step; does nothing at the end.
     ///
     /// # Errors
-    /// [`Reason`]; the stepper then stays at the last accepted state.
-    pub fn step(&mut self) -> Result<(), Reason> {
+    /// [`Failure`]; the stepper then stays at the last accepted state.
+    pub fn step(&mut self) -> Result<(), Box<Failure>> {
         if self.is_at_end() {
             return Ok(());
         }
-        self.inner.step().map_err(|cause| self.inner.reason(cause))
+        self.inner.step().map_err(|cause| self.inner.failure(cause))
     }
 
     /// Whether t_end is reached.
@@ -79,8 +79,8 @@ impl<'a> Stepper<'a> {
     ///
     /// # Errors
     /// As [`step`](Self::step).
-    pub fn interpolate(&mut self, t: f64) -> Result<Option<State>, Reason> {
-        self.inner.prepare_interpolant().map_err(|cause| self.inner.reason(cause))?;
+    pub fn interpolate(&mut self, t: f64) -> Result<Option<State>, Box<Failure>> {
+        self.inner.prepare_interpolant().map_err(|cause| self.inner.failure(cause))?;
         let inside = |step: &Step<'_>| (t - step.t_old) * (t - step.t) <= 0.0;
         Ok(self.inner.last_step().filter(inside).map(|step| {
             let mut y = step.y.to_vec();
@@ -99,8 +99,8 @@ impl<'a> Stepper<'a> {
         &mut self,
         g: impl Fn(f64, [&[f64]; 3]) -> f64,
         direction: Direction,
-    ) -> Result<Option<State>, Reason> {
-        let found = self.inner.locate(&g, direction).map_err(|cause| self.inner.reason(cause))?;
+    ) -> Result<Option<State>, Box<Failure>> {
+        let found = self.inner.locate(&g, direction).map_err(|cause| self.inner.failure(cause))?;
         Ok(found.map(|(t, y)| self.to_state(t, &y)))
     }
 
@@ -109,16 +109,16 @@ impl<'a> Stepper<'a> {
     ///
     /// # Errors
     /// As [`step`](Self::step).
-    pub fn restart(&mut self, state: &State) -> Result<(), Reason> {
+    pub fn restart(&mut self, state: &State) -> Result<(), Box<Failure>> {
         let mut y = [&state.q[..], &state.v, &state.z].concat();
         let works = match self.interpolate(state.t)? {
             Some(_) => self.inner.works_at(state.t),
             None => self.works().to_vec(),
         };
         y.extend(works);
-        let begun = self.inner.ode.begin_phase(state.t, &mut y, false);
-        begun.map_err(|fault| Reason::fault(self.model, state.t, &state.q, fault))?;
-        self.inner.restart(state.t, &y).map_err(|cause| self.inner.reason(cause))
+        let outcome = self.inner.ode.begin_phase(state.t, &mut y, false);
+        outcome.map_err(|breakdown| Failure::at_state(self.model, state.t, &state.q, breakdown))?;
+        self.inner.restart(state.t, &y).map_err(|cause| self.inner.failure(cause))
     }
 
     fn to_state(&self, t: f64, y: &[f64]) -> State {

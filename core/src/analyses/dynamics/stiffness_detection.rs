@@ -67,7 +67,7 @@ pub(super) struct StiffnessDetector<'a> {
     next: usize,
     since: (usize, f64),
     /// Rate of a damped motion that was predicted at the start to limit the steps.
-    pub foretold: Option<f64>,
+    pub predicted: Option<f64>,
     /// Result of the last check: the fastest motion, and the mean step.
     pub seen: Option<(Fastest, f64)>,
 }
@@ -85,7 +85,7 @@ impl<'a> StiffnessDetector<'a> {
             steps: 0,
             next: FIRST_LOOK,
             since: (0, t0),
-            foretold: None,
+            predicted: None,
             seen: None,
         }
     }
@@ -93,8 +93,8 @@ impl<'a> StiffnessDetector<'a> {
     /// Whether the explicit method should stop after this step.
     pub fn stiff(&mut self, step: &Step<'_>, t_end: f64) -> bool {
         self.steps += 1;
-        if self.foretold.is_some_and(|rate| (step.t - step.t_old) * rate > NEAR * LIMIT) {
-            self.foretold = None;
+        if self.predicted.is_some_and(|rate| (step.t - step.t_old) * rate > NEAR * LIMIT) {
+            self.predicted = None;
             self.since = (self.steps - 1, step.t_old);
         } else if self.steps < self.next {
             return false;
@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn damped_and_undamped_pairs_are_told_apart() {
+    fn damped_and_undamped_pairs_are_distinguished() {
         let pair = |re: f64, im: f64| {
             // one coordinate: q̈ = 2 re q̇ - (re² + im²) q
             let times = |[q, v]: [f64; 2]| [v, 2.0 * re * v - (re * re + im * im) * q];

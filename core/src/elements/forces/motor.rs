@@ -12,6 +12,7 @@
 
 use crate::elements::{
     element, BodyId, Force, Mark, Nature, OwnPowers, OwnState, Part, SceneSymbol, Situation,
+    Wrenches,
 };
 use crate::math::{Real, Wrench};
 
@@ -55,9 +56,10 @@ impl Force for Motor {
         vec![e.i, e.j]
     }
 
-    fn action<S: Real>(e: &Motor<S>, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {
+    fn action<S: Real>(e: &Motor<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         let torque = e.torque_constant * current(e, at);
-        out.copy_from_slice(&[Wrench::torque(-torque), Wrench::torque(torque)]);
+        out.put(0, 0, Wrench::torque(-torque));
+        out.put(0, 1, Wrench::torque(torque));
     }
 
     fn states(given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {

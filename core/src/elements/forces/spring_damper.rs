@@ -8,7 +8,9 @@
 //! as zero, the mean over all directions. The damping force is -c ḋ, its limit on both sides of a
 //! passage. All states are allowed, and the force is finite in all of them.
 
-use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
+use crate::elements::{
+    element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation, Wrenches,
+};
 use crate::math::{Local, Real, Vec2, Wrench};
 
 element! {
@@ -55,7 +57,7 @@ impl Force for SpringDamper {
             .collect()
     }
 
-    fn action<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {
+    fn action<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         let (d, squared, l) = line(e, at);
         let apart = at.j().point_velocity(e.j.s) - at.i().point_velocity(e.i.s);
         let zero = S::zero();
@@ -65,10 +67,11 @@ impl Force for SpringDamper {
         let damped = Vec2::new(along(u.x, apart.x), along(u.y, apart.y));
         let stretched = d - u.scale(e.free_length);
         let (arm_i, arm_j) = (at.i().pose.global(e.i.s), at.j().pose.global(e.j.s));
-        let pulls = [stretched.scale(e.stiffness), damped.scale(e.damping)];
-        for (out, pull) in out.chunks_exact_mut(2).zip(pulls) {
-            out.copy_from_slice(&[Wrench::at(arm_i, pull), Wrench::at(arm_j, -pull)]);
-        }
+        let (elastic, damping) = (stretched.scale(e.stiffness), damped.scale(e.damping));
+        out.put(0, 0, Wrench::at(arm_i, elastic));
+        out.put(0, 1, Wrench::at(arm_j, -elastic));
+        out.put(1, 0, Wrench::at(arm_i, damping));
+        out.put(1, 1, Wrench::at(arm_j, -damping));
     }
 
     fn points<S: Real>(e: &SpringDamper<S>) -> Option<[Local<S>; 2]> {

@@ -3,7 +3,9 @@
 //! T is a law of time and state; a positive torque turns body j counter-clockwise. Its work counts as
 //! applied. All states are allowed.
 
-use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
+use crate::elements::{
+    element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation, Wrenches,
+};
 use crate::math::{Real, Wrench};
 
 element! {
@@ -30,7 +32,8 @@ impl Force for Torque {
         acts.then(|| SceneSymbol::between_bodies(Mark::TorqueArrow, e.i, e.j)).into_iter().collect()
     }
 
-    fn action<S: Real>(e: &Torque<S>, _: &Situation<'_, S>, out: &mut [Wrench<S>]) {
-        out.copy_from_slice(&[Wrench::torque(-e.torque), Wrench::torque(e.torque)]);
+    fn action<S: Real>(e: &Torque<S>, _: &Situation<'_, S>, mut out: impl Wrenches<S>) {
+        out.put(0, 0, Wrench::torque(-e.torque));
+        out.put(0, 1, Wrench::torque(e.torque));
     }
 }

@@ -3,7 +3,9 @@
 //! θ = φⱼ - φᵢ, continuous, never modulo 2π. Torque on j: -k (θ - θ₀) - c θ̇; opposite on i.
 //! V = ½ k (θ - θ₀)². All real θ are allowed.
 
-use crate::elements::{element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation};
+use crate::elements::{
+    element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation, Wrenches,
+};
 use crate::math::{Real, Wrench};
 
 element! {
@@ -41,11 +43,14 @@ impl Force for TorsionSpring {
             .collect()
     }
 
-    fn action<S: Real>(e: &TorsionSpring<S>, at: &Situation<'_, S>, out: &mut [Wrench<S>]) {
+    fn action<S: Real>(e: &TorsionSpring<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         let stretch = at.j().pose.angle - at.i().pose.angle - e.free_angle;
         let rate = at.j().twist.omega - at.i().twist.omega;
-        let [elastic, damping] = [-(e.stiffness * stretch), -(e.damping * rate)];
-        out.copy_from_slice(&[-elastic, elastic, -damping, damping].map(Wrench::torque));
+        let (elastic, damping) = (-(e.stiffness * stretch), -(e.damping * rate));
+        out.put(0, 0, Wrench::torque(-elastic));
+        out.put(0, 1, Wrench::torque(elastic));
+        out.put(1, 0, Wrench::torque(-damping));
+        out.put(1, 1, Wrench::torque(damping));
     }
 
     fn free_angle<S: Real>(e: &TorsionSpring<S>) -> Option<S> {

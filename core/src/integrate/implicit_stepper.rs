@@ -1,0 +1,107 @@
+//! The stepper of every implicit method: it keeps the last step, the counts and the control of steps.
+
+use super::dae::{Dae, DaeLengths};
+use super::error_weights::ErrorWeights;
+use super::evaluation_counter::CountedDae;
+use super::failure::Cause;
+use super::fixed_step::Grid;
+use super::implicit_steps::ImplicitSteps;
+use super::statistics::Statistics;
+use super::step::Step;
+use super::step_control::StepControl;
+use super::stepper::{BoxedStepper, Stepper};
+
+/// A stepper of the method `M`.
+pub(super) struct ImplicitStepper<M> {
+    pub control: StepControl,
+    /// The ends of constant steps.
+    pub grid: Option<Grid>,
+    pub lengths: DaeLengths,
+    counts: Statistics,
+    pub steps: ImplicitSteps,
+    pub scale: ErrorWeights,
+    pub method: M,
+}
+
+/// An implicit method, with its state between the steps.
+pub(super) trait ImplicitScheme: Sized + 'static {
+    /// Number of rows of the interpolant.
+    const ROWS: usize;
+    /// Degree of the interpolant.
+    const DEGREE: usize;
+
+    /// The table of the interpolant.
+    fn table() -> &'static [f64];
+
+    /// Takes the next step, from `stepper.steps.y`.
+    fn next<Y: Dae>(
+        stepper: &mut ImplicitStepper<Self>,
+        dae: &mut CountedDae<'_, Y>,
+    ) -> Result<(), Cause<Y::Stop>>;
+
+    /// Forgets earlier steps. Returns the length of the step to try next, if there was a step.
+    fn forget(&mut self) -> Option<f64>;
+}
+
+impl<M: ImplicitScheme> ImplicitStepper<M> {
+    /// Begins with `y` at the beginning of the span; evaluates nothing.
+    pub fn start<Y: Dae>(
+        control: StepControl,
+        lengths: DaeLengths,
+        span: (f64, f64),
+        y: &[f64],
+        method: M,
+    ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
+        Ok(Box::new(Self {
+            grid: control.begin(span, (y, lengths.total()), lengths.controlled())?,
+            lengths,
+            counts: Statistics::default(),
+            steps: ImplicitSteps::new(span, y, M::ROWS),
+            scale: ErrorWeights::new(&control, lengths.controlled()),
+            control,
+            method,
+        }))
+    }
+}
+
+impl<M: ImplicitScheme, Y: Dae> Stepper<Y, Y::Stop> for ImplicitStepper<M> {
+    fn step(&mut self, system: &mut Y) -> Result<(), Cause<Y::Stop>> {
+        self.steps.move_on();
+        let mut dae = CountedDae { system, counts: self.counts };
+        let outcome = M::next(self, &mut dae);
+        self.counts = dae.counts;
+        outcome
+    }
+
+    fn prepare_interpolant(&mut self, _: &mut Y) -> Result<(), Cause<Y::Stop>> {
+        Ok(())
+    }
+
+    fn last_step(&self) -> Option<Step<'_>> {
+        self.steps.view(M::table(), M::DEGREE)
+    }
+
+    fn t(&self) -> f64 {
+        self.steps.t()
+    }
+
+    fn t_end(&self) -> f64 {
+        self.steps.t_end
+    }
+
+    fn y(&self) -> &[f64] {
+        self.steps.y()
+    }
+
+    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Y::Stop>> {
+        let (len, controlled) = (self.lengths.total(), self.lengths.controlled());
+        self.grid = self.control.restart((t, self.steps.t_end), (y, len), controlled)?;
+        self.control.first_step = self.method.forget();
+        self.steps.restart(t, y);
+        Ok(())
+    }
+
+    fn statistics(&self) -> Statistics {
+        self.counts
+    }
+}

@@ -1,0 +1,32 @@
+//! Why a system has no usable solution.
+
+/// A system without a usable solution: rows are those of the constraints, columns are unknowns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Breakdown {
+    /// This row depends on the others.
+    Row(usize),
+    /// The pivot of this unknown in W is not positive.
+    Column(usize),
+    /// No multipliers agree with the forces that depend on them; the first row of such multipliers.
+    Reaction(usize),
+    /// This row depends on the others where the motion is almost at rest under load.
+    AtRest(usize),
+    /// Newton's iteration leaves this row open.
+    Open {
+        /// The row with the largest residual.
+        row: usize,
+        /// Its residual.
+        gap: f64,
+    },
+    /// This row is open by more than allowed.
+    Apart {
+        /// The row with the largest residual.
+        row: usize,
+        /// Its residual.
+        gap: f64,
+        /// The largest residual that is allowed.
+        most: f64,
+    },
+    /// A result is not finite.
+    NotFinite,
+}
