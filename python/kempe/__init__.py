@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from kempe.case import Results as Results
     from kempe.case import Start as Start
     from kempe.case import load as load
+    from kempe.display_units import Units as Units
+    from kempe.display_units import units as units
     from kempe.draw.animate import animate as animate
     from kempe.draw.player import player as player
     from kempe.draw.scene import scene as scene
@@ -94,6 +96,7 @@ _HOME = {
     "Start": "case",
     "State": "state",
     "Study": "studies",
+    "Units": "display_units",
     "animate": "draw.animate",
     "assemble": "analyses",
     "draw": "",
@@ -109,6 +112,7 @@ _HOME = {
     "show": "matrices",
     "still": "draw.still",
     "study": "studies",
+    "units": "display_units",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604

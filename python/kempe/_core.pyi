@@ -194,6 +194,12 @@ def dynamics(
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F) -> tuple[_F, _F]:
     """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂."""
 
+def energies(model: Model, t: _F, q: _F, v: _F, z: _F, works: _F) -> _F:
+    """Energies at states, (n_t, 5), J, as in ``Run.energies``.
+
+    ``works`` is the end of each row of the interpolant, (n_t, n_works).
+    """
+
 def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
     """Φ and Φ_q q̇ + Φ_t at states, (n_t, n_rows) each."""
 

@@ -4,7 +4,7 @@ use crate::assemble::targets;
 use crate::convert::{refuse, rows, state, table, Row, Rows};
 use crate::guard::guard;
 use crate::model::PyModel;
-use crate::respond::{responses, Table};
+use crate::respond::{self, responses, Table};
 use kempe::analyses::assemble::{holding, Request};
 use kempe::analyses::dynamics as core;
 use kempe::elements::BodyId;
@@ -65,6 +65,27 @@ pub fn evaluate<'py>(
         let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
         let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
         responses(py, &model.prepared, core::States { t, q, v, z }, false)
+    })
+}
+
+/// Energies at states, with the works up to them.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, z, works))]
+pub fn energies<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+    works: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("energies", || {
+        let layout = &model.model.layout;
+        let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
+        let z = &rows(py, "z", &z, (t.len(), layout.n_z))?;
+        let works = rows(py, "works", &works, (t.len(), layout.n_works))?;
+        respond::energies(py, &model.prepared, core::States { t, q, v, z }, &works)
     })
 }
 

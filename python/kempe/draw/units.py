@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from kempe.display_units import chosen_for
+
 #: SI prefixes by the power of ten.
 _PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
 #: The powers that engineers write before each unit; others are written as 10³ before it.
@@ -42,12 +44,15 @@ class Scale:
 
 
 def scale(unit: str, peak: float) -> Scale:
-    """The scale in which the largest value has one to four digits before the point.
+    """The chosen display unit, or the scale with one to four digits before the point.
 
     Args:
         unit: SI unit of the values.
         peak: largest magnitude in that unit.
     """
+    chosen = chosen_for(unit)
+    if chosen is not None:
+        return Scale(chosen.divisor, chosen.symbol)
     power = _power(peak)
     if not power:
         return Scale(1.0, unit)

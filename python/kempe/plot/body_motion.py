@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
+from kempe.display_units import chosen_for
 from kempe.names import one_of
 from kempe.plot import style
 from kempe.plot.curves import Curve, Panel, draw
@@ -123,7 +124,7 @@ def _draw(
             symbol, unit = QUANTITIES[names[0]]
             curve = Curve(symbol, getattr(motion.body(body), names[0]), line)
             draw(axes, motion.t, [curve], Panel(symbol, unit, title, cut, legend=False))
-            if names[0] == "angle":
+            if names[0] == "angle" and chosen_for("rad") is None:
                 _add_degrees(axes)
         else:
             _draw_all(
