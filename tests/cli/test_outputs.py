@@ -27,6 +27,12 @@ COMMANDS = {
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="pipes and devices of POSIX")
 
 
+@pytest.fixture(params=["buffered", "unbuffered"])
+def _buffer(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONUNBUFFERED", "" if request.param == "buffered" else "1")
+
+
+@pytest.mark.usefixtures("_buffer")
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_reader_that_leaves_ends_a_command_quietly(name: str, tmp_path: Path) -> None:
     reading, writing = os.pipe()
@@ -51,6 +57,7 @@ def test_the_first_line_of_a_run_can_be_taken(tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (0, b"")
 
 
+@pytest.mark.usefixtures("_buffer")
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is full")
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_full_device_is_reported(name: str, tmp_path: Path) -> None:

@@ -11,7 +11,6 @@
 //! | `diagnostic`, `document` | places → line, column, excerpt |
 //! | `report` | problems by path |
 //! | `names`, `values`, `fields`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
-//! | `times` | analyses that end before they begin |
 //! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
 //! | `faults` | faults of start and analyses that only the model shows |
 //! | `schema` | the JSON Schema |

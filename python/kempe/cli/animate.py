@@ -19,6 +19,8 @@ from kempe.cli.arguments import (
     RelativeTolerance,
     Settings,
     Step,
+    Units,
+    shown_in,
 )
 from kempe.cli.clock import drawing
 from kempe.cli.console import answers
@@ -93,6 +95,7 @@ def animate(  # noqa: PLR0917 - typer distinguishes options by their annotations
     end: End = None,
     at: At = None,
     labels: Labels = True,
+    units: Units = None,
     settings: Settings = None,
     t_end: EndTime = None,
     method: MethodName = None,
@@ -111,13 +114,14 @@ def animate(  # noqa: PLR0917 - typer distinguishes options by their annotations
     console = answers()
     found = list(solved(file, Changes(settings, t_end, method, rtol, atol, step)))
     for name, solution, (first, last) in _parts(found, *((begin, end) if at is None else (at, at))):
-        if at is not None:
-            path = still(solution, _picture(file, output, name), at, **look)
-        else:
-            path = _path(file, output, form, name)
-            look |= {"fps": fps, "speed": speed, "begin": first, "end": last}
-            with drawing(path.name) as progress:
-                write(solution, path, progress=progress, **look)
+        with shown_in(units):
+            if at is not None:
+                path = still(solution, _picture(file, output, name), at, **look)
+            else:
+                path = _path(file, output, form, name)
+                look |= {"fps": fps, "speed": speed, "begin": first, "end": last}
+                with drawing(path.name) as progress:
+                    write(solution, path, progress=progress, **look)
         console.print(Text(str(path)))
 
 

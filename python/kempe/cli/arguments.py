@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
@@ -61,6 +63,15 @@ Step = Annotated[
     float | None,
     typer.Option(
         "--step", metavar="SECONDS", help="Constant step, s, without control of the error."
+    ),
+]
+Units = Annotated[
+    str | None,
+    typer.Option(
+        "--units",
+        metavar="UNIT,…",
+        help="Units of tables, figures and CSV files, such as mm,deg,rpm; JSON and npz files are "
+        "in SI units and rad.",
     ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print only the result, as JSON.")]
@@ -122,6 +133,22 @@ def _fields(method: Method) -> set[str]:
         if kind.kind == method.value:
             return set(kind.shapes)
     return set()
+
+
+@contextmanager
+def shown_in(names: str | None) -> Iterator[None]:
+    """Show numbers in display units in the block.
+
+    Args:
+        names: the argument of ``--units``; None for SI units.
+
+    Raises:
+        ModelError: a unit is unknown.
+    """
+    from kempe.display_units import units
+
+    with units("SI" if names is None else names):
+        yield
 
 
 def read_case(file: Path, changes: Changes) -> Case:

@@ -18,8 +18,10 @@ from kempe.cli.arguments import (
     RelativeTolerance,
     Settings,
     Step,
+    Units,
     assembled,
     read_case,
+    shown_in,
 )
 from kempe.cli.console import answers
 from kempe.cli.failure import document
@@ -44,18 +46,19 @@ def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
     rtol: RelativeTolerance = None,
     atol: AbsoluteTolerance = None,
     step: Step = None,
+    units: Units = None,
     as_json: AsJson = False,
 ) -> None:
     """Read a case, assemble its mechanism and show the configuration, without a simulation."""
     from kempe.cli.mechanism import show_configuration, show_mechanism
 
-    with document(as_json) as found:
+    with document(as_json) as found, shown_in(units):
         case = read_case(file, Changes(settings, t_end, method, rtol, atol, step))
         state = assembled(case)
         found.update(_content(case, state))
-    console = answers(silent=as_json)
-    show_mechanism(console, state)
-    show_configuration(console, state)
+        console = answers(silent=as_json)
+        show_mechanism(console, state)
+        show_configuration(console, state)
     analyses = ", ".join(f"{name} ({entry['type']})" for name, entry in case.analyses.items())
     console.print()
     name = "standard input" if str(file) == STDIN else file

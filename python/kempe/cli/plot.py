@@ -17,6 +17,8 @@ from kempe.cli.arguments import (
     RelativeTolerance,
     Settings,
     Step,
+    Units,
+    shown_in,
 )
 from kempe.cli.console import answers
 from kempe.cli.solved import CaseOrSolution, results_folder, solved
@@ -54,6 +56,7 @@ def plot(  # noqa: PLR0917 - typer distinguishes options by their annotations
         str, typer.Option("--format", help="One or more of png, svg and pdf, separated by commas.")
     ] = "png,svg",
     time_axis: figures.TimeAxis = figures.Axis.linear,
+    units: Units = None,
     settings: Settings = None,
     t_end: EndTime = None,
     method: MethodName = None,
@@ -68,11 +71,12 @@ def plot(  # noqa: PLR0917 - typer distinguishes options by their annotations
     changes = Changes(settings, t_end, method, rtol, atol, step)
     compressed = time_axis is figures.Axis.compressed
     console = answers()
-    for analysis, solution in list(solved(file, changes)):
-        known = pages(solution, index_base, compressed=compressed)
-        chosen = _chosen(solution, known, names or [])
-        for path in save(chosen, _folder(file, output, analysis), wanted):
-            console.print(Text(str(path)))
+    with shown_in(units):
+        for analysis, solution in list(solved(file, changes)):
+            known = pages(solution, index_base, compressed=compressed)
+            chosen = _chosen(solution, known, names or [])
+            for path in save(chosen, _folder(file, output, analysis), wanted):
+                console.print(Text(str(path)))
 
 
 def _folder(file: Path, output: Path | None, analysis: str) -> Path:

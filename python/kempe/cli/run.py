@@ -23,8 +23,10 @@ from kempe.cli.arguments import (
     RelativeTolerance,
     Settings,
     Step,
+    Units,
     assembled,
     read_case,
+    shown_in,
     stem,
 )
 from kempe.cli.clock import Clock
@@ -47,6 +49,8 @@ EXAMPLES = """Examples:
   kempe run four_bar.toml --set k=2e6 --set crank.angle=80*deg --t-end 5 -o out/stiff
 
   kempe run four_bar.toml --method dop853 --rtol 1e-10 --figures all
+
+  kempe run four_bar.toml --units mm,deg,rpm
 
   kempe run four_bar.toml --json | jq .analyses.release.energy
 """
@@ -76,13 +80,14 @@ def run(  # noqa: PLR0917 - typer uses the annotations of options and arguments
     ] = False,
     index_base: figures.IndexBase = 1,
     time_axis: figures.TimeAxis = figures.Axis.linear,
+    units: Units = None,
     video: Annotated[
         Form | None, typer.Option("--animate", help="Also write a video or GIF.")
     ] = None,
 ) -> None:
     """Assemble a mechanism, run its analyses and write the results."""
     drawing = figures.Drawing(Which.none if without else which, index_base, time_axis, video)
-    with document(as_json) as content:
+    with document(as_json) as content, shown_in(units):
         case = read_case(file, Changes(settings, t_end, method, rtol, atol, step))
         refuse_without_analysis(case, file)
         refuse_impossible(video)
