@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe.arrays import Floats, fixed
 
@@ -18,6 +19,10 @@ class Energy:
 
     def __init__(self, columns: Floats) -> None:
         self._columns = fixed(columns)
+
+    def at(self, rows: NDArray[np.intp]) -> Energy:
+        """The energies at some of the times."""
+        return Energy(self._columns[rows])
 
     @cached_property
     def kinetic(self) -> Floats:

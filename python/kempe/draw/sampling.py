@@ -7,8 +7,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from kempe import _core
 from kempe.arrays import Floats, fixed
+from kempe.energy import Energy
 from kempe.errors import KempeError, ModelError
+from kempe.draw.numbers import rounded
 from kempe.motion import Motion
 from kempe.solution import Solution
 from kempe.state import State
@@ -45,7 +48,9 @@ def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int)
         return _at_outputs(drawn, count)
     if begin == end:
         count = 1
-    motion = drawn(np.linspace(begin, end, count))
+    # Frames have the times that are written, so that the solution there has their numbers.
+    written = [rounded(t) for t in np.linspace(begin, end, count).tolist()]
+    motion = drawn(np.clip(np.array(written, dtype=np.float64), begin, end))
     try:
         _ = motion.lam
     except KempeError:  # a solution may end in a position in which reactions have no answer
@@ -66,6 +71,7 @@ class _Outputs(Motion):
     def __init__(self, solution: Solution, kept: NDArray[np.intp]) -> None:
         rows = (values[kept] for values in (solution.t, solution.q, solution.v, solution.z))
         super().__init__(solution.model, *rows)
+        self.kept = kept
         self._computed = fixed(solution.a[kept]), fixed(solution.lam[kept])
 
     @property
@@ -83,6 +89,57 @@ def _at_outputs(solution: Solution, count: int) -> Motion:
     return _Outputs(solution, kept)
 
 
+def energy(drawn: Solution | State, motion: Motion) -> Energy | None:
+    """Energies at the frames; None for a state, and where an energy is not finite."""
+    if isinstance(drawn, State):
+        return None
+    try:
+        if isinstance(motion, _Outputs):
+            return drawn.energy.at(motion.kept)
+        assert drawn.dense is not None
+        works = drawn.dense(motion.t)[:, 2 * motion.model.n_q + motion.model.n_z :]
+        states = (motion.t, motion.q, motion.v, motion.z)
+        return Energy(_core.energies(motion.model.core, *states, works))
+    except KempeError:
+        return None
+
+
+def accuracy(drawn: Solution | State, motion: Motion) -> float | None:
+    """The largest error of accelerations and multipliers between two frames.
+
+    The page interpolates them by cubic polynomials with central differences as slopes.
+
+    Returns:
+        The largest error half-way between frames, as a share of the largest value; None where there
+        is no interpolant or no answer half-way.
+    """
+    if isinstance(drawn, State) or isinstance(motion, _Outputs) or len(motion.t) < 3:
+        return None
+    try:
+        middle = drawn((motion.t[:-1] + motion.t[1:]) / 2.0)
+        pairs = [(motion.a, middle.a), (motion.lam, middle.lam)]
+    except KempeError:
+        return None
+    return max(_error_half_way(motion.t, frames, exact) for frames, exact in pairs)
+
+
+def _error_half_way(t: Floats, frames: Floats, exact: Floats) -> float:
+    largest = float(np.abs(frames).max(initial=0.0))
+    h = np.diff(t)[:, None]
+    inner = (frames[2:] - frames[:-2]) / (h[1:] + h[:-1])
+    ends = np.diff(frames, axis=0) / h
+    slopes = np.concatenate([ends[:1], inner, ends[-1:]])
+    middle = _half_way(frames, slopes, h)
+    error = float(np.abs(middle - exact).max(initial=0.0))
+    return error / largest if largest > 0.0 else 0.0
+
+
+def _half_way(values: Floats, slopes: Floats, h: Floats) -> Floats:
+    """Hermite's polynomial half-way between frames: (q0 + q1)/2 + h (v0 - v1)/8."""
+    found: Floats = (values[:-1] + values[1:]) / 2.0 + h * (slopes[:-1] - slopes[1:]) / 8.0
+    return found
+
+
 def interpolation(drawn: Solution | State, motion: Motion, size: float) -> str:
     """Whether the poses between the frames follow from poses and rates: "cubic" or "none".
 
@@ -96,10 +153,7 @@ def interpolation(drawn: Solution | State, motion: Motion, size: float) -> str:
     """
     if isinstance(drawn, State) or isinstance(motion, _Outputs) or len(motion.t) < 2:
         return "none"
-    h = np.diff(motion.t)[:, None]
-    q, v = motion.q, motion.v
-    # Hermite's polynomial at the middle: (q0 + q1)/2 + h (v0 - v1)/8.
-    middle = (q[:-1] + q[1:]) / 2.0 + h * (v[:-1] - v[1:]) / 8.0
+    middle = _half_way(motion.q, motion.v, np.diff(motion.t)[:, None])
     exact = drawn((motion.t[:-1] + motion.t[1:]) / 2.0).q
     worst = max(
         (_misplaced(middle, exact, motion, name) for name in motion.model.bodies), default=0.0

@@ -5,13 +5,14 @@ The player, the pictures and the videos draw only this; ``docs/scene.md`` descri
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.compiled import COORDINATES, RATES, CompiledModel
+from kempe.compiled import ACCELERATIONS, COORDINATES, RATES, CompiledModel
 from kempe.draw import channels, sampling, shapes
 from kempe.draw.numbers import plain, round_below, rounded
 from kempe.draw.units import scale
@@ -77,13 +78,19 @@ def scene(
             "t": plain(motion.t),
             "poses": plain(_of_bodies(motion, COORDINATES)),
             "rates": plain(_of_bodies(motion, RATES)),
+            "accelerations": plain(_of_bodies(motion, ACCELERATIONS)),
             "reactions": plain(reactions),
         },
         "interpolation": sampling.interpolation(solution_or_state, motion, size),
+        "accuracy": _short(sampling.accuracy(solution_or_state, motion)),
         "playback": {"rate": playback_rate(float(motion.t[-1] - motion.t[0]))},
         "reaction_scale": _reaction_scale(reactions, size),
-        "channels": channels.channels(motion),
+        "channels": channels.channels(motion, sampling.energy(solution_or_state, motion)),
     }
+
+
+def _short(share: float | None) -> float | None:
+    return None if share is None or not math.isfinite(share) else float(f"{share:.2g}")
 
 
 def _length(size: float) -> dict[str, Any]:

@@ -1,12 +1,15 @@
 // The drawing: what is shown of the scene at one instant, and the part of the plane that is seen.
-import { paintGravity, paintGrid, paintLengthScale, paintReactions } from "./measure.js";
+import { arrowsOf, paintArrows, paintArrowScale } from "./arrows.js";
+import { paintGravity, paintGrid, paintLengthScale } from "./measure.js";
 import { placed } from "./motion.js";
 import { paintItems, paintPaths } from "./paint.js";
 import { cleared, sharpen } from "./surface.js";
+import { Vectors } from "./vectors.js";
 import { extent, View } from "./view.js";
 
-/** From this layer on items are painted over the arrows of reactions. */
+/** From this layer on items are painted over the arrows. */
 const PIN = 3;
+const ARROWS = ["reactions", "velocities", "accelerations"];
 
 /** Draws the scene on a canvas. */
 export class Drawing {
@@ -15,7 +18,8 @@ export class Drawing {
     this.scene = scene;
     this.motion = motion;
     this.view = new View(scene.bounds);
-    this.shown = { names: true, numbers: true, paths: true, reactions: false };
+    this.shown = { names: true, numbers: true, paths: true, reactions: false, velocities: false, accelerations: false };
+    this.vectors = new Vectors(scene, motion);
     this.magnification = 1;
     this.below = scene.display.filter(({ layer }) => layer < PIN);
     this.above = scene.display.filter(({ layer }) => layer >= PIN);
@@ -38,25 +42,34 @@ export class Drawing {
     });
   }
 
-  /** Draw the instant t. */
-  paint(t, colours) {
+  /** Draw the instant t, on the canvas of the page or another one. */
+  paint(t, colours, context = cleared(this.canvas)) {
     const { scene, view, shown } = this;
-    const context = cleared(this.canvas);
     const now = this.motion.at(t);
     const step = paintGrid(context, view, colours);
     if (shown.paths) paintPaths(context, view, this.traces, colours);
     const paint = (items) => paintItems(context, view, items, now.poses, shown, colours);
     paint(this.below);
-    if (shown.reactions) paintReactions(context, view, this.pins(now), now.forces, this.pixelsPerNewton(), colours);
     paint(this.above);
+    this.arrows = this.paintArrows(context, now, colours);
     paintLengthScale(context, view, step, scene.length, colours);
     paintGravity(context, view, scene.gravity, colours);
   }
 
-  /** Length of reaction arrows; they do not grow when one zooms in. */
-  pixelsPerNewton() {
-    const { force, length } = this.scene.reaction_scale;
-    return (this.magnification * this.view.fitted() * length) / force;
+  /** The arrows that are shown, with their scales. */
+  paintArrows(context, now, colours) {
+    const { view } = this;
+    const taken = [];
+    return ARROWS.filter((kind) => this.shown[kind]).flatMap((name, row) => {
+      const kind = this.vectors.kinds[name];
+      const pixels = this.magnification * view.fitted() * kind.length;
+      const vectors = this.vectors.of(name, now);
+      const places = vectors.map(({ body, at }) => view.toScreen(placed(now.poses[body], at)));
+      const arrows = arrowsOf(vectors, { name, unit: kind.unit }, places, view, pixels);
+      paintArrows(context, arrows, view, colours[name], colours, taken);
+      paintArrowScale(context, view, kind, pixels, row, colours[name], colours);
+      return arrows;
+    });
   }
 }
 

@@ -23,13 +23,22 @@ export function cleared(canvas) {
   return context;
 }
 
-const BODY_COLOURS = 7;
+/** How many colours of bodies there are. */
+export const BODY_COLOURS = 7;
+
+/** The colours of a picture on white paper, whatever the page has. */
+export function paperPalette() {
+  document.documentElement.classList.add("paper");
+  const found = palette();
+  document.documentElement.classList.remove("paper");
+  return found;
+}
 
 /** The colours of the page as they are now, light or dark. */
 export function palette() {
   const style = getComputedStyle(document.documentElement);
   const read = (name) => style.getPropertyValue(`--${name}`).trim();
-  const names = ["panel", "edge", "text", "soft", "accent", "grid", "ground", "paper", "ink", "force", "drive", "quiet", "reaction"];
+  const names = ["page", "panel", "edge", "text", "soft", "accent", "grid", "ground", "paper", "ink", "force", "drive", "quiet", "reactions", "velocities", "accelerations"];
   const colours = Object.fromEntries(names.map((name) => [name, read(name)]));
   const bodies = Array.from({ length: BODY_COLOURS }, (_, k) => read(`body-${k + 1}`));
   return { ...colours, body: (number) => (number ? bodies[(number - 1) % BODY_COLOURS] : colours.ground) };

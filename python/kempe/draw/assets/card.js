@@ -1,0 +1,97 @@
+// A plot with its choices and its legend.
+import { shortened } from "./numbers.js";
+import { colourOf, dashOf, Plot } from "./plot.js";
+import { choices } from "./quantities.js";
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** A plot on the page: what it shows is chosen here, and the legend gives the values. */
+export class Card {
+  constructor(template, { all, motion, span, changed, removed }) {
+    this.element = template.content.firstElementChild.cloneNode(true);
+    const find = (name) => this.element.querySelector(`.${name}`);
+    [this.quantity, this.subject, this.log, this.legend, this.canvas] = ["quantity", "subject", "log", "legend", "curves"].map(find);
+    Object.assign(this, { all, motion, entries: [], removal: find("remove") });
+    this.plot = new Plot(this.canvas, motion, span);
+    fillGroups(this.quantity, all);
+    this.quantity.addEventListener("change", () => this.choose(Number(this.quantity.value), 0, changed));
+    this.subject.addEventListener("change", () => this.choose(Number(this.quantity.value), Number(this.subject.value), changed));
+    this.log.addEventListener("change", () => this.rescale(changed));
+    this.removal.addEventListener("click", () => removed(this));
+  }
+
+  /** Show a quantity of a subject, by their numbers in the lists. */
+  choose(which, whose, changed) {
+    const quantity = this.all[which];
+    const subjects = choices(quantity);
+    fill(this.subject, subjects);
+    this.quantity.value = String(which);
+    this.subject.value = String(whose);
+    this.plot.show(subjects[whose].curves, quantity.symbol);
+    this.name = `${quantity.name}, ${subjects[whose].name}`;
+    this.canvas.setAttribute("aria-label", `Plot over time: ${this.name}`);
+    this.showLegend();
+    this.rescale(changed);
+  }
+
+  rescale(changed) {
+    this.plot.log = this.log.checked;
+    this.plot.scale();
+    changed();
+  }
+
+  showLegend() {
+    this.entries = this.plot.curves.map((curve) => {
+      const [entry, name, value] = ["li", "bdi", "span"].map((tag) => document.createElement(tag));
+      const line = document.createElementNS(SVG, "line");
+      const mark = document.createElementNS(SVG, "svg");
+      for (const [key, number] of Object.entries({ x1: 1, y1: 4, x2: 25, y2: 4 })) line.setAttribute(key, number);
+      line.setAttribute("stroke-dasharray", dashOf(curve).join(" "));
+      mark.setAttribute("viewBox", "0 0 26 8");
+      mark.setAttribute("aria-hidden", "true");
+      mark.classList.add("mark");
+      mark.append(line);
+      name.className = "name";
+      name.textContent = shortened(curve.name, 60);
+      name.title = curve.name;
+      value.className = "value";
+      entry.append(mark, name, value);
+      return { curve, entry, line, value };
+    });
+    this.legend.replaceChildren(...this.entries.map(({ entry }) => entry));
+  }
+
+  /** Draw with the cursor at t, or at the time that is looked at. */
+  paint(t, looked, colours) {
+    this.plot.paint(t, looked, colours);
+    for (const { curve, line, value } of this.entries) {
+      line.setAttribute("stroke", colourOf(curve, colours));
+      value.textContent = `${this.plot.write(curve, looked ?? t)} ${this.plot.unit}`;
+    }
+  }
+}
+
+/** Fill a list of choices; names are text, whatever they contain. */
+function fill(select, all) {
+  select.replaceChildren(...all.map(({ name }, k) => option(name, k)));
+}
+
+function fillGroups(select, all) {
+  const groups = new Map();
+  all.forEach(({ group, name }, k) => {
+    if (!groups.has(group)) {
+      groups.set(group, document.createElement("optgroup"));
+      groups.get(group).label = group;
+      select.append(groups.get(group));
+    }
+    groups.get(group).append(option(name, k));
+  });
+}
+
+function option(name, k) {
+  const made = document.createElement("option");
+  made.value = String(k);
+  made.textContent = shortened(name, 40);
+  made.title = name;
+  return made;
+}
