@@ -27,6 +27,8 @@ Scene: TypeAlias = dict[str, Any]
 #: Version of the format.
 FORMAT = 2
 UNITS = {"time": "s", "length": "m", "angle": "rad", "force": "N", "torque": "N·m"}
+#: Points are computed from poses; after many turns, angles need more digits than other numbers.
+_DIGITS_OF_POSES = 12
 #: Length of the arrow of the largest reaction, as a share of the size of the drawing.
 _LONGEST_ARROW = 0.3
 #: Points no farther apart than this share of the drawing are seen as one.
@@ -76,7 +78,7 @@ def scene(
         "traces": _traces(motion, size, traces),
         "frames": {
             "t": plain(motion.t),
-            "poses": plain(_of_bodies(motion, COORDINATES)),
+            "poses": plain(_of_bodies(motion, COORDINATES), _DIGITS_OF_POSES),
             "rates": plain(_of_bodies(motion, RATES)),
             "accelerations": plain(_of_bodies(motion, ACCELERATIONS)),
             "reactions": plain(reactions),

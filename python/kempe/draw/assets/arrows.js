@@ -7,6 +7,8 @@ const INSET = 6;
 const TEXT = 12;
 /** With more arrows than this, texts that would cover others are left out. */
 const MOST_COVERED = 12;
+/** Directions from an arrow in which its text may be, from that of the arrow. */
+const TURNS = [0, 0.8, -0.8, 1.57, -1.57, 2.4, -2.4, 3.14];
 
 /** The part of an arrow that lies in the view; null if it begins outside of it. */
 export function clipped([x0, y0], [x1, y1], { width, height }) {
@@ -31,13 +33,17 @@ export function arrowsOf(vectors, { name, unit }, places, view, pixels) {
   });
 }
 
-/** Paint arrows, then their texts where they cover least; adds the place of each text. */
-export function paintArrows(context, arrows, view, colour, colours, taken) {
+/** Paint arrows of one colour. */
+export function paintArrows(context, arrows, colour, colours) {
   for (const { from, to, whole } of arrows) {
     paintArrow(context, from, to, colours.panel, 5);
     paintArrow(context, from, to, colour, 2.4);
     if (!whole) paintBreak(context, from, to, colour, colours.panel);
   }
+}
+
+/** Write the texts of all arrows where they cover the least of the boxes taken; adds the box of each. */
+export function paintTexts(context, arrows, view, colours, taken) {
   context.font = font(TEXT);
   context.textAlign = "left";
   context.textBaseline = "middle";
@@ -46,26 +52,28 @@ export function paintArrows(context, arrows, view, colour, colours, taken) {
     if (covered && arrows.length > MOST_COVERED) continue;
     taken.push(box);
     arrow.box = box;
-    rimmed(context, arrow.text, [box[0], (box[1] + box[3]) / 2], colour, colours.panel);
+    rimmed(context, arrow.text, [box[0], (box[1] + box[3]) / 2], colours[arrow.kind], colours.panel);
   }
 }
 
-/** The box [left, top, right, bottom] beside the tip of an arrow that covers the least of those taken. */
+/** The box [left, top, right, bottom] near an arrow that covers the least of those taken. */
 function freePlace(width, { from, to }, view, taken) {
   const high = TEXT + 4;
-  const length = Math.hypot(to[0] - from[0], to[1] - from[1]) || 1;
-  const ahead = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
+  const heading = Math.atan2(to[1] - from[1], to[0] - from[0]);
   const middle = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2];
-  const places = [[to, ahead], [to, [-ahead[1], ahead[0]]], [to, [ahead[1], -ahead[0]]],
-    [middle, [-ahead[1], ahead[0]]], [middle, [ahead[1], -ahead[0]]], [to, [0, -1]], [to, [0, 1]], [from, [-ahead[0], -ahead[1]]]];
   let best = null;
-  for (const [[x, y], [dx, dy]] of places) {
-    const cx = within(x + dx * (width / 2 + 8), width / 2 + 4, view.width);
-    const cy = within(y + dy * (high / 2 + 5), high / 2 + 2, view.height);
-    const box = [cx - width / 2, cy - high / 2, cx + width / 2, cy + high / 2];
-    const covered = taken.reduce((sum, other) => sum + common(box, other), 0);
-    if (!best || covered < best.covered) best = { box, covered };
-    if (!covered) break;
+  for (const gap of [5, 22]) {
+    for (const anchor of [to, middle]) {
+      for (const turn of TURNS) {
+        const [dx, dy] = [Math.cos(heading + turn), Math.sin(heading + turn)];
+        const cx = within(anchor[0] + dx * (width / 2 + gap), width / 2 + 4, view.width);
+        const cy = within(anchor[1] + dy * (high / 2 + gap), high / 2 + 2, view.height);
+        const box = [cx - width / 2, cy - high / 2, cx + width / 2, cy + high / 2];
+        const covered = taken.reduce((sum, other) => sum + common(box, other), 0);
+        if (!covered) return { box, covered };
+        if (!best || covered < best.covered) best = { box, covered };
+      }
+    }
   }
   return best;
 }
@@ -80,14 +88,16 @@ function common(a, b) {
   return wide > 0 && high > 0 ? wide * high : 0;
 }
 
-/** How long a round value is drawn; `row` counts the scales from below. */
-export function paintArrowScale(context, view, { unit }, pixels, row, colour, colours) {
-  if (!(pixels > 0)) return;
-  const value = roundBelow(Math.min(110, 0.3 * view.width) / pixels);
-  const [x, y] = [view.width - 16, view.height - 16 - 32 * row];
-  paintArrow(context, [x - value * pixels, y], [x, y], colour, 2.4);
+/** How long a round value is drawn; returns the place to the left of it, px. */
+export function paintArrowScale(context, view, { unit }, pixels, right, colour, colours) {
+  if (!(pixels > 0)) return right;
+  const value = roundBelow(Math.min(110, 0.16 * view.width) / pixels);
+  const y = view.height - 16;
+  const text = roundQuantity(value, unit);
   context.font = font(TEXT);
   context.textAlign = "right";
   context.textBaseline = "alphabetic";
-  rimmed(context, roundQuantity(value, unit), [x, y - 9], colours.text, colours.panel);
+  paintArrow(context, [right - value * pixels, y], [right, y], colour, 2.4);
+  rimmed(context, text, [right, y - 9], colours.text, colours.panel);
+  return right - Math.max(value * pixels, context.measureText(text).width) - 16;
 }

@@ -2,7 +2,7 @@
 import { decades, ticks } from "./numbers.js";
 import { font } from "./surface.js";
 
-const TOP = 28;
+const TOP = 32;
 const BOTTOM = 40;
 const RIGHT = 14;
 const TICK_TEXT = 12;
@@ -11,7 +11,7 @@ const TICK_TEXT = 12;
 export class Axes {
   constructor(context, { width, height }, span, { range, log }) {
     Object.assign(this, { width, height, span, range, log });
-    const count = Math.max(2, Math.floor((height - TOP - BOTTOM) / 46));
+    const count = Math.max(2, Math.floor((height - TOP - BOTTOM) / 36));
     this.up = log ? decades(...range, count) : ticks(...range, count);
     context.font = font(TICK_TEXT);
     const widest = Math.max(...this.up.values.map((value) => context.measureText(this.up.write(value)).width));

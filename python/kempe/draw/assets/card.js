@@ -3,12 +3,11 @@ import { shortened } from "./numbers.js";
 import { colourOf, dashOf, Plot } from "./plot.js";
 import { choices } from "./quantities.js";
 
-const SVG = "http://www.w3.org/2000/svg";
-
 /** A plot on the page: what it shows is chosen here, and the legend gives the values. */
 export class Card {
-  constructor(template, { all, motion, span, changed, removed }) {
-    this.element = template.content.firstElementChild.cloneNode(true);
+  constructor({ card, entry }, { all, motion, span, changed, removed }) {
+    this.entry = entry;
+    this.element = card.content.firstElementChild.cloneNode(true);
     const find = (name) => this.element.querySelector(`.${name}`);
     [this.quantity, this.subject, this.log, this.legend, this.canvas] = ["quantity", "subject", "log", "legend", "curves"].map(find);
     Object.assign(this, { all, motion, entries: [], removal: find("remove") });
@@ -42,20 +41,11 @@ export class Card {
 
   showLegend() {
     this.entries = this.plot.curves.map((curve) => {
-      const [entry, name, value] = ["li", "bdi", "span"].map((tag) => document.createElement(tag));
-      const line = document.createElementNS(SVG, "line");
-      const mark = document.createElementNS(SVG, "svg");
-      for (const [key, number] of Object.entries({ x1: 1, y1: 4, x2: 25, y2: 4 })) line.setAttribute(key, number);
+      const entry = this.entry.content.firstElementChild.cloneNode(true);
+      const [line, name, value] = ["line", ".name", ".value"].map((one) => entry.querySelector(one));
       line.setAttribute("stroke-dasharray", dashOf(curve).join(" "));
-      mark.setAttribute("viewBox", "0 0 26 8");
-      mark.setAttribute("aria-hidden", "true");
-      mark.classList.add("mark");
-      mark.append(line);
-      name.className = "name";
       name.textContent = shortened(curve.name, 60);
       name.title = curve.name;
-      value.className = "value";
-      entry.append(mark, name, value);
       return { curve, entry, line, value };
     });
     this.legend.replaceChildren(...this.entries.map(({ entry }) => entry));
@@ -66,7 +56,7 @@ export class Card {
     this.plot.paint(t, looked, colours);
     for (const { curve, line, value } of this.entries) {
       line.setAttribute("stroke", colourOf(curve, colours));
-      value.textContent = `${this.plot.write(curve, looked ?? t)} ${this.plot.unit}`;
+      value.textContent = this.plot.write(curve, looked ?? t);
     }
   }
 }

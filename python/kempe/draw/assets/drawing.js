@@ -1,5 +1,5 @@
 // The drawing: what is shown of the scene at one instant, and the part of the plane that is seen.
-import { arrowsOf, paintArrows, paintArrowScale } from "./arrows.js";
+import { arrowsOf, paintArrows, paintArrowScale, paintTexts } from "./arrows.js";
 import { paintGravity, paintGrid, paintLengthScale } from "./measure.js";
 import { placed } from "./motion.js";
 import { paintItems, paintPaths } from "./paint.js";
@@ -7,8 +7,6 @@ import { cleared, sharpen } from "./surface.js";
 import { Vectors } from "./vectors.js";
 import { extent, View } from "./view.js";
 
-/** From this layer on items are painted over the arrows. */
-const PIN = 3;
 const ARROWS = ["reactions", "velocities", "accelerations"];
 
 /** Draws the scene on a canvas. */
@@ -21,8 +19,6 @@ export class Drawing {
     this.shown = { names: true, numbers: true, paths: true, reactions: false, velocities: false, accelerations: false };
     this.vectors = new Vectors(scene, motion);
     this.magnification = 1;
-    this.below = scene.display.filter(({ layer }) => layer < PIN);
-    this.above = scene.display.filter(({ layer }) => layer >= PIN);
     const piece = extent(scene.bounds) / 200;
     this.traces = scene.traces.map(({ body, point }) => ({ body, path: line(motion.path(body, point, piece)) }));
     this.resize();
@@ -48,28 +44,28 @@ export class Drawing {
     const now = this.motion.at(t);
     const step = paintGrid(context, view, colours);
     if (shown.paths) paintPaths(context, view, this.traces, colours);
-    const paint = (items) => paintItems(context, view, items, now.poses, shown, colours);
-    paint(this.below);
-    paint(this.above);
-    this.arrows = this.paintArrows(context, now, colours);
+    const names = paintItems(context, view, scene.display, now.poses, shown, colours);
+    this.arrows = this.paintArrows(context, now, names, colours);
     paintLengthScale(context, view, step, scene.length, colours);
     paintGravity(context, view, scene.gravity, colours);
   }
 
-  /** The arrows that are shown, with their scales. */
-  paintArrows(context, now, colours) {
+  /** The arrows that are shown, with their scales; `taken` are the boxes of the names. */
+  paintArrows(context, now, taken, colours) {
     const { view } = this;
-    const taken = [];
-    return ARROWS.filter((kind) => this.shown[kind]).flatMap((name, row) => {
+    let right = view.width - 16;
+    const arrows = ARROWS.filter((name) => this.shown[name]).flatMap((name) => {
       const kind = this.vectors.kinds[name];
       const pixels = this.magnification * view.fitted() * kind.length;
       const vectors = this.vectors.of(name, now);
       const places = vectors.map(({ body, at }) => view.toScreen(placed(now.poses[body], at)));
-      const arrows = arrowsOf(vectors, { name, unit: kind.unit }, places, view, pixels);
-      paintArrows(context, arrows, view, colours[name], colours, taken);
-      paintArrowScale(context, view, kind, pixels, row, colours[name], colours);
-      return arrows;
+      const found = arrowsOf(vectors, { name, unit: kind.unit }, places, view, pixels);
+      paintArrows(context, found, colours[name], colours);
+      right = paintArrowScale(context, view, kind, pixels, right, colours[name], colours);
+      return found;
     });
+    paintTexts(context, arrows, view, colours, taken);
+    return arrows;
   }
 }
 

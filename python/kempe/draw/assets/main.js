@@ -19,7 +19,14 @@ const motion = new Motion(scene);
 const decimals = timeDecimals(motion.t);
 const clock = new Clock(motion, scene.playback.rate, repaint);
 const drawing = new Drawing(byId("drawing"), scene, motion);
-const plots = new Plots(byId("plots"), byId("plot-card"), scene, motion, { seek: (t) => clock.seek(t), changed: repaint });
+const templates = { card: byId("plot-card"), entry: byId("legend-entry") };
+const plots = new Plots(byId("plots"), templates, scene, motion, {
+  seek: (t) => clock.seek(t),
+  changed: repaint,
+  counted: (more) => {
+    byId("add-plot").disabled = !more;
+  },
+});
 const controls = new Controls(byId, clock, motion, decimals);
 let colours = palette();
 let waiting = false;
@@ -64,7 +71,6 @@ function connectPlots() {
 
 function addPlot() {
   plots.add();
-  byId("add-plot").disabled = plots.full;
   plots.cards[plots.cards.length - 1].element.scrollIntoView({ block: "nearest" });
 }
 
@@ -90,6 +96,11 @@ function fit() {
   repaint();
 }
 
+function magnifyArrows(factor) {
+  drawing.magnification = Math.min(1e4, Math.max(1e-2, drawing.magnification * factor));
+  repaint();
+}
+
 function showKeys(shown = byId("keys").hidden) {
   byId("keys").hidden = !shown;
   byId("help").setAttribute("aria-expanded", String(shown));
@@ -106,6 +117,8 @@ function connectButtons() {
     "zoom-in": () => zoom(1.25),
     "zoom-out": () => zoom(0.8),
     fit,
+    longer: () => magnifyArrows(1.5),
+    shorter: () => magnifyArrows(1 / 1.5),
     help: () => showKeys(),
     "add-plot": addPlot,
     "save-drawing": saveDrawing,
@@ -120,16 +133,12 @@ function connectToggles() {
     const box = byId(`show-${what}`);
     const follow = () => {
       drawing.shown[what] = box.checked;
-      byId("arrow-size").hidden = !ARROW_KINDS.some((kind) => drawing.shown[kind]);
+      for (const id of ["longer", "shorter"]) byId(id).hidden = !ARROW_KINDS.some((kind) => drawing.shown[kind]);
       repaint();
     };
     box.addEventListener("change", follow);
     follow(); // a browser may restore the boxes of an earlier visit
   }
-  byId("magnify").addEventListener("input", (event) => {
-    drawing.magnification = 10 ** Number(event.target.value);
-    repaint();
-  });
 }
 
 function connectKeys() {

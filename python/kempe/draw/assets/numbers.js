@@ -51,11 +51,27 @@ export function fixed(value, peak) {
   return minus(value.toFixed(Math.min(12, Math.max(0, decimals))));
 }
 
+/** A value with four significant digits, such as 12.34 and 1.234·10⁻⁷. */
+export function significant(value) {
+  if (!Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  if (value === 0 || (size >= 1e-3 && size < 1e5)) return minus(value === 0 ? "0" : value.toPrecision(4));
+  const [mantissa, power] = value.toExponential(3).split("e");
+  return `${minus(mantissa)}·${powerOfTen(Number(power))}`;
+}
+
+/** A number and its unit; the sign of degrees follows without a space. */
+export function withUnit(text, unit) {
+  return unit === "°" ? `${text}°` : `${text} ${unit}`;
+}
+
 /** A value with its unit, such as "25.0 kN". */
 export function quantity(value, unit, digits = 3) {
   if (!Number.isFinite(value)) return "–";
   const { factor, unit: written } = scaled(Math.abs(value), unit);
-  return `${minus(value === 0 ? "0" : (value / factor).toPrecision(digits))} ${written}`;
+  const number = value / factor;
+  const text = Math.abs(number) < 10 ** digits ? number.toPrecision(digits) : number.toFixed(0);
+  return `${minus(value === 0 ? "0" : text)} ${written}`;
 }
 
 /** A round quantity, such as "10 kN". */

@@ -1,6 +1,6 @@
 // A plot over time with a cursor at the present, and the values under the pointer.
 import { Axes } from "./axes.js";
-import { axisLabel, fixed, scaled } from "./numbers.js";
+import { axisLabel, fixed, scaled, significant, withUnit } from "./numbers.js";
 import { BODY_COLOURS, cleared, font, rimmed, sharpen } from "./surface.js";
 
 const DASHES = [[], [7, 4], [2, 4], [9, 3, 2, 3]];
@@ -57,9 +57,11 @@ export class Plot {
     return this.factor * curve.at(t);
   }
 
-  /** A value as text, with the decimals of its curve. */
+  /** A value as text with its unit: on a linear axis with the decimals of its curve. */
   write(curve, t) {
-    return fixed(this.shown(curve, t), this.peaks[this.curves.indexOf(curve)]);
+    const value = this.shown(curve, t);
+    const text = this.onLog ? significant(value) : fixed(value, this.peaks[this.curves.indexOf(curve)]);
+    return withUnit(text, this.unit);
   }
 
   timeAt(px) {
@@ -145,7 +147,7 @@ export class Plot {
   /** Time and value of the curve nearest to the pointer, as text beside the line. */
   paintReading(context, t, colours) {
     const curve = this.nearest(t);
-    const text = `${curve.name} = ${this.write(curve, t)} ${this.unit}`;
+    const text = `${curve.name} = ${this.write(curve, t)}`;
     context.font = font(12, 600);
     context.textBaseline = "top";
     context.textAlign = "left";

@@ -6,10 +6,10 @@ import { TimeSpan } from "./timespan.js";
 
 const MOST = 6;
 
-/** The list of plots. */
+/** The list of plots; `counted` is called with whether there is room for another one. */
 export class Plots {
-  constructor(list, template, scene, motion, { seek, changed }) {
-    Object.assign(this, { list, template, motion, seek, changed, cards: [], looked: null, degrees: false });
+  constructor(list, templates, scene, motion, { seek, changed, counted }) {
+    Object.assign(this, { list, templates, motion, seek, changed, counted, cards: [], looked: null, degrees: false });
     this.span = new TimeSpan(motion);
     this.all = quantities(scene, motion);
     this.watch = new ResizeObserver(() => {
@@ -23,7 +23,7 @@ export class Plots {
     if (this.cards.length >= MOST || !this.all.length) return;
     const shown = new Set(this.cards.map(({ quantity }) => Number(quantity.value)));
     const next = this.all.findIndex((_, k) => !shown.has(k));
-    const card = new Card(this.template, {
+    const card = new Card(this.templates, {
       ...this,
       removed: (one) => this.remove(one),
     });
@@ -67,7 +67,7 @@ export class Plots {
 
   update() {
     for (const { removal } of this.cards) removal.hidden = this.cards.length < 2;
-    this.full = this.cards.length >= MOST;
+    this.counted(this.cards.length < MOST);
     this.resize();
   }
 

@@ -5,6 +5,8 @@ import { naturalScales } from "./scales.js";
 const BODIES = "Bodies";
 const POINTS = "Bodies and points";
 const ORIGIN = [0, 0];
+/** Below this share of the natural scale, a number is a rounding error. */
+const NOISE = 5e-9;
 /** Quantities of bodies that turn: key, name, symbol, unit, rows of the frames, key of the rate. */
 const TURNING = [
   ["angle", "Angle", "φ", "rad", "poses", "omega"],
@@ -74,7 +76,7 @@ export function quantities(scene, motion) {
   ].filter(({ curves }) => curves.length);
   const scales = naturalScales(scene);
   for (const { group, curves } of all) {
-    for (const curve of curves) curve.noise = group === "Accuracy" ? 0 : 1e-9 * (scales[curve.unit] ?? 0);
+    for (const curve of curves) curve.noise = group === "Accuracy" ? 0 : NOISE * (scales[curve.unit] ?? 0);
   }
   return all;
 }
