@@ -24,7 +24,7 @@ FLAGS = [
 #: Records where each canvas has texts since it was cleared, px from its corner.
 RECORDER = """
   window.written = new Map();
-  const { fillText, clearRect } = CanvasRenderingContext2D.prototype;
+  const { fillText, clearRect, drawImage } = CanvasRenderingContext2D.prototype;
   CanvasRenderingContext2D.prototype.clearRect = function (...box) {
     written.set(this.canvas, []);
     return clearRect.apply(this, box);
@@ -35,8 +35,13 @@ RECORDER = """
     const scale = window.devicePixelRatio;
     const [left, right] = [at.x / scale - size.actualBoundingBoxLeft, at.x / scale + size.actualBoundingBoxRight];
     const [top, bottom] = [at.y / scale - size.actualBoundingBoxAscent, at.y / scale + size.actualBoundingBoxDescent];
-    written.get(this.canvas)?.push({ text, left, right, top, bottom });
+    if (!written.has(this.canvas)) written.set(this.canvas, []);
+    written.get(this.canvas).push({ text, left, right, top, bottom });
     return fillText.call(this, text, x, y, ...more);
+  };
+  CanvasRenderingContext2D.prototype.drawImage = function (image, ...more) {
+    written.get(this.canvas).push(...written.get(image));
+    return drawImage.call(this, image, ...more);
   };
 """
 sync_api = pytest.importorskip("playwright.sync_api", reason="the package playwright is missing")
@@ -99,9 +104,12 @@ class Watched:
         return found
 
     def settle(self) -> None:
-        """Wait until what has changed is drawn."""
+        """Wait until what has changed is drawn, also where a change of size follows from it."""
         self.page.evaluate(
-            "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+            """new Promise(done => {
+              const after = (frames) => (frames ? requestAnimationFrame(() => after(frames - 1)) : done());
+              after(4);
+            })"""
         )
 
     def wait(self, condition: str, seconds: float = 10.0) -> None:

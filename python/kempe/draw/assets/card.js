@@ -53,11 +53,13 @@ export class Card {
 
   /** Draw with the cursor at t, or at the time that is looked at. */
   paint(t, looked, colours) {
-    this.plot.paint(t, looked, colours);
+    // The legend first: the length of its texts decides how high the plot is.
     for (const { curve, line, value } of this.entries) {
       line.setAttribute("stroke", colourOf(curve, colours));
       value.textContent = this.plot.write(curve, looked ?? t);
+      value.style.minWidth = `${0.9 * this.plot.widest(curve)}ch`; // so that entries keep their places
     }
+    this.plot.paint(t, looked, colours);
   }
 }
 

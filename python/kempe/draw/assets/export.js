@@ -52,7 +52,7 @@ export function plotsPicture(cards, t, title, colours) {
     context.translate(0, TITLE);
     for (const card of cards) {
       context.save();
-      card.plot.paint(Number(t), null, colours, context);
+      card.plot.paintAll(context, Number(t), colours);
       context.restore();
       context.translate(0, card.plot.height);
       card.entries.forEach((entry, k) => paintEntry(context, entry, (k % columns) * (width / columns), Math.floor(k / columns), colours));

@@ -18,7 +18,7 @@ export function dashOf({ look }) {
 /** Plots curves of one unit on a canvas. */
 export class Plot {
   constructor(canvas, motion, span) {
-    Object.assign(this, { canvas, motion, span, curves: [], symbol: "", log: false, degrees: false, pointer: null });
+    Object.assign(this, { canvas, motion, span, curves: [], symbol: "", log: false, degrees: false, pointer: null, version: 0 });
     this.scale();
   }
 
@@ -42,6 +42,7 @@ export class Plot {
     this.peaks = this.peaks.map((one) => one / written.factor);
     this.unit = written.unit;
     this.onLog = this.log && peak > 0;
+    this.version += 1;
     this.range = this.onLog ? exponents(values) : widened(values, written.factor);
     this.label = axisLabel(this.onLog && !this.symbol.startsWith("|") ? `|${this.symbol}|` : this.symbol, this.unit);
   }
@@ -64,23 +65,57 @@ export class Plot {
     return withUnit(text, this.unit);
   }
 
+  /** Characters of the longest text of a curve. */
+  widest(curve) {
+    const peak = this.peaks[this.curves.indexOf(curve)];
+    return withUnit(this.onLog ? significant(-peak) : fixed(-peak, peak), this.unit).length;
+  }
+
   timeAt(px) {
     return this.axes ? this.axes.timeAt(px) : this.motion.begin;
   }
 
   /** Draw with the cursor at t and, if a time is looked at, a line there. */
-  paint(t, looked, colours, context = cleared(this.canvas)) {
+  paint(t, looked, colours) {
+    const context = cleared(this.canvas);
     if (!this.curves.length) return;
+    context.drawImage(this.picture(colours), 0, 0, this.width, this.height);
+    this.paintLine(context, t, colours.text);
+    if (looked !== null) this.paintLine(context, looked, colours.accent);
+    this.paintDots(context, looked ?? t, colours);
+    this.reading = looked !== null && this.pointer ? this.paintReading(context, looked, colours) : "";
+  }
+
+  /** Axes and curves, painted anew only when they change. */
+  picture(colours) {
+    const key = JSON.stringify([this.width, this.height, this.canvas.width, this.span.from, this.span.to, this.version, colours.text]);
+    if (key !== this.key) {
+      this.kept = document.createElement("canvas");
+      this.kept.width = this.canvas.width;
+      this.kept.height = this.canvas.height;
+      const context = this.kept.getContext("2d");
+      context.scale(this.kept.width / this.width, this.kept.height / this.height);
+      context.lineCap = context.lineJoin = "round";
+      this.paintStill(context, colours);
+      this.key = key;
+    }
+    return this.kept;
+  }
+
+  paintStill(context, colours) {
     this.axes = new Axes(context, this, this.span, { range: this.range, log: this.onLog });
     this.axes.paint(context, this.label, colours);
     context.save();
     this.axes.clip(context);
     for (const curve of this.curves) this.paintCurve(context, curve, colours);
     context.restore();
+  }
+
+  /** For a picture: axes, curves and the cursor at t. */
+  paintAll(context, t, colours) {
+    this.paintStill(context, colours);
     this.paintLine(context, t, colours.text);
-    if (looked !== null) this.paintLine(context, looked, colours.accent);
-    this.paintDots(context, looked ?? t, colours);
-    this.reading = looked !== null && this.pointer ? this.paintReading(context, looked, colours) : "";
+    this.paintDots(context, t, colours);
   }
 
   /** The place of a value on the canvas; null where a logarithm has none. */
