@@ -186,6 +186,22 @@ class Solution(Motion):
         motion._passing = self._passing
         return motion
 
+    def energy_at(self, t: Floats) -> Energy:
+        """Energies at any times within the solution, from the interpolant of the integrator.
+
+        Args:
+            t: (n,), s.
+
+        Raises:
+            ModelError: a time is outside the solution, or the interpolant was not kept.
+            IntegrationError: an energy is not finite.
+        """
+        motion = self(t)
+        assert self.dense is not None  # otherwise the line before raises the error
+        works = self.dense(motion.t)[..., 2 * self.model.n_q + self.model.n_z :]
+        rows = (np.atleast_2d(values) for values in (motion.q, motion.v, motion.z, works))
+        return Energy(_core.energies(self.model.core, np.atleast_1d(motion.t), *rows))
+
     def to_dataframe(self) -> pandas.DataFrame:
         """A pandas data frame with a column for each quantity, such as ``rocker.angle``.
 

@@ -33,8 +33,9 @@ RECORDER = """
     const size = this.measureText(text);
     const at = this.getTransform().transformPoint(new DOMPoint(x, y));
     const scale = window.devicePixelRatio;
-    const [left, right] = [at.x / scale - size.actualBoundingBoxLeft, at.x / scale + size.actualBoundingBoxRight];
-    const [top, bottom] = [at.y / scale - size.actualBoundingBoxAscent, at.y / scale + size.actualBoundingBoxDescent];
+    const [cx, cy] = [at.x / scale, at.y / scale];
+    const [left, right] = [cx - size.actualBoundingBoxLeft, cx + size.actualBoundingBoxRight];
+    const [top, bottom] = [cy - size.actualBoundingBoxAscent, cy + size.actualBoundingBoxDescent];
     if (!written.has(this.canvas)) written.set(this.canvas, []);
     written.get(this.canvas).push({ text, left, right, top, bottom });
     return fillText.call(this, text, x, y, ...more);
@@ -107,8 +108,9 @@ class Watched:
         """Wait until what has changed is drawn, also where a change of size follows from it."""
         self.page.evaluate(
             """new Promise(done => {
-              const after = (frames) => (frames ? requestAnimationFrame(() => after(frames - 1)) : done());
-              after(4);
+              let frames = 4;
+              const next = () => (frames-- ? requestAnimationFrame(next) : done());
+              next();
             })"""
         )
 

@@ -1,4 +1,4 @@
-"""The page at every size: nothing is cut, nothing covers the drawing, playback stays on the screen."""
+"""The page at every size: nothing is cut or covered, and playback stays on the screen."""
 
 import importlib.util
 import io

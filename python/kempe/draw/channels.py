@@ -14,7 +14,7 @@ from kempe.draw.numbers import plain
 from kempe.energy import Energy
 from kempe.motion import Motion
 
-#: Torques and forces below this share of the largest one of an element are zero except for rounding.
+#: Torques and forces below this share of the largest one of an element are rounding errors.
 _NOTHING = 1e-9
 #: Word for the kind of a residual, by its unit.
 _KINDS = {"m": "length", "rad": "angle"}

@@ -38,6 +38,7 @@ MODULES = (
     "measure",
     "drawing",
     "axes",
+    "ranges",
     "plot",
     "quantities",
     "timespan",

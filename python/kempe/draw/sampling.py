@@ -7,11 +7,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe import _core
 from kempe.arrays import Floats, fixed
+from kempe.draw.numbers import rounded
 from kempe.energy import Energy
 from kempe.errors import KempeError, ModelError
-from kempe.draw.numbers import rounded
 from kempe.motion import Motion
 from kempe.solution import Solution
 from kempe.state import State
@@ -96,10 +95,7 @@ def energy(drawn: Solution | State, motion: Motion) -> Energy | None:
     try:
         if isinstance(motion, _Outputs):
             return drawn.energy.at(motion.kept)
-        assert drawn.dense is not None
-        works = drawn.dense(motion.t)[:, 2 * motion.model.n_q + motion.model.n_z :]
-        states = (motion.t, motion.q, motion.v, motion.z)
-        return Energy(_core.energies(motion.model.core, *states, works))
+        return drawn.energy_at(motion.t)
     except KempeError:
         return None
 
@@ -110,8 +106,8 @@ def accuracy(drawn: Solution | State, motion: Motion) -> float | None:
     The page interpolates them by cubic polynomials with central differences as slopes.
 
     Returns:
-        The largest error half-way between frames, as a share of the largest value; None where there
-        is no interpolant or no answer half-way.
+        The largest error half-way between frames, as a share of the largest value; None if the
+        solution has no interpolant, or its reactions are undefined half-way.
     """
     if isinstance(drawn, State) or isinstance(motion, _Outputs) or len(motion.t) < 3:
         return None

@@ -1,7 +1,8 @@
 // A plot with its choices and its legend.
 import { shortened } from "./numbers.js";
-import { colourOf, dashOf, Plot } from "./plot.js";
+import { Plot } from "./plot.js";
 import { choices } from "./quantities.js";
+import { colourOf, dashOf } from "./surface.js";
 
 /** A plot on the page: what it shows is chosen here, and the legend gives the values. */
 export class Card {

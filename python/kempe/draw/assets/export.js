@@ -1,6 +1,5 @@
 // Files that the page offers: pictures, and the plotted curves as a table.
-import { colourOf, dashOf } from "./plot.js";
-import { font } from "./surface.js";
+import { colourOf, dashOf, font } from "./surface.js";
 
 /** Pixels of a picture for each pixel of the page. */
 const SHARPNESS = 2;

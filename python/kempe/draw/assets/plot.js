@@ -1,19 +1,10 @@
 // A plot over time with a cursor at the present, and the values under the pointer.
 import { Axes } from "./axes.js";
 import { axisLabel, fixed, scaled, significant, withUnit } from "./numbers.js";
-import { BODY_COLOURS, cleared, font, rimmed, sharpen } from "./surface.js";
+import { exponents, widened } from "./ranges.js";
+import { cleared, colourOf, dashOf, font, rimmed, sharpen } from "./surface.js";
 
-const DASHES = [[], [7, 4], [2, 4], [9, 3, 2, 3]];
 const DEGREES = 180 / Math.PI;
-
-/** The colour of a curve, and its dashes once the colours are used up. */
-export function colourOf({ look }, colours) {
-  return colours.body(look + 1);
-}
-
-export function dashOf({ look }) {
-  return DASHES[Math.floor(look / BODY_COLOURS) % DASHES.length];
-}
 
 /** Plots curves of one unit on a canvas. */
 export class Plot {
@@ -191,25 +182,4 @@ export class Plot {
     rimmed(context, text, [Math.max(4, Math.min(x, this.width - width - 6)), 24], colours.text, colours.panel);
     return text;
   }
-}
-
-/** The least and the largest value, with some room. */
-function widened(values, divisor) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of values.flat()) [low, high] = [Math.min(low, value / divisor), Math.max(high, value / divisor)];
-  if (!(high >= low)) return [0, 1];
-  const room = 0.06 * (high - low) || 0.5 * Math.abs(high) || 1;
-  return [low === 0 ? 0 : low - room, high + room];
-}
-
-/** The powers of ten around the magnitudes, zeros left out. */
-function exponents(values) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of values.flat()) {
-    if (value === 0) continue;
-    const exponent = Math.log10(Math.abs(value));
-    [low, high] = [Math.min(low, exponent), Math.max(high, exponent)];
-  }
-  const [first, last] = [Math.floor(Math.max(low, high - 16)), Math.ceil(high)];
-  return [first, Math.max(last, first + 1)];
 }

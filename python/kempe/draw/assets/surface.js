@@ -23,8 +23,9 @@ export function cleared(canvas) {
   return context;
 }
 
-/** How many colours of bodies there are. */
-export const BODY_COLOURS = 7;
+const BODY_COLOURS = 7;
+/** Lengths of strokes and gaps of the curves after the colours are used up, px. */
+const DASHES = [[], [7, 4], [2, 4], [9, 3, 2, 3]];
 
 /** The colours of a picture on white paper, whatever the page has. */
 export function paperPalette() {
@@ -58,4 +59,14 @@ export function rimmed(context, text, [x, y], colour, rim) {
   context.strokeText(text, x, y);
   context.fillStyle = colour;
   context.fillText(text, x, y);
+}
+
+/** The colour of a curve. */
+export function colourOf({ look }, colours) {
+  return colours.body(look + 1);
+}
+
+/** Its dashes. */
+export function dashOf({ look }) {
+  return DASHES[Math.floor(look / BODY_COLOURS) % DASHES.length];
 }
