@@ -219,6 +219,43 @@ def parallelogram() -> kp.Solution:
     return kp.dynamics(m, start, t_end=1.0, output_step=0.01)
 
 
+@pytest.mark.parametrize("name", MADE)
+def test_values_between_instants_have_the_stated_accuracy(
+    opened: Any, solved: dict[str, kp.Solution], name: str
+) -> None:
+    solution = solved[name]
+    scene = kp.scene(solution)
+    assert 0.0 < scene["accuracy"] < 0.01
+    watched = opened(solution, 1280, 800)
+    stated = f"{100 * scene['accuracy']:.2g} %"
+    assert watched.page.inner_text("#sampling").endswith(stated)
+    t = np.array(scene["frames"]["t"])
+    motion = solution(t)
+    forces = {joint: motion.constraint(joint) for joint in motion.model.joints}
+    largest_force = max(np.abs(one.force(on=one.info.j)).max() for one in forces.values())
+    turning = {body: motion.body(body).alpha for body in motion.model.bodies}
+    largest_alpha = max(np.abs(one).max() for one in turning.values())
+    middles = (t[:-1] + t[1:]) / 2.0
+    for at in middles[[0, len(t) // 5, len(t) // 2, -1]]:
+        watched.seek(float(at))
+        watched.choose("Reaction force x")
+        for curve, text in watched.values().items():
+            joint = solution(float(at)).constraint(curve.removesuffix(".force_x"))
+            value, half, _ = read(text)
+            right = float(joint.force(on=joint.info.j)[0])
+            assert abs(value - right) <= half + 2.0 * scene["accuracy"] * largest_force
+        watched.choose("Angular acceleration")
+        for curve, text in watched.values().items():
+            value, half, _ = read(text)
+            right = float(solution(float(at)).body(curve.removesuffix(".alpha")).alpha)
+            assert abs(value - right) <= half + 1.1 * scene["accuracy"] * largest_alpha
+        watched.choose("Position x", "All bodies")
+        for curve, text in watched.values().items():
+            value, half, _ = read(text)
+            right = float(solution(float(at)).body(curve.removesuffix(".x")).x)
+            assert abs(value - right) <= half + 1e-4 * np.ptp(scene["bounds"])
+
+
 def test_numbers_of_rounding_size_are_zero(opened: Any) -> None:
     solution = parallelogram()
     scene = kp.scene(solution)

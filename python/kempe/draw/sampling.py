@@ -103,7 +103,8 @@ def energy(drawn: Solution | State, motion: Motion) -> Energy | None:
 def accuracy(drawn: Solution | State, motion: Motion) -> float | None:
     """The largest error of accelerations and multipliers between two frames.
 
-    The page interpolates them by cubic polynomials with central differences as slopes.
+    The page interpolates them by cubic polynomials with central differences as slopes. Columns of
+    one unit are compared with their largest value.
 
     Returns:
         The largest error half-way between frames, as a share of the largest value; None if the
@@ -113,13 +114,20 @@ def accuracy(drawn: Solution | State, motion: Motion) -> float | None:
         return None
     try:
         middle = drawn((motion.t[:-1] + motion.t[1:]) / 2.0)
-        pairs = [(motion.a, middle.a), (motion.lam, middle.lam)]
+        a, lam = (motion.a, middle.a), (motion.lam, middle.lam)
     except KempeError:
         return None
-    return max(_error_half_way(motion.t, frames, exact) for frames, exact in pairs)
+    turning = np.array([name.endswith(".angle") for name in motion.model.column_names()], bool)
+    units = np.array(motion.model.row_units())
+    groups = [(a, turning), (a, ~turning), *((lam, units == unit) for unit in set(units))]
+    return max(
+        _error_half_way(motion.t, frames[:, of_one_unit], exact[:, of_one_unit])
+        for (frames, exact), of_one_unit in groups
+    )
 
 
 def _error_half_way(t: Floats, frames: Floats, exact: Floats) -> float:
+    """The largest error as a share of the largest value, for columns of one unit."""
     largest = float(np.abs(frames).max(initial=0.0))
     h = np.diff(t)[:, None]
     inner = (frames[2:] - frames[:-2]) / (h[1:] + h[:-1])
