@@ -106,6 +106,10 @@ def test_the_whole_legend_can_be_seen(
     joints = examples[name].model.joints
     assert list(watched.values()) == [f"{joint}.force" for joint in joints]
     assert len(joints) > 8
+    hidden = "one => one.scrollHeight - one.clientHeight"  # the list of plots scrolls, not this
+    assert watched.page.locator(".legend").evaluate(hidden) <= 1
+    overflow = "one => getComputedStyle(one).overflowY"
+    assert watched.page.locator("#scroll").evaluate(overflow) in ("auto", "visible")
     footer = watched.page.locator("footer").bounding_box()
     for entry in watched.page.locator(".legend li").all():
         entry.evaluate("one => one.scrollIntoView({ block: 'center' })")

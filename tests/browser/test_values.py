@@ -219,6 +219,20 @@ def parallelogram() -> kp.Solution:
     return kp.dynamics(m, start, t_end=1.0, output_step=0.01)
 
 
+def test_a_point_mass_has_no_angle(opened: Any) -> None:
+    m = kp.Model("two", gravity=(0.0, -9.81))
+    m.ground.points(O=(0.0, 0.0))
+    m.point_mass("bob", mass=2.0, at=(0.6, -0.8))
+    m.bar("rod", mass=1.0, length=1.0, ends=("A", "B"))
+    m.distance("string", "ground.O", "bob.P", length=1.0)
+    m.revolute("pin", "ground.O", "rod.A")
+    start = kp.assemble(m, {"bob.x": 0.6, "rod.angle": 0.0})
+    watched = opened(kp.dynamics(m, start, t_end=1.0, output_step=0.1), 1280, 800)
+    assert set(watched.values()) == {"rod.angle"}
+    watched.choose("Position x", "All bodies")
+    assert set(watched.values()) == {"bob.x", "rod.x"}
+
+
 @pytest.mark.parametrize("name", MADE)
 def test_values_between_instants_have_the_stated_accuracy(
     opened: Any, solved: dict[str, kp.Solution], name: str

@@ -105,6 +105,25 @@ def test_energy_is_conserved(solution: kp.Solution) -> None:
     )
 
 
+def test_energies_at_any_time(solution: kp.Solution) -> None:
+    times = np.array([solution.t[0], 0.5 * (solution.t[3] + solution.t[4]), solution.t[-1]])
+    found = solution.energy_at(times)
+    for name in ("kinetic", "potential", "dissipated", "work"):
+        at_outputs = getattr(solution.energy, name)
+        scale = 1e-6 * np.abs(solution.energy.total[0])
+        np.testing.assert_allclose(getattr(found, name)[[0, 2]], at_outputs[[0, -1]], atol=scale)
+    at = solution(float(times[1]))
+    by_hand = sum(
+        0.5 * info.mass * (at.body(name).at(info.center).velocity ** 2).sum()
+        + 0.5 * info.inertia * at.body(name).omega ** 2
+        for name, info in at.model.bodies.items()
+    )
+    assert found.kinetic[1] == pytest.approx(float(by_hand), rel=1e-12)
+    np.testing.assert_allclose(found.total, solution.energy.total[0], rtol=1e-5)
+    with pytest.raises(kp.ModelError):
+        solution.energy_at(np.array([1e3]))
+
+
 def test_drift_is_the_largest_residual(solution: kp.Solution) -> None:
     opening = np.max([np.abs(solution[j].residual).max(axis=1) for j in "ABCD"], axis=0)
     np.testing.assert_array_equal(solution.drift.position, opening)

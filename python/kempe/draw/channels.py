@@ -46,7 +46,7 @@ class _Channel:
         return f"{self.of}.{self.quantity}" if self.of else self.quantity
 
 
-def channels(motion: Motion, energy: Energy | None) -> list[dict[str, Any]]:
+def channels(motion: Motion, energy: Energy | None = None) -> list[dict[str, Any]]:
     """States, forces, reactions, energies and the residual at the frames.
 
     Coordinates, rates, accelerations and the forces of joints are in the frames themselves.

@@ -1,19 +1,26 @@
 // One arrow.
 
-/** A straight arrow with a solid head. */
-export function paintArrow(context, [x0, y0], [x1, y1], colour, width) {
+/** A straight arrow with a solid head, with a rim of another colour if one is given. */
+export function paintArrow(context, [x0, y0], [x1, y1], colour, width, rim = null) {
   const length = Math.hypot(x1 - x0, y1 - y0);
   if (!(length > 0)) return;
   const head = Math.min(4 + 2.4 * width, 0.6 * length);
   const [ux, uy] = [(x1 - x0) / length, (y1 - y0) / length];
   const [bx, by] = [x1 - head * ux, y1 - head * uy];
+  const wing = 0.42 * head;
+  const shaft = new Path2D(`M${x0} ${y0}L${bx} ${by}`);
+  const tip = new Path2D(`M${x1} ${y1}L${bx - wing * uy} ${by + wing * ux}L${bx + wing * uy} ${by - wing * ux}z`);
+  if (rim) {
+    context.strokeStyle = rim;
+    context.lineWidth = width + 3;
+    context.stroke(shaft);
+    context.lineWidth = 3;
+    context.stroke(tip);
+  }
   context.strokeStyle = context.fillStyle = colour;
   context.lineWidth = width;
-  context.stroke(new Path2D(`M${x0} ${y0}L${bx} ${by}`));
-  const wing = 0.42 * head;
-  const tip = new Path2D(`M${x1} ${y1}L${bx - wing * uy} ${by + wing * ux}L${bx + wing * uy} ${by - wing * ux}z`);
+  context.stroke(shaft);
   context.fill(tip);
-  if (width > 4) context.stroke(tip);
 }
 
 /** Two strokes across an arrow that is drawn shorter than its value. */
@@ -22,7 +29,8 @@ export function paintBreak(context, [x0, y0], [x1, y1], colour, background) {
   if (length < 24) return;
   const [ux, uy] = [(x1 - x0) / length, (y1 - y0) / length];
   const [mx, my] = [x0 + 0.45 * (x1 - x0), y0 + 0.45 * (y1 - y0)];
-  const stroke = (at) => `M${mx + at * ux - 5 * (uy - 0.4 * ux)} ${my + at * uy + 5 * (ux + 0.4 * uy)}l${10 * (uy - 0.4 * ux)} ${-10 * (ux + 0.4 * uy)}`;
+  const [sx, sy] = [5 * (uy - 0.4 * ux), 5 * (ux + 0.4 * uy)];
+  const stroke = (at) => `M${mx + at * ux - sx} ${my + at * uy + sy}l${2 * sx} ${-2 * sy}`;
   for (const [paint, width] of [[background, 6], [colour, 1.6]]) {
     context.strokeStyle = paint;
     context.lineWidth = width;

@@ -36,8 +36,7 @@ export function arrowsOf(vectors, { name, unit }, places, view, pixels) {
 /** Paint arrows of one colour. */
 export function paintArrows(context, arrows, colour, colours) {
   for (const { from, to, whole } of arrows) {
-    paintArrow(context, from, to, colours.panel, 5);
-    paintArrow(context, from, to, colour, 2.4);
+    paintArrow(context, from, to, colour, 2.4, colours.panel);
     if (!whole) paintBreak(context, from, to, colour, colours.panel);
   }
 }
