@@ -1,4 +1,4 @@
-"""What a compiled model says about its bodies, joints, drivers and forces."""
+"""Descriptions of the elements of a compiled model."""
 
 from __future__ import annotations
 

@@ -224,7 +224,7 @@ def test_the_statistics_name_the_method(
 
 
 @pytest.mark.parametrize("dense", [True, False])
-@pytest.mark.parametrize("t_end", [0.0, -0.05, 0.05])
+@pytest.mark.parametrize("t_end", [0.0, 0.05])
 def test_every_kind_of_run_is_read_again(
     model: kp.Model, start: kp.State, tmp_path: Path, t_end: float, dense: bool
 ) -> None:

@@ -108,9 +108,10 @@ def test_pages_of_angles_leave_a_point_mass_out(pendulum: kp.Solution) -> None:
     found = {page.name: page for page in pages(stone)}
     assert "angle" not in found
     assert {"x", "y", "stone"} <= set(found)
-    figure = Figure()
-    found["stone"].draw(figure)
-    assert len(figure.axes) == 4  # vx, ax, vy, ay
+    figure = found["stone"].draw()
+    assert [axes.get_ylabel() for axes in figure.axes] == ["$v_y$ / (m/s)"]
+    (left_out,) = (text.get_text() for text in figure.texts)
+    assert left_out == "Not drawn: $v_x$, $a_x$ (zero); $a_y$ = −10 m/s² (constant)."
 
 
 def test_a_figure_of_a_point_mass_has_no_axis_of_the_angle(pendulum: kp.Solution) -> None:

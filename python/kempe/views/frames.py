@@ -28,7 +28,7 @@ def checked_frame(frame: str, allowed: Sequence[str] = FRAMES) -> str:
     Raises:
         ModelError: there is no such frame.
     """
-    if frame in ("local", "ground") and frame not in allowed:
+    if isinstance(frame, str) and frame in ("local", "ground") and frame not in allowed:
         # "local" resembles "global", its opposite
         meant = "body" if frame == "local" else "global"
         raise UnknownNameError(
