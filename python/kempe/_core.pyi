@@ -202,6 +202,12 @@ def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) ->
 def project(model: Model, tolerance: float, t: _F, q: _F, v: _F, z: _F) -> tuple[_F, _F]:
     """States of an interpolant, projected as reported states are: q and v, (n_t, n_q)."""
 
+def energies(model: Model, t: _F, q: _F, v: _F, z: _F, works: _F) -> _F:
+    """Energies at states, (n_t, 5), J, as in ``Run.energies``.
+
+    ``works`` is the end of each row of the interpolant, (n_t, n_works).
+    """
+
 def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
     """Φ and Φ_q q̇ + Φ_t at states, (n_t, n_rows) each."""
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping
-from typing import Any, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from kempe import _core
 from kempe.compiled import CompiledModel
 from kempe.errors import ModelError
-from kempe.model import Model
+from kempe.model import Model, Redundancy, compiled_model
 from kempe.names import one_of
 from kempe.option import Option, core_options
 from kempe.options import Auto, Dynamics, Projection
@@ -35,7 +35,7 @@ def assemble(
     t: float | None = None,
     *,
     from_state: State | None = None,
-    redundancy: str | None = None,
+    redundancy: Redundancy | None = None,
     from_guess: bool = False,
 ) -> State:
     """Assemble a mechanism.
@@ -61,11 +61,11 @@ def assemble(
         ModelError: the model is invalid, or ``set`` or ``guess`` contains an unknown name.
     """
     compiled = _allowing(compiled_model(model), redundancy)
-    held = encode(numbers(set or {}, "set"))
+    held = encode(numbers(set, "set"))
     q = v = z = None
     if isinstance(guess, State):
         raise ModelError("guess: a State", hint="pass it as from_state=")
-    hint = encode(numbers(guess or {}, "guess"))
+    hint = encode(numbers(guess, "guess"))
     if from_state is not None:
         _refuse_foreign(compiled, from_state)
         t = float(from_state.t) if t is None else t
@@ -90,8 +90,8 @@ def dynamics(
     stabilization: Option | None = Projection(),  # noqa: B008 - frozen
     max_steps: int | None = None,
     dense_output: bool = True,
-    redundancy: str | None = None,
-    singularity: str = "stop",
+    redundancy: Redundancy | None = None,
+    singularity: Literal["stop", "pass"] = "stop",
     progress: Progress | None = None,
 ) -> Solution:
     """Simulate the motion from a state.
@@ -122,8 +122,8 @@ def dynamics(
         SingularityError: the motion is not unique in a singular position.
         ModelError: an option is invalid.
     """
-    inherited = start.model.redundancy if isinstance(start, State) else None
-    compiled = _allowing(compiled_model(model), redundancy or inherited)
+    inherited = start.compiled.redundancy if isinstance(start, State) else None
+    compiled = _allowing(compiled_model(model), redundancy if redundancy is not None else inherited)
     fields = (t_end, output_step, method, stabilization, max_steps)
     wanted = request(fields, dense_output, singularity)
     return _simulate(compiled.with_analyses({Dynamics.name: wanted.entry}), start, wanted, progress)
@@ -142,26 +142,25 @@ def _simulate(
 ) -> Solution:
     if not isinstance(start, State):
         raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
+    if progress is not None and not callable(progress):
+        raise ModelError(f"progress: {progress!r} is not a function")
     _refuse_foreign(model, start)
-    t, text = float(start.t), wanted.text
+    t, text, method = start.t, wanted.text, _method(wanted.entry)
     try:
         at = start.q, start.v, start.z
         run = _core.dynamics(model.core, t, *at, text, progress, wanted.t_end)
     except BaseException as error:  # including interruptions and exceptions of progress
-        partial = getattr(error, "run", None)
+        partial = vars(error).pop("run", None)  # which cannot be pickled with the error
         if partial is not None and len(partial.t):
-            error.solution = Solution(model, partial)  # type: ignore[attr-defined]
+            error.solution = Solution(model, partial, method)  # type: ignore[attr-defined]
         raise
-    return Solution(model, run)
+    return Solution(model, run, method)
 
 
-def compiled_model(model: Model | CompiledModel) -> CompiledModel:
-    """The compiled model."""
-    if isinstance(model, CompiledModel):
-        return model
-    if isinstance(model, Model):
-        return model.compile()
-    raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) creates one")
+def _method(entry: Mapping[str, Any]) -> str:
+    """The type of the method in an entry of ``[analyses]``."""
+    method = entry.get("method", Auto.kind)
+    return str(method["type"] if isinstance(method, Mapping) else method)
 
 
 def _allowing(model: CompiledModel, redundancy: str | None) -> CompiledModel:
@@ -181,9 +180,9 @@ def _refuse_foreign(model: CompiledModel, state: State) -> None:
     """Refuse a state with other bodies. The core refuses one that does not meet the constraints."""
     if not isinstance(state, State):
         raise ModelError(f"from_state: {state!r} is not a State")
-    if list(state.model.bodies) != list(model.bodies):
+    if list(state.compiled.bodies) != list(model.bodies):
         raise ModelError(
-            f"the state has the bodies {', '.join(state.model.bodies)}; "
+            f"the state has the bodies {', '.join(state.compiled.bodies)}; "
             f"the model has the bodies {', '.join(model.bodies)}",
             hint="assemble this model",
         )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe.arrays import Floats, fixed
 
@@ -18,6 +19,19 @@ class Energy:
 
     def __init__(self, columns: Floats) -> None:
         self._columns = fixed(columns)
+
+    def at(self, rows: NDArray[np.intp]) -> Energy:
+        """The energies at some of the times."""
+        return Energy(self._columns[rows])
+
+    @property
+    def columns(self) -> Floats:
+        """Kinetic, potential, dissipated, work of drivers, work of applied forces, (n_t, 5)."""
+        return self._columns
+
+    def __repr__(self) -> str:
+        largest = float(self.kinetic.max(initial=0.0))
+        return f"<Energy at {len(self._columns)} times: kinetic up to {largest:.6g} J>"
 
     @cached_property
     def kinetic(self) -> Floats:

@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from kempe.option import Analysis, Option, Shape
 from kempe.values import Number, Tolerance
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Auto(Option):
     """Method of integration ``auto``.
 
@@ -42,7 +42,7 @@ class Auto(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RK45(Option):
     """Method of integration ``rk45``.
 
@@ -75,7 +75,7 @@ class RK45(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class DOP853(Option):
     """Method of integration ``dop853``.
 
@@ -111,7 +111,7 @@ class DOP853(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RK4(Option):
     """Method of integration ``rk4``.
 
@@ -128,7 +128,7 @@ class RK4(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class GeneralizedAlpha(Option):
     """Method of integration ``generalized_alpha``.
 
@@ -169,7 +169,7 @@ class GeneralizedAlpha(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class HHT(Option):
     """Method of integration ``hht``.
 
@@ -207,7 +207,7 @@ class HHT(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Radau(Option):
     """Method of integration ``radau``.
 
@@ -244,7 +244,7 @@ class Radau(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Projection(Option):
     """Stabilization ``projection``.
 
@@ -265,7 +265,7 @@ class Projection(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Baumgarte(Option):
     """Stabilization ``baumgarte``.
 
@@ -283,7 +283,7 @@ class Baumgarte(Option):
 
     alpha: Number | None = None
     beta: Number | None = None
-    gains: str | None = None
+    gains: Literal["step"] | None = None
     kind: ClassVar[str] = "baumgarte"
     shapes: ClassVar[Mapping[str, Shape]] = {
         "alpha": "number",
@@ -292,7 +292,7 @@ class Baumgarte(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class NoStabilization(Option):
     """Stabilization ``none``.
 
@@ -303,7 +303,7 @@ class NoStabilization(Option):
     shapes: ClassVar[Mapping[str, Shape]] = {}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Dynamics(Analysis):
     """Analysis of type ``dynamics``, an entry of ``[analyses]``.
 
@@ -337,8 +337,8 @@ class Dynamics(Analysis):
     max_steps: int | None = None
     dense_output: bool = True
     t_start: Number | None = None
-    singularity: str = "stop"
-    output: str | None = None
+    singularity: Literal["stop", "pass"] = "stop"
+    output: Literal["steps"] | None = None
     after: str | None = None
     name: str = "dynamics"
     kind: ClassVar[str] = "dynamics"

@@ -4,7 +4,7 @@ use crate::assemble::targets;
 use crate::convert::{refuse, rows, state, table, Row, Rows};
 use crate::guard::guard;
 use crate::model::PyModel;
-use crate::respond::{missing, responses, Table};
+use crate::respond::{self, missing, responses, Table};
 use kempe::analyses::assemble::{holding, Request};
 use kempe::analyses::dynamics as core;
 use kempe::elements::BodyId;
@@ -90,6 +90,27 @@ pub fn project<'py>(
         let [q, v] = found.map_err(|failure| missing(py, failure.reason))?;
         let shape = (t.len(), model.model.layout.n_q);
         Ok((table(py, q, shape)?, table(py, v, shape)?))
+    })
+}
+
+/// Energies at states, with the works up to them.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, z, works))]
+pub fn energies<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+    works: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("energies", || {
+        let layout = &model.model.layout;
+        let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
+        let z = &rows(py, "z", &z, (t.len(), layout.n_z))?;
+        let works = rows(py, "works", &works, (t.len(), layout.n_works))?;
+        respond::energies(py, &model.prepared, core::States { t, q, v, z }, &works)
     })
 }
 

@@ -38,7 +38,8 @@ pub(super) fn pair(report: &mut Report, node: &Node) {
 /// Named points.
 pub(super) fn points(report: &mut Report, node: &Node) {
     let Data::Table(table) = &node.data else {
-        return wrong(report, node, "a table of points { P = [x, y] }");
+        let form = report.example("{ P = [x, y] }", "{ \"P\": [x, y] }");
+        return wrong(report, node, &format!("a table of points {form}"));
     };
     for (name, point) in &table.entries {
         report.within(name, |report| {

@@ -11,7 +11,7 @@ pub enum Atol {
     Scalar(f64),
     /// One for each controlled component.
     Each(Vec<f64>),
-    /// A part of the scale of each component. Who knows the scales makes it [`Each`](Self::Each); here each is 1.
+    /// A part of the scale of each component. A caller with scales turns it into [`Each`](Self::Each); here each is 1.
     Scaled(f64),
 }
 
@@ -109,6 +109,18 @@ impl StepControl {
         controlled: usize,
     ) -> Result<Option<Grid>, Cause<E>> {
         Self { first_step: None, ..self.clone() }.begin(span, state, controlled)
+    }
+
+    /// The same checks without a system.
+    ///
+    /// # Errors
+    /// An impossible option or time; more steps than allowed.
+    pub fn check_times<E>(&self, t0: f64, t_end: f64) -> Result<(), Cause<E>> {
+        let controlled = match &self.atol {
+            Atol::Scalar(_) | Atol::Scaled(_) => 0,
+            Atol::Each(atol) => atol.len(),
+        };
+        self.begin((t0, t_end), (&[], 0), controlled).map(|_| ())
     }
 
     fn check<E>(&self, controlled: usize, interval: f64) -> Result<(), Cause<E>> {

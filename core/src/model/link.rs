@@ -1,198 +1,13 @@
-//! Linking of the text of fields: names become indices, text becomes formulas.
+//! Linking of the fields of an element: names become indices, text becomes formulas.
 
-use super::body_fields::POINT_MASS;
-use super::definition::{Definition, Entry, Value};
+use super::definition::{Entry, Value};
 use super::items::Body;
 use super::problem::Problem;
-use super::variable::Variable;
+use super::scope::{Reach, Scope, ANY_UNIT};
 use crate::elements::{
-    states_of, BodyId, Coordinate, CoordinateOf, Default, Field, Group, JointId, OwnState, PointOn,
-    Source,
+    BodyId, Coordinate, CoordinateOf, Default, Field, Group, JointId, PointOn, Source,
 };
-use crate::expression::unit::Unit;
-use crate::expression::{suggest, Expression, ExpressionError, Names, Symbol, Tape};
-
-/// The names that formulas may use.
-#[derive(Clone, Debug, Default)]
-pub struct Scope {
-    /// Parameters, in order.
-    pub parameters: Vec<String>,
-    /// Bodies, each with whether it has an angle; index 0 is ground.
-    pub bodies: Vec<(String, bool)>,
-    /// First-order states of elements, such as `motor.current`, in the order of z.
-    pub states: Vec<String>,
-}
-
-/// The first-order states of a force as written.
-pub(super) fn states(entry: &Entry) -> &'static [OwnState] {
-    let Some(Value::Text(kind)) = entry.get("type") else { return &[] };
-    let given = |field: &str| entry.get(field).is_some_and(|value| *value != Value::Number(0.0));
-    states_of(kind, &given)
-}
-
-/// How much a formula may depend on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reach {
-    /// Parameters only.
-    Parameters,
-    /// Parameters, time and positions: laws of constraints, which must be holonomic.
-    Positions,
-    /// Parameters, time and state.
-    State,
-}
-
-struct Visible<'a>(&'a Scope, Reach);
-
-impl Names for Visible<'_> {
-    fn resolve(&self, name: &str) -> Option<Symbol> {
-        let scope = self.0;
-        if let Some(k) = scope.parameters.iter().position(|p| p == name) {
-            return Some(Symbol::Parameter(k));
-        }
-        if self.1 == Reach::Parameters {
-            return None;
-        }
-        if name == "t" {
-            return Some(Symbol::Time);
-        }
-        let variable = |variable: Variable| Some(Symbol::Variable(variable.index()));
-        if let Some(k) = scope.states.iter().position(|state| state == name) {
-            return variable(Variable::State(k)).filter(|_| self.1 == Reach::State);
-        }
-        let (body, coordinate) = name.rsplit_once('.')?;
-        let body = scope.bodies.iter().position(|(b, _)| b == body).filter(|k| *k > 0)?;
-        let coordinate = Coordinate::named(coordinate).filter(|c| self.sees(body, *c))?;
-        variable(Variable::Coordinate(BodyId(body), coordinate))
-    }
-
-    fn known(&self) -> Vec<String> {
-        let mut known = self.0.parameters.clone();
-        if self.1 == Reach::Parameters {
-            return known;
-        }
-        known.push("t".to_string());
-        for (k, (body, _)) in self.0.bodies.iter().enumerate().skip(1) {
-            let coordinates = Coordinate::ALL.into_iter().filter(|c| self.sees(k, *c));
-            known.extend(coordinates.map(|c| format!("{body}.{}", c.name())));
-        }
-        if self.1 == Reach::State {
-            known.extend(self.0.states.iter().cloned());
-        }
-        known
-    }
-}
-
-impl Visible<'_> {
-    /// Whether a formula may use a coordinate of a body.
-    fn sees(&self, body: usize, coordinate: Coordinate) -> bool {
-        let has = coordinate.column() < 2 || self.0.bodies[body].1;
-        has && (self.1 == Reach::State || !coordinate.is_rate())
-    }
-}
-
-impl Scope {
-    /// The names of a definition.
-    pub fn new(definition: &Definition) -> Self {
-        let turns = |b: &Entry| b.get("type") != Some(&Value::Text(POINT_MASS.to_string()));
-        let moving = definition.bodies.iter().filter(|b| b.name != "ground");
-        let states = definition.forces.iter().flat_map(|entry| {
-            let names = states(entry).iter();
-            names.map(move |state| format!("{}.{}", entry.name, state.name))
-        });
-        Self {
-            parameters: definition.parameters.iter().map(|(name, _)| name.clone()).collect(),
-            bodies: std::iter::once(("ground".to_string(), true))
-                .chain(moving.map(|b| (b.name.clone(), turns(b))))
-                .collect(),
-            states: states.collect(),
-        }
-    }
-
-    /// Only the parameters.
-    pub fn of_parameters(parameters: &[String]) -> Self {
-        let bodies = vec![("ground".to_string(), true)];
-        Self { parameters: parameters.to_vec(), bodies, states: Vec::new() }
-    }
-
-    /// A formula from a number or a text; reports a fault at `path`.
-    pub fn formula(
-        &self,
-        value: &Value,
-        path: &[String],
-        unit: &str,
-        reach: Reach,
-        problems: &mut Vec<Problem>,
-    ) -> Option<Tape> {
-        let text = match value {
-            Value::Number(x) if x.is_finite() => return Some(Tape::from(*x)),
-            Value::Number(x) => {
-                problems.push(Problem::at(path, format!("{x} is not a number to compute with")));
-                return None;
-            }
-            Value::Text(text) => text,
-            other => {
-                let message = format!("must be a number or a formula, not {}", other.noun());
-                problems.push(Problem::at(path, message));
-                return None;
-            }
-        };
-        let parsed = Expression::parse(text).and_then(|e| {
-            check_unit(&e, unit)?;
-            e.compile(&Visible(self, reach)).map_err(|fault| ExpressionError {
-                hint: self.out_of_reach(&e, reach).or(fault.hint),
-                ..fault
-            })
-        });
-        parsed
-            .map_err(|fault| {
-                let at = Problem::at(path, fault.message).within(fault.span);
-                problems.push(at.maybe_hint(fault.hint));
-            })
-            .ok()
-    }
-
-    fn out_of_reach(&self, e: &Expression, reach: Reach) -> Option<String> {
-        let wide = e.compile(&Visible(self, Reach::State));
-        let hint = match reach {
-            Reach::Parameters => "only laws of drivers and forces may use t and the state",
-            Reach::Positions => {
-                "the law of a driver may use t and positions, not velocities: it would not be holonomic"
-            }
-            Reach::State => return None,
-        };
-        wide.is_ok().then(|| hint.to_string())
-    }
-
-    /// Two formulas in the parameters.
-    pub fn pair(
-        &self,
-        value: &Value,
-        path: &[String],
-        unit: &str,
-        problems: &mut Vec<Problem>,
-    ) -> Option<[Tape; 2]> {
-        match value {
-            Value::List(items) if items.len() == 2 => {
-                let mut at = |k: usize| {
-                    let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
-                    self.formula(&items[k], &path, unit, Reach::Parameters, problems)
-                };
-                let (x, y) = (at(0), at(1));
-                Some([x?, y?])
-            }
-            Value::List(items) => {
-                let message = format!("must hold two numbers, not {}", items.len());
-                problems.push(Problem::at(path, message));
-                None
-            }
-            other => {
-                let message = format!("must be a list of two numbers, not {}", other.noun());
-                problems.push(Problem::at(path, message));
-                None
-            }
-        }
-    }
-}
+use crate::expression::{suggest, Tape};
 
 /// Reads the fields of one element.
 pub struct Linker<'a> {
@@ -248,6 +63,17 @@ impl<'a> Linker<'a> {
         if let Some(k) = self.bodies.iter().position(|b| b.name == name) {
             return Some(BodyId(k));
         }
+        let body = name.split_once('.').map_or("", |(body, _)| body);
+        if self.bodies.iter().any(|b| b.name == body) {
+            let message = format!("'{name}' is not a body, but a point of {body}");
+            let written = self.text(field)?;
+            let word = written.rsplit_once('.').map_or("", |(_, word)| word);
+            let hint = match written == name {
+                true => format!("write '{body}'"),
+                false => format!("write '{body}.{word}', of its frame"),
+            };
+            return self.report(field, message, Some(hint));
+        }
         let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).collect();
         let message = format!("unknown body '{name}'");
         self.report(field, message, did_you_mean(name, &names, "bodies"))
@@ -265,28 +91,28 @@ impl<'a> Linker<'a> {
         }
     }
 
+    /// The unit of a field; one of several is that of the coordinate of the element.
+    fn unit<'f>(&self, field: &'f Field) -> &'f str {
+        let Some((first, other)) = field.unit.split_once('|') else { return &field.unit };
+        let coordinate = match self.entry.get("coordinate") {
+            Some(Value::Text(text)) => text.rsplit_once('.').map(|(_, word)| word),
+            _ => None,
+        };
+        let unit = coordinate.and_then(Coordinate::named).map_or(ANY_UNIT, Coordinate::unit);
+        [first, other].into_iter().find(|known| *known == unit).unwrap_or(ANY_UNIT)
+    }
+
     fn formula(&mut self, field: &Field, reach: Reach) -> Option<Tape> {
         match (self.entry.get(field.name), field.default) {
             (Some(value), _) => {
                 let path = self.path(field);
-                self.scope.formula(value, &path, &field.unit, reach, self.problems)
+                let unit = self.unit(field);
+                self.scope.formula(value, &path, unit, reach, self.problems)
             }
             (None, Some(Default::Number(x))) => Some(Tape::from(x)),
             (None, _) => self.missing(field),
         }
     }
-}
-
-/// A unit written behind a number must be one of the field's.
-fn check_unit(e: &Expression, unit: &str) -> Result<(), ExpressionError> {
-    let Some(dimension) = e.dimension() else { return Ok(()) };
-    let fits = |u: &str| Unit::parse(u).is_ok_and(|u| u.dimension == dimension);
-    if unit.is_empty() || unit.split('|').any(fits) {
-        return Ok(());
-    }
-    let message =
-        format!("'{}' is not a quantity in {}", e.text().trim(), unit.replace('|', " or "));
-    Err(ExpressionError::new(0..e.text().len(), message))
 }
 
 /// "did you mean …", or the list of what there is.
@@ -313,6 +139,9 @@ impl Source for Linker<'_> {
         let owner = &self.bodies[body.0];
         if let Some(s) = owner.point(name) {
             return Some(PointOn { body, s: s.clone() });
+        }
+        if owner.lacks_points() {
+            return None; // its own fault is reported
         }
         let names: Vec<&str> = owner.points.iter().map(|(n, _)| n.as_str()).collect();
         let plural = format!("points of {}", owner.name);

@@ -82,7 +82,7 @@ def differences(solution: Solution, reference: Solution) -> tuple[Floats, Floats
     """Largest difference of any body's angle, rad, and of any position, m, at each time, (n_t,)."""
     count = min(len(solution.t), len(reference.t))
     angle, position = np.zeros(count), np.zeros(count)
-    for name in solution.model.bodies:
+    for name in solution.compiled.bodies:
         one, other = solution.body(name), reference.body(name)
         angle = np.maximum(angle, np.abs(one.angle[:count] - other.angle[:count]))
         apart = one.r[:count] - other.r[:count]

@@ -78,7 +78,7 @@ pub fn targets(
     for (key, value) in written {
         let path = ["start".to_string(), section.to_string(), key.clone()];
         let Some(named) = named(model, key, &path, &mut problems) else { continue };
-        let scope = Scope::of_parameters(&model.blueprint.parameters);
+        let scope = Scope::of_parameters(&model.blueprint.parameters, &model.blueprint.inferred);
         let unit = named.unit;
         let tape = scope.formula(value, &path, unit, Reach::Parameters, &mut problems);
         let Some(tape) = tape else { continue };
@@ -139,6 +139,15 @@ fn named(model: &Model, key: &str, path: &[String], problems: &mut Vec<Problem>)
         problems.push(fault(message, None));
         return None;
     };
+    if let Some(owner) = body.split_once('.').map(|(owner, _)| owner) {
+        if model.body(owner).is_some() {
+            let message =
+                format!("'{body}' is a point; only the coordinates of a body can be given");
+            let hint = format!("write '{owner}.{coordinate}', of its frame");
+            problems.push(fault(message, Some(hint)));
+            return None;
+        }
+    }
     let names: Vec<&str> = model.bodies[1..].iter().map(|b| b.name.as_str()).collect();
     let id = model.body(body).filter(|id| !id.is_ground());
     if id.is_none() {

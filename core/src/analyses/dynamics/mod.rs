@@ -30,6 +30,7 @@ mod failure;
 mod initial_stiffness;
 mod interpolated_states;
 mod lane_batch;
+mod law_fault;
 mod method_options;
 mod method_switching;
 mod methods;

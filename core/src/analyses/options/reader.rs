@@ -24,7 +24,7 @@ impl<'a> Reader<'a> {
         path: &[String],
         read: impl FnOnce(&mut Reader<'_>) -> Option<T>,
     ) -> Result<T, Vec<Problem>> {
-        let scope = &Scope::of_parameters(&model.blueprint.parameters);
+        let scope = &Scope::of_parameters(&model.blueprint.parameters, &model.blueprint.inferred);
         let mut problems = Vec::new();
         let path = path.to_vec();
         let found = read(&mut Reader { model, scope, fields, path, problems: &mut problems });
