@@ -1,0 +1,114 @@
+//! Large mechanisms: ladders of unit squares, free bodies and chains.
+
+use crate::mechanisms::{close, largest, model, request, residual, start};
+use kempe::analyses::assemble::assemble;
+use kempe::analyses::mobility;
+use std::fmt::Write as _;
+
+/// Rods on pins of ground, 1 m apart, with couplers between neighbours: `squares` unit squares in a row.
+fn ladder(squares: usize) -> String {
+    let mut text = String::from("[bodies.ground.points]\n");
+    (0..=squares).for_each(|k| _ = writeln!(text, "G{k} = [{k}, 0]"));
+    let mut bar = |name: String| {
+        _ = writeln!(
+            text,
+            "[bodies.{name}]\ntype = \"bar\"\nmass = 1\nlength = 1\nends = [\"A\", \"B\"]"
+        );
+    };
+    (0..=squares).for_each(|k| bar(format!("rod{k}")));
+    (0..squares).for_each(|k| bar(format!("link{k}")));
+    let mut pin = |name: String, i: String, j: String| {
+        _ = writeln!(text, "[joints.{name}]\ntype = \"revolute\"\ni = \"{i}\"\nj = \"{j}\"");
+    };
+    (0..=squares).for_each(|k| pin(format!("P{k}"), format!("ground.G{k}"), format!("rod{k}.A")));
+    for k in 0..squares {
+        pin(format!("L{k}"), format!("rod{k}.B"), format!("link{k}.A"));
+        pin(format!("R{k}"), format!("link{k}.B"), format!("rod{}.B", k + 1));
+    }
+    text
+}
+
+#[test]
+fn ladders_assemble_unfolded() {
+    for squares in [1, 2, 8, 255, 256, 257, 1000] {
+        let m = model(&ladder(squares));
+        let (state, report) = start(&m, &[("rod0.angle", "80*deg")], &[]);
+        for k in 0..=squares {
+            close("rod", state.q[3 * k + 2], 80_f64.to_radians(), 1e-9);
+        }
+        for k in squares + 1..2 * squares + 1 {
+            close("link", state.q[3 * k + 2], 0.0, 1e-9);
+        }
+        assert!(largest(&residual(&m, &state)) < 1e-11);
+        assert_eq!(report.degrees_of_freedom, 1);
+        assert_eq!(report.modes.len(), squares);
+        assert!(report.modes.iter().all(|mode| mode.folded == Some(false)));
+        assert!(report.warnings.is_empty(), "{:?}", report.warnings);
+    }
+}
+
+/// The number of other assemblies is 2^n - 1, if there is a number for it.
+#[test]
+fn other_assemblies_are_counted_without_overflow() {
+    for (squares, others) in [(1, Some(1)), (8, Some(255)), (63, Some((1 << 63) - 1)), (64, None)] {
+        let m = model(&ladder(squares));
+        let (_, report) = start(&m, &[("rod0.angle", "80*deg")], &[]);
+        assert_eq!(report.alternatives, others, "{squares} squares");
+    }
+}
+
+/// A guess decides for the folded side, and the report says so. Rod 1 lies on ground and the links on rod 0; the other
+/// rods are stretched, which is singular on the whole branch but not redundant.
+#[test]
+fn a_folded_ladder_is_singular_but_not_redundant() {
+    for squares in [3, 30, 300] {
+        let m = model(&ladder(squares));
+        let (state, report) = start(&m, &[("rod0.angle", "80*deg")], &[("rod1.angle", "170*deg")]);
+        close("rod1", state.q[5], 180_f64.to_radians(), 1e-7);
+        assert_eq!(report.modes[0].folded, Some(true));
+        let singular = report.warnings.iter().filter(|w| w.contains("singular position"));
+        assert!(singular.count() > 0, "{:?}", report.warnings);
+        assert!(report.warnings.len() <= 102, "{}", report.warnings.len());
+    }
+}
+
+/// All rods along ground: every square may fold or not.
+#[test]
+fn a_flat_ladder_is_singular_but_not_redundant() {
+    for squares in [1, 5, 120, 500] {
+        let m = model(&ladder(squares));
+        let guess: Vec<(String, &str)> =
+            (1..m.bodies.len()).map(|b| (format!("{}.angle", m.bodies[b].name), "0")).collect();
+        let guess: Vec<(&str, &str)> = guess.iter().map(|(k, x)| (k.as_str(), *x)).collect();
+        let (state, report) = start(&m, &[("rod0.angle", "0")], &guess);
+        assert!(report.warnings.iter().any(|w| w.contains("singular position")));
+        let found = mobility(&m, 0.0, &state.q);
+        assert!(found.redundant.is_empty());
+        assert_eq!(found.rank, m.layout.n_rows - squares);
+    }
+}
+
+/// A second pin at the top of the last square is found as redundant at any size.
+#[test]
+fn a_twin_joint_in_a_large_ladder_is_redundant() {
+    for squares in [3, 400] {
+        let twin = format!(
+            "[joints.twin]\ntype = \"revolute\"\ni = \"ground.G{squares}\"\nj = \"rod{squares}.A\"\n"
+        );
+        let m = model(&(ladder(squares) + &twin));
+        let failure = assemble(&m, &request(&m, &[("rod0.angle", "1.3")], &[])).unwrap_err();
+        assert_eq!(
+            failure.message,
+            format!("joint twin repeats joint P{squares}: both fix point rod{squares}.A to ground")
+        );
+    }
+}
+
+/// Two stretched bars between pins: the bars cannot move, and each of the four pins is needed.
+#[test]
+fn a_stretched_dyad_is_singular_but_not_redundant() {
+    let text = ladder(1).replace("G1 = [1, 0]", "G1 = [3, 0]");
+    let m = model(&text);
+    let (_, report) = start(&m, &[("rod0.angle", "0")], &[]);
+    assert!(report.warnings.iter().any(|w| w.contains("singular position")), "{report:?}");
+}
