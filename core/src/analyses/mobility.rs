@@ -24,7 +24,8 @@ const EXCURSION: f64 = 3e-3;
 const EXCURSIONS_WITHOUT: [f64; 3] = [3e-2, 3e-3, 3e-4];
 /// Largest residual of an equation that holds, relative to the size of the mechanism.
 const HOLDS: f64 = 1e-9;
-/// Largest number of bodies whose angle is tried to reach a neighbouring position.
+/// Largest number of bodies whose angle is tried to reach a neighbouring position, and of excursions without the dependent
+/// equations.
 const EXCURSIONS: usize = 6;
 
 /// How a mechanism can move at a position.
@@ -101,16 +102,25 @@ fn split(
         return [Vec::new(), Vec::new()];
     }
     let mut closing = Closing::new(model, t, stop).without(rows);
-    let near = EXCURSIONS_WITHOUT.iter().find_map(|size| {
-        let mut near = moved(model, q, *size);
-        closing.close(&mut near).1.then_some(near)
-    });
     let scales = row_scales(model);
-    let phi = near.map(|near| closing.phi(&near));
-    let holds = |row: usize| phi.as_ref().is_none_or(|phi| phi[row].abs() <= HOLDS * scales[row]);
+    let mut holds = vec![true; rows.len()];
+    // one excursion may by chance keep an equation almost satisfied
+    for number in 0..EXCURSIONS {
+        let near = EXCURSIONS_WITHOUT.iter().find_map(|size| {
+            let mut near = moved(model, q, *size, number);
+            closing.close(&mut near).1.then_some(near)
+        });
+        let Some(phi) = near.map(|near| closing.phi(&near)) else { continue };
+        for (row, holds) in rows.iter().zip(&mut holds) {
+            *holds &= phi[*row].abs() <= HOLDS * scales[*row];
+        }
+        if !holds.contains(&true) {
+            break;
+        }
+    }
     let mut split = [Vec::new(), Vec::new()];
-    for (row, group) in rows.iter().zip(groups) {
-        split[usize::from(!holds(*row))].push(group.clone());
+    for (holds, group) in holds.iter().zip(groups) {
+        split[usize::from(!holds)].push(group.clone());
     }
     split
 }
@@ -158,16 +168,18 @@ fn neighbour(
         None => None,
     };
     let mut closing = Closing::new(extended.as_ref().unwrap_or(model), t, stop);
-    let mut near = moved(model, q, EXCURSION);
+    let mut near = moved(model, q, EXCURSION, 0);
     let (_, closed) = closing.close(&mut near);
     let unit = column_scales(model);
     let moved = q.iter().zip(&near).enumerate().any(|(k, (a, b))| (a - b).abs() > 1e-5 * unit[k]);
     (closed && moved).then_some(near)
 }
 
-/// `q` with an excursion of each coordinate: fixed arbitrary numbers, which have no symmetry of the mechanism.
-fn moved(model: &Model, q: &[f64], size: f64) -> Vec<f64> {
-    let part = |k: usize| ((12.9898 * (k as f64 + 1.0)).sin() * 43758.5453).fract();
+/// `q` with the excursion of this number of each coordinate: fixed arbitrary numbers, which have no symmetry of the
+/// mechanism.
+fn moved(model: &Model, q: &[f64], size: f64, number: usize) -> Vec<f64> {
+    let first = 1.0 + 0.618 * number as f64;
+    let part = |k: usize| ((12.9898 * (k as f64 + first)).sin() * 43758.5453).fract();
     let unit = column_scales(model);
     q.iter().enumerate().map(|(k, q)| q + size * part(k) * unit[k]).collect()
 }

@@ -4,13 +4,15 @@ use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::items::Body;
 use super::problem::Problem;
+use super::problems::MOST_REPORTED;
 use super::variable::Variable;
 use crate::elements::{
-    states_of, BodyId, Coordinate, CoordinateOf, Default, Field, Group, JointId, OwnState, PointOn,
+    states_of, BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Group, JointId, OwnState, PointOn,
     Source,
 };
 use crate::expression::unit::Unit;
 use crate::expression::{suggest, Expression, ExpressionError, Names, Symbol, Tape};
+use std::collections::HashMap;
 
 /// The names that formulas may use.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +23,24 @@ pub struct Scope {
     pub bodies: Vec<(String, bool)>,
     /// First-order states of elements, such as `motor.current`, in the order of z.
     pub states: Vec<String>,
+    places: Places,
+}
+
+/// The places of names, so that a name is found at once in a large model.
+#[derive(Clone, Debug, Default)]
+struct Places {
+    parameters: HashMap<String, usize>,
+    bodies: HashMap<String, usize>,
+    states: HashMap<String, usize>,
+    /// Joints and drivers as they are written.
+    constraints: HashMap<String, usize>,
+}
+
+/// The first place of each name.
+fn places<'n>(names: impl Iterator<Item = &'n String>) -> HashMap<String, usize> {
+    let mut places = HashMap::new();
+    names.enumerate().for_each(|(k, name)| _ = places.entry(name.clone()).or_insert(k));
+    places
 }
 
 /// The first-order states of a force as written.
@@ -41,12 +61,13 @@ pub enum Reach {
     State,
 }
 
-struct Visible<'a>(&'a Scope, Reach);
+/// The names of a scope within reach, and whether unknown names get a suggestion.
+struct Visible<'a>(&'a Scope, Reach, bool);
 
 impl Names for Visible<'_> {
     fn resolve(&self, name: &str) -> Option<Symbol> {
         let scope = self.0;
-        if let Some(k) = scope.parameters.iter().position(|p| p == name) {
+        if let Some(&k) = scope.places.parameters.get(name) {
             return Some(Symbol::Parameter(k));
         }
         if self.1 == Reach::Parameters {
@@ -56,16 +77,19 @@ impl Names for Visible<'_> {
             return Some(Symbol::Time);
         }
         let variable = |variable: Variable| Some(Symbol::Variable(variable.index()));
-        if let Some(k) = scope.states.iter().position(|state| state == name) {
+        if let Some(&k) = scope.places.states.get(name) {
             return variable(Variable::State(k)).filter(|_| self.1 == Reach::State);
         }
         let (body, coordinate) = name.rsplit_once('.')?;
-        let body = scope.bodies.iter().position(|(b, _)| b == body).filter(|k| *k > 0)?;
+        let body = scope.body(body).filter(|k| *k > 0)?;
         let coordinate = Coordinate::named(coordinate).filter(|c| self.sees(body, *c))?;
         variable(Variable::Coordinate(BodyId(body), coordinate))
     }
 
     fn known(&self) -> Vec<String> {
+        if !self.2 {
+            return Vec::new();
+        }
         let mut known = self.0.parameters.clone();
         if self.1 == Reach::Parameters {
             return known;
@@ -99,19 +123,34 @@ impl Scope {
             let names = states(entry).iter();
             names.map(move |state| format!("{}.{}", entry.name, state.name))
         });
-        Self {
-            parameters: definition.parameters.iter().map(|(name, _)| name.clone()).collect(),
-            bodies: std::iter::once(("ground".to_string(), true))
-                .chain(moving.map(|b| (b.name.clone(), turns(b))))
-                .collect(),
-            states: states.collect(),
-        }
+        let bodies = std::iter::once(("ground".to_string(), true))
+            .chain(moving.map(|b| (b.name.clone(), turns(b))))
+            .collect();
+        let parameters = definition.parameters.iter().map(|(name, _)| name.clone()).collect();
+        let mut scope = Self::of(parameters, bodies, states.collect());
+        let constraints = definition.joints.iter().chain(&definition.drivers);
+        scope.places.constraints = places(constraints.map(|entry| &entry.name));
+        scope
+    }
+
+    fn of(parameters: Vec<String>, bodies: Vec<(String, bool)>, states: Vec<String>) -> Self {
+        let places = Places {
+            parameters: places(parameters.iter()),
+            bodies: places(bodies.iter().map(|(name, _)| name)),
+            states: places(states.iter()),
+            constraints: HashMap::new(),
+        };
+        Self { parameters, bodies, states, places }
+    }
+
+    /// The place of a body, ground first.
+    pub fn body(&self, name: &str) -> Option<usize> {
+        self.places.bodies.get(name).copied()
     }
 
     /// Only the parameters.
     pub fn of_parameters(parameters: &[String]) -> Self {
-        let bodies = vec![("ground".to_string(), true)];
-        Self { parameters: parameters.to_vec(), bodies, states: Vec::new() }
+        Self::of(parameters.to_vec(), vec![("ground".to_string(), true)], Vec::new())
     }
 
     /// A formula from a number or a text; reports a fault at `path`.
@@ -136,9 +175,10 @@ impl Scope {
                 return None;
             }
         };
+        let reported = problems.len() < MOST_REPORTED;
         let parsed = Expression::parse(text).and_then(|e| {
             check_unit(&e, unit)?;
-            e.compile(&Visible(self, reach)).map_err(|fault| ExpressionError {
+            e.compile(&Visible(self, reach, reported)).map_err(|fault| ExpressionError {
                 hint: self.out_of_reach(&e, reach).or(fault.hint),
                 ..fault
             })
@@ -152,7 +192,7 @@ impl Scope {
     }
 
     fn out_of_reach(&self, e: &Expression, reach: Reach) -> Option<String> {
-        let wide = e.compile(&Visible(self, Reach::State));
+        let wide = e.compile(&Visible(self, Reach::State, false));
         let hint = match reach {
             Reach::Parameters => "only laws of drivers and forces may use t and the state",
             Reach::Positions => {
@@ -194,6 +234,9 @@ impl Scope {
     }
 }
 
+/// A linked joint or driver.
+type Named = (String, Group, Constraint<Tape>);
+
 /// Reads the fields of one element.
 pub struct Linker<'a> {
     group: Group,
@@ -201,7 +244,7 @@ pub struct Linker<'a> {
     entry: &'a Entry,
     scope: &'a Scope,
     bodies: &'a [Body<Tape>],
-    joints: &'a [&'a str],
+    constraints: &'a [Named],
     problems: &'a mut Vec<Problem>,
 }
 
@@ -211,10 +254,10 @@ impl<'a> Linker<'a> {
         group: Group,
         entry: &'a Entry,
         scope: &'a Scope,
-        (bodies, joints): (&'a [Body<Tape>], &'a [&'a str]),
+        (bodies, constraints): (&'a [Body<Tape>], &'a [Named]),
         problems: &'a mut Vec<Problem>,
     ) -> Self {
-        Self { group, section: group.section(), entry, scope, bodies, joints, problems }
+        Self { group, section: group.section(), entry, scope, bodies, constraints, problems }
     }
 
     fn path(&self, field: &Field) -> [String; 3] {
@@ -224,6 +267,11 @@ impl<'a> Linker<'a> {
     fn report<T>(&mut self, field: &Field, message: String, hint: Option<String>) -> Option<T> {
         self.problems.push(Problem::at(&self.path(field), message).maybe_hint(hint));
         None
+    }
+
+    /// Whether the next problem is shown, so that a suggestion is worth its time.
+    fn suggests(&self) -> bool {
+        self.problems.len() < MOST_REPORTED
     }
 
     fn missing<T>(&mut self, field: &Field) -> Option<T> {
@@ -245,12 +293,14 @@ impl<'a> Linker<'a> {
 
     /// A body by name, with a report that suggests one.
     fn find(&mut self, field: &Field, name: &str) -> Option<BodyId> {
-        if let Some(k) = self.bodies.iter().position(|b| b.name == name) {
+        if let Some(k) = self.scope.body(name) {
             return Some(BodyId(k));
         }
-        let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).collect();
-        let message = format!("unknown body '{name}'");
-        self.report(field, message, did_you_mean(name, &names, "bodies"))
+        let hint = self.suggests().then(|| {
+            let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).collect();
+            did_you_mean(name, &names, "bodies")
+        });
+        self.report(field, format!("unknown body '{name}'"), hint.flatten())
     }
 
     /// `body.word`, with the body looked up.
@@ -314,11 +364,12 @@ impl Source for Linker<'_> {
         if let Some(s) = owner.point(name) {
             return Some(PointOn { body, s: s.clone() });
         }
-        let names: Vec<&str> = owner.points.iter().map(|(n, _)| n.as_str()).collect();
-        let plural = format!("points of {}", owner.name);
-        let hint = did_you_mean(name, &names, &plural);
+        let hint = self.suggests().then(|| {
+            let names: Vec<&str> = owner.points.iter().map(|(n, _)| n.as_str()).collect();
+            did_you_mean(name, &names, &format!("points of {}", owner.name))
+        });
         let message = format!("body '{}' has no point '{name}'", owner.name);
-        self.report(field, message, hint)
+        self.report(field, message, hint.flatten())
     }
 
     fn coordinate(&mut self, field: &Field) -> Option<CoordinateOf> {
@@ -341,11 +392,17 @@ impl Source for Linker<'_> {
 
     fn joint(&mut self, field: &Field) -> Option<JointId> {
         let name = self.text(field)?;
-        if let Some(k) = self.joints.iter().position(|joint| *joint == name) {
+        // a faulty constraint before it moves it from its written place
+        let is_named = |k: &usize| self.constraints.get(*k).is_some_and(|(own, ..)| own == name);
+        let written = self.scope.places.constraints.get(name).copied().filter(is_named);
+        if let Some(k) = written.or_else(|| (0..self.constraints.len()).find(is_named)) {
             return Some(JointId(k));
         }
-        let hint = did_you_mean(name, self.joints, "joints");
-        self.report(field, format!("unknown joint '{name}'"), hint)
+        let hint = self.suggests().then(|| {
+            let names: Vec<&str> = self.constraints.iter().map(|(own, ..)| own.as_str()).collect();
+            did_you_mean(name, &names, "joints")
+        });
+        self.report(field, format!("unknown joint '{name}'"), hint.flatten())
     }
 
     fn number(&mut self, field: &Field) -> Option<Tape> {
