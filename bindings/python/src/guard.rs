@@ -45,6 +45,14 @@ pub fn guard<T>(entry: &'static str, body: impl FnOnce() -> PyResult<T>) -> PyRe
     outcome.unwrap_or_else(|payload| Err(internal_error(entry, payload.as_ref())))
 }
 
+/// Runs `body`, whose panics are caught, without printing them.
+pub fn quietly<T>(body: impl FnOnce() -> T) -> T {
+    DEPTH.set(DEPTH.get() + 1);
+    let result = body();
+    DEPTH.set(DEPTH.get() - 1);
+    result
+}
+
 /// Makes the next guard of `entry` panic, or none for `None`.
 pub fn arm(entry: Option<&str>) {
     *VICTIM.lock().unwrap_or_else(PoisonError::into_inner) = entry.map(str::to_owned);

@@ -8,6 +8,8 @@ use crate::model::Problem;
 pub(super) struct Report {
     path: Vec<String>,
     problems: Vec<Problem>,
+    /// Number of problems that are not kept.
+    dropped: usize,
 }
 
 impl Report {
@@ -26,10 +28,11 @@ impl Report {
     pub(super) fn key(&self) -> &str {
         self.path.last().map_or("", String::as_str)
     }
-    /// Reports a problem; those beyond [`MOST_REPORTED`](super::MOST_REPORTED) are dropped.
+    /// Reports a problem; those beyond [`MOST_REPORTED`](super::MOST_REPORTED) are counted.
     pub(super) fn add(&mut self, problem: Problem) {
-        if self.problems.len() < super::MOST_REPORTED {
-            self.problems.push(problem);
+        match self.problems.len() < super::MOST_REPORTED {
+            true => self.problems.push(problem),
+            false => self.dropped += 1,
         }
     }
     /// Reports a problem of the present value.
@@ -45,8 +48,9 @@ impl Report {
         let hint = did_you_mean(key, known).unwrap_or_else(|| among("it may have", known));
         self.add(self.here(message).at_key().hint(hint));
     }
-    pub(super) fn finish(self) -> Vec<Problem> {
-        self.problems
+    /// The problems that are kept, and the number of the others.
+    pub(super) fn finish(self) -> (Vec<Problem>, usize) {
+        (self.problems, self.dropped)
     }
 }
 

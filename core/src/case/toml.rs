@@ -22,8 +22,9 @@ pub(super) fn parse(text: &str, faults: &mut Faults) -> Table {
     let mut events = Events { source, builder: Builder::default(), joined: false };
     let mut errors = Vec::new();
     let mut sink = |error: ParseError| {
-        if errors.len() < super::MOST_REPORTED {
-            errors.push(error);
+        match errors.len() < super::MOST_REPORTED {
+            true => errors.push(error),
+            false => faults.1 += 1,
         }
     };
     let mut checked = ValidateWhitespace::new(&mut events, source);

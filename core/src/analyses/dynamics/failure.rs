@@ -1,5 +1,6 @@
 //! Failures of forward dynamics, in terms of the mechanism.
 
+use super::failure_texts::{apart_hint, different, unresisted};
 use super::run_results::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
@@ -94,13 +95,12 @@ impl Failure {
             }
             Breakdown::Apart { row, gap, most } => {
                 let (name, unit) = equation(model, row);
+                let [gap, most] = different(gap, most);
                 let message = format!(
-                    "the joints come apart at t = {t:.6} s: constraint {name} is open by {gap:.1e} {unit}, more \
-                     than {most:.1e} {unit}"
+                    "the joints come apart at t = {t:.6} s: constraint {name} is open by {gap} {unit}, more than \
+                     {most} {unit}"
                 );
-                let hint = "use stabilization projection, a smaller tolerance or step, or greater gains; a start \
-                            must meet the constraints";
-                return Reason::Integration { t, message, hint }.into();
+                return Reason::Integration { t, message, hint: apart_hint(t) }.into();
             }
             Breakdown::NotFinite => {
                 let (message, hint) = not_finite(t);
@@ -171,17 +171,7 @@ fn equation(model: &Model, row: usize) -> (String, &'static str) {
 /// The name of a body without inertia on which a torque acts, and a message.
 fn no_inertia(model: &Model, t: f64, column: usize) -> (String, String) {
     let body = model.layout.body_of(column).map_or(BodyId::GROUND, |(body, _)| body);
-    let body = &model.bodies[body.0];
-    let (name, inertia) = (body.name.clone(), body.inertia);
-    let (has, set) = match inertia > 0.0 {
-        true => (format!("hardly any moment of inertia ({inertia:.1e} kg·m²)"), "increase"),
-        false => ("no moment of inertia".to_string(), "set"),
-    };
-    let message = format!(
-        "a torque acts on {name} at t = {t:.6} s, but {name} has {has} and no joint prevents its \
-         rotation; {set} its inertia"
-    );
-    (name, message)
+    (model.bodies[body.0].name.clone(), unresisted(model, body, t))
 }
 
 /// Largest number of bodies whose coordinates a message contains.

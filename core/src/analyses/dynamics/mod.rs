@@ -23,6 +23,7 @@ mod clock;
 mod constraint_violation;
 mod energies;
 mod failure;
+mod failure_texts;
 mod initial_stiffness;
 mod lane_batch;
 mod method_options;
