@@ -1,9 +1,11 @@
 //! Large mechanisms: ladders of unit squares, free bodies and chains.
 
 use crate::mechanisms::{close, largest, model, request, residual, start};
-use kempe::analyses::assemble::assemble;
+use kempe::analyses::assemble::{assemble, assemble_until, Fault, Request};
 use kempe::analyses::mobility;
+use std::cell::Cell;
 use std::fmt::Write as _;
+use std::time::Instant;
 
 /// Rods on pins of ground, 1 m apart, with couplers between neighbours: `squares` unit squares in a row.
 fn ladder(squares: usize) -> String {
@@ -111,4 +113,61 @@ fn a_stretched_dyad_is_singular_but_not_redundant() {
     let m = model(&text);
     let (_, report) = start(&m, &[("rod0.angle", "0")], &[]);
     assert!(report.warnings.iter().any(|w| w.contains("singular position")), "{report:?}");
+}
+
+/// The shortest of three times of an assembly, s.
+fn seconds(text: &str) -> f64 {
+    let one = || {
+        let m = model(text);
+        let begin = Instant::now();
+        assert!(assemble(&m, &Request::default()).is_ok());
+        begin.elapsed().as_secs_f64()
+    };
+    (0..3).map(|_| one()).fold(f64::INFINITY, f64::min)
+}
+
+fn free(bodies: usize) -> String {
+    (0..bodies).map(|k| format!("[bodies.b{k}]\nmass = 1\ninertia = 1\n")).collect()
+}
+
+/// A chain of links, of which only the first hangs on ground.
+fn chain(links: usize) -> String {
+    let mut text = String::from("[bodies.ground]\npoints = { B = [0, 0] }\n");
+    (0..links).for_each(|k| {
+        _ = writeln!(
+            text,
+            "[bodies.b{k}]\ntype = \"bar\"\nmass = 1\nlength = 1\nends = [\"A\", \"B\"]"
+        );
+    });
+    let before = |k: usize| if k == 0 { "ground".to_string() } else { format!("b{}", k - 1) };
+    (0..links).for_each(|k| {
+        let i = before(k);
+        _ = writeln!(text, "[joints.J{k}]\ntype = \"revolute\"\ni = \"{i}.B\"\nj = \"b{k}.A\"");
+    });
+    text
+}
+
+/// Eight times as many bodies take no more than 24 times as long; quadratic work takes 64 times as long.
+#[test]
+fn the_time_is_linear() {
+    for (kind, text) in [("free", free as fn(usize) -> String), ("chain", chain), ("ladder", ladder)] {
+        let (few, many) = (seconds(&text(500)), seconds(&text(4000)));
+        assert!(many < 24.0 * few, "{kind}: {few} s and then {many} s");
+    }
+}
+
+/// A request to stop ends the assembly.
+#[test]
+fn an_assembly_can_be_stopped() {
+    let m = model(&ladder(50));
+    let request = request(&m, &[("rod0.angle", "1.3")], &[]);
+    let failure = assemble_until(&m, &request, &|| true).expect_err("stopped");
+    assert_eq!(failure.fault, Fault::Stopped);
+    let looks = Cell::new(0);
+    let stop = || {
+        looks.set(looks.get() + 1);
+        false
+    };
+    assert!(assemble_until(&m, &request, &stop).is_ok());
+    assert!(looks.get() > 2, "{}", looks.get());
 }
