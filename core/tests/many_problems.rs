@@ -12,7 +12,10 @@ fn unknown_bodies(joints: usize) -> String {
         _ = writeln!(text, "[bodies.body{k}]\nmass = 1\ninertia = 1\npoints = {{ A = [0, 0] }}");
     }
     for k in 0..joints {
-        _ = writeln!(text, "[joints.J{k}]\ntype = \"revolute\"\ni = \"ground.A\"\nj = \"bodi{k}.A\"");
+        _ = writeln!(
+            text,
+            "[joints.J{k}]\ntype = \"revolute\"\ni = \"ground.A\"\nj = \"bodi{k}.A\""
+        );
     }
     text
 }

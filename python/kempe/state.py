@@ -15,7 +15,6 @@ from kempe.matrices import Matrices, matrices
 from kempe.motion import Motion
 from kempe.values import Number
 
-
 #: Largest number of modes that a report lists.
 MOST_MODES = 20
 #: Numbers of other assemblies from here on are given as a power of two.

@@ -1,4 +1,4 @@
-"""Assembly of large mechanisms from Python: ladders of squares, time, interruptions and messages."""
+"""Assembly of large mechanisms: ladders of squares, time, interruptions, messages."""
 
 import math
 import os
@@ -45,7 +45,7 @@ def test_a_ladder_assembles_unfolded_and_the_report_says_so(squares: int) -> Non
     assert report.alternatives == 2**squares - 1
     assert not report.warnings
     lines = str(report).splitlines()
-    assert "to the right of P1 → L0, unfolded" in lines[1] or "left of L0 → P1, unfolded" in lines[1]
+    assert re.search("right of P1 → L0, unfolded|left of L0 → P1, unfolded", lines[1])
     if squares > 20:
         assert lines[-2] == f"and {squares - 20} more, none of them folded"
         assert lines[-1] == f"other assemblies exist: up to 2^{squares} - 1"
@@ -177,6 +177,6 @@ def test_a_free_body_without_inertia_has_no_joint() -> None:
     m = kp.Model("free")
     m.body("bob", mass=1, inertia=0)
     m.torque("push", "bob", torque=1)
-    with pytest.raises(kp.SingularityError, match="no joint prevents its rotation; set its inertia"):
+    with pytest.raises(kp.SingularityError, match="no joint prevents its rotation; set"):
         kp.dynamics(m, kp.assemble(m), t_end=1)
     assert np.isfinite(kp.assemble(m).q).all()

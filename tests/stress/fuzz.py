@@ -1,9 +1,9 @@
-"""Damaged cases on their whole way through Python: load, save, load, assemble, run, save the solution.
+"""Damaged cases through Python: load, save, load, assemble, run, save the solution.
 
     PYTHONPATH=tests python -m stress.fuzz --runs 100000 --processes 2
 
-prints the stages that the inputs reach and every fault with its number. ``--only 4711`` repeats one input. The exit
-code is 1 if there is a fault. The same run of the core is ``KEMPE_FUZZ=100000 cargo test -p kempe --test fuzz``.
+prints the stages that the inputs reach and every fault with its number. ``--only 4711`` repeats
+one input. The exit code is 1 if there is a fault. ``CONTRIBUTING.md`` has the same run of the core.
 """
 
 import argparse

@@ -42,7 +42,7 @@ def test_a_loss_on_saving_is_a_fault(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
     def lossy(case: kp.Case, path: Path) -> None:
         del case
-        text = TEXT if path.suffix == ".json" else 'kempe = 1\n[bodies.ball]\nmass = 2\ninertia = 1'
+        text = TEXT if path.suffix == ".json" else "kempe = 1\n[bodies.ball]\nmass = 2\ninertia = 1"
         path.write_text(text, "utf-8")
 
     monkeypatch.setattr(kp.Case, "save", lossy)

@@ -1,13 +1,12 @@
 //! Long work without steps of its own, such as an assembly, that an interruption ends.
 
 use pyo3::prelude::*;
-use std::panic::{catch_unwind, resume_unwind, AssertUnwindSafe};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{channel, RecvTimeoutError};
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::guard::quietly;
+use crate::guard::caught;
 
 /// Time between looks at signals.
 const GLANCE: Duration = Duration::from_millis(40);
@@ -29,7 +28,7 @@ pub fn attended<T: Send + 'static>(
     let body = move || {
         let stop = || stopped.load(Ordering::Relaxed);
         // nobody receives after an interruption
-        _ = send.send(quietly(|| catch_unwind(AssertUnwindSafe(|| work(&stop)))));
+        _ = send.send(caught(|| work(&stop)));
     };
     std::thread::Builder::new().stack_size(STACK).spawn(body)?;
     let receive = std::sync::Mutex::new(receive); // shared with the closure below
@@ -40,7 +39,7 @@ pub fn attended<T: Send + 'static>(
         });
         match outcome {
             Ok(Ok(result)) => return Ok(result),
-            Ok(Err(panic)) => resume_unwind(panic),
+            Ok(Err(panic)) => panic.resume(),
             Err(RecvTimeoutError::Disconnected) => panic!("the work ended without a result"),
             Err(RecvTimeoutError::Timeout) => {
                 py.check_signals().inspect_err(|_| stop.store(true, Ordering::Relaxed))?;

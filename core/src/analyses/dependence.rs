@@ -21,13 +21,7 @@ pub(super) struct Dependence {
 }
 
 /// The dependent equations, whose remainder is at most `tolerance`; without a meaning if `stop` became true.
-pub(super) fn at(
-    model: &Model,
-    t: f64,
-    q: &[f64],
-    tolerance: f64,
-    stop: Stop<'_>,
-) -> Dependence {
+pub(super) fn at(model: &Model, t: f64, q: &[f64], tolerance: f64, stop: Stop<'_>) -> Dependence {
     let rows = scaled_rows(model, t, q);
     match rows.len() <= MOST_DENSE {
         true => dense(model, &rows, tolerance),

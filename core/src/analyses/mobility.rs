@@ -10,8 +10,8 @@ use super::closing::{Closing, Stop};
 use super::dependence::{self, Dependence, MOST_DENSE};
 use crate::elements::{BodyId, Coordinate, CoordinateOf};
 use crate::equations::augmented::Augmented;
-use crate::equations::kinematics::Motions;
 use crate::equations::constraints;
+use crate::equations::kinematics::Motions;
 use crate::model::{column_scales, row_scales, Model};
 use crate::solve::RANK_TOLERANCE;
 use std::sync::Arc;
@@ -62,7 +62,13 @@ pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Stop<'_>) -
 }
 
 /// The groups of redundant equations, and of those that are dependent at this position only.
-fn judge(model: &Model, t: f64, q: &[f64], here: Dependence, stop: Stop<'_>) -> [Vec<Vec<usize>>; 2] {
+fn judge(
+    model: &Model,
+    t: f64,
+    q: &[f64],
+    here: Dependence,
+    stop: Stop<'_>,
+) -> [Vec<Vec<usize>>; 2] {
     let found = split(model, t, q, &here, stop);
     if found[1].len() < 2 {
         return found;
@@ -153,13 +159,7 @@ fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
 
 /// A position a little way along an admissible motion, if there is one. Where branches meet, Newton's method
 /// returns to the meeting point; therefore the angle of body `held` is kept away from it (ground: none).
-fn neighbour(
-    model: &Model,
-    t: f64,
-    q: &[f64],
-    held: usize,
-    stop: Stop<'_>,
-) -> Option<Vec<f64>> {
+fn neighbour(model: &Model, t: f64, q: &[f64], held: usize, stop: Stop<'_>) -> Option<Vec<f64>> {
     let extended = match held.checked_sub(1) {
         Some(_) => {
             let columns = model.layout.bodies.get(held).filter(|columns| columns.count == 3)?;

@@ -2,8 +2,9 @@
 
 use super::definition::{Entry, Value};
 use super::items::Body;
-use super::link::{self, Linker, Scope};
+use super::link::Linker;
 use super::problem::Problem;
+use super::scope::{self, Scope};
 use super::variable::Variable;
 use crate::elements::{
     holding, BodyId, Constraint, CoordinateOf, Fixes, ForceElement, Group, OwnState,
@@ -47,7 +48,7 @@ impl Blueprint {
         let known = if group == Group::Forces {
             ForceElement::read(kind, &mut linker).map(|e| {
                 let e = e.filter(|e| self.two_bodies(group, entry, &e.bodies(), problems));
-                let states = link::states(entry);
+                let states = scope::states(entry);
                 self.forces.extend(e.map(|e| (entry.name.clone(), states, e)));
             })
         } else {

@@ -6,8 +6,8 @@
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::items::Body;
-use super::link::{Reach, Scope};
 use super::problem::Problem;
+use super::scope::{Reach, Scope};
 use crate::expression::{Expression, Tape};
 use crate::math::Local;
 

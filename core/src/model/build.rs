@@ -2,9 +2,9 @@
 
 use super::blueprint::Blueprint;
 use super::definition::{Definition, Value};
-use super::link::Scope;
 use super::model::Model;
 use super::problem::Problem;
+use super::scope::Scope;
 use super::{bodies, checks, parameters};
 use crate::elements::Group;
 use crate::expression::Tape;

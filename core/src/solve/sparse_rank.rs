@@ -84,7 +84,9 @@ impl SparseRank {
     fn solve(&self, mut b: BTreeMap<usize, f64>) -> Vec<f64> {
         let mut x = vec![0.0; self.triangle.len()];
         while let Some((column, value)) = b.pop_first() {
-            let Some(row) = self.triangle[column].as_ref().filter(|_| value != 0.0) else { continue };
+            let Some(row) = self.triangle[column].as_ref().filter(|_| value != 0.0) else {
+                continue;
+            };
             let z = value / row[0].1;
             x[column] = z;
             row[1..].iter().for_each(|(c, r)| *b.entry(*c).or_default() -= r * z);

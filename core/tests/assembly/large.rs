@@ -59,7 +59,7 @@ fn other_assemblies_are_counted_without_overflow() {
     }
 }
 
-/// A guess decides for the folded side, and the report says so. Rod 1 lies on ground and the links on rod 0; the other
+/// A guess decides for the folded side, as the report shows. Rod 1 lies on ground and the links on rod 0; the other
 /// rods are stretched, which is singular on the whole branch but not redundant.
 #[test]
 fn a_folded_ladder_is_singular_but_not_redundant() {
@@ -150,7 +150,9 @@ fn chain(links: usize) -> String {
 /// Eight times as many bodies take no more than 24 times as long; quadratic work takes 64 times as long.
 #[test]
 fn the_time_is_linear() {
-    for (kind, text) in [("free", free as fn(usize) -> String), ("chain", chain), ("ladder", ladder)] {
+    for (kind, text) in
+        [("free", free as fn(usize) -> String), ("chain", chain), ("ladder", ladder)]
+    {
         let (few, many) = (seconds(&text(500)), seconds(&text(4000)));
         assert!(many < 24.0 * few, "{kind}: {few} s and then {many} s");
     }

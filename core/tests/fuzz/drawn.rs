@@ -140,7 +140,11 @@ impl Drawn<'_> {
     }
 
     fn owner(&mut self) -> String {
-        if self.random.chance(0.3) { "ground".to_string() } else { self.body_name() }
+        if self.random.chance(0.3) {
+            "ground".to_string()
+        } else {
+            self.body_name()
+        }
     }
 
     fn number(&mut self) -> Value {

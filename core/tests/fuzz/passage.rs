@@ -105,7 +105,11 @@ fn run(case: &Case, model: &Model, start: &State) -> Reached {
         let mut steps = 0;
         let watch = |_| {
             steps += 1;
-            if steps > 2 * STEPS { Flow::Stop } else { Flow::Continue }
+            if steps > 2 * STEPS {
+                Flow::Stop
+            } else {
+                Flow::Continue
+            }
         };
         match dynamics(model, start, &options, watch) {
             Ok(run) => {

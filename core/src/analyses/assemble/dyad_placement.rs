@@ -35,7 +35,8 @@ impl Placer<'_> {
         let arms = [0, 1].map(|k| at_joint[k] - carried[k].0.own);
         let [p1, p2] = carried.map(|(_, at)| at);
         let pin = self.pin_between(carried.map(|(leg, _)| leg.other));
-        let opposite = pin.and_then(|pin| Some(self.poses[pin.other].as_ref()?.point(pin.at_other)));
+        let opposite =
+            pin.and_then(|pin| Some(self.poses[pin.other].as_ref()?.point(pin.at_other)));
         let (closures, missing) = match close(p1, arms[0].norm(), p2, arms[1].norm()) {
             Closure::Two(left, right) => (unfolded_first([p1, p2], [left, right], opposite), None),
             Closure::One(a, missing) => (vec![a], missing),

@@ -215,7 +215,11 @@ pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
     // a long loop is shortened in its middle
     Some(match names.len() {
         0..=MOST_IN_LOOP => names.join("-"),
-        n => format!("{}-…-{}", names[..MOST_IN_LOOP / 2].join("-"), names[n - MOST_IN_LOOP / 2..].join("-")),
+        n => format!(
+            "{}-…-{}",
+            names[..MOST_IN_LOOP / 2].join("-"),
+            names[n - MOST_IN_LOOP / 2..].join("-")
+        ),
     })
 }
 

@@ -11,8 +11,8 @@ mod angle_winding;
 mod dyad;
 mod dyad_placement;
 mod failure;
-mod open_placement;
 mod legs;
+mod open_placement;
 mod placement;
 mod placements;
 mod placer;
@@ -174,9 +174,8 @@ fn close(
     if request.from_guess {
         let q = given(model, asked).unwrap_or_else(|| open_placement(model, asked));
         let outcome = close_from(closing, q, Vec::new());
-        return outcome.map_err(|q| {
-            Box::new(failure::open(closing.model(), request, closing, &q, None))
-        });
+        return outcome
+            .map_err(|q| Box::new(failure::open(closing.model(), request, closing, &q, None)));
     }
     if let Some(found) = given(model, asked).and_then(|q| close_from(closing, q, Vec::new()).ok()) {
         return Ok(found);
