@@ -48,7 +48,7 @@ fn twenty_thousand_unknown_bodies_are_refused_in_linear_time() {
     };
     let few = (0..3).map(|_| time(2_000)).fold(f64::INFINITY, f64::min);
     let many = time(20_000);
-    assert!(many < 40.0 * few, "{few} s and then {many} s");
+    assert!(many < 60.0 * few, "{few} s and then {many} s"); // quadratic: 100 times
 }
 
 #[test]

@@ -25,7 +25,8 @@ def test_no_input_has_a_fault(outcomes: list[Outcome]) -> None:
 
 def test_every_stage_is_reached(outcomes: list[Outcome]) -> None:
     reached = Counter(o.reached for o in outcomes)
-    assert all(reached[stage] > RUNS // 40 for stage in STAGES), reached
+    assert all(reached[stage] > RUNS // 100 for stage in STAGES), reached
+    assert reached["run"] > RUNS // 4
 
 
 def test_an_input_can_be_repeated(outcomes: list[Outcome]) -> None:

@@ -20,10 +20,12 @@ use std::sync::Arc;
 const BEYOND_DOUBT: f64 = 1e-7;
 /// Size of the excursion to a neighbouring position, rad.
 const EXCURSION: f64 = 3e-3;
-/// Sizes of the excursions without the dependent equations, rad; a smaller one if the mechanism does not close.
-const EXCURSIONS_WITHOUT: [f64; 3] = [3e-2, 3e-3, 3e-4];
-/// Largest residual of an equation that holds, relative to the size of the mechanism.
-const HOLDS: f64 = 1e-9;
+/// Size of the excursion without the dependent equations, rad: small beside [`EXCURSION`], so that the mechanism does not
+/// change to another branch.
+const EXCURSION_WITHOUT: f64 = 3e-4;
+/// Largest residual of an equation that holds, relative to the size of the mechanism. Others have a residual of the
+/// order of the square of the excursion.
+const HOLDS: f64 = 1e-11;
 /// Largest number of bodies whose angle is tried to reach a neighbouring position, and of excursions without the dependent
 /// equations.
 const EXCURSIONS: usize = 6;
@@ -112,11 +114,11 @@ fn split(
     let mut holds = vec![true; rows.len()];
     // one excursion may by chance keep an equation almost satisfied
     for number in 0..EXCURSIONS {
-        let near = EXCURSIONS_WITHOUT.iter().find_map(|size| {
-            let mut near = moved(model, q, *size, number);
-            closing.close(&mut near).1.then_some(near)
-        });
-        let Some(phi) = near.map(|near| closing.phi(&near)) else { continue };
+        let mut near = moved(model, q, EXCURSION_WITHOUT, number);
+        if !closing.close(&mut near).1 {
+            continue;
+        }
+        let phi = closing.phi(&near);
         for (row, holds) in rows.iter().zip(&mut holds) {
             *holds &= phi[*row].abs() <= HOLDS * scales[*row];
         }

@@ -115,13 +115,20 @@ fn a_stretched_dyad_is_singular_but_not_redundant() {
     assert!(report.warnings.iter().any(|w| w.contains("singular position")), "{report:?}");
 }
 
+/// Time of this thread on a processor, s; where it is not known, time.
+fn clock(begin: Instant) -> f64 {
+    let known = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = known.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    nanoseconds.map_or_else(|| begin.elapsed().as_secs_f64(), |ns| 1e-9 * ns)
+}
+
 /// The shortest of three times of an assembly, s.
 fn seconds(text: &str) -> f64 {
+    let (origin, m) = (Instant::now(), model(text));
     let one = || {
-        let m = model(text);
-        let begin = Instant::now();
+        let begin = clock(origin);
         assert!(assemble(&m, &Request::default()).is_ok());
-        begin.elapsed().as_secs_f64()
+        clock(origin) - begin
     };
     (0..3).map(|_| one()).fold(f64::INFINITY, f64::min)
 }
@@ -162,14 +169,20 @@ fn the_time_is_linear() {
 #[test]
 fn an_assembly_can_be_stopped() {
     let m = model(&ladder(50));
-    let request = request(&m, &[("rod0.angle", "1.3")], &[]);
+    // open loops: the rods stand, the links lie
+    let names: Vec<String> = m.bodies.iter().map(|body| format!("{}.angle", body.name)).collect();
+    let rods = names.iter().filter(|name| name.starts_with("rod")).skip(1);
+    let guess: Vec<(&str, &str)> = rods.map(|name| (name.as_str(), "1.2")).collect();
+    let request = request(&m, &[("rod0.angle", "1.3")], &guess);
     let failure = assemble_until(&m, &request, &|| true).expect_err("stopped");
     assert_eq!(failure.fault, Fault::Stopped);
+    let request = Request { from_guess: true, ..request };
     let looks = Cell::new(0);
     let stop = || {
         looks.set(looks.get() + 1);
         false
     };
-    assert!(assemble_until(&m, &request, &stop).is_ok());
-    assert!(looks.get() > 2, "{}", looks.get());
+    let outcome = assemble_until(&m, &request, &stop);
+    let iterations = outcome.map_or(0, |(_, report)| report.iterations.len());
+    assert!(iterations > 3 && looks.get() > iterations, "{iterations} {}", looks.get());
 }
