@@ -62,9 +62,9 @@ fn no_input_has_a_fault() {
     let shown = &faults[..faults.len().min(20)];
     assert!(faults.is_empty(), "{} faults\n{}", faults.len(), shown.join("\n"));
     if only.is_none() {
-        // every stage is reached often
-        let least = numbers.end / 100;
-        assert!(counts.iter().all(|count| *count > least), "{stages:?}: {counts:?}");
+        // every stage is reached, and many inputs run to their end
+        assert!(counts.iter().all(|count| *count > 0), "{stages:?}: {counts:?}");
+        assert!(counts[Reached::Run as usize] > numbers.end / 10, "{stages:?}: {counts:?}");
     }
 }
 

@@ -20,7 +20,9 @@ pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
     group.iter().enumerate().skip(1).for_each(|(b, g)| members[*g].push(model.layout.bodies[b]));
     let mut warnings = Vec::new();
     for item in &model.forces {
-        let Some(free_angle) = item.element.free_angle() else { continue };
+        // a law may be infinite at this time
+        let finite = item.element.free_angle().filter(|angle| angle.is_finite());
+        let Some(free_angle) = finite else { continue };
         let [i, j] = [item.bodies[0], item.bodies[1]];
         let angle = |q: &[f64], b: BodyId| model.layout.bodies[b.0].of(q)[2];
         let stretch = angle(q, j) - angle(q, i) - free_angle;
