@@ -54,6 +54,7 @@ def line(axes: Axes, records: list[Record], tool: str, name: str, dash: str) -> 
 def work_precision(records: list[Record], title: str, error_of: str, path: Path) -> None:
     """One curve for each curve of kempe, and the best of all settings for each peer."""
     figure, axes = plt.subplots(figsize=(8.6, 4.8), layout="constrained")
+    what, _, unit = error_of.rpartition(", ")
     good = [r for r in records if r.good and 0 < r.error <= WORST]
     mine = [r for r in good if r.tool == "kempe"]
     for curve, dash in ((kempe_itself.BAUMGARTE, "--"), (kempe_itself.PROJECTION, "-")):
@@ -77,7 +78,11 @@ def work_precision(records: list[Record], title: str, error_of: str, path: Path)
                 zorder=5,
             )
     axes.set(
-        xscale="log", yscale="log", xlabel="CPU time, ms", ylabel=f"error: {error_of}", title=title
+        xscale="log",
+        yscale="log",
+        xlabel="CPU time / ms",
+        ylabel=f"error of {what} / {unit}",
+        title=title,
     )
     axes.grid(which="major", color="0.88")
     figure.legend(fontsize=8, loc="outside right upper")
@@ -100,8 +105,8 @@ def cost(records: list[Record], path: Path, accepted: float) -> None:
     axes.set(
         xscale="log",
         yscale="log",
-        xlabel="windows N",
-        ylabel="CPU time for 1 s of motion, s",
+        xlabel="windows N / 1",
+        ylabel="CPU time for 1 s of motion / s",
         title=f"N-four-bar, cheapest setting with an error of B0 below {accepted:g} m",
     )
     axes.xaxis.set_minor_formatter(NullFormatter())

@@ -181,7 +181,42 @@ logged() {
     printf '\n== %s: %s\n' "$what" "$*" >>"$LOG"
     "$@" >>"$LOG" 2>&1 </dev/null && return
     tail -n 30 "$LOG" >&2
+    cause=$(network_cause "$what")
+    [ -z "$cause" ] || give_up "$what failed, because a download failed: $cause. $(network_remedy)"
     give_up "$what failed; all of its output is in $LOG"
+}
+
+# The first line after "== WHAT" in the log that reports a fault of the network; pip and cargo end
+# with other lines, such as "No matching distribution found".
+network_cause() {
+    inside=
+    while IFS= read -r line; do
+        case $line in
+        "== $1: "*) inside=yes ;;
+        *ProxyError* | *"Cannot connect to proxy"* | *"ailed to establish a new connection"* | \
+            *"Temporary failure in name resolution"* | *"Name or service not known"* | \
+            *CERTIFICATE_VERIFY_FAILED* | *"SSL certificate"* | *"Read timed out"* | \
+            *"ConnectTimeoutError"* | *"spurious network error"* | *"ould not resolve"* | \
+            *"ouldn't connect to server"* | *"Network is unreachable"*)
+            [ -n "$inside" ] || continue
+            line=${line##*connection broken by }
+            printf '%.200s' "$line"
+            return
+            ;;
+        esac
+    done <"$LOG"
+}
+
+# The value of a proxy variable may contain a password and is not printed.
+network_remedy() {
+    for name in HTTPS_PROXY https_proxy HTTP_PROXY http_proxy ALL_PROXY all_proxy PIP_PROXY; do
+        eval "value=\${$name:-}"
+        [ -z "$value" ] || {
+            printf 'The variable %s names a proxy: correct or unset it' "$name"
+            return
+        }
+    done
+    printf 'Check the connection; behind a proxy, set HTTPS_PROXY'
 }
 
 # `--clear` also removes the stamps; a venv without stamps is incomplete and is created again.

@@ -26,10 +26,10 @@ def convergence(found: list[Convergence], path: Path) -> None:
         for ax, (key, title) in zip(axes, PANELS, strict=True):
             for number, one in enumerate(found):
                 draw(ax, one, key, number)
-            ax.set(xscale="log", yscale="log", xlabel="step h [s]", title=title)
+            ax.set(xscale="log", yscale="log", xlabel="step h / s", title=title)
             # below the panel: the curves fill it from corner to corner
             ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2))
-        axes[0].set_ylabel("largest error, relative")
+        axes[0].set_ylabel("largest relative error / 1")
         style.save(made, path.with_suffix(""))
 
 

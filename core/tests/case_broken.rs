@@ -24,6 +24,12 @@ const TOML: &[Row] = &[
     ("[parameters]\n'a.b' = 3\n", 3, 1, "must not contain '.'", ""),
     ("[parameters]\n\"\" = 3\n", 3, 1, "parameters.\"\": a name must not be empty", ""),
     ("[joints.ground]\ntype = 'revolute'\ni = 'a.b'\nj = 'c.d'\n", 2, 9, "'ground' is reserved", ""),
+    ("[bodies.\"a\u{202e}b\"]\nmass = 1\ninertia = 1\n", 2, 9, "must not contain U+202E", ""),
+    ("[bodies.\"a\u{2066}\"]\nmass = 1\ninertia = 1\n", 2, 9, "must not contain U+2066", ""),
+    ("[bodies.\"\u{200b}\"]\nmass = 1\ninertia = 1\n", 2, 9, "must not contain U+200B", ""),
+    ("[parameters]\n\"k\u{200f}\" = 1\n", 3, 1, "must not contain U+200F", ""),
+    ("[bodies.ground.points]\n\"A\u{202a}\" = [0, 0]\n", 3, 1, "must not contain U+202A", ""),
+    ("[analyses.\"a\u{061c}\"]\ntype = 'dynamics'\nt_end = 1\n", 2, 11, "U+061C", ""),
     ("[bodies.\"a\\tb\"]\nmass = 1\ninertia = 1\n", 2, 9, "must not contain control", ""),
     (
         "[bodies.A]\nmass = 1\ninertia = 1\n[joints.A]\ntype = 'revolute'\ni = 'a.b'\nj = 'c.d'\n",
@@ -90,6 +96,25 @@ const TOML: &[Row] = &[
     ("[analyses.a]\ntype = 'dynamic'\n", 3, 8, "unknown type of analysis", "mean 'dynamics'?"),
     ("[analyses.a]\ntype = 'dynamics'\n", 2, 11, "t_end: missing", "simulation ends (s)"),
     ("[analyses.start]\ntype = 'dynamics'\nt_end = 1\n", 2, 11, "'start' is where a case", ""),
+    (
+        "[analyses.'a/b']\ntype = 'dynamics'\nt_end = 1\n",
+        2,
+        11,
+        "must not contain '/'",
+        "its results go to a folder of this name",
+    ),
+    ("[analyses.'/tmp/x']\ntype = 'dynamics'\nt_end = 1\n", 2, 11, "must not contain '/'", ""),
+    ("[analyses.'a\\\\b']\ntype = 'dynamics'\nt_end = 1\n", 2, 11, "must not contain '\\'", ""),
+    ("[analyses.'C:x']\ntype = 'dynamics'\nt_end = 1\n", 2, 11, "must not contain ':'", ""),
+    ("[analyses.'..']\ntype = 'dynamics'\nt_end = 1\n", 2, 11, "must not contain '.'", ""),
+    ("[analyses.'a ']\ntype = 'dynamics'\nt_end = 1\n", 2, 11, "must not begin or end with", ""),
+    (
+        "[analyses.ab]\ntype = 'dynamics'\nt_end = 1\n[analyses.AB]\ntype = 'dynamics'\nt_end = 1\n",
+        5,
+        11,
+        "differs from 'ab' only in upper and lower case",
+        "a folder of this name",
+    ),
     (
         "[analyses.a]\ntype = 'dynamics'\nt_end = 1\nfrom = 'a'\n",
         5,
@@ -179,7 +204,49 @@ const TOML: &[Row] = &[
 ];
 
 const JSON: &[Row] = &[
-    ("{}", 1, 1, "kempe: missing", "write `kempe = 1` as the first line"),
+    ("{}", 1, 1, "kempe: missing", "write `\"kempe\": 1` as the first line"),
+    (
+        "{\"kempe\": 1, \"joints\": []}",
+        1,
+        24,
+        "a list; must be a table of named tables",
+        "write \"joints\": { \"NAME\": { } } for each",
+    ),
+    (
+        "{\"kempe\": 1, \"forces\": {\"A\": {\"type\": \"revolute\"}}}",
+        1,
+        39,
+        "unknown type of force 'revolute'",
+        "'revolute' belongs in \"joints\"",
+    ),
+    (
+        "{\"kempe\": 1, \"bodies\": {\"b\": {\"type\": \"bar\", \"mass\": 1}}}",
+        1,
+        25,
+        "missing; bar needs its length or two points",
+        "\"through\": { \"A\": [0, 0], \"B\": [1, 2] }",
+    ),
+    (
+        "{\"kempe\": 1, \"bodies\": {\"ground\": {\"points\": 3}}}",
+        1,
+        46,
+        "must be a table of points { \"P\": [x, y] }",
+        "",
+    ),
+    (
+        "{\"kempe\": 1, \"start\": {\"set\": 3}}",
+        1,
+        31,
+        "must be a table such as { \"crank.angle\": 0 }",
+        "",
+    ),
+    (
+        "{\"kempe\": 1, \"analyses\": {\"a\": {\"type\": \"dynamics\", \"t_end\": 1, \"method\": \"rk45\"}}}",
+        1,
+        75,
+        "must be a table such as { \"type\": \"auto\" }",
+        "",
+    ),
     ("[1]", 1, 1, "expected '{'; a case is a table", ""),
     ("", 1, 1, "EOF while parsing a value", ""),
     ("{\"kempe\": 1,}", 1, 13, "key must be a string", ""),
@@ -218,7 +285,13 @@ const JSON: &[Row] = &[
         "already exists in line 2",
     ),
     ("{\"kempe\": 1", 1, 12, "EOF while parsing an object", ""),
-    ("{\"kempe\": 1, \"joints\": {\"A\": {}}}", 1, 25, "joints.A.type: missing", ""),
+    (
+        "{\"kempe\": 1, \"joints\": {\"A\": {}}}",
+        1,
+        25,
+        "joints.A.type: missing",
+        "write \"type\": \"revolute\"",
+    ),
 ];
 
 fn faults(text: &str, format: Format) -> Vec<Diagnostic> {

@@ -24,39 +24,69 @@ fn fits(root: &Value, schema: &Value, value: &Value) -> bool {
             let keys: Vec<&str> = path.trim_start_matches("#/").split('/').collect();
             fits(root, get(root, &keys).expect("the reference leads somewhere"), value)
         }
-        ("oneOf", Value::List(all)) => all.iter().filter(|s| fits(root, s, value)).count() == 1,
+        ("allOf", Value::List(all)) => all.iter().all(|s| fits(root, s, value)),
         ("anyOf", Value::List(all)) => all.iter().any(|s| fits(root, s, value)),
+        ("if", condition) => {
+            let branch = if fits(root, condition, value) { "then" } else { "else" };
+            get(schema, &[branch]).is_none_or(|rule| fits(root, rule, value))
+        }
+        ("not", rule) => !fits(root, rule, value),
         ("const", rule) => rule == value,
         ("enum", Value::List(all)) => all.contains(value),
         ("type", Value::Text(kind)) => is(kind, value),
         ("type", Value::List(kinds)) => {
             kinds.iter().any(|kind| matches!(kind, Value::Text(kind) if is(kind, value)))
         }
-        ("required", Value::List(keys)) => {
-            keys.iter().all(|key| matches!(key, Value::Text(key) if get(value, &[key]).is_some()))
-        }
         ("items", rule) => match value {
             Value::List(items) => items.iter().all(|item| fits(root, rule, item)),
             _ => true,
         },
+        ("uniqueItems", _) => !matches!(value, Value::List(two) if two[..1] == two[1..]),
         ("minItems", Value::Number(n)) => !matches!(value, Value::List(v) if (v.len() as f64) < *n),
         ("maxItems", Value::Number(n)) => !matches!(value, Value::List(v) if v.len() as f64 > *n),
         ("minimum", Value::Number(n)) => !matches!(value, Value::Number(x) if x < n),
-        ("properties", rule) => match value {
-            Value::Table(entries) => entries
-                .iter()
-                .all(|(key, v)| get(rule, &[key]).is_none_or(|rule| fits(root, rule, v))),
+        ("description" | "title" | "default" | "$schema" | "$defs", _) => true,
+        ("pattern" | "maxLength" | "then" | "else", _) => true,
+        (word, rule) => match value {
+            Value::Table(entries) => fits_keys(root, schema, (word, rule), entries),
             _ => true,
         },
-        ("additionalProperties", rule) => match value {
-            Value::Table(entries) => entries
-                .iter()
-                .all(|(key, v)| get(schema, &["properties", key]).is_some() || fits(root, rule, v)),
-            _ => true,
-        },
-        ("propertyNames" | "description" | "title" | "default" | "$schema" | "$defs", _) => true,
-        (word, _) => panic!("the test does not know '{word}'"),
     })
+}
+
+/// The same for a word about keys.
+fn fits_keys(
+    root: &Value,
+    schema: &Value,
+    (word, rule): (&str, &Value),
+    entries: &[(String, Value)],
+) -> bool {
+    let own = |key: &str| get(schema, &["properties", key]);
+    let dotted = |key: &str| get(schema, &["patternProperties"]).is_some() && key.contains('.');
+    let given = |key: &str| entries.iter().any(|(known, _)| known == key);
+    match (word, rule) {
+        ("required", Value::List(keys)) => {
+            keys.iter().all(|key| matches!(key, Value::Text(key) if given(key)))
+        }
+        ("dependentSchemas", Value::Table(rules)) => rules
+            .iter()
+            .all(|(key, rule)| !given(key) || fits(root, rule, &Value::Table(entries.to_vec()))),
+        ("properties", _) => {
+            entries.iter().all(|(key, v)| own(key).is_none_or(|rule| fits(root, rule, v)))
+        }
+        ("patternProperties", rules) => {
+            let rule = get(rules, &["[.]"]).expect("keys with a dot");
+            entries.iter().all(|(key, v)| !key.contains('.') || fits(root, rule, v))
+        }
+        ("propertyNames", rule) => {
+            entries.iter().all(|(key, _)| fits(root, rule, &Value::from(key.as_str())))
+        }
+        ("additionalProperties", rule) => entries
+            .iter()
+            .filter(|(key, _)| own(key).is_none() && !dotted(key))
+            .all(|(_, v)| fits(root, rule, v)),
+        (word, _) => panic!("the test does not know '{word}'"),
+    }
 }
 
 fn is(kind: &str, value: &Value) -> bool {
@@ -102,11 +132,12 @@ fn the_flagship_fits_and_its_mistakes_do_not() {
 fn every_element_and_field_has_its_description_and_unit() {
     let schema = schema();
     for (group, table) in catalogue() {
-        let path = ["properties", group.section(), "additionalProperties", "oneOf"];
+        let path = ["properties", group.section(), "additionalProperties", "then", "allOf"];
         let Some(Value::List(choices)) = get(&schema, &path) else { panic!("no {}", path[1]) };
         let name = Value::from(table.name);
-        let of_type = |c: &&Value| get(c, &["properties", "type", "const"]) == Some(&name);
+        let of_type = |c: &&Value| get(c, &["if", "properties", "type", "const"]) == Some(&name);
         let choice = choices.iter().find(of_type).expect("each type has its schema");
+        let choice = get(choice, &["then"]).expect("with its fields");
         assert_eq!(get(choice, &["description"]), Some(&Value::Text(table.doc.clone())));
         for field in table.fields {
             let described = get(choice, &["properties", field.name, "description"]);

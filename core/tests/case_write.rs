@@ -1,7 +1,7 @@
 //! Writing: a written case reads as the same case.
 
 use kempe::case::{self, Case, Format, Start};
-use kempe::elements::{catalogue, Coordinate, Group, Shape, Table};
+use kempe::elements::{catalogue, Coordinate, Group, Shape, Table, TOLERANCES};
 use kempe::model::{body_tables, Definition, Entry, Value};
 
 const FOUR_BAR: &str = include_str!("../../examples/four_bar.toml");
@@ -102,6 +102,10 @@ impl Dice {
             }
             Shape::Flag => Value::Flag(self.roll(2) == 0),
             Shape::Count => Value::Number(1.0 + self.roll(1 << 40) as f64),
+            Shape::Tolerance if self.roll(2) == 0 => self.formula(),
+            Shape::Tolerance => Value::Table(
+                TOLERANCES.iter().map(|kind| (kind.to_string(), self.formula())).collect(),
+            ),
             Shape::Word(words) => Value::from(self.pick(words)),
             Shape::Options(family) => {
                 let families = kempe::analyses::option_families();

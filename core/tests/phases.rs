@@ -3,7 +3,7 @@
 mod mechanisms;
 
 use kempe::analyses::dynamics::{
-    dynamics, dynamics_in_phases, Auto, Event, Options, Phase, Prepared, Run, Scheme,
+    dynamics, dynamics_in_phases, Auto, Event, Options, Phase, Prepared, Reason, Run, Scheme,
     Stabilization, Stepper,
 };
 use kempe::analyses::State;
@@ -74,13 +74,18 @@ fn a_driver_is_released_without_a_jump() {
         assert_eq!((run.phase_of(row - 1), run.phase_of(row)), (0, 1));
         let crank = begin.q[column(&released, "crank", 2)];
         assert!((crank - 70_f64.to_radians() - 1.0).abs() < 1e-5, "{name}: {crank}");
-        // the motion afterwards is that of a run from there
-        let fresh = dynamics(&released, &begin, &options, |_| Flow::Continue).expect("a run");
+        // the motion afterwards is that of a run from there, unless Baumgarte's leaves the joints too open for a start
         let after = run.states_of(1);
-        assert_eq!((after.t, after.q, after.v), {
-            let trajectory = &fresh.trajectory;
-            (&trajectory.t[..], &trajectory.q[..], &trajectory.v[..])
-        });
+        match dynamics(&released, &begin, &options, |_| Flow::Continue) {
+            Ok(fresh) => assert_eq!((after.t, after.q, after.v), {
+                let trajectory = &fresh.trajectory;
+                (&trajectory.t[..], &trajectory.q[..], &trajectory.v[..])
+            }),
+            Err(failure) => {
+                assert!(matches!(failure.reason, Reason::Start { .. }), "{}", failure.reason);
+                assert!(!matches!(options.stabilization, Stabilization::Projection(_)), "{name}");
+            }
+        }
         // reactions follow the constraints of the phase
         let rows = |m: &Model, phase| {
             let found =

@@ -1,7 +1,48 @@
-"""kempe: planar multibody mechanics.
+"""Planar multibody mechanics: assembly, kinematics, dynamics and joint reactions.
 
-``import kempe as kp`` is fast, because each public name is imported on first use. A new public name
-needs one line in ``_HOME`` and one in the block for type checkers.
+A first example, a pendulum that is released from rest::
+
+    import kempe as kp
+
+    m = kp.Model("pendulum", gravity=(0, -9.81), parameters={"L": 1})
+    m.ground.points(A=(0, 0))
+    m.bar("rod", mass=2, length="L", ends=("A", "B"))
+    m.revolute("A", "ground.A", "rod.A")
+
+    start = kp.assemble(m, set={"rod.angle": "-30*deg"})
+    sol = kp.dynamics(m, start, t_end=2, output_step=0.01)
+
+    sol["rod.angle"]  # rad, at the times sol.t
+    sol.joint("A").force(on="rod")  # N, (n_t, 2)
+    sol(0.5)["rod.B.x"]  # m, at any time
+    kp.animate(sol, "pendulum.html")
+
+Numbers are in SI units and angles in rad. A text is a formula, such as "2*L" or "30 deg".
+
+Build:
+    Model                   bodies, joints, drivers and forces
+    load, Case              files with a model, a start and analyses
+
+Compute:
+    assemble                a state in which all joints are closed
+    dynamics                the motion from a state
+    study                   comparison of methods and stabilizations
+    RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
+                            methods of integration
+    Projection, Baumgarte   stabilizations of the constraints
+
+Results:
+    Solution, State, Motion quantities by name, bodies, joints, forces, energies
+    show, equations         matrices and equations with the names of the model
+    report.summary          peaks, settling times, energy balance
+    load_solution           a solution that was saved
+
+Show:
+    plot                    figures
+    animate, player         videos and pages with the motion
+    units                   units of tables, figures and CSV files
+
+All errors are KempeErrors. ``help(kp.Model)`` and the like describe each name.
 """
 
 from __future__ import annotations
@@ -24,9 +65,12 @@ if TYPE_CHECKING:
     from kempe.case import Results as Results
     from kempe.case import Start as Start
     from kempe.case import load as load
+    from kempe.display_units import Units as Units
+    from kempe.display_units import units as units
     from kempe.draw.animate import animate as animate
     from kempe.draw.player import player as player
     from kempe.draw.scene import scene as scene
+    from kempe.draw.still import still as still
     from kempe.energy import Energy as Energy
     from kempe.errors import AssemblyError as AssemblyError
     from kempe.errors import FileError as FileError
@@ -59,6 +103,8 @@ if TYPE_CHECKING:
     from kempe.studies import study as study
     from kempe.symbolic import equations as equations
 
+# ``import kempe`` is fast, because each public name is imported on first use. A new public name
+# needs one line in ``_HOME`` and one in the block for type checkers.
 #: Public name → module of kempe that defines it; "" if the name itself is a module.
 _HOME = {
     "AssemblyError": "errors",
@@ -93,6 +139,7 @@ _HOME = {
     "Start": "case",
     "State": "state",
     "Study": "studies",
+    "Units": "display_units",
     "animate": "draw.animate",
     "assemble": "analyses",
     "draw": "",
@@ -106,7 +153,9 @@ _HOME = {
     "report": "",
     "scene": "draw.scene",
     "show": "matrices",
+    "still": "draw.still",
     "study": "studies",
+    "units": "display_units",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604

@@ -118,6 +118,8 @@ class Run:
     """(k, n_y): y = [q, v, z, works] at the start of each step."""
     dense_c: _F | None
     """(k, n_y, 4): y(t_old + θ h) = y_old + h Σ_k c[:, k] θ^(k + 1)."""
+    projection: float | None
+    """Tolerance of the projection of its states; None with another stabilization."""
     status: str
     """"reached" or "stopped"."""
     message: str
@@ -191,8 +193,20 @@ def dynamics(
             as for ``KeyboardInterrupt``.
     """
 
-def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F) -> tuple[_F, _F]:
-    """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂."""
+def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F]:
+    """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂.
+
+    With ``passing`` near singular positions as well, as in runs that pass them.
+    """
+
+def project(model: Model, tolerance: float, t: _F, q: _F, v: _F, z: _F) -> tuple[_F, _F]:
+    """States of an interpolant, projected as reported states are: q and v, (n_t, n_q)."""
+
+def energies(model: Model, t: _F, q: _F, v: _F, z: _F, works: _F) -> _F:
+    """Energies at states, (n_t, 5), J, as in ``Run.energies``.
+
+    ``works`` is the end of each row of the interpolant, (n_t, n_works).
+    """
 
 def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
     """Φ and Φ_q q̇ + Φ_t at states, (n_t, n_rows) each."""

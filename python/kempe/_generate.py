@@ -25,6 +25,7 @@ TYPES = dict.fromkeys(REFERENCES, "str") | {
     "count": "int",
     "flag": "bool",
     "name": "str",
+    "tolerance": "Tolerance",
 }
 #: Sections of options, each with the first line of the docstrings of its classes.
 OPTIONS = {
@@ -61,10 +62,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from kempe.option import Analysis, Option, Shape
-from kempe.values import Number
+from kempe.values import Number, Tolerance
 '''
 
 METHODS = '''\
@@ -134,7 +135,7 @@ def options_class(section: str, table: dict[str, Any], classes: dict[str, str]) 
     first = OPTIONS[section].format(table["name"])
     attributes = "\n\nAttributes:\n" + "\n".join(about(f) for f in fields) if fields else ""
     doc = f'"""{first}\n\n{filled(table["doc"], "")}{attributes}\n"""'
-    head = f"@dataclass(frozen=True)\nclass {table['class']}({base}):\n"
+    head = f"@dataclass(frozen=True, repr=False)\nclass {table['class']}({base}):\n"
     return head + textwrap.indent(f"{doc}\n\n" + "\n".join(members), "    ") + "\n"
 
 
@@ -153,7 +154,12 @@ def option_type(field: dict[str, Any], classes: dict[str, str]) -> str:
     """The type of a field of options, with its default."""
     shape, value = field["shape"], field["default"]
     of_family = isinstance(shape, dict) and "options" in shape
-    kind = "Option" if of_family else TYPES["name" if isinstance(shape, dict) else shape]
+    if of_family:
+        kind = "Option"
+    elif isinstance(shape, dict):
+        kind = f"Literal[{', '.join(json.dumps(word) for word in shape['words'])}]"
+    else:
+        kind = TYPES[shape]
     if field["name"] == "stabilization":
         kind += " | None"
     if field["required"]:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping
-from typing import Any, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from kempe import _core
 from kempe.compiled import CompiledModel
 from kempe.errors import ModelError
-from kempe.model import Model
+from kempe.model import Model, Redundancy, compiled_model
 from kempe.names import one_of
 from kempe.option import Option, core_options
 from kempe.options import Auto, Dynamics, Projection
@@ -31,10 +31,11 @@ class AssemblyWarning(UserWarning):
 def assemble(
     model: Model | CompiledModel,
     set: Coordinates | None = None,  # noqa: A002
-    guess: Coordinates | State | None = None,
-    t: float = 0.0,
+    guess: Coordinates | None = None,
+    t: float | None = None,
     *,
-    redundancy: str | None = None,
+    from_state: State | None = None,
+    redundancy: Redundancy | None = None,
     from_guess: bool = False,
 ) -> State:
     """Assemble a mechanism.
@@ -42,8 +43,10 @@ def assemble(
     Args:
         model: the mechanism.
         set: prescribed coordinates and rates, m, rad, per s: ``{"crank.angle": "70*deg"}``.
-        guess: starting values of coordinates and rates, or a state; can be incomplete.
-        t: time, s.
+        guess: starting values of coordinates and rates; can be incomplete.
+        t: time, s; None means that of ``from_state``, or 0.
+        from_state: a state of the same bodies, from which the mechanism moves as little as it can:
+            of another set of parameters, or one that drifted. ``set`` and ``guess`` come before it.
         redundancy: "allow" accepts redundant constraints in the assembly and in simulations that
             start from the state; None uses the setting of the model.
         from_guess: start the Newton iteration from the guess with open loops, without closing
@@ -58,16 +61,18 @@ def assemble(
         ModelError: the model is invalid, or ``set`` or ``guess`` contains an unknown name.
     """
     compiled = _allowing(compiled_model(model), redundancy)
-    held = encode(numbers(set or {}, "set"))
+    held = encode(numbers(set, "set"))
     q = v = z = None
     if isinstance(guess, State):
-        _refuse_foreign(compiled, guess)
-        q, v, hint = np.array(guess.q), np.array(guess.v), "{}"
-        z = np.array(guess.z) if len(guess.z) == compiled.n_z else np.zeros(compiled.n_z)
-    else:
-        hint = encode(numbers(guess or {}, "guess"))
+        raise ModelError("guess: a State", hint="pass it as from_state=")
+    hint = encode(numbers(guess, "guess"))
+    if from_state is not None:
+        _refuse_foreign(compiled, from_state)
+        t = float(from_state.t) if t is None else t
+        q, v, z = (np.array(part) for part in (from_state.q, from_state.v, from_state.z))
+        z = z if len(z) == compiled.n_z else np.zeros(compiled.n_z)
     t_found, q_found, v_found, z_found, text = _core.assemble(
-        compiled.core, held, hint, _time(t), q, v, z, from_guess
+        compiled.core, held, hint, _time(0.0 if t is None else t), q, v, z, from_guess
     )
     report = AssemblyReport.from_json(text)
     for warning in report.warnings:
@@ -85,15 +90,16 @@ def dynamics(
     stabilization: Option | None = Projection(),  # noqa: B008 - frozen
     max_steps: int | None = None,
     dense_output: bool = True,
-    redundancy: str | None = None,
-    singularity: str = "stop",
+    redundancy: Redundancy | None = None,
+    singularity: Literal["stop", "pass"] = "stop",
     progress: Progress | None = None,
 ) -> Solution:
     """Simulate the motion from a state.
 
     Args:
         model: the mechanism.
-        start: the initial state, for example from ``assemble``.
+        start: the initial state, for example from ``assemble``. Its joints must be closed, to 1e-9
+            of the size of the mechanism.
         t_end: end time, s.
         output_step: time between outputs, s; None makes every step an output.
         method: the integrator.
@@ -109,13 +115,15 @@ def dynamics(
             ends the simulation.
 
     Raises:
+        AssemblyError: the start does not meet the constraints;
+            ``assemble(model, from_state=start)`` assembles it anew.
         IntegrationError: the integrator cannot continue. ``solution`` holds the solution up to that
             time, as it does for a SingularityError and an interruption (``KeyboardInterrupt``).
         SingularityError: the motion is not unique in a singular position.
         ModelError: an option is invalid.
     """
-    inherited = start.model.redundancy if isinstance(start, State) else None
-    compiled = _allowing(compiled_model(model), redundancy or inherited)
+    inherited = start.compiled.redundancy if isinstance(start, State) else None
+    compiled = _allowing(compiled_model(model), redundancy if redundancy is not None else inherited)
     fields = (t_end, output_step, method, stabilization, max_steps)
     wanted = request(fields, dense_output, singularity)
     return _simulate(compiled.with_analyses({Dynamics.name: wanted.entry}), start, wanted, progress)
@@ -134,26 +142,25 @@ def _simulate(
 ) -> Solution:
     if not isinstance(start, State):
         raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
+    if progress is not None and not callable(progress):
+        raise ModelError(f"progress: {progress!r} is not a function")
     _refuse_foreign(model, start)
-    t, text = float(start.t), wanted.text
+    t, text, method = start.t, wanted.text, _method(wanted.entry)
     try:
         at = start.q, start.v, start.z
         run = _core.dynamics(model.core, t, *at, text, progress, wanted.t_end)
     except BaseException as error:  # including interruptions and exceptions of progress
-        partial = getattr(error, "run", None)
+        partial = vars(error).pop("run", None)  # which cannot be pickled with the error
         if partial is not None and len(partial.t):
-            error.solution = Solution(model, partial)  # type: ignore[attr-defined]
+            error.solution = Solution(model, partial, method)  # type: ignore[attr-defined]
         raise
-    return Solution(model, run)
+    return Solution(model, run, method)
 
 
-def compiled_model(model: Model | CompiledModel) -> CompiledModel:
-    """The compiled model."""
-    if isinstance(model, CompiledModel):
-        return model
-    if isinstance(model, Model):
-        return model.compile()
-    raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) creates one")
+def _method(entry: Mapping[str, Any]) -> str:
+    """The type of the method in an entry of ``[analyses]``."""
+    method = entry.get("method", Auto.kind)
+    return str(method["type"] if isinstance(method, Mapping) else method)
 
 
 def _allowing(model: CompiledModel, redundancy: str | None) -> CompiledModel:
@@ -170,10 +177,12 @@ def _time(t: float) -> float:
 
 
 def _refuse_foreign(model: CompiledModel, state: State) -> None:
-    """Refuse a state with other bodies. Other numbers in the model are allowed."""
-    if list(state.model.bodies) != list(model.bodies):
+    """Refuse a state with other bodies. The core refuses one that does not meet the constraints."""
+    if not isinstance(state, State):
+        raise ModelError(f"from_state: {state!r} is not a State")
+    if list(state.compiled.bodies) != list(model.bodies):
         raise ModelError(
-            f"the state has the bodies {', '.join(state.model.bodies)}; "
+            f"the state has the bodies {', '.join(state.compiled.bodies)}; "
             f"the model has the bodies {', '.join(model.bodies)}",
             hint="assemble this model",
         )

@@ -1,77 +1,52 @@
-"""Files of solutions: NumPy arrays and one JSON text that contains the case, without pickle."""
+"""Files of solutions: NumPy arrays and one JSON text that contains the case, without pickle.
+
+A file is checked before its data are read: the names, types and sizes of the arrays in its
+directory and their headers, then the numbers. Arrays that a solution has not are never read.
+"""
 
 from __future__ import annotations
 
 import json
+import math
 import zipfile
-import zlib
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, NoReturn
 
 import numpy as np
+from numpy.lib import format as npy
 
 from kempe import _core, files
 from kempe._version import __version__
 from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
+from kempe.dense import WORKS
 from kempe.errors import FileError, KempeError
+from kempe.runs import StoredRun
 from kempe.solution import REACHED, Solution
 
 KIND = "kempe solution"
 #: Version of the file layout.
 LAYOUT = 1
+#: The largest JSON text, bytes: a case has at most 16 MiB, and NumPy takes 4 bytes for a letter.
+_LARGEST_TEXT = 16 * files.LARGEST_TEXT
+_HIGHEST_DEGREE = 32
+#: Accelerations of a file agree with its model to this share of the largest.
+_AGREEMENT = 1e-6
+_SAMPLES = 9
+#: Statistics that are counts.
+_COUNTS = {"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations"}
+_DENSE = ("dense_t", "dense_y", "dense_c")
 
-#: Errors of numpy for a file that is not an archive; the last two for a file with a single array.
-_UNREADABLE = (
-    zipfile.BadZipFile,
-    zlib.error,
-    ValueError,
-    KeyError,
-    EOFError,
-    TypeError,
-    AttributeError,
-)
-
-
-@dataclass(frozen=True)
-class _Stored:
-    """The attributes of ``_core.Run``, read from a file."""
-
-    t: Floats
-    q: Floats
-    v: Floats
-    z: Floats
-    a: Floats
-    lam: Floats
-    energy: Floats
-    dense_t: Floats | None
-    dense_y: Floats | None
-    dense_c: Floats | None
-    status: str
-    message: str
-    statistics: str
-
-    def responses(self) -> tuple[Floats, Floats]:
-        return self.a, self.lam
-
-    def energies(self) -> Floats:
-        return self.energy
+#: Letters for the sizes of an array, such as n for the number of times, or the size itself.
+_Shape = tuple["int | str", ...]
 
 
 def save(solution: Solution, path: Path | str) -> None:
     """Write a solution completely or not at all; see ``Solution.save``."""
     arrays = {name: getattr(solution, name) for name in ("t", "q", "v", "z", "a", "lam")}
-    energy = solution.energy
-    arrays["energy"] = np.column_stack(
-        [
-            energy.kinetic,
-            energy.potential,
-            energy.dissipated,
-            energy.work_of_drivers,
-            energy.work_of_forces,
-        ]
-    )
+    arrays["energy"] = solution.energy.columns
     if solution.dense is not None:
         dense = solution.dense
         arrays |= {"dense_t": dense.t, "dense_y": dense.y, "dense_c": dense.c}
@@ -87,10 +62,11 @@ def _about(solution: Solution) -> dict[str, Any]:
         "kempe": __version__,
         "core": _core.version(),
         "numpy": np.__version__,
-        "case": json.loads(solution.model.case),
+        "case": json.loads(solution.compiled.case),
         "status": "reached" if solution.status == REACHED else "stopped",
         "message": solution.message,
         "statistics": dict(solution.statistics),
+        "projection": solution._run.projection,
     }
 
 
@@ -98,59 +74,203 @@ def load_solution(path: Path | str) -> Solution:
     """Read a solution that ``Solution.save`` wrote.
 
     Raises:
-        FileError: the file cannot be read, is damaged, is not a solution, or needs a newer kempe.
+        FileError: the file cannot be read, is damaged, is not a solution, disagrees with its own
+            model, or needs a newer kempe.
     """
-    about, arrays = _read(path)
-    if about.get("kind") != KIND:
-        raise _foreign(path, "it has other content")
-    if about.get("layout") != LAYOUT:
-        raise FileError(
-            f"cannot read {path}: written by kempe {about.get('kempe')}", hint="update kempe"
-        )
-    try:
-        model = CompiledModel.from_case(json.dumps(about["case"]))
-        solution = Solution(model, _stored(about, arrays, model))  # type: ignore[arg-type]
-        for part in ("energy", "statistics", "dense"):  # raises the errors of these parts
-            getattr(solution, part)
+    where = files.checked_path(path, "read")
+    with _only_file_errors(where):
+        files.refuse_pipe(where)
+    with _only_file_errors(where), where.open("rb") as file, zipfile.ZipFile(file) as stored:
+        about = _read_about(stored)
+        if about.get("kind") != KIND:
+            _refuse("it has other content")
+        if about.get("layout") != LAYOUT:
+            raise FileError(
+                f"cannot read {where}: written by kempe {about.get('kempe')}", hint="update kempe"
+            )
+        model = CompiledModel.from_case(json.dumps(_entry(about, "case", dict)))
+        arrays = _read_arrays(stored, model)
+        solution = Solution(model, _run(about, arrays))
+        _check_agreement(solution)
         return solution
-    except (KeyError, ValueError, IndexError, TypeError) as error:
-        if isinstance(error, KempeError):
-            raise
-        raise _foreign(path, f"incomplete ({error})") from error
 
 
-def _read(path: Path | str) -> tuple[dict[str, Any], dict[str, Floats]]:
+class _UnfitError(ValueError):
+    """The content is not that of a solution."""
+
+
+def _refuse(why: str) -> NoReturn:
+    raise _UnfitError(why)
+
+
+@contextmanager
+def _only_file_errors(path: Path) -> Iterator[None]:
+    """Errors of numpy, zipfile, json and the core as a FileError."""
     try:
-        with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as stored:
-            arrays = {name: stored[name] for name in stored.files}
-        about = json.loads(str(arrays.pop("about")))
+        yield
+    except FileError as error:
+        if error.problems:  # of the case in the file
+            raise _foreign(path, f"its case is invalid ({error})") from error
+        raise
     except OSError as error:
         raise files.trouble(path, "read", error) from error
-    except _UNREADABLE as error:
-        raise _foreign(path, "the file is damaged or is not a solution of kempe") from error
-    if not isinstance(about, dict):
-        raise _foreign(path, "it has other content")
-    return about, arrays
+    except _UnfitError as error:
+        raise _foreign(path, str(error)) from error
+    except KempeError as error:
+        raise _foreign(path, f"its case is invalid ({error})") from error
+    except Exception as error:
+        why = "the file is damaged or is not a solution of kempe"
+        raise _foreign(path, why) from error
 
 
-def _stored(about: dict[str, Any], arrays: dict[str, Floats], model: CompiledModel) -> _Stored:
-    n = len(arrays["t"])
-    shapes = {"t": (n,), "energy": (n, 5), "lam": (n, model.n_rows)}
-    shapes |= dict.fromkeys(("q", "v", "a"), (n, model.n_q))
-    arrays.setdefault("z", np.zeros((n, model.n_z)))  # files of version 0.1 have no z
-    shapes["z"] = (n, model.n_z)
-    for name, shape in shapes.items():
-        if arrays[name].shape != shape:
-            raise ValueError(f"{name} is {arrays[name].shape}, must be {shape}")
-    return _Stored(
-        **{name: arrays[name] for name in shapes},
+def _read_about(stored: zipfile.ZipFile) -> dict[str, Any]:
+    with _member(stored, "about", _LARGEST_TEXT) as (file, shape, kind):
+        if shape != () or kind.kind != "U":
+            _refuse("it has other content")
+        text = file.read().decode("utf-32-le" if kind.byteorder != ">" else "utf-32-be")
+    about = json.loads(text.rstrip("\0"), parse_constant=lambda name: _refuse(f"it has {name}"))
+    return about if isinstance(about, dict) else _refuse("it has other content")
+
+
+@contextmanager
+def _member(
+    stored: zipfile.ZipFile, name: str, largest: int | None = None
+) -> Iterator[tuple[IO[bytes], tuple[int, ...], np.dtype[Any]]]:
+    """An array of the file, opened behind its header, with its shape and type."""
+    names = stored.namelist()
+    if names.count(f"{name}.npy") != 1:
+        _refuse(f"it has {names.count(f'{name}.npy')} arrays {name!r}; must be one")
+    info = stored.getinfo(f"{name}.npy")
+    if info.compress_type != zipfile.ZIP_STORED or info.compress_size != info.file_size:
+        _refuse(f"{name} is compressed, which save() does not do")
+    if largest is not None and info.file_size > largest:
+        _refuse(f"{name} has {info.file_size} bytes; at most {largest} are read")
+    with stored.open(info) as file:
+        version = npy.read_magic(file)
+        read = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
+        shape, fortran, kind = read(file)
+        if fortran and len(shape) > 1:
+            _refuse(f"{name} is in the order of Fortran")
+        size = int(np.prod([int(count) for count in shape], dtype=object)) * kind.itemsize
+        if file.tell() + size != info.file_size:
+            _refuse(f"{name} has {info.file_size - file.tell()} bytes; must have {size}")
+        yield file, shape, kind
+
+
+def _read_arrays(stored: zipfile.ZipFile, model: CompiledModel) -> dict[str, Floats]:
+    """All arrays of a solution, checked; z of version 0.1 is absent."""
+    wanted = _shapes(stored, model)
+    sizes: dict[str, int] = {}
+    for name, shape in wanted.items():  # before any data are read
+        with _member(stored, name) as (_, found, kind):
+            _check_header(name, found, kind, shape, sizes)
+    arrays = {name: _floats(stored, name) for name in wanted}
+    arrays.setdefault("z", np.zeros((sizes["n"], model.n_z)))
+    for name in ("t", "dense_t"):
+        steps = np.diff(arrays.get(name, np.zeros(1)))
+        if not (np.all(steps >= 0.0) or np.all(steps <= 0.0)):
+            _refuse(f"the times {name} are not in order")
+    return arrays
+
+
+def _shapes(stored: zipfile.ZipFile, model: CompiledModel) -> dict[str, _Shape]:
+    present = set(stored.namelist())
+    rows = {"q": model.n_q, "v": model.n_q, "a": model.n_q, "lam": model.n_rows, "energy": 5}
+    shapes: dict[str, _Shape] = {"t": ("n",)}
+    shapes |= {name: ("n", count) for name, count in rows.items()}
+    if "z.npy" in present or model.n_z:
+        shapes["z"] = ("n", model.n_z)
+    if present & {f"{name}.npy" for name in _DENSE}:
+        n_y = 2 * model.n_q + model.n_z + WORKS
+        shapes |= {"dense_t": ("k + 1",), "dense_y": ("k", n_y), "dense_c": ("k", n_y, "degree")}
+    return shapes
+
+
+def _check_header(
+    name: str, found: tuple[int, ...], kind: np.dtype[Any], shape: _Shape, sizes: dict[str, int]
+) -> None:
+    """Compare an array with its shape; letters get their values when they first occur."""
+    if kind != np.dtype(np.float64):
+        _refuse(f"{name} has numbers of type {kind}; must be float64")
+    for size, count in zip(shape, found, strict=False):
+        if isinstance(size, str) and count > 0:
+            sizes.setdefault(size, min(count, _HIGHEST_DEGREE) if size == "degree" else count)
+            if size == "k + 1":
+                sizes["k"] = count - 1
+    must = tuple(sizes.get(size, -1) if isinstance(size, str) else size for size in shape)
+    if found != must:
+        told = tuple(sizes.get(size, size) if isinstance(size, str) else size for size in shape)
+        _refuse(f"{name} is {found}, must be {told}".replace("'", ""))
+
+
+def _floats(stored: zipfile.ZipFile, name: str) -> Floats:
+    with _member(stored, name) as (file, shape, _):
+        values = np.frombuffer(file.read(), dtype=np.float64).reshape(shape)
+    if not np.isfinite(values).all():
+        _refuse(f"{name} contains a number that is not finite")
+    return values
+
+
+def _run(about: Mapping[str, Any], arrays: Mapping[str, Floats]) -> StoredRun:
+    status, statistics = _entry(about, "status", str), dict(_entry(about, "statistics", dict))
+    if status not in ("reached", "stopped"):
+        _refuse(f"its status is {status!r}")
+    for name in {"steps", *statistics} & _COUNTS:
+        count = statistics.get(name)
+        if isinstance(count, bool) or not isinstance(count, int) or count < 0:
+            _refuse(f"its statistics have {count!r} {name}")
+    statistics.setdefault("method", _method(about["case"]))
+    return StoredRun(
+        **{name: arrays[name] for name in ("t", "q", "v", "z", "energy")},
+        accelerations=(arrays["a"], arrays["lam"]),
         dense_t=arrays.get("dense_t"),
         dense_y=arrays.get("dense_y"),
         dense_c=arrays.get("dense_c"),
-        status=about["status"],
-        message=about["message"],
-        statistics=json.dumps(about["statistics"]),
+        status=status,
+        message=_entry(about, "message", str),
+        statistics=json.dumps(statistics),
+        projection=_projection(about),
     )
+
+
+def _projection(about: Mapping[str, Any]) -> float | None:
+    """Tolerance of the projection of the states; absent in files of version 0.1."""
+    given = about.get("projection")
+    if given is None:
+        return None
+    if isinstance(given, bool) or not isinstance(given, (int, float)) or not 0 < given < math.inf:
+        _refuse(f"its projection is {given!r}")
+    return float(given)
+
+
+def _method(case: Mapping[str, Any]) -> str:
+    """The method of the only analysis; files of version 0.1 do not name it in their statistics."""
+    methods = [entry.get("method") for entry in case.get("analyses", {}).values()]
+    only = methods[0] if len(methods) == 1 else None
+    return str(only["type"]) if isinstance(only, dict) and "type" in only else "unknown"
+
+
+def _entry(about: Mapping[str, Any], name: str, kind: type) -> Any:
+    value = about.get(name)
+    return value if isinstance(value, kind) else _refuse(f"it has no {name}")
+
+
+def _check_agreement(solution: Solution) -> None:
+    """Compare accelerations with those of the model at some times, so that parameters fit."""
+    rows = np.unique(np.linspace(0, len(solution.t) - 1, _SAMPLES).round().astype(int))
+    for k in rows:
+        t, q, v, z = (
+            values[k : k + 1] for values in (solution.t, solution.q, solution.v, solution.z)
+        )
+        try:
+            a, _ = _core.evaluate(solution.compiled.core, t, q, v, z, solution._passing)
+        except KempeError:  # a run may end in a position without unique accelerations
+            continue
+        largest = max(
+            float(np.abs(a).max(initial=0.0)), float(np.hypot(*solution.compiled.gravity))
+        )
+        if np.abs(a - solution.a[k]).max(initial=0.0) > _AGREEMENT * largest:
+            _refuse(f"its accelerations at t = {t[0]:g} s are not those of its model")
 
 
 def _foreign(path: Path | str, why: str) -> FileError:

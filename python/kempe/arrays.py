@@ -23,12 +23,17 @@ def fixed(values: Any) -> Floats:
     return view
 
 
+def scalar(values: Any) -> Any:
+    """A float for a single number, otherwise a read-only array."""
+    return float(values) if np.ndim(values) == 0 else fixed(values)
+
+
 def rotated(angle: Floats, s: tuple[float, float]) -> tuple[Floats, Floats]:
     """A(φ) s for a vector s fixed in a body: its global components."""
     cos, sin = np.cos(angle), np.sin(angle)
     return cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]
 
 
-def pairs(x: Floats, y: Floats) -> Floats:
+def pairs(x: Any, y: Any) -> Floats:
     """Two components side by side, (…, 2)."""
     return fixed(np.stack([x, y], axis=-1))

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+import copy
 import json
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from kempe import _core, files
-from kempe.analyses import Coordinates, Progress, assemble, simulate
+from kempe.analyses import AssemblyWarning, Coordinates, Progress, assemble, simulate
 from kempe.compiled import CompiledModel
-from kempe.errors import FileError, ModelError
+from kempe.errors import AssemblyError, FileError, ModelError
 from kempe.model import Model
-from kempe.names import unknown
+from kempe.names import entry as named
+from kempe.names import few, one_of, unknown
+from kempe.option import Option
 from kempe.options import Dynamics
 from kempe.solution import Solution
 from kempe.state import State
-from kempe.values import Number, number, numbers
+from kempe.values import Number, data, listed, mapping, numbers, plain, reference
 
 FORMATS = {".toml": "toml", ".json": "json"}
 
@@ -59,9 +63,7 @@ class Results(Mapping[str, Solution]):
         """
         if isinstance(key, int):
             return list(self._solutions.values())[key]
-        if key not in self._solutions:
-            raise unknown("analysis", key, self._solutions)
-        return self._solutions[key]
+        return named("analysis", key, self._solutions)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._solutions)
@@ -112,6 +114,10 @@ class Case:
         case._entries = dict(tree.get("analyses", {}))
         return case
 
+    def __copy__(self) -> Case:
+        """A case with a model of its own, which can be changed without changing this one."""
+        return copy.deepcopy(self)
+
     @property
     def analyses(self) -> Mapping[str, Mapping[str, Any]]:
         """The analyses by name, as in a file; a copy."""
@@ -122,7 +128,7 @@ class Case:
         start = self._start.tree()
         tree = self.model.tree()
         tree |= {"start": start} if start else {}
-        tree |= {"analyses": self.analyses} if self._entries else {}
+        tree |= {"analyses": data(self._entries)} if self._entries else {}
         return tree
 
     def start(self) -> State:
@@ -154,20 +160,45 @@ class Case:
     ) -> Iterator[tuple[str, Solution]]:
         """Run the analyses one by one and yield each solution at once.
 
+        An analysis starts in the state in which the one before it ended. If the joints drifted
+        until then, as they do with Baumgarte's stabilization, it starts in the nearest state that
+        meets the constraints, with an ``AssemblyWarning`` that names the gap.
+
         Args:
             progress: called now and then with the time reached, s.
             start: the assembled mechanism; assembled here when None.
         """
         compiled = self.model.compile()
-        model = CompiledModel(compiled.core, json.dumps(self.tree()))
+        model = CompiledModel(compiled.core, json.dumps(self.tree()), self.model)
         state = start or self.start()
         ends = {"start": state}
         for analysis in json.loads(self._core().analyses()):
             name, after = analysis["name"], analysis.get("from")
             begin = state if after is None else ends[after]
-            solution = _RUNNERS[analysis["type"]](model, begin, self._entries[name], progress)
+            runner, entry = _RUNNERS[analysis["type"]], self._entries[name]
+            try:
+                solution = runner(model, begin, entry, progress)
+            except AssemblyError as error:
+                if begin is ends["start"]:
+                    raise
+                # the joints drifted in the analysis before
+                warnings.warn(
+                    f"{name}: {error.args[0]}; it starts from the nearest state that does",
+                    AssemblyWarning,
+                    stacklevel=2,
+                )
+                begin = assemble(model, from_state=begin)
+                solution = runner(model, begin, entry, progress)
             yield name, solution
             state = ends[name] = solution.final
+
+    def with_parameters(self, parameters: Mapping[str, Number]) -> Case:
+        """The same case with other values of some parameters; ``start()`` uses them.
+
+        Raises:
+            ModelError: a value is invalid, or there is no parameter of that name.
+        """
+        return Case(self.model.with_parameters(parameters), self._start, self._entries)
 
     def with_analysis(self, name: str, **changes: Any) -> Case:
         """The same case with some fields of one analysis changed, as ``t_end=30``.
@@ -175,13 +206,24 @@ class Case:
         Raises:
             ModelError: there is no analysis of that name, or a field is not what it must be.
         """
-        if name not in self._entries:
-            raise unknown("analysis", name, self._entries)
+        one_of("analysis", name, self._entries)
+        given: dict[str, Any] = {}
         for key, value in changes.items():
-            if isinstance(value, float):
-                number(value, f"analyses.{name}.{key}")
-        entries = {**self._entries, name: {**self._entries[name], **changes}}
+            path = f"analyses.{name}.{key}"
+            given[key] = value.tree(path) if isinstance(value, Option) else plain(value, path)
+        entries = {**self._entries, name: {**self._entries[name], **given}}
         return Case(self.model, self._start, entries)
+
+    def with_start(self, coordinates: Coordinates) -> Case:
+        """The same case with other coordinates and rates set at the start: ``{"crank.angle": 1}``.
+
+        They replace those of the same name in ``set`` and in ``guess``; all others remain.
+
+        Raises:
+            ModelError: there is no such coordinate, or a value is not a number or a formula.
+        """
+        guess = {key: value for key, value in self._start.guess.items() if key not in coordinates}
+        return Case(self.model, Start({**self._start.set, **coordinates}, guess), self._entries)
 
     def save(self, path: Path | str) -> None:
         """Write the case as TOML or JSON, by the suffix of the name; nothing is lost.
@@ -194,8 +236,11 @@ class Case:
     def _core(self) -> _core.Case:
         return _core.Case(json.dumps(self.tree(), allow_nan=False), "json", None)
 
+    def _repr_html_(self) -> str:
+        return self.model._repr_html_()
+
     def __repr__(self) -> str:
-        names = ", ".join(self._entries) or "none"
+        names = few(self._entries) or "none"
         return f"<Case {self.model.title!r}; analyses: {names}>"
 
 
@@ -211,10 +256,28 @@ def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) ->
         ModelError: the model is wrong; with all ``problems``, each with line and column.
     """
     form = _format(path, "read")
-    core = _core.Case(files.read_text(path), form, str(path))
+    return parsed(files.read_text(path), form, str(path), parameters)
+
+
+def parsed(
+    text: str, form: str, origin: str, parameters: Mapping[str, Number] | None = None
+) -> Case:
+    """The case in a text.
+
+    Args:
+        text: the text of a file.
+        form: "toml" or "json".
+        origin: name of the file, for messages.
+        parameters: other values for some of its parameters.
+
+    Raises:
+        FileError, ModelError: as ``load``.
+    """
+    core = _core.Case(text, form, origin)
     case = Case._loaded(core)
-    if parameters:
-        case.model = case.model.with_parameters(parameters)
+    given = numbers(parameters, "parameters")
+    if given:
+        case.model = case.model.with_parameters(given)
     core.check(case.model.compile().core)
     return case
 
@@ -225,10 +288,11 @@ def schema() -> str:
 
 
 def _format(path: Path | str, doing: str) -> str:
-    suffix = Path(path).suffix.lower()
+    where = files.checked_path(path, doing)
+    suffix = where.suffix.lower()
     if suffix in FORMATS:
         return FORMATS[suffix]
-    if Path(path).is_dir():
+    if where.is_dir():
         raise files.trouble(path, doing, IsADirectoryError())
     raise FileError(f"cannot {doing} {path}: the name must end in .toml or .json", name=str(path))
 
@@ -236,7 +300,7 @@ def _format(path: Path | str, doing: str) -> str:
 def _start(start: Start | Mapping[str, Coordinates] | None) -> Start:
     if isinstance(start, Start):
         return start
-    given = dict(start or {})
+    given = mapping(start, "start", "{'set': {…}, 'guess': {…}}")
     for key in given:
         if key not in ("set", "guess"):
             raise unknown("key of start", key, ["set", "guess"])
@@ -255,10 +319,15 @@ def _flat(coordinates: Mapping[str, Any]) -> dict[str, Any]:
 def _entries(
     analyses: Sequence[Dynamics] | Mapping[str, Mapping[str, Any]],
 ) -> dict[str, dict[str, Any]]:
+    form = "{'type': 'dynamics', 't_end': 1}"
     if isinstance(analyses, Mapping):
-        return {name: dict(entry) for name, entry in analyses.items()}
+        found = {}
+        for name, entry in analyses.items():
+            path = f"analyses.{reference(name, 'name of an analysis')}"
+            found[name] = plain(mapping(entry, path, form), path)
+        return found
     entries: dict[str, dict[str, Any]] = {}
-    for analysis in analyses:
+    for analysis in listed(analyses, "analyses"):
         if not isinstance(analysis, Dynamics):
             raise ModelError(f"{analysis!r} is not an analysis", hint="kp.Dynamics(…) makes one")
         if analysis.name in entries:

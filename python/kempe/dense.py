@@ -9,6 +9,9 @@ import numpy as np
 from kempe.arrays import Floats
 from kempe.errors import ModelError
 
+#: Number of the works that the integrator integrates with the motion.
+WORKS = 3
+
 
 @dataclass(frozen=True)
 class DenseOutput:
@@ -29,6 +32,9 @@ class DenseOutput:
         """The interpolant of a simulation without steps."""
         return cls(np.array([t, t]), y[None], np.zeros((1, len(y), 1)))
 
+    def __repr__(self) -> str:
+        return f"<DenseOutput: {len(self.y)} steps, degree {self.c.shape[2]}>"
+
     def __call__(self, t: Floats) -> Floats:
         """State y at times of any shape, (…, n_y).
 
@@ -36,8 +42,7 @@ class DenseOutput:
             ModelError: a time is outside the simulated interval, or is NaN.
         """
         self._refuse_outside(t)
-        onward = 1.0 if self.t[-1] >= self.t[0] else -1.0  # time may run backwards
-        after = np.searchsorted(onward * self.t, onward * t, side="right")
+        after = np.searchsorted(self.t, t, side="right")
         step = np.clip(after - 1, 0, len(self.y) - 1)
         h = self.t[step + 1] - self.t[step]
         theta = ((t - self.t[step]) / np.where(h == 0.0, 1.0, h))[..., None]
@@ -53,8 +58,7 @@ class DenseOutput:
 
     def _refuse_outside(self, t: Floats) -> None:
         slack = 1e-12 * max(abs(self.t[0]), abs(self.t[-1]))
-        first, last = min(self.t[0], self.t[-1]), max(self.t[0], self.t[-1])
-        inside = (t >= first - slack) & (t <= last + slack)
+        inside = (t >= self.t[0] - slack) & (t <= self.t[-1] + slack)
         if not np.all(inside):
             wrong = float(np.extract(~inside, t)[0])
             raise ModelError(

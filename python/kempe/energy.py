@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from functools import cached_property
 
+import numpy as np
+from numpy.typing import NDArray
+
 from kempe.arrays import Floats, fixed
+
+#: Part of the potential energy below which its changes are rounding errors and those of closed
+#: joints: a mechanism that moves less is at rest.
+RESOLVED = 1e-6
 
 
 class Energy:
@@ -12,6 +19,19 @@ class Energy:
 
     def __init__(self, columns: Floats) -> None:
         self._columns = fixed(columns)
+
+    def at(self, rows: NDArray[np.intp]) -> Energy:
+        """The energies at some of the times."""
+        return Energy(self._columns[rows])
+
+    @property
+    def columns(self) -> Floats:
+        """Kinetic, potential, dissipated, work of drivers, work of applied forces, (n_t, 5)."""
+        return self._columns
+
+    def __repr__(self) -> str:
+        largest = float(self.kinetic.max(initial=0.0))
+        return f"<Energy at {len(self._columns)} times: kinetic up to {largest:.6g} J>"
 
     @cached_property
     def kinetic(self) -> Floats:
@@ -48,8 +68,26 @@ class Energy:
         """T + V + dissipated - work: constant in an exact solution."""
         return fixed(self.kinetic + self.potential + self.dissipated - self.work)
 
+    @cached_property
+    def scale(self) -> float:
+        """The energy to which the balance is relative, J.
+
+        The largest of the kinetic energy and of the ranges of the potential energy, of the
+        dissipated energy and of the works. It is at least a millionth of the largest potential
+        energy, which rounding changes, and 1 J without any energy.
+        """
+        if not len(self.kinetic):
+            return 1.0
+        exchanged = [
+            self.potential,
+            self.dissipated,
+            self.work_of_drivers,
+            self.work_of_forces,
+        ]
+        largest = max(float(self.kinetic.max()), *(float(np.ptp(part)) for part in exchanged))
+        return max(largest, RESOLVED * float(np.abs(self.potential).max())) or 1.0
+
     @property
     def balance(self) -> Floats:
-        """Change of the total relative to the largest kinetic energy (relative to 1 J at rest)."""
-        largest = float(self.kinetic.max(initial=0.0)) or 1.0
-        return fixed((self.total - self.total[0]) / largest)
+        """Change of the total relative to ``scale``."""
+        return fixed((self.total - self.total[0]) / self.scale)

@@ -68,7 +68,8 @@ class KempeError(Exception):
 
     def __str__(self) -> str:
         message = str(self.args[0])  # a KeyError, which some are too, would put it in quotes
-        return f"{message}; {self.hint}" if self.hint else message
+        text = f"{message}; {self.hint}" if self.hint else message
+        return text.encode("utf-8", "backslashreplace").decode()  # half a character, in a name
 
 
 class ModelError(KempeError):

@@ -7,7 +7,9 @@ old one, so that a reader sees the old or the new content and never a part (POSI
 from __future__ import annotations
 
 import os
+import re
 import secrets
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -42,19 +44,67 @@ def trouble(path: Path | str, doing: str, error: OSError) -> FileError:
     return FileError(f"cannot {doing} {path}: {reason}", name=str(path), hint="check the disk")
 
 
+def refuse_pipe(path: Path | str) -> None:
+    """Refuse a pipe or a device, since reading it may wait forever.
+
+    Raises:
+        FileError: it is one.
+        OSError, ValueError: the file is missing, or its name is impossible.
+    """
+    mode = Path(path).stat().st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise FileError(
+            f"cannot read {path}: it is a pipe or a device",
+            name=str(path),
+            hint="copy its content to a file; the commands also read a case from standard input, "
+            "with - in place of the name",
+        )
+
+
+def checked_path(path: object, doing: str) -> Path:
+    """A path that the operating system can take.
+
+    Raises:
+        FileError: the argument is not a path, or contains a character that no name can contain.
+    """
+    try:
+        found = Path(path)  # type: ignore[arg-type]
+        if b"\0" in os.fsencode(found):
+            raise ValueError("a NUL character")
+    except (TypeError, ValueError) as error:  # UnicodeEncodeError is a ValueError
+        text = ascii(path) if isinstance(path, str) else repr(path)
+        raise FileError(
+            f"cannot {doing} {text}: it is not a path", hint="check the name"
+        ) from error
+    return found
+
+
 def read_text(path: Path | str) -> str:
     """The text of a UTF-8 file.
 
     Raises:
-        FileError: missing, a folder, not permitted, too large or not UTF-8.
+        FileError: missing, a folder, a pipe, not permitted, too large or not UTF-8.
     """
+    where = checked_path(path, "read")
     try:
-        with Path(path).open("rb") as file:
+        refuse_pipe(where)
+        with where.open("rb") as file:
             data = file.read(LARGEST_TEXT + 1)
     except OSError as error:
         raise trouble(path, "read", error) from error
-    except ValueError as error:  # a NUL character in the name
-        raise FileError(f"cannot read {path!r}: {error}", hint="check the name") from error
+    return decoded(data, path)
+
+
+def decoded(data: bytes, path: Path | str) -> str:
+    """The text of the bytes of a file.
+
+    Args:
+        data: the bytes, at most one more than ``LARGEST_TEXT``.
+        path: the file, for messages.
+
+    Raises:
+        FileError: too large or not UTF-8.
+    """
     if len(data) > LARGEST_TEXT:
         megabytes = LARGEST_TEXT // 2**20
         raise FileError(f"cannot read {path}: larger than {megabytes} MiB", hint="is it a case?")
@@ -68,6 +118,15 @@ def read_text(path: Path | str) -> str:
         ) from error
 
 
+def csv_cell(text: str) -> str:
+    """A text as a field of a CSV file (RFC 4180) that no spreadsheet takes for a formula.
+
+    A text that begins with = + - @ or a control character gets an apostrophe before it.
+    """
+    safe = f"'{text}" if text[:1] in {*"=+-@\t\r\n"} else text
+    return '"' + safe.replace('"', '""') + '"' if set(safe) & set(',"\r\n') else safe
+
+
 @contextmanager
 def writing(path: Path | str) -> Iterator[BinaryIO]:
     """A binary file that appears at ``path`` when the block ends well, and not otherwise.
@@ -78,9 +137,10 @@ def writing(path: Path | str) -> Iterator[BinaryIO]:
     Raises:
         FileError: the file cannot be written.
     """
-    target = Path(os.path.realpath(path))
-    draft = target.with_name(f".{target.name}.{secrets.token_hex(4)}.part")
+    target = Path(os.path.realpath(checked_path(path, "write")))
+    draft = target.with_name(f".{target.name}.{os.getpid()}.{secrets.token_hex(4)}.part")
     try:
+        _clear(target)
         if target.is_dir():
             raise IsADirectoryError(target)
         if target.exists() and not target.is_file():
@@ -101,6 +161,30 @@ def writing(path: Path | str) -> Iterator[BinaryIO]:
     finally:
         with suppress(OSError):
             draft.unlink()
+
+
+def _clear(target: Path) -> None:
+    """Remove what a killed process left of an earlier save of the same file."""
+    pattern = re.compile(rf"\.{re.escape(target.name)}\.(?:(\d+)\.)?[0-9a-f]{{8}}\.part")
+    with suppress(OSError):
+        for left in target.parent.iterdir():
+            found = pattern.fullmatch(left.name)
+            if found and not (found[1] and _is_alive(int(found[1]))):
+                with suppress(OSError):
+                    left.unlink()
+
+
+def _is_alive(process: int) -> bool:
+    """Whether a process of this machine runs; True where that cannot be known."""
+    if os.name != "posix":
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):
+        return True
+    return True
 
 
 def _keep_mode(target: Path, draft: Path) -> None:

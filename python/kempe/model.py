@@ -5,17 +5,21 @@ from __future__ import annotations
 import copy
 import json
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 from kempe import _core
 from kempe.bodies import Bar, Body, PointMass
 from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
-from kempe.values import Number, Pair, Points, numbers, pair, points, refuse
+from kempe.errors import ModelError
+from kempe.names import few, unknown
+from kempe.values import Number, Pair, Points, data, mapping, numbers, pair, points, refuse
 
 #: Version of the case format.
 FORMAT = 1
+#: Whether redundant constraints are accepted.
+Redundancy: TypeAlias = Literal["refuse", "allow"]
 SECTIONS = ("bodies", "joints", "drivers", "forces")
 
 
@@ -34,7 +38,8 @@ class Ground:
         self._model._ground_points(points)
 
     def __repr__(self) -> str:
-        return f"ground of {self._model!r}"
+        points = self._model.tree().get("bodies", {}).get("ground", {}).get("points", {})
+        return f"<ground of {self._model.title!r}: points {', '.join(points) or 'none'}>"
 
 
 class Model(ElementMethods):
@@ -68,18 +73,20 @@ class Model(ElementMethods):
         *,
         gravity: Pair = (0.0, 0.0),
         parameters: Mapping[str, Number] | None = None,
-        redundancy: str | None = None,
+        redundancy: Redundancy | None = None,
     ) -> None:
         if not isinstance(title, str):
             refuse("title", f"{title!r} is not a text")
-        if redundancy not in (None, "refuse", "allow"):
+        if redundancy is not None and not (
+            isinstance(redundancy, str) and redundancy in ("refuse", "allow")
+        ):
             refuse("redundancy", f"{redundancy!r} is neither 'refuse' nor 'allow'")
         self._tree: dict[str, Any] = {
             "kempe": FORMAT,
             "title": title,
             "gravity": pair(gravity, "gravity"),
             **({"redundancy": redundancy} if redundancy else {}),
-            "parameters": numbers(parameters or {}, "parameters"),
+            "parameters": numbers(parameters, "parameters"),
             **{section: {} for section in SECTIONS},
         }
         self._source: tuple[_core.Case, dict[str, float | str]] | None = None
@@ -190,21 +197,38 @@ class Model(ElementMethods):
             source: the case in the core with the same tree; its errors contain line numbers.
         """
         model = cls()
+        tree = mapping(tree, "tree", "{'bodies': {…}}")
         kept = {key: tree[key] for key in model._tree if key in tree}
         model._tree.update(copy.deepcopy(kept))
         model._source = None if source is None else (source, {})
         return model
 
+    @classmethod
+    def of_compiled(cls, compiled: CompiledModel) -> Model:
+        """The model of a compiled one that was made from a text."""
+        model = cls.from_tree(json.loads(compiled.case))
+        model._compiled = compiled
+        return model
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Everything that the text of the model contains; a copy has a tree of its own."""
+        tree = copy.deepcopy(self._tree)
+        return {**vars(self), "_tree": tree, "_source": None, "_compiled": None}
+
     def with_parameters(self, parameters: Mapping[str, Number]) -> Model:
         """A copy of the model with other values of some parameters.
 
         Raises:
-            ModelError: a value is not a number or a formula. An unknown parameter raises the error
-                when the model is compiled.
+            ModelError: the model has no such parameter, or a value is not a number or a formula.
         """
         changed = numbers(parameters, "parameters")
+        for name in changed:
+            if name not in self._tree["parameters"]:
+                if self._source is not None:  # the error gives the line of the file
+                    self._source[0].model(json.dumps(changed, allow_nan=False))
+                raise unknown("parameter", name, self._tree["parameters"])
         model = Model.from_tree(self._tree)
-        source, overrides = self._source or (_core.Case(self._json(), "json", None), {})
+        source, overrides = self._source or (_core.Case(self.json(), "json", None), {})
         model._source = (source, {**overrides, **changed})
         model._tree["parameters"].update(changed)
         return model
@@ -212,7 +236,7 @@ class Model(ElementMethods):
     def tree(self) -> dict[str, Any]:
         """A copy of the model as nested mappings with the structure of a case file."""
         kept = {key: value for key, value in self._tree.items() if value not in ({}, "")}
-        return copy.deepcopy(kept)
+        return {key: data(value) for key, value in kept.items()}
 
     def compile(self) -> CompiledModel:
         """The compiled model; it is kept until the model changes.
@@ -221,12 +245,13 @@ class Model(ElementMethods):
             ModelError: the model is invalid; ``problems`` lists all problems.
         """
         if self._compiled is None:
-            source, overrides = self._source or (_core.Case(self._json(), "json", None), {})
+            source, overrides = self._source or (_core.Case(self.json(), "json", None), {})
             core = source.model(json.dumps(overrides, allow_nan=False))
-            self._compiled = CompiledModel(core, self._json())
+            self._compiled = CompiledModel(core, self.json(), self)
         return self._compiled
 
-    def _json(self) -> str:
+    def json(self) -> str:
+        """The tree as JSON."""
         return json.dumps(self.tree(), allow_nan=False)
 
     @property
@@ -236,8 +261,13 @@ class Model(ElementMethods):
 
     @property
     def n_q(self) -> int:
-        """Number of coordinates: 3 for each moving body."""
+        """Number of coordinates: those of the moving bodies and the internal ones of joints."""
         return self.compile().n_q
+
+    @property
+    def n_z(self) -> int:
+        """Number of first-order states of force elements."""
+        return self.compile().n_z
 
     @property
     def n_rows(self) -> int:
@@ -274,8 +304,70 @@ class Model(ElementMethods):
         """The force elements with numerical values."""
         return self.compile().forces
 
+    @property
+    def constraints(self) -> Mapping[str, ConstraintInfo]:
+        """Joints and drivers with numerical values, in the order of Φ."""
+        return self.compile().constraints
+
+    @property
+    def all_bodies(self) -> Mapping[str, BodyInfo]:
+        """Ground and the moving bodies with numerical values, in the order of q."""
+        return self.compile().all_bodies
+
+    @property
+    def symbols(self) -> tuple[dict[str, Any], ...]:
+        """The symbols of a drawing of the model; see ``CompiledModel.symbols``."""
+        return self.compile().symbols
+
+    @property
+    def redundancy(self) -> str:
+        """Whether redundant constraints are accepted: "allow" or "refuse"."""
+        return self.compile().redundancy
+
+    def column_names(self) -> list[str]:
+        """Names of the coordinates in the order of q, such as ``crank.angle``."""
+        return self.compile().column_names()
+
+    def rate_names(self) -> list[str]:
+        """Names of the velocities in the order of v, such as ``crank.omega``."""
+        return self.compile().rate_names()
+
+    def state_names(self) -> list[str]:
+        """Names of the first-order states in the order of z, such as ``motor.current``."""
+        return self.compile().state_names()
+
+    def state_units(self) -> list[str]:
+        """Units of the first-order states in the order of z."""
+        return self.compile().state_units()
+
+    def row_names(self) -> list[str]:
+        """Names of the constraint equations in the order of Φ, such as ``A.x``."""
+        return self.compile().row_names()
+
+    def row_units(self) -> list[str]:
+        """Units of the constraint equations in the order of Φ: m or rad."""
+        return self.compile().row_units()
+
     def __repr__(self) -> str:
         moving = {section: dict(self._tree[section]) for section in SECTIONS}
         moving["bodies"].pop("ground", None)
-        parts = [f"{section} {', '.join(names)}" for section, names in moving.items() if names]
+        parts = [f"{section} {few(names)}" for section, names in moving.items() if names]
         return f"<Model {self.title!r}: {'; '.join(parts) or 'empty'}>"
+
+    def _repr_html_(self) -> str:
+        from kempe.notebook import of_model
+
+        return of_model(self)
+
+
+def compiled_model(model: Model | CompiledModel) -> CompiledModel:
+    """The compiled model.
+
+    Raises:
+        ModelError: the argument is not a model, or the model is invalid.
+    """
+    if isinstance(model, CompiledModel):
+        return model
+    if isinstance(model, Model):
+        return model.compile()
+    raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) creates one")

@@ -7,22 +7,25 @@ from typing import Any
 
 import numpy as np
 
-from kempe import _core
+from kempe import _core, quantities
 from kempe.arrays import Floats, fixed
-from kempe.compiled import CompiledModel
-from kempe.names import unknown
+from kempe.compiled import CompiledModel, ConstraintInfo
+from kempe.errors import ModelError
+from kempe.model import Model, compiled_model
+from kempe.names import entry, unknown
 from kempe.views import BodyView, ConstraintView, ForceView
 
 
 class Motion:
     """Positions and velocities; accelerations and multipliers are computed on first access.
 
-    ``motion["rocker"]`` is a body, ``motion["C"]`` a joint or driver, ``motion["spring"]`` a force.
-    All arrays are read-only and have time as first axis. At a single time there is no time axis.
+    ``motion["rocker"]`` is a body, ``motion["C"]`` a joint or driver, ``motion["spring"]`` a force,
+    and ``motion["rocker.angle"]`` a quantity, (n_t,). All arrays are read-only and have time as
+    first axis. At a single time there is no time axis, and a single number is a float.
 
     Attributes:
-        model: the compiled model.
-        t: (n_t,) or (), s.
+        compiled: the compiled model at the time of the computation.
+        t: (n_t,), s.
         q: (n_t, n_q) or (n_q,): x, y, angle of each moving body in order, m and rad, then the
             internal coordinates of joints; see ``model.column_names()``.
         v: their rates, per s.
@@ -30,14 +33,37 @@ class Motion:
             motor; see ``model.state_names()``. Empty for most models.
     """
 
+    #: Whether accelerations are computed near singular positions too, as in runs that pass them.
+    _passing = False
+    #: The reaction that was computed last, with its joint, body and frame.
+    _last_reaction: tuple[tuple[str, ...], Floats] = ((), np.empty(0))
+
     def __init__(
-        self, model: CompiledModel, t: Floats, q: Floats, v: Floats, z: Floats | None = None
+        self,
+        model: Model | CompiledModel,
+        t: float | Floats,
+        q: Floats,
+        v: Floats,
+        z: Floats | None = None,
     ) -> None:
-        self.model = model
+        self.compiled = compiled = compiled_model(model)
+        if compiled is not model:  # arrays of a user
+            shape = np.shape(t)
+            t = _checked("t", t, shape)
+            q, v = (_checked(*pair, (*shape, compiled.n_q)) for pair in (("q", q), ("v", v)))
+            z = None if z is None else _checked("z", z, (*shape, compiled.n_z))
         self.t = fixed(t)
         self.q = fixed(q)
         self.v = fixed(v)
-        self.z = fixed(np.zeros((*self.t.shape, model.n_z)) if z is None else z)
+        self.z = fixed(np.zeros((*self.t.shape, compiled.n_z)) if z is None else z)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Motion, (self.compiled, np.array(self.t), self.q, self.v, self.z)
+
+    @property
+    def model(self) -> Model:
+        """The model of the user from which the motion was computed."""
+        return self.compiled.model
 
     @property
     def a(self) -> Floats:
@@ -61,78 +87,134 @@ class Motion:
 
     @cached_property
     def _dynamics(self) -> tuple[Floats, Floats]:
-        a, lam = _core.evaluate(self.model.core, *self._rows(), np.atleast_2d(self.z))
+        rows = *self._rows(), np.atleast_2d(self.z)
+        a, lam = _core.evaluate(self.compiled.core, *rows, self._passing)
         return self._as_given(a), self._as_given(lam)
 
     @cached_property
     def residuals(self) -> tuple[Floats, Floats]:
         """Φ and Φ_q q̇ + Φ_t, (n_t, n_rows) or (n_rows,), m or rad and per s."""
-        position, velocity = _core.residual(self.model.core, *self._rows())
+        position, velocity = _core.residual(self.compiled.core, *self._rows())
         return self._as_given(position), self._as_given(velocity)
 
     def reaction(self, joint: str, on: str, frame: str) -> Floats:
         """Force and torque of a joint on a body, (…, 3); see ``ConstraintView``."""
-        t, q, _ = self._rows()
-        lam = np.atleast_2d(self.lam)
-        return self._as_given(_core.reaction(self.model.core, joint, on, frame, t, q, lam))
+        kept, values = self._last_reaction
+        if kept != (joint, on, frame):  # its components are often read one after the other
+            t, q, _ = self._rows()
+            lam = np.atleast_2d(self.lam)
+            core = self.compiled.core
+            values = self._as_given(_core.reaction(core, joint, on, frame, t, q, lam))
+            self._last_reaction = (joint, on, frame), values
+        return values
 
     def action(self, name: str, on: str, part: str | None, frame: str) -> Floats:
         """Force and torque of a force element on a body, (…, 3); see ``ForceView``."""
         rows = *self._rows(), np.atleast_2d(self.z)
-        seen = self.model.forces[name].reaction is not None
+        seen = self.compiled.forces[name].reaction is not None
         lam = np.atleast_2d(self.lam) if seen else None
-        return self._as_given(_core.force(self.model.core, name, on, part, frame, *rows, lam))
+        return self._as_given(_core.force(self.compiled.core, name, on, part, frame, *rows, lam))
 
     def _rows(self) -> tuple[Floats, Floats, Floats]:
         """t, q, v with a time axis, as required by the core."""
         return np.atleast_1d(self.t), np.atleast_2d(self.q), np.atleast_2d(self.v)
 
     def _as_given(self, values: Floats) -> Floats:
-        return fixed(values[0] if self.t.ndim == 0 else values)
+        return fixed(values[0] if self.q.ndim == 1 else values)
 
-    def body(self, name: str) -> BodyView:
+    def body(self, name: str) -> BodyView[Floats]:
         """A body by name, including ground.
 
         Raises:
             ModelError: there is no such body; the error is also a ``KeyError``.
         """
-        return BodyView(self, self.model.body(name))
+        return BodyView(self, self.compiled.body(name))
 
-    def constraint(self, name: str) -> ConstraintView:
+    def constraint(self, name: str) -> ConstraintView[Floats]:
         """A joint or driver by name.
 
         Raises:
             ModelError: there is no such joint or driver; the error is also a ``KeyError``.
         """
-        if name not in self.model.constraints:
-            raise unknown("joint or driver", name, self.model.constraints)
-        return ConstraintView(self, self.model.constraints[name])
+        return ConstraintView(self, self._named("joint or driver", name))
 
-    def force(self, name: str) -> ForceView:
+    def joint(self, name: str) -> ConstraintView[Floats]:
+        """A joint by name.
+
+        Raises:
+            ModelError: there is no such joint; the error is also a ``KeyError``.
+        """
+        return ConstraintView(self, self._named("joint", name, "joints"))
+
+    def driver(self, name: str) -> ConstraintView[Floats]:
+        """A driver by name.
+
+        Raises:
+            ModelError: there is no such driver; the error is also a ``KeyError``.
+        """
+        return ConstraintView(self, self._named("driver", name, "drivers"))
+
+    def _named(self, what: str, name: str, group: str = "") -> ConstraintInfo:
+        known = self.compiled.constraints
+        info = known.get(name) if isinstance(name, str) else None
+        if info is not None and group in ("", info.group):
+            return info
+        raise unknown(what, name, [n for n, c in known.items() if group in ("", c.group)])
+
+    def force(self, name: str) -> ForceView[Floats]:
         """A force element by name.
 
         Raises:
             ModelError: there is no such force element; the error is also a ``KeyError``.
         """
-        if name not in self.model.forces:
-            raise unknown("force", name, self.model.forces)
-        return ForceView(self, self.model.forces[name])
+        return ForceView(self, entry("force", name, self.compiled.forces))
 
     # The type of the result depends on the name, which a type checker cannot follow. Checked code
-    # uses the three methods above.
+    # uses the methods above.
     def __getitem__(self, name: str) -> Any:
-        """A body, joint, driver or force by name.
+        """A body, joint, driver or force by name, or a quantity such as ``rocker.angle``.
+
+        Quantities have the names that they have in files and in tables; a quantity is an array
+        (n_t,), in a state a float, in SI units and rad.
 
         Raises:
             ModelError: the name is unknown; the error is also a ``KeyError``.
         """
-        if name in self.model.all_bodies:
+        compiled = self.compiled
+        if not isinstance(name, str):
+            raise unknown("body, joint, driver or force", name, compiled.names())
+        if name in compiled.all_bodies:
             return self.body(name)
-        if name in self.model.constraints:
+        if name in compiled.constraints:
             return self.constraint(name)
-        if name in self.model.forces:
+        if name in compiled.forces:
             return self.force(name)
-        raise unknown("body, joint, driver or force", name, self.model.names())
+        if "." in name:
+            return quantities.named(self, name).read()
+        raise unknown("body, joint, driver or force", name, compiled.names())
 
     def __contains__(self, name: object) -> bool:
-        return name in set(self.model.names())
+        names = (*self.compiled.names(), *quantities.names(self))
+        return isinstance(name, str) and name in names
+
+    def _ipython_key_completions_(self) -> list[str]:
+        """Names for completion in ``motion["…"]``."""
+        return [*self.compiled.names(), *quantities.names(self)]
+
+    def __repr__(self) -> str:
+        span = f"{len(self.t)} times from {self.t[0]:g} to {self.t[-1]:g} s" if len(self.t) else ""
+        return f"<Motion of {self.compiled.title!r}: {span or 'no times'}>"
+
+
+def _checked(name: str, values: object, shape: tuple[int, ...]) -> Floats:
+    """Finite numbers of the given shape."""
+    try:
+        found = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ModelError(f"{name} must be numbers: {error}") from error
+    if found.shape != shape:
+        hint = "model.column_names() gives the order of q"
+        raise ModelError(f"{name} has shape {found.shape}; must be {shape}", hint=hint)
+    if not np.isfinite(found).all():
+        raise ModelError(f"{name} contains a number that is not finite")
+    return found

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
+from typing import TypeVar
 
 from kempe.errors import ModelError
+
+T = TypeVar("T")
+
+#: The largest number of existing names in a message.
+_MOST = 24
 
 
 class UnknownNameError(ModelError, KeyError):
@@ -21,15 +27,40 @@ def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
         known: the existing names, in the order of the message.
     """
     names = list(known)
-    near = get_close_matches(str(name), names, n=1)
-    if near:
-        hint = f"did you mean {near[0]!r}?"
+    near = _nearest(str(name), names)
+    if near is not None:
+        hint = f"did you mean {near!r}?"
     elif names:
-        hint = f"there is {', '.join(names)}"
+        hint = f"there is {few(names, _MOST)}"
     else:
         hint = "there is none"
     text = repr(name) if isinstance(name, str) else f"{name!r} (not a text)"
     return UnknownNameError(f"unknown {what} {text}", name=str(name), hint=hint)
+
+
+def _nearest(name: str, names: list[str]) -> str | None:
+    """The most similar name; capital letters count little."""
+    same = [known for known in names if known.casefold() == name.casefold()]
+    near = same or get_close_matches(name, names, n=1)
+    return near[0] if near else None
+
+
+def few(names: Iterable[str], most: int = 6) -> str:
+    """Names in one line: all of a few, or the first ones and the number of the others."""
+    given = list(names)
+    more = f" and {len(given) - most} more" if len(given) > most else ""
+    return ", ".join(given[:most]) + more
+
+
+def entry(what: str, name: object, known: Mapping[str, T]) -> T:
+    """The value of a name.
+
+    Raises:
+        ModelError: there is no such name.
+    """
+    if isinstance(name, str) and name in known:
+        return known[name]
+    raise unknown(what, name, known)
 
 
 def one_of(what: str, value: str, known: Iterable[str]) -> str:
@@ -39,6 +70,6 @@ def one_of(what: str, value: str, known: Iterable[str]) -> str:
         ModelError: the value is unknown.
     """
     names = list(known)
-    if value not in names:
+    if not isinstance(value, str) or value not in names:
         raise unknown(what, value, names)
     return value

@@ -6,29 +6,38 @@ The core checks the numbers, so that a file and a program are refused in the sam
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, ClassVar, TypeAlias
 
 from kempe.errors import ModelError
 from kempe.names import one_of
-from kempe.values import CHECKS, number, reference
+from kempe.values import CHECKS, flag, number, reference, tolerance
 
 #: The values that a field accepts: the name of a shape, the name of a family of options, or words.
 Shape: TypeAlias = "str | tuple[str, ...]"
 
 #: Families of options, each with an example for messages.
 _FAMILIES = {"method": "kp.RK45(rtol=1e-6)", "stabilization": "kp.Projection()"}
-_CHECKS = {**CHECKS, "count": number, "flag": lambda value, _: bool(value), "name": reference}
+_CHECKS = {
+    **CHECKS,
+    "count": number,
+    "flag": flag,
+    "name": reference,
+    "tolerance": tolerance,
+}
 #: Fields whose keys in the file are words of Python.
 _KEYS = {"after": "from"}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Option:
     """A choice with numbers, ``{ type = "rk45", rtol = 1e-6 }`` in a file."""
 
     kind: ClassVar[str]
     shapes: ClassVar[Mapping[str, Shape]]
+
+    def __repr__(self) -> str:
+        return _written(self)
 
     def tree(self, path: str) -> dict[str, Any]:
         """The choice as in a file; a field that is None is left out.
@@ -46,6 +55,9 @@ class Analysis:
     kind: ClassVar[str]
     shapes: ClassVar[Mapping[str, Shape]]
 
+    def __repr__(self) -> str:
+        return _written(self)
+
     def tree(self) -> dict[str, Any]:
         """The entry as in a file; a field that is None is left out.
 
@@ -59,6 +71,16 @@ class Analysis:
 def core_options(entry: Mapping[str, Any]) -> dict[str, Any]:
     """The part of an entry that the core reads: everything except its start."""
     return {key: value for key, value in entry.items() if key != "from"}
+
+
+def _written(choice: Any) -> str:
+    """The call that makes the choice, with the fields that differ from their defaults."""
+    given = (
+        f"{field.name}={getattr(choice, field.name)!r}"
+        for field in fields(choice)
+        if getattr(choice, field.name) != field.default
+    )
+    return f"{type(choice).__name__}({', '.join(given)})"
 
 
 def _fields(owner: object, shapes: Mapping[str, Shape], path: str) -> dict[str, Any]:

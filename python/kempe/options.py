@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from kempe.option import Analysis, Option, Shape
-from kempe.values import Number
+from kempe.values import Number, Tolerance
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Auto(Option):
     """Method of integration ``auto``.
 
@@ -23,25 +23,26 @@ class Auto(Option):
 
     Attributes:
         rtol: Relative tolerance of one step.
-        atol: Absolute tolerance of one step, in the units of the state.
+        atol: Absolute tolerance of one step, a number or a table as for `rk45`. What is absent
+            is 1e-11, for lengths times the size of the mechanism.
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
 
     rtol: Number = 1e-08
-    atol: Number = 1e-11
+    atol: Tolerance | None = None
     first_step: Number | None = None
     max_step: Number | None = None
     kind: ClassVar[str] = "auto"
     shapes: ClassVar[Mapping[str, Shape]] = {
         "rtol": "number",
-        "atol": "number",
+        "atol": "tolerance",
         "first_step": "number",
         "max_step": "number",
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RK45(Option):
     """Method of integration ``rk45``.
 
@@ -49,7 +50,10 @@ class RK45(Option):
 
     Attributes:
         rtol: Relative tolerance of one step.
-        atol: Absolute tolerance of one step, in the units of the state.
+        atol: Absolute tolerance of one step. A number holds for every component, in its unit. A
+            table such as `{ length = 1e-9, angle = 1e-9, z = 1e-9 }` has one for lengths,
+            angles and first-order states, and for their rates per second. What is absent is
+            1e-9, for lengths times the size of the mechanism.
         step: Constant step, independent of the tolerances; if absent, the step is controlled.
             Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
@@ -57,21 +61,21 @@ class RK45(Option):
     """
 
     rtol: Number = 1e-06
-    atol: Number = 1e-09
+    atol: Tolerance | None = None
     step: Number | None = None
     first_step: Number | None = None
     max_step: Number | None = None
     kind: ClassVar[str] = "rk45"
     shapes: ClassVar[Mapping[str, Shape]] = {
         "rtol": "number",
-        "atol": "number",
+        "atol": "tolerance",
         "step": "number",
         "first_step": "number",
         "max_step": "number",
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class DOP853(Option):
     """Method of integration ``dop853``.
 
@@ -82,7 +86,10 @@ class DOP853(Option):
 
     Attributes:
         rtol: Relative tolerance of one step.
-        atol: Absolute tolerance of one step, in the units of the state.
+        atol: Absolute tolerance of one step. A number holds for every component, in its unit. A
+            table such as `{ length = 1e-9, angle = 1e-9, z = 1e-9 }` has one for lengths,
+            angles and first-order states, and for their rates per second. What is absent is
+            1e-9, for lengths times the size of the mechanism.
         step: Constant step, independent of the tolerances; if absent, the step is controlled.
             Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
@@ -90,21 +97,21 @@ class DOP853(Option):
     """
 
     rtol: Number = 1e-06
-    atol: Number = 1e-09
+    atol: Tolerance | None = None
     step: Number | None = None
     first_step: Number | None = None
     max_step: Number | None = None
     kind: ClassVar[str] = "dop853"
     shapes: ClassVar[Mapping[str, Shape]] = {
         "rtol": "number",
-        "atol": "number",
+        "atol": "tolerance",
         "step": "number",
         "first_step": "number",
         "max_step": "number",
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RK4(Option):
     """Method of integration ``rk4``.
 
@@ -121,7 +128,7 @@ class RK4(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class GeneralizedAlpha(Option):
     """Method of integration ``generalized_alpha``.
 
@@ -135,8 +142,10 @@ class GeneralizedAlpha(Option):
             frequencies more.
         rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With
             a constant step, the tolerance of Newton's iteration, 1e-10 if absent.
-        atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 for methods of order 2. With
-            a constant step, the tolerance of Newton's iteration, 1e-12 if absent.
+        atol: Absolute tolerance of one step, a number or a table as for `rk45`. What is absent
+            is 1e-9, for methods of order 2 1e-7, for lengths times the size of the mechanism.
+            With a constant step, the tolerance of Newton's iteration, 1e-12 if absent, for
+            lengths times the size.
         step: Constant step, without control of the error; if absent, the step is controlled.
             Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
@@ -145,7 +154,7 @@ class GeneralizedAlpha(Option):
 
     rho: Number = 0.8
     rtol: Number | None = None
-    atol: Number | None = None
+    atol: Tolerance | None = None
     step: Number | None = None
     first_step: Number | None = None
     max_step: Number | None = None
@@ -153,14 +162,14 @@ class GeneralizedAlpha(Option):
     shapes: ClassVar[Mapping[str, Shape]] = {
         "rho": "number",
         "rtol": "number",
-        "atol": "number",
+        "atol": "tolerance",
         "step": "number",
         "first_step": "number",
         "max_step": "number",
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class HHT(Option):
     """Method of integration ``hht``.
 
@@ -171,8 +180,10 @@ class HHT(Option):
         alpha: In [-1/3, 0): a smaller one damps high frequencies more.
         rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With
             a constant step, the tolerance of Newton's iteration, 1e-10 if absent.
-        atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 for methods of order 2. With
-            a constant step, the tolerance of Newton's iteration, 1e-12 if absent.
+        atol: Absolute tolerance of one step, a number or a table as for `rk45`. What is absent
+            is 1e-9, for methods of order 2 1e-7, for lengths times the size of the mechanism.
+            With a constant step, the tolerance of Newton's iteration, 1e-12 if absent, for
+            lengths times the size.
         step: Constant step, without control of the error; if absent, the step is controlled.
             Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
@@ -181,7 +192,7 @@ class HHT(Option):
 
     alpha: Number = -0.1
     rtol: Number | None = None
-    atol: Number | None = None
+    atol: Tolerance | None = None
     step: Number | None = None
     first_step: Number | None = None
     max_step: Number | None = None
@@ -189,14 +200,14 @@ class HHT(Option):
     shapes: ClassVar[Mapping[str, Shape]] = {
         "alpha": "number",
         "rtol": "number",
-        "atol": "number",
+        "atol": "tolerance",
         "step": "number",
         "first_step": "number",
         "max_step": "number",
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Radau(Option):
     """Method of integration ``radau``.
 
@@ -208,8 +219,10 @@ class Radau(Option):
     Attributes:
         rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With
             a constant step, the tolerance of Newton's iteration, 1e-10 if absent.
-        atol: Absolute tolerance of one step, 1e-9 if absent, 1e-7 for methods of order 2. With
-            a constant step, the tolerance of Newton's iteration, 1e-12 if absent.
+        atol: Absolute tolerance of one step, a number or a table as for `rk45`. What is absent
+            is 1e-9, for methods of order 2 1e-7, for lengths times the size of the mechanism.
+            With a constant step, the tolerance of Newton's iteration, 1e-12 if absent, for
+            lengths times the size.
         step: Constant step, without control of the error; if absent, the step is controlled.
             Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
@@ -217,28 +230,28 @@ class Radau(Option):
     """
 
     rtol: Number | None = None
-    atol: Number | None = None
+    atol: Tolerance | None = None
     step: Number | None = None
     first_step: Number | None = None
     max_step: Number | None = None
     kind: ClassVar[str] = "radau"
     shapes: ClassVar[Mapping[str, Shape]] = {
         "rtol": "number",
-        "atol": "number",
+        "atol": "tolerance",
         "step": "number",
         "first_step": "number",
         "max_step": "number",
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Projection(Option):
     """Stabilization ``projection``.
 
-    Projection of the start, of accepted and of reported states onto Phi = 0 and Phi_q v + Phi_t
-    = 0 (Eich 1993): the nearest state in the metric of the mass matrix. The interpolant between
-    the steps leaves the constraints by the error of integration. The energy balance shows the
-    change of energy by projection.
+    Projection of accepted and of reported states onto Phi = 0 and Phi_q v + Phi_t = 0 (Eich
+    1993): the nearest state in the metric of the mass matrix. The interpolant between the steps
+    leaves the constraints by the error of integration. The energy balance shows the change of
+    energy by projection.
 
     Attributes:
         tolerance: Largest remaining residual, relative to the size of the mechanism; of angles
@@ -252,7 +265,7 @@ class Projection(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Baumgarte(Option):
     """Stabilization ``baumgarte``.
 
@@ -270,7 +283,7 @@ class Baumgarte(Option):
 
     alpha: Number | None = None
     beta: Number | None = None
-    gains: str | None = None
+    gains: Literal["step"] | None = None
     kind: ClassVar[str] = "baumgarte"
     shapes: ClassVar[Mapping[str, Shape]] = {
         "alpha": "number",
@@ -279,7 +292,7 @@ class Baumgarte(Option):
     }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class NoStabilization(Option):
     """Stabilization ``none``.
 
@@ -290,7 +303,7 @@ class NoStabilization(Option):
     shapes: ClassVar[Mapping[str, Shape]] = {}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Dynamics(Analysis):
     """Analysis of type ``dynamics``, an entry of ``[analyses]``.
 
@@ -324,8 +337,8 @@ class Dynamics(Analysis):
     max_steps: int | None = None
     dense_output: bool = True
     t_start: Number | None = None
-    singularity: str = "stop"
-    output: str | None = None
+    singularity: Literal["stop", "pass"] = "stop"
+    output: Literal["steps"] | None = None
     after: str | None = None
     name: str = "dynamics"
     kind: ClassVar[str] = "dynamics"

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 from kempe.option import Option, core_options
 from kempe.options import Dynamics, NoStabilization
@@ -48,7 +48,7 @@ _Key: TypeAlias = tuple[bool, tuple[type, ...], tuple[type, ...], tuple[object, 
 _kept: dict[_Key, Request] = {}
 
 
-def request(asked: Asked, dense_output: bool, singularity: str) -> Request:
+def request(asked: Asked, dense_output: bool, singularity: Literal["stop", "pass"]) -> Request:
     """The entry for a simulation, checked.
 
     Args:

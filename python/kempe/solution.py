@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,19 +13,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kempe import _core
 from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
-from kempe.dense import DenseOutput
+from kempe.dense import WORKS, DenseOutput
 from kempe.energy import Energy
-from kempe.errors import IntegrationError, ModelError, SingularityError
+from kempe.errors import IntegrationError, KempeError, ModelError, SingularityError
 from kempe.motion import Motion
-from kempe.partial_run import PartialRun
+from kempe.runs import PartialRun, StoredRun
 from kempe.state import State
 
 if TYPE_CHECKING:
     import pandas
 
-    from kempe import _core
+    from kempe.model import Model
+    from kempe.runs import Run
+    from kempe.views.frames import Frame
 
 #: Values of ``status``, as in scipy's ``solve_ivp``.
 REACHED, STOPPED = 0, -1
@@ -43,17 +46,21 @@ class Drift:
     position: Floats
     velocity: Floats
 
+    def __repr__(self) -> str:
+        largest = float(self.position.max(initial=0.0)), float(self.velocity.max(initial=0.0))
+        return f"<Drift: position up to {largest[0]:.3g}, velocity up to {largest[1]:.3g}>"
+
 
 class Solution(Motion):
     """The solution of a simulation: arrays with time first, read-only, SI units.
 
     Examples: ``sol["rocker"].angle``, ``sol["C"].force(on="coupler")``,
-    ``sol["spring"].torque(on="rocker")``, and ``sol(0.123)`` between the outputs. The names ``t``,
-    ``nfev``, ``njev``, ``nlu``, ``status``, ``message`` and ``success`` have the meaning they have
-    in scipy.
+    ``sol["rocker.angle"]``, and ``sol(0.123)`` between the outputs. The names ``t``, ``nfev``,
+    ``njev``, ``nlu``, ``status``, ``message`` and ``success`` have the meaning they have in scipy.
 
     Attributes:
-        model: the compiled model.
+        model: the model of the user.
+        compiled: the compiled model at the time of the run.
         t: (n_t,), s.
         q, v: (n_t, n_q), m, rad and per s.
         z: (n_t, n_z): first-order states of force elements; empty for most models.
@@ -61,11 +68,42 @@ class Solution(Motion):
         message: reason for the end of the run.
     """
 
-    def __init__(self, model: CompiledModel, run: _core.Run) -> None:
+    def __init__(self, model: Model | CompiledModel, run: Run, method: str = "unknown") -> None:
         super().__init__(model, run.t, run.q, run.v, run.z)
         self._run = run
+        self._passing = run.projection is not None and self.compiled.redundancy != "allow"
+        self._method = method
         self.status = REACHED if run.status == "reached" else STOPPED
         self.message = run.message
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Solution, (self.compiled, self.stored())
+
+    def stored(self) -> StoredRun:
+        """The run with all its results, for a copy or a file."""
+        run = self._run
+        accelerations: tuple[Floats, Floats] | KempeError
+        energy: Floats | KempeError
+        try:
+            accelerations = self._dynamics
+        except KempeError as error:
+            accelerations = error
+        try:
+            energy = self.energy.columns
+        except KempeError as error:
+            energy = error
+        return StoredRun(
+            **{name: getattr(self, name) for name in ("t", "q", "v", "z")},
+            accelerations=accelerations,
+            energy=energy,
+            dense_t=run.dense_t,
+            dense_y=run.dense_y,
+            dense_c=run.dense_c,
+            status=run.status,
+            message=run.message,
+            statistics=json.dumps(dict(self.statistics)),
+            projection=run.projection,
+        )
 
     @cached_property
     def energy(self) -> Energy:
@@ -82,9 +120,9 @@ class Solution(Motion):
         """Cost of the run.
 
         ``steps``, ``rejected``, ``evaluations``, ``jacobians``, ``iterations`` (Newton),
-        ``factorisations``, ``seconds``; with ``kp.Auto`` also ``method`` and ``why``.
+        ``factorisations``, ``seconds`` and ``method``; with ``kp.Auto`` also ``why``.
         """
-        return MappingProxyType(json.loads(self._run.statistics))
+        return MappingProxyType({"method": self._method, **json.loads(self._run.statistics)})
 
     @cached_property
     def dense(self) -> DenseOutput | None:
@@ -95,7 +133,7 @@ class Solution(Motion):
         if not len(self.t):  # the run failed before the first output
             return None
         if not len(run.dense_y):
-            y = np.concatenate([self.q[0], self.v[0], self.z[0]])
+            y = np.concatenate([self.q[0], self.v[0], self.z[0], np.zeros(WORKS)])
             return DenseOutput.of_an_instant(self.t[0], y)
         return DenseOutput(fixed(run.dense_t), fixed(run.dense_y), fixed(run.dense_c))
 
@@ -111,10 +149,12 @@ class Solution(Motion):
         try:
             yield
         except (IntegrationError, SingularityError) as error:
+            if getattr(error, "solution", None) is not None:
+                raise
             rows = int(np.count_nonzero(np.cumsum(self.t == error.t) == 0))
             if rows:
                 kept = PartialRun(self._run, rows, str(error))
-                error.solution = Solution(self.model, kept)  # type: ignore[arg-type,union-attr]
+                error.solution = Solution(self.compiled, kept, self._method)  # type: ignore[union-attr]
             raise
 
     @property
@@ -146,53 +186,108 @@ class Solution(Motion):
     @property
     def initial(self) -> State:
         """The state at the first time."""
-        return State(self.model, float(self.t[0]), self.q[0], self.v[0], z=self.z[0])
+        return self._state(float(self.t[0]), self.q[0], self.v[0], self.z[0])
 
     @property
     def final(self) -> State:
         """The state at the last time."""
-        return State(self.model, float(self.t[-1]), self.q[-1], self.v[-1], z=self.z[-1])
+        return self._state(float(self.t[-1]), self.q[-1], self.v[-1], self.z[-1])
+
+    def _state(self, t: float, q: Floats, v: Floats, z: Floats) -> State:
+        state = State(self.compiled, t, q, v, z=z)
+        state._passing = self._passing
+        return state
 
     def __call__(self, t: float | Floats) -> Motion:
         """The motion at any time within the solution, from the interpolant of the integrator.
+
+        If the states of the solution are projected, so are these: they are the states that an
+        output at these times reports.
 
         Args:
             t: s; one time gives a ``State``, an array (n,) gives a ``Motion``.
 
         Raises:
             ModelError: the time is outside the solution, or the interpolant was not kept.
+            IntegrationError, SingularityError: a state cannot be projected.
         """
         if self.dense is None:
             raise ModelError("the solution has no interpolant", hint="use dense_output=True")
-        at = np.asarray(t, dtype=np.float64)
+        try:
+            at = np.asarray(t, dtype=np.float64)
+        except (TypeError, ValueError, OverflowError) as error:
+            raise ModelError(f"t must be one time or an array of times: {error}") from error
         if at.ndim > 1:
             raise ModelError(f"t has {at.ndim} dimensions; must be one time or an array of times")
-        q, v, z = self.dense.parts(at, self.model.n_q, self.model.n_z)
+        times = np.atleast_1d(at)
+        q, v, z = self.dense.parts(times, self.compiled.n_q, self.compiled.n_z)
+        if (tolerance := self._run.projection) is not None:
+            q, v = _core.project(self.compiled.core, tolerance, times, q, v, z)
         if at.ndim == 0:
-            return State(self.model, float(at), q, v, z=z)
-        return Motion(self.model, at, q, v, z)
+            return self._state(float(at), q[0], v[0], z[0])
+        motion = Motion(self.compiled, at, q, v, z)
+        motion._passing = self._passing
+        return motion
 
-    def to_dataframe(self) -> pandas.DataFrame:
-        """A pandas data frame with a column for each quantity, such as ``rocker.angle``.
+    def energy_at(self, t: Floats) -> Energy:
+        """Energies at any times within the solution, from the interpolant of the integrator.
 
-        Units are in ``attrs["units"]``.
+        Args:
+            t: (n,), s.
 
         Raises:
-            ModelError: pandas is not installed.
+            ModelError: a time is outside the solution, or the interpolant was not kept.
+            IntegrationError: an energy is not finite.
         """
-        from kempe.table import dataframe
+        motion = self(t)
+        assert self.dense is not None  # otherwise the line before raises the error
+        works = self.dense(motion.t)[..., 2 * self.compiled.n_q + self.compiled.n_z :]
+        rows = (np.atleast_2d(values) for values in (motion.q, motion.v, motion.z, works))
+        return Energy(_core.energies(self.compiled.core, np.atleast_1d(motion.t), *rows))
 
-        return dataframe(self)
+    def to_dataframe(
+        self, *, frames: Sequence[Frame] = ("global",), points: Sequence[str] | bool = ()
+    ) -> pandas.DataFrame:
+        """A pandas data frame with a column for each quantity, such as ``rocker.angle``.
 
-    def to_csv(self, path: Path | str) -> None:
+        Units are those chosen by ``kp.units``; they are in ``attrs["units"]``.
+
+        Args:
+            frames: frames of the reactions, as in ``to_csv``.
+            points: points whose paths are columns, as in ``to_csv``.
+
+        Raises:
+            ModelError: pandas is not installed, or there is no such frame or point.
+        """
+        from kempe.table import Extent, dataframe
+
+        return dataframe(self, Extent(frames, points))
+
+    def to_csv(
+        self,
+        path: Path | str,
+        *,
+        frames: Sequence[Frame] = ("global",),
+        points: Sequence[str] | bool = (),
+    ) -> None:
         """Write all quantities as CSV, one line per time, with units in the header.
+
+        Units are those chosen by ``kp.units``. The name of each column is valid in ``sol[name]``.
+
+        Args:
+            path: the file.
+            frames: frames in which reactions on each moving body are written: "global", "body",
+                "joint"; none to leave them out.
+            points: points whose paths are written, such as ``["coupler.P"]``; True for all named
+                points of moving bodies.
 
         Raises:
             FileError: the file cannot be written; an existing file is not changed.
+            ModelError: there is no such frame or point.
         """
-        from kempe.table import write_csv
+        from kempe.table import Extent, write_csv
 
-        write_csv(self, path)
+        write_csv(self, path, Extent(frames, points))
 
     def save(self, path: Path | str) -> None:
         """Write the solution and its case to a file of NumPy arrays (``.npz``).
@@ -204,7 +299,13 @@ class Solution(Motion):
 
         save(self, path)
 
+    def _repr_html_(self) -> str:
+        from kempe.notebook import of_solution
+
+        return of_solution(self)
+
     def __repr__(self) -> str:
-        span = f"t = {self.t[0]:g} … {self.t[-1]:g} s, {len(self.t)} outputs"
-        steps = f"{self.statistics['steps']} steps"
-        return f"<Solution of {self.model.title!r}: {span}, {steps}; {self.message}>"
+        count = len(self.t)
+        span = f"t = {self.t[0]:g} … {self.t[-1]:g} s, {count} outputs" if count else "no outputs"
+        steps = f"{self.statistics['steps']} steps of {self.statistics['method']}"
+        return f"<Solution of {self.compiled.title!r}: {span}, {steps}; {self.message}>"

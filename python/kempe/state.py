@@ -7,13 +7,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
-from kempe.arrays import Floats, fixed
+from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
+from kempe.display_units import display, heading
 from kempe.matrices import Matrices, matrices
+from kempe.model import Model
 from kempe.motion import Motion
-from kempe.values import Number
+from kempe.names import few
+from kempe.values import Number, mapping
+from kempe.views import BodyView, ConstraintView, ForceView
 
 #: Largest number of modes that a report lists.
 MOST_MODES = 20
@@ -60,7 +62,7 @@ class Mode:
     folded: bool | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class AssemblyReport:
     """Report of an assembly.
 
@@ -97,6 +99,11 @@ class AssemblyReport:
             warnings=tuple(report["warnings"]),
         )
 
+    def __repr__(self) -> str:
+        free = self.degrees_of_freedom
+        count = f"{len(self.iterations)} iteration{'s' * (len(self.iterations) != 1)}"
+        return f"<AssemblyReport: {count}, {free} degree{'s' * (free != 1)} of freedom>"
+
     def __str__(self) -> str:
         last = f", residual {self.iterations[-1].residual:.1e}" if self.iterations else ""
         count = len(self.iterations)
@@ -131,12 +138,32 @@ def _place(mode: Mode) -> str:
     return f"to the {mode.side} of {' → '.join(mode.anchors)}{folded}"
 
 
+#: Columns of a printed state: quantity, SI unit, and the unit where none was chosen.
+_COLUMNS = (
+    ("x", "m", None),
+    ("y", "m", None),
+    ("angle", "rad", "deg"),
+    ("vx", "m/s", None),
+    ("vy", "m/s", None),
+    ("omega", "rad/s", None),
+)
+
+
 class State(Motion):
-    """A mechanism at one time: ``state["crank"].angle``, ``state["C"].residual``.
+    """A mechanism at one time: ``state["crank.angle"]``, ``state["C"].residual``.
+
+    ``kp.State(model, t, q, v)`` makes a state from numbers, ``kp.assemble`` one that closes.
+
+    Args:
+        model: the mechanism.
+        t: time, s.
+        q: (n_q,), in the order of ``model.column_names()``.
+        v: (n_q,), in the order of ``model.rate_names()``.
+        report: report of the assembly.
+        z: (n_z,), in the order of ``model.state_names()``; zeros by default.
 
     Attributes:
-        model: the compiled model.
-        t: time, s.
+        t: time, s; a float.
         q: (n_q,): x, y, angle of each moving body, m and rad, then the internal coordinates of
             joints; read-only.
         v: (n_q,): their rates, per s; read-only.
@@ -144,9 +171,11 @@ class State(Motion):
         report: report of the assembly; None if the state is not the result of an assembly.
     """
 
+    t: float  # type: ignore[assignment]
+
     def __init__(
         self,
-        model: CompiledModel,
+        model: Model | CompiledModel,
         t: float,
         q: Floats,
         v: Floats,
@@ -154,8 +183,52 @@ class State(Motion):
         *,
         z: Floats | None = None,
     ) -> None:
-        super().__init__(model, fixed(t), q, v, z)
+        super().__init__(model, t, q, v, z)
+        self.t = float(self.t)
         self.report = report
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.compiled, self.t, self.q, self.v, self.report, self.z)
+
+    def body(self, name: str) -> BodyView[float]:  # type: ignore[override]
+        """A body by name, including ground.
+
+        Raises:
+            ModelError: there is no such body; the error is also a ``KeyError``.
+        """
+        return super().body(name)  # type: ignore[return-value]
+
+    def constraint(self, name: str) -> ConstraintView[float]:  # type: ignore[override]
+        """A joint or driver by name.
+
+        Raises:
+            ModelError: there is no such joint or driver; the error is also a ``KeyError``.
+        """
+        return super().constraint(name)  # type: ignore[return-value]
+
+    def joint(self, name: str) -> ConstraintView[float]:  # type: ignore[override]
+        """A joint by name.
+
+        Raises:
+            ModelError: there is no such joint; the error is also a ``KeyError``.
+        """
+        return super().joint(name)  # type: ignore[return-value]
+
+    def driver(self, name: str) -> ConstraintView[float]:  # type: ignore[override]
+        """A driver by name.
+
+        Raises:
+            ModelError: there is no such driver; the error is also a ``KeyError``.
+        """
+        return super().driver(name)  # type: ignore[return-value]
+
+    def force(self, name: str) -> ForceView[float]:  # type: ignore[override]
+        """A force element by name.
+
+        Raises:
+            ModelError: there is no such force element; the error is also a ``KeyError``.
+        """
+        return super().force(name)  # type: ignore[return-value]
 
     def matrices(self, set: Mapping[str, Number] | None = None) -> Matrices:  # noqa: A002
         """The matrices of the equations of motion in this state.
@@ -163,44 +236,74 @@ class State(Motion):
         Args:
             set: prescribed coordinates, as in an assembly; each adds a row.
         """
-        return matrices(self, set or {})
+        return matrices(self, mapping(set, "set", "{'crank.angle': 1}"))
 
     def coordinates(self) -> dict[str, float]:
         """Coordinates, rates and first-order states by name, in SI units.
 
         For example ``{"crank.x": …, "crank.omega": …, "motor.current": …}``.
         """
-        model = self.model
+        model = self.compiled
         names = [*model.column_names(), *model.rate_names(), *model.state_names()]
         values = [*self.q.tolist(), *self.v.tolist(), *self.z.tolist()]
         return dict(zip(names, values, strict=True))
 
     def _further(self) -> Iterator[tuple[str, float, str]]:
         """Names, values and units of internal coordinates and first-order states."""
-        own = [c for c in self.model.constraints.values() if c.coordinates]
+        own = [c for c in self.compiled.constraints.values() if c.coordinates]
         for info in own:
             values = self.q[info.columns].tolist()
             for (name, unit), value in zip(info.coordinates, values, strict=True):
                 yield f"{info.name}.{name}", value, unit
-        names, units = self.model.state_names(), self.model.state_units()
+        names, units = self.compiled.state_names(), self.compiled.state_units()
         yield from zip(names, self.z.tolist(), units, strict=True)
 
+    def table(self) -> tuple[list[str], list[list[str]]]:
+        """Position and velocity of each body in display units: header and rows of texts.
+
+        Angles are in degrees unless ``kp.units`` chose another unit.
+        """
+        header = [heading(name, unit, usual) for name, unit, usual in _COLUMNS]
+        rows = []
+        for name, info in self.compiled.bodies.items():
+            body, row = self.body(name), [name]
+            for quantity, unit, usual in _COLUMNS:
+                turning = quantity in ("angle", "omega")
+                value = getattr(body, quantity) / display(unit, usual).divisor
+                row.append("" if turning and not info.turns else f"{value + 0.0:.6g}")
+            rows.append(row)
+        return ["body", *header], rows
+
     def __str__(self) -> str:
-        width = max((len(name) for name in self.model.bodies), default=4)
-        units = ("x / m", "y / m", "angle / °", "vx / m/s", "vy / m/s", "omega / rad/s")
-        lines = [" " * width + "".join(f"{unit:>15}" for unit in units)]
-        for name in self.model.bodies:
-            body = self.body(name)
-            numbers = [body.x, body.y, np.degrees(body.angle), body.vx, body.vy, body.omega]
-            absent = () if body.info.turns else (2, 5)
-            row = "".join(
-                f"{'':>15}" if k in absent else f"{float(number) + 0.0:15.6g}"
-                for k, number in enumerate(numbers)
-            )
-            lines.append(f"{name:<{width}}{row}".rstrip())
-        lines += [f"{name} = {value:.6g} {unit}" for name, value, unit in self._further()]
+        header, rows = self.table()
+        width = max((len(row[0]) for row in rows), default=4)
+        table = [["", *header[1:]], *rows]
+        lines = [f"{name:<{width}}{''.join(f'{c:>15}' for c in cells)}" for name, *cells in table]
+        for name, value, unit in self._further():
+            shown = display(unit)
+            lines.append(f"{name} = {value / shown.divisor:.6g} {shown.unit}")
         report = [] if self.report is None else [str(self.report)]
-        return "\n".join([f"t = {float(self.t):g} s", *lines, *report])
+        time = display("s")
+        lines = [f"t = {self.t / time.divisor:g} {time.unit}", *map(str.rstrip, lines), *report]
+        return "\n".join(lines)
 
     def __repr__(self) -> str:
-        return f"<State of {self.model.title!r} at t = {float(self.t):g} s>\n{self}"
+        return (
+            f"<State of {self.compiled.title!r} at t = {self.t:g} s: {few(self.compiled.bodies)}>"
+        )
+
+    def _repr_html_(self) -> str:
+        from kempe.notebook import of_state
+
+        return of_state(self)
+
+
+def _restored(  # noqa: PLR0917 - a pickle passes positional arguments
+    model: CompiledModel,
+    t: float,
+    q: Floats,
+    v: Floats,
+    report: AssemblyReport | None,
+    z: Floats,
+) -> State:
+    return State(model, t, q, v, report, z=z)

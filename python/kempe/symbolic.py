@@ -38,7 +38,7 @@ class Texts:
     gamma: tuple[str, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Equations:
     """The equations of a joint or driver.
 
@@ -57,6 +57,15 @@ class Equations:
     expressions: Texts
     symbols: Texts
     points: Mapping[str, tuple[float, float]]
+
+    def __repr__(self) -> str:
+        return f"<Equations of {self.name} ({self.type}): {', '.join(self.rows)}>"
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self._aligned('aligned')}$"
 
     def text(self) -> str:
         """Lines of text, in the language of expressions."""
@@ -78,6 +87,9 @@ class Equations:
 
     def latex(self) -> str:
         """Displayed formulas for amsmath."""
+        return f"% {self.name} ({self.type})\n{self._aligned('align*')}\n"
+
+    def _aligned(self, environment: str) -> str:
         told = self.symbols
         lines = [f"{name} &= {formula}" for name, formula in told.definitions]
         for k, row in enumerate(self.rows):
@@ -90,7 +102,7 @@ class Equations:
             ]
             lines.append(rf"\gamma_{{{label}}} &= {told.gamma[k]}")
         body = " \\\\\n".join(f"  {line}" for line in lines)
-        return f"% {self.name} ({self.type})\n\\begin{{align*}}\n{body}\n\\end{{align*}}\n"
+        return f"\\begin{{{environment}}}\n{body}\n\\end{{{environment}}}"
 
 
 def equations(model: Model | CompiledModel) -> list[Equations]:
@@ -99,7 +111,7 @@ def equations(model: Model | CompiledModel) -> list[Equations]:
     Args:
         model: the mechanism.
     """
-    from kempe.analyses import compiled_model
+    from kempe.model import compiled_model
 
     compiled = compiled_model(model)
     tree = json.loads(compiled.case)

@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe import files
+from kempe import files, quantities
 from kempe.arrays import Floats
-from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
+from kempe.display_units import display
 from kempe.errors import ModelError
+from kempe.values import texts
+from kempe.views.frames import FRAMES, Frame, checked_frame
 
 if TYPE_CHECKING:
     import pandas
 
     from kempe.solution import Solution
-
-#: Units of coordinates, rates and accelerations of a body.
-_UNITS = (("m", "m", "rad"), ("m/s", "m/s", "rad/s"), ("m/s^2", "m/s^2", "rad/s^2"))
-_ENERGIES = ("kinetic", "potential", "dissipated", "work", "total")
-#: A multiplier times its residual is an energy, so its unit is J per unit of the residual.
-_MULTIPLIER_UNITS = {"m": "N", "rad": "N*m"}
 
 
 @dataclass(frozen=True)
@@ -32,8 +29,8 @@ class Column:
 
     Attributes:
         name: such as ``rocker.angle``.
-        unit: such as ``rad``.
-        values: (n_t,).
+        unit: display unit, such as ``rad``.
+        values: (n_t,), in this unit.
     """
 
     name: str
@@ -41,52 +38,84 @@ class Column:
     values: Floats
 
 
-def columns(solution: Solution) -> list[Column]:
-    """Time, coordinates, multipliers, first-order states, torques and energies."""
-    table = [Column("t", "s", solution.t)]
-    for name in solution.model.bodies:
-        body = solution.body(name)
-        for quantity, unit in _quantities(body.info.count):
-            table.append(Column(f"{name}.{quantity}", unit, getattr(body, quantity)))
-    table += _internal(solution)
-    rows = zip(solution.model.row_names(), solution.model.row_units(), strict=True)
-    for k, (name, unit) in enumerate(rows):
-        constraint, _, equation = name.rpartition(".")
-        label = f"{constraint}.lambda_{equation}"
-        table.append(Column(label, _MULTIPLIER_UNITS.get(unit, f"J/{unit}"), solution.lam[:, k]))
-    states = zip(solution.model.state_names(), solution.model.state_units(), strict=True)
-    for k, (name, unit) in enumerate(states):
-        table.append(Column(name, unit, solution.z[:, k]))
-    for info in solution.model.forces.values():
-        torque = solution.force(info.name).torque(on=info.j)
-        table.append(Column(f"{info.name}.torque_on_{info.j}", "N*m", torque))
-    for name in _ENERGIES:
-        table.append(Column(f"energy.{name}", "J", getattr(solution.energy, name)))
+@dataclass(frozen=True)
+class Extent:
+    """The columns that a table has besides coordinates, states and energies.
+
+    Attributes:
+        frames: frames of the reactions on each moving body, some of "global", "body" and "joint".
+        points: points whose paths are written, such as ``("coupler.P",)``; True for all named
+            points of moving bodies.
+    """
+
+    frames: Sequence[Frame] = ("global",)
+    points: Sequence[str] | bool = ()
+
+
+def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
+    """Time, coordinates, paths, multipliers, reactions, first-order states, forces and energies.
+
+    Raises:
+        ModelError: there is no such frame or point.
+    """
+    table = [_column("t", "s", solution.t)]
+    for name in _names(solution, extent or Extent()):
+        quantity = quantities.named(solution, name)
+        table.append(_column(name, quantity.unit, quantity.read()))
     return table
 
 
-def _quantities(count: int) -> list[tuple[str, str]]:
-    """Coordinates, rates and accelerations of a body with so many coordinates, with units."""
-    families = (COORDINATES, RATES, ACCELERATIONS)
-    return [
-        pair
-        for names, units in zip(families, _UNITS, strict=True)
-        for pair in zip(names[:count], units[:count], strict=True)
-    ]
+def _column(name: str, unit: str, values: Floats) -> Column:
+    shown = display(unit)
+    return Column(name, shown.unit, values if shown.divisor == 1.0 else values / shown.divisor)
 
 
-def _internal(solution: Solution) -> list[Column]:
-    """Internal coordinates of joints and their rates."""
-    found = []
-    for info in solution.model.constraints.values():
-        first = info.columns.start
-        for k, (name, unit) in enumerate(info.coordinates, first):
-            found.append(Column(f"{info.name}.{name}", unit, solution.q[:, k]))
-            found.append(Column(f"{info.name}.{name}_rate", f"{unit}/s", solution.v[:, k]))
-    return found
+def _names(solution: Solution, extent: Extent) -> Iterator[str]:
+    """Names of the columns, in their order."""
+    compiled = solution.compiled
+    for name, body in compiled.bodies.items():
+        yield from (f"{name}.{quantity}" for quantity in quantities.of_body(solution, body))
+    for point in _points(solution, extent.points):
+        yield from (f"{point}.{quantity}" for quantity in ("x", "y"))
+    for name, joint in compiled.constraints.items():
+        for coordinate, _ in joint.coordinates:
+            yield from (f"{name}.{coordinate}", f"{name}.{coordinate}_rate")
+    yield from (f"{name}.lambda_{row}" for name, _, row in map(_parted, compiled.row_names()))
+    frames = texts(extent.frames, "frames")
+    for name in compiled.constraints:
+        for frame in map(checked_frame, frames):
+            yield from _reactions(solution, name, frame)
+    yield from compiled.state_names()
+    for name, force in compiled.forces.items():
+        yield from (f"{name}.force",) if force.points is not None else ()
+        yield f"{name}.torque_on_{force.j}"
+    yield from (f"energy.{name}" for name in quantities.ENERGIES)
 
 
-def dataframe(solution: Solution) -> pandas.DataFrame:
+def _parted(name: str) -> tuple[str, str, str]:
+    return name.rpartition(".")
+
+
+def _reactions(solution: Solution, name: str, frame: str) -> Iterator[str]:
+    """Components of the reaction on each moving body; the torque is the same in all frames."""
+    for body in dict.fromkeys(solution.compiled.constraints[name].bodies):
+        if body in solution.compiled.bodies:
+            kinds = ("fx", "fy", "torque") if frame == FRAMES[0] else ("fx", "fy")
+            yield from (quantities.reaction_name(name, kind, body, frame) for kind in kinds)
+
+
+def _points(solution: Solution, wanted: Sequence[str] | bool) -> list[str]:
+    """Names of points."""
+    known = [f"{name}.{p}" for name, body in solution.compiled.bodies.items() for p in body.points]
+    if isinstance(wanted, bool):
+        return known if wanted else []
+    points = texts(wanted, "points")
+    for name in points:
+        quantities.named(solution, f"{name}.x")
+    return points
+
+
+def dataframe(solution: Solution, extent: Extent | None = None) -> pandas.DataFrame:
     """The columns as a pandas data frame; units in ``attrs["units"]``."""
     try:
         import pandas
@@ -94,21 +123,17 @@ def dataframe(solution: Solution) -> pandas.DataFrame:
         raise ModelError(
             "to_dataframe needs pandas, which is not installed", hint="pip install pandas"
         ) from error
-    table = columns(solution)
+    table = columns(solution, extent)
     frame = pandas.DataFrame({column.name: column.values for column in table})
     frame.attrs["units"] = {column.name: column.unit for column in table}
     return frame
 
 
-def write_csv(solution: Solution, path: Path | str) -> None:
+def write_csv(solution: Solution, path: Path | str, extent: Extent | None = None) -> None:
     """Write the columns as CSV with 17 digits, which preserves every number."""
-    table = columns(solution)
+    table = columns(solution, extent)
     text = io.StringIO()
-    text.write(",".join(_quoted(f"{column.name} [{column.unit}]") for column in table) + "\n")
+    header = (files.csv_cell(f"{column.name} [{column.unit}]") for column in table)
+    text.write(",".join(header) + "\n")
     np.savetxt(text, np.column_stack([column.values for column in table]), "%.17g", ",")
     files.write_text(path, text.getvalue())
-
-
-def _quoted(text: str) -> str:
-    """A field of a CSV file (RFC 4180)."""
-    return '"' + text.replace('"', '""') + '"' if set(text) & set(',"\n') else text

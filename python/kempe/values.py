@@ -16,9 +16,13 @@ from kempe.errors import ModelError, Problem
 Number: TypeAlias = "float | str"
 #: Two numbers or formulas, such as a point or a vector.
 Pair: TypeAlias = "Sequence[float | str]"
+#: A number for all quantities, or one for each of ``length``, ``angle`` and ``z``.
+Tolerance: TypeAlias = "float | str | Mapping[str, float | str]"
 #: Named points of a body, in its frame, m.
 Points: TypeAlias = "Mapping[str, Sequence[float | str]]"
 
+#: Longer texts of wrong values are not part of a message.
+_LONGEST = 80
 #: A float represents every integer up to this limit exactly.
 _LARGEST_EXACT_INTEGER = 2**53
 
@@ -66,7 +70,51 @@ def reference(value: object, path: str) -> str:
     """A name such as ``crank``, ``crank.B`` or ``crank.angle``; its existence is checked later."""
     if not isinstance(value, str):
         refuse(path, f"{value!r} is not a name")
-    return value if value.strip() else refuse(path, "empty name")
+    if not value.strip():
+        refuse(path, "empty name")
+    if not value.isprintable() and value != value.encode("utf-8", "ignore").decode():
+        refuse(path, f"{value!a} contains half a character")
+    return value
+
+
+def vector(value: object, path: str) -> tuple[float, float]:
+    """Two numbers, not formulas."""
+    if type(value) is tuple and len(value) == 2 and type(value[0]) is type(value[1]) is float:
+        return value
+    x, y = pair(value, path)
+    if isinstance(x, str) or isinstance(y, str):
+        refuse(path, f"{value!r}; must be two numbers")
+    return float(x), float(y)
+
+
+def texts(value: object, path: str) -> list[str]:
+    """Names in a list."""
+    if isinstance(value, str) or (found := _listed(value)) is None:
+        hint = f"; write [{value!r}]" if isinstance(value, str) else ""
+        refuse(path, f"{value!r}; must be a list of names{hint}")
+    return [reference(name, f"{path}[{k}]") for k, name in enumerate(found)]
+
+
+def instance(value: object, kinds: type | tuple[type, ...], what: str) -> None:
+    """Refuse a value of another kind.
+
+    Args:
+        value: the value.
+        kinds: its kinds.
+        what: the kinds in words, such as "a solution".
+    """
+    if not isinstance(value, kinds):
+        text = repr(value)
+        raise ModelError(f"{text if len(text) < _LONGEST else type(value)} is not {what}")
+
+
+def mapping(value: object, path: str, form: str) -> Mapping[Any, Any]:
+    """A mapping; an empty one for None."""
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        refuse(path, f"{value!r}; must be a mapping such as {form}")
+    return value
 
 
 def names(value: object, path: str) -> tuple[str, str]:
@@ -91,21 +139,65 @@ def numbers(value: object, path: str) -> dict[str, float | str]:
     }
 
 
+def tolerance(value: object, path: str) -> float | str | dict[str, float | str]:
+    """A number, or a mapping with numbers for some of ``length``, ``angle`` and ``z``."""
+    return numbers(value, path) if isinstance(value, Mapping) else number(value, path)
+
+
 def _two(value: object, path: str, what: str) -> tuple[object, object]:
     if callable(value):
         refuse(path, "a Python function is not allowed; write the formulas as text")
-    if isinstance(value, str | bytes | Mapping) or not hasattr(value, "__iter__"):
+    entries = None if isinstance(value, str | bytes | Mapping) else _listed(value)
+    if entries is None:
         refuse(path, f"{value!r}; must be {what}")
-    entries = list(value)
     if len(entries) != 2:
         refuse(path, f"{len(entries)} values; must be {what}")
     return entries[0], entries[1]
 
 
+def flag(value: object, path: str) -> bool:
+    """True or False."""
+    if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
+        value = value.item()  # of NumPy
+    if isinstance(value, bool | int):
+        return bool(value)
+    return refuse(path, f"{value!r}; must be True or False")
+
+
+def plain(value: object, path: str) -> Any:
+    """A value as in a file: texts, numbers, lists and tables of them."""
+    if value is None or isinstance(value, bool):
+        return value
+    if isinstance(value, Mapping):
+        return {reference(key, path): plain(entry, f"{path}.{key}") for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(entry, f"{path}[{k}]") for k, entry in enumerate(value)]
+    return number(value, path)
+
+
+def listed(value: object, path: str) -> list[Any]:
+    """The entries of a sequence."""
+    found = _listed(value)
+    return refuse(path, f"{value!r}; must be a list") if found is None else found
+
+
+def _listed(value: object) -> list[object] | None:
+    """The entries of a sequence; None for what is not one."""
+    try:
+        return list(value)  # type: ignore[call-overload,no-any-return]
+    except TypeError:
+        return None
+
+
 def _items(value: object, path: str, form: str) -> list[tuple[object, object]]:
-    if not isinstance(value, Mapping):
-        refuse(path, f"{value!r}; must be a mapping such as {form}")
-    return list(value.items())
+    return list(mapping(value, path, form).items())
+
+
+def data(value: Any) -> Any:
+    """A copy as data of a file: mappings and lists."""
+    if isinstance(value, Mapping):
+        return {key: data(entry) for key, entry in value.items()}
+    return [data(entry) for entry in value] if isinstance(value, list | tuple) else value
 
 
 #: The check for each kind of field.

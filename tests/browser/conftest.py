@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import kempe as kp
 import pytest
@@ -20,6 +21,30 @@ FLAGS = [
     "--disable-component-update",
     "--disable-sync",
 ]
+#: Records where each canvas has texts since it was cleared, px from its corner.
+RECORDER = """
+  window.written = new Map();
+  const { fillText, clearRect, drawImage } = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+    written.set(this.canvas, []);
+    return clearRect.apply(this, box);
+  };
+  CanvasRenderingContext2D.prototype.fillText = function (text, x, y, ...more) {
+    const size = this.measureText(text);
+    const at = this.getTransform().transformPoint(new DOMPoint(x, y));
+    const scale = window.devicePixelRatio;
+    const [cx, cy] = [at.x / scale, at.y / scale];
+    const [left, right] = [cx - size.actualBoundingBoxLeft, cx + size.actualBoundingBoxRight];
+    const [top, bottom] = [cy - size.actualBoundingBoxAscent, cy + size.actualBoundingBoxDescent];
+    if (!written.has(this.canvas)) written.set(this.canvas, []);
+    written.get(this.canvas).push({ text, left, right, top, bottom });
+    return fillText.call(this, text, x, y, ...more);
+  };
+  CanvasRenderingContext2D.prototype.drawImage = function (image, ...more) {
+    written.get(this.canvas).push(...written.get(image));
+    return drawImage.call(this, image, ...more);
+  };
+"""
 sync_api = pytest.importorskip("playwright.sync_api", reason="the package playwright is missing")
 
 
@@ -52,10 +77,41 @@ class Watched:
         found: dict[str, object] = self.page.evaluate("kempe.state()")
         return found
 
+    def choose(self, quantity: str, subject: str | None = None, plot: int = 0) -> None:
+        """Plot a quantity of a subject, by their labels."""
+        card = self.page.locator(".plot").nth(plot)
+        card.locator(".quantity").select_option(label=quantity)
+        if subject is not None:
+            card.locator(".subject").select_option(label=subject)
+        self.settle()
+
+    def values(self, plot: int = 0) -> dict[str, str]:
+        """Names and texts of the legend of a plot."""
+        entries = self.page.locator(".plot").nth(plot).locator(".legend li").all()
+        return {
+            one.locator(".name").get_attribute("title"): one.locator(".value").inner_text()
+            for one in entries
+        }
+
+    def seek(self, t: float) -> None:
+        self.page.evaluate(f"kempe.seek({t!r})")
+        self.settle()
+
+    def texts(self, selector: str) -> list[dict[str, Any]]:
+        """Texts on a canvas with their places, px from its corner."""
+        found: list[dict[str, Any]] = self.page.evaluate(
+            "selector => written.get(document.querySelector(selector))", selector
+        )
+        return found
+
     def settle(self) -> None:
-        """Wait until what has changed is drawn."""
+        """Wait until what has changed is drawn, also where a change of size follows from it."""
         self.page.evaluate(
-            "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+            """new Promise(done => {
+              let frames = 4;
+              const next = () => (frames-- ? requestAnimationFrame(next) : done());
+              next();
+            })"""
         )
 
     def wait(self, condition: str, seconds: float = 10.0) -> None:
@@ -79,6 +135,7 @@ def opened(browser: "sync_api.Browser", tmp_path: Path) -> Iterator[Opener]:
     ) -> Watched:
         path = kp.player(solution, tmp_path / "animation.html")
         context = browser.new_context(viewport={"width": width, "height": height}, **more)
+        context.add_init_script(RECORDER)
         one = Watched(context.new_page())
         one.page.on("console", lambda message: one.messages.append(message.text))
         one.page.on("pageerror", lambda error: one.messages.append(str(error)))
@@ -92,4 +149,5 @@ def opened(browser: "sync_api.Browser", tmp_path: Path) -> Iterator[Opener]:
     for one in watched:
         one.page.context.close()
         assert one.messages == []
-        assert len(one.requests) == 1, one.requests  # the page itself
+        outside = [url for url in one.requests if not url.startswith("blob:")]  # files offered
+        assert len(outside) == 1, outside  # the page itself

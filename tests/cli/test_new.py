@@ -8,9 +8,9 @@ from pathlib import Path
 
 import kempe as kp
 import pytest
-from kempe import files
+from kempe import files, templates
 from kempe.cli import main
-from kempe.templates import NAMES, template
+from kempe.templates import FILES, NAMES, template
 
 ROOT = Path(__file__).parents[2]
 COMMANDS = ["run", "check", "show", "study", "new", "schema"]
@@ -21,7 +21,10 @@ def _in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize("name", NAMES)
+CASES = [name for name in NAMES if FILES[name].endswith(".toml")]
+
+
+@pytest.mark.parametrize("name", CASES)
 def test_a_new_case_runs(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", name]) == 0
     assert capsys.readouterr().out == f"{name}.toml written; next: kempe run {name}.toml\n"
@@ -33,10 +36,41 @@ def test_a_new_case_runs(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert max(solution.drift.position.max() for solution in results.values()) < 1e-5
 
 
-@pytest.mark.parametrize("name", ["four_bar", "slider_crank"])
-def test_a_new_case_equals_the_example(name: str) -> None:
-    example = ROOT / "examples" / f"{name}.toml"
-    assert template(name) == example.read_text(encoding="utf-8")
+def test_every_example_can_be_written_and_equals_the_one_in_the_sources() -> None:
+    examples = {path.name for path in (ROOT / "examples").iterdir() if path.is_file()}
+    assert set(FILES.values()) == examples
+    stored = {path.name for path in Path(templates.__file__).parent.iterdir() if path.is_file()}
+    assert stored - {"__init__.py"} == {
+        f"{name}.txt" if name.endswith(".py") else name for name in examples
+    }
+    for name, file in FILES.items():
+        assert main(["new", name]) == 0
+        written = Path(file).read_bytes()
+        assert written == (ROOT / "examples" / file).read_bytes(), f"copy {file} to templates"
+
+
+def test_a_new_program_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", "n_four_bar", "mine.py"]) == 0
+    assert capsys.readouterr().out == "mine.py written; next: python mine.py\n"
+    done = subprocess.run([sys.executable, "mine.py", "1"], capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_examples_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new"]) == 0
+    lines = capsys.readouterr().out.splitlines()[1:]
+    assert [line.split()[0] for line in lines] == list(NAMES)
+    for name, line in zip(NAMES, lines, strict=True):
+        title = " ".join(line.split()[1:])
+        assert title
+        assert title in template(name)
+    assert list(Path().iterdir()) == []
+
+
+def test_the_help_names_every_example(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", "--help"]) == 0
+    told = capsys.readouterr().out
+    assert [name for name in NAMES if name not in told] == []
 
 
 def test_the_target_may_be_given(capsys: pytest.CaptureFixture[str]) -> None:
@@ -84,10 +118,10 @@ def test_a_failed_write_leaves_the_old_file(
 @pytest.mark.parametrize(
     ("words", "code", "told"),
     [
-        (["nothing"], 2, "there is four_bar, slider_crank, pendulum"),
+        (["nothing"], 2, f"there is {', '.join(NAMES)}"),
         (["slidercrank"], 2, "did you mean 'slider_crank'?"),
         (["pendulum", "mine.txt"], 4, "must end in .toml"),
-        ([], 2, "Missing argument"),
+        (["n_four_bar", "mine.toml"], 4, "must end in .py"),
     ],
 )
 def test_invalid_targets_are_refused(

@@ -236,7 +236,7 @@ def texts(found: list[Item]) -> list[str]:
 
 def test_names_of_one_place_are_written_once() -> None:
     shown = texts(frame_items(kp.scene(slider_crank())))
-    assert sorted(shown) == ["1", "2", "3", "A", "B, guide", "O"]
+    assert sorted(shown) == ["1", "2", "3", "A", "B · guide", "O"]
     plate = texts(frame_items(kp.scene(pendulum())))
     assert sorted(plate) == ["1", "Q", "R", "S", "hinge"]
 

@@ -27,6 +27,7 @@ CASE = _core.Case((ROOT / "examples/four_bar.toml").read_text("utf-8"), "toml", 
 MODEL = CASE.model("{}")
 T, Q, V, Z, _ = _core.assemble(MODEL, '{"crank.angle": "70*deg"}', "{}", 0.0, None, None, None)
 TIMES, ROW, STATES, LAM = np.array([T]), Q[None, :], Z[None, :], np.zeros((1, 8))
+WORKS = np.zeros((1, 3))
 OPTIONS = '{"type": "dynamics", "t_end": 0.01}'
 RUN = _core.dynamics(MODEL, T, Q, V, Z, OPTIONS, None)
 
@@ -49,6 +50,8 @@ CALLS: dict[str, Callable[[], object]] = {
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
     "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW, STATES),
+    "project": lambda: _core.project(MODEL, 1e-12, TIMES, ROW, ROW, STATES),
+    "energies": lambda: _core.energies(MODEL, TIMES, ROW, ROW, STATES, WORKS),
     "residual": lambda: _core.residual(MODEL, TIMES, ROW, ROW),
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
     "force": lambda: _core.force(

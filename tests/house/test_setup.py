@@ -184,3 +184,34 @@ def test_a_failing_step_prints_its_output_and_leaves_no_stamp(bare: Path) -> Non
     assert f"making .venv failed; all of its output is in {bare}/.venv.log" in done.stderr
     assert not list(bare.glob(".venv*/stamp*"))
     assert not list(bare.glob(".venv.lock*"))
+
+
+@pytest.mark.parametrize("depth", [1, 3])
+def test_the_script_works_through_symbolic_links(bare: Path, depth: int) -> None:
+    tools = bare.parent / "bin"
+    (tools / "readlink").symlink_to(shutil.which("readlink") or pytest.fail("no readlink here"))
+    target = Path("..") / bare.name / "kempe"  # relative to the folder of the link
+    for k in range(depth):
+        folder = bare.parent / f"links {k}"
+        folder.mkdir()
+        link = folder / "kempe"
+        link.symlink_to(target)
+        target = link
+    done = run([link, "--version"], env={"PATH": str(tools)}, cwd="/")
+    assert done.returncode == SETUP_FAILED
+    assert "no C linker (cc) found" in done.stderr  # the first check of tools/setup.sh
+
+
+def test_the_cause_of_a_failed_download_is_reported(bare: Path) -> None:
+    folder = bare.parent / "bin"
+    program(folder, "cc", "")
+    program(folder, "cargo", "echo cargo 1.99.0")
+    download = f"'{sys.executable}' -m pip --isolated download --no-cache-dir --retries 1 numpy"
+    program(folder, "python3", f'case "$*" in *"-m venv"*) {download} ;; esac')
+    done = start(bare, HTTPS_PROXY="http://me:secret@127.0.0.1:9")
+    assert done.returncode == SETUP_FAILED
+    told = done.stderr.splitlines()[-1]
+    assert "failed, because a download failed" in told
+    assert "Cannot connect to proxy" in told
+    assert told.endswith("The variable HTTPS_PROXY names a proxy: correct or unset it")
+    assert "secret" not in told

@@ -22,6 +22,22 @@ def flagship_pages(flagship: kp.Solution) -> list[plot.Page]:
     return plot.pages(flagship)
 
 
+@pytest.fixture(scope="session")
+def six_bar() -> kp.Solution:
+    return kp.load(ROOT / "examples" / "six_bar.toml").run()[0]
+
+
+@pytest.fixture(scope="session")
+def crank() -> kp.Solution:
+    """The slider-crank."""
+    return kp.load(ROOT / "examples" / "slider_crank.toml").run()[0]
+
+
+@pytest.fixture(scope="session")
+def squeezer() -> kp.Solution:
+    return kp.load(ROOT / "examples" / "squeezer.toml").run()[0]
+
+
 def pendulum(length: float = 1.0, t_end: float = 2.0, output_step: float = 0.01) -> kp.Solution:
     m = kp.Model("pendulum", gravity=(0, -9.81))
     m.ground.points(O=(0, 0))

@@ -15,8 +15,12 @@ def painting(axes: Axes) -> Painting:
 
 def links(axes: Axes) -> list[tuple[dict[str, Any], np.ndarray]]:
     """The lines of bodies with their corners in pixels, (n, 2)."""
-    found = painting(axes)
-    dots = axes.figure.dpi / 72.0
+    return lines_of(painting(axes))
+
+
+def lines_of(found: Painting) -> list[tuple[dict[str, Any], np.ndarray]]:
+    """The lines of bodies in a painting with their corners in pixels, (n, 2)."""
+    dots = found.figure.dpi / 72.0
     return [
         (item, place(item, found.poses, found.view()) * dots)
         for item in found.items

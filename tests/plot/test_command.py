@@ -28,7 +28,7 @@ def kempe(*words: object, cwd: Path) -> subprocess.CompletedProcess[str]:
 @pytest.fixture(scope="module")
 def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("run")
-    done = kempe("run", CASE, "-q", "--index-base", "0", cwd=folder)
+    done = kempe("run", CASE, "-q", "--figures", "all", "--index-base", "0", cwd=folder)
     assert (done.returncode, done.stderr) == (0, "")
     return folder / "out" / "four_bar"
 
@@ -37,15 +37,43 @@ def test_run_writes_all_figures_and_lists_them(results: Path) -> None:
     listed = json.loads((results / "summary.json").read_text(encoding="utf-8"))["files"]
     figures = [f"figures/{stem}.{form}" for stem in FLAGSHIP for form in ("png", "svg")]
     assert listed[:3] == ["solution.npz", "solution.csv", "summary.json"]
+    assert listed[3:6] == ["animation.html", "first_frame.png", "last_frame.png"]
     assert [name for name in listed if name.startswith("figures/")] == figures
     there = {path.relative_to(results).as_posix() for path in results.rglob("*.*")}
     assert there == set(listed)
 
 
-def test_figures_can_be_left_out(tmp_path: Path) -> None:
-    done = kempe("run", CASE, "-q", "--no-figures", "-o", "r", cwd=tmp_path)
+@pytest.mark.parametrize("words", [["--no-figures"], ["--figures", "none"]], ids=str)
+def test_figures_can_be_left_out(tmp_path: Path, words: list[str]) -> None:
+    done = kempe("run", CASE, "-q", *words, "-o", "r", cwd=tmp_path)
     assert done.returncode == 0
-    assert not (tmp_path / "r" / "figures").exists()
+    written = sorted(path.name for path in (tmp_path / "r").iterdir())
+    assert written == ["solution.csv", "solution.npz", "summary.json"]
+
+
+#: All that a run draws by default.
+KEY = ["01_mechanism", "12_residual", "13_energy", "14_reactions", "15_motion"]
+
+
+def test_a_run_draws_the_key_figures_by_default(tmp_path: Path) -> None:
+    assert kempe("run", CASE, "-q", cwd=tmp_path).returncode == 0
+    folder = tmp_path / "out" / "four_bar"
+    figures = {f"figures/{stem}.{form}" for stem in KEY for form in ("png", "svg")}
+    files = {"solution.npz", "solution.csv", "summary.json", "animation.html"}
+    there = {path.relative_to(folder).as_posix() for path in folder.rglob("*.*")}
+    assert there == figures | files
+    listed = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["files"]
+    assert set(listed) == there
+
+
+@pytest.mark.parametrize("axis", ["linear", "compressed"])
+def test_the_time_axis_is_compressed_on_request(results: Path, tmp_path: Path, axis: str) -> None:
+    words = ["--figure", "energy", "--format", "svg", "--time-axis", axis, "-o", "p"]
+    assert kempe("plot", results / "solution.npz", *words, cwd=tmp_path).returncode == 0
+    plain = ["--figure", "energy", "--format", "svg", "-o", "plain"]
+    assert kempe("plot", results / "solution.npz", *plain, cwd=tmp_path).returncode == 0
+    drawn, usual = ((tmp_path / name / "13_energy.svg").read_bytes() for name in ("p", "plain"))
+    assert (drawn == usual) == (axis == "linear")
 
 
 def test_figures_of_a_stored_solution(results: Path, tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """The figures of the report: which there are, that they can be read, and that they stay so."""
 
 import math
+import time
 from pathlib import Path
 
 import kempe as kp
@@ -32,6 +33,7 @@ FLAGSHIP = [
     "12_residual",
     "13_energy",
     "14_reactions",
+    "15_motion",
 ]
 
 
@@ -48,6 +50,7 @@ def test_a_figure_of_the_flagship_can_be_read(flagship_pages: list[plot.Page], s
     assert min(text.get_fontsize() for text in figure.findobj(Text)) >= 8.0
     for axes in figure.axes:
         assert "/" in axes.get_ylabel()
+        assert axes.get_xscale() == "linear"
 
 
 @pytest.mark.parametrize("name", ["mechanism", "initial", "final"])
@@ -62,6 +65,16 @@ def test_names_lie_on_no_link(flagship_pages: list[plot.Page], name: str) -> Non
             assert clipped_lengths(box.min, box.max, np.array(ends)).sum() == 0.0, text
 
 
+def test_the_key_figures_are_few_and_take_little_time(
+    flagship_pages: list[plot.Page], tmp_path: Path
+) -> None:
+    key = [page for page in flagship_pages if page.key]
+    assert [page.name for page in key] == ["mechanism", "residual", "energy", "reactions", "motion"]
+    begin = time.process_time()
+    plot.save(key, tmp_path)
+    assert time.process_time() - begin < 3.0
+
+
 def test_overlaps_are_seen() -> None:
     from kempe.plot import style
 
@@ -73,21 +86,54 @@ def test_overlaps_are_seen() -> None:
     assert cut_off(figure) == ["leaves"]
 
 
+def test_the_page_of_motion_shows_every_coordinate_of_every_body(
+    flagship: kp.Solution, flagship_pages: list[plot.Page]
+) -> None:
+    figure = plot.select(flagship_pages, ["motion"])[0].figure()
+    for axes, name in zip(figure.axes, ("x", "y", "angle"), strict=True):
+        for line, body in zip(axes.lines, ("crank", "coupler", "rocker"), strict=True):
+            t, drawn = line.get_data()
+            np.testing.assert_array_equal(drawn, getattr(flagship(t).body(body), name))
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert labels == ["1 crank", "2 coupler", "3 rocker"]
+
+
+def test_the_page_of_motion_limits_the_number_of_bodies() -> None:
+    many = chain([f"link{k}" for k in range(26)])
+    figure = plot.select(plot.pages(many), ["motion"])[0].figure()
+    assert [len(axes.lines) for axes in figure.axes] == [24, 24, 24]
+    assert figure.axes[0].get_title("left") == "Motion of the first 24 of 26 bodies"
+    assert overlaps(figure) == []
+    assert cut_off(figure) == []
+    looks = {(line.get_color(), str(line._dash_pattern)) for line in figure.axes[0].lines}
+    assert len(looks) == 24
+
+
+def test_the_key_pages_are_few(flagship_pages: list[plot.Page]) -> None:
+    key = [page.name for page in flagship_pages if page.key]
+    assert key == ["mechanism", "residual", "energy", "reactions", "motion"]
+    many = plot.pages(chain([f"link{k}" for k in range(21)]))
+    assert [page.name for page in many if page.key] == key
+
+
 def test_the_coordinates_of_all_bodies_are_there(
     flagship: kp.Solution, flagship_pages: list[plot.Page]
 ) -> None:
     for name in ("x", "y", "angle"):
         figure = plot.select(flagship_pages, [name])[0].figure()
         for axes, body in zip(figure.axes, ("crank", "coupler", "rocker"), strict=True):
-            drawn = axes.lines[0].get_ydata()
-            np.testing.assert_array_equal(drawn, getattr(flagship.body(body), name))
+            t, drawn = axes.lines[0].get_data()
+            np.testing.assert_array_equal(drawn, getattr(flagship(t).body(body), name))
 
 
-def test_the_quiet_rest_is_compressed_and_nothing_is_left_out(
+def test_the_quiet_rest_is_compressed_on_request_and_nothing_is_left_out(
     flagship: kp.Solution, flagship_pages: list[plot.Page]
 ) -> None:
+    plain = plot.select(flagship_pages, ["x"])[0].figure().axes[-1]
+    assert plain.get_xlim() == (0.0, 15.0)
+    assert plain.get_xlabel() == "time t / s"
     assert plot.transient(flagship) == 2.5
-    axes = plot.select(flagship_pages, ["x"])[0].figure().axes[-1]
+    axes = plot.select(plot.pages(flagship, compressed=True), ["x"])[0].figure().axes[-1]
     assert axes.get_xlim() == (0.0, 15.0)
     assert "compressed after 2.5 s" in axes.get_xlabel()
     places = axes.get_xaxis_transform().transform([(t, 0.5) for t in (0.0, 2.5, 15.0)])[:, 0]
@@ -172,3 +218,16 @@ def test_pages_are_found_by_name_number_and_the_name_in_the_model() -> None:
     assert plot.select(found, []) == found
     with pytest.raises(kp.ModelError, match="did you mean 'residual'"):
         plot.select(found, ["residuals"])
+
+
+def test_pages_are_saved_in_a_folder_given_as_text(
+    flagship: kp.Solution, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = kp.plot.select(kp.plot.pages(flagship), ["energy"])[0]
+    monkeypatch.chdir(tmp_path)
+    assert kp.plot.save([page], "figures", "png") == [Path("figures") / f"{page.stem}.png"]
+    assert kp.plot.save(page, str(tmp_path / "one"), ["svg"])[0].exists()
+    with pytest.raises(kp.ModelError, match="unknown format 'jpg'"):
+        kp.plot.save([page], "figures", ["jpg"])
+    with pytest.raises(kp.ModelError, match="is not a page"):
+        kp.plot.save(["energy"], "figures")

@@ -1,9 +1,12 @@
 """Numbers on the axes are short."""
 
+import re
+
 import numpy as np
 import pytest
 from kempe.draw.labels import Taken, clipped_lengths, place_labels
-from kempe.draw.units import scale
+from kempe.draw.units import axis_label, scale
+from plot.conftest import ROOT
 
 
 @pytest.mark.parametrize(
@@ -54,3 +57,60 @@ def test_lengths_inside_a_box() -> None:
         ]
     )
     np.testing.assert_allclose(clipped_lengths(low, high, segments), [2.0, 0.5, 0.0, 0.5])
+
+
+@pytest.mark.parametrize("size", [(160.0, 26.0), (60.0, 26.0), (40.0, 15.0)])
+@pytest.mark.parametrize(
+    ("low", "high"),
+    [(0.0, 0.03), (0.0, 15.0), (-0.0024, 0.0071), (99.99, 100.01), (1e-5, 3e-5), (0.0, 36000.0)],
+)
+def test_numbers_of_ticks_never_touch(size: tuple[float, float], low: float, high: float) -> None:
+    from kempe.plot import style
+    from kempe.plot.ticks import set_ticks
+    from plot.overlaps import overlaps
+
+    with style.applied():
+        figure = style.figure(60.0, layout=None)
+        axes = style.axes_at(figure, (25.0, 15.0, *size[:1], size[1]), 60.0)
+        axes.set_xlim(low, high)
+        axes.set_ylim(low, high)
+        set_ticks(axes.xaxis)
+        set_ticks(axes.yaxis)
+    for axis in (axes.xaxis, axes.yaxis):
+        words = [text.get_text() for text in axis.get_ticklabels()]
+        assert len(set(words)) == len(words) >= 2
+        for word, place in zip(words, axis.get_ticklocs(), strict=True):
+            assert float(word.replace("−", "-")) == pytest.approx(place, abs=1e-9 * abs(high))
+    assert overlaps(figure) == []
+
+
+@pytest.mark.parametrize(
+    ("end", "unit"), [(0.03, "ms"), (2e-5, "µs"), (0.5, "s"), (15.0, "s"), (36000.0, "s")]
+)
+def test_times_are_in_a_unit_that_keeps_them_short(end: float, unit: str) -> None:
+    from kempe.plot.time_axis import TimeAxis
+
+    assert TimeAxis.of(np.array([0.0, end])).unit.unit == unit
+
+
+@pytest.mark.parametrize(
+    ("units", "label"),
+    [
+        (["m"], "r / m"),
+        (["m/s"], "r / (m/s)"),
+        (["10³ N"], "r / (10³ N)"),
+        (["m", "rad"], "r / (m, rad)"),
+        (["N·m"], "r / N·m"),
+    ],
+)
+def test_a_label_is_a_quantity_by_its_unit(units: list[str], label: str) -> None:
+    assert axis_label("r", units) == label
+
+
+def test_axes_of_benchmarks_and_validation_are_labelled_in_the_same_way() -> None:
+    sources = [ROOT / "benchmarks/figures.py", ROOT / "benchmarks/validation/figures.py"]
+    label = re.compile(r"(?:[xy]label=|set_[xy]label\()(?:f?\")([^\"]+)\"")
+    found = [text for path in sources for text in label.findall(path.read_text("utf-8"))]
+    assert len(found) >= 6
+    for text in found:
+        assert re.fullmatch(r"[^\[\],]+ / \S+", text), text

@@ -56,7 +56,7 @@ def test_a_case_built_in_python_equals_the_case_in_the_file(
         "set": {"crank.angle": "70*deg"},
         "guess": {"coupler.angle": "14*deg", "rocker.angle": "240*deg"},
     }
-    classical = {"method": kp.RK45(), "stabilization": kp.Baumgarte()}
+    classical = {"method": kp.RK45(rtol=1e-6, atol=1e-9), "stabilization": kp.Baumgarte()}
     release = kp.Dynamics(0.5, output_step=0.01, name="release", **classical)
     case = kp.Case(model, start, [release])
     case.save(tmp_path / "built.toml")

@@ -113,7 +113,10 @@ def test_several_analyses_have_separate_folders(four_bar_file: Path, tmp_path: P
         kp.load_solution(tmp_path / "out/four_bar" / name / "solution.npz")
         for name in ("release", "on")
     )
-    np.testing.assert_array_equal(first.q[-1], second.q[0])
+    # the first one, with Baumgarte's stabilization, leaves the joints open by its errors
+    assert "warning: on: the state does not meet the constraints at t = 0.5" in done.stderr
+    np.testing.assert_allclose(first.q[-1], second.q[0], atol=1e-6)
+    assert second.drift.position[0] < 1e-11
 
 
 def replaced(path: Path, old: str, new: str) -> Path:

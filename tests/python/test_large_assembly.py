@@ -147,7 +147,7 @@ def test_joints_that_come_apart_at_once_name_a_remedy_that_works() -> None:
     assert found is not None
     assert found[1] != found[2]
     assert float(found[1]) > float(found[2])
-    assert "reduce the greatest stiffness" in str(caught.value)
+    assert "check the size of the forces" in str(caught.value)
     assert kp.dynamics(*four_bar(1e6), t_end=0.1, **options).success  # type: ignore[arg-type]
 
 
@@ -166,8 +166,7 @@ def test_a_bob_without_inertia_on_a_light_cart_names_remedies_that_work() -> Non
     with pytest.raises(kp.SingularityError) as caught:
         kp.dynamics(*cart(1e-8, 0), t_end=1)
     message = str(caught.value)
-    assert "cart (mass 1.0e-8 kg), to which it is joined, hardly resists its rotation" in message
-    assert "set the inertia of bob, or increase the mass of cart" in message
+    assert "set its inertia, or increase the mass of the bodies that they join to it" in message
     assert "no joint" not in message
     assert kp.dynamics(*cart(1e-8, 1e-3), t_end=1).success
     assert kp.dynamics(*cart(1e-3, 0), t_end=1).success

@@ -60,6 +60,7 @@ def test_the_options_are_what_the_catalogue_says() -> None:
     assert _generate.options_source(_core.catalogue()) == written
 
 
+@pytest.mark.filterwarnings("ignore:other. the state does not meet:kempe.AssemblyWarning")
 def test_all_options_reach_the_core(model: kp.Model) -> None:
     every = kp.Dynamics(
         t_end="0.05 s",

@@ -93,9 +93,9 @@ def test_a_saved_solution_is_the_same(pendulum: kp.Solution, tmp_path: Path) -> 
 def test_a_point_mass_is_drawn(pendulum: kp.Solution) -> None:
     scene = kp.scene(pendulum, frames=5)
     assert np.array(scene["frames"]["poses"]).shape == (5, 2, 3)
-    drawn = {channel["name"] for channel in scene["channels"]}
-    assert "rod.angle" in drawn
-    assert "bob.angle" not in drawn
+    # The page offers the angles of all bodies that are not point masses.
+    assert [body["kind"] for body in scene["bodies"]] == ["ground", "point_mass", "bar"]
+    assert not [one["name"] for one in scene["channels"] if one["name"].startswith("bob.")]
     assert json.dumps(scene)
 
 

@@ -70,7 +70,7 @@ def test_what_differs_is_not_taken_for_the_same(model: Model, start: State) -> N
             assert numbers(sol) == numbers(fresh)
             assert (sol.dense is None) == (fresh.dense is None)
             assert sol.statistics["evaluations"] == fresh.statistics["evaluations"]
-            assert sol.model.case == fresh.model.case
+            assert sol.compiled.case == fresh.compiled.case
 
 
 def test_the_end_is_that_of_the_call(model: Model, start: State) -> None:
@@ -79,7 +79,7 @@ def test_the_end_is_that_of_the_call(model: Model, start: State) -> None:
         fresh = anew(model, start, t_end=t_end, output_step=0.01)
         kp.dynamics(model, start, t_end=0.1, output_step=0.01)
         assert numbers(sol) == numbers(fresh)
-        assert json.loads(sol.model.case) == json.loads(fresh.model.case)
+        assert json.loads(sol.compiled.case) == json.loads(fresh.compiled.case)
     for wrong in (float("nan"), float("inf"), True, None, "", "nothing", Decimal(1)):
         told = message(model, start, t_end=wrong, output_step=0.01)
         request_cache._kept.clear()
@@ -109,10 +109,10 @@ def test_numbers_that_are_equal_are_not_all_the_same(model: Model, start: State)
     for zero in (0.0, -0.0):
         way = {"method": kp.RK45(), "stabilization": kp.Baumgarte(zero, 10.0)}
         sol = kp.dynamics(model, start, **GRID, **way)
-        assert f'"alpha": {zero}' in sol.model.case
+        assert f'"alpha": {zero}' in sol.compiled.case
     kp.dynamics(model, start, max_steps=1000, **GRID)
     sol = kp.dynamics(model, start, max_steps=1000.0, **GRID)  # type: ignore[arg-type]
-    assert '"max_steps": 1000.0' in sol.model.case
+    assert '"max_steps": 1000.0' in sol.compiled.case
 
 
 def test_a_wrong_option_is_refused_each_time(model: Model, start: State) -> None:

@@ -68,7 +68,7 @@ def test_the_augmented_matrix_solves_for_accelerations_and_multipliers(start: kp
 
 def test_zeros_are_dots_and_rounding_is_shown_in_residuals_only(start: kp.State) -> None:
     model = start.model
-    upright = kp.assemble(model, set={"crank.angle": "90*deg"}, guess=start)
+    upright = kp.assemble(model, set={"crank.angle": "90*deg"}, from_state=start)
     jacobian = kp.show(model, upright, "Phi_q").text()
     assert "·" in jacobian
     assert "e-1" not in jacobian

@@ -34,7 +34,7 @@ def with_states(model: CompiledModel) -> CompiledModel:
 
 def run(start: kp.State) -> SimpleNamespace:
     """The attributes of a run with two steps; the interpolant of z is linear."""
-    n, m = start.model.n_q, start.model.n_rows
+    n, m = start.compiled.n_q, start.compiled.n_rows
     rows = np.zeros((3, n))
     y = np.hstack([rows, rows, Z, np.zeros((3, 3))])
     c = np.diff(y, axis=0)[:, :, None] / 0.5
@@ -49,6 +49,7 @@ def run(start: kp.State) -> SimpleNamespace:
         status="reached",
         message="t_end was reached",
         statistics='{"steps": 2}',
+        projection=None,
         responses=lambda: (np.zeros((3, n)), np.zeros((3, m))),
         energies=lambda: np.zeros((3, 5)),
     )
@@ -58,13 +59,13 @@ def run(start: kp.State) -> SimpleNamespace:
 def sol(start: kp.State, monkeypatch: pytest.MonkeyPatch) -> kp.Solution:
     """A solution with two states."""
     monkeypatch.setattr(Motion, "action", lambda self, *_: np.zeros((*self.t.shape, 3)))
-    return kp.Solution(with_states(start.model), run(start))  # type: ignore[arg-type]
+    return kp.Solution(with_states(start.compiled), run(start))  # type: ignore[arg-type]
 
 
 def test_states_have_names_and_units(sol: kp.Solution) -> None:
-    assert sol.model.n_z == 2
-    assert sol.model.state_names() == ["spring.current", "spring.pressure"]
-    assert sol.model.state_units() == ["A", "Pa"]
+    assert sol.compiled.n_z == 2
+    assert sol.compiled.state_names() == ["spring.current", "spring.pressure"]
+    assert sol.compiled.state_units() == ["A", "Pa"]
 
 
 def test_a_force_has_its_states_as_attributes(sol: kp.Solution) -> None:
@@ -89,9 +90,9 @@ def test_a_force_that_depends_on_a_reaction_is_given_the_multipliers(
         return np.zeros((1, 3))
 
     monkeypatch.setattr("kempe.motion._core.force", force)
-    seeing = CompiledModel(start.model.core, start.model.case)
+    seeing = CompiledModel(start.compiled.core, start.compiled.case)
     seeing._about["forces"][0]["reaction"] = "D"
-    for model in (start.model, seeing):
+    for model in (start.compiled, seeing):
         kp.State(model, 0.0, start.q, start.v).force("spring").torque(on="rocker")
     (_, without), (z, lam) = given
     assert without is None
@@ -125,7 +126,7 @@ def test_a_solution_of_one_instant_keeps_its_states(start: kp.State) -> None:
     whole = run(start)
     whole.t, whole.q, whole.v, whole.z = T[:1], whole.q[:1], whole.v[:1], Z[:1]
     whole.dense_t, whole.dense_y, whole.dense_c = T[:1], whole.dense_y[:0], whole.dense_c[:0]
-    instant = kp.Solution(with_states(start.model), whole)  # type: ignore[arg-type]
+    instant = kp.Solution(with_states(start.compiled), whole)  # type: ignore[arg-type]
     assert np.array_equal(instant(0.0).z, Z[0])
 
 
@@ -179,6 +180,6 @@ def test_a_file_with_too_few_states_is_refused(solution: kp.Solution, tmp_path: 
 
 
 def test_states_given_in_another_number_are_refused(model: kp.Model, start: kp.State) -> None:
-    wrong = kp.State(start.model, 0.0, start.q, start.v, z=np.ones(1))
+    wrong = kp.State(start.compiled, 0.0, start.q, start.v, z=np.ones(1))
     with pytest.raises(kp.ModelError, match="z: 1 numbers; must be 0"):
         kp.dynamics(model, wrong, t_end=0.1)

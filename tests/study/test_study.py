@@ -10,10 +10,13 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe.cli import main
+from kempe.draw.painter import Painting
+from kempe.draw.placing import place
 from kempe.plot import study_figures
 from kempe.plot.study_gaps import joint_gaps, magnification
 from kempe.studies import Outcome, Variant
 from kempe.studies.findings import growth
+from matplotlib.axes import Axes
 
 ROOT = Path(__file__).parents[2]
 FLAGSHIP = ROOT / "examples" / "four_bar.toml"
@@ -152,8 +155,70 @@ def test_gaps_are_those_of_the_residual_and_magnified_by_a_round_factor(found: k
     begin, along = joint_gaps(state)
     np.testing.assert_allclose(along.ravel(), state.residuals[0], atol=1e-12)
     assert begin.shape == (4, 2)
-    assert magnification(0.0085, 25.0) == 200.0
+    assert magnification(0.0085, 25.0) == 500.0
     assert magnification(0.0, 25.0) == 1.0
+
+
+def drawn(found: kp.Study, name: str) -> Axes:
+    from kempe.plot import style
+
+    with style.applied():
+        height = study_figures.HEIGHTS.get(name, style.HEIGHT)
+        axes = style.figure(height).add_subplot()
+        study_figures.FIGURES[name](found, axes)
+    return axes
+
+
+@pytest.mark.parametrize("name", ["residual", "error", "work_precision"])
+def test_curves_differ_in_colour_dashes_and_marker(found: kp.Study, name: str) -> None:
+    axes = drawn(found, name)
+    assert len(axes.lines) >= 8
+    for get in ("get_color", "get_marker", "_unscaled_dash_pattern"):
+        looks = [getattr(line, get) for line in axes.lines]
+        values = [str(look() if callable(look) else look) for look in looks]
+        assert len(set(values)) == len(values), get
+    texts = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert len(set(texts)) == len(texts) == len(axes.lines)
+    assert axes.get_title("left")
+
+
+def test_work_is_counted_in_evaluations(found: kp.Study) -> None:
+    axes = drawn(found, "work_precision")
+    assert axes.get_xlabel() == "largest position error / m"
+    assert axes.get_ylabel() == "evaluations of the accelerations / 1"
+    line = next(line for line in axes.lines if line.get_label() == "RK4, α = 1, β = 20")
+    group = [one(found, "step", 1, 20, h) for h in (1e-3, 2e-3, 5e-3, 1e-2, 2e-2)]
+    expected = sorted((o.position_error, o.evaluations) for o in group)
+    assert [tuple(point) for point in line.get_xydata()] == expected
+    assert expected[0][1] == pytest.approx(4 * 15.0 / 1e-3, rel=0.01)  # four for each step
+
+
+def test_residuals_are_drawn_as_the_largest_of_each_span(found: kp.Study) -> None:
+    axes = drawn(found, "residual")
+    line = next(line for line in axes.lines if line.get_label() == "α = 1, β = 20")
+    solution = one(found, "stabilization", 1, 20, 1e-6).solution
+    assert solution is not None
+    assert line.get_ydata().max() == solution.drift.position.max()
+    assert axes.get_xlim() == (0.0, 15.0)
+    assert axes.get_xlabel() == "time t / s"
+    assert axes.get_ylabel() == "max |Φ| / (m, rad)"
+
+
+def test_arrows_of_gaps_can_be_seen(found: kp.Study) -> None:
+    axes = drawn(found, "gaps")
+    painting = next(a for a in axes.get_children() if isinstance(a, Painting))
+    factor = float(axes.get_title("left").split("magnified ")[1].split()[0])
+    weak = one(found, "stabilization", 1, 20, 1e-3).solution
+    assert weak is not None
+    k = int(weak.drift.position.argmax())
+    _, along = joint_gaps(kp.State(weak.model, float(weak.t[k]), weak.q[k], weak.v[k]))
+    shafts = [i for i in painting.items if (i["kind"], i["colour"]) == ("line", "reaction")]
+    assert [item["of"] for item in shafts] == ["A", "B", "C", "D"]
+    for item, gap in zip(shafts, along, strict=True):
+        assert item["points"][1][0] == pytest.approx(factor * float(np.hypot(*gap)))
+        assert item["width"] >= 2.0
+        ends = place(item, painting.poses, painting.view())
+        assert np.hypot(*(ends[1] - ends[0])) > 10.0  # points of print
 
 
 def test_other_variants_and_a_case_without_output_step(four_bar_file: Path) -> None:

@@ -82,17 +82,7 @@ impl PyCase {
     /// Raises what is wrong with start and analyses, with places in the text.
     fn check(&self, py: Python<'_>, model: &PyModel) -> PyResult<()> {
         guard("Case.check", || {
-            let mut found = Vec::new();
-            let start = &self.case.start;
-            for (section, targets) in [("set", &start.set), ("guess", &start.guess)] {
-                let read = kempe::analyses::assemble::targets(&model.model, section, targets);
-                found.extend(read.err().unwrap_or_default());
-            }
-            for entry in &self.case.analyses {
-                let path = ["analyses".to_string(), entry.name.clone()];
-                let read = kempe::analyses::dynamics::read(&model.model, &entry.fields, &path);
-                found.extend(read.err().unwrap_or_default());
-            }
+            let found = self.case.faults(&model.model);
             if found.is_empty() {
                 return Ok(());
             }

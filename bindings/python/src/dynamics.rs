@@ -1,7 +1,7 @@
 //! Forward dynamics as Python sees it: without the interpreter's lock, interruptible, with progress.
 
 use crate::convert::{frozen, state, table, Row};
-use crate::errors::{Failure, Kind};
+use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
 use crate::options;
@@ -31,6 +31,9 @@ pub struct PyRun {
     works: Vec<f64>,
     model: Arc<Prepared<Arc<Model>>>,
     passing: bool,
+    /// Tolerance of the projection of its states.
+    #[pyo3(get)]
+    projection: Option<f64>,
     #[pyo3(get)]
     dense_t: Option<Py<PyArray1<f64>>>,
     #[pyo3(get)]
@@ -130,6 +133,7 @@ impl PyRun {
             works,
             model: Arc::clone(&model.prepared),
             passing: run.passing,
+            projection: run.projection.map(|projection| projection.tolerance),
             dense_t,
             dense_y,
             dense_c,
@@ -179,6 +183,9 @@ pub fn dynamics(
     guard("dynamics", || {
         let start = state(py, &model.model, t, [&q, &v, &z])?;
         let options = options::read(py, model, options, t_end)?;
+        if let Some(problem) = options.backward(t, &["t_end"]) {
+            return Err(raise_plain(py, Kind::Model, &[problem]));
+        }
         let mut watch = Watch::new(progress.as_ref());
         let outcome = py.detach(|| model.prepared.dynamics(&start, &options, |t| watch.look(t)));
         match (outcome, watch.raised) {

@@ -4,7 +4,7 @@ use crate::assemble::targets;
 use crate::convert::{refuse, rows, state, table, Row, Rows};
 use crate::guard::guard;
 use crate::model::PyModel;
-use crate::respond::{responses, Table};
+use crate::respond::{self, missing, responses, Table};
 use kempe::analyses::assemble::{holding, Request};
 use kempe::analyses::dynamics as core;
 use kempe::elements::BodyId;
@@ -14,6 +14,7 @@ use kempe::equations::kinematics::Motions;
 use kempe::equations::reactions::{self, Frame};
 use kempe::math::Wrench;
 use kempe::model::Model;
+use kempe::stabilize::Projection;
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -50,9 +51,9 @@ impl Rates {
     }
 }
 
-/// Accelerations and multipliers at states, with γ, not γ̂.
+/// Accelerations and multipliers at states, with γ, not γ̂; with `passing`, near singular positions too.
 #[pyfunction]
-#[pyo3(signature = (model, t, q, v, z))]
+#[pyo3(signature = (model, t, q, v, z, passing=false))]
 pub fn evaluate<'py>(
     py: Python<'py>,
     model: &PyModel,
@@ -60,11 +61,56 @@ pub fn evaluate<'py>(
     q: Rows<'py>,
     v: Rows<'py>,
     z: Rows<'py>,
+    passing: bool,
 ) -> PyResult<(Table<'py>, Table<'py>)> {
     guard("evaluate", || {
         let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
         let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
-        responses(py, &model.prepared, core::States { t, q, v, z }, false)
+        responses(py, &model.prepared, core::States { t, q, v, z }, passing)
+    })
+}
+
+/// States of an interpolant, projected as reported states are: q and v.
+#[pyfunction]
+#[pyo3(signature = (model, tolerance, t, q, v, z))]
+pub fn project<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    tolerance: f64,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+) -> PyResult<(Table<'py>, Table<'py>)> {
+    guard("project", || {
+        let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
+        let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
+        let (states, projection) = (core::States { t, q, v, z }, Projection { tolerance });
+        let found = py.detach(|| model.prepared.project(states, projection));
+        let [q, v] = found.map_err(|failure| missing(py, failure.reason))?;
+        let shape = (t.len(), model.model.layout.n_q);
+        Ok((table(py, q, shape)?, table(py, v, shape)?))
+    })
+}
+
+/// Energies at states, with the works up to them.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, z, works))]
+pub fn energies<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+    works: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("energies", || {
+        let layout = &model.model.layout;
+        let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
+        let z = &rows(py, "z", &z, (t.len(), layout.n_z))?;
+        let works = rows(py, "works", &works, (t.len(), layout.n_works))?;
+        respond::energies(py, &model.prepared, core::States { t, q, v, z }, &works)
     })
 }
 

@@ -81,6 +81,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(assemble::assemble, module)?)?;
     module.add_function(wrap_pyfunction!(dynamics::dynamics, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::project, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::energies, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::residual, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::reaction, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force, module)?)?;

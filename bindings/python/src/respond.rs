@@ -45,14 +45,14 @@ pub fn energies<'py>(
 /// The error of a run that stopped.
 pub fn because(py: Python<'_>, reason: core::Reason) -> PyErr {
     let hint = match reason {
-        core::Reason::Integration { hint, .. } => hint,
+        core::Reason::Integration { hint, .. } | core::Reason::Start { hint, .. } => hint,
         _ => "look at the solution so far; change the start, or add what decides the motion here",
     };
     failure(reason, hint).raise(py)
 }
 
 /// The error of a state that is there, of which something does not follow.
-fn missing(py: Python<'_>, reason: core::Reason) -> PyErr {
+pub fn missing(py: Python<'_>, reason: core::Reason) -> PyErr {
     let hint = match reason {
         core::Reason::Integration { .. } => "check forces and laws at this state",
         _ => "positions and velocities are there; look at times beside it, or change the mechanism",
@@ -64,6 +64,9 @@ fn failure(reason: core::Reason, hint: &'static str) -> Failure {
     let message = reason.to_string();
     match reason {
         core::Reason::Option { .. } => Failure::new(Kind::Model, message),
+        core::Reason::Start { t, name, .. } => {
+            Failure::new(Kind::Assembly, message).name(name).at(t).hint(hint)
+        }
         core::Reason::Singular { t, name, .. } => {
             Failure::new(Kind::Singularity, message).name(name).at(t).hint(hint)
         }

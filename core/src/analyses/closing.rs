@@ -174,11 +174,12 @@ impl Equations for Closing<'_> {
 
     /// Euclidean norm.
     fn residual_norm(&self, residual: &[f64]) -> f64 {
-        residual.iter().map(|r| r * r).sum::<f64>().sqrt()
+        // the sum of no numbers is -0
+        residual.iter().map(|r| r * r).sum::<f64>().abs().sqrt()
     }
 
     fn step_norm(&self, _: &[f64], step: &[f64]) -> f64 {
         let weighted = step.iter().zip(&self.weights).map(|(s, w)| s * s * w);
-        weighted.sum::<f64>().sqrt()
+        weighted.sum::<f64>().abs().sqrt()
     }
 }

@@ -9,9 +9,11 @@ mod mobility;
 mod option_tables;
 pub mod options;
 mod results;
+mod sequence;
 mod state;
 
 pub use mobility::{mobility, Mobility};
 pub use option_tables::{declarations, option_families};
 pub use results::NoResult;
+pub use sequence::check;
 pub use state::State;

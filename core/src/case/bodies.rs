@@ -4,6 +4,7 @@ use super::fields;
 use super::report::Report;
 use super::tree::Table;
 use crate::elements::Table as Declaration;
+use crate::expression::suggest::closest;
 use crate::model::body_tables;
 
 /// The declarations of bodies.
@@ -38,10 +39,15 @@ impl Bodies {
 
 /// A bar has a length or two points.
 fn bar(report: &mut Report, table: &Table) {
-    if table.get("length").is_none() && table.get("through").is_none() {
+    let needed = ["length", "through"];
+    let meant = |key: &str| needed.contains(&key) || closest(key, needed).is_some();
+    if !table.entries.iter().any(|(key, _)| meant(key)) {
         report.within("length", |report| {
-            let hint = "give length and ends, or where two points stand: \
-                        through = { A = [0, 0], B = [1, 2] }";
+            let through = report.example(
+                "through = { A = [0, 0], B = [1, 2] }",
+                "\"through\": { \"A\": [0, 0], \"B\": [1, 2] }",
+            );
+            let hint = format!("give length and ends, or the places of two points: {through}");
             report.add(report.here("missing; bar needs its length or two points").hint(hint));
         });
     }

@@ -5,10 +5,10 @@ use super::names::{self, Namespace};
 use super::report::Report;
 use super::tree::{Data, Node, Table};
 use super::values::{number, pair, word, wrong};
-use super::{fields, start, Case, FORMAT_VERSION};
+use super::{fields, start, Case, Format, FORMAT_VERSION};
 use crate::analyses;
 use crate::elements::{catalogue, Group, Table as Declaration};
-use crate::expression::suggest::did_you_mean;
+use crate::expression::suggest::{closest, did_you_mean};
 use crate::model::{Entry, Problem, Value};
 
 /// Words for the key `redundancy`.
@@ -30,13 +30,13 @@ const SECTIONS: [&str; 11] = [
 
 /// The case that a tree holds, which is complete if there are no problems of its structure. The problems come with the
 /// number of those that are not kept.
-pub(super) fn case(root: &Table) -> (Case, (Vec<Problem>, usize)) {
+pub(super) fn case(root: &Table, format: Format) -> (Case, (Vec<Problem>, usize)) {
     if let Some(problem) = newer(root) {
         return (Case::default(), (vec![problem], 0));
     }
-    let mut report = Report::default();
+    let mut report = Report::new(format);
     version(&mut report, root);
-    for problem in refused(root).0 {
+    for problem in refused(root, format).0 {
         report.add(problem);
     }
     let mut case = Case::default();
@@ -109,8 +109,10 @@ fn newer(root: &Table) -> Option<Problem> {
 }
 
 fn version(report: &mut Report, root: &Table) {
-    let hint = format!("write `kempe = {FORMAT_VERSION}` as the first line");
+    let first = [format!("kempe = {FORMAT_VERSION}"), format!("\"kempe\": {FORMAT_VERSION}")];
+    let hint = format!("write `{}` as the first line", report.example(&first[0], &first[1]));
     report.within("kempe", |report| match root.get("kempe").map(|node| (&node.data, node)) {
+        None if root.entries.iter().any(|(key, _)| closest(key, ["kempe"]).is_some()) => {}
         None => report
             .add(report.here("missing; a case begins with the version of its format").hint(hint)),
         Some((Data::Number(x), _)) if *x == f64::from(FORMAT_VERSION) => {}
@@ -123,8 +125,8 @@ fn version(report: &mut Report, root: &Table) {
 }
 
 /// All values that no case may hold.
-pub(super) fn refused(root: &Table) -> (Vec<Problem>, usize) {
-    let mut report = Report::default();
+pub(super) fn refused(root: &Table, format: Format) -> (Vec<Problem>, usize) {
+    let mut report = Report::new(format);
     refused_in(&mut report, root);
     report.finish()
 }
@@ -171,7 +173,11 @@ fn entries(
     let Data::Table(section) = &node.data else {
         let problem = report.here(format!("{}; must be a table of named tables", node.noun()));
         if !matches!(node.data, Data::Refused(_)) {
-            report.add(problem.hint(format!("write [{}.NAME] for each", report.key())));
+            let key = report.key();
+            let [toml, json] =
+                [format!("[{key}.NAME]"), format!("\"{key}\": {{ \"NAME\": {{ }} }}")];
+            let form = report.example(&toml, &json);
+            report.add(problem.hint(format!("write {form} for each")));
         }
         return Vec::new();
     };
@@ -210,7 +216,7 @@ fn analyses(report: &mut Report, node: &Node) -> Vec<Entry> {
     entries(report, node, |report, name, table| {
         match name {
             "start" => report.say_of_key("'start' is where a case starts and cannot be a name"),
-            _ => names::key(report, name),
+            _ => names::folder(report, name, &earlier),
         }
         fields::options(report, table, analyses::declarations(), "analysis");
         from(report, table, &earlier);

@@ -129,9 +129,9 @@ fn push_shown(out: &mut String, c: char) -> usize {
 
 /// Whether a character is invisible, or changes the direction of the text around it (Unicode controls of direction,
 /// and blanks without width).
-fn is_hidden(c: char) -> bool {
+pub(super) fn is_hidden(c: char) -> bool {
     c.is_control()
-        || matches!(c, '\u{200B}'..='\u{200F}' | '\u{2028}'..='\u{202E}' | '\u{2060}'..='\u{206F}' | '\u{FEFF}')
+        || matches!(c, '\u{061C}' | '\u{200B}'..='\u{200F}' | '\u{2028}'..='\u{202E}' | '\u{2060}'..='\u{206F}' | '\u{FEFF}')
 }
 
 /// A name or text for a message: on one line, not too long, with visible characters only.

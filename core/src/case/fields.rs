@@ -2,7 +2,7 @@
 
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
-use super::values::{count, number, pair, points, two_names, word, wrong};
+use super::values::{count, number, pair, points, tolerance, two_names, word, wrong};
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
 use crate::elements::{catalogue, Field, Shape, Table as Declaration};
@@ -19,11 +19,18 @@ pub(super) fn declared<'d>(
 ) -> Option<&'d Declaration> {
     let names: Vec<&str> = known.iter().map(|d| d.name).collect();
     let Some(node) = table.get("type") else {
+        let mut keys = table.entries.iter().map(|(key, _)| key.as_str());
+        if let Some(key) = keys.find(|key| closest(key, ["type"]).is_some()) {
+            let message = format!("unknown field '{}' of {noun}", super::shown(key));
+            report.within(key, |report| report.unknown_key(message, key, &["type"]));
+            return None;
+        }
         if absent.is_none() {
             let problem = report.within("type", |report| report.here("missing"));
             let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
             let quoted: Vec<&str> = quoted.iter().map(String::as_str).collect();
-            report.add(problem.hint(among("write type =", &quoted)));
+            let key = report.example("write type =", "write \"type\":");
+            report.add(problem.hint(among(&key, &quoted)));
         }
         return absent;
     };
@@ -34,7 +41,7 @@ pub(super) fn declared<'d>(
         };
         let found = known.iter().copied().find(|d| d.name == name);
         if found.is_none() {
-            let hint = belongs(name)
+            let hint = belongs(report, name)
                 .or_else(|| did_you_mean(name, &names))
                 .unwrap_or_else(|| among("it may be", &names));
             let message = format!("unknown type of {noun} '{}'", super::shown(name));
@@ -45,12 +52,13 @@ pub(super) fn declared<'d>(
 }
 
 /// The right section for a type in the wrong section.
-fn belongs(name: &str) -> Option<String> {
+fn belongs(report: &Report, name: &str) -> Option<String> {
     let elements = catalogue().into_iter().map(|(group, table)| (group.section(), table.name));
     let bodies = body_tables().into_iter().map(|table| ("bodies", table.name));
     let analyses = declarations().iter().map(|declared| ("analyses", declared.table.name));
     let (section, _) = elements.chain(bodies).chain(analyses).find(|(_, known)| *known == name)?;
-    (name != "ground").then(|| format!("'{name}' belongs in [{section}]"))
+    let place = report.example(&format!("[{section}]"), &format!("\"{section}\""));
+    (name != "ground").then(|| format!("'{name}' belongs in {place}"))
 }
 
 /// Checks that the fields of the present table are known, of the right shape and complete.
@@ -90,6 +98,7 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Points, _) => points(report, node),
         (Shape::Names, _) => two_names(report, node),
         (Shape::Count, _) => count(report, node),
+        (Shape::Tolerance, _) => tolerance(report, node),
         (Shape::Word(words), _) => word(report, node, words),
         (Shape::Options(family), _) => chosen(report, node, family),
         (Shape::Flag, Data::Flag(_)) => {}
@@ -109,7 +118,9 @@ fn chosen(report: &mut Report, node: &Node, family: &str) {
         Data::Table(table) => options(report, table, &family.options, family.name),
         _ => {
             let example = family.options[0].table.name;
-            wrong(report, node, &format!("a table such as {{ type = \"{example}\" }}"));
+            let toml = format!("{{ type = \"{example}\" }}");
+            let form = report.example(&toml, &format!("{{ \"type\": \"{example}\" }}"));
+            wrong(report, node, &format!("a table such as {form}"));
         }
     }
 }

@@ -12,6 +12,7 @@
 //! | `report` | problems by path |
 //! | `names`, `values`, `fields`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
 //! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
+//! | `faults` | faults of start and analyses that only the model shows |
 //! | `schema` | the JSON Schema |
 
 mod bodies;
@@ -22,6 +23,7 @@ mod contents;
 mod diagnostic;
 mod document;
 mod fault;
+mod faults;
 mod fields;
 mod json;
 mod names;
@@ -57,7 +59,7 @@ use crate::model::Value;
 /// without a place gives their number.
 pub fn read(text: &str, format: Format) -> Result<(Case, Document), Vec<Diagnostic>> {
     let (document, mut found) = Document::parse(text, format)?;
-    let (case, (problems, dropped)) = check::case(document.root());
+    let (case, (problems, dropped)) = check::case(document.root(), format);
     found.extend(problems.iter().map(|problem| document.diagnose(problem)));
     if found.is_empty() {
         return Ok((case, document));
@@ -71,7 +73,7 @@ pub fn read(text: &str, format: Format) -> Result<(Case, Document), Vec<Diagnost
 /// Errors: faults of syntax; values that no case may hold, such as dates and numbers not finite.
 pub fn parse_tree(text: &str, format: Format) -> Result<Value, Vec<Diagnostic>> {
     let (document, mut found) = Document::parse(text, format)?;
-    let (refused, dropped) = check::refused(document.root());
+    let (refused, dropped) = check::refused(document.root(), format);
     found.extend(refused.iter().map(|problem| document.diagnose(problem)));
     if found.is_empty() {
         Ok(document.value())

@@ -2,12 +2,17 @@
 
 use std::collections::HashMap;
 
+use super::diagnostic::is_hidden;
 use super::report::Report;
 
 /// Words that mean something else in formulas and references.
-const RESERVED: [&str; 4] = ["t", "pi", "deg", "ground"];
+pub(super) const RESERVED: [&str; 4] = ["t", "pi", "deg", "ground"];
 /// Most characters of a name.
-const MOST_CHARACTERS: usize = 200;
+pub(super) const MOST_CHARACTERS: usize = 200;
+/// Characters that names must not contain, as in a set of a regular expression: controls, controls of direction,
+/// and blanks without width. Some scripts need the two joiners U+200C and U+200D.
+pub(super) const HIDDEN: &str =
+    r"\u0000-\u001F\u007F-\u009F\u061C\u200B\u200E\u200F\u2028-\u202E\u2060-\u206F\uFEFF";
 
 /// Why a text cannot be a name.
 fn fault(name: &str) -> Option<String> {
@@ -19,6 +24,12 @@ fn fault(name: &str) -> Option<String> {
     }
     if name.chars().any(char::is_control) {
         return Some("a name must not contain control characters or line breaks".to_string());
+    }
+    // some scripts need the two joiners
+    let hidden = |c: &char| is_hidden(*c) && !matches!(c, '\u{200C}' | '\u{200D}');
+    if let Some(hidden) = name.chars().find(hidden) {
+        let code = hidden as u32;
+        return Some(format!("a name must not contain U+{code:04X}, which hides or reorders text"));
     }
     let length = name.chars().count();
     (length > MOST_CHARACTERS)
@@ -37,6 +48,35 @@ pub(super) fn value(report: &mut Report, name: &str) {
     if let Some(message) = fault(name) {
         report.say(message);
     }
+}
+
+/// Characters that separate folders or that some file systems do not allow.
+const NOT_IN_FOLDERS: [char; 9] = ['/', '\\', ':', '*', '?', '"', '<', '>', '|'];
+
+/// Checks the present key as the name of an analysis, whose results go to a folder of this name.
+pub(super) fn folder(report: &mut Report, name: &str, earlier: &[String]) {
+    key(report, name);
+    let hint = "its results go to a folder of this name";
+    let mut wrong = |message: String| report.add(report.here(message).at_key().hint(hint));
+    if let Some(found) = name.chars().find(|c| NOT_IN_FOLDERS.contains(c)) {
+        wrong(format!("the name of an analysis must not contain '{found}'"));
+    } else if name.trim() != name {
+        wrong("the name of an analysis must not begin or end with a blank".to_string());
+    } else if name.len() > MOST_CHARACTERS {
+        wrong(format!(
+            "the name of an analysis takes {} bytes; at most {MOST_CHARACTERS} are allowed",
+            name.len()
+        ));
+    } else if let Some(other) = earlier.iter().find(|other| alike(other, name)) {
+        wrong(format!(
+            "differs from '{}' only in upper and lower case, which some file systems do not distinguish",
+            super::shown(other)
+        ));
+    }
+}
+
+fn alike(one: &str, other: &str) -> bool {
+    one.to_lowercase() == other.to_lowercase()
 }
 
 /// Checks the present key as the name of a parameter or an element.
@@ -69,6 +109,28 @@ impl Namespace {
                 let hint = "bodies, joints, drivers and forces share one namespace";
                 report.add(report.here(message).at_key().hint(hint));
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a set of a regular expression, of escapes `\\u0000` and ranges of them, contains a character.
+    fn contains(set: &str, c: char) -> bool {
+        set.split("\\u").skip(1).collect::<Vec<_>>().windows(2).fold(false, |found, pair| {
+            let code = |text: &str| u32::from_str_radix(&text[..4], 16).unwrap();
+            let (first, next) = (code(pair[0]), code(pair[1]));
+            let last = if pair[0].ends_with('-') { next } else { first };
+            found || (first..=last).contains(&(c as u32))
+        }) || set.ends_with(&format!("\\u{:04X}", c as u32))
+    }
+
+    #[test]
+    fn the_set_of_hidden_characters_is_what_names_refuse() {
+        for c in (0..0x11_0000).filter_map(char::from_u32).filter(|c| *c != '.') {
+            assert_eq!(fault(&format!("a{c}")).is_some(), contains(HIDDEN, c), "{c:?}");
         }
     }
 }

@@ -1,11 +1,12 @@
 //! The problems found so far, and the path of the present value.
 
+use super::Format;
 use crate::expression::suggest::did_you_mean;
 use crate::model::Problem;
 
 /// Collects problems during one walk through a tree.
-#[derive(Default)]
 pub(super) struct Report {
+    format: Format,
     path: Vec<String>,
     problems: Vec<Problem>,
     /// Number of problems that are not kept.
@@ -13,6 +14,17 @@ pub(super) struct Report {
 }
 
 impl Report {
+    /// Without problems, of a text in a format.
+    pub(super) fn new(format: Format) -> Self {
+        Self { format, path: Vec::new(), problems: Vec::new(), dropped: 0 }
+    }
+    /// An example in the format of the text.
+    pub(super) fn example(&self, toml: &str, json: &str) -> String {
+        match self.format {
+            Format::Toml => toml.to_string(),
+            Format::Json => json.to_string(),
+        }
+    }
     /// Goes to the value of a key of the present value.
     pub(super) fn within<T>(&mut self, key: &str, look: impl FnOnce(&mut Self) -> T) -> T {
         self.path.push(key.to_string());

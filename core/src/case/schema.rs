@@ -3,24 +3,21 @@
 use serde_json::{json, Map, Value};
 
 use super::check::REDUNDANCY;
+use super::names::{HIDDEN, MOST_CHARACTERS, RESERVED};
 use super::FORMAT_VERSION;
+use crate::analyses::options::Declaration;
 use crate::analyses::{declarations, option_families};
-use crate::elements::{catalogue, Default, Field, Group, Shape, Table};
+use crate::elements::{catalogue, Default, Field, Group, Shape, Table, TOLERANCES};
 use crate::model::body_tables;
 
 /// The JSON Schema (draft 2020-12) of a case, for editors: sections, types, fields, descriptions and
 /// units.
 pub fn schema() -> String {
-    let schema = json!({
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "kempe case",
-        "description": "A planar multibody model, its start and its analyses.",
-        "type": "object",
-        "properties": sections(),
-        "additionalProperties": false,
-        "required": ["kempe"],
-        "$defs": definitions(),
-    });
+    let mut schema = closed(sections(), json!({ "required": ["kempe"] }));
+    schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    schema["title"] = json!("kempe case");
+    schema["description"] = json!("A planar multibody model, its start and its analyses.");
+    schema["$defs"] = definitions();
     format!("{schema:#}\n")
 }
 
@@ -28,20 +25,19 @@ fn reference(name: &str) -> Value {
     json!({ "$ref": format!("#/$defs/{name}") })
 }
 
-/// An object with just these properties.
-fn object(properties: Value, required: &[&str]) -> Value {
-    let mut object =
-        json!({ "type": "object", "properties": properties, "additionalProperties": false });
-    if !required.is_empty() {
-        object["required"] = json!(required);
-    }
-    object
+/// Names, except some. `(?![\s\S])` is the end of the text in every dialect of regular expressions.
+fn names(except: &[&str]) -> Value {
+    let reserved = match except {
+        [] => String::new(),
+        _ => format!("(?!(?:{})(?![\\s\\S]))", except.join("|")),
+    };
+    let pattern = format!("^{reserved}(?=[^.]*[^.\\s])[^.{HIDDEN}]+(?![\\s\\S])");
+    json!({ "pattern": pattern, "maxLength": MOST_CHARACTERS })
 }
 
 /// An object of values of one kind by name.
-fn by_name(value: Value) -> Value {
-    let names = json!({ "pattern": "^[^.\\p{Cc}]+$", "maxLength": 200 });
-    json!({ "type": "object", "propertyNames": names, "additionalProperties": value })
+fn by_name(value: Value, except: &[&str]) -> Value {
+    json!({ "type": "object", "propertyNames": names(except), "additionalProperties": value })
 }
 
 fn described(mut schema: Value, words: &str) -> Value {
@@ -49,62 +45,128 @@ fn described(mut schema: Value, words: &str) -> Value {
     schema
 }
 
-fn sections() -> Value {
-    let start = object(json!({ "set": by_coordinate(), "guess": by_coordinate() }), &[]);
+fn sections() -> Map<String, Value> {
+    let start = json!({ "set": by_coordinate(), "guess": by_coordinate() });
     let (ground, typed): (Vec<_>, Vec<_>) =
         body_tables().into_iter().partition(|table| table.name == "ground");
-    let ground = declared(&ground[0], None);
-    let body = |table: &Table| declared(table, Some(table.name != "body"));
-    let body = json!({ "anyOf": typed.iter().map(body).collect::<Value>() });
-    let bodies = json!({
-        "type": "object", "properties": { "ground": ground }, "additionalProperties": body
-    });
+    let mut bodies = by_name(one_of(&typed, Some("body")), &RESERVED[..3]);
+    bodies["properties"] =
+        json!({ "ground": described(fields(&ground[0], false), &ground[0].doc) });
     let mut sections = json!({
         "kempe": { "const": FORMAT_VERSION, "description": "Version of the format." },
         "title": { "type": "string" },
         "gravity": described(reference("pair"), "Acceleration of free fall (m/s^2); none means zero."),
         "redundancy": { "enum": REDUNDANCY },
-        "parameters": by_name(reference("number")),
+        "parameters": by_name(reference("number"), &RESERVED),
         "bodies": bodies,
     });
     for group in [Group::Joints, Group::Drivers, Group::Forces] {
         let tables: Vec<Table> =
             catalogue().into_iter().filter(|(g, _)| *g == group).map(|(_, t)| t).collect();
-        sections[group.section()] = by_name(one_of(&tables));
+        sections[group.section()] = by_name(one_of(&tables, None), &RESERVED);
     }
-    sections["start"] = start;
-    sections["analyses"] = by_name(one_of(declarations().iter().map(|declared| &declared.table)));
-    sections
+    sections["start"] = closed(object(start), json!({}));
+    sections["analyses"] = by_name(options(declarations()), &["start"]);
+    object(sections)
+}
+
+fn object(value: Value) -> Map<String, Value> {
+    match value {
+        Value::Object(entries) => entries,
+        _ => Map::new(),
+    }
 }
 
 /// `body.coordinate`, or a table for each body.
 fn by_coordinate() -> Value {
-    let nested = json!({ "type": "object", "additionalProperties": reference("number") });
     json!({
         "type": "object",
-        "additionalProperties": { "anyOf": [reference("number"), nested] },
+        "patternProperties": { "[.]": reference("number") },
+        "additionalProperties": { "type": "object", "additionalProperties": reference("number") },
         "description": "Coordinates and rates x y angle vx vy omega of bodies, and states of elements.",
     })
 }
 
-fn one_of<'t>(tables: impl IntoIterator<Item = &'t Table>) -> Value {
-    let choice = |table| declared(table, Some(true));
-    json!({ "oneOf": tables.into_iter().map(choice).collect::<Value>() })
+/// An object whose `type` selects its fields; `absent` is the type of an object without one.
+///
+/// `if` and `then` for each type give one error for one fault, where `oneOf` would list all types. The properties
+/// outside are for editors that complete keys without `if`.
+fn one_of<'t>(tables: impl IntoIterator<Item = &'t Table>, absent: Option<&str>) -> Value {
+    let (mut properties, mut choices, mut kinds) = (Map::new(), Vec::new(), Vec::new());
+    for table in tables {
+        kinds.push(table.name);
+        for f in &table.fields {
+            let known =
+                properties.entry(f.name).or_insert_with(|| described(json!({}), &meaning(f)));
+            if known["description"] != json!(meaning(f)) {
+                *known = json!({});
+            }
+        }
+        let mut this = json!({ "properties": { "type": { "const": table.name } } });
+        if absent != Some(table.name) {
+            this["required"] = json!(["type"]);
+        }
+        choices.push(json!({ "if": this, "then": described(fields(table, true), &table.doc) }));
+    }
+    properties.insert("type".into(), json!({ "enum": kinds }));
+    let mut choice = json!({ "allOf": choices });
+    if absent.is_none() {
+        choice["required"] = json!(["type"]);
+    }
+    closed(properties, choice)
 }
 
-/// The schema of one declaration; with a `type`, which may be required.
-fn declared(table: &Table, kind: Option<bool>) -> Value {
-    let mut properties = Map::new();
-    let mut required = Vec::new();
-    if let Some(needed) = kind {
-        properties.insert("type".into(), json!({ "const": table.name }));
-        required.extend(needed.then_some("type"));
+/// An object with just these properties. What it must be besides counts only if all its keys are known: an unknown
+/// key may be a misspelt one, and is then the only error.
+fn closed(properties: Map<String, Value>, besides: Value) -> Value {
+    let keys: Vec<&String> = properties.keys().collect();
+    let known = json!({ "propertyNames": { "enum": keys } });
+    json!({
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": false,
+        "if": known,
+        "then": besides,
+    })
+}
+
+/// One of some sets of options.
+fn options(known: &[Declaration]) -> Value {
+    let mut found = one_of(known.iter().map(|declared| &declared.table), None);
+    for (choice, declared) in found["then"]["allOf"].as_array_mut().into_iter().flatten().zip(known)
+    {
+        let excluded = declared.excludes.iter().map(|(one, others)| {
+            let others = others.iter().map(|other| (other.to_string(), json!(false)));
+            (one.to_string(), json!({ "properties": others.collect::<Map<_, _>>() }))
+        });
+        let excluded: Map<_, _> = excluded.collect();
+        if !excluded.is_empty() {
+            choice["then"]["dependentSchemas"] = Value::Object(excluded);
+        }
     }
-    for f in &table.fields {
-        properties.insert(f.name.into(), property(f));
-        required.extend(f.default.is_none().then_some(f.name));
+    found
+}
+
+/// The fields of one declaration.
+fn fields(table: &Table, typed: bool) -> Value {
+    let properties = table.fields.iter().map(|f| (f.name.to_string(), property(f)));
+    let kind = typed.then(|| ("type".to_string(), json!({})));
+    let properties: Map<_, _> = kind.into_iter().chain(properties).collect();
+    let required = table.fields.iter().filter(|f| f.default.is_none()).map(|f| f.name);
+    let mut complete = json!({ "required": required.collect::<Vec<_>>() });
+    if table.name == "bar" {
+        complete["if"] = json!({ "not": { "required": ["through"] } });
+        complete["then"] = json!({ "required": ["length"] });
     }
-    described(object(Value::Object(properties), &required), &table.doc)
+    closed(properties, complete)
+}
+
+/// The description of a field, with its unit.
+fn meaning(f: &Field) -> String {
+    match f.unit.as_str() {
+        "" => f.doc.clone(),
+        unit => format!("{} ({unit})", f.doc),
+    }
 }
 
 fn property(f: &Field) -> Value {
@@ -117,10 +179,10 @@ fn property(f: &Field) -> Value {
         Shape::Points => reference("points"),
         Shape::Names => reference("names"),
         Shape::Count => reference("count"),
+        Shape::Tolerance => reference("tolerance"),
         Shape::Options(family) => reference(family),
     };
-    let unit = if f.unit.is_empty() { String::new() } else { format!(" ({})", f.unit) };
-    let mut schema = described(schema, &format!("{}{unit}", f.doc));
+    let mut schema = described(schema, &meaning(f));
     match f.default {
         Some(Default::Number(x)) => schema["default"] = json!(x),
         Some(Default::Pair(pair)) => schema["default"] = json!(pair),
@@ -135,16 +197,25 @@ fn property(f: &Field) -> Value {
 fn definitions() -> Value {
     let two_of =
         |item: Value| json!({ "type": "array", "items": item, "minItems": 2, "maxItems": 2 });
+    let two_different = |mut item: Value| {
+        item["type"] = json!("string");
+        let mut two = two_of(item);
+        two["uniqueItems"] = json!(true);
+        two
+    };
     let number = json!({ "type": ["number", "string"] });
     let mut definitions = json!({
         "number": described(number, "A number or a formula."),
         "pair": two_of(reference("number")),
-        "points": by_name(reference("pair")),
-        "names": two_of(json!({ "type": "string" })),
+        "points": by_name(reference("pair"), &[]),
+        "names": two_different(names(&[])),
         "count": { "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string" }] },
     });
+    let kinds = TOLERANCES.iter().map(|kind| (kind.to_string(), reference("number")));
+    let by_kind = closed(kinds.collect(), json!({}));
+    definitions["tolerance"] = json!({ "anyOf": [reference("number"), by_kind] });
     for family in option_families() {
-        definitions[family.name] = one_of(family.options.iter().map(|options| &options.table));
+        definitions[family.name] = options(&family.options);
     }
     definitions
 }

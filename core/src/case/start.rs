@@ -31,7 +31,8 @@ pub(super) fn read(report: &mut Report, node: &Node, root: &Table) -> Start {
 fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, Value)> {
     let mut found: Vec<(String, Value)> = Vec::new();
     let Data::Table(table) = &node.data else {
-        wrong(report, node, "a table such as { \"crank.angle\" = 0 }");
+        let form = report.example("{ \"crank.angle\" = 0 }", "{ \"crank.angle\": 0 }");
+        wrong(report, node, &format!("a table such as {form}"));
         return found;
     };
     let mut seen = std::collections::HashSet::new();
@@ -44,7 +45,7 @@ fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, V
     };
     for (key, node) in &table.entries {
         report.within(key, |report| match &node.data {
-            Data::Table(of_body) => {
+            Data::Table(of_body) if !key.contains('.') => {
                 for (name, node) in &of_body.entries {
                     report.within(name, |report| {
                         coordinate(report, root, (key, name));
@@ -53,7 +54,7 @@ fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, V
                 }
             }
             _ => {
-                match key.split_once('.') {
+                match key.rsplit_once('.') {
                     Some(of) => coordinate(report, root, of),
                     None => report.say_of_key(format!(
                         "'{}' is not a coordinate; must be \"body.coordinate\", such as \"crank.angle\"",

@@ -3,6 +3,7 @@
 use super::names;
 use super::report::{among, Report};
 use super::tree::{Data, Node};
+use crate::elements::TOLERANCES;
 use crate::expression::suggest::did_you_mean;
 
 /// Reports a value of the wrong shape.
@@ -37,7 +38,8 @@ pub(super) fn pair(report: &mut Report, node: &Node) {
 /// Named points.
 pub(super) fn points(report: &mut Report, node: &Node) {
     let Data::Table(table) = &node.data else {
-        return wrong(report, node, "a table of points { P = [x, y] }");
+        let form = report.example("{ P = [x, y] }", "{ \"P\": [x, y] }");
+        return wrong(report, node, &format!("a table of points {form}"));
     };
     for (name, point) in &table.entries {
         report.within(name, |report| {
@@ -75,6 +77,25 @@ pub(super) fn count(report: &mut Report, node: &Node) {
             report.say(format!("{x}; must be a whole number from 1"));
         }
         _ => number(report, node),
+    }
+}
+
+/// A number, or one for each of some kinds.
+pub(super) fn tolerance(report: &mut Report, node: &Node) {
+    let Data::Table(table) = &node.data else {
+        if !matches!(node.data, Data::Number(_) | Data::Text(_)) {
+            wrong(report, node, "a number, or a table such as { length = 1e-9, angle = 1e-9 }");
+        }
+        return;
+    };
+    for (key, value) in &table.entries {
+        report.within(key, |report| match TOLERANCES.contains(&key.as_str()) {
+            true => number(report, value),
+            false => {
+                let message = format!("unknown kind '{}' of tolerance", super::shown(key));
+                report.unknown_key(message, key, &TOLERANCES);
+            }
+        });
     }
 }
 

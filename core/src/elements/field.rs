@@ -25,11 +25,16 @@ pub enum Shape {
     Flag,
     /// A whole number from 1.
     Count,
+    /// A number, or a table of numbers for some of [`TOLERANCES`].
+    Tolerance,
     /// One of these words.
     Word(&'static [&'static str]),
     /// A table of the family of options of this name, chosen by its `type`.
     Options(&'static str),
 }
+
+/// The kinds of quantities with a tolerance of their own.
+pub const TOLERANCES: [&str; 3] = ["length", "angle", "z"];
 
 /// A default value of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,8 @@
 //! ```
 //!
 //! A text that is nothing but a number may carry a unit (`30 deg`, `-5 kN`, see [`mod@unit`]); an
-//! expression never does. Everything is in SI units and radians.
+//! expression never does. Everything is in SI units and radians. A parameter with a unit has a dimension,
+//! and [`Expression::infer`] gives that of a formula.
 //!
 //! A power with a constant exponent (`x^2`, `x^(3/2)`) is defined as in `f64`. Where the exponent
 //! is a parameter or varies, its derivatives exist for x > 0 only.
@@ -28,6 +29,7 @@
 
 mod compile;
 mod error;
+mod inference;
 mod lexer;
 mod limits;
 mod names;
@@ -43,6 +45,7 @@ mod tree;
 pub mod unit;
 
 pub use error::ExpressionError;
+pub use inference::Inferred;
 pub use limits::{MAX_DEPTH, MAX_LENGTH, MAX_OPERANDS};
 pub use names::{is_identifier, is_reserved, Names, Symbol};
 pub use operation::{Function, FUNCTIONS};

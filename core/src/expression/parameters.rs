@@ -1,6 +1,8 @@
 //! Parameters that refer to other parameters: the order in which they can be evaluated.
 
-use super::{is_identifier, is_reserved, Expression, ExpressionError, Names, Scope, Symbol, Tape};
+use super::{
+    is_identifier, is_reserved, Expression, ExpressionError, Inferred, Names, Scope, Symbol, Tape,
+};
 use crate::math::Real;
 use std::collections::HashMap;
 use std::fmt;
@@ -30,6 +32,7 @@ impl std::error::Error for ParameterError {}
 pub struct Parameters {
     tapes: Vec<Tape>,
     order: Vec<usize>,
+    inferred: Vec<Inferred>,
 }
 
 impl Parameters {
@@ -37,7 +40,8 @@ impl Parameters {
     ///
     /// # Errors
     /// A name that is reserved, not an identifier or used twice; an expression that does not
-    /// compile (the time and the state have no meaning here); definitions in a circle.
+    /// compile (the time and the state have no meaning here); definitions in a circle; a sum of different
+    /// dimensions.
     pub fn compile<N: AsRef<str>>(definitions: &[(N, Expression)]) -> Result<Self, ParameterError> {
         let names = index(definitions)?;
         let mut tapes = Vec::with_capacity(definitions.len());
@@ -46,7 +50,24 @@ impl Parameters {
             tapes.push(tape);
         }
         let order = order(&tapes).map_err(|circle| circular(definitions, &circle))?;
-        Ok(Self { tapes, order })
+        let mut inferred = vec![Inferred::Open; definitions.len()];
+        for &k in &order {
+            let of = |symbol| match symbol {
+                Symbol::Parameter(other) => inferred[other],
+                Symbol::Time | Symbol::Variable(_) => Inferred::Open,
+            };
+            let own = definitions[k].1.infer(&names, &of);
+            inferred[k] = match own.map_err(|error| at(definitions, k, error))? {
+                Inferred::Number => Inferred::Open, // a plain number is in the SI unit of its place
+                own => own,
+            };
+        }
+        Ok(Self { tapes, order, inferred })
+    }
+
+    /// The dimensions of the parameters, in the order of the definitions.
+    pub fn inferred(&self) -> &[Inferred] {
+        &self.inferred
     }
 
     /// Indices of the definitions: each after those that it refers to, otherwise as written.

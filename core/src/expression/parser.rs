@@ -1,6 +1,7 @@
 //! Tokens → syntax tree, by recursive descent over the grammar in [`super`].
 
 use super::lexer::{Lexer, Token, TokenKind};
+use super::names::constant;
 use super::operation::{Binary, Call, Function, Unary, FUNCTIONS};
 use super::suggest::did_you_mean;
 use super::tree::{Kind, Node};
@@ -278,8 +279,14 @@ impl Parser<'_> {
             let message = "a unit may follow only a number that stands alone";
             return ExpressionError::new(span, message).hint(hint);
         }
-        ExpressionError::new(span, format!("an operator is missing before '{written}'"))
-            .hint("write '*' to multiply".to_string())
+        let hint = match (self.number_before(span.start), &self.token.kind) {
+            (Some((_, number)), TokenKind::Name(name)) if constant(name).is_none() => {
+                let number = &self.text[number];
+                format!("'{written}' is not a unit; if it is a name, write {number}*{written}")
+            }
+            _ => "write '*' to multiply".to_string(),
+        };
+        ExpressionError::new(span, format!("an operator is missing before '{written}'")).hint(hint)
     }
 }
 

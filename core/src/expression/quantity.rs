@@ -3,7 +3,7 @@
 use super::lexer::{Lexer, TokenKind};
 use super::names::is_name_part;
 use super::tree::{Kind, Node};
-use super::unit::{atom, Unit};
+use super::unit::{atom, meant, Unit};
 use super::ExpressionError;
 
 /// Reads `["-" | "+"] number unit`; `None` if the text is something else.
@@ -68,17 +68,28 @@ fn continues(written: &str) -> bool {
 
 fn continued(text: &str, start: usize) -> ExpressionError {
     let word = first_word(&text[start..]);
+    let span = start..start + word.len();
+    if let Some(product) = spaced(&text[start..]) {
+        return ExpressionError::new(start..text.len(), "units are separated by spaces")
+            .hint(format!("write '{product}'"));
+    }
     let hint = match word {
         "deg" => "in an expression, write 30*deg",
         _ => "in an expression, write numbers in SI units",
     };
-    let span = start..start + word.len();
     ExpressionError::new(span, "a unit may follow only a number that stands alone")
         .hint(hint.to_string())
+}
+
+/// Units with spaces between them as a product: `kg m^2`.
+fn spaced(written: &str) -> Option<String> {
+    let product = written.split_whitespace().collect::<Vec<_>>().join("*");
+    Unit::parse(&product).is_ok().then_some(product)
 }
 
 /// Whether the word after the number is, or is nearly, a unit.
 fn is_meant_as_unit(written: &str, error: &ExpressionError) -> bool {
     let word = first_word(written);
-    atom(word).is_some() || (error.hint.is_some() && word == written)
+    let known = atom(word).is_some() || meant(word).is_some();
+    known || (error.hint.is_some() && word == written)
 }

@@ -124,6 +124,14 @@ impl Tape {
         })
     }
 
+    /// The indices of the state variables that the expression uses, each once.
+    pub fn variables(&self) -> impl Iterator<Item = usize> + '_ {
+        self.symbols.iter().filter_map(|symbol| match symbol {
+            Symbol::Variable(k) => Some(*k),
+            Symbol::Parameter(_) | Symbol::Time => None,
+        })
+    }
+
     /// Whether the value may change with the time.
     pub fn uses_time(&self) -> bool {
         self.symbols.contains(&Symbol::Time)

@@ -3,8 +3,8 @@
 use super::compile::compile;
 use super::limits::MAX_LENGTH;
 use super::unit::Dimension;
-use super::{parser, print, quantity, tree::Node};
-use super::{ExpressionError, Names, Tape};
+use super::{inference, parser, print, quantity, tree::Node};
+use super::{ExpressionError, Inferred, Names, Symbol, Tape};
 use std::fmt;
 
 /// An expression: its text, and the syntax tree read from it.
@@ -59,6 +59,21 @@ impl Expression {
     /// value is then in the SI unit of its place.
     pub fn dimension(&self) -> Option<Dimension> {
         self.dimension
+    }
+
+    /// The dimension of the value; `of` gives those of the symbols.
+    ///
+    /// # Errors
+    /// A sum of different dimensions; a function or an exponent of a value with a dimension.
+    pub fn infer<N: Names + ?Sized>(
+        &self,
+        names: &N,
+        of: &dyn Fn(Symbol) -> Inferred,
+    ) -> Result<Inferred, ExpressionError> {
+        match self.dimension {
+            Some(dimension) => Ok(Inferred::Of(dimension)),
+            None => inference::infer(&self.text, &self.nodes, names, of),
+        }
     }
 
     /// Looks up the names and prepares the expression for evaluation; constants are folded.

@@ -33,7 +33,7 @@ impl Dimension {
     }
 
     /// The dimension of `self` · `other`^`power`; `None` beyond the range of `i8`.
-    fn times(self, other: Self, power: i8) -> Option<Self> {
+    pub(super) fn times(self, other: Self, power: i8) -> Option<Self> {
         let exponent = |a: i8, b: i8| a.checked_add(b.checked_mul(power)?);
         Some(Self {
             m: exponent(self.m, other.m)?,
@@ -41,6 +41,28 @@ impl Dimension {
             s: exponent(self.s, other.s)?,
             a: exponent(self.a, other.a)?,
         })
+    }
+
+    /// The dimension of `self`^`power`; `None` where an exponent is not a small integer.
+    pub(super) fn raised(self, power: f64) -> Option<Self> {
+        let exponent = |n: i8| {
+            let raised = f64::from(n) * power;
+            (raised.fract() == 0.0 && raised.abs() <= f64::from(i8::MAX)).then_some(raised as i8)
+        };
+        Some(Self {
+            m: exponent(self.m)?,
+            kg: exponent(self.kg)?,
+            s: exponent(self.s)?,
+            a: exponent(self.a)?,
+        })
+    }
+
+    /// The usual unit of a derived dimension, such as `N`, if it has one.
+    pub(super) fn common_unit(self) -> Option<&'static str> {
+        let of = |name: &str| Unit::parse(name).is_ok_and(|unit| unit.dimension == self);
+        ["N", "N*m", "N/m", "N*m*s", "N*s/m", "W", "V", "Ohm", "H", "N*m/A"]
+            .into_iter()
+            .find(|name| of(name))
     }
 }
 
@@ -73,6 +95,38 @@ pub struct Unit {
     /// The measured quantity.
     pub dimension: Dimension,
 }
+
+/// Units as people spell them, in lower case and singular.
+const WORDS: &[(&[&str], &str)] = &[
+    (&["meter", "metre"], "m"),
+    (&["kilometer", "kilometre"], "km"),
+    (&["centimeter", "centimetre"], "cm"),
+    (&["millimeter", "millimetre"], "mm"),
+    (&["micrometer", "micrometre", "micron"], "um"),
+    (&["inch", "inche", "\""], "in"),
+    (&["foot", "feet"], "ft"),
+    (&["kilogram", "kilogramme", "kilo", "kilog"], "kg"),
+    (&["gram", "gramme", "gr"], "g"),
+    (&["milligram"], "mg"),
+    (&["pound", "lbm"], "lb"),
+    (&["second", "sec"], "s"),
+    (&["millisecond", "msec"], "ms"),
+    (&["microsecond"], "us"),
+    (&["minute"], "min"),
+    (&["hour", "hr"], "h"),
+    (&["radian"], "rad"),
+    (&["degree"], "deg"),
+    (&["revolution", "turn"], "rev"),
+    (&["newton"], "N"),
+    (&["kilonewton"], "kN"),
+    (&["joule"], "J"),
+    (&["watt"], "W"),
+    (&["kilowatt"], "kW"),
+    (&["ampere", "amp"], "A"),
+    (&["volt"], "V"),
+    (&["ohm"], "Ohm"),
+    (&["henry"], "H"),
+];
 
 const fn unit(numerator: f64, denominator: f64, m: i8, kg: i8, s: i8) -> Unit {
     Unit { numerator, denominator, dimension: Dimension::new(m, kg, s) }
@@ -222,6 +276,43 @@ pub(super) fn atom(name: &str) -> Option<Unit> {
     UNITS.iter().find(|(known, _)| *known == name).map(|(_, unit)| *unit)
 }
 
+/// The unit that a word means: spelt out, or a product without its marks, such as `kNm`.
+pub(super) fn meant(word: &str) -> Option<String> {
+    let lower = word.to_lowercase();
+    let singular = lower.strip_suffix('s').unwrap_or(&lower);
+    let spelt = WORDS.iter().find(|(words, _)| words.contains(&singular)).map(|(_, unit)| *unit);
+    // a plural such as `kgs` is not a product with the second; did_you_mean finds its unit
+    let plural = ["kg", "lb", "rad", "deg", "rev", "mm", "cm", "km", "ft", "min"];
+    if word.strip_suffix('s').is_some_and(|one| plural.contains(&one)) {
+        return None;
+    }
+    spelt.map(str::to_string).or_else(|| product(word, 3))
+}
+
+/// A word as a product of up to `most` units, the last with a digit as its exponent: `kgm2`.
+fn product(word: &str, most: usize) -> Option<String> {
+    if atom(word).is_some() {
+        return Some(word.to_string());
+    }
+    let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
+    match word[letters.len()..].parse::<i8>() {
+        Ok(power) if atom(letters).is_some() && power < 10 => {
+            return Some(format!("{letters}^{power}"))
+        }
+        _ if most == 1 => return None,
+        _ => {}
+    }
+    // in `Nms` the metre and the second are meant, not the millisecond
+    if let Some(first) = word.strip_suffix("ms").filter(|first| atom(first).is_some()) {
+        return Some(format!("{first}*m*s"));
+    }
+    (1..word.len()).rev().filter(|cut| word.is_char_boundary(*cut)).find_map(|cut| {
+        let (first, rest) = word.split_at(cut);
+        let first = atom(first).map(|_| first)?;
+        product(rest, most - 1).map(|rest| format!("{first}*{rest}"))
+    })
+}
+
 fn unknown(name: &str, span: Range<usize>) -> ExpressionError {
     if name.is_empty() {
         return ExpressionError::new(span, "a unit is missing here");
@@ -229,7 +320,9 @@ fn unknown(name: &str, span: Range<usize>) -> ExpressionError {
     let hint = match name {
         "t" => Some("t is the time; write the mass in kg".to_string()),
         "Hz" | "kHz" => Some("write rpm, rev/s or rad/s: Hz does not say which".to_string()),
-        _ => did_you_mean(name, UNITS.iter().map(|(known, _)| known)),
+        _ => meant(name)
+            .map(|unit| format!("write '{unit}'"))
+            .or_else(|| did_you_mean(name, UNITS.iter().map(|(known, _)| known))),
     };
     ExpressionError::new(span, format!("unknown unit '{}'", name.escape_debug())).hint(hint)
 }

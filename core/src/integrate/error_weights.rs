@@ -15,7 +15,7 @@ impl ErrorWeights {
     /// For so many components.
     pub fn new(control: &StepControl, controlled: usize) -> Self {
         let atol = match &control.atol {
-            Atol::Scalar(atol) => vec![*atol; controlled],
+            Atol::Scalar(atol) | Atol::Scaled(atol) => vec![*atol; controlled],
             Atol::Each(atol) => atol.clone(),
         };
         Self { rtol: control.rtol, weights: vec![1.0; atol.len()], atol }

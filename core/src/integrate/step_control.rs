@@ -4,13 +4,15 @@ use super::arguments::{check_problem, not_negative, positive, require};
 use super::failure::Cause;
 use super::fixed_step::{affordable, Grid};
 
-/// Absolute tolerance: one for all components, or one each (for the controlled ones at least).
+/// Absolute tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Atol {
     /// The same for every component.
     Scalar(f64),
     /// One for each controlled component.
     Each(Vec<f64>),
+    /// A part of the scale of each component. A caller with scales turns it into [`Each`](Self::Each); here each is 1.
+    Scaled(f64),
 }
 
 /// Tolerances and steps of a method.
@@ -33,7 +35,7 @@ pub struct StepControl {
     pub max_steps: Option<usize>,
 }
 
-/// Default tolerances (rtol, atol).
+/// Default tolerances (rtol, atol); atol is a part of the scale of each component.
 impl StepControl {
     /// Of RK45, DOP853 and Radau.
     pub const USUAL: (f64, f64) = (1e-6, 1e-9);
@@ -67,7 +69,7 @@ impl StepControl {
 
     /// With a pair of default tolerances.
     pub fn with((rtol, atol): (f64, f64)) -> Self {
-        Self::new(rtol, atol)
+        Self { atol: Atol::Scaled(atol), ..Self::new(rtol, atol) }
     }
 
     /// With a constant step.
@@ -109,10 +111,22 @@ impl StepControl {
         Self { first_step: None, ..self.clone() }.begin(span, state, controlled)
     }
 
+    /// The same checks without a system.
+    ///
+    /// # Errors
+    /// An impossible option or time; more steps than allowed.
+    pub fn check_times<E>(&self, t0: f64, t_end: f64) -> Result<(), Cause<E>> {
+        let controlled = match &self.atol {
+            Atol::Scalar(_) | Atol::Scaled(_) => 0,
+            Atol::Each(atol) => atol.len(),
+        };
+        self.begin((t0, t_end), (&[], 0), controlled).map(|_| ())
+    }
+
     fn check<E>(&self, controlled: usize, interval: f64) -> Result<(), Cause<E>> {
         not_negative("rtol", self.rtol)?;
         match &self.atol {
-            Atol::Scalar(atol) => not_negative("atol", *atol)?,
+            Atol::Scalar(atol) | Atol::Scaled(atol) => not_negative("atol", *atol)?,
             Atol::Each(atol) => {
                 let len = atol.len();
                 require(

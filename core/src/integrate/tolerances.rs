@@ -21,7 +21,7 @@ impl Tolerances {
         numbers.fill(f64::INFINITY);
         let counting = numbers.iter_mut().take(controlled);
         match atol {
-            Atol::Scalar(atol) => counting.for_each(|to| *to = *atol),
+            Atol::Scalar(atol) | Atol::Scaled(atol) => counting.for_each(|to| *to = *atol),
             Atol::Each(atol) => counting.zip(atol).for_each(|(to, atol)| *to = *atol),
         }
         Self { rtol, atol: blocks, controlled }

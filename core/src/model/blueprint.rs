@@ -4,12 +4,12 @@ use super::definition::{Entry, Value};
 use super::items::Body;
 use super::link::Linker;
 use super::problem::Problem;
-use super::scope::{self, Scope};
+use super::scope::{states, Scope};
 use super::variable::Variable;
 use crate::elements::{
     holding, BodyId, Constraint, CoordinateOf, Fixes, ForceElement, Group, OwnState,
 };
-use crate::expression::{Symbol, Tape};
+use crate::expression::{Inferred, Symbol, Tape};
 
 /// The linked content of a file: elements over [`Tape`].
 #[derive(Clone, Debug)]
@@ -18,6 +18,8 @@ pub struct Blueprint {
     pub title: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
+    /// Their dimensions, as far as they are written with units.
+    pub inferred: Vec<Inferred>,
     /// Whether redundant constraints are accepted.
     pub allow_redundancy: bool,
     /// Acceleration of free fall.
@@ -48,8 +50,8 @@ impl Blueprint {
         let known = if group == Group::Forces {
             ForceElement::read(kind, &mut linker).map(|e| {
                 let e = e.filter(|e| self.two_bodies(group, entry, &e.bodies(), problems));
-                let states = scope::states(entry);
-                self.forces.extend(e.map(|e| (entry.name.clone(), states, e)));
+                let own = states(entry);
+                self.forces.extend(e.map(|e| (entry.name.clone(), own, e)));
             })
         } else {
             Constraint::read(group, kind, &mut linker).map(|e| {

@@ -7,7 +7,7 @@ use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::items::Body;
 use super::problem::Problem;
-use super::scope::{Reach, Scope};
+use super::scope::{Reach, Scope, ANY_UNIT};
 use crate::expression::{Expression, Tape};
 use crate::math::Local;
 
@@ -112,7 +112,9 @@ impl Reader<'_> {
         let length = match (self.entry.get("length"), through.as_slice()) {
             (Some(value), _) => self.number("length", "m").map_or(stand_in, |_| term(value)),
             (None, [a, b, ..]) => distance(a, b),
-            (None, _) => {
+            (None, [_]) => stand_in, // `place` reports it
+            (None, []) if self.entry.get("through").is_some() => stand_in,
+            (None, []) => {
                 self.missing("a bar needs 'length' and 'ends', or 'through' with two points");
                 stand_in
             }
@@ -127,7 +129,7 @@ impl Reader<'_> {
             body.points.push((name.clone(), Local { x, y: Tape::from(0.0) }));
         }
         body.points.extend(self.points());
-        if !through.is_empty() {
+        if self.entry.get("through").is_some() {
             self.place(&mut body, &through);
         }
         body
@@ -139,20 +141,22 @@ impl Reader<'_> {
                 let names: Vec<String> = items.iter().filter_map(text).collect();
                 if names.len() != 2 || items.len() != 2 || names[0] == names[1] {
                     self.report("ends", "must name two different points, such as [\"A\", \"B\"]");
-                    return Vec::new();
+                    return unknown();
                 }
                 names
             }
             Some(_) => {
                 self.report("ends", "must be a list of two names, such as [\"A\", \"B\"]");
-                Vec::new()
+                unknown()
             }
             None if through.len() >= 2 => Vec::new(), // `place` names them
+            None if self.entry.get("through").is_some() => unknown(),
+            None if self.entry.get("length").is_none() => unknown(), // reported with the length
             None => {
                 self.missing(
                     "'ends' is missing: the names of the two ends, such as [\"A\", \"B\"]",
                 );
-                Vec::new()
+                unknown()
             }
         }
     }
@@ -162,6 +166,7 @@ impl Reader<'_> {
     fn place(&mut self, body: &mut Body<Tape>, through: &[Written]) {
         let [a, b, ..] = through else {
             self.report("through", "needs at least two points");
+            body.points.push((String::new(), Local { x: Tape::from(1.0), y: Tape::from(0.0) }));
             return;
         };
         let (mx, my) = (format!("({}+{})/2", a.x, b.x), format!("({}+{})/2", a.y, b.y));
@@ -204,11 +209,12 @@ impl Reader<'_> {
         };
         for (name, value) in items {
             let path: Vec<String> = self.path(key).into_iter().chain([name.clone()]).collect();
-            if let (Some(_), Value::List(xy)) =
-                (self.scope.pair(value, &path, "m", self.problems), value)
-            {
-                points.push(Written { name: name.clone(), x: term(&xy[0]), y: term(&xy[1]) });
-            }
+            let (x, y) = match (self.scope.pair(value, &path, "m", self.problems), value) {
+                (Some(_), Value::List(xy)) => (term(&xy[0]), term(&xy[1])),
+                // a stand-in, apart from the others
+                _ => (points.len().to_string(), "0".to_string()),
+            };
+            points.push(Written { name: name.clone(), x, y });
         }
         points
     }
@@ -230,7 +236,8 @@ impl Reader<'_> {
     fn compose(&mut self, text: &str) -> Tape {
         let path = self.path("type");
         let value = Value::Text(text.to_string());
-        let tape = self.scope.formula(&value, &path[..2], "", Reach::Parameters, self.problems);
+        let tape =
+            self.scope.formula(&value, &path[..2], ANY_UNIT, Reach::Parameters, self.problems);
         tape.unwrap_or_else(|| Tape::from(0.0))
     }
 
@@ -245,6 +252,11 @@ impl Reader<'_> {
     fn missing(&mut self, message: &str) {
         self.problems.push(Problem::at(&["bodies", &self.entry.name], message));
     }
+}
+
+/// Stand-ins for the ends of a bar: references to its points are not reported as well.
+fn unknown() -> Vec<String> {
+    vec![String::new(), String::new()]
 }
 
 fn text(value: &Value) -> Option<String> {

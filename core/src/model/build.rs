@@ -18,13 +18,14 @@ pub fn build(
     overrides: &[(String, Value)],
 ) -> Result<Model, Vec<Problem>> {
     let mut problems = Vec::new();
-    let values = parameters::values(definition, overrides, &mut problems);
-    let scope = Scope::new(definition);
+    let (values, inferred) = parameters::values(definition, overrides, &mut problems);
+    let scope = Scope::new(definition, inferred);
     let gravity = gravity(definition, &scope, &mut problems);
     let bodies = bodies::read(definition, &scope, &mut problems);
     let mut blueprint = Blueprint {
         title: definition.title.clone().unwrap_or_default(),
         parameters: scope.parameters.clone(),
+        inferred: scope.inferred.clone(),
         allow_redundancy: definition.redundancy.as_deref() == Some("allow"),
         gravity,
         bodies,

@@ -43,6 +43,11 @@ impl<S> Body<S> {
         }
     }
 
+    /// Whether its points are not all known, because a fault of them was reported.
+    pub fn lacks_points(&self) -> bool {
+        self.points.iter().any(|(name, _)| name.is_empty())
+    }
+
     /// A named point.
     pub fn point(&self, name: &str) -> Option<&Local<S>> {
         self.points.iter().find(|(n, _)| n == name).map(|(_, s)| s)

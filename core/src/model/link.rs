@@ -4,7 +4,7 @@ use super::definition::{Entry, Value};
 use super::items::Body;
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
-use super::scope::{Reach, Scope};
+use super::scope::{Reach, Scope, ANY_UNIT};
 use crate::elements::{
     BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Group, JointId, PointOn, Source,
 };
@@ -72,6 +72,17 @@ impl<'a> Linker<'a> {
         if let Some(k) = self.scope.body(name) {
             return Some(BodyId(k));
         }
+        let body = name.split_once('.').map_or("", |(body, _)| body);
+        if self.scope.body(body).is_some() {
+            let message = format!("'{name}' is not a body, but a point of {body}");
+            let written = self.text(field)?;
+            let word = written.rsplit_once('.').map_or("", |(_, word)| word);
+            let hint = match written == name {
+                true => format!("write '{body}'"),
+                false => format!("write '{body}.{word}', of its frame"),
+            };
+            return self.report(field, message, Some(hint));
+        }
         let hint = self.suggests().then(|| {
             let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).collect();
             did_you_mean(name, &names, "bodies")
@@ -91,11 +102,23 @@ impl<'a> Linker<'a> {
         }
     }
 
+    /// The unit of a field; one of several is that of the coordinate of the element.
+    fn unit<'f>(&self, field: &'f Field) -> &'f str {
+        let Some((first, other)) = field.unit.split_once('|') else { return &field.unit };
+        let coordinate = match self.entry.get("coordinate") {
+            Some(Value::Text(text)) => text.rsplit_once('.').map(|(_, word)| word),
+            _ => None,
+        };
+        let unit = coordinate.and_then(Coordinate::named).map_or(ANY_UNIT, Coordinate::unit);
+        [first, other].into_iter().find(|known| *known == unit).unwrap_or(ANY_UNIT)
+    }
+
     fn formula(&mut self, field: &Field, reach: Reach) -> Option<Tape> {
         match (self.entry.get(field.name), field.default) {
             (Some(value), _) => {
                 let path = self.path(field);
-                self.scope.formula(value, &path, &field.unit, reach, self.problems)
+                let unit = self.unit(field);
+                self.scope.formula(value, &path, unit, reach, self.problems)
             }
             (None, Some(Default::Number(x))) => Some(Tape::from(x)),
             (None, _) => self.missing(field),
@@ -127,6 +150,9 @@ impl Source for Linker<'_> {
         let owner = &self.bodies[body.0];
         if let Some(s) = owner.point(name) {
             return Some(PointOn { body, s: s.clone() });
+        }
+        if owner.lacks_points() {
+            return None; // its own fault is reported
         }
         let hint = self.suggests().then(|| {
             let names: Vec<&str> = owner.points.iter().map(|(n, _)| n.as_str()).collect();

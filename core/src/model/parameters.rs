@@ -3,16 +3,16 @@
 use super::definition::{Definition, Value};
 use super::problem::Problem;
 use crate::expression::parameters::Parameters;
-use crate::expression::Expression;
+use crate::expression::{Expression, Inferred};
 
-/// Evaluates all parameters in the order of their dependence.
+/// Evaluates all parameters in the order of their dependence, and infers their dimensions.
 ///
 /// `overrides` replace parameters by name. Faults are reported; a faulty parameter is NaN.
 pub fn values(
     definition: &Definition,
     overrides: &[(String, Value)],
     problems: &mut Vec<Problem>,
-) -> Vec<f64> {
+) -> (Vec<f64>, Vec<Inferred>) {
     let names: Vec<&str> = definition.parameters.iter().map(|(name, _)| name.as_str()).collect();
     for (name, _) in overrides {
         if !names.contains(&name.as_str()) {
@@ -31,7 +31,7 @@ pub fn values(
         }
     }
     if formulas.len() < names.len() {
-        return vec![f64::NAN; names.len()];
+        return faulty(names.len());
     }
     evaluate(&names, &formulas, problems)
 }
@@ -59,18 +59,22 @@ fn evaluate(
     names: &[&str],
     formulas: &[(&str, Expression)],
     problems: &mut Vec<Problem>,
-) -> Vec<f64> {
+) -> (Vec<f64>, Vec<Inferred>) {
     let compiled = match Parameters::compile(formulas) {
         Ok(compiled) => compiled,
         Err(fault) => {
             let at = Problem::at(&["parameters", fault.name.as_str()], fault.error.message);
             problems.push(at.within(fault.error.span).maybe_hint(fault.error.hint));
-            return vec![f64::NAN; names.len()];
+            return faulty(names.len());
         }
     };
     let values = compiled.evaluate(|_| None);
     for (name, x) in names.iter().zip(&values).filter(|(_, x)| !f64::is_finite(**x)) {
         problems.push(Problem::at(&["parameters", name], format!("becomes {x}; must be finite")));
     }
-    values
+    (values, compiled.inferred().to_vec())
+}
+
+fn faulty(count: usize) -> (Vec<f64>, Vec<Inferred>) {
+    (vec![f64::NAN; count], vec![Inferred::Open; count])
 }

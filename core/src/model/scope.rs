@@ -1,4 +1,4 @@
-//! The names of a model and the formulas in them.
+//! Formulas of a model: the names that they may use, and their units.
 
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
@@ -7,7 +7,7 @@ use super::problems::MOST_REPORTED;
 use super::variable::Variable;
 use crate::elements::{states_of, BodyId, Coordinate, OwnState};
 use crate::expression::unit::Unit;
-use crate::expression::{Expression, ExpressionError, Names, Symbol, Tape};
+use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Tape};
 use std::collections::HashMap;
 
 /// The names that formulas may use.
@@ -15,6 +15,8 @@ use std::collections::HashMap;
 pub struct Scope {
     /// Parameters, in order.
     pub parameters: Vec<String>,
+    /// Their dimensions.
+    pub inferred: Vec<Inferred>,
     /// Bodies, each with whether it has an angle; index 0 is ground.
     pub bodies: Vec<(String, bool)>,
     /// First-order states of elements, such as `motor.current`, in the order of z.
@@ -112,7 +114,7 @@ impl Visible<'_> {
 
 impl Scope {
     /// The names of a definition.
-    pub fn new(definition: &Definition) -> Self {
+    pub fn new(definition: &Definition, inferred: Vec<Inferred>) -> Self {
         let turns = |b: &Entry| b.get("type") != Some(&Value::Text(POINT_MASS.to_string()));
         let moving = definition.bodies.iter().filter(|b| b.name != "ground");
         let states = definition.forces.iter().flat_map(|entry| {
@@ -123,20 +125,25 @@ impl Scope {
             .chain(moving.map(|b| (b.name.clone(), turns(b))))
             .collect();
         let parameters = definition.parameters.iter().map(|(name, _)| name.clone()).collect();
-        let mut scope = Self::of(parameters, bodies, states.collect());
+        let mut scope = Self::of(parameters, inferred, bodies, states.collect());
         let constraints = definition.joints.iter().chain(&definition.drivers);
         scope.places.constraints = places(constraints.map(|entry| &entry.name));
         scope
     }
 
-    fn of(parameters: Vec<String>, bodies: Vec<(String, bool)>, states: Vec<String>) -> Self {
+    fn of(
+        parameters: Vec<String>,
+        inferred: Vec<Inferred>,
+        bodies: Vec<(String, bool)>,
+        states: Vec<String>,
+    ) -> Self {
         let places = Places {
             parameters: places(parameters.iter()),
             bodies: places(bodies.iter().map(|(name, _)| name)),
             states: places(states.iter()),
             constraints: HashMap::new(),
         };
-        Self { parameters, bodies, states, places }
+        Self { parameters, inferred, bodies, states, places }
     }
 
     /// The place at which a joint or driver is written, joints first.
@@ -150,8 +157,9 @@ impl Scope {
     }
 
     /// Only the parameters.
-    pub fn of_parameters(parameters: &[String]) -> Self {
-        Self::of(parameters.to_vec(), vec![("ground".to_string(), true)], Vec::new())
+    pub fn of_parameters(parameters: &[String], inferred: &[Inferred]) -> Self {
+        let bodies = vec![("ground".to_string(), true)];
+        Self::of(parameters.to_vec(), inferred.to_vec(), bodies, Vec::new())
     }
 
     /// A formula from a number or a text; reports a fault at `path`.
@@ -178,11 +186,13 @@ impl Scope {
         };
         let reported = problems.len() < MOST_REPORTED;
         let parsed = Expression::parse(text).and_then(|e| {
-            check_unit(&e, unit)?;
-            e.compile(&Visible(self, reach, reported)).map_err(|fault| ExpressionError {
+            let names = Visible(self, reach, reported);
+            let tape = e.compile(&names).map_err(|fault| ExpressionError {
                 hint: self.out_of_reach(&e, reach).or(fault.hint),
                 ..fault
-            })
+            })?;
+            check_unit(&e, e.infer(&names, &|symbol| self.dimension(symbol))?, unit)?;
+            Ok(tape)
         });
         parsed
             .map_err(|fault| {
@@ -190,6 +200,13 @@ impl Scope {
                 problems.push(at.maybe_hint(fault.hint));
             })
             .ok()
+    }
+
+    fn dimension(&self, symbol: Symbol) -> Inferred {
+        match symbol {
+            Symbol::Parameter(k) => self.inferred[k],
+            Symbol::Time | Symbol::Variable(_) => Inferred::Open,
+        }
     }
 
     fn out_of_reach(&self, e: &Expression, reach: Reach) -> Option<String> {
@@ -235,14 +252,29 @@ impl Scope {
     }
 }
 
-/// A unit written behind a number must be one of the field's.
-fn check_unit(e: &Expression, unit: &str) -> Result<(), ExpressionError> {
-    let Some(dimension) = e.dimension() else { return Ok(()) };
-    let fits = |u: &str| Unit::parse(u).is_ok_and(|u| u.dimension == dimension);
-    if unit.is_empty() || unit.split('|').any(fits) {
+/// The unit of a formula that is composed of checked formulas.
+pub(super) const ANY_UNIT: &str = "any";
+
+/// A formula whose dimension is known must have that of its place; without a unit, the place takes a number.
+fn check_unit(e: &Expression, inferred: Inferred, unit: &str) -> Result<(), ExpressionError> {
+    let Inferred::Of(dimension) = inferred else { return Ok(()) };
+    let place = if unit.is_empty() { "rad" } else { unit };
+    let wanted = Unit::parse(place).map(|unit| unit.dimension);
+    if unit == ANY_UNIT || wanted.as_ref() == Ok(&dimension) {
         return Ok(());
     }
-    let message =
-        format!("'{}' is not a quantity in {}", e.text().trim(), unit.replace('|', " or "));
-    Err(ExpressionError::new(0..e.text().len(), message))
+    let must = match wanted {
+        _ if unit.is_empty() => "a number".to_string(),
+        Ok(wanted) if place != wanted.to_string() && place != "rad" => {
+            format!("in {unit} ({wanted})")
+        }
+        _ => format!("in {unit}"),
+    };
+    let text = e.text().trim();
+    let message = format!("'{text}' is in {inferred}; must be {must}");
+    let hint = e.dimension().is_none().then(|| {
+        let example = if unit.is_empty() { "2" } else { &format!("\"2 {unit}\"") };
+        format!("use parameters of that dimension, such as {example}; a plain number in a product has none")
+    });
+    Err(ExpressionError::new(0..e.text().len(), message).hint(hint))
 }

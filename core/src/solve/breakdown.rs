@@ -9,6 +9,8 @@ pub enum Breakdown {
     Column(usize),
     /// No multipliers agree with the forces that depend on them; the first row of such multipliers.
     Reaction(usize),
+    /// This row depends on the others where a run with projection continues.
+    Passable(usize),
     /// This row depends on the others where the motion is almost at rest under load.
     AtRest(usize),
     /// Newton's iteration leaves this row open.

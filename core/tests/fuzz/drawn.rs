@@ -116,7 +116,7 @@ impl Drawn<'_> {
             Shape::Coordinate => {
                 text(&format!("{}.{}", self.body_name(), self.random.choice(&["x", "y", "angle"])))
             }
-            Shape::Number => match field.default {
+            Shape::Number | Shape::Tolerance => match field.default {
                 Some(Preset::Number(x)) if self.random.chance(0.2) => Value::Number(x),
                 _ => self.number(),
             },

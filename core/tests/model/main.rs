@@ -4,7 +4,9 @@
 mod mechanisms;
 
 mod building;
+mod dimensions;
 mod edges;
 mod refused;
+mod remedies;
 mod running;
 mod symbols;

@@ -153,7 +153,7 @@ fn values_of_springs_that_are_not_finite() {
 fn units_that_do_not_fit() {
     let found = faults(&TWO.replacen("length = \"L\"", "length = \"250 kg\"", 1));
     assert!(
-        found.contains("bodies.crank.length") && found.contains("not a quantity in m"),
+        found.contains("bodies.crank.length") && found.contains("'250 kg' is in kg; must be in m"),
         "{found}"
     );
 }

@@ -68,7 +68,9 @@ fn a_start_that_is_open() {
     start.q[0] += 0.5;
     let options = with(Options::classical(1.0), 10.0, 200.0);
     let failure = dynamics(&m, &start, &options, |_| Flow::Continue).expect_err("it is open");
-    assert!(failure.reason.to_string().contains("at t = 0.000000 s: constraint "));
+    let Reason::Start { t, name, message, .. } = &failure.reason else { panic!("{failure:?}") };
+    assert!(*t == 0.0 && (name == "A" || name == "B"), "{name}");
+    assert!(message.contains(&format!("joint {name} is open by 5.000e-1 m;")), "{message}");
     assert!(failure.run.trajectory.t.is_empty());
 }
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from kempe._version import __version__
 from kempe.cli.exit_codes import OK
+from kempe.cli.streams import code_of
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -16,6 +17,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: words after the program name; by default those of the process.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
+    return code_of(lambda: _run(words))
+
+
+def _run(words: list[str]) -> int:
     if words in (["--version"], ["-V"]):
         print(f"kempe {__version__}")
         return OK

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import sys
+import warnings
+from typing import Any
 
 import typer
 from rich.console import Console
@@ -15,6 +17,7 @@ from kempe.cli.animate import EXAMPLES as ANIMATE_EXAMPLES
 from kempe.cli.animate import animate as animate_command
 from kempe.cli.check import EXAMPLES as CHECK_EXAMPLES
 from kempe.cli.check import check as check_command
+from kempe.cli.failure import exit_code, print_error, print_json
 from kempe.cli.new import EXAMPLES as NEW_EXAMPLES
 from kempe.cli.new import new as new_command
 from kempe.cli.plot import EXAMPLES as PLOT_EXAMPLES
@@ -32,6 +35,7 @@ app = typer.Typer(
     name="kempe",
     help="Planar multibody mechanics: assembly, kinematics, dynamics and joint reactions.",
     no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
 )
 app.command("run", epilog=RUN_EXAMPLES)(run_command)
@@ -42,14 +46,6 @@ app.command("animate", epilog=ANIMATE_EXAMPLES)(animate_command)
 app.command("study", epilog=STUDY_EXAMPLES)(study_command)
 app.command("new", epilog=NEW_EXAMPLES)(new_command)
 app.command("schema", epilog=SCHEMA_EXAMPLES)(schema_command)
-
-#: The first match counts, so a class comes before its base class.
-_CODES: tuple[tuple[type[errors.KempeError], int], ...] = (
-    (errors.ModelError, exit_codes.BAD_INPUT),
-    (errors.FileError, exit_codes.FILE),
-    (errors.InternalError, exit_codes.INTERNAL),
-    (errors.KempeError, exit_codes.MECHANICS),
-)
 
 
 def _print_version(requested: bool) -> None:
@@ -67,32 +63,34 @@ def _options(
     """Options before the command."""
 
 
-def run(words: Sequence[str]) -> int:
-    """Run one command line; an error of kempe is printed on stderr without a traceback."""
+def run(words: list[str]) -> int:
+    """Run one command line and return its exit code; an error of kempe is printed on stderr."""
+    as_json = "--json" in words
     try:
-        app(args=list(words), prog_name="kempe")
+        with warnings.catch_warnings():
+            warnings.showwarning = _print_warning
+            code = app(args=words, prog_name="kempe", standalone_mode=not as_json)
     except SystemExit as end:
-        return end.code if isinstance(end.code, int) else exit_codes.OK
+        code = end.code
     except errors.KempeError as error:
-        _print_error(error)
+        print_error(error)
         return exit_code(error)
-    return exit_codes.OK
+    except Exception as error:
+        if not as_json or not hasattr(error, "format_message"):
+            raise
+        return _refuse_words(error)
+    return code if isinstance(code, int) else exit_codes.OK
 
 
-def exit_code(error: errors.KempeError) -> int:
-    """The exit code of an error.
-
-    A file that can be read but is invalid is bad input: its error has ``problems``.
-    """
-    if isinstance(error, errors.FileError) and error.problems:
-        return exit_codes.BAD_INPUT
-    return next(code for kind, code in _CODES if isinstance(error, kind))
-
-
-def _print_error(error: errors.KempeError) -> None:
+def _print_warning(message: Warning | str, *_: object, **__: object) -> None:
     console = Console(stderr=True, highlight=False, soft_wrap=True)
-    message = str(error)
-    console.print(Text.assemble(("error: ", "bold red"), message))
-    for problem in error.problems:
-        if problem.message not in message:  # messages of the core contain them, with lines
-            console.print(Text(f"  {problem}"))
+    console.print(Text.assemble(("warning: ", "bold yellow"), str(message)))
+
+
+def _refuse_words(error: Any) -> int:
+    """Report wrong arguments as JSON and as a message; the class of the error is not public."""
+    message = error.format_message()
+    tree = {"type": "UsageError", "message": message, "exit_code": exit_codes.BAD_INPUT}
+    print_json({"error": tree})
+    print(f"error: {message}", file=sys.stderr)
+    return exit_codes.BAD_INPUT

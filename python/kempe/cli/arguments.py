@@ -1,30 +1,183 @@
-"""Arguments that the commands share: the case file and the values of its parameters."""
+"""Arguments that the commands share: the case and the changes to it."""
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kempe.errors import ModelError
+from kempe.errors import FileError, ModelError
 
 if TYPE_CHECKING:
     from kempe.case import Case
     from kempe.state import State
 
-File = Annotated[Path, typer.Argument(metavar="FILE", help="Case file (TOML or JSON).")]
+#: In place of a file: standard input.
+STDIN = "-"
+
+
+class Method(str, Enum):
+    """The methods of integration; must agree with the classes in ``kempe.options``."""
+
+    auto = "auto"
+    rk45 = "rk45"
+    dop853 = "dop853"
+    rk4 = "rk4"
+    generalized_alpha = "generalized_alpha"
+    hht = "hht"
+    radau = "radau"
+
+
+File = Annotated[
+    Path,
+    typer.Argument(metavar="FILE", help="Case file (TOML or JSON); - reads standard input."),
+]
 Settings = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="NAME=VALUE", help="Set a parameter; can be repeated."),
+    typer.Option(
+        "--set",
+        metavar="NAME=VALUE",
+        help="Set a parameter (k=2e6) or a coordinate or rate at the start (crank.angle=80*deg); "
+        "can be repeated.",
+    ),
 ]
+EndTime = Annotated[
+    str | None, typer.Option("--t-end", metavar="SECONDS", help="End time of the last analysis, s.")
+]
+MethodName = Annotated[
+    Method | None, typer.Option("--method", help="Method of integration of all analyses.")
+]
+RelativeTolerance = Annotated[
+    float | None, typer.Option("--rtol", help="Relative tolerance of a step.")
+]
+AbsoluteTolerance = Annotated[
+    float | None, typer.Option("--atol", help="Absolute tolerance of a step.")
+]
+Step = Annotated[
+    float | None,
+    typer.Option(
+        "--step", metavar="SECONDS", help="Constant step, s, without control of the error."
+    ),
+]
+Units = Annotated[
+    str | None,
+    typer.Option(
+        "--units",
+        metavar="UNIT,…",
+        help="Units of tables, figures and CSV files, such as mm,deg,rpm; JSON and npz files are "
+        "in SI units and rad.",
+    ),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print only the result, as JSON.")]
 
 
-def read_case(file: Path, settings: list[str] | None) -> Case:
-    """The case from a file, with the parameters from the command line."""
-    from kempe.case import load
+@dataclass(frozen=True)
+class Changes:
+    """The changes of the command line to a case.
 
-    return load(file, parameters=dict(map(setting, settings or [])))
+    Attributes:
+        settings: the texts NAME=VALUE.
+        t_end: end of the last analysis, a number or a formula.
+        method: method of integration; None keeps that of each analysis.
+        rtol: relative tolerance; None keeps it.
+        atol: absolute tolerance; None keeps it.
+        step: constant step, s; None keeps it.
+    """
+
+    settings: list[str] | None = None
+    t_end: str | None = None
+    method: Method | None = None
+    rtol: float | None = None
+    atol: float | None = None
+    step: float | None = None
+
+    def __bool__(self) -> bool:
+        return any(vars(self).values())
+
+    def applied(self, case: Case) -> Case:
+        """The case with the changes of its analyses."""
+        for name, entry in case.analyses.items():
+            method = self._method(entry.get("method", {"type": Method.auto.value}))
+            if method is not None:
+                case = case.with_analysis(name, method=method)
+        if self.t_end is not None and case.analyses:
+            case = case.with_analysis([*case.analyses][-1], t_end=number_or_formula(self.t_end))
+        return case
+
+    def _method(self, old: dict[str, Any]) -> dict[str, Any] | None:
+        """The changed method of an analysis; None if it does not change.
+
+        Another method keeps the tolerances if it has any.
+        """
+        names = ("rtol", "atol", "step")
+        given = {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+        if self.method is None:
+            return {**old, **given} if given else None
+        if self.method.value == old["type"]:
+            return {**old, **given}
+        known = _fields(self.method)
+        kept = {key: old[key] for key in old if key in ("rtol", "atol") and key in known}
+        return {"type": self.method.value, **kept, **given}
+
+
+def _fields(method: Method) -> set[str]:
+    from kempe.option import Option
+
+    for kind in Option.__subclasses__():
+        if kind.kind == method.value:
+            return set(kind.shapes)
+    return set()
+
+
+@contextmanager
+def shown_in(names: str | None) -> Iterator[None]:
+    """Show numbers in display units in the block.
+
+    Args:
+        names: the argument of ``--units``; None for SI units.
+
+    Raises:
+        ModelError: a unit is unknown.
+    """
+    from kempe.display_units import units
+
+    with units("SI" if names is None else names):
+        yield
+
+
+def read_case(file: Path, changes: Changes) -> Case:
+    """The case from a file or from standard input, with the changes of the command line."""
+    from kempe.case import load, parsed
+
+    pairs = dict(map(setting, changes.settings or []))
+    start = {name: value for name, value in pairs.items() if "." in name}
+    parameters = {name: value for name, value in pairs.items() if "." not in name}
+    if str(file) == STDIN:
+        text = _standard_input()
+        form = "json" if text.lstrip().startswith("{") else "toml"
+        case = parsed(text, form, "standard input", parameters)
+    else:
+        case = load(file, parameters=parameters)
+    return changes.applied(case.with_start(start) if start else case)
+
+
+def _standard_input() -> str:
+    from kempe import files
+
+    if sys.stdin is None:
+        raise FileError("cannot read standard input: it is closed", hint="name a file")
+    return files.decoded(sys.stdin.buffer.read(files.LARGEST_TEXT + 1), "standard input")
+
+
+def stem(file: Path) -> str:
+    """The name of a case in the names of files."""
+    return "stdin" if str(file) == STDIN else file.stem
 
 
 def setting(text: str) -> tuple[str, float | str]:

@@ -2,26 +2,78 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
 from rich.text import Text
 
-from kempe.cli.arguments import File, Settings, assembled, read_case
+from kempe.cli.arguments import (
+    STDIN,
+    AbsoluteTolerance,
+    AsJson,
+    Changes,
+    EndTime,
+    File,
+    MethodName,
+    RelativeTolerance,
+    Settings,
+    Step,
+    Units,
+    assembled,
+    read_case,
+    shown_in,
+)
 from kempe.cli.console import answers
+from kempe.cli.failure import document
+
+if TYPE_CHECKING:
+    from kempe.case import Case
+    from kempe.state import State
 
 EXAMPLES = """Examples:
 
   kempe check four_bar.toml --set L2=27
+
+  kempe check four_bar.toml --json | jq .assembly.alternatives
 """
 
 
-def check(file: File, settings: Settings = None) -> None:
+def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
+    file: File,
+    settings: Settings = None,
+    t_end: EndTime = None,
+    method: MethodName = None,
+    rtol: RelativeTolerance = None,
+    atol: AbsoluteTolerance = None,
+    step: Step = None,
+    units: Units = None,
+    as_json: AsJson = False,
+) -> None:
     """Read a case, assemble its mechanism and show the configuration, without a simulation."""
     from kempe.cli.mechanism import show_configuration, show_mechanism
 
-    case = read_case(file, settings)
-    state = assembled(case)
-    console = answers()
-    show_mechanism(console, state)
-    show_configuration(console, state)
+    with document(as_json) as found, shown_in(units):
+        case = read_case(file, Changes(settings, t_end, method, rtol, atol, step))
+        state = assembled(case)
+        found.update(_content(case, state))
+        console = answers(silent=as_json)
+        show_mechanism(console, state)
+        show_configuration(console, state)
     analyses = ", ".join(f"{name} ({entry['type']})" for name, entry in case.analyses.items())
     console.print()
-    console.print(Text(f"{file}: OK; analyses: {analyses or 'none'}"))
+    name = "standard input" if str(file) == STDIN else file
+    console.print(Text(f"{name}: OK; analyses: {analyses or 'none'}"))
+
+
+def _content(case: Case, state: State) -> dict[str, Any]:
+    """The mechanism, its configuration and the report of its assembly; units: m, rad, kg, s."""
+    from kempe.report.summary import mechanism
+
+    return {
+        "title": state.model.title,
+        "mechanism": mechanism(state),
+        "t": float(state.t),
+        "start": state.coordinates(),
+        "assembly": None if state.report is None else asdict(state.report),
+        "analyses": [{"name": name, "type": e["type"]} for name, e in case.analyses.items()],
+    }

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from kempe.cli.animate import STEM, Form
-from kempe.cli.clock import drawing
+from kempe.cli.clock import drawing as progress_of
+from kempe.cli.figures import Drawing, Which
 
 if TYPE_CHECKING:
     from kempe.solution import Solution
@@ -14,8 +15,8 @@ if TYPE_CHECKING:
 FIRST, LAST = "first_frame.png", "last_frame.png"
 
 
-def write_drawings(solution: Solution, folder: Path, video: Form | None) -> list[Path]:
-    """The page that plays the motion, its first and last frame, and a video if requested.
+def write_drawings(solution: Solution, folder: Path, drawing: Drawing) -> list[Path]:
+    """The page that plays the motion, its first and last frame, and a video, as far as wanted.
 
     Raises:
         FileError: a file cannot be written, or there is no ffmpeg for an MP4.
@@ -23,15 +24,32 @@ def write_drawings(solution: Solution, folder: Path, video: Form | None) -> list
     from kempe.draw import animate, player, scene
     from kempe.draw.frame import Frame
 
-    frame = Frame(scene(solution))
-    written = [player(solution, folder / f"{STEM}.html"), folder / FIRST, folder / LAST]
-    frame.save(0, folder / FIRST)
-    frame.save(-1, folder / LAST)
-    if video is not None and video is not Form.html:
-        path = folder / f"{STEM}.{video.value}"
-        with drawing(path.name) as progress:
+    written = []
+    if drawing.which is not Which.none or drawing.video is Form.html:
+        written.append(player(solution, folder / f"{STEM}.html"))
+    if drawing.which is Which.all:
+        frame = Frame(scene(solution))
+        for k, name in ((0, FIRST), (-1, LAST)):
+            frame.save(k, folder / name)
+            written.append(folder / name)
+    if drawing.video not in (None, Form.html):
+        path = folder / f"{STEM}.{drawing.video.value}"
+        with progress_of(path.name) as progress:
             written.append(animate(solution, path, progress=progress))
     return written
+
+
+def write_figures(solution: Solution, folder: Path, drawing: Drawing) -> list[Path]:
+    """The wanted figures.
+
+    Raises:
+        FileError: a file cannot be written.
+    """
+    if drawing.which is Which.none:
+        return []
+    from kempe.plot import save
+
+    return save(drawing.pages(solution), folder / "figures")
 
 
 def refuse_impossible(video: Form | None) -> None:

@@ -11,3 +11,4 @@ BAD_INPUT = 2  # wrong arguments or an invalid model; the shell's convention for
 MECHANICS = 3  # the model is valid, but it cannot be assembled or simulated
 FILE = 4  # a file cannot be read or written
 INTERRUPTED = 130  # Ctrl-C; the shell's convention: 128 + SIGINT
+CLOSED_PIPE = 141  # the reader of the output has gone; the shell's convention: 128 + SIGPIPE

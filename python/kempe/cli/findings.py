@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from rich.console import Console
 from rich.text import Text
 
 from kempe.cli.console import figure, heading, table
+from kempe.display_units import display
+from kempe.display_units import heading as units_heading
 
 
 def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     """Print peaks, energy balance, settling times and cost of one analysis."""
     span = summary["time"]
-    span_text = f"{name}: {figure(span['start'])} to {figure(span['end'])} s"
+    seconds = display("s")
+    start, end = (figure(span[key] / seconds.divisor) for key in ("start", "end"))
+    span_text = f"{name}: {start} to {end} {seconds.symbol}"
     heading(console, f"{span_text}, {span['outputs']} outputs")
     console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
     _show_peaks(console, summary["peaks"])
@@ -43,36 +46,51 @@ def _show_peaks(console: Console, peaks: dict[str, Any]) -> None:
         heading(console, "Largest forces")
         header, cells = _columns(forces)
         rows = [(f["name"], f["on"], *row, _parts(f)) for f, row in zip(forces, cells, strict=True)]
-        table(console, ("force", "on", *header, "torque of parts / N m"), rows, left=2)
+        table(console, ("force", "on", *header, _header("torque of parts", "N*m")), rows, left=2)
 
 
 def _columns(peaks: list[dict[str, Any]]) -> tuple[list[str], list[list[str]]]:
     """Header and cells of forces and torques; a column of zeros is omitted."""
-    quantities = [("force", "force / N"), ("torque", "torque / N m")]
+    quantities = [("force", "N"), ("torque", "N*m")]
     shown = [pair for pair in quantities if any(peak[pair[0]] for peak in peaks)]
-    header = [word for _, title in shown for word in (title, "at / s")]
-    cells = [
-        [figure(peak[key]) for quantity, _ in shown for key in (quantity, f"{quantity}_at")]
-        for peak in peaks
+    columns = [
+        entry for name, unit in shown for entry in ((name, name, unit), ("at", f"{name}_at", "s"))
     ]
+    header = [_header(title, unit) for title, _, unit in columns]
+    cells = [[_number(peak[key], unit) for _, key, unit in columns] for peak in peaks]
     return header, cells
 
 
+def _header(title: str, unit: str) -> str:
+    return units_heading(title, unit).replace("·", " ")
+
+
+def _number(value: float, unit: str, usual: str | None = None) -> str:
+    """A number in the display unit."""
+    return figure(value / display(unit, usual).divisor)
+
+
+def _measured(value: float, unit: str, usual: str | None = None) -> str:
+    """A number with its display unit."""
+    symbol = display(unit, usual).symbol
+    return f"{_number(value, unit, usual)}{'' if symbol == '°' else ' '}{symbol}"
+
+
 def _parts(force: dict[str, Any]) -> str:
-    return ", ".join(f"{part} {figure(peak)}" for part, peak in force["torque_by_part"].items())
+    parts = force["torque_by_part"].items()
+    return ", ".join(f"{part} {_number(peak, 'N*m')}" for part, peak in parts)
 
 
 def _show_accuracy(console: Console, summary: dict[str, Any]) -> None:
     heading(console, "Accuracy")
     worst, energy = summary["peaks"]["residual"], summary["energy"]
     if worst is not None:
-        value = f"{worst['value']:.3g} {worst['unit']}"
-        text = f"largest residual {value} in {worst['equation']} at {figure(worst['at'])} s"
+        shown = display(worst["unit"])
+        value = f"{worst['value'] / shown.divisor:.3g} {shown.symbol}"
+        text = f"largest residual {value} in {worst['equation']} at {_measured(worst['at'], 's')}"
         console.print(Text(f"  {text}"))
-    kinetic = f"largest kinetic energy {figure(energy['largest_kinetic'])} J"
-    console.print(
-        Text(f"  energy balance within {energy['largest_imbalance']:.2g} of the {kinetic}")
-    )
+    scale = f"largest energy {_measured(energy['scale'], 'J')}"
+    console.print(Text(f"  energy balance within {energy['largest_imbalance']:.2g} of the {scale}"))
 
 
 def _show_settling(console: Console, settling: list[dict[str, Any]]) -> None:
@@ -84,6 +102,6 @@ def _show_settling(console: Console, settling: list[dict[str, Any]]) -> None:
         elif body["time"] is None:
             settled = "does not settle"
         else:
-            settled = f"{figure(body['time'])} s"
-        rows.append((body["body"], settled, f"{figure(math.degrees(body['angle']))}°"))
+            settled = _measured(body["time"], "s")
+        rows.append((body["body"], settled, _measured(body["angle"], "rad", "deg")))
     table(console, ("body", "settled at", "last angle"), rows)

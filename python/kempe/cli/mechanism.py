@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
 from rich.console import Console
 from rich.text import Text
 
@@ -47,14 +46,12 @@ def show_mechanism(console: Console, state: State) -> None:
 
 def show_configuration(console: Console, state: State) -> None:
     """Print the initial configuration and the assembly report."""
-    heading(console, f"Initial configuration, t = {figure(float(state.t))} s")
-    rows = []
-    for name in state.model.bodies:
-        body = state.body(name)
-        angle, omega = (np.degrees(body.angle), body.omega) if body.info.turns else (None, None)
-        place = (body.x, body.y, angle, body.vx, body.vy, omega)
-        rows.append((name, *("" if value is None else figure(float(value)) for value in place)))
-    header = ("body", "x / m", "y / m", "angle / °", "vx / m/s", "vy / m/s", "omega / rad/s")
+    from kempe.display_units import display
+
+    time = display("s")
+    told = f"{figure(state.t / time.divisor)} {time.symbol}"
+    heading(console, f"Initial configuration, t = {told}")
+    header, rows = state.table()
     table(console, header, rows)
     if state.report is not None:
         for line in str(state.report).splitlines():

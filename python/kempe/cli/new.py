@@ -1,4 +1,4 @@
-"""``kempe new``: write a commented case to start from."""
+"""``kempe new``: write a commented example to start from."""
 
 from __future__ import annotations
 
@@ -8,10 +8,13 @@ from typing import Annotated
 import typer
 from rich.text import Text
 
-from kempe.cli.console import answers
+from kempe.cli.console import answers, table
 from kempe.errors import FileError
+from kempe.templates import FILES, NAMES
 
 EXAMPLES = """Examples:
+
+  kempe new
 
   kempe new four_bar
 
@@ -20,42 +23,45 @@ EXAMPLES = """Examples:
 
 
 def _names() -> list[str]:
-    from kempe.templates import NAMES
-
     return list(NAMES)
 
 
 def new(
     name: Annotated[
-        str,
+        str | None,
         typer.Argument(
             metavar="NAME",
-            help="four_bar, slider_crank or pendulum.",
+            help=f"{', '.join(NAMES[:-1])} or {NAMES[-1]}; without it, the examples are listed.",
             autocompletion=_names,
             show_default=False,
         ),
-    ],
+    ] = None,
     path: Annotated[
         Path | None,
         typer.Argument(
-            metavar="[PATH]", help="File or folder; default NAME.toml.", show_default=False
+            metavar="PATH", help="File or folder; default NAME.toml.", show_default=False
         ),
     ] = None,
     force: Annotated[
         bool, typer.Option("--force", "-f", help="Overwrite an existing file.")
     ] = False,
 ) -> None:
-    """Write a commented example case to start from."""
+    """Write a commented example to start from, or list the examples."""
     from kempe import files
-    from kempe.templates import template
+    from kempe.templates import template, title
 
+    if name is None:
+        table(answers(), ("name", "title"), [(name, title(name)) for name in NAMES], left=2)
+        return
     text = template(name)
-    target = Path(f"{name}.toml") if path is None else path
+    usual = Path(FILES[name])
+    target = usual if path is None else path
     if target.is_dir():
-        target /= f"{name}.toml"
-    if target.suffix.lower() != ".toml":
-        raise FileError(f"cannot write {target}: the name must end in .toml", name=str(target))
+        target /= usual
+    if target.suffix.lower() != usual.suffix:
+        raise FileError(f"cannot write {target}: the name must end in {usual.suffix}")
     if not force and (target.exists() or target.is_symlink()):
         raise FileError(f"{target} exists", name=str(target), hint="--force overwrites it")
     files.write_text(target, text)
-    answers().print(Text(f"{target} written; next: kempe run {target}"))
+    next_command = "kempe run" if usual.suffix == ".toml" else "python"
+    answers().print(Text(f"{target} written; next: {next_command} {target}"))

@@ -9,7 +9,17 @@ import typer
 from rich.text import Text
 
 from kempe.cli import figures
-from kempe.cli.arguments import Settings
+from kempe.cli.arguments import (
+    AbsoluteTolerance,
+    Changes,
+    EndTime,
+    MethodName,
+    RelativeTolerance,
+    Settings,
+    Step,
+    Units,
+    shown_in,
+)
 from kempe.cli.console import answers
 from kempe.cli.solved import CaseOrSolution, results_folder, solved
 
@@ -32,7 +42,9 @@ def plot(  # noqa: PLR0917 - typer distinguishes options by their annotations
     names: Annotated[
         list[str] | None,
         typer.Option(
-            "--figure", metavar="NAME", help="Only this, such as reactions_C; repeatable."
+            "--figure",
+            metavar="NAME",
+            help="Only this figure, such as reactions_C; can be repeated. By default, all.",
         ),
     ] = None,
     output: Annotated[
@@ -41,19 +53,30 @@ def plot(  # noqa: PLR0917 - typer distinguishes options by their annotations
     ] = None,
     index_base: figures.IndexBase = 1,
     form: Annotated[
-        str, typer.Option("--format", help="Some of png, svg, pdf, with commas between.")
+        str, typer.Option("--format", help="One or more of png, svg and pdf, separated by commas.")
     ] = "png,svg",
+    time_axis: figures.TimeAxis = figures.Axis.linear,
+    units: Units = None,
     settings: Settings = None,
+    t_end: EndTime = None,
+    method: MethodName = None,
+    rtol: RelativeTolerance = None,
+    atol: AbsoluteTolerance = None,
+    step: Step = None,
 ) -> None:
     """Draw figures of a case, which is simulated first, or of a solution that was saved."""
     from kempe.plot import pages, save
 
     wanted = figures.formats(form)
+    changes = Changes(settings, t_end, method, rtol, atol, step)
+    compressed = time_axis is figures.Axis.compressed
     console = answers()
-    for analysis, solution in list(solved(file, settings)):
-        chosen = _chosen(solution, pages(solution, index_base), names or [])
-        for path in save(chosen, _folder(file, output, analysis), wanted):
-            console.print(Text(str(path)))
+    with shown_in(units):
+        for analysis, solution in list(solved(file, changes)):
+            known = pages(solution, index_base, compressed=compressed)
+            chosen = _chosen(solution, known, names or [])
+            for path in save(chosen, _folder(file, output, analysis), wanted):
+                console.print(Text(str(path)))
 
 
 def _folder(file: Path, output: Path | None, analysis: str) -> Path:

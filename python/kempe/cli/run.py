@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,11 +13,29 @@ from rich.text import Text
 
 from kempe.cli import figures
 from kempe.cli.animate import Form
-from kempe.cli.arguments import File, Settings, assembled, number_or_formula, read_case
+from kempe.cli.arguments import (
+    AbsoluteTolerance,
+    AsJson,
+    Changes,
+    EndTime,
+    File,
+    MethodName,
+    RelativeTolerance,
+    Settings,
+    Step,
+    Units,
+    assembled,
+    read_case,
+    shown_in,
+    stem,
+)
 from kempe.cli.clock import Clock
 from kempe.cli.console import answers, heading, remarks
 from kempe.cli.drawings import refuse_impossible
-from kempe.errors import KempeError, ModelError
+from kempe.cli.failure import document
+from kempe.cli.figures import Which
+from kempe.cli.solved import refuse_without_analysis
+from kempe.errors import KempeError
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -29,7 +46,11 @@ EXAMPLES = """Examples:
 
   kempe run four_bar.toml
 
-  kempe run four_bar.toml --set k=2e6 --t-end 5 -o out/stiff
+  kempe run four_bar.toml --set k=2e6 --set crank.angle=80*deg --t-end 5 -o out/stiff
+
+  kempe run four_bar.toml --method dop853 --rtol 1e-10 --figures all
+
+  kempe run four_bar.toml --units mm,deg,rpm
 
   kempe run four_bar.toml --json | jq .analyses.release.energy
 """
@@ -42,43 +63,46 @@ def run(  # noqa: PLR0917 - typer uses the annotations of options and arguments
         typer.Option("--output", "-o", help="Folder for results; default out/<FILE>."),
     ] = None,
     settings: Settings = None,
-    t_end: Annotated[
-        str | None, typer.Option("--t-end", help="End time of the last analysis, s.")
-    ] = None,
+    t_end: EndTime = None,
+    method: MethodName = None,
+    rtol: RelativeTolerance = None,
+    atol: AbsoluteTolerance = None,
+    step: Step = None,
     quiet: Annotated[
         bool, typer.Option("--quiet", "-q", help="Write the files but print nothing.")
     ] = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print only the summary, as JSON.")
+    as_json: AsJson = False,
+    which: Annotated[
+        Which, typer.Option("--figures", help="Which figures and drawings to write.")
+    ] = Which.key,
+    without: Annotated[
+        bool, typer.Option("--no-figures", help="The same as --figures none.")
     ] = False,
     index_base: figures.IndexBase = 1,
-    with_figures: Annotated[
-        bool, typer.Option("--figures/--no-figures", help="Draw figures.")
-    ] = True,
+    time_axis: figures.TimeAxis = figures.Axis.linear,
+    units: Units = None,
     video: Annotated[
         Form | None, typer.Option("--animate", help="Also write a video or GIF.")
     ] = None,
 ) -> None:
     """Assemble a mechanism, run its analyses and write the results."""
-    case = _with_end(read_case(file, settings), t_end)
-    if not case.analyses:
-        raise ModelError(f"{file} contains no analysis", hint="add one, as [analyses.release]")
-    refuse_impossible(video)
-    state = assembled(case)
-    console = answers(silent=quiet or as_json)
-    _show_start(console, case, state)
-    folder, apart = output or Path("out") / file.stem, len(case.analyses) > 1
-    drawing = {"index_base": index_base, "with_figures": with_figures, "video": video}
-    finished = _Finished(console, folder, apart, drawing)
-    try:
-        for name, solution in _solutions(case, state, Clock(silent=quiet or as_json)):
-            finished.finish(name, solution)
-    except (KempeError, KeyboardInterrupt) as error:
-        _keep_partial(finished, error, list(case.analyses))
-        raise
-    finally:
-        if as_json:
-            print(json.dumps({"analyses": finished.summaries}, indent=2, ensure_ascii=False))
+    drawing = figures.Drawing(Which.none if without else which, index_base, time_axis, video)
+    with document(as_json) as content, shown_in(units):
+        case = read_case(file, Changes(settings, t_end, method, rtol, atol, step))
+        refuse_without_analysis(case, file)
+        refuse_impossible(video)
+        state = assembled(case)
+        console = answers(silent=quiet or as_json)
+        _show_start(console, case, state)
+        folder, apart = output or Path("out") / stem(file), len(case.analyses) > 1
+        finished = _Finished(console, folder, apart, drawing)
+        content["analyses"] = finished.summaries
+        try:
+            for name, solution in _solutions(case, state, Clock(silent=quiet or as_json)):
+                finished.finish(name, solution)
+        except (KempeError, KeyboardInterrupt) as error:
+            _keep_partial(finished, error, list(case.analyses))
+            raise
 
 
 @dataclass
@@ -89,14 +113,14 @@ class _Finished:
         console: console for the summaries.
         folder: folder for the files.
         apart: whether every analysis has its own subfolder.
-        drawing: options of ``write_results``.
+        drawing: the wanted figures and drawings.
         summaries: summary and files of each analysis.
     """
 
     console: Console
     folder: Path
     apart: bool
-    drawing: dict[str, Any]
+    drawing: figures.Drawing
     summaries: dict[str, Any] = field(default_factory=dict)
 
     def finish(self, name: str, solution: Solution) -> None:
@@ -107,17 +131,11 @@ class _Finished:
         found = summary(solution)
         show_findings(self.console, name, found)
         folder = self.folder / name if self.apart else self.folder
-        written = write_results(solution, found, folder, **self.drawing)
+        written = write_results(solution, found, folder, self.drawing)
         self.summaries[name] = {**found, "files": [str(path) for path in written]}
         heading(self.console, "Files")
         for path in written:
             self.console.print(Text(f"  {path}"))
-
-
-def _with_end(case: Case, t_end: str | None) -> Case:
-    if t_end is None or not case.analyses:
-        return case
-    return case.with_analysis(list(case.analyses)[-1], t_end=number_or_formula(t_end))
 
 
 def _show_start(console: Console, case: Case, state: State) -> None:

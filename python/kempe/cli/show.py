@@ -3,29 +3,45 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import asdict
+from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.text import Text
 
-from kempe.cli.arguments import File, Settings, assembled, read_case
+from kempe.cli.arguments import AsJson, Changes, Settings, assembled, read_case
 from kempe.cli.console import answers, figure
+from kempe.cli.failure import document
+from kempe.cli.solved import CaseOrSolution, is_stored, stored
 from kempe.errors import FileError, ModelError
-from kempe.names import one_of
 
 if TYPE_CHECKING:
     from kempe.case import Case
+    from kempe.matrices import Labelled
+    from kempe.solution import Solution
     from kempe.state import State
 
+
+class Form(str, Enum):
+    """The formats of matrices and equations."""
+
+    text = "text"
+    csv = "csv"
+    latex = "latex"
+
+
 #: Endings of the name of an output file, and the format of each.
-FORMATS = {"text": ".txt", "csv": ".csv", "latex": ".tex"}
+ENDINGS = {".txt": Form.text, ".csv": Form.csv, ".tex": Form.latex}
 
 EXAMPLES = """Examples:
 
   kempe show four_bar.toml --jacobian --assembly
 
   kempe show four_bar.toml --kkt --t 0.25 --format csv -o kkt.csv
+
+  kempe show out/four_bar/solution.npz --multipliers --t 1.5
 
   kempe show four_bar.toml --iterations
 
@@ -37,61 +53,83 @@ def _flag(name: str, told: str) -> Any:
     return typer.Option(f"--{name}", help=told)
 
 
+Time = Annotated[
+    float | None,
+    typer.Option("--t", metavar="SECONDS", help="Time of the simulation, s; its start if absent."),
+]
+FormOption = Annotated[
+    Form | None, typer.Option("--format", help="By default, from the ending of -o, or text.")
+]
+Output = Annotated[
+    Path | None, typer.Option("--output", "-o", help="A file in place of the terminal.")
+]
+
+
 def show(  # noqa: PLR0917 - typer distinguishes options by their annotations
-    file: File,
-    jacobian: Annotated[bool, _flag("jacobian", "Φ_q; what is shown if nothing is named.")] = False,
+    file: CaseOrSolution,
+    jacobian: Annotated[bool, _flag("jacobian", "Φ_q; shown if nothing is named.")] = False,
     mass: Annotated[bool, _flag("mass", "The mass matrix M.")] = False,
     kkt: Annotated[bool, _flag("kkt", "The augmented matrix [M Φ_qᵀ; Φ_q 0].")] = False,
+    rhs: Annotated[bool, _flag("rhs", "[Q; γ], right side of the augmented equations.")] = False,
     gamma: Annotated[bool, _flag("gamma", "γ, right side of the accelerations.")] = False,
     forces: Annotated[bool, _flag("forces", "The generalized forces Q.")] = False,
     residual: Annotated[bool, _flag("residual", "Φ.")] = False,
     nu: Annotated[bool, _flag("nu", "ν = -Φ_t, right side of the velocities.")] = False,
+    accelerations: Annotated[bool, _flag("accelerations", "The accelerations q̈.")] = False,
     multipliers: Annotated[bool, _flag("multipliers", "The multipliers λ.")] = False,
     iterations: Annotated[
         bool, _flag("iterations", "Newton–Raphson from the unchanged guess.")
     ] = False,
     symbolic: Annotated[bool, _flag("symbolic", "Φ, Φ_q and γ of each joint as formulas.")] = False,
     assembly: Annotated[
-        bool, _flag("assembly", "With the driver rows of what the start sets.")
+        bool, _flag("assembly", "With the driver rows of the coordinates that the start sets.")
     ] = False,
-    t: Annotated[
-        float | None, typer.Option("--t", help="Time of the simulation, s; else its start.")
-    ] = None,
-    form: Annotated[
-        str | None, typer.Option("--format", help="text, csv or latex; else by the name of -o.")
-    ] = None,
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="A file in place of the terminal.")
-    ] = None,
+    t: Time = None,
+    form: FormOption = None,
+    output: Output = None,
     settings: Settings = None,
+    as_json: AsJson = False,
 ) -> None:
-    """Show matrices and equations with the names of joints and bodies."""
-    chosen = _format(form, output)
+    """Show matrices and equations of a case or of a solution, with names of joints and bodies."""
     flags = {
         "Phi_q": jacobian,
         "M": mass,
         "kkt": kkt,
+        "rhs": rhs,
         "gamma": gamma,
         "Q": forces,
         "Phi": residual,
         "nu": nu,
+        "a": accelerations,
         "lam": multipliers,
     }
     wanted = [name for name, flag in flags.items() if flag]
     if not (wanted or iterations or symbolic):
         wanted = ["Phi_q"]
-    case = read_case(file, settings)
-    pieces = list(_matrices(case, wanted, chosen, assembly=assembly, t=t)) if wanted else []
+    chosen = form or ENDINGS.get(output.suffix.lower() if output else "", Form.text)
+    with document(as_json) as found:
+        if as_json and (form or output):
+            raise ModelError("--json prints to the terminal", hint="leave --format and -o out")
+        case, solution = _read(file, Changes(settings))
+        state = _state(case, solution, t) if wanted else None
+        matrices = [] if state is None else list(_matrices(case, state, wanted, assembly))
+        if as_json:
+            found.update(_content(case, state, matrices, iterations=iterations, symbolic=symbolic))
+            return
+    pieces = [] if state is None else [_written(one, state, chosen) for one in matrices]
     pieces += [_iterations(case, chosen)] if iterations else []
     pieces += [_symbolic(case, chosen)] if symbolic else []
     _put("\n".join(piece.rstrip("\n") + "\n" for piece in pieces), output)
 
 
-def _format(form: str | None, output: Path | None) -> str:
-    if form is not None:
-        return one_of("format", form, FORMATS)
-    endings = {ending: name for name, ending in FORMATS.items()}
-    return endings.get(output.suffix.lower(), "text") if output else "text"
+def _read(file: Path, changes: Changes) -> tuple[Case, Solution | None]:
+    """The case; also the solution, if it is stored."""
+    if not is_stored(file):
+        return read_case(file, changes), None
+    from kempe.case import parsed
+
+    solution = stored(file, changes)
+    return parsed(solution.compiled.case, "json", str(file)), solution
 
 
 def _put(text: str, output: Path | None) -> None:
@@ -105,50 +143,86 @@ def _put(text: str, output: Path | None) -> None:
     files.write_text(output, text)
 
 
-def _matrices(
-    case: Case, wanted: list[str], form: str, *, assembly: bool, t: float | None
-) -> Iterator[str]:
+def _matrices(case: Case, state: State, wanted: list[str], assembly: bool) -> Iterator[Labelled]:
     from kempe.matrices import show as labelled
 
-    state = _state(case, t)
     held = case.held if assembly else {}
     positions = {name: value for name, value in held.items() if name in state.model.column_names()}
     for name in wanted:
-        rows = None if name == "lam" else positions
-        shown = labelled(case.model, state, name, assembly=rows)
-        if form == "text":
-            yield f"{shown.title}, t = {figure(float(state.t))} s\n{shown.text()}"
-        else:
-            yield shown.csv() if form == "csv" else shown.latex()
+        rows = None if name in ("lam", "a") else positions
+        yield labelled(case.model, state, name, assembly=rows)
 
 
-def _state(case: Case, t: float | None) -> State:
-    """The assembled mechanism, or where the simulation brings it by ``t``."""
-    start = assembled(case)
+def _written(shown: Labelled, state: State, form: Form) -> str:
+    if form is Form.text:
+        return f"{shown.title}, t = {figure(float(state.t))} s\n{shown.text()}"
+    return shown.csv() if form is Form.csv else shown.latex()
+
+
+def _state(case: Case, solution: Solution | None, t: float | None) -> State:
+    """The assembled mechanism, or the state of the simulation at ``t``."""
+    if solution is not None:
+        solutions, start = iter([solution]), solution.initial
+    else:
+        start = assembled(case)
+        solutions = (found for _, found in case.each(start=start))
     if t is None or t == float(start.t):
         return start
     reached = float(start.t)
-    for _, solution in case.each(start=start):
-        reached = float(solution.t[-1])
-        if float(solution.t[0]) <= t <= reached:
-            found: State = solution(t)  # type: ignore[assignment]  # one time gives a State
-            return found
+    for found in solutions:
+        reached = float(found.t[-1])
+        if float(found.t[0]) <= t <= reached:
+            state: State = found(t)  # type: ignore[assignment]  # one time gives a State
+            return state
     span = f"{figure(float(start.t))} to {figure(reached)} s"
     raise ModelError(f"--t {figure(t)}: the analyses reach from {span}")
 
 
-def _iterations(case: Case, form: str) -> str:
+def _content(
+    case: Case,
+    state: State | None,
+    matrices: list[Labelled],
+    *,
+    iterations: bool,
+    symbolic: bool,
+) -> dict[str, Any]:
+    """Matrices, iterations and equations as plain data."""
+    content: dict[str, Any] = {"title": case.model.title}
+    if state is not None:
+        content["t"] = float(state.t)
+        content["matrices"] = [
+            {
+                "name": shown.name,
+                "title": shown.title,
+                "rows": shown.rows,
+                "columns": shown.columns,
+                "values": shown.values.tolist(),
+            }
+            for shown in matrices
+        ]
+    if iterations:
+        from kempe.iterations import iterations as computed
+
+        content["iterations"] = [asdict(row) for row in computed(case).rows]
+    if symbolic:
+        from kempe.symbolic import equations
+
+        content["equations"] = [asdict(equation) for equation in equations(case.model)]
+    return content
+
+
+def _iterations(case: Case, form: Form) -> str:
     from kempe.iterations import iterations
 
     course = iterations(case)
-    if form == "csv":
+    if form is Form.csv:
         return course.csv()
-    return course.latex() if form == "latex" else course.text()
+    return course.latex() if form is Form.latex else course.text()
 
 
-def _symbolic(case: Case, form: str) -> str:
+def _symbolic(case: Case, form: Form) -> str:
     from kempe.symbolic import equations
 
-    if form == "csv":
+    if form is Form.csv:
         raise ModelError("--symbolic has no CSV", hint="use --format text or latex")
-    return "\n".join(e.latex() if form == "latex" else e.text() for e in equations(case.model))
+    return "\n".join(e.latex() if form is Form.latex else e.text() for e in equations(case.model))

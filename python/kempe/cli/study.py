@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.text import Text
 
-from kempe.cli.arguments import File, Settings, read_case
+from kempe.cli.arguments import AsJson, Changes, File, Settings, read_case, stem
 from kempe.cli.console import answers, heading, remarks, table
+from kempe.cli.failure import document
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -21,6 +23,8 @@ EXAMPLES = """Examples:
   kempe study four_bar.toml
 
   kempe study four_bar.toml --analysis release -o out/study --set c=2e4
+
+  kempe study four_bar.toml --json | jq .findings
 """
 
 
@@ -34,6 +38,7 @@ def study(
         typer.Option("--output", "-o", help="Folder for results; out/<FILE>/study if absent."),
     ] = None,
     settings: Settings = None,
+    as_json: AsJson = False,
 ) -> None:
     """Compute an analysis with many options, compare the results and summarize them."""
     import warnings
@@ -41,16 +46,20 @@ def study(
     from kempe.analyses import AssemblyWarning
     from kempe.plot import study_figures
     from kempe.studies import study as compute
+    from kempe.studies.table import json_text
 
-    case = read_case(file, settings)
-    silent = not remarks().is_terminal
-    with warnings.catch_warnings(), remarks().status("", spinner="line") as status:
-        warnings.simplefilter("ignore", AssemblyWarning)
-        found = compute(case, analysis, progress=None if silent else status.update)
-    console = answers()
-    _show(console, found)
-    folder = output or Path("out") / file.stem / "study"
-    written = [*found.save(folder), *study_figures.write(found, folder / "figures")]
+    with document(as_json) as content:
+        case = read_case(file, Changes(settings))
+        silent = not remarks().is_terminal
+        with warnings.catch_warnings(), remarks().status("", spinner="line") as status:
+            warnings.simplefilter("ignore", AssemblyWarning)
+            found = compute(case, analysis, progress=None if silent else status.update)
+        console = answers(silent=as_json)
+        _show(console, found)
+        folder = output or Path("out") / stem(file) / "study"
+        written = [*found.save(folder), *study_figures.write(found, folder / "figures")]
+        files = [str(path) for path in written]
+        content.update({**json.loads(json_text(found)), "files": files})
     heading(console, "Files")
     for path in written:
         console.print(Text(f"  {path}"))

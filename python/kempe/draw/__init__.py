@@ -3,5 +3,6 @@
 from kempe.draw.animate import animate
 from kempe.draw.player import player
 from kempe.draw.scene import scene
+from kempe.draw.still import still
 
-__all__ = ["animate", "player", "scene"]
+__all__ = ["animate", "player", "scene", "still"]

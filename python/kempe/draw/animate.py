@@ -9,9 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from kempe.draw.frame import SIZE, Frame, Picture
+from kempe import files
+from kempe.draw.frame import Frame, Picture
+from kempe.draw.pixels import Pixels, format_of
 from kempe.draw.player import player
-from kempe.draw.sampling import FRAMES_PER_SECOND
+from kempe.draw.sampling import FRAMES_PER_SECOND, Span
 from kempe.draw.scene import playback_rate, scene
 from kempe.errors import ModelError
 from kempe.solution import Solution
@@ -25,14 +27,25 @@ _MOST_PICTURES = 20_000
 
 @dataclass(frozen=True)
 class Film:
-    """How a format is drawn: dots per inch of the frame, frames per second."""
+    """How a format is drawn.
 
-    dpi: float
+    Attributes:
+        size: width and height, pixels.
+        fps: pictures per second.
+        speed: 2 plays twice as fast.
+        span: first and last time, s.
+        labels: whether to write numbers and names.
+    """
+
+    size: Pixels
     fps: float
+    speed: float = 1.0
+    span: Span = (0.0, 0.0)
+    labels: bool = True
 
 
-#: 1280 × 720 and 640 × 360; a GIF counts time in hundredths of a second.
-_FILMS = {"mp4": Film(1280 / SIZE[0], 30.0), "gif": Film(640 / SIZE[0], 20.0)}
+#: A GIF counts time in hundredths of a second.
+_FILMS = {"mp4": Film((1280, 720), 30.0), "gif": Film((640, 360), 20.0)}
 
 
 def animate(
@@ -41,6 +54,10 @@ def animate(
     *,
     fps: float | None = None,
     speed: float = 1.0,
+    size: Pixels | None = None,
+    begin: float | None = None,
+    end: float | None = None,
+    labels: bool = True,
     progress: Progress | None = None,
 ) -> Path:
     """Write a motion as a page, a video or a GIF, chosen by the ending of the path.
@@ -51,22 +68,35 @@ def animate(
         fps: pictures per second, 30 for MP4 and 20 for GIF by default; a page has no use for it.
         speed: 2 plays twice as fast. 1 is real time, except for motions shorter than 2 s or longer
             than a minute; those are slowed down or sped up by a round factor.
+        size: width and height, pixels; 1280 × 720 for MP4 and 640 × 360 for GIF by default. A page
+            fits its window and has no size.
+        begin: first time that is shown, s; the start of the motion when None.
+        end: last time that is shown, s; the end of the motion when None.
+        labels: whether to write the numbers of bodies and the names of joints and elements.
         progress: called with the number of pictures drawn and of all pictures.
 
     Returns:
         The path.
 
     Raises:
-        ModelError: an unknown ending, or ``fps`` or ``speed`` is not positive or too large.
+        ModelError: an unknown ending, or ``fps`` or ``speed`` is not positive or too large, the
+            size is impossible, or the times are not within the motion.
         FileError: the file cannot be written, or there is no ffmpeg for an MP4.
     """
-    kind = Path(path).suffix.lstrip(".").lower()
+    kind = files.checked_path(path, "write").suffix.lstrip(".").lower()
     if kind not in FORMATS:
         raise ModelError(f"{path}: the format is unknown", hint="end it in .html, .mp4 or .gif")
     _refuse_wrong(fps=fps, speed=speed)
+    first, last = float(solution.t[0]), float(solution.t[-1])
+    span = first if begin is None else float(begin), last if end is None else float(end)
     if kind == "html":
-        return player(solution, path, speed=speed)
-    film = _FILMS[kind]
+        if size is not None:
+            raise ModelError("size: a page fits its window", hint="leave the size out")
+        return player(solution, path, speed=speed, span=span, labels=labels)
+    usual = _FILMS[kind]
+    film = Film(size or usual.size, fps or usual.fps, speed, span, labels)
+    if kind == "mp4" and any(count % 2 for count in film.size):
+        raise ModelError("size: an MP4 needs an even width and an even height")
     if kind == "mp4":
         from kempe.draw.mp4 import find_ffmpeg
         from kempe.draw.mp4 import write_mp4 as write
@@ -75,8 +105,7 @@ def animate(
     else:
         from kempe.draw.gif import write_gif as write
 
-    rate = fps or film.fps
-    write(path, _pictures(solution, film, rate, speed, progress), rate)
+    write(path, _pictures(solution, film, progress), film.fps)
     return Path(path)
 
 
@@ -92,17 +121,16 @@ def _refuse_wrong(**numbers: float | None) -> None:
             raise ModelError(f"{name}={value:g}: must be more than 0 and at most 1000")
 
 
-def _pictures(
-    solution: Solution, film: Film, fps: float, speed: float, progress: Progress | None
-) -> Iterator[Picture]:
+def _pictures(solution: Solution, film: Film, progress: Progress | None) -> Iterator[Picture]:
     """RGBA pictures, (height, width, 4), each valid until the next."""
-    begin, end = sorted((float(solution.t[0]), float(solution.t[-1])))
-    each = playback_rate(end - begin) * speed / fps
+    begin, end = film.span
+    each = playback_rate(end - begin) * film.speed / film.fps
     count = max(1, math.ceil((end - begin) / each - 1e-9) + 1)
     if count > _MOST_PICTURES:
         raise ModelError(f"{count} pictures are too many", hint="raise speed= or lower fps=")
-    shown = scene(solution, frames=(count - 1) * _pieces(count, each) + 1)
-    frame = Frame(shown, film.dpi)
+    wanted = format_of(film.size)
+    shown = scene(solution, frames=(count - 1) * _pieces(count, each) + 1, span=film.span)
+    frame = Frame(shown, wanted.dpi, wanted.size, labels=film.labels)
     times = np.array(shown["frames"]["t"])
     for done, t in enumerate(np.linspace(begin, end, count), start=1):
         yield frame.pixels(int(np.abs(times - t).argmin()))

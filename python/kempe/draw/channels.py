@@ -1,8 +1,9 @@
-"""The quantities that can be plotted beside a drawing."""
+"""The quantities that can be plotted beside a drawing and do not follow from its frames."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,58 +11,113 @@ import numpy as np
 from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
 from kempe.draw.numbers import plain
+from kempe.energy import Energy
 from kempe.motion import Motion
 
-#: Torques and forces below this share of the largest reaction are zero except for rounding.
+#: Torques and forces below this share of the largest one of an element are rounding errors.
 _NOTHING = 1e-9
+#: Word for the kind of a residual, by its unit.
+_KINDS = {"m": "length", "rad": "angle"}
+_ENERGIES = ("kinetic", "potential", "dissipated", "work", "total")
+_COMPONENTS = ("force", "force_x", "force_y")
 
 
-def channels(motion: Motion) -> list[dict[str, Any]]:
-    """Angles, angular velocities, states, forces, reactions and the residual at the frames.
+@dataclass(frozen=True)
+class _Channel:
+    """One quantity at all frames.
+
+    Attributes:
+        group: kind of the quantity, such as "forces".
+        of: name of the element; empty for quantities of the whole mechanism.
+        quantity: such as "torque".
+        unit: SI unit.
+        values: (n_t,).
+    """
+
+    group: str
+    of: str
+    quantity: str
+    unit: str
+    values: Floats
+
+    @property
+    def name(self) -> str:
+        """Such as ``spring.torque``."""
+        return f"{self.of}.{self.quantity}" if self.of else self.quantity
+
+
+def channels(motion: Motion, energy: Energy | None = None) -> list[dict[str, Any]]:
+    """States, forces, reactions, energies and the residual at the frames.
+
+    Coordinates, rates, accelerations and the forces of joints are in the frames themselves.
 
     Returns:
-        ``{"name", "group", "unit", "values"}`` for each; those that stay at zero are left out where
-        an element has none by its nature.
+        ``{"name", "group", "of", "quantity", "unit", "values"}`` for each. Quantities that an
+        element does not have by its nature are left out.
     """
     return [
-        {"name": name, "group": group, "unit": unit, "values": plain(values)}
-        for name, group, unit, values in _all(motion)
+        {
+            "name": one.name,
+            "group": one.group,
+            "of": one.of,
+            "quantity": one.quantity,
+            "unit": one.unit,
+            "values": plain(one.values),
+        }
+        for one in _all(motion, energy)
     ]
 
 
 def numbers_per_frame(model: CompiledModel) -> int:
-    """Approximate count of the numbers of a frame: poses, rates, reactions and channels."""
-    return 8 * len(model.bodies) + 4 * len(model.constraints) + 2 * len(model.forces) + 2
+    """Approximate count of the numbers of a frame: poses, rates, accelerations and channels."""
+    others = len(model.constraints) + len(model.forces)
+    return 9 * len(model.bodies) + 3 * others + len(_ENERGIES) + 2
 
 
-def _all(motion: Motion) -> Iterator[tuple[str, str, str, Floats]]:
-    model = motion.model
-    turning = [name for name, info in model.bodies.items() if info.turns]
-    for name in turning:
-        yield f"{name}.angle", "angles", "rad", motion.body(name).angle
-    for name in turning:
-        yield f"{name}.omega", "angular velocities", "rad/s", motion.body(name).omega
-    states = zip(model.state_names(), model.state_units(), strict=True)
-    for k, (name, unit) in enumerate(states):
-        yield name, "states", unit, motion.z[:, k]
-    for name, info in model.forces.items():
+def _all(motion: Motion, energy: Energy | None) -> Iterator[_Channel]:
+    yield from _coordinates(motion)
+    for name, info in motion.compiled.forces.items():
         element = motion.force(name)
-        yield from _acting(name, "forces", element.force(on=info.j), element.torque(on=info.j))
-    for name, joint in model.constraints.items():
-        view = motion.constraint(name)
-        yield from _acting(name, "reactions", view.force(on=joint.j), view.torque(on=joint.j))
-    if model.n_rows:
-        residual = np.abs(motion.residuals[0]).max(axis=1)
-        yield "residual", "accuracy", "m, rad", residual
+        yield from _acting(
+            "forces", name, element.force(on=info.j), element.torque(on=info.j), whole=True
+        )
+    for name, joint in motion.compiled.constraints.items():
+        view, driver = motion.constraint(name), joint.group == "drivers"
+        yield from _acting(
+            "reactions", name, view.force(on=joint.j), view.torque(on=joint.j), whole=driver
+        )
+    if energy is not None:
+        for name in _ENERGIES:
+            yield _Channel("energy", "", f"energy.{name}", "J", getattr(energy, name))
+    if motion.compiled.n_rows:
+        residual = np.abs(motion.residuals[0])
+        units = np.array(motion.compiled.row_units())
+        for unit in dict.fromkeys(units):
+            largest = residual[:, units == unit].max(axis=1)
+            yield _Channel("accuracy", "", f"residual.{_KINDS.get(unit, unit)}", unit, largest)
+
+
+def _coordinates(motion: Motion) -> Iterator[_Channel]:
+    """First-order states of forces and internal coordinates of joints."""
+    for info in motion.compiled.forces.values():
+        for (name, unit), values in zip(info.states, motion.z[:, info.places].T, strict=True):
+            yield _Channel("states", info.name, name, unit, values)
+    for joint in motion.compiled.constraints.values():
+        for (name, unit), k in zip(
+            joint.coordinates, range(motion.compiled.n_q)[joint.columns], strict=True
+        ):
+            yield _Channel("coordinates", joint.name, name, unit, motion.q[:, k])
+            yield _Channel("coordinates", joint.name, f"{name}_rate", f"{unit}/s", motion.v[:, k])
 
 
 def _acting(
-    name: str, group: str, force: Floats, torque: Floats
-) -> Iterator[tuple[str, str, str, Floats]]:
-    """Magnitude of a force and the torque, where there is such a thing."""
+    group: str, name: str, force: Floats, torque: Floats, *, whole: bool
+) -> Iterator[_Channel]:
+    """The torque, and the force if ``whole``, where there is such a thing."""
     magnitude = np.hypot(force[:, 0], force[:, 1])
     most = max(float(magnitude.max(initial=0.0)), float(np.abs(torque).max(initial=0.0)))
     if np.abs(torque).max(initial=0.0) > _NOTHING * most:
-        yield f"{name}.torque", group, "N·m", torque
-    if magnitude.max(initial=0.0) > _NOTHING * most or most == 0.0:
-        yield f"{name}.force", group, "N", magnitude
+        yield _Channel(group, name, "torque", "N·m", torque)
+    if whole and (magnitude.max(initial=0.0) > _NOTHING * most or most == 0.0):
+        for quantity, values in zip(_COMPONENTS, (magnitude, *force.T), strict=True):
+            yield _Channel(group, name, quantity, "N", values)

@@ -27,6 +27,8 @@ _SAMPLES = 12
 _SAME = 1e-3
 #: Where a name is anchored along the x axis of a frame.
 _HALF_WAY = {"body": 0.0, "line": 0.5}
+#: Between the names of objects at one place.
+BETWEEN_NAMES = " · "
 #: More names than these do not fit on a drawing.
 MOST_NAMES, MOST_NUMBERS = 60, 40
 _LINK, _EDGE, _TINT = 8.0, 1.0, 0.72
@@ -171,7 +173,7 @@ class Display:
                 if found[k][0] == "point":  # where there is a joint its points go unnamed
                     found[k][1].append(one_line(point["name"]))
         for role, names, frame in found:
-            self.name(role, ", ".join(dict.fromkeys(names)), frame)
+            self.name(role, BETWEEN_NAMES.join(dict.fromkeys(names)), frame)
 
     def name_elements(self) -> None:
         """Write the names of forces and drivers beside their symbols."""
@@ -271,13 +273,20 @@ class Display:
         return np.array([place(item, poses, self.view) for poses in self.poses])
 
 
-def display(scene: Scene, view: View) -> list[Item]:
-    """The display list of frames and of the page: everything numbered and named."""
+def display(scene: Scene, view: View, *, labels: bool = True) -> list[Item]:
+    """The display list of frames and of the page.
+
+    Args:
+        scene: the scene.
+        view: the visible area.
+        labels: whether to write numbers and names.
+    """
     made = Display(scene, view)
     made.draw_mechanism()
-    made.number_bodies()
-    made.name_joints()
-    made.name_elements()
+    if labels:
+        made.number_bodies()
+        made.name_joints()
+        made.name_elements()
     return made.finish()
 
 

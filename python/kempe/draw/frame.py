@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -26,22 +27,30 @@ if TYPE_CHECKING:
 #: RGBA, (height, width, 4).
 Picture: TypeAlias = NDArray[np.uint8]
 
-#: Inches: all frames and the page are laid out for this size.
-SIZE = (7.2, 4.05)
+#: Inches, width and height.
+Size: TypeAlias = tuple[float, float]
+#: The page and frames without another size are laid out for this one.
+SIZE: Size = (7.2, 4.05)
 #: Dots for each inch of a still picture, which is then 1440 × 810.
 DOTS_PER_INCH = 200.0
 #: In how many pieces a path is drawn between two frames.
 _PIECES = 4
 
 
-def frame_view(scene: Scene) -> View:
+def frame_view(scene: Scene, size: Size = SIZE) -> View:
     """The visible area of a frame: everything, with a margin."""
-    return view_of(limits(scene["bounds"], SIZE[0] / SIZE[1]), 72.0 * SIZE[0])
+    return view_of(limits(scene["bounds"], size[0] / size[1]), 72.0 * size[0])
 
 
-def frame_items(scene: Scene) -> list[Item]:
-    """The display list of the frames and of the page."""
-    return display(scene, frame_view(scene))
+def frame_items(scene: Scene, size: Size = SIZE, *, labels: bool = True) -> list[Item]:
+    """The display list of the frames and of the page.
+
+    Args:
+        scene: the scene.
+        size: of the frame, inches.
+        labels: whether to write numbers and names.
+    """
+    return display(scene, frame_view(scene, size), labels=labels)
 
 
 class Frame:
@@ -49,28 +58,39 @@ class Frame:
 
     Args:
         scene: the scene.
-        dpi: dots for each inch of a picture of 7.2 by 4.05 inches.
+        dpi: dots for each inch of a picture.
+        size: of a picture, inches.
+        labels: whether to write the numbers of bodies and the names of joints and elements.
     """
 
-    def __init__(self, scene: Scene, dpi: float = DOTS_PER_INCH) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        dpi: float = DOTS_PER_INCH,
+        size: Size = SIZE,
+        *,
+        labels: bool = True,
+    ) -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
         from kempe.draw.painter import Painting
 
-        self._scene = scene
+        self._scene, self._size = scene, size
         self._poses = np.array(
             [[[0.0] * 3, *poses] for poses in scene["frames"]["poses"]], dtype=np.float64
         )
-        self.figure = Figure(figsize=SIZE, dpi=dpi)
+        self.figure = Figure(figsize=size, dpi=dpi)
         self._canvas: Any = FigureCanvasAgg(self.figure)  # matplotlib leaves it untyped
         self.axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
         self.axes.set_axis_off()
-        left, bottom, right, top = limits(scene["bounds"], SIZE[0] / SIZE[1])
+        left, bottom, right, top = limits(scene["bounds"], size[0] / size[1])
         self.axes.set_xlim(left, right)
         self.axes.set_ylim(bottom, top)
         self._draw_still()
-        self.painting = Painting(self.axes, frame_items(scene), self._poses[0])
+        self._labels = labels
+        items = frame_items(scene, size, labels=labels)
+        self.painting = Painting(self.axes, items, self._poses[0])
         self._clock = self.axes.text(
             0.985, 0.975, "", transform=self.axes.transAxes, ha="right", va="top", fontsize=9
         )
@@ -78,14 +98,14 @@ class Frame:
 
     def _draw_still(self) -> None:
         """Title, paths and the length of a step."""
-        title = verbatim(one_line(self._scene["title"], 80))
+        title = verbatim(one_line(self._scene["title"], round(80 * self._size[0] / SIZE[0])))
         self.axes.text(0.015, 0.975, title, transform=self.axes.transAxes, va="top", fontsize=9)
         for trace in self._scene["traces"]:
             path = placed(self._path(trace["body"]), trace["point"])
             colour = palette.colour(trace["body"])
             self.axes.plot(*path.T, color=colour, linewidth=0.8, alpha=0.5, zorder=1)
         (left, right), (bottom, top) = self.axes.get_xlim(), self.axes.get_ylim()
-        length, point = round_below((top - bottom) / 6.0), (right - left) / (72.0 * SIZE[0])
+        length, point = round_below((top - bottom) / 6.0), (right - left) / (72.0 * self._size[0])
         x, y = left + 8.0 * point, bottom + 8.0 * point
         corners = [[x, x, x + length, x + length], [y + 3.0 * point, y, y, y + 3.0 * point]]
         self.axes.plot(*corners, color=palette.GROUND, linewidth=0.8)
@@ -108,7 +128,7 @@ class Frame:
         self._clock.set_text(f"t = {self._scene['frames']['t'][k]:.3f} s")
 
     def save(self, k: int, path: Path | str) -> None:
-        """Write frame k as PNG, whole or not at all.
+        """Write frame k as PNG, whole or not at all; its names are laid out as in a figure.
 
         Raises:
             FileError: the file cannot be written.
@@ -116,8 +136,24 @@ class Frame:
         from kempe.draw.painter import any_character
 
         self.put(k)
-        with files.writing(path) as file, any_character():
+        with self._laid_out_at(k), files.writing(path) as file, any_character():
             self.figure.savefig(file, format="png")
+
+    @contextmanager
+    def _laid_out_at(self, k: int) -> Iterator[None]:
+        """Names in places for frame k alone, while those for the whole motion are hidden."""
+        from kempe.draw.painter import Painting
+
+        alone = {**self._scene["frames"], "poses": [self._scene["frames"]["poses"][k]]}
+        shown = {**self._scene, "frames": alone}
+        items = frame_items(shown, self._size, labels=self._labels)
+        painting = Painting(self.axes, items, self._poses[k])
+        self.painting.show(visible=False)
+        try:
+            yield
+        finally:
+            painting.remove_all()
+            self.painting.show(visible=True)
 
     def pixels(self, k: int) -> Picture:
         """Frame k as RGBA, (height, width, 4), valid until the next one is drawn.

@@ -6,11 +6,16 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from kempe import files
 from kempe.draw.frame import Picture
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+#: All channels of a colour that is shown as white.
+_NEARLY_WHITE = 245
 
 
 def write_gif(path: Path | str, pictures: Iterable[Picture], fps: float) -> None:
@@ -42,5 +47,17 @@ def _with_one_palette(pictures: Iterable[Picture]) -> Iterator[Image]:
     palette: Image.Image | None = None
     for picture in pictures:
         image = Image.fromarray(picture).convert("RGB")
-        palette = palette or image.quantize(128)
+        palette = palette or _quantized(image)
         yield image.quantize(palette=palette, dither=Image.Dither.NONE)
+
+
+def _quantized(image: Image) -> Image:
+    """The picture in a palette of 128 colours, in which all that is nearly white is white.
+
+    Pillow looks colours up with reduced precision and may take a near neighbour.
+    """
+    found = image.quantize(128)
+    colours = np.array(found.getpalette(), dtype=np.uint8).reshape(-1, 3)
+    colours[colours.min(axis=1) >= _NEARLY_WHITE] = 255
+    found.putpalette(colours.tobytes())
+    return found

@@ -20,6 +20,10 @@ CLEARANCE = 2.0
 #: To touch a line costs this much more than to be farther away by the same length; to touch a text
 #: still more.
 _TOUCH, _COVER = 10.0, 60.0
+#: Shorter contacts are rounding errors, points.
+_CONTACT = 1e-3
+#: Of places whose costs differ by less, the first is taken, so that rounding errors decide nothing.
+_EQUAL = 0.05
 
 
 @lru_cache(maxsize=1024)
@@ -80,7 +84,7 @@ def place_labels(anchors: Floats, sizes: Floats, taken: Taken) -> Floats:
         costs = np.hypot(*offsets.T)
         for t, anchor in enumerate(anchors[:, k]):
             costs = costs + _cost(anchor + offsets, size, taken, t) / len(anchors)
-        chosen[k] = offsets[int(np.argmin(costs))]
+        chosen[k] = offsets[int(np.argmax(costs <= costs.min() + _EQUAL))]
         low = anchors[:, k] + chosen[k] - size / 2.0
         box = np.column_stack([low, low + size])
         taken = replace(taken, boxes=np.concatenate([taken.boxes, box[:, None]], axis=1))
@@ -107,9 +111,9 @@ def _cost(centres: Floats, size: Floats, taken: Taken, t: int) -> Floats:
     near &= np.all(segments.max(axis=1) + wide > first, axis=1)
     grown = taken.reach[near][:, None]
     touched = clipped_lengths(low[:, None] - grown, high[:, None] + grown, segments[near])
-    cost = _TOUCH * np.sum(touched + 2.0 * (touched > 0.0), axis=1)
+    cost = _TOUCH * np.sum(touched + 2.0 * (touched > _CONTACT), axis=1)
     sides = np.minimum(high[:, None], boxes[:, 2:]) - np.maximum(low[:, None], boxes[:, :2])
-    cost = cost + _COVER * np.sum(sides.sum(axis=2) * (sides > 0.0).all(axis=2), axis=1)
+    cost = cost + _COVER * np.sum(sides.sum(axis=2) * (sides > _CONTACT).all(axis=2), axis=1)
     outside = np.maximum(taken.inside[0] - low, 0.0) + np.maximum(high - taken.inside[1], 0.0)
     found: Floats = cost + _TOUCH * outside.sum(axis=1)
     return found

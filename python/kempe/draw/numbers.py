@@ -8,23 +8,23 @@ from typing import Any
 from kempe.arrays import Floats
 
 
-def plain(values: Floats) -> Any:
+def plain(values: Floats, digits: int = 9) -> Any:
     """Nested lists of the values to nine significant digits; None for non-finite values."""
-    return rounded_all(values.tolist())
+    return rounded_all(values.tolist(), digits)
 
 
-def rounded_all(data: Any) -> Any:
+def rounded_all(data: Any, digits: int = 9) -> Any:
     """The same data with every fraction to nine significant digits."""
     if isinstance(data, dict):
-        return {key: rounded_all(value) for key, value in data.items()}
+        return {key: rounded_all(value, digits) for key, value in data.items()}
     if isinstance(data, list):
-        return [rounded_all(value) for value in data]
-    return rounded(data) if isinstance(data, float) else data
+        return [rounded_all(value, digits) for value in data]
+    return rounded(data, digits) if isinstance(data, float) else data
 
 
-def rounded(value: float) -> float | None:
+def rounded(value: float, digits: int = 9) -> float | None:
     """Nine significant digits, no negative zero; None for values that are not finite."""
-    return float(f"{value:.9g}") + 0.0 if math.isfinite(value) else None
+    return float(f"{value:.{digits}g}") + 0.0 if math.isfinite(value) else None
 
 
 def round_below(value: float) -> float:

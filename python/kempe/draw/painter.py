@@ -52,6 +52,16 @@ class Painting(Artist):
         """The visible area, in points of print from the lower left corner of the figure."""
         return view_on(self._on, self._metres)
 
+    def show(self, *, visible: bool) -> None:
+        """Show or hide everything."""
+        for artist in (self, *(artist for _, artist in self.texts)):
+            artist.set_visible(visible)
+
+    def remove_all(self) -> None:
+        """Take everything from the axes."""
+        for artist in (self, *(artist for _, artist in self.texts)):
+            artist.remove()
+
     @allow_rasterization  # type: ignore[untyped-decorator]
     def draw(self, renderer: Any) -> None:
         """Paint lines and fills, and put the texts in their places; these are painted next."""

@@ -19,6 +19,7 @@ from kempe import files
 from kempe._version import __version__
 from kempe.draw.frame import frame_items
 from kempe.draw.numbers import rounded_all
+from kempe.draw.sampling import Span
 from kempe.draw.scene import Scene, scene
 from kempe.solution import Solution
 from kempe.state import State
@@ -28,27 +29,47 @@ MODULES = (
     "numbers",
     "motion",
     "view",
+    "scales",
     "surface",
     "place",
     "paint",
+    "arrow",
+    "arrows",
+    "vectors",
     "measure",
     "drawing",
+    "axes",
+    "ranges",
     "plot",
-    "clock",
+    "quantities",
+    "timespan",
     "gestures",
+    "card",
+    "plots",
+    "export",
+    "clock",
     "keyboard",
-    "channels",
+    "controls",
     "main",
 )
 
 
-def player(solution: Solution | State, path: Path | str, *, speed: float = 1.0) -> Path:
+def player(
+    solution: Solution | State,
+    path: Path | str,
+    *,
+    speed: float = 1.0,
+    span: Span | None = None,
+    labels: bool = True,
+) -> Path:
     """Write a page that plays a motion; any browser opens it, also without a network.
 
     Args:
         solution: the motion; a state is shown at rest.
         path: where to, such as ``animation.html``.
         speed: 2 plays twice as fast at the start; it can be changed on the page.
+        span: first and last time that are shown, s; the whole motion by default.
+        labels: whether to write the numbers of bodies and the names of joints and elements.
 
     Returns:
         The path.
@@ -56,15 +77,15 @@ def player(solution: Solution | State, path: Path | str, *, speed: float = 1.0) 
     Raises:
         FileError: the file cannot be written; an old one is then left as it was.
     """
-    shown = scene(solution)
+    shown = scene(solution, span=span)
     shown["playback"]["rate"] *= speed
-    files.write_text(path, page(shown))
-    return Path(path)
+    files.write_text(path, page(shown, labels=labels))
+    return files.checked_path(path, "write")
 
 
-def page(shown: Scene) -> str:
+def page(shown: Scene, *, labels: bool = True) -> str:
     """The text of the page that shows a scene, with its display list."""
-    shown = {**shown, "display": rounded_all(frame_items(shown))}
+    shown = {**shown, "display": rounded_all(frame_items(shown, labels=labels))}
     style, script = _asset("player.css"), _script()
     policy = (
         f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; "

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kempe.arrays import Floats, fixed
+from kempe.draw.numbers import rounded
+from kempe.energy import Energy
 from kempe.errors import KempeError, ModelError
 from kempe.motion import Motion
 from kempe.solution import Solution
@@ -22,7 +25,16 @@ _FEWEST_FRAMES = 60
 _INVISIBLE = 1e-3
 
 
-def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int) -> Motion:
+#: First and last time, s.
+Span: TypeAlias = tuple[float, float]
+
+
+def sampled(
+    drawn: Solution | State,
+    frames: int | None,
+    numbers_per_frame: int,
+    span: Span | None = None,
+) -> Motion:
     """The motion at the frames, in the order of time.
 
     Evenly spread where the solution can be evaluated anywhere, otherwise at the outputs.
@@ -31,25 +43,32 @@ def sampled(drawn: Solution | State, frames: int | None, numbers_per_frame: int)
         drawn: a solution, or a state, which is one frame.
         frames: how many; chosen when None.
         numbers_per_frame: how many numbers a frame has.
+        span: the part of the time that is drawn; all when None.
 
     Raises:
-        ModelError: ``frames`` is less than 1.
+        ModelError: ``frames`` is less than 1, or the span is not in the solution.
     """
-    if frames is not None and frames < 1:
+    if frames is not None and not (isinstance(frames, int) and frames >= 1):
         raise ModelError(f"frames={frames}: must be 1 or more")
     if isinstance(drawn, State):
-        return Motion(drawn.model, drawn.t[None], drawn.q[None], drawn.v[None], drawn.z[None])
-    begin, end = sorted((float(drawn.t[0]), float(drawn.t[-1])))
+        t = np.array([drawn.t])
+        return Motion(drawn.compiled, t, drawn.q[None], drawn.v[None], drawn.z[None])
+    begin, end = whole = float(drawn.t[0]), float(drawn.t[-1])
+    if span is not None:
+        begin, end = span
+        _refuse_outside(span, whole)
     count = frames or _count(end - begin, numbers_per_frame)
     if drawn.dense is None:
-        return _at_outputs(drawn, count)
+        return _at_outputs(drawn, count, (begin, end))
     if begin == end:
         count = 1
-    motion = drawn(np.linspace(begin, end, count))
+    # Frames have the times that are written, so that the solution there has their numbers.
+    written = [rounded(t) for t in np.linspace(begin, end, count).tolist()]
+    motion = drawn(np.clip(np.array(written, dtype=np.float64), begin, end))
     try:
         _ = motion.lam
     except KempeError:  # a solution may end in a position in which reactions have no answer
-        return _at_outputs(drawn, count)
+        return _at_outputs(drawn, count, (begin, end))
     return motion
 
 
@@ -65,7 +84,8 @@ class _Outputs(Motion):
 
     def __init__(self, solution: Solution, kept: NDArray[np.intp]) -> None:
         rows = (values[kept] for values in (solution.t, solution.q, solution.v, solution.z))
-        super().__init__(solution.model, *rows)
+        super().__init__(solution.compiled, *rows)
+        self.kept = kept
         self._computed = fixed(solution.a[kept]), fixed(solution.lam[kept])
 
     @property
@@ -77,10 +97,79 @@ class _Outputs(Motion):
         return self._computed[1]
 
 
-def _at_outputs(solution: Solution, count: int) -> Motion:
-    order = np.argsort(solution.t, kind="stable")
+def _refuse_outside(span: Span, whole: Span) -> None:
+    first, last = span
+    if not whole[0] <= first <= last <= whole[1]:
+        asked = f"t = {first:g} s is" if first == last else f"{first:g} to {last:g} s are"
+        raise ModelError(f"{asked} not within the motion, {whole[0]:g} to {whole[1]:g} s")
+
+
+def _at_outputs(solution: Solution, count: int, span: Span) -> Motion:
+    inside = (solution.t >= span[0]) & (solution.t <= span[1])
+    if not inside.any():
+        raise ModelError(
+            f"the solution has no output from {span[0]:g} to {span[1]:g} s",
+            hint="choose a longer part, or simulate with dense_output = true",
+        )
+    order = np.flatnonzero(inside)
     kept = order[np.unique(np.linspace(0, len(order) - 1, count).round().astype(int))]
     return _Outputs(solution, kept)
+
+
+def energy(drawn: Solution | State, motion: Motion) -> Energy | None:
+    """Energies at the frames; None for a state, and where an energy is not finite."""
+    if isinstance(drawn, State):
+        return None
+    try:
+        if isinstance(motion, _Outputs):
+            return drawn.energy.at(motion.kept)
+        return drawn.energy_at(motion.t)
+    except KempeError:
+        return None
+
+
+def accuracy(drawn: Solution | State, motion: Motion) -> float | None:
+    """The largest error of accelerations and multipliers between two frames.
+
+    The page interpolates them by cubic polynomials with central differences as slopes. Columns of
+    one unit are compared with their largest value.
+
+    Returns:
+        The largest error half-way between frames, as a share of the largest value; None if the
+        solution has no interpolant, or its reactions are undefined half-way.
+    """
+    if isinstance(drawn, State) or isinstance(motion, _Outputs) or len(motion.t) < 3:
+        return None
+    try:
+        middle = drawn((motion.t[:-1] + motion.t[1:]) / 2.0)
+        a, lam = (motion.a, middle.a), (motion.lam, middle.lam)
+    except KempeError:
+        return None
+    turning = np.array([name.endswith(".angle") for name in motion.compiled.column_names()], bool)
+    units = np.array(motion.compiled.row_units())
+    groups = [(a, turning), (a, ~turning), *((lam, units == unit) for unit in set(units))]
+    return max(
+        _error_half_way(motion.t, frames[:, of_one_unit], exact[:, of_one_unit])
+        for (frames, exact), of_one_unit in groups
+    )
+
+
+def _error_half_way(t: Floats, frames: Floats, exact: Floats) -> float:
+    """The largest error as a share of the largest value, for columns of one unit."""
+    largest = float(np.abs(frames).max(initial=0.0))
+    h = np.diff(t)[:, None]
+    inner = (frames[2:] - frames[:-2]) / (h[1:] + h[:-1])
+    ends = np.diff(frames, axis=0) / h
+    slopes = np.concatenate([ends[:1], inner, ends[-1:]])
+    middle = _half_way(frames, slopes, h)
+    error = float(np.abs(middle - exact).max(initial=0.0))
+    return error / largest if largest > 0.0 else 0.0
+
+
+def _half_way(values: Floats, slopes: Floats, h: Floats) -> Floats:
+    """Hermite's polynomial half-way between frames: (q0 + q1)/2 + h (v0 - v1)/8."""
+    found: Floats = (values[:-1] + values[1:]) / 2.0 + h * (slopes[:-1] - slopes[1:]) / 8.0
+    return found
 
 
 def interpolation(drawn: Solution | State, motion: Motion, size: float) -> str:
@@ -96,20 +185,17 @@ def interpolation(drawn: Solution | State, motion: Motion, size: float) -> str:
     """
     if isinstance(drawn, State) or isinstance(motion, _Outputs) or len(motion.t) < 2:
         return "none"
-    h = np.diff(motion.t)[:, None]
-    q, v = motion.q, motion.v
-    # Hermite's polynomial at the middle: (q0 + q1)/2 + h (v0 - v1)/8.
-    middle = (q[:-1] + q[1:]) / 2.0 + h * (v[:-1] - v[1:]) / 8.0
+    middle = _half_way(motion.q, motion.v, np.diff(motion.t)[:, None])
     exact = drawn((motion.t[:-1] + motion.t[1:]) / 2.0).q
     worst = max(
-        (_misplaced(middle, exact, motion, name) for name in motion.model.bodies), default=0.0
+        (_misplaced(middle, exact, motion, name) for name in motion.compiled.bodies), default=0.0
     )
     return "cubic" if worst <= _INVISIBLE * size else "none"
 
 
 def _misplaced(guess: Floats, exact: Floats, motion: Motion, name: str) -> float:
     """How far the points of a body are from where they should be, at most, m."""
-    info = motion.model.bodies[name]
+    info = motion.compiled.bodies[name]
     error = (guess - exact)[:, info.columns]
     shift = np.hypot(error[:, 0], error[:, 1])
     arms = [math.hypot(*corner) for corner in (*info.points.values(), info.center)]

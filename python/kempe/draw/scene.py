@@ -5,13 +5,14 @@ The player, the pictures and the videos draw only this; ``docs/scene.md`` descri
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.compiled import COORDINATES, RATES, CompiledModel
+from kempe.compiled import ACCELERATIONS, COORDINATES, RATES, CompiledModel
 from kempe.draw import channels, sampling, shapes
 from kempe.draw.numbers import plain, round_below, rounded
 from kempe.draw.units import scale
@@ -20,12 +21,15 @@ from kempe.motion import Motion
 from kempe.names import unknown
 from kempe.solution import Solution
 from kempe.state import State
+from kempe.values import instance, texts
 
 Scene: TypeAlias = dict[str, Any]
 
 #: Version of the format.
 FORMAT = 2
 UNITS = {"time": "s", "length": "m", "angle": "rad", "force": "N", "torque": "N·m"}
+#: Points are computed from poses; after many turns, angles need more digits than other numbers.
+_DIGITS_OF_POSES = 12
 #: Length of the arrow of the largest reaction, as a share of the size of the drawing.
 _LONGEST_ARROW = 0.3
 #: Points no farther apart than this share of the drawing are seen as one.
@@ -39,6 +43,7 @@ def scene(
     *,
     frames: int | None = None,
     traces: Sequence[str] | None = None,
+    span: sampling.Span | None = None,
 ) -> Scene:
     """Describe a motion, or one instant, for drawing.
 
@@ -48,15 +53,18 @@ def scene(
             fewer for a mechanism of very many bodies.
         traces: points whose paths are drawn, such as ``["coupler.P"]``; by default every named
             point of a moving body that moves, once where several bodies share it.
+        span: first and last time that are drawn, s; the whole motion by default.
 
     Returns:
         The scene; see ``docs/scene.md``. Numbers have nine significant digits.
 
     Raises:
-        ModelError: a traced point or its body does not exist, or ``frames`` is less than 1.
+        ModelError: a traced point or its body does not exist, ``frames`` is less than 1, or the
+            span is not within the motion.
     """
-    model = solution_or_state.model
-    motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model))
+    instance(solution_or_state, (Solution, State), "a solution or a state")
+    model = solution_or_state.compiled
+    motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model), span)
     bodies = [shapes.body(model, name) for name in model.all_bodies]
     joints = [shapes.joint(model, name) for name in model.joints]
     bounds = shapes.bounds(motion, bodies, joints)
@@ -68,22 +76,28 @@ def scene(
         "units": dict(UNITS),
         "gravity": plain(np.array(model.gravity)),
         "bounds": plain(bounds),
-        "length": _length(size),
+        "length": _length(shapes.own_size(bodies, joints) or size),
         "bodies": bodies,
         "joints": joints,
         "symbols": shapes.symbols(motion),
         "traces": _traces(motion, size, traces),
         "frames": {
             "t": plain(motion.t),
-            "poses": plain(_of_bodies(motion, COORDINATES)),
+            "poses": plain(_of_bodies(motion, COORDINATES), _DIGITS_OF_POSES),
             "rates": plain(_of_bodies(motion, RATES)),
+            "accelerations": plain(_of_bodies(motion, ACCELERATIONS)),
             "reactions": plain(reactions),
         },
         "interpolation": sampling.interpolation(solution_or_state, motion, size),
+        "accuracy": _short(sampling.accuracy(solution_or_state, motion)),
         "playback": {"rate": playback_rate(float(motion.t[-1] - motion.t[0]))},
         "reaction_scale": _reaction_scale(reactions, size),
-        "channels": channels.channels(motion),
+        "channels": channels.channels(motion, sampling.energy(solution_or_state, motion)),
     }
+
+
+def _short(share: float | None) -> float | None:
+    return None if share is None or not math.isfinite(share) else float(f"{share:.2g}")
 
 
 def _length(size: float) -> dict[str, Any]:
@@ -94,8 +108,8 @@ def _length(size: float) -> dict[str, Any]:
 
 def _of_bodies(motion: Motion, quantities: Sequence[str]) -> Floats:
     """Three quantities of each moving body, (n_t, n_bodies, 3)."""
-    found = np.empty((len(motion.t), len(motion.model.bodies), len(quantities)))
-    for k, name in enumerate(motion.model.bodies):
+    found = np.empty((len(motion.t), len(motion.compiled.bodies), len(quantities)))
+    for k, name in enumerate(motion.compiled.bodies):
         for c, quantity in enumerate(quantities):
             found[:, k, c] = getattr(motion.body(name), quantity)
     return found
@@ -103,8 +117,8 @@ def _of_bodies(motion: Motion, quantities: Sequence[str]) -> Floats:
 
 def _reactions(motion: Motion) -> Floats:
     """Force of each joint on its body j, global, (n_t, n_joints, 2), N."""
-    found = np.zeros((len(motion.t), len(motion.model.joints), 2))
-    for k, (name, info) in enumerate(motion.model.joints.items()):
+    found = np.zeros((len(motion.t), len(motion.compiled.joints), 2))
+    for k, (name, info) in enumerate(motion.compiled.joints.items()):
         found[:, k] = motion.constraint(name).force(on=info.j)
     return found
 
@@ -126,10 +140,10 @@ def playback_rate(duration: float) -> float:
 
 
 def _traces(motion: Motion, size: float, wished: Sequence[str] | None) -> list[dict[str, Any]]:
-    model = motion.model
+    model = motion.compiled
     if wished is None:
         return _moving_points(motion, size)
-    return [_trace(model, *_named(model, name)) for name in wished]
+    return [_trace(model, *_named(model, name)) for name in texts(wished, "traces")]
 
 
 def _named(model: CompiledModel, name: str) -> tuple[str, str]:
@@ -154,12 +168,12 @@ def _moving_points(motion: Motion, size: float) -> list[dict[str, Any]]:
     some = np.unique(np.linspace(0, len(motion.t) - 1, 16).round().astype(int))
     kept: list[dict[str, Any]] = []
     paths = np.empty((0, len(some), 2))
-    for body, info in motion.model.bodies.items():
+    for body, info in motion.compiled.bodies.items():
         for point in info.points:
             path = motion.body(body).point(point).position
             together = np.abs(paths - path[some]).max(axis=(1, 2), initial=0.0) < near
             if np.ptp(path, axis=0).max(initial=0.0) < near or together.any():
                 continue
             paths = np.append(paths, path[None, some], axis=0)
-            kept.append(_trace(motion.model, body, point))
+            kept.append(_trace(motion.compiled, body, point))
     return kept

@@ -45,7 +45,7 @@ def symbols(motion: Motion) -> list[dict[str, Any]]:
     A mark without points is drawn around the joint that its two bodies share, otherwise at the mass
     centre of body j.
     """
-    return [_symbol(motion, told) for told in motion.model.symbols]
+    return [_symbol(motion, told) for told in motion.compiled.symbols]
 
 
 def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
@@ -54,7 +54,7 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         "element": told["element"],
         "mark": told["mark"],
         "bodies": [i["body"], j["body"]],
-        "points": [i["point"], j["point"] or _pivot(motion.model, i["body"], j["body"])],
+        "points": [i["point"], j["point"] or _pivot(motion.compiled, i["body"], j["body"])],
         "axes": [i["axis"], j["axis"]],
         "radius": told["radius"],
         "reach": None,
@@ -70,7 +70,7 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
 
 
 def _name(motion: Motion, number: int) -> str:
-    return list(motion.model.all_bodies)[number]
+    return list(motion.compiled.all_bodies)[number]
 
 
 def _pivot(model: CompiledModel, i: int, j: int) -> list[float]:
@@ -140,6 +140,22 @@ def _chain(points: Floats, least: float) -> list[Floats]:
 
 def _turn(a: Floats, b: Floats, c: Floats) -> float:
     return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+
+
+def own_size(bodies: list[dict[str, Any]], joints: list[dict[str, Any]]) -> float:
+    """The largest extent of a body, ground included, in its own frame, m.
+
+    It does not depend on the motion, so that all drawings of a model have the same unit of length.
+    """
+    sizes = [0.0]
+    for entry in bodies:
+        corners = [*entry["outline"], *(point["at"] for point in entry["points"])]
+        for one in joints:
+            pairs = zip(one["bodies"], one["points"], strict=True)
+            corners += [at for number, at in pairs if number == entry["number"]]
+        if corners:
+            sizes.append(float(np.ptp(np.array(corners), axis=0).max()))
+    return max(sizes)
 
 
 def bounds(motion: Motion, bodies: list[dict[str, Any]], joints: list[dict[str, Any]]) -> Floats:

@@ -185,9 +185,12 @@ def _along(symbol: Symbol, aside: float, lines: list[items.Rows]) -> Iterator[It
         yield line(of, frame, rows, "force", _FORCE)
     if aside > 0.0:
         return
-    for body, at in zip(symbol["bodies"], symbol["points"], strict=True):
-        dot = print_points(items.circle(2.0))
-        yield fill(of, upright(body, at), dot, "force", layer=items.PIN)
+    for k, (body, at) in enumerate(zip(symbol["bodies"], symbol["points"], strict=True)):
+        if body:
+            dot = print_points(items.circle(2.0))
+            yield fill(of, upright(body, at), dot, "force", layer=items.PIN)
+        else:  # on ground the end turns on a pin, as a joint does
+            yield from _pin_at(symbol, k)
 
 
 def _spiral(symbol: Symbol, rings: Rings) -> Iterator[Item]:

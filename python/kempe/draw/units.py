@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+from kempe.display_units import chosen_for
 
 #: SI prefixes by the power of ten.
 _PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
 #: The powers that engineers write before each unit; others are written as 10³ before it.
 _CUSTOM = {
+    "s": (0, -3, -6, -9),
     "m": (0, -3, -6, -9),
     "rad": (0, -3),
     "m/s": (0, -3, -6),
@@ -37,17 +41,25 @@ class Scale:
 
     def axis(self, symbol: str) -> str:
         """The label of an axis, such as ``F / kN``."""
-        unit = f"({self.unit})" if "/" in self.unit or " " in self.unit else self.unit
-        return f"{symbol} / {unit}"
+        return axis_label(symbol, [self.unit])
+
+
+def axis_label(symbol: str, units: Sequence[str]) -> str:
+    """The label of an axis: quantity / unit, such as ``v / (m/s)`` or ``x, φ / (m, rad)``."""
+    text = ", ".join(units)
+    return f"{symbol} / ({text})" if set(text) & set("/ ,") else f"{symbol} / {text}"
 
 
 def scale(unit: str, peak: float) -> Scale:
-    """The scale in which the largest value has one to four digits before the point.
+    """The chosen display unit, or the scale with one to four digits before the point.
 
     Args:
         unit: SI unit of the values.
         peak: largest magnitude in that unit.
     """
+    chosen = chosen_for(unit)
+    if chosen is not None:
+        return Scale(chosen.divisor, chosen.symbol)
     power = _power(peak)
     if not power:
         return Scale(1.0, unit)

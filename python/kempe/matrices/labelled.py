@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from kempe.arrays import Floats
 from kempe.errors import ModelError
 from kempe.matrices import writing
 from kempe.names import one_of
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from kempe.compiled import CompiledModel
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from kempe.state import State
     from kempe.values import Number
 
+MatrixName: TypeAlias = Literal["M", "Phi", "Phi_q", "nu", "gamma", "Q", "kkt", "rhs", "a", "lam"]
 #: The matrices that can be shown, each with its symbol and its meaning.
 NAMES: Mapping[str, tuple[str, str]] = {
     "M": ("M", "mass matrix"),
@@ -83,6 +86,18 @@ class Labelled:
         """A ``bmatrix`` of amsmath with the names of rows and columns beside it."""
         return writing.latex(self.name, self.rows, self.columns, self.cells())
 
+    def _repr_latex_(self) -> str:
+        body = writing.latex_body(self.name, self.rows, self.columns, self.cells())
+        return f"$\\displaystyle {body}$"
+
+    def _repr_html_(self) -> str:
+        from kempe.notebook import table
+
+        header = ["", *(self.columns or (self.name,))]
+        numbers = ([writing.number(value) for value in row] for row in self.cells().tolist())
+        rows = [[name, *cells] for name, cells in zip(self.rows, numbers, strict=True)]
+        return f"<div><b>{html.escape(self.title)}</b>{table(header, rows)}</div>"
+
     def __array__(self, dtype: object = None, copy: bool | None = None) -> Floats:
         """The values, for conversion by numpy."""
         return np.array(self.values, dtype=dtype, copy=copy)  # type: ignore[call-overload,no-any-return]
@@ -90,13 +105,15 @@ class Labelled:
     def __str__(self) -> str:
         return f"{self.title}\n{self.text()}"
 
-    __repr__ = __str__
+    def __repr__(self) -> str:
+        size = " × ".join(map(str, self.values.shape))
+        return f"<Labelled {self.name}: {size}, {NAMES[self.name][1]}>"
 
 
 def show(
     model: Model | CompiledModel,
     state: State,
-    what: str = "Phi_q",
+    what: MatrixName | str = "Phi_q",
     *,
     assembly: Mapping[str, Number] | None = None,
 ) -> Labelled:
@@ -121,7 +138,7 @@ def show(
     if what in ("a", "lam"):
         if assembly:
             raise ModelError(f"{what} is not of the assembly", hint="leave assembly out")
-        rows = state.model.column_names() if what == "a" else state.model.row_names()
+        rows = state.compiled.column_names() if what == "a" else state.compiled.row_names()
         return Labelled(what, getattr(state, what), tuple(rows), ())
     return _of(state.matrices(assembly), what)
 
@@ -140,5 +157,9 @@ def _of(found: Matrices, what: str) -> Labelled:
 
 
 def _refuse_foreign(model: Model | CompiledModel, state: State) -> None:
-    if list(model.bodies) != list(state.model.bodies):
+    from kempe.model import compiled_model
+    from kempe.state import State
+
+    instance(state, State, "a state")
+    if list(compiled_model(model).bodies) != list(state.compiled.bodies):
         raise ModelError("the state is of another model", hint="assemble this model")

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from kempe.state import State
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Matrices:
     """M a + Φ_qᵀ λ = Q, Φ_q a = γ (Haug 6.3.18), read-only, in SI units.
 
@@ -43,6 +43,9 @@ class Matrices:
     rows: tuple[str, ...]
     columns: tuple[str, ...]
 
+    def __repr__(self) -> str:
+        return f"<Matrices: {len(self.columns)} coordinates, {len(self.rows)} equations>"
+
     @property
     def rank(self) -> int:
         """Rank of Φ_q."""
@@ -57,10 +60,10 @@ class Matrices:
 def matrices(state: State, held: Mapping[str, Number]) -> Matrices:
     """The matrices at a state, with rows for the coordinates held as in an assembly."""
     text = json.dumps(numbers(held, "set"), allow_nan=False)
-    found = _core.matrices(state.model.core, float(state.t), state.q, state.v, state.z, text)
+    found = _core.matrices(state.compiled.core, float(state.t), state.q, state.v, state.z, text)
     names = ("M", "Phi", "Phi_q", "nu", "gamma", "Q", "kkt")
     arrays = {name: fixed(found[name]) for name in names}
-    rows = state.model.row_names()
+    rows = state.compiled.row_names()
     extra = [f"set.{name}" for name in held]
     labels = (*rows, *extra)[: len(arrays["Phi"])]
-    return Matrices(**arrays, rows=labels, columns=tuple(state.model.column_names()))
+    return Matrices(**arrays, rows=labels, columns=tuple(state.compiled.column_names()))

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import csv as comma_separated
-import io
 from collections.abc import Sequence
 
 from kempe.arrays import Floats
+from kempe.files import csv_cell
 
 ZERO = "·"
 #: Outside of this range a number is written with an exponent.
@@ -73,12 +72,10 @@ def _exponent(cell: str) -> bool:
 
 def csv(rows: Sequence[str], columns: Sequence[str], values: Floats) -> str:
     """A header with an empty first cell, then one line for each row; shortest exact digits."""
-    out = io.StringIO()
-    writer = comma_separated.writer(out, lineterminator="\n")
-    writer.writerow(["", *columns])
+    lines = [["", *map(csv_cell, columns)]]
     for name, row in zip(rows, values.tolist(), strict=True):
-        writer.writerow([name, *(repr(value + 0.0) for value in row)])
-    return out.getvalue()
+        lines.append([csv_cell(name), *(repr(value + 0.0) for value in row)])
+    return "".join(",".join(cells) + "\n" for cells in lines)
 
 
 def latex(name: str, rows: Sequence[str], columns: Sequence[str], values: Floats) -> str:
@@ -87,13 +84,19 @@ def latex(name: str, rows: Sequence[str], columns: Sequence[str], values: Floats
     The names of the columns stand as the column that the matrix is multiplied with, which keeps
     wide matrices narrow.
     """
+    wide = f"\\setcounter{{MaxMatrixCols}}{{{len(columns)}}}\n" if len(columns) > 10 else ""
+    body = latex_body(name, rows, columns, values)
+    return wide + "\\begin{equation*}\n" + body + "\n\\end{equation*}\n"
+
+
+def latex_body(name: str, rows: Sequence[str], columns: Sequence[str], values: Floats) -> str:
+    """The formula without its environment."""
     lines = [r" & ".join(map(latex_number, row)) for row in values.tolist()]
     parts = [f"{_SYMBOLS[name]} =", _stack("matrix", [named(row) for row in rows])]
     parts.append(_stack("bmatrix", lines))
     if columns:
         parts.append(_stack("matrix", [named(column) for column in columns]))
-    wide = f"\\setcounter{{MaxMatrixCols}}{{{len(columns)}}}\n" if len(columns) > 10 else ""
-    return wide + "\\begin{equation*}\n" + "\n".join(parts) + "\n\\end{equation*}\n"
+    return "\n".join(parts)
 
 
 def _stack(kind: str, lines: Sequence[str]) -> str:

@@ -2,25 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
+from kempe.display_units import chosen_for
+from kempe.motion import Motion
 from kempe.names import one_of
 from kempe.plot import style
-from kempe.plot.curves import Curve, Panel, draw
-from kempe.plot.time_axis import show_time
+from kempe.plot.curves import draw
+from kempe.plot.panel import Curve, Panel, curve, times
+from kempe.plot.ticks import set_ticks
+from kempe.plot.time_axis import TimeAxis, show_time
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axes._secondary_axes import SecondaryAxis
     from matplotlib.lines import Line2D
     from numpy.typing import ArrayLike
 
     from kempe.arrays import Floats
     from kempe.compiled import BodyInfo
-    from kempe.motion import Motion
 
 #: Quantity → symbol and SI unit.
 QUANTITIES = {
@@ -50,9 +55,9 @@ def positions(
     A point mass has no angle.
 
     Args:
-        motion: a solution, or the motion at some times of it.
+        motion: a solution, drawn on its interpolant, or the motion at some times.
         body: its name.
-        quantity: one of "x", "y" and "angle" alone.
+        quantity: one of "x", "y" and "angle" alone, with its turning points marked.
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
         index_base: number of the first body.
@@ -102,6 +107,31 @@ def body_title(info: BodyInfo, index_base: int = 1) -> str:
     return f"{info.number - 1 + index_base} {name}" if info.number else name
 
 
+def body_panel(motion: Motion, body: str, quantity: str, index_base: int) -> Panel:
+    """One quantity of a body."""
+    info = motion.body(body).info
+    title = body_title(info, index_base)
+    line = {"color": style.colour(max(1, info.number)), "linestyle": "-"}
+    symbol, unit = QUANTITIES[quantity]
+    return Panel(
+        symbol,
+        unit,
+        [_curve(motion, body, quantity, line)],
+        title,
+        f"{title} {symbol}",
+        degrees=quantity == "angle" and chosen_for("rad") is None,
+        turning_points=quantity in COORDINATES,
+    )
+
+
+def _curve(motion: Motion, body: str, quantity: str, line: Mapping[str, Any]) -> Curve:
+    def values(at: Motion) -> Floats:
+        found: Floats = getattr(at.body(body), quantity)
+        return found
+
+    return curve(motion, QUANTITIES[quantity][0], values, line)
+
+
 def _chosen(quantity: str | None, known: Sequence[str]) -> Sequence[str]:
     return known if quantity is None else (one_of("quantity", quantity, known),)
 
@@ -115,29 +145,23 @@ def _draw(
     cut: float | None,
     index_base: int,
 ) -> Axes:
+    instance(motion, Motion, "a solution or a motion")
     info = motion.body(body).info
-    title = body_title(info, index_base)
     with style.on(ax) as axes:
         if len(names) == 1:
-            line = {"color": style.colour(max(1, info.number)), "linestyle": "-"}
-            symbol, unit = QUANTITIES[names[0]]
-            curve = Curve(symbol, getattr(motion.body(body), names[0]), line)
-            draw(axes, motion.t, [curve], Panel(symbol, unit, title, cut, legend=False))
-            if names[0] == "angle":
-                _add_degrees(axes)
+            panel = body_panel(motion, body, names[0], index_base)
+            draw(axes, times(motion), panel, cut=cut)
+            add_degrees(axes, panel)
         else:
-            _draw_all(
-                axes,
-                motion,
-                body,
-                names[: info.count or None],
-                Panel("", "", title, cut, legend=False),
-            )
+            title = body_title(info, index_base)
+            _draw_all(axes, motion, body, names[: info.count or None], title=title, cut=cut)
         return axes
 
 
-def _add_degrees(axes: Axes) -> None:
-    """The same angle in degrees, to the right."""
+def add_degrees(axes: Axes, panel: Panel) -> SecondaryAxis | None:
+    """The same angle in degrees, to the right, if the panel has such an axis."""
+    if not panel.degrees:
+        return None
     rad = 1e-3 if "mrad" in axes.get_ylabel() else 1.0
 
     def to_degrees(angle: ArrayLike) -> Floats:
@@ -149,20 +173,21 @@ def _add_degrees(axes: Axes) -> None:
     degrees = axes.secondary_yaxis("right", functions=(to_degrees, from_degrees))
     degrees.spines["right"].set_visible(True)
     degrees.set_ylabel("φ / °")
+    degrees.set_ylim(*to_degrees(axes.get_ylim()))
+    set_ticks(degrees.yaxis)
+    return degrees
 
 
-def _draw_all(axes: Axes, motion: Motion, body: str, names: Sequence[str], common: Panel) -> None:
+def _draw_all(
+    axes: Axes, motion: Motion, body: str, names: Sequence[str], *, title: str, cut: float | None
+) -> None:
     """Both directions on the axes, the turning, if any, on a twin of them."""
-    view, t = motion.body(body), motion.t
-    x, y, *turn = (
-        Curve(QUANTITIES[name][0], getattr(view, name), style.line(k))
-        for k, name in enumerate(names)
-    )
-    unit = QUANTITIES[names[0]][1]
-    draw(axes, t, [x, y], Panel(f"{x.label}, {y.label}", unit, common.title, common.cut, False))
+    x, y, *turn = (_curve(motion, body, name, style.line(k)) for k, name in enumerate(names))
+    t, unit = times(motion), QUANTITIES[names[0]][1]
+    draw(axes, t, Panel(f"{x.label}, {y.label}", unit, [x, y], title), cut=cut)
     lines = [*axes.lines]
     if turn:
-        lines += _draw_turning(axes, t, turn[0], QUANTITIES[names[2]][1], common.cut)
+        lines += _draw_turning(axes, t, turn[0], QUANTITIES[names[2]][1], cut)
     axes.legend(handles=lines, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=3)
 
 
@@ -173,6 +198,6 @@ def _draw_turning(
     twin = axes.twinx()
     twin.grid(visible=False)
     twin.spines["right"].set_visible(True)
-    draw(twin, t, [turn], Panel(turn.label, unit, legend=False))
-    show_time(twin, np.atleast_1d(t), cut, label=False)
+    draw(twin, t, Panel(turn.label, unit, [turn], turning_points=unit == "rad"))
+    show_time(twin, TimeAxis.of(t, cut), label=False)
     return [*twin.lines]

@@ -1,121 +1,92 @@
-"""Lines over time in one panel, with their unit, legend and title."""
+"""Drawing of a panel: its curves with units, ticks, peaks and legend."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from kempe.arrays import Floats
 from kempe.draw.units import NOISE, Scale, scale
 from kempe.plot import style
-from kempe.plot.time_axis import show_time
+from kempe.plot.legend import above_or_beside
+from kempe.plot.panel import CONSTANT, Curve, Panel
+from kempe.plot.peaks import ROOM, add_peaks, chosen_peaks
+from kempe.plot.ticks import set_ticks
+from kempe.plot.time_axis import TimeAxis, show_time
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: A line that varies by less than this share of its value is shown as the constant that it is.
-_CONSTANT = 1e-6
+#: Room above and below the curves, as a share of their range.
+_MARGIN = 0.06
 
 
-@dataclass(frozen=True)
-class Curve:
-    """A quantity over time.
-
-    Attributes:
-        label: text of the legend.
-        values: (n_t,), SI units.
-        line: colour, dashes and width; chosen by its place in the panel when empty.
-    """
-
-    label: str
-    values: Floats
-    line: Mapping[str, Any] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Panel:
-    """The common properties of the curves of a panel.
-
-    Attributes:
-        symbol: of the quantity, such as "F".
-        unit: SI unit of the values.
-        title: title above the panel, to the left.
-        cut: time after which the axis is compressed, s; see ``show_time``.
-        legend: whether to write one, above the panel to the right.
-    """
-
-    symbol: str
-    unit: str
-    title: str = ""
-    cut: float | None = None
-    legend: bool = True
-
-
-def draw(axes: Axes, t: Floats, curves: Sequence[Curve], panel: Panel) -> None:
-    """Draw curves over time on a linear axis, in units that keep the numbers short.
+def draw(
+    axes: Axes,
+    t: Floats,
+    panel: Panel,
+    *,
+    cut: float | None = None,
+    chosen: Scale | None = None,
+    span: tuple[float, float] | None = None,
+) -> None:
+    """Draw a panel on a linear axis.
 
     Args:
         axes: where to.
-        t: (n_t,) or (), s.
-        curves: of one unit.
-        panel: their common properties.
+        t: (n_t,), s.
+        panel: the curves.
+        cut: time after which the time axis is compressed, s; never when None.
+        chosen: unit of the axis; one that keeps the numbers short when None.
+        span: range of the axis, SI units; that of the curves when None.
     """
-    peaks = [float(np.abs(curve.values).max(initial=0.0)) for curve in curves]
-    chosen = scale(panel.unit, max(peaks, default=0.0))
-    add_lines(axes, t, curves, chosen.divisor)
-    limit(axes, curves, chosen)
-    axes.set_ylabel(chosen.axis(panel.symbol))
-    finish(axes, t, panel)
+    unit = chosen or scale(panel.unit, panel.peak)
+    time = TimeAxis.of(t, cut)
+    add_lines(axes, t, panel.curves, time=time, divisor=unit.divisor)
+    marks = chosen_peaks(panel.curves, turning_points=panel.turning_points)
+    _limit(axes, span or panel.span, unit.divisor, [side for _, side, _ in marks], span is not None)
+    axes.set_ylabel(unit.axis(panel.symbol))
+    finish(axes, time, panel)
+    set_ticks(axes.yaxis)
+    add_peaks(axes, marks, unit, time.unit)
 
 
-def add_lines(axes: Axes, t: Floats, curves: Sequence[Curve], divisor: float = 1.0) -> None:
+def add_lines(
+    axes: Axes, t: Floats, curves: Sequence[Curve], *, time: TimeAxis, divisor: float = 1.0
+) -> None:
     """One line for each curve; points where there are too few times for a line."""
-    times = np.atleast_1d(t)
-    marker = {"marker": "o"} if len(times) < 3 else {}
-    for k, curve in enumerate(curves):
-        values = np.atleast_1d(curve.values)
+    instants = np.atleast_1d(t) / time.unit.divisor
+    marker = {"marker": "o"} if len(instants) < 3 else {}
+    for k, one in enumerate(curves):
+        values = np.atleast_1d(one.values)
         shown = values if divisor == 1.0 else values / divisor
-        look = {**style.line(k), **marker, **curve.line}
-        axes.plot(times, shown, label=curve.label, **look)
+        look = {**style.line(k), **marker, **one.line}
+        axes.plot(instants, shown, label=one.label, **look)
 
 
-def limit(axes: Axes, curves: Sequence[Curve], chosen: Scale) -> None:
-    """Do not magnify the rounding noise of constant curves."""
-    values = np.concatenate([np.atleast_1d(curve.values) for curve in curves])
-    low, high = float(values.min()), float(values.max())
-    largest = max(abs(low), abs(high))
-    if largest < NOISE:
-        axes.set_ylim(-1.0, 1.0)
-    elif high - low < _CONSTANT * largest:
-        room = 0.1 * largest
-        axes.set_ylim((low - room) / chosen.divisor, (high + room) / chosen.divisor)
-    axes.ticklabel_format(axis="y", useOffset=False, style="plain")
+def _limit(
+    axes: Axes, span: tuple[float, float], divisor: float, sides: list[int], shared: bool
+) -> None:
+    """Room for the peaks; the rounding noise of constant curves is not magnified."""
+    low, high = span
+    most = max(abs(low), abs(high))
+    if most < NOISE:
+        low, high = -divisor, divisor
+    elif high - low < CONSTANT * most:
+        low, high = low - 0.1 * most, high + 0.1 * most
+    height = float(axes.bbox.height) * 72.0 / float(axes.figure.dpi)
+    room = min(ROOM / height, 0.35)
+    above, below = (room if shared or side in sides else _MARGIN for side in (1, -1))
+    scale_up = (high - low) / (1.0 - above - below)
+    axes.set_ylim((low - below * scale_up) / divisor, (high + above * scale_up) / divisor)
 
 
-def finish(axes: Axes, t: Floats, panel: Panel) -> None:
+def finish(axes: Axes, time: TimeAxis, panel: Panel) -> None:
     """Time axis, title and legend."""
-    show_time(axes, np.atleast_1d(t), panel.cut)
+    show_time(axes, time)
     if panel.title:
         axes.set_title(panel.title, loc="left")
     if panel.legend:
-        legend_above(axes)
-
-
-def legend_above(axes: Axes) -> None:
-    """The legend where no line can be: above the panel, or beside it if there are many lines."""
-    handles, labels = axes.get_legend_handles_labels()
-    if len(labels) > 5 or sum(map(len, labels)) > 60:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.02), ncols=1 + len(labels) // 16)
-    elif len(labels) > 1:
-        axes.legend(
-            handles,
-            labels,
-            loc="lower right",
-            bbox_to_anchor=(1.0, 0.98),
-            ncols=len(labels),
-            columnspacing=1.2,
-            borderaxespad=0.2,
-        )
+        above_or_beside(axes)

@@ -6,25 +6,31 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe.fine import fine_energies
 from kempe.plot import style
-from kempe.plot.curves import Curve, Panel, add_lines, draw, finish
-from kempe.plot.residual import logarithmic
+from kempe.plot.curves import draw, finish
+from kempe.plot.envelope import draw_envelope, envelope, logarithmic
+from kempe.plot.panel import Curve, Panel
+from kempe.plot.time_axis import TimeAxis
+from kempe.solution import Solution
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from kempe.solution import Solution
 
 
 def energy(solution: Solution, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
     """Draw kinetic, potential and dissipated energy, work, and T + V + dissipated - work.
 
+    Dissipated energy and work are left out where they are zero.
+
     Args:
-        solution: the solution.
+        solution: the solution, drawn on its interpolant.
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
-    found = solution.energy
+    instance(solution, Solution, "a solution")
+    t, found = fine_energies(solution)
     curves = [
         Curve("kinetic T", found.kinetic, style.line(0)),
         Curve("potential V", found.potential, style.line(1)),
@@ -32,29 +38,28 @@ def energy(solution: Solution, *, ax: Axes | None = None, cut: float | None = No
         Curve("work W", found.work, style.line(3)),
         Curve("T + V + D − W", found.total, style.SUM),
     ]
+    acting = [one for one in curves if one.values.any()] or curves[:1]
     with style.on(ax) as axes:
-        draw(axes, solution.t, curves, Panel("E", "J", cut=cut))
+        draw(axes, t, Panel("E", "J", acting, legend=True), cut=cut)
         return axes
 
 
 def energy_balance(solution: Solution, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
-    """Draw the change of T + V + D - W, relative to the largest kinetic energy.
+    """Draw the change of T + V + D - W, relative to the largest energy, as an envelope.
 
     Args:
         solution: the solution.
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
+    instance(solution, Solution, "a solution")
     error = np.abs(solution.energy.balance)
+    time = TimeAxis.of(solution.t, cut)
+    t = solution.t / time.unit.divisor
     with style.on(ax) as axes:
-        add_lines(axes, solution.t, [Curve("balance", error)])
-        logarithmic(axes, [error])
+        draw_envelope(axes, t, error, "balance", style.line(0))
+        logarithmic(axes, [envelope(t, error)[2]])
         axes.set_ylabel("relative error / 1")
-        finish(
-            axes,
-            solution.t,
-            Panel(
-                "", "", "Energy balance: change of T + V + D − W over largest T", cut, legend=False
-            ),
-        )
+        title = "Energy balance: change of T + V + D − W over the largest energy"
+        finish(axes, time, Panel("", "", [], title))
         return axes

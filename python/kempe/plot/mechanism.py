@@ -26,7 +26,7 @@ def mechanism(solution_or_state: Solution | State, *, ax: Axes | None = None) ->
     """
     with style.on(ax) as axes:
         state = state_at(solution_or_state, None)
-        made = drawn(axes, scene(state), style.short(state.model.title, 80))
+        made = drawn(axes, scene(state), style.short(state.compiled.title, 80))
         add_dimensions(made)
         add_gravity(made)
         made.name_joints()

@@ -8,8 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from kempe.names import unknown
+from kempe import files
+from kempe.names import one_of, unknown
 from kempe.plot import style
+from kempe.plot.style import FORMATS, Format
+from kempe.values import instance, listed, texts
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -17,7 +20,7 @@ if TYPE_CHECKING:
 _LONGEST = 40
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Page:
     """A figure that can be drawn.
 
@@ -25,15 +28,18 @@ class Page:
         number: its place in the report; figures of one family share it.
         name: such as "reactions_C", fit for a file.
         about: the same with names as the model has them.
-        height: mm.
-        draw: draws it into an empty figure.
+        draw: draws it, as a figure without a window.
+        key: whether it belongs to the few that show a run at a glance.
     """
 
     number: int
     name: str
     about: str
-    height: float
-    draw: Callable[[Figure], None]
+    draw: Callable[[], Figure]
+    key: bool = False
+
+    def __repr__(self) -> str:
+        return f"<Page {self.number}: {self.about}>"
 
     @property
     def stem(self) -> str:
@@ -43,22 +49,32 @@ class Page:
     def figure(self) -> Figure:
         """The figure, drawn, without a window."""
         with style.applied():
-            figure = style.figure(self.height)
-            self.draw(figure)
-            return figure
+            return self.draw()
 
 
 def save(
-    chosen: Iterable[Page], folder: Path, formats: Sequence[str] = ("png", "svg")
+    chosen: Page | Iterable[Page],
+    folder: Path | str,
+    formats: Sequence[Format] | Sequence[str] | Format = ("png", "svg"),
 ) -> list[Path]:
     """Write figures into a folder, which is made if missing; returns the files.
 
+    Args:
+        chosen: one page or several, such as ``kp.plot.pages(sol)``.
+        folder: the folder.
+        formats: some of "png", "svg" and "pdf".
+
     Raises:
         FileError: a file cannot be written.
+        ModelError: there is no such format, or ``chosen`` contains something else than pages.
     """
+    into = files.checked_path(folder, "write")
+    wanted = [formats] if isinstance(formats, str) else texts(formats, "formats")
+    kinds = [one_of("format", name, FORMATS) for name in wanted]
     written = []
-    for page in chosen:
-        written += style.save(page.figure(), folder / page.stem, formats)
+    for page in [chosen] if isinstance(chosen, Page) else listed(chosen, "figures"):
+        instance(page, Page, "a page of kp.plot.pages(solution)")
+        written += style.save(page.figure(), into / page.stem, kinds)
     return written
 
 
@@ -69,7 +85,7 @@ def select(known: Sequence[Page], names: Sequence[str]) -> list[Page]:
         ModelError: there is no page of a name.
     """
     chosen: list[Page] = []
-    for name in names:
+    for name in texts(names, "figures"):
         found = [page for page in known if name in (page.name, page.about, page.stem)]
         if not found:
             raise unknown("figure", name, [page.name for page in known])

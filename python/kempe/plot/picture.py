@@ -12,6 +12,7 @@ from kempe.draw.placing import View
 from kempe.draw.scene import Scene
 from kempe.draw.units import Scale
 from kempe.plot import style
+from kempe.plot.ticks import set_ticks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,10 +46,11 @@ def drawn(axes: Axes, scene: Scene, title: str) -> Display:
     axes.set_ylim(bottom, top)
     axes.set_xlabel(unit.axis("x"))
     axes.set_ylabel(unit.axis("y"))
-    axes.ticklabel_format(useOffset=False, style="plain")
     axes.grid(color="#EEEEEE")
     style.lay_out(axes.figure.canvas.figure)
     axes.apply_aspect()
+    set_ticks(axes.xaxis)
+    set_ticks(axes.yaxis)
     size = np.array(axes.get_window_extent().size) * 72.0 / float(axes.figure.dpi)
     made = Display(scene, View(low, float(size[0] / (high - low)[0]), size))
     made.draw_mechanism()

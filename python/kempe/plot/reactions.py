@@ -2,21 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe.draw.units import scale
+from kempe.motion import Motion
 from kempe.names import one_of
 from kempe.plot import style
-from kempe.plot.curves import Curve, Panel, draw
+from kempe.plot.curves import draw
+from kempe.plot.panel import Curve, Panel, curve, times
+from kempe.plot.peaks import peak_text
+from kempe.plot.time_axis import TimeAxis
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.motion import Motion
+    from kempe.arrays import Floats
+    from kempe.views.frames import Frame
 
 #: How a component is written in each frame: x″ is along the joint's axis, x′ along the body's.
 _PRIMES = {"global": "", "body": "′", "joint": "″"}
+#: More peaks than these do not fit into a legend.
+_MOST_PEAKS = 16
 
 
 def reactions(
@@ -24,7 +35,7 @@ def reactions(
     joint: str,
     *,
     on: str | None = None,
-    frame: str = "global",
+    frame: Frame = "global",
     quantity: str = "force",
     ax: Axes | None = None,
     cut: float | None = None,
@@ -33,7 +44,7 @@ def reactions(
     """Draw the force of a joint on a body, in components and magnitude, or its torque.
 
     Args:
-        motion: a solution, or the motion at some times of it.
+        motion: a solution, drawn on its interpolant, or the motion at some times.
         joint: name of the joint or driver.
         on: the body; its body j when None.
         frame: "global", "body" or "joint" (Haug 6.6.8).
@@ -45,41 +56,81 @@ def reactions(
     Raises:
         ModelError: there is no such joint, body, frame or quantity.
     """
-    view = motion.constraint(joint)
-    body = view.info.j if on is None else on
+    instance(motion, Motion, "a solution or a motion")
+    body = motion.constraint(joint).info.j if on is None else on
     one_of("quantity", quantity, ("force", "torque"))
-    force = view.force(on=body, frame=frame)
-    title = f"{style.short(joint)} on {style.short(body)}, {frame} frame"
+    if quantity == "torque":
+        panel = torque_panel(motion, joint, body)
+    else:
+        panel = force_panel(motion, joint, body, frame)
     with style.on(ax) as axes:
-        if quantity == "torque":
-            curves = [Curve("T", view.torque(on=body), style.SUM)]
-            draw(axes, motion.t, curves, Panel("T", "N·m", title.partition(",")[0], cut, legend))
-            return axes
-        prime = _PRIMES[frame]
-        dotted = {**style.SUM, "linestyle": ":", "linewidth": 1.1}
-        curves = [
-            Curve(f"$F_{{x{prime}}}$", force[..., 0], style.line(0)),
-            Curve(f"$F_{{y{prime}}}$", force[..., 1], style.line(1)),
-            Curve("|F|", np.hypot(force[..., 0], force[..., 1]), dotted),
-        ]
-        draw(axes, motion.t, curves, Panel("F", "N", title, cut, legend))
+        draw(axes, times(motion), replace(panel, legend=legend), cut=cut)
         return axes
+
+
+def force_panel(motion: Motion, joint: str, body: str, frame: Frame) -> Panel:
+    """Components and magnitude of the force of a joint on a body in a frame."""
+
+    def force(at: Motion) -> Floats:
+        return at.constraint(joint).force(on=body, frame=frame)
+
+    prime = _PRIMES.get(frame, "")
+    dotted = {**style.SUM, "linestyle": ":", "linewidth": 1.1}
+    curves = [
+        curve(motion, f"$F_{{x{prime}}}$", lambda at: force(at)[..., 0], style.line(0)),
+        curve(motion, f"$F_{{y{prime}}}$", lambda at: force(at)[..., 1], style.line(1)),
+        curve(motion, "|F|", lambda at: np.hypot(*force(at).T), dotted),
+    ]
+    title = f"{_beside(joint, body)}, {frame} frame"
+    return Panel("F", "N", curves, title, title)
+
+
+def torque_panel(motion: Motion, joint: str, body: str) -> Panel:
+    """Torque of a joint on a body about the joint point."""
+    line = curve(motion, "T", lambda at: at.constraint(joint).torque(on=body), style.SUM)
+    title = _beside(joint, body)
+    return Panel("T", "N·m", [line], title, f"torque of {title}")
+
+
+def _beside(joint: str, body: str) -> str:
+    """A title for a panel of half the width of a page."""
+    longest = style.LONGEST_NAME if len(joint) + len(body) <= 18 else 8
+    return f"{style.short(joint, longest)} on {style.short(body, longest)}"
+
+
+def _magnitude(joint: str, at: Motion) -> Floats:
+    """Magnitude of the force of a joint on its body j."""
+    view = at.constraint(joint)
+    found: Floats = np.hypot(*view.force(on=view.info.j).T)
+    return found
 
 
 def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
     """Draw the magnitude of the force of every joint and driver that has one.
 
+    The legend gives the largest magnitudes with their times.
+
     Args:
-        motion: a solution, or the motion at some times of it.
+        motion: a solution, drawn on its interpolant, or the motion at some times.
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
     """
-    curves = []
-    for name, info in motion.model.constraints.items():
-        force = motion.constraint(name).force(on=info.j)
-        magnitude = np.hypot(force[..., 0], force[..., 1])
-        if name in motion.model.joints or magnitude.any():
-            curves.append(Curve(style.short(name), magnitude))
+    instance(motion, Motion, "a solution or a motion")
+    curves: list[Curve] = []
+    for name in motion.compiled.constraints:
+        magnitude = partial(_magnitude, name)
+        one = curve(motion, style.short(name), magnitude, style.line(len(curves)))
+        if name in motion.compiled.joints or one.values.any():
+            curves.append(one)
+    panel = Panel("|F|", "N", curves, "Reactions", "reactions")
+    unit, time = scale("N", panel.peak), TimeAxis.of(times(motion)).unit
+    with_peaks = [
+        replace(one, label=f"{one.label}: {peak_text(one.high, unit, time)}")
+        if one.high is not None and len(curves) <= _MOST_PEAKS
+        else one
+        for one in curves
+    ]
     with style.on(ax) as axes:
-        draw(axes, motion.t, curves, Panel("|F|", "N", "Reactions", cut))
+        shown = [Curve(one.label, one.values, one.line) for one in with_peaks]
+        draw(axes, times(motion), replace(panel, curves=shown, legend=True), cut=cut)
         return axes

@@ -24,6 +24,9 @@ FIGURES: dict[str, Callable[[Study, Axes], None]] = {
     "gaps": gaps,
 }
 
+#: Heights of those that are not as high as a panel, mm.
+HEIGHTS = {"gaps": 110.0, "work_precision": 90.0}
+
 
 def write(study: Study, folder: Path) -> list[Path]:
     """Draw all figures of a study into a folder; returns the files.
@@ -34,7 +37,7 @@ def write(study: Study, folder: Path) -> list[Path]:
     written: list[Path] = []
     for name, draw in FIGURES.items():
         with style.applied():
-            figure = style.figure()
+            figure = style.figure(HEIGHTS.get(name, style.HEIGHT))
             draw(study, figure.add_subplot())
         written += style.save(figure, folder / name)
     return written

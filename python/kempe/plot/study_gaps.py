@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.draw.items import NUMBER, arrow_head, fill, line, on_body
+from kempe.draw.items import PIN, arrow_head, fill, line, on_body
 from kempe.draw.scene import scene
 from kempe.plot import style
 from kempe.plot.picture import drawn, paint
@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from kempe.studies import Study
 
 #: The largest gap is drawn about this long, as a share of the drawing.
-LENGTH = 0.15
+LENGTH = 0.25
+_WIDTH, _HEAD = 2.2, 10.0  # of an arrow, points
 
 
 def gaps(study: Study, ax: Axes) -> None:
@@ -48,16 +49,19 @@ def gaps(study: Study, ax: Axes) -> None:
     factor = magnification(float(np.hypot(*along.T).max(initial=0.0)), float((high - low).max()))
     when = f"t = {float(state.t):.3g} s, gaps magnified {factor:g} times"
     made = drawn(ax, shown, style.verbatim(f"{outcome.variant.name}\n{when}"))
-    for name, point, gap in zip(state.model.joints, begin, along, strict=True):
+    for name, point, gap in zip(state.compiled.joints, begin, along, strict=True):
         length = float(np.hypot(*gap))
         if length == 0.0:
             continue
         angle = float(np.arctan2(gap[1], gap[0]))
         frame = on_body(0, [float(x) for x in point], turn=angle)
-        shaft = [[0.0, 0.0, 0.0, 0.0], [factor * length, 0.0, -4.0, 0.0]]
-        head = [[factor * length, 0.0, *at] for at in arrow_head((0.0, 0.0), 0.0)]
-        made.add([line(name, frame, shaft, "reaction", 1.5, layer=NUMBER)])
-        made.add([fill(name, frame, head, "reaction", layer=NUMBER)])
+        shaft = [[0.0, 0.0, 0.0, 0.0], [factor * length, 0.0, -0.6 * _HEAD, 0.0]]
+        head = [[factor * length, 0.0, *at] for at in arrow_head((0.0, 0.0), 0.0, _HEAD)]
+        edge = [[factor * length, 0.0, *at] for at in arrow_head((1.5, 0.0), 0.0, _HEAD + 4.0)]
+        made.add([line(name, frame, shaft, "paper", _WIDTH + 2.0, layer=PIN)])
+        made.add([fill(name, frame, edge, "paper", layer=PIN)])
+        made.add([line(name, frame, shaft, "reaction", _WIDTH, layer=PIN)])
+        made.add([fill(name, frame, head, "reaction", layer=PIN)])
         made.name("joint", f"{name}: {1e3 * length:.3g} mm", frame)
     paint(ax, made)
 
@@ -68,7 +72,7 @@ def joint_gaps(state: State) -> tuple[Floats, Floats]:
     Along a slide the points may be apart; only what the joint forbids counts as its gap.
     """
     begin, along = [], []
-    for info in state.model.joints.values():
+    for info in state.compiled.joints.values():
         at_i = state.body(info.i).at(info.point_i).position
         gap = state.body(info.j).at(info.point_j).position - at_i
         units = [unit for _, unit in info.equations]
@@ -104,5 +108,5 @@ def state_at(solution: Solution, k: int) -> State:
     from kempe.state import State
 
     return State(
-        solution.model, float(solution.t[k]), solution.q[k], solution.v[k], z=solution.z[k]
+        solution.compiled, float(solution.t[k]), solution.q[k], solution.v[k], z=solution.z[k]
     )

@@ -9,6 +9,9 @@ import numpy as np
 
 from kempe.arrays import Floats
 from kempe.plot import style
+from kempe.plot.envelope import BINS, envelope, logarithmic
+from kempe.plot.legend import beside
+from kempe.plot.time_axis import TimeAxis, show_time
 from kempe.studies.outcome import differences
 
 if TYPE_CHECKING:
@@ -19,15 +22,16 @@ if TYPE_CHECKING:
 
 #: Least value of the logarithmic axis, m.
 FLOOR = 1e-16
-#: Spans of time of which the largest value is drawn.
-BINS = 200
+_DECADES = 18
+#: Distance of the markers of a curve, as a share of its length.
+_MARKED = 0.12
 
 
 def residual_history(study: Study, ax: Axes) -> None:
     """Largest |Φ| over time for the variants of stabilization."""
     _draw(ax, _shown(study), lambda solution: solution.drift.position)
-    ax.set_ylabel("largest residual / m, rad")
-    ax.set_title("Residual of the constraints")
+    ax.set_ylabel("max |Φ| / (m, rad)")
+    ax.set_title("Residual of the constraints", loc="left")
 
 
 def error_history(study: Study, ax: Axes) -> None:
@@ -38,7 +42,8 @@ def error_history(study: Study, ax: Axes) -> None:
 
     _draw(ax, _shown(study), lambda solution: differences(solution, reference)[1])
     ax.set_ylabel("position error / m")
-    ax.set_title(style.verbatim(f"Difference from {study.reference.variant.name}"))
+    title = f"Difference from {study.reference.variant.name}"
+    ax.set_title(style.verbatim(title), loc="left")
 
 
 def _shown(study: Study) -> Sequence[Outcome]:
@@ -49,25 +54,21 @@ def _shown(study: Study) -> Sequence[Outcome]:
 
 
 def _draw(ax: Axes, outcomes: Sequence[Outcome], value: Callable[[Solution], Floats]) -> None:
+    """The envelopes of a quantity, different in colour, dashes and marker."""
+    solved = [outcome.solution for outcome in outcomes if outcome.solution is not None]
+    if not solved:
+        return
+    time = TimeAxis.of(np.concatenate([solution.t for solution in solved]))
+    drawn: list[Floats] = []
     for k, outcome in enumerate(outcomes):
         if outcome.solution is None:
             continue
         y = np.maximum(value(outcome.solution), FLOOR)
-        t, y = envelope(outcome.solution.t[: len(y)], y)
-        ax.plot(t, y, **style.line(k), linewidth=1.3, label=outcome.variant.gains)
-    ax.set_yscale("log")
-    ax.set_xlabel("t / s")
-    ax.grid(visible=True, color="#EEEEEE")
-    if outcomes:
-        title = f"{outcomes[0].variant.method}\nlargest of each\n{100 / BINS:g} % of the time"
-        ax.legend(
-            title=title, fontsize=8, title_fontsize=8, loc="upper left", bbox_to_anchor=(1, 1)
-        )
-
-
-def envelope(t: Floats, y: Floats) -> tuple[Floats, Floats]:
-    """The largest value in each of BINS spans of time; an oscillation becomes one clear line."""
-    if len(t) <= BINS:
-        return t, y
-    edges = np.linspace(0, len(t), BINS + 1).astype(int)[:-1]
-    return t[edges], np.maximum.reduceat(y, edges)
+        t, _, y = envelope(outcome.solution.t[: len(y)] / time.unit.divisor, y)
+        # The markers of different curves are at different places.
+        marks = (_MARKED * (k % 7) / 7.0, _MARKED)
+        ax.plot(t, y, **style.marked_line(k), markevery=marks, label=outcome.variant.gains)
+        drawn.append(y)
+    logarithmic(ax, drawn, most=_DECADES)
+    show_time(ax, time)
+    beside(ax, f"{outcomes[0].variant.method}\nlargest of each\n{100 / BINS:g} % of the time")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, Literal, TypeAlias
 
 from kempe.draw.palette import COLOURS, GROUND, LONGEST_NAME, colour, one_line, verbatim
 
@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 
 #: The lines of one panel in order: in print without colours the dashes distinguish them.
 DASHES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 2)))
+#: Of the curves of a study: ten colours, dashes and markers, each only once.
+_MANY_COLOURS = (*COLOURS, "#7A3DB8", "#8B5A2B", "#7F7F7F")
+_MANY_DASHES = (*DASHES, (0, (8, 2, 1, 2)), (0, (12, 3)), (0, (4, 1, 1, 1, 1, 1, 1, 1)))
+MARKERS = "osD^vP*X<>"
 SUM = {"color": "#000000", "linestyle": "-", "linewidth": 1.6, "zorder": 1.9}
 EARLIER = "#BBBBBB"
 QUIET = "#F2F2F2"
@@ -27,13 +31,17 @@ MILLIMETRE = 1.0 / 25.4
 WIDTH = 160.0  # mm: the text of an A4 page
 HEIGHT = 75.0  # mm: of a figure with one panel
 DOTS_PER_INCH = 200
-FORMATS = ("png", "svg", "pdf")
+#: Distances of the labels from their axes, mm.
+_X_LABEL, _Y_LABEL = 6.3, 14.3
+Format: TypeAlias = Literal["png", "svg", "pdf"]
+FORMATS: tuple[Format, ...] = ("png", "svg", "pdf")
 
 _FONTS: dict[Any, Any] = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
     "font.size": 9.0,
     "axes.titlesize": 9.0,
+    "axes.titley": 1.0,  # a fixed place; to look for one takes as long as to draw the axes
     "axes.labelsize": 9.0,
     "xtick.labelsize": 8.0,
     "ytick.labelsize": 8.0,
@@ -84,6 +92,15 @@ def line(k: int) -> dict[str, Any]:
     }
 
 
+def marked_line(k: int) -> dict[str, Any]:
+    """Colour, dashes and marker of the k-th curve of a study, from 0; all of ten are different."""
+    return {
+        "color": _MANY_COLOURS[k % len(_MANY_COLOURS)],
+        "linestyle": _MANY_DASHES[k % len(_MANY_DASHES)],
+        "marker": MARKERS[k % len(MARKERS)],
+    }
+
+
 def new_axes() -> Axes:
     """Axes in a figure of their own that a notebook or ``plt.show()`` shows."""
     from matplotlib import pyplot
@@ -93,19 +110,35 @@ def new_axes() -> Axes:
     return axes
 
 
-def figure(height: float = HEIGHT) -> Figure:
+def figure(height: float = HEIGHT, layout: Literal["constrained"] | None = "constrained") -> Figure:
     """A figure without a window, for a file, as wide as the text of a page.
 
     Args:
         height: mm.
+        layout: None if all axes have fixed places, by ``axes_at``.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     size = (WIDTH * MILLIMETRE, height * MILLIMETRE)
-    made = Figure(figsize=size, layout="constrained", dpi=DOTS_PER_INCH)
+    made = Figure(figsize=size, layout=layout, dpi=DOTS_PER_INCH)
     FigureCanvasAgg(made)
     return made
+
+
+def axes_at(made: Figure, box: tuple[float, float, float, float], height: float) -> Axes:
+    """Axes at a fixed place; their labels have fixed places too, so that nothing is laid out.
+
+    Args:
+        made: the figure.
+        box: left and lower edge, width and height, mm.
+        height: height of the figure, mm.
+    """
+    left, bottom, wide, high = box
+    found: Axes = made.add_axes((left / WIDTH, bottom / height, wide / WIDTH, high / height))
+    found.yaxis.set_label_coords(-_Y_LABEL / wide, 0.5)
+    found.xaxis.set_label_coords(0.5, -_X_LABEL / high)
+    return found
 
 
 def save(made: Figure, path: Path, formats: Sequence[str] = ("png",)) -> list[Path]:

@@ -1,13 +1,16 @@
-"""The time axis: where a motion comes to rest early, the quiet rest is compressed."""
+"""The time axis: where a motion comes to rest early, the quiet rest can be compressed."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from kempe.arrays import Floats
+from kempe.draw.units import Scale, scale
+from kempe.plot.ticks import labels, set_ticks
 from kempe.report.settling import settling
 
 if TYPE_CHECKING:
@@ -23,6 +26,30 @@ _LONGEST = 0.4
 _STILL = 1e-3
 
 
+@dataclass(frozen=True)
+class TimeAxis:
+    """A time axis.
+
+    Attributes:
+        first, last: its ends, s.
+        unit: unit of the numbers on it.
+        cut: time after which it is compressed, s; never when None.
+    """
+
+    first: float
+    last: float
+    unit: Scale
+    cut: float | None
+
+    @classmethod
+    def of(cls, t: Floats, cut: float | None = None) -> TimeAxis:
+        """The axis for times (n_t,) or (), s."""
+        first, last = float(np.min(t)), float(np.max(t))
+        inside = cut is not None and first < cut < last
+        unit = scale("s", min(max(abs(first), abs(last)), 1.0))  # never thousands of seconds
+        return cls(first, last, unit, cut if inside else None)
+
+
 def transient(motion: Motion) -> float | None:
     """The time until which most happens, s, rounded up; None where the motion does not settle.
 
@@ -33,7 +60,7 @@ def transient(motion: Motion) -> float | None:
     duration = float(t[-1] - t[0])
     if len(t) < 3 or duration <= 0.0:
         return None
-    bodies = [motion.body(name) for name in motion.model.bodies]
+    bodies = [motion.body(name) for name in motion.compiled.bodies]
     angles = [body.angle for body in bodies]
     places = [values for body in bodies for values in (body.x, body.y)]
     times = []
@@ -57,26 +84,28 @@ def _rounded_up(value: float) -> float:
     return step * math.ceil(value / step)
 
 
-def show_time(axes: Axes, t: Floats, cut: float | None, *, label: bool = True) -> None:
-    """Give the axes a time axis from the first to the last time.
+def show_time(axes: Axes, time: TimeAxis, *, label: bool = True) -> None:
+    """Give axes, whose values are in the unit of the time axis, that time axis.
 
     Args:
         axes: where to.
-        t: (n_t,), s.
-        cut: after this time the axis is compressed and its background grey; never when None.
+        time: the time axis; the compressed part has a grey background.
         label: whether to write the label of the axis.
     """
-    first, last = float(t.min()), float(t.max())
+    first, last = time.first / time.unit.divisor, time.last / time.unit.divisor
     told = ""
     if first == last:
         axes.set_xlim(first - 0.5, last + 0.5)
-    elif cut is None or not first < cut < last:
+        set_ticks(axes.xaxis)
+    elif time.cut is None:
         axes.set_xlim(first, last)
+        set_ticks(axes.xaxis)
     else:
+        cut = time.cut / time.unit.divisor
         _compress(axes, first, cut, last)
-        told = f"  (grey: compressed after {cut:g} s)"
+        told = f"  (grey: compressed after {cut:g} {time.unit.unit})"
     if label:
-        axes.set_xlabel(f"time t / s{told}")
+        axes.set_xlabel(f"{time.unit.axis('time t')}{told}")
 
 
 def _compress(axes: Axes, first: float, cut: float, last: float) -> None:
@@ -95,17 +124,17 @@ def _compress(axes: Axes, first: float, cut: float, last: float) -> None:
 
     axes.set_xscale("function", functions=(forward, inverse))
     axes.set_xlim(first, last)
-    axes.set_xticks(_ticks(axes, first, cut, last))
+    ticks = _ticks(first, cut, last)
+    axes.set_xticks(ticks, [labels([tick])[0] for tick in ticks])
     axes.axvspan(cut, last, color=style.QUIET, linewidth=0.0, zorder=0.1)
 
 
-def _ticks(axes: Axes, first: float, cut: float, last: float) -> list[float]:
+def _ticks(first: float, cut: float, last: float) -> list[float]:
     """Round times in both parts, none so near after the cut that the numbers would touch."""
     from matplotlib.ticker import MaxNLocator
 
     early = MaxNLocator(5, steps=[1, 2, 5, 10]).tick_values(first, cut)
     late = MaxNLocator(3, steps=[1, 2, 5, 10]).tick_values(cut, last)
     far = cut + 0.35 * (last - cut)
-    axes.xaxis.set_major_formatter("{x:g}")
-    kept = [t for t in early if first <= t <= cut]
-    return [*kept, *(t for t in late if far < t <= last)]
+    kept = [float(t) for t in early if first <= t <= cut]
+    return [*kept, *(float(t) for t in late if far < t <= last)]

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
+from kempe.motion import Motion
 from kempe.plot import style
-from kempe.plot.curves import Curve, Panel, draw
+from kempe.plot.curves import draw
+from kempe.plot.panel import Panel, curve, times
+from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.motion import Motion
+    from kempe.arrays import Floats
 
 
 def torques(
@@ -23,8 +27,10 @@ def torques(
 ) -> Axes:
     """Draw the torque of every part of a force element on a body, and their sum.
 
+    Parts that are zero at all times are left out.
+
     Args:
-        motion: a solution, or the motion at some times of it.
+        motion: a solution, drawn on its interpolant, or the motion at some times.
         force: name of the element, such as a torsion spring.
         on: the body; its body j when None.
         ax: where to; a figure of its own when None.
@@ -33,15 +39,27 @@ def torques(
     Raises:
         ModelError: there is no such element, or it does not act on that body.
     """
+    instance(motion, Motion, "a solution or a motion")
+    panel = torque_panel(motion, force, on)
+    with style.on(ax) as axes:
+        draw(axes, times(motion), panel, cut=cut)
+        return axes
+
+
+def torque_panel(motion: Motion, force: str, on: str | None = None) -> Panel:
+    """The torque of a force element on a body, its body j when None."""
     view = motion.force(force)
     body = view.info.j if on is None else on
-    total = Curve("sum", view.torque(on=body), style.SUM)
+
+    def torque(at: Motion, part: str | None) -> Floats:
+        return at.force(force).torque(on=body, part=part)
+
+    total = curve(motion, "sum", partial(torque, part=None), style.SUM)
     parts = [
-        Curve(style.short(part), view.torque(on=body, part=part), style.line(k + 1))
+        curve(motion, style.short(part), partial(torque, part=part), style.line(k + 1))
         for k, part in enumerate(view.parts)
     ]
+    acting = [part for part in parts if part.values.any()]
     title = f"{style.short(force, 16)} on {style.short(body, 14)}"
-    with style.on(ax) as axes:
-        curves = [*parts, total] if len(parts) > 1 else [total]
-        draw(axes, motion.t, curves, Panel("T", "N·m", title, cut))
-        return axes
+    curves = [*acting, total] if len(acting) > 1 else [total]
+    return Panel("T", "N·m", curves, title, f"torque of {title}", legend=True)

@@ -2,26 +2,40 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from kempe._version import __version__
 from kempe.arrays import Floats
+from kempe.report.extremes import Sampled
 from kempe.report.settling import settling
+from kempe.solution import Solution
+from kempe.values import instance
 
 if TYPE_CHECKING:
-    from kempe.solution import Solution
+    from kempe.motion import Motion
+    from kempe.state import State
+
+#: Angles below this are rounding errors, rad.
+_NO_ANGLE = 1e-9
 
 
 def summary(solution: Solution) -> dict[str, Any]:
     """Mechanism, initial and final state, peak values, energy balance and settling times.
 
-    The result can be written as JSON. Units: m, rad, N, N·m, J, s.
+    Peaks and settling times are those of the interpolant, also between the outputs; those of the
+    residual are the largest at the outputs and the states at which steps begin, since between them
+    the interpolant has an error of its own. The result can be written as JSON. Units: m, rad, N,
+    N·m, J, s.
     """
+    instance(solution, Solution, "a solution")
+    sampled = Sampled(solution)
+    compiled = solution.compiled
     return {
         "kempe": __version__,
-        "title": solution.model.title,
+        "title": compiled.title,
         "success": solution.success,
         "message": solution.message,
         "time": {
@@ -29,24 +43,24 @@ def summary(solution: Solution) -> dict[str, Any]:
             "end": float(solution.t[-1]),
             "outputs": len(solution.t),
         },
-        "mechanism": mechanism(solution),
+        "mechanism": mechanism(solution.initial),
         "start": solution.initial.coordinates(),
         "end": solution.final.coordinates(),
         "peaks": {
-            "reactions": [reaction(solution, name) for name in solution.model.constraints],
-            "forces": [force(solution, name) for name in solution.model.forces],
-            "residual": residual(solution),
-            "residual_rate": float(solution.drift.velocity.max(initial=0.0)),
+            "reactions": [reaction(sampled, name) for name in compiled.constraints],
+            "forces": [force(sampled, name) for name in compiled.forces],
+            "residual": residual(sampled),
+            "residual_rate": max(_largest_rate(solution), _largest_rate(sampled.steps)),
         },
-        "energy": energy(solution),
-        "settling": [settling_of(solution, name) for name in solution.model.bodies],
+        "energy": energy(sampled),
+        "settling": [settling_of(sampled, name) for name in compiled.bodies],
         "statistics": dict(solution.statistics),
     }
 
 
-def mechanism(solution: Solution) -> dict[str, Any]:
-    """Elements of the mechanism, and its degrees of freedom at the start."""
-    model = solution.model
+def mechanism(state: State) -> dict[str, Any]:
+    """Elements of the mechanism, and its degrees of freedom in a state."""
+    model = state.compiled
     return {
         "bodies": list(model.bodies),
         "joints": list(model.joints),
@@ -54,77 +68,124 @@ def mechanism(solution: Solution) -> dict[str, Any]:
         "forces": list(model.forces),
         "coordinates": model.n_q,
         "equations": model.n_rows,
-        "degrees_of_freedom": solution.initial.matrices().degrees_of_freedom,
+        "degrees_of_freedom": state.matrices().degrees_of_freedom,
     }
 
 
-def reaction(solution: Solution, name: str) -> dict[str, Any]:
+def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
     """Largest reaction of a joint or driver on its body j, with its time."""
-    joint = solution.constraint(name)
-    on = joint.info.j
-    force, force_at = _peak(solution.t, np.linalg.norm(joint.force(on=on), axis=1))
-    torque, torque_at = _peak(solution.t, joint.torque(on=on))
+    on = sampled.solution.compiled.constraints[name].j
+    force = sampled.peak(lambda motion: _size(motion.constraint(name).force(on=on)))
+    torque = sampled.peak(lambda motion: motion.constraint(name).torque(on=on))
     return {
         "joint": name,
         "on": on,
-        "force": force,
-        "force_at": force_at,
-        "torque": torque,
-        "torque_at": torque_at,
+        "force": force.value,
+        "force_at": force.t,
+        "torque": torque.value,
+        "torque_at": torque.t,
     }
 
 
-def force(solution: Solution, name: str) -> dict[str, Any]:
+def force(sampled: Sampled, name: str) -> dict[str, Any]:
     """Largest force and torque of a force element on its body j, with their times."""
-    element = solution.force(name)
-    on = element.info.j
-    magnitude, at = _peak(solution.t, np.linalg.norm(element.force(on=on), axis=1))
-    torque, torque_at = _peak(solution.t, element.torque(on=on))
-    parts = {part: _peak(solution.t, element.torque(on=on, part=part))[0] for part in element.parts}
+    info = sampled.solution.compiled.forces[name]
+    on = info.j
+    magnitude = sampled.peak(lambda motion: _size(motion.force(name).force(on=on)))
+    torque = sampled.peak(lambda motion: motion.force(name).torque(on=on))
+    parts = {}
+    for part in info.parts:
+        read = partial(_torque, name, on, part)
+        parts[part] = sampled.peak(read).value
     return {
         "name": name,
         "on": on,
-        "force": magnitude,
-        "force_at": at,
-        "torque": torque,
-        "torque_at": torque_at,
+        "force": magnitude.value,
+        "force_at": magnitude.t,
+        "torque": torque.value,
+        "torque_at": torque.t,
         "torque_by_part": parts,
     }
 
 
-def residual(solution: Solution) -> dict[str, Any] | None:
+def _torque(name: str, on: str, part: str, motion: Motion) -> Floats:
+    return motion.force(name).torque(on=on, part=part)
+
+
+def residual(sampled: Sampled) -> dict[str, Any] | None:
     """Largest constraint violation with its equation and time; None without constraints."""
-    if not solution.model.n_rows:
+    model = sampled.solution.compiled
+    if not model.n_rows:
         return None
-    opening = np.abs(solution.residuals[0])
+    worst = max(
+        (sampled.solution, sampled.steps),
+        key=lambda motion: float(np.abs(motion.residuals[0]).max()),
+    )
+    opening = np.abs(worst.residuals[0])
     k, row = np.unravel_index(int(opening.argmax()), opening.shape)
     return {
         "value": float(opening[k, row]),
-        "equation": solution.model.row_names()[row],
-        "unit": solution.model.row_units()[row],
-        "at": float(solution.t[k]),
+        "equation": model.row_names()[row],
+        "unit": model.row_units()[row],
+        "at": float(worst.t[k]),
     }
 
 
-def energy(solution: Solution) -> dict[str, float]:
-    """Largest kinetic energy, dissipated energy, work, and largest error of the balance."""
-    found = solution.energy
+def _largest_rate(motion: Motion) -> float:
+    return float(np.abs(motion.residuals[1]).max(initial=0.0))
+
+
+def energy(sampled: Sampled) -> dict[str, float]:
+    """Largest kinetic energy, dissipated energy, work, and largest error of the balance.
+
+    The error is relative to ``scale``, the largest energy of the run.
+    """
+    found = sampled.solution.energy
+    largest = sampled.peak(kinetic_energy)
     return {
-        "largest_kinetic": float(found.kinetic.max(initial=0.0)),
+        "largest_kinetic": largest.value,
+        "largest_kinetic_at": largest.t,
         "dissipated": float(found.dissipated[-1]),
         "work": float(found.work[-1]),
+        "scale": found.scale,
         "largest_imbalance": float(np.abs(found.balance).max(initial=0.0)),
     }
 
 
-def settling_of(solution: Solution, name: str) -> dict[str, Any]:
+def kinetic_energy(motion: Motion) -> Floats:
+    """Kinetic energy of all bodies, (n_t,), J."""
+    total = np.zeros(len(motion.t))
+    for name, info in motion.compiled.bodies.items():
+        body = motion.body(name)
+        velocity = body.at(info.center).velocity
+        total += 0.5 * info.mass * (velocity**2).sum(axis=1)
+        total += 0.5 * info.inertia * body.omega**2
+    return total
+
+
+def settling_of(sampled: Sampled, name: str) -> dict[str, Any]:
     """Settling of the angle of a body; ``time`` is None if the angle does not settle."""
-    angle = solution.body(name).angle
-    found = settling(solution.t, angle)
-    return {"body": name, "moves": found.moves, "time": found.time, "angle": float(angle[-1])}
+    motion, solution = sampled.motion, sampled.solution
+    noise = max(_NO_ANGLE, _turning_by_violation(sampled))
+    found = settling(
+        motion.t,
+        motion.body(name).angle,
+        between=(lambda t: solution(t).body(name).angle) if sampled.is_continuous else None,
+        noise=noise,
+    )
+    angle = float(solution.body(name).angle[-1])
+    shown = 0.0 if abs(angle) <= noise and not found.moves else angle
+    return {"body": name, "moves": found.moves, "time": found.time, "angle": shown}
 
 
-def _peak(t: Floats, values: Floats) -> tuple[float, float]:
-    """The value of largest magnitude, with its sign, and its time."""
-    k = int(np.abs(values).argmax())
-    return float(values[k]), float(t[k])
+def _turning_by_violation(sampled: Sampled) -> float:
+    """An angle by which open joints may turn a body: twice the largest opening over the size."""
+    model = sampled.solution.compiled
+    points = [point for body in model.all_bodies.values() for point in body.points.values()]
+    size = float(np.ptp(np.array([(0.0, 0.0), *points]), axis=0).max())
+    opening = float(sampled.solution.drift.position.max(initial=0.0))
+    return 2.0 * opening / size if size > 0.0 else 0.0
+
+
+def _size(vectors: Floats) -> Floats:
+    return np.hypot(vectors[:, 0], vectors[:, 1])

@@ -29,7 +29,7 @@ class Outcome:
         position_error: the same of any body's position, m.
         residual: largest |Φ| over time, of lengths and of angles, m and rad; NaN if diverged.
         residual_at: when, s.
-        imbalance: largest error of the energy balance, relative to the largest kinetic energy.
+        imbalance: largest error of the energy balance, relative to ``Energy.scale``.
         steps: steps taken.
         evaluations: evaluations of the accelerations.
         seconds: time that the integration took, s.
@@ -82,7 +82,7 @@ def differences(solution: Solution, reference: Solution) -> tuple[Floats, Floats
     """Largest difference of any body's angle, rad, and of any position, m, at each time, (n_t,)."""
     count = min(len(solution.t), len(reference.t))
     angle, position = np.zeros(count), np.zeros(count)
-    for name in solution.model.bodies:
+    for name in solution.compiled.bodies:
         one, other = solution.body(name), reference.body(name)
         angle = np.maximum(angle, np.abs(one.angle[:count] - other.angle[:count]))
         apart = one.r[:count] - other.r[:count]

@@ -8,16 +8,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kempe import files
 from kempe.analyses import simulate
+from kempe.case import Case
 from kempe.errors import IntegrationError, ModelError, SingularityError
 from kempe.names import one_of
 from kempe.studies import table
 from kempe.studies.findings import findings
 from kempe.studies.outcome import Outcome, Outcomes, differences
 from kempe.studies.variants import Variant, variants
+from kempe.values import instance
 
 if TYPE_CHECKING:
-    from kempe.case import Case
     from kempe.solution import Solution
     from kempe.state import State
 
@@ -44,7 +46,7 @@ class Study(Outcomes):
         Raises:
             FileError: a file cannot be written.
         """
-        return table.write(self, Path(folder))
+        return table.write(self, files.checked_path(folder, "write"))
 
     def __str__(self) -> str:
         return "\n".join([self.table(), "", *self.findings()])
@@ -75,6 +77,7 @@ def study(
         ModelError: the case has no such analysis.
         KempeError: the mechanism does not go together, or the reference itself fails.
     """
+    instance(case, Case, "a case")
     names = list(case.analyses)
     if not names:
         raise ModelError("the case contains no analysis", hint="add one, as [analyses.release]")

@@ -6,20 +6,27 @@ vector A s′ turned by 90°.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic, TypeVar, cast
 
 import numpy as np
 
-from kempe.arrays import Floats, fixed, pairs, rotated
+from kempe.arrays import Floats, pairs, rotated, scalar
 from kempe.compiled import BodyInfo, Vector
-from kempe.names import unknown
+from kempe.names import entry
+from kempe.values import vector
 
 if TYPE_CHECKING:
     from kempe.motion import Motion
 
 
-class BodyView:
+#: One number for each time: an array (n_t,), in a state a float.
+S = TypeVar("S")
+
+
+class BodyView(Generic[S]):
     """A body of a motion; all arrays are (n_t,) or (n_t, 2), in SI units and rad.
+
+    In a state, a number is a float and a vector has the shape (2,).
 
     Attributes:
         info: the body with numerical values.
@@ -35,47 +42,47 @@ class BodyView:
         return self.info.name
 
     @property
-    def x(self) -> Floats:
+    def x(self) -> S:
         """Position of the frame's origin, m."""
         return self._column(self._motion.q, 0)
 
     @property
-    def y(self) -> Floats:
+    def y(self) -> S:
         """Position of the frame's origin, m."""
         return self._column(self._motion.q, 1)
 
     @property
-    def angle(self) -> Floats:
+    def angle(self) -> S:
         """Angle of the frame, rad, continuous; zero for a point mass, which does not turn."""
         return self._column(self._motion.q, 2)
 
     @property
-    def vx(self) -> Floats:
+    def vx(self) -> S:
         """Velocity of the origin, m/s."""
         return self._column(self._motion.v, 0)
 
     @property
-    def vy(self) -> Floats:
+    def vy(self) -> S:
         """Velocity of the origin, m/s."""
         return self._column(self._motion.v, 1)
 
     @property
-    def omega(self) -> Floats:
+    def omega(self) -> S:
         """Angular velocity, rad/s; zero for a point mass."""
         return self._column(self._motion.v, 2)
 
     @property
-    def ax(self) -> Floats:
+    def ax(self) -> S:
         """Acceleration of the origin, m/s²."""
         return self._acceleration(0)
 
     @property
-    def ay(self) -> Floats:
+    def ay(self) -> S:
         """Acceleration of the origin, m/s²."""
         return self._acceleration(1)
 
     @property
-    def alpha(self) -> Floats:
+    def alpha(self) -> S:
         """Angular acceleration, rad/s²; zero for a point mass."""
         return self._acceleration(2)
 
@@ -100,21 +107,23 @@ class BodyView:
         Raises:
             ModelError: the body has no such point.
         """
-        if name not in self.info.points:
-            raise unknown(f"point of {self.name}", name, self.info.points)
-        return self.at(self.info.points[name], name)
+        return self.at(entry(f"point of {self.name}", name, self.info.points), name)
 
     def at(self, s: Vector, name: str = "") -> PointView:
-        """A point of the body, given by its coordinates in the frame of the body, m."""
-        return PointView(self, s, name)
+        """A point of the body, given by its coordinates in the frame of the body, m.
 
-    def _acceleration(self, k: int) -> Floats:
+        Raises:
+            ModelError: the coordinates are not two numbers.
+        """
+        return PointView(cast("BodyView[Floats]", self), vector(s, f"point of {self.name}"), name)
+
+    def _acceleration(self, k: int) -> S:
         return self._column(self._motion.a if k < self.info.count else self._motion.v, k)
 
-    def _column(self, values: Floats, k: int) -> Floats:
+    def _column(self, values: Floats, k: int) -> S:
         if k >= self.info.count:  # ground does not move, and a point mass does not turn
-            return fixed(np.zeros(np.shape(self._motion.t)))
-        return fixed(values[..., self.info.columns][..., k])
+            return cast(S, scalar(np.zeros(np.shape(self._motion.t))))
+        return cast(S, scalar(values[..., self.info.columns][..., k]))
 
     def __repr__(self) -> str:
         return f"<body {self.name!r}>"
@@ -128,7 +137,7 @@ class PointView:
         name: name of the point; empty for a point without a name.
     """
 
-    def __init__(self, body: BodyView, s: Vector, name: str) -> None:
+    def __init__(self, body: BodyView[Floats], s: Vector, name: str) -> None:
         self._body = body
         self.s = s
         self.name = name

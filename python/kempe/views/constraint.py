@@ -5,17 +5,18 @@ F″ = -Cᵀ Aᵀ Φ_rᵀ λ (Haug 6.6.8), T″ by (6.6.9); C is fixed in the bo
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic, cast
 
-from kempe.arrays import Floats, fixed
+from kempe.arrays import Floats, fixed, scalar
 from kempe.compiled import ConstraintInfo
-from kempe.views.frames import checked_body, checked_frame
+from kempe.views.body import S
+from kempe.views.frames import Frame, checked_body, checked_frame
 
 if TYPE_CHECKING:
     from kempe.motion import Motion
 
 
-class ConstraintView:
+class ConstraintView(Generic[S]):
     """A joint or driver of a motion.
 
     Attributes:
@@ -31,7 +32,7 @@ class ConstraintView:
         """Name of the joint or driver."""
         return self.info.name
 
-    def force(self, *, on: str, frame: str = "global") -> Floats:
+    def force(self, *, on: str, frame: Frame = "global") -> Floats:
         """Force that the joint exerts on a body, (n_t, 2), N.
 
         Args:
@@ -44,13 +45,13 @@ class ConstraintView:
         """
         return fixed(self._reaction(on, frame)[..., :2])
 
-    def torque(self, *, on: str) -> Floats:
+    def torque(self, *, on: str) -> S:
         """Torque that the joint exerts on a body about the joint point, (n_t,), N·m.
 
         Raises:
             ModelError: the joint does not connect that body.
         """
-        return fixed(self._reaction(on, "global")[..., 2])
+        return cast(S, scalar(self._reaction(on, "global")[..., 2]))
 
     @property
     def residual(self) -> Floats:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, Literal, cast
 
-from kempe.arrays import Floats, fixed
+from kempe.arrays import Floats, fixed, scalar
 from kempe.compiled import ForceInfo
-from kempe.names import unknown
+from kempe.names import one_of
+from kempe.views.body import S
 from kempe.views.frames import checked_body, checked_frame
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 _FRAMES = ("global", "body")
 
 
-class ForceView:
+class ForceView(Generic[S]):
     """A force element of a motion.
 
     Each part has its own ``<part>_torque(on=…)`` and ``<part>_force(on=…)``, such as
@@ -41,7 +42,13 @@ class ForceView:
         """Names of the parts."""
         return self.info.parts
 
-    def force(self, *, on: str, frame: str = "global", part: str | None = None) -> Floats:
+    def force(
+        self,
+        *,
+        on: str,
+        frame: Literal["global", "body"] = "global",
+        part: str | None = None,
+    ) -> Floats:
         """Force on a body, (n_t, 2), N.
 
         Args:
@@ -54,7 +61,7 @@ class ForceView:
         """
         return fixed(self._action(on, frame, part)[..., :2])
 
-    def torque(self, *, on: str, part: str | None = None) -> Floats:
+    def torque(self, *, on: str, part: str | None = None) -> S:
         """Torque on a body about the origin of its frame, (n_t,), N·m.
 
         Args:
@@ -64,11 +71,11 @@ class ForceView:
         Raises:
             ModelError: ``on`` or ``part`` has another value.
         """
-        return fixed(self._action(on, "global", part)[..., 2])
+        return cast(S, scalar(self._action(on, "global", part)[..., 2]))
 
     def _action(self, on: str, frame: str, part: str | None) -> Floats:
-        if part is not None and part not in self.parts:
-            raise unknown(f"part of {self.name}", part, self.parts)
+        if part is not None:
+            one_of(f"part of {self.name}", part, self.parts)
         body, axes = checked_body(self.info, on), checked_frame(frame, _FRAMES)
         return self._motion.action(self.name, body, part, axes)
 
@@ -77,15 +84,15 @@ class ForceView:
         """Names of the first-order states."""
         return tuple(name for name, _ in self.info.states)
 
-    def state(self, name: str) -> Floats:
+    def state(self, name: str) -> S:
         """A first-order state by name, (n_t,), in its SI unit.
 
         Raises:
             ModelError: the element has no such state.
         """
-        if name not in self.states:
-            raise unknown(f"state of {self.name}", name, self.states)
-        return fixed(self._motion.z[..., self.info.places][..., self.states.index(name)])
+        one_of(f"state of {self.name}", name, self.states)
+        values = self._motion.z[..., self.info.places][..., self.states.index(name)]
+        return cast(S, scalar(values))
 
     def __getattr__(self, name: str) -> Any:  # an array for a state, a function for a part
         if name.startswith("_") or name == "info":
@@ -99,7 +106,7 @@ class ForceView:
             raise AttributeError(f"{self!r} has no {name!r}; its parts: {parts}{states}")
         whole = self.force if what == "force" else self.torque
 
-        def of_part(*, on: str, **frame: str) -> Floats:
+        def of_part(*, on: str, **frame: Any) -> Any:
             return whole(on=on, part=part, **frame)
 
         return of_part

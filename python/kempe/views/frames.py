@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from kempe.compiled import ConstraintInfo, ForceInfo
-from kempe.names import one_of
+from collections.abc import Sequence
+from typing import Literal, TypeAlias
 
+from kempe.compiled import ConstraintInfo, ForceInfo
+from kempe.names import UnknownNameError, one_of
+
+Frame: TypeAlias = Literal["global", "body", "joint"]
 #: Global axes; axes of the body given by ``on=``; axes of the joint on this body (Haug 6.6.8).
-FRAMES = ("global", "body", "joint")
+FRAMES: tuple[Frame, ...] = ("global", "body", "joint")
 
 
 def checked_body(element: ConstraintInfo | ForceInfo, on: str) -> str:
@@ -18,10 +22,18 @@ def checked_body(element: ConstraintInfo | ForceInfo, on: str) -> str:
     return one_of(f"body in on= for {element.name}", on, dict.fromkeys(element.bodies))
 
 
-def checked_frame(frame: str, allowed: tuple[str, ...] = FRAMES) -> str:
+def checked_frame(frame: str, allowed: Sequence[str] = FRAMES) -> str:
     """The frame, if the name is valid.
 
     Raises:
         ModelError: there is no such frame.
     """
+    if frame in ("local", "ground") and frame not in allowed:
+        # "local" resembles "global", its opposite
+        meant = "body" if frame == "local" else "global"
+        raise UnknownNameError(
+            f"unknown frame {frame!r}",
+            name=frame,
+            hint=f"write {meant!r}; there is {', '.join(allowed)}",
+        )
     return one_of("frame", frame, allowed)

@@ -97,14 +97,15 @@ fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
     let joint = &model.constraints[gap.joint].name;
     let [a, b] = gap.bodies.map(|k| model.bodies[k].name.as_str());
     let missing = gap.missing.abs();
+    let length = length(missing);
     let (fault, hint) = if gap.missing > 0.0 {
         (
-            format!("the links are short by {missing:.3} m at joint {joint}"),
+            format!("the links are short by {length} at joint {joint}"),
             format!("lengthen {a} or {b}, or bring the pins that carry them nearer"),
         )
     } else {
         (
-            format!("one link is too long for the other by {missing:.3} m at joint {joint}"),
+            format!("one link is too long for the other by {length} at joint {joint}"),
             format!(
                 "make the lengths of {a} and {b} more equal, or move the pins that carry them apart"
             ),
@@ -145,9 +146,11 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
     let gap = if total > 0.0 { total } else { worst.1 };
     let unit = model.constraints[worst.0].equations[0].unit;
     let message = if unit == "m" {
-        format!("{around} cannot close: {set}the joints stay open by {gap:.3} m in all, most at joint {name}")
+        let gap = length(gap);
+        format!("{around} cannot close: {set}the joints stay open by {gap} in all, most at joint {name}")
     } else {
-        format!("{around} cannot close: {set}{name} is missed by {:.3} {unit}", worst.1)
+        let missed = trimmed(worst.1, 3);
+        format!("{around} cannot close: {set}{name} is missed by {missed} {unit}")
     };
     let hint = "give a guess nearer to the position meant, change what is set, or change lengths";
     Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string() }
@@ -158,8 +161,8 @@ fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a CoordinateTarget>) -> 
     let one = |target: &CoordinateTarget| {
         let name = format!("{}.{}", model.bodies[target.body.0].name, target.coordinate.name());
         match target.coordinate.unit() {
-            "rad" => format!("{name} = {}°", trimmed(target.value.to_degrees())),
-            unit => format!("{name} = {} {unit}", trimmed(target.value)),
+            "rad" => format!("{name} = {}°", trimmed(target.value.to_degrees(), 7)),
+            unit => format!("{name} = {} {unit}", trimmed(target.value, 7)),
         }
     };
     let all: Vec<String> = set.map(one).collect();
@@ -169,10 +172,23 @@ fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a CoordinateTarget>) -> 
     }
 }
 
-/// Six decimals without trailing zeros.
-fn trimmed(x: f64) -> String {
-    let rounded = format!("{x:.6}").parse::<f64>().unwrap_or(x);
-    format!("{rounded}")
+/// Some significant digits without trailing zeros.
+fn trimmed(x: f64, digits: usize) -> String {
+    let rounded = format!("{x:.*e}", digits - 1).parse::<f64>().unwrap_or(x);
+    match rounded.abs() {
+        1e-5..1e16 => format!("{rounded}"),
+        0.0 => "0".to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
+
+/// A length, m, with three decimals in a unit that shows it.
+fn length(x: f64) -> String {
+    let units = [("m", 1.0, 0.1), ("mm", 1e3, 1e-4), ("µm", 1e6, 1e-7), ("nm", 1e9, 1e-10)];
+    match units.into_iter().find(|(.., least)| x >= *least) {
+        Some((unit, factor, _)) => format!("{:.3} {unit}", x * factor),
+        None => format!("{x:.3e} m"),
+    }
 }
 
 /// Largest number of joints of a loop that are named.

@@ -77,7 +77,7 @@ pub fn targets(
     let mut problems = Vec::new();
     let mut found = Vec::new();
     let names = Names::of(model);
-    let scope = Scope::of_parameters(&model.blueprint.parameters);
+    let scope = Scope::of_parameters(&model.blueprint.parameters, &model.blueprint.inferred);
     for (key, value) in written {
         let path = ["start".to_string(), section.to_string(), key.clone()];
         let Some(named) = named(&names, key, &path, &mut problems) else { continue };
@@ -153,6 +153,7 @@ fn named(
     path: &[String],
     problems: &mut Vec<Problem>,
 ) -> Option<Named> {
+    let model = names.model;
     if let Some(found) = state(names, key) {
         return Some(found);
     }
@@ -164,7 +165,15 @@ fn named(
         problems.push(fault(message, None));
         return None;
     };
-    let model = names.model;
+    if let Some(owner) = body.split_once('.').map(|(owner, _)| owner) {
+        if model.body(owner).is_some() {
+            let message =
+                format!("'{body}' is a point; only the coordinates of a body can be given");
+            let hint = format!("write '{owner}.{coordinate}', of its frame");
+            problems.push(fault(message, Some(hint)));
+            return None;
+        }
+    }
     let id = names.bodies.get(body).map(|k| BodyId(*k));
     if id.is_none() {
         let message = match body {

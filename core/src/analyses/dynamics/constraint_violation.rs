@@ -14,9 +14,9 @@ use crate::solve::Breakdown;
 
 /// Largest opening of a joint: lengths relative to the size of the mechanism, angles in rad. The classical gains at
 /// their smallest, α = 1, β = 20 at rtol 1e-3, open the flagship by 6e-4.
-const APART: f64 = 1e-2;
+pub(super) const APART: f64 = 1e-2;
 /// The same without stabilization.
-const ADRIFT: f64 = 1.0;
+pub(super) const ADRIFT: f64 = 1.0;
 
 /// Checks states for joints that opened too far.
 pub(super) struct ViolationCheck<S = f64> {

@@ -1,6 +1,6 @@
 //! Failures of forward dynamics, in terms of the mechanism.
 
-use super::failure_texts::{apart_hint, different, unresisted};
+use super::law_fault::undefined_law;
 use super::run_results::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
@@ -29,6 +29,17 @@ pub enum Reason {
         name: String,
         /// Description.
         message: String,
+    },
+    /// The first state does not meet the constraints.
+    Start {
+        /// Its time, s.
+        t: f64,
+        /// The joint or driver that is open.
+        name: String,
+        /// Description, with the gap.
+        message: String,
+        /// Remedy.
+        hint: &'static str,
     },
     /// An option with an impossible value.
     Option {
@@ -68,6 +79,7 @@ impl Failure {
                 );
                 (name(row), message)
             }
+            Breakdown::Passable(row) => return Self::passable(model, t, q, row),
             Breakdown::AtRest(row) => {
                 let message = format!(
                     "singular position at t = {t:.6} s: the mechanism is almost at rest where its motion can \
@@ -90,24 +102,36 @@ impl Failure {
                     "projection fails at t = {t:.6} s: constraint {} stays open by {gap:.1e}",
                     equation(model, row).0
                 );
-                let hint = "use smaller steps or tolerances; a start must meet the constraints";
+                let hint = "use smaller steps or tolerances";
                 return Reason::Integration { t, message, hint }.into();
             }
             Breakdown::Apart { row, gap, most } => {
                 let (name, unit) = equation(model, row);
-                let [gap, most] = different(gap, most);
+                let [gap, most] = apart_in_print(gap, most);
                 let message = format!(
-                    "the joints come apart at t = {t:.6} s: constraint {name} is open by {gap} {unit}, more than \
-                     {most} {unit}"
+                    "the joints come apart at t = {t:.6} s: constraint {name} is open by {gap} {unit}, more \
+                     than {most} {unit}"
                 );
-                return Reason::Integration { t, message, hint: apart_hint(t) }.into();
+                let hint = "use stabilization projection, a smaller tolerance or step, or greater gains; a start \
+                            must meet the constraints; check the size of the forces";
+                return Reason::Integration { t, message, hint }.into();
             }
             Breakdown::NotFinite => {
-                let (message, hint) = not_finite(t);
+                let rest = vec![0.0; q.len()];
+                let (message, hint) = not_finite(t, undefined_law(model, (t, t), [q, &rest, &[]]));
                 return Reason::Integration { t, message, hint }.into();
             }
         };
         Reason::Singular { t, name, message }.into()
+    }
+
+    /// A row depends on the others where a run with projection continues.
+    fn passable(model: &Model, t: f64, q: &[f64], row: usize) -> Box<Self> {
+        let mut failure = Self::at_state(model, t, q, Breakdown::Row(row));
+        if let Reason::Singular { message, .. } = &mut failure.reason {
+            message.push_str("; a run with stabilization projection passes this position");
+        }
+        failure
     }
 
     /// The integrator stopped at a time `t` and a state `y`.
@@ -117,19 +141,28 @@ impl Failure {
         t: f64,
         y: &[f64],
     ) -> Box<Self> {
+        let [q, v, z, _] = model.layout.split(y);
+        let law = |failed| undefined_law(model, (t, failed), [q, v, z]);
         let (message, hint) = match cause {
+            Cause::Equations { t, error: Breakdown::NotFinite } => not_finite(t, law(t)),
             Cause::Equations { t, error } => {
-                return Self::at_state(model, t, model.layout.split(y)[0], error)
+                return Self::at_state(model, t, q, error)
             }
             Cause::Argument { name, value, must } => {
                 let message = format!("{name}: {value}; must be {must}");
                 return Reason::Option { name, message }.into();
             }
-            Cause::StepTooSmall { h, .. } => (
-                format!("the step fell to {h:.1e} s at t = {t:.6} s: the tolerance cannot be met"),
-                "a singular position or a discontinuity lies here; look at the solution so far",
-            ),
-            Cause::NotFinite { t } => not_finite(t),
+            Cause::StepTooSmall { h, .. } => {
+                let step = format!("the step fell to {h:.1e} s at t = {t:.6} s");
+                match law(t) {
+                    Some(law) => (format!("{step}: {}", law_ends(&law)), LAW_ENDS),
+                    None => (
+                        format!("{step}: the tolerance cannot be met"),
+                        "a singular position or a discontinuity lies here; look at the solution so far",
+                    ),
+                }
+            }
+            Cause::NotFinite { t } => not_finite(t, law(t)),
             Cause::Newton { h, .. } => (
                 format!(
                     "the equations of the step from t = {t:.6} s, {h:.1e} s long, have no solution \
@@ -155,9 +188,31 @@ impl Failure {
     }
 }
 
-fn not_finite(t: f64) -> (String, &'static str) {
+fn not_finite(t: f64, law: Option<String>) -> (String, &'static str) {
     let message = format!("the motion became infinite or undefined at t = {t:.6} s");
-    (message, "use a smaller step or tolerance; check forces and laws at this state")
+    match law {
+        Some(law) => (format!("{message}: {}", law_ends(&law)), LAW_ENDS),
+        None => (message, "use a smaller step or tolerance; check forces and laws at this state"),
+    }
+}
+
+const LAW_ENDS: &str =
+    "write a formula that has a value during the whole run, or end the run before";
+
+fn law_ends(law: &str) -> String {
+    format!("the law {law} has no finite value there")
+}
+
+/// Two unequal numbers with as many digits as show the difference.
+fn apart_in_print(a: f64, b: f64) -> [String; 2] {
+    let written = |digits: usize| [a, b].map(|x| format!("{x:.digits$e}"));
+    (1..17).map(written).find(|[a, b]| a != b).unwrap_or_else(|| written(1))
+}
+
+/// The joints and drivers of a body.
+fn joined(model: &Model, body: BodyId) -> Vec<&str> {
+    let joints = model.constraints.iter().filter(|item| item.bodies.contains(&body));
+    joints.map(|item| item.name.as_str()).collect()
 }
 
 /// The name and unit of a row of Φ, such as `B.x`.
@@ -170,8 +225,22 @@ fn equation(model: &Model, row: usize) -> (String, &'static str) {
 
 /// The name of a body without inertia on which a torque acts, and a message.
 fn no_inertia(model: &Model, t: f64, column: usize) -> (String, String) {
-    let body = model.layout.body_of(column).map_or(BodyId::GROUND, |(body, _)| body);
-    (model.bodies[body.0].name.clone(), unresisted(model, body, t))
+    let id = model.layout.body_of(column).map_or(BodyId::GROUND, |(body, _)| body);
+    let body = &model.bodies[id.0];
+    let (name, inertia) = (body.name.clone(), body.inertia);
+    let (has, set) = match inertia > 0.0 {
+        true => (format!("hardly any moment of inertia ({inertia:.1e} kg·m²)"), "increase"),
+        false => ("no moment of inertia".to_string(), "set"),
+    };
+    let advice = match joined(model, id).join(", ").as_str() {
+        "" => format!("and no joint prevents its rotation; {set} its inertia"),
+        joints => format!(
+            "and its joints ({joints}) add hardly any in this position; {set} its inertia, or increase the \
+             mass of the bodies that they join to it"
+        ),
+    };
+    let message = format!("a torque acts on {name} at t = {t:.6} s, but {name} has {has} {advice}");
+    (name, message)
 }
 
 /// Largest number of bodies whose coordinates a message contains.
@@ -194,6 +263,7 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Singular { message, .. }
+            | Self::Start { message, .. }
             | Self::Option { message, .. }
             | Self::Integration { message, .. } => f.write_str(message),
         }

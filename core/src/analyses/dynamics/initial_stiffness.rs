@@ -113,7 +113,7 @@ fn pace(model: &Model, v: &[f64], a: &[f64]) -> f64 {
 fn excited(auto: &Auto, jerk: &[f64], v: &[f64], rate: f64) -> bool {
     let n = v.len();
     let atol = |k: usize| match &auto.control.atol {
-        Atol::Scalar(atol) => *atol,
+        Atol::Scalar(atol) | Atol::Scaled(atol) => *atol,
         Atol::Each(each) => each.get(n + k).copied().unwrap_or(0.0),
     };
     let parts = jerk.iter().map(|jerk| jerk.abs() / (rate * rate));

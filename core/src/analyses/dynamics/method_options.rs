@@ -1,10 +1,11 @@
 //! Options of the methods of integration, as written in a file; each set becomes a [`Scheme`].
 
+use super::absolute_tolerance::{absolute_tolerance, AbsoluteTolerance};
 use super::methods::{self, Scheme};
 use crate::analyses::options::{
     family, hht_alpha, not_negative, options, positive, spectral_radius,
 };
-use crate::integrate::{self, AlphaParameters, StepControl};
+use crate::integrate::{self, AlphaParameters, Atol, StepControl};
 
 family!(Scheme, "method", [Auto, Rk45, Dop853, Rk4, GeneralizedAlpha, Hht, Radau]);
 
@@ -16,8 +17,10 @@ macro_rules! explicit {
             $Name, $name, $class () {
                 /// Relative tolerance of one step.
                 rtol: not_negative = StepControl::USUAL.0,
-                /// Absolute tolerance of one step, in the units of the state.
-                atol: not_negative = StepControl::USUAL.1,
+                /// Absolute tolerance of one step. A number holds for every component, in its unit. A table such as
+                /// `{ length = 1e-9, angle = 1e-9, z = 1e-9 }` has one for lengths, angles and first-order states, and
+                /// for their rates per second. What is absent is 1e-9, for lengths times the size of the mechanism.
+                atol: Option<absolute_tolerance> = None,
                 /// Constant step, independent of the tolerances; if absent, the step is controlled.
                 step: Option<positive> [s] = None,
                 /// First step; if absent, the solver chooses it.
@@ -31,7 +34,8 @@ macro_rules! explicit {
         impl From<$Name> for Scheme {
             fn from(given: $Name) -> Self {
                 let $Name { rtol, atol, step, first_step, max_step } = given;
-                let control = StepControl { step, ..control((rtol, atol), first_step, max_step) };
+                let atol = AbsoluteTolerance::resolve(atol, StepControl::USUAL.1);
+                let control = StepControl { step, ..control(rtol, atol, first_step, max_step) };
                 Self::$Name(integrate::$Name { control })
             }
         }
@@ -51,9 +55,10 @@ macro_rules! implicit {
                 /// Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With a constant step,
                 /// the tolerance of Newton's iteration, 1e-10 if absent.
                 rtol: Option<not_negative> = None,
-                /// Absolute tolerance of one step, 1e-9 if absent, 1e-7 for methods of order 2. With a constant step,
-                /// the tolerance of Newton's iteration, 1e-12 if absent.
-                atol: Option<not_negative> = None,
+                /// Absolute tolerance of one step, a number or a table as for `rk45`. What is absent is 1e-9, for
+                /// methods of order 2 1e-7, for lengths times the size of the mechanism. With a constant step, the
+                /// tolerance of Newton's iteration, 1e-12 if absent, for lengths times the size.
+                atol: Option<absolute_tolerance> = None,
                 /// Constant step, without control of the error; if absent, the step is controlled.
                 step: Option<positive> [s] = None,
                 /// First step; if absent, the solver chooses it.
@@ -68,8 +73,8 @@ macro_rules! implicit {
             fn from(given: $Name) -> Self {
                 let $Name { $($own,)? rtol, atol, step, first_step, max_step } = given;
                 let usual = if step.is_some() { StepControl::NEWTON } else { $tolerances };
-                let tolerances = (rtol.unwrap_or(usual.0), atol.unwrap_or(usual.1));
-                let $control = StepControl { step, ..control(tolerances, first_step, max_step) };
+                let (rtol, atol) = (rtol.unwrap_or(usual.0), AbsoluteTolerance::resolve(atol, usual.1));
+                let $control = StepControl { step, ..control(rtol, atol, first_step, max_step) };
                 $(let $parameter = $own;)?
                 $scheme
             }
@@ -77,13 +82,9 @@ macro_rules! implicit {
     };
 }
 
-fn control(
-    (rtol, atol): (f64, f64),
-    first_step: Option<f64>,
-    max_step: Option<f64>,
-) -> StepControl {
+fn control(rtol: f64, atol: Atol, first_step: Option<f64>, max_step: Option<f64>) -> StepControl {
     let max_step = max_step.unwrap_or(f64::INFINITY);
-    StepControl { first_step, max_step, ..StepControl::new(rtol, atol) }
+    StepControl { atol, first_step, max_step, ..StepControl::new(rtol, 0.0) }
 }
 
 explicit! {
@@ -106,8 +107,9 @@ options! {
     Auto, "auto", "Auto" () {
         /// Relative tolerance of one step.
         rtol: not_negative = StepControl::AUTO.0,
-        /// Absolute tolerance of one step, in the units of the state.
-        atol: not_negative = StepControl::AUTO.1,
+        /// Absolute tolerance of one step, a number or a table as for `rk45`. What is absent is 1e-11, for lengths
+        /// times the size of the mechanism.
+        atol: Option<absolute_tolerance> = None,
         /// First step; if absent, the solver chooses it.
         first_step: Option<positive> [s] = None,
         /// Largest step; no limit if absent.
@@ -117,7 +119,8 @@ options! {
 
 impl From<Auto> for Scheme {
     fn from(Auto { rtol, atol, first_step, max_step }: Auto) -> Self {
-        Self::Auto(methods::Auto { control: control((rtol, atol), first_step, max_step) })
+        let atol = AbsoluteTolerance::resolve(atol, StepControl::AUTO.1);
+        Self::Auto(methods::Auto { control: control(rtol, atol, first_step, max_step) })
     }
 }
 

@@ -6,26 +6,31 @@
 //! | file | concept |
 //! |---|---|
 //! | `options`, `option_checks` | options, and the combinations that are refused |
+//! | `absolute_tolerance` | absolute tolerances of lengths, angles and first-order states |
+//! | `start_check` | states from which a run may start |
 //! | `run`, `run_results`, `stepper` | a run through its phases, and its outcome; a stepper for callers |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
 //! | `singularity_passage`, `singularity_forecast`, `branch_averaging` | singular positions |
 //! | `recorder`, `trajectory`, `report_projection`, `lane_batch` | reported states |
+//! | `interpolated_states` | states between them |
 //! | `constraint_violation` | joints that open too far |
 //! | `accelerations`, `energies` | quantities that follow from reported states |
 //! | `prepared`, `model_cache` | a model for many runs |
 //! | `failure`, `clock` | errors in terms of the mechanism; wall time |
 
+mod absolute_tolerance;
 mod accelerations;
 mod branch_averaging;
 mod clock;
 mod constraint_violation;
 mod energies;
 mod failure;
-mod failure_texts;
 mod initial_stiffness;
+mod interpolated_states;
 mod lane_batch;
+mod law_fault;
 mod method_options;
 mod method_switching;
 mod methods;
@@ -43,6 +48,7 @@ mod run_results;
 mod singularity_forecast;
 mod singularity_passage;
 mod stabilizations;
+mod start_check;
 mod stepper;
 mod stiffness_detection;
 mod trajectory;

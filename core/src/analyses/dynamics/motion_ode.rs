@@ -1,7 +1,7 @@
 //! The equations of motion as a first-order system y = (q, v, z, works).
 
 use super::options::Options;
-use super::singularity_passage::SingularityPassage;
+use super::singularity_passage::{would_pass, SingularityPassage};
 use super::stabilizations::Stabilization;
 use crate::analyses::mobility;
 use crate::equations::augmented::NearSingular;
@@ -104,7 +104,7 @@ impl<'a> MotionOde<'a> {
         self.workspace.place_states(z); // projection does not set z
         if let Err(breakdown) = self.workspace.respond(self.model, t, self.gains) {
             dy.fill(f64::NAN);
-            return stop_if_finite(breakdown, y);
+            return self.stop_if_finite(breakdown, t, y);
         }
         if !self.passage.watch(self.model, &self.workspace, t, v) {
             dy.fill(f64::NAN); // a shorter step may avoid it
@@ -119,22 +119,30 @@ impl<'a> MotionOde<'a> {
         Ok(())
     }
 
+    /// Stops where the accelerations are not unique. A trial state that is not finite is rejected, because a shorter
+    /// step may avoid it.
+    #[cold]
+    fn stop_if_finite(&self, breakdown: Breakdown, t: f64, y: &[f64]) -> Result<(), Breakdown> {
+        if !all_finite(y) {
+            return Ok(());
+        }
+        let [q, v, z, _] = self.model.layout.split(y);
+        match breakdown {
+            Breakdown::Row(row)
+                if self.projector.is_none() && would_pass(self.model, t, [q, v, z]) =>
+            {
+                Err(Breakdown::Passable(row))
+            }
+            other => Err(other),
+        }
+    }
+
     /// Projects y if projection is an option of the run; returns whether y changed. The works are unchanged, so the
     /// energy balance shows the change of energy by projection.
     fn project_state(&mut self, t: f64, y: &mut [f64], factored: bool) -> Result<bool, Breakdown> {
         let Some(projector) = &mut self.projector else { return Ok(false) };
         let [q, v, ..] = self.model.layout.split_mut(y);
         projector.project(&mut self.workspace, t, (q, v), factored)
-    }
-}
-
-/// Stops where the accelerations are not unique. A trial state that is not finite is rejected, because a shorter step
-/// may avoid it.
-#[cold]
-fn stop_if_finite(breakdown: Breakdown, y: &[f64]) -> Result<(), Breakdown> {
-    match all_finite(y) {
-        true => Err(breakdown),
-        false => Ok(()),
     }
 }
 

@@ -1,6 +1,6 @@
 //! The stepper of any method on the equations of motion of a model.
 
-use super::failure::Failure;
+use super::failure::{Failure, Reason};
 use super::method_switching::MethodSwitching;
 use super::methods::Scheme;
 use super::motion_dae::MotionDae;
@@ -159,6 +159,14 @@ impl<'a> MotionStepper<'a> {
         match (&cause, self.ode.passage.undecided) {
             (Cause::NotFinite { .. }, Some((t, breakdown))) => {
                 Failure::at_state(model, t, model.layout.split(y)[0], breakdown)
+            }
+            (Cause::StepTooSmall { .. }, _) if self.ode.projector.is_none() && !model.driven => {
+                let mut failure = Failure::of_integrator(model, cause, self.t(), y);
+                if let Reason::Integration { hint, .. } = &mut failure.reason {
+                    *hint = "a singular position or a discontinuity lies here; a run with stabilization projection \
+                             passes singular positions; look at the solution so far";
+                }
+                failure
             }
             _ => Failure::of_integrator(model, cause, self.t(), y),
         }

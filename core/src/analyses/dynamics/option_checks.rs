@@ -16,12 +16,39 @@ const MOST_OUTPUTS: f64 = 1e6;
 impl Options {
     /// Checks the options that every integration needs. The method checks its own options.
     pub(super) fn check(&self, model: &Model, start: &State) -> Result<(), Box<Failure>> {
-        if let Some(h) = self.output_step {
-            bounded::<positive>("output_step", h)?;
-            let interval = (self.t_end - self.t_start.unwrap_or(start.t)).abs();
-            let few = h * MOST_OUTPUTS >= interval * (1.0 - 1e-9);
-            require("output_step", h, few, "at least 1e-6 of the time that is simulated")?;
-        }
+        self.check_combination()?;
+        self.check_output(self.t_start.unwrap_or(start.t))?;
+        check_lengths(model, start)
+    }
+
+    /// The first option that no run of the model can have, as far as this is known without a run, which begins at
+    /// `t0` if this time is known: its path and its fault.
+    pub(in crate::analyses) fn fault(&self, model: &Model, t0: Option<f64>) -> Option<OptionFault> {
+        let t0 = self.t_start.or(t0);
+        let found = self.check_combination().and_then(|()| match t0 {
+            Some(t0) => self.check_output(t0).and_then(|()| self.check_steps(model, t0)),
+            None => Ok(()),
+        });
+        let step = if self.method.control().step.is_some() { "step" } else { "max_step" };
+        found.err().map(|failure| OptionFault::new(failure.reason, step))
+    }
+
+    /// The checks of the integrator before its first step.
+    fn check_steps(&self, model: &Model, t0: f64) -> Result<(), Box<Failure>> {
+        let checked = self.bounded_method(model).control().check_times(t0, self.t_end);
+        let nowhere = || vec![0.0; model.layout.n_y()];
+        checked.map_err(|cause| Failure::of_integrator(model, cause, t0, &nowhere()))
+    }
+
+    fn check_output(&self, t0: f64) -> Result<(), Box<Failure>> {
+        let Some(h) = self.output_step else { return Ok(()) };
+        bounded::<positive>("output_step", h)?;
+        let interval = (self.t_end - t0).abs();
+        let few = h * MOST_OUTPUTS >= interval * (1.0 - 1e-9);
+        require("output_step", h, few, "at least 1e-6 of the time that is simulated")
+    }
+
+    fn check_combination(&self) -> Result<(), Box<Failure>> {
         if let Stabilization::Baumgarte(Gains { alpha, beta }) = self.stabilization {
             bounded::<not_negative>("alpha", alpha)?;
             bounded::<not_negative>("beta", beta)?;
@@ -48,13 +75,51 @@ impl Options {
                 "absent: the automatic choice of the method controls its steps",
             )?;
         }
-        let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
-        for (name, part, n) in [("q", &start.q, n_q), ("v", &start.v, n_q), ("z", &start.z, n_z)] {
-            let must = format!("as long as the state of the model, {n}");
-            require(name, part.len() as f64, part.len() == n, &must)?;
-        }
         Ok(())
     }
+}
+
+/// An option that a file gives and no run can have.
+pub(in crate::analyses) struct OptionFault {
+    /// Its keys in the analysis.
+    pub path: Vec<&'static str>,
+    /// Description.
+    pub message: String,
+    /// Remedy.
+    pub hint: Option<&'static str>,
+}
+
+impl OptionFault {
+    /// `step` is the option that sets the number of steps.
+    fn new(reason: Reason, step: &'static str) -> Self {
+        match reason {
+            Reason::Option { name, message } => {
+                let path = match name {
+                    "alpha" | "beta" | "tolerance" => vec!["stabilization", name],
+                    "output_step" | "stabilization" | "t_end" => vec![name],
+                    "t0" | "t_end - t0" => vec!["t_end"],
+                    _ => vec!["method", name],
+                };
+                let prefix = format!("{name}: ");
+                let message = message.strip_prefix(&prefix).unwrap_or(&message).to_string();
+                Self { path, message, hint: None }
+            }
+            Reason::Integration { message, hint, .. } => {
+                Self { path: vec!["method", step], message, hint: Some(hint) }
+            }
+            other => Self { path: Vec::new(), message: other.to_string(), hint: None },
+        }
+    }
+}
+
+/// Checks that a state has the lengths of the model.
+pub(super) fn check_lengths(model: &Model, state: &State) -> Result<(), Box<Failure>> {
+    let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
+    for (name, part, n) in [("q", &state.q, n_q), ("v", &state.v, n_q), ("z", &state.z, n_z)] {
+        let must = format!("as long as the state of the model, {n}");
+        require(name, part.len() as f64, part.len() == n, &must)?;
+    }
+    Ok(())
 }
 
 /// Checks that a number is finite and within the bounds of its kind.

@@ -1,5 +1,6 @@
 //! Options of forward dynamics.
 
+use super::absolute_tolerance;
 use super::methods::Scheme;
 use super::stabilizations::Stabilization;
 use crate::analyses::options::{
@@ -91,11 +92,28 @@ impl Options {
         }
     }
 
-    /// The method with a bound on its steps: its own, that of the run, or [`most_steps`].
+    /// The fault of a run that would end before it begins. A run of this crate may go backward in time; runs of cases
+    /// and of the Python package may not.
+    ///
+    /// # Arguments
+    /// `t` is the time of the first state, s; `path` is the path of t_end in the file.
+    pub fn backward(&self, t: f64, path: &[&str]) -> Option<Problem> {
+        let begin = self.t_start.unwrap_or(t);
+        (self.t_end < begin).then(|| {
+            let message = format!("{} s lies before {begin} s, where the run starts", self.t_end);
+            Problem::at(path, message)
+                .hint(format!("t_end is a time, not a duration; it must be at least {begin} s"))
+        })
+    }
+
+    /// The method with a bound on its steps (its own, that of the run, or [`most_steps`]) and with an absolute tolerance
+    /// for this model.
     pub(super) fn bounded_method(&self, model: &Model) -> Scheme {
         let mut bounded = self.method.clone();
         let most = self.max_steps.unwrap_or_else(|| most_steps(model));
-        bounded.control_mut().max_steps.get_or_insert(most);
+        let control = bounded.control_mut();
+        control.max_steps.get_or_insert(most);
+        control.atol = absolute_tolerance::for_model(model, &control.atol);
         bounded
     }
 

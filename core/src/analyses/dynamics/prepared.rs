@@ -5,6 +5,7 @@ use super::accelerations::Accelerations;
 use super::clock::{system_clock, Clock};
 use super::energies::energies;
 use super::failure::Failure;
+use super::interpolated_states;
 use super::model_cache::ModelCache;
 use super::options::Options;
 use super::run::{simulate, Phase, Watcher};
@@ -13,6 +14,7 @@ use super::trajectory::States;
 use crate::analyses::State;
 use crate::integrate::Flow;
 use crate::model::Model;
+use crate::stabilize::Projection;
 use std::ops::Deref;
 
 /// A model and the data that its runs share: the plan of elimination, and the model over lanes once a run needs it.
@@ -82,6 +84,22 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         watch: impl FnMut(f64) -> Flow,
     ) -> Result<Accelerations, Box<Failure>> {
         accelerations((&self.model, &self.cache), states, passing, watch)
+    }
+
+    /// Projects states between the outputs of a run, such as those of its interpolant: rows of q and of v as they would
+    /// be reported at these times. `projection` is that of the run.
+    ///
+    /// # Errors
+    /// [`Failure`] at the first state that cannot be projected.
+    ///
+    /// # Panics
+    /// If the rows do not fit the model or each other.
+    pub fn project(
+        &self,
+        states: States<'_>,
+        projection: Projection,
+    ) -> Result<[Vec<f64>; 2], Box<Failure>> {
+        interpolated_states::project((&self.model, &self.cache), states, projection)
     }
 
     /// Kinetic and potential energy at states, J, followed by the dissipated energy and the works up to them: `works`,

@@ -8,6 +8,8 @@ use super::motion_stepper::MotionStepper;
 use super::options::Options;
 use super::recorder::{self, Recorder};
 use super::run_results::Run;
+use super::stabilizations::Stabilization;
+use super::start_check::StartCheck;
 use crate::analyses::State;
 use crate::integrate::{Cause, Direction, Flow, Step};
 use crate::model::Model;
@@ -107,9 +109,19 @@ fn run_phase<W: FnMut(f64) -> Flow>(
     watcher: &mut Watcher<'_, W>,
 ) -> Result<Flow, Box<Failure>> {
     let model = phase.model;
+    let first = run.phases.is_empty();
+    let check =
+        if first { StartCheck::of_run(options) } else { StartCheck::of_continuation(options) };
+    let check = if phase.project_velocities { check.of_positions() } else { check };
+    let [q, v, z, _] = model.layout.split(&at.y);
+    check.check(model, at.t, [q, v, z])?;
     let mut ode = MotionOde::new(model, options, cache.plan(model));
     run.phases.push(run.trajectory.t.len());
     run.passing = ode.passing;
+    run.projection = match options.stabilization {
+        Stabilization::Projection(projection) => Some(projection),
+        _ => None,
+    };
     let wide = recorder::many(options.output_step, options.t_end - at.t).then(|| cache.wide(model));
     let tables = (std::mem::take(&mut run.trajectory), run.dense.take());
     let mut recorder = Recorder::new(&ode, wide, options, (at.t0, at.t), tables);

@@ -3,6 +3,7 @@
 use super::stiffness_detection::MethodChoice;
 use super::trajectory::{PiecewiseInterpolant, States, Trajectory};
 use crate::integrate;
+use crate::stabilize::Projection;
 
 /// Counts of an integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,6 +55,8 @@ pub struct Run {
     pub reached: bool,
     /// Whether it passes singular positions, as runs with projection do.
     pub passing: bool,
+    /// Projection of its states; None with another stabilization. See [`Prepared::project`](super::Prepared::project).
+    pub projection: Option<Projection>,
 }
 
 impl Run {

@@ -9,8 +9,10 @@
 
 use super::options::{Options, Singularity};
 use super::singularity_forecast::SingularityForecast;
+use crate::analyses::mobility;
+use crate::equations::augmented::NearSingular;
 use crate::equations::forces::Acting;
-use crate::equations::{constraints, forces, mass, Powers, Workspace};
+use crate::equations::{constraints, forces, mass, Gains, Powers, Workspace};
 use crate::model::{size, Model};
 use crate::solve::Breakdown;
 
@@ -38,6 +40,20 @@ pub(super) struct SingularityPassage {
     approach: SingularityForecast,
     residual: Vec<f64>,
     loads: Vec<f64>,
+}
+
+/// Whether a run with projection passes the singular position at this state.
+pub(super) fn would_pass(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> bool {
+    if model.allow_redundancy || !mobility(model, t, q).redundant.is_empty() {
+        return false;
+    }
+    let mut work = Workspace::new(model);
+    work.matrix.set_near_singular(NearSingular::Regularise);
+    let solved = work.accelerate(model, t, [q, v, z], Gains::default());
+    let mut passage = SingularityPassage::new(&Options::new(t), true);
+    // a motion without drivers is tangent to its branch, whatever the errors of this state
+    let decided = !model.driven || !passage.misses_gamma(model, &work, t);
+    solved.is_ok() && decided && !passage.rests(model, &work, t, v)
 }
 
 impl SingularityPassage {

@@ -14,7 +14,7 @@ pub enum Stabilization {
     /// Baumgarte's, with gains from the step, and the term held over it
     /// ([`StepwiseBaumgarte`](crate::stabilize::StepwiseBaumgarte)).
     BaumgarteFromStep,
-    /// Projection of the start, of every accepted and of every reported state.
+    /// Projection of every accepted and of every reported state.
     Projection(stabilize::Projection),
 }
 
@@ -60,7 +60,7 @@ impl From<Baumgarte> for Stabilization {
 }
 
 options! {
-    /// Projection of the start, of accepted and of reported states onto Phi = 0 and Phi_q v + Phi_t = 0 (Eich 1993):
+    /// Projection of accepted and of reported states onto Phi = 0 and Phi_q v + Phi_t = 0 (Eich 1993):
     /// the nearest state in the metric of the mass matrix. The interpolant between the steps leaves the constraints
     /// by the error of integration. The energy balance shows the change of energy by projection.
     Projection, "projection", "Projection" () {

@@ -4,7 +4,10 @@ use super::failure::Failure;
 use super::model_cache::ModelCache;
 use super::motion_ode::MotionOde;
 use super::motion_stepper::MotionStepper;
+use super::option_checks::check_lengths;
 use super::options::Options;
+use super::stabilizations::Stabilization;
+use super::start_check::StartCheck;
 use crate::analyses::State;
 use crate::integrate::{Direction, Step};
 use crate::model::Model;
@@ -27,18 +30,21 @@ use crate::model::Model;
 pub struct Stepper<'a> {
     model: &'a Model,
     t_end: f64,
+    /// The check of a state from which it continues.
+    check: StartCheck,
     inner: MotionStepper<'a>,
 }
 
 impl<'a> Stepper<'a> {
-    /// Begins at a state and ends at `options.t_end`. Options of the output are ignored. With projection, the start is
-    /// projected onto the constraints.
+    /// Begins at a state and ends at `options.t_end`. Options of the output are ignored. The state must meet the
+    /// constraints.
     ///
     /// # Errors
     /// [`Failure`]
     pub fn new(model: &'a Model, start: &State, options: &Options) -> Result<Self, Box<Failure>> {
         options.check(model, start)?;
         let t = options.t_start.unwrap_or(start.t);
+        StartCheck::of_run(options).check(model, t, [&start.q, &start.v, &start.z])?;
         let mut ode = MotionOde::new(model, options, ModelCache::default().plan(model));
         let mut y = [&start.q[..], &start.v, &start.z].concat();
         y.resize(model.layout.n_y(), 0.0);
@@ -46,7 +52,10 @@ impl<'a> Stepper<'a> {
         outcome.map_err(|breakdown| Failure::at_state(model, t, &start.q, breakdown))?;
         let inner = MotionStepper::new(ode, options, t, &y)
             .map_err(|cause| Failure::of_integrator(model, cause, t, &y))?;
-        Ok(Self { model, t_end: options.t_end, inner })
+        let check = StartCheck::of_continuation(options);
+        let projects = matches!(options.stabilization, Stabilization::Projection(_));
+        let check = if projects { check.of_positions() } else { check };
+        Ok(Self { model, t_end: options.t_end, check, inner })
     }
 
     /// Takes the next step; does nothing at the end.
@@ -105,11 +114,14 @@ impl<'a> Stepper<'a> {
     }
 
     /// Continues from another state, at a time within the last step or at its end: for instance with other velocities
-    /// after an impact. The works continue from the last step.
+    /// after an impact. The works continue from the last step. With projection, the velocities become the nearest ones
+    /// that meet the constraints, in the metric of the mass matrix.
     ///
     /// # Errors
     /// As [`step`](Self::step).
     pub fn restart(&mut self, state: &State) -> Result<(), Box<Failure>> {
+        check_lengths(self.model, state)?;
+        self.check.check(self.model, state.t, [&state.q, &state.v, &state.z])?;
         let mut y = [&state.q[..], &state.v, &state.z].concat();
         let works = match self.interpolate(state.t)? {
             Some(_) => self.inner.works_at(state.t),

@@ -24,7 +24,7 @@ impl<'a> Reader<'a> {
         path: &[String],
         read: impl FnOnce(&mut Reader<'_>) -> Option<T>,
     ) -> Result<T, Vec<Problem>> {
-        let scope = &Scope::of_parameters(&model.blueprint.parameters);
+        let scope = &Scope::of_parameters(&model.blueprint.parameters, &model.blueprint.inferred);
         let mut problems = Vec::new();
         let path = path.to_vec();
         let found = read(&mut Reader { model, scope, fields, path, problems: &mut problems });
@@ -65,21 +65,34 @@ impl<'a> Reader<'a> {
         Some(x)
     }
 
+    /// The model.
+    pub fn model(&self) -> &'a Model {
+        self.model
+    }
+
+    /// A table, of which `read` reads the fields.
+    pub fn table<T>(
+        &mut self,
+        key: &str,
+        read: impl FnOnce(&mut Reader<'_>) -> Option<T>,
+    ) -> Option<T> {
+        let Some(Value::Table(fields)) = self.get(key) else {
+            return self.refuse(key, "must be a table");
+        };
+        let (model, scope, path) = (self.model, self.scope, self.path_of(key));
+        read(&mut Reader { model, scope, fields, path, problems: &mut *self.problems })
+    }
+
     /// A table of options, whose `type` is given to `read`.
     pub fn chosen<T>(
         &mut self,
         key: &str,
         read: impl FnOnce(&mut Reader<'_>, &str) -> Option<T>,
     ) -> Option<T> {
-        let Some(Value::Table(fields)) = self.get(key) else {
-            return self.refuse(key, "must be a table of options");
-        };
-        let (model, scope, path) = (self.model, self.scope, self.path_of(key));
-        let mut inner = Reader { model, scope, fields, path, problems: &mut *self.problems };
-        match inner.get("type") {
-            Some(Value::Text(kind)) => read(&mut inner, kind),
+        self.table(key, |inner| match inner.get("type") {
+            Some(Value::Text(kind)) => read(inner, kind),
             _ => inner.refuse("type", "missing"),
-        }
+        })
     }
 
     fn path_of(&self, key: &str) -> Vec<String> {

@@ -1,12 +1,13 @@
 // The drawing: what is shown of the scene at one instant, and the part of the plane that is seen.
-import { paintGravity, paintGrid, paintLengthScale, paintReactions } from "./measure.js";
+import { arrowsOf, paintArrows, paintArrowScale, paintTexts } from "./arrows.js";
+import { paintGravity, paintGrid, paintLengthScale } from "./measure.js";
 import { placed } from "./motion.js";
 import { paintItems, paintPaths } from "./paint.js";
 import { cleared, sharpen } from "./surface.js";
+import { Vectors } from "./vectors.js";
 import { extent, View } from "./view.js";
 
-/** From this layer on items are painted over the arrows of reactions. */
-const PIN = 3;
+const ARROWS = ["reactions", "velocities", "accelerations"];
 
 /** Draws the scene on a canvas. */
 export class Drawing {
@@ -15,10 +16,9 @@ export class Drawing {
     this.scene = scene;
     this.motion = motion;
     this.view = new View(scene.bounds);
-    this.shown = { names: true, numbers: true, paths: true, reactions: false };
+    this.shown = { names: true, numbers: true, paths: true, reactions: false, velocities: false, accelerations: false };
+    this.vectors = new Vectors(scene, motion);
     this.magnification = 1;
-    this.below = scene.display.filter(({ layer }) => layer < PIN);
-    this.above = scene.display.filter(({ layer }) => layer >= PIN);
     const piece = extent(scene.bounds) / 200;
     this.traces = scene.traces.map(({ body, point }) => ({ body, path: line(motion.path(body, point, piece)) }));
     this.resize();
@@ -38,25 +38,34 @@ export class Drawing {
     });
   }
 
-  /** Draw the instant t. */
-  paint(t, colours) {
+  /** Draw the instant t, on the canvas of the page or another one. */
+  paint(t, colours, context = cleared(this.canvas)) {
     const { scene, view, shown } = this;
-    const context = cleared(this.canvas);
     const now = this.motion.at(t);
     const step = paintGrid(context, view, colours);
     if (shown.paths) paintPaths(context, view, this.traces, colours);
-    const paint = (items) => paintItems(context, view, items, now.poses, shown, colours);
-    paint(this.below);
-    if (shown.reactions) paintReactions(context, view, this.pins(now), now.forces, this.pixelsPerNewton(), colours);
-    paint(this.above);
+    const names = paintItems(context, view, scene.display, now.poses, shown, colours);
+    this.arrows = this.paintArrows(context, now, names, colours);
     paintLengthScale(context, view, step, scene.length, colours);
     paintGravity(context, view, scene.gravity, colours);
   }
 
-  /** Length of reaction arrows; they do not grow when one zooms in. */
-  pixelsPerNewton() {
-    const { force, length } = this.scene.reaction_scale;
-    return (this.magnification * this.view.fitted() * length) / force;
+  /** The arrows that are shown, with their scales; `taken` are the boxes of the names. */
+  paintArrows(context, now, taken, colours) {
+    const { view } = this;
+    let right = view.width - 16;
+    const arrows = ARROWS.filter((name) => this.shown[name]).flatMap((name) => {
+      const kind = this.vectors.kinds[name];
+      const pixels = this.magnification * view.fitted() * kind.length;
+      const vectors = this.vectors.of(name, now);
+      const places = vectors.map(({ body, at }) => view.toScreen(placed(now.poses[body], at)));
+      const found = arrowsOf(vectors, { name, unit: kind.unit }, places, view, pixels);
+      paintArrows(context, found, colours[name], colours);
+      right = paintArrowScale(context, view, kind, pixels, right, colours[name], colours);
+      return found;
+    });
+    paintTexts(context, arrows, view, colours, taken);
+    return arrows;
   }
 }
 

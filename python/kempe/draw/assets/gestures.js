@@ -53,10 +53,16 @@ function turned({ deltaY, deltaMode }) {
   return Math.exp(-Math.max(-200, Math.min(200, pixels)) / 400);
 }
 
-/** Click or drag in the plot to go to a time, wheel to stretch it, double click to show all of it. */
-export function seekable(canvas, plot, seek, changed) {
-  const across = (event) => event.clientX - canvas.getBoundingClientRect().left;
-  const go = (event) => seek(plot.timeAt(across(event)));
+/**
+ * Click or drag in a plot to go to a time, move to look at one, ctrl and wheel (or two fingers on a
+ * touchpad) to stretch it, double click to show all of it.
+ */
+export function seekable(canvas, { timeAt, seek, look, stretch, showAll }) {
+  const place = (event) => {
+    const { left, top } = canvas.getBoundingClientRect();
+    return [event.clientX - left, event.clientY - top];
+  };
+  const go = (event) => seek(timeAt(place(event)[0]));
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
     canvas.setPointerCapture(event.pointerId);
@@ -64,14 +70,13 @@ export function seekable(canvas, plot, seek, changed) {
   });
   canvas.addEventListener("pointermove", (event) => {
     if (canvas.hasPointerCapture(event.pointerId)) go(event);
+    if (event.pointerType !== "touch") look(...place(event));
   });
+  canvas.addEventListener("pointerleave", () => look(null));
   canvas.addEventListener("wheel", (event) => {
+    if (!event.ctrlKey) return; // the wheel alone scrolls the list of plots
     event.preventDefault();
-    plot.stretch(1 / turned(event), across(event));
-    changed();
+    stretch(1 / turned(event), place(event)[0]);
   }, { passive: false });
-  canvas.addEventListener("dblclick", () => {
-    plot.showAll();
-    changed();
-  });
+  canvas.addEventListener("dblclick", showAll);
 }

@@ -1,25 +1,33 @@
 // Puts the page together.
-import { choices, fill, Legend } from "./channels.js";
 import { Clock } from "./clock.js";
+import { Controls } from "./controls.js";
 import { Drawing } from "./drawing.js";
-import { movable, seekable } from "./gestures.js";
+import { csv, download, drawingPicture, fileName, plotsPicture } from "./export.js";
+import { movable } from "./gestures.js";
 import { listen } from "./keyboard.js";
 import { Motion } from "./motion.js";
 import { timeDecimals } from "./numbers.js";
-import { Plot } from "./plot.js";
-import { palette } from "./surface.js";
+import { Plots } from "./plots.js";
+import { palette, paperPalette } from "./surface.js";
 
-const SPEEDS = [0.1, 0.2, 0.5, 1, 2, 5, 10];
+const ARROW_KINDS = ["reactions", "velocities", "accelerations"];
 
 const byId = (id) => document.getElementById(id);
 const scene = JSON.parse(byId("scene").textContent);
+const title = scene.title || "Linkage";
 const motion = new Motion(scene);
+const decimals = timeDecimals(motion.t);
 const clock = new Clock(motion, scene.playback.rate, repaint);
 const drawing = new Drawing(byId("drawing"), scene, motion);
-const plot = new Plot(byId("plot"), motion);
-const legend = new Legend(byId("legend"), motion);
-const plots = choices(scene);
-const decimals = timeDecimals(motion.t);
+const templates = { card: byId("plot-card"), entry: byId("legend-entry") };
+const plots = new Plots(byId("plots"), templates, scene, motion, {
+  seek: (t) => clock.seek(t),
+  changed: repaint,
+  counted: (more) => {
+    byId("add-plot").disabled = !more;
+  },
+});
+const controls = new Controls(byId, clock, motion, decimals);
 let colours = palette();
 let waiting = false;
 
@@ -33,77 +41,49 @@ function repaint() {
 function paint() {
   waiting = false;
   drawing.paint(clock.t, colours);
-  plot.paint(clock.t, colours);
-  legend.paint(clock.t, colours);
-  const told = clock.t.toFixed(decimals);
-  byId("now").textContent = `${told} s`;
-  const scrub = byId("scrub");
-  scrub.value = String(clock.t);
-  scrub.setAttribute("aria-valuetext", `${told} s`);
-  const play = byId("play");
-  play.classList.toggle("playing", clock.playing);
-  play.setAttribute("aria-label", clock.playing ? "Pause" : "Play");
-}
-
-function resize() {
-  drawing.resize();
-  plot.resize();
-  paint();
+  plots.paint(clock.t, colours);
+  controls.paint();
 }
 
 function showTitle() {
-  byId("title").textContent = scene.title || "Linkage";
+  byId("title").textContent = title;
   byId("title").title = scene.title;
   byId("end").textContent = `of ${Number(motion.end.toFixed(decimals))} s`;
   byId("drawing").setAttribute("aria-label", `Drawing of ${scene.title || "the linkage"}`);
 }
 
-function choosePlot() {
-  const chosen = plots[Number(byId("channel").value)] ?? { name: "nothing", curves: [] };
-  plot.show(chosen.curves);
-  legend.show(chosen.curves);
-  byId("plot").setAttribute("aria-label", `Plot of ${chosen.name} over time`);
-  byId("channel").title = chosen.name;
-  repaint();
+/** How many instants there are, and the error between them. */
+function showSampling() {
+  const percent = Number((100 * (scene.accuracy ?? 0)).toPrecision(2));
+  const between = scene.accuracy === null ? "" : `; between them, forces and accelerations are within ${percent} %`;
+  const count = `${motion.t.length} instants of the solution`;
+  byId("sampling").textContent = motion.smooth ? count + between : `${count}, not interpolated`;
 }
 
-function connectPlot() {
-  fill(byId("channel"), plots);
-  byId("channel").addEventListener("change", choosePlot);
-  byId("plot-panel").hidden = !plots.length || motion.t.length < 2;
+function connectPlots() {
+  byId("plot-panel").hidden = !plots.all.length || motion.t.length < 2;
   document.querySelector("main").classList.toggle("alone", byId("plot-panel").hidden);
-  choosePlot();
-  seekable(byId("plot"), plot, (t) => clock.seek(t), repaint);
+  if (byId("plot-panel").hidden) return;
+  plots.add();
+  showSampling();
+  byId("degrees").addEventListener("change", (event) => plots.setDegrees(event.target.checked));
 }
 
-function connectSpeed() {
-  const select = byId("speed");
-  for (const speed of SPEEDS) {
-    const option = document.createElement("option");
-    option.value = String(speed);
-    option.textContent = `${Number((speed * scene.playback.rate).toPrecision(3))}×`;
-    select.append(option);
-  }
-  select.value = "1";
-  select.addEventListener("change", () => {
-    clock.speed = Number(select.value);
-  });
+function addPlot() {
+  plots.add();
+  plots.cards[plots.cards.length - 1].element.scrollIntoView({ block: "nearest" });
 }
 
-function changeSpeed(places) {
-  const place = SPEEDS.indexOf(clock.speed) + places;
-  clock.speed = SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, place))];
-  byId("speed").value = String(clock.speed);
+function saveDrawing() {
+  download(fileName(title, "drawing.png"), drawingPicture(drawing, clock.t.toFixed(decimals), title, paperPalette()));
 }
 
-function toggle() {
-  if (clock.playing) clock.pause();
-  else clock.play();
+function savePlots() {
+  download(fileName(title, "plots.png"), plotsPicture(plots.cards, clock.t.toFixed(decimals), title, paperPalette()));
 }
 
-function repeat() {
-  clock.loop = !clock.loop;
-  byId("loop").setAttribute("aria-pressed", String(clock.loop));
+function saveValues() {
+  download(fileName(title, "values.csv"), csv(motion, plots.cards.flatMap(({ plot }) => plot.curves)));
 }
 
 function zoom(factor) {
@@ -116,31 +96,36 @@ function fit() {
   repaint();
 }
 
+function magnifyArrows(factor) {
+  drawing.magnification = Math.min(1e4, Math.max(1e-2, drawing.magnification * factor));
+  repaint();
+}
+
 function showKeys(shown = byId("keys").hidden) {
   byId("keys").hidden = !shown;
   byId("help").setAttribute("aria-expanded", String(shown));
 }
 
-function connectPlayback() {
-  const scrub = byId("scrub");
-  scrub.min = String(motion.begin);
-  scrub.max = String(motion.end);
-  scrub.addEventListener("input", () => clock.seek(Number(scrub.value)));
+function connectButtons() {
   const presses = {
-    play: toggle,
+    play: () => controls.toggle(),
     first: () => clock.seek(motion.begin),
     last: () => clock.seek(motion.end),
     back: () => clock.step(-1),
     forward: () => clock.step(1),
-    loop: repeat,
+    loop: () => controls.repeat(),
     "zoom-in": () => zoom(1.25),
     "zoom-out": () => zoom(0.8),
     fit,
+    longer: () => magnifyArrows(1.5),
+    shorter: () => magnifyArrows(1 / 1.5),
     help: () => showKeys(),
+    "add-plot": addPlot,
+    "save-drawing": saveDrawing,
+    "save-plots": savePlots,
+    "save-values": saveValues,
   };
   for (const [id, press] of Object.entries(presses)) byId(id).addEventListener("click", () => press());
-  if (motion.t.length > 1) return;
-  for (const id of ["play", "first", "last", "back", "forward", "loop", "scrub", "speed"]) byId(id).disabled = true;
 }
 
 function connectToggles() {
@@ -148,32 +133,28 @@ function connectToggles() {
     const box = byId(`show-${what}`);
     const follow = () => {
       drawing.shown[what] = box.checked;
-      byId("arrow-size").hidden = !drawing.shown.reactions;
+      for (const id of ["longer", "shorter"]) byId(id).hidden = !ARROW_KINDS.some((kind) => drawing.shown[kind]);
       repaint();
     };
     box.addEventListener("change", follow);
     follow(); // a browser may restore the boxes of an earlier visit
   }
-  byId("magnify").addEventListener("input", (event) => {
-    drawing.magnification = 10 ** Number(event.target.value);
-    repaint();
-  });
 }
 
 function connectKeys() {
   listen({
-    " ": toggle,
+    " ": () => controls.toggle(),
     ArrowLeft: (count) => clock.step(-count),
     ArrowRight: (count) => clock.step(count),
-    ArrowUp: () => changeSpeed(1),
-    ArrowDown: () => changeSpeed(-1),
+    ArrowUp: () => controls.changeSpeed(1),
+    ArrowDown: () => controls.changeSpeed(-1),
     Home: () => clock.seek(motion.begin),
     End: () => clock.seek(motion.end),
     "+": () => zoom(1.25),
     "=": () => zoom(1.25),
     "-": () => zoom(0.8),
     0: fit,
-    l: repeat,
+    l: () => controls.repeat(),
     "?": () => showKeys(),
     Escape: () => showKeys(false),
   });
@@ -184,23 +165,29 @@ function state() {
   const { left, top } = byId("drawing").getBoundingClientRect();
   const pins = drawing.pins(motion.at(clock.t)).map(({ name, at: [x, y] }) => ({ name, x: left + x, y: top + y }));
   const { t, playing, speed, loop } = clock;
-  return { t, begin: motion.begin, end: motion.end, playing, speed, loop, frame: motion.nearest(t), pins };
+  const shown = plots.cards.map(({ name, plot, entries }) => {
+    const values = entries.map(({ curve, value }) => ({ name: curve.name, text: value.textContent }));
+    return { name, label: plot.label, reading: plot.reading, range: plot.range, values };
+  });
+  const arrows = drawing.arrows.map(({ kind, element, from, to, whole, text, box }) => ({ kind, element, from, to, whole, text, box }));
+  return { t, begin: motion.begin, end: motion.end, playing, speed, loop, frame: motion.nearest(t), pins, plots: shown, arrows };
 }
 
 showTitle();
-connectPlot();
-connectSpeed();
-connectPlayback();
+connectPlots();
+connectButtons();
 connectToggles();
 connectKeys();
 movable(byId("drawing"), drawing.view, repaint);
-const watch = new ResizeObserver(resize);
-for (const id of ["drawing", "plot"]) watch.observe(byId(id));
+new ResizeObserver(() => {
+  drawing.resize();
+  repaint();
+}).observe(byId("drawing"));
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   colours = palette();
   repaint();
 });
-resize();
+paint();
 
 window.kempe = Object.freeze({
   seek: (t) => clock.seek(t),

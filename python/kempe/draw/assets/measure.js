@@ -1,5 +1,6 @@
-// Measures in a drawing: grid, scale of length, reaction arrows with their scale, gravity.
-import { roundBelow, roundQuantity } from "./numbers.js";
+// Measures in a drawing: grid, scale of length, gravity.
+import { paintArrow } from "./arrow.js";
+import { roundBelow } from "./numbers.js";
 import { font, rimmed } from "./surface.js";
 
 /** A faint grid with round steps. */
@@ -50,44 +51,4 @@ export function paintGravity(context, view, gravity, colours) {
   context.textBaseline = "middle";
   context.fillStyle = colours.soft;
   context.fillText("g", x - 12 * Math.abs(dy) - 0.1, y - 14 * Math.abs(dx));
-}
-
-/** The force of each joint on its body j, and an arrow of a length in proportion to it. */
-export function paintReactions(context, view, pins, forces, pixelsPerNewton, colours) {
-  const most = 3 * Math.hypot(view.width, view.height);
-  forces.forEach(([fx, fy], k) => {
-    const [x, y] = pins[k].at;
-    const length = Math.hypot(fx, fy) * pixelsPerNewton;
-    if (!(length > 1)) return;
-    const shown = Math.min(1, most / length) * pixelsPerNewton;
-    const to = [x + fx * shown, y - fy * shown];
-    paintArrow(context, [x, y], to, colours.panel, 5);
-    paintArrow(context, [x, y], to, colours.reaction, 2.4);
-  });
-  paintForceScale(context, view, pixelsPerNewton, colours);
-}
-
-function paintForceScale(context, view, pixelsPerNewton, colours) {
-  const force = roundBelow(110 / pixelsPerNewton);
-  const length = force * pixelsPerNewton;
-  const [x, y] = [view.width - 20, view.height - 16];
-  paintArrow(context, [x - length, y], [x, y], colours.reaction, 2.4);
-  context.font = font(12);
-  context.textAlign = "right";
-  context.textBaseline = "alphabetic";
-  rimmed(context, roundQuantity(force, "N"), [x, y - 9], colours.text, colours.panel);
-}
-
-function paintArrow(context, [x0, y0], [x1, y1], colour, width) {
-  const length = Math.hypot(x1 - x0, y1 - y0);
-  const head = Math.min(4 + 2.4 * width, 0.6 * length);
-  const [ux, uy] = [(x1 - x0) / length, (y1 - y0) / length];
-  const [bx, by] = [x1 - head * ux, y1 - head * uy];
-  context.strokeStyle = context.fillStyle = colour;
-  context.lineWidth = width;
-  context.stroke(new Path2D(`M${x0} ${y0}L${bx} ${by}`));
-  const wing = 0.42 * head;
-  const tip = new Path2D(`M${x1} ${y1}L${bx - wing * uy} ${by + wing * ux}L${bx + wing * uy} ${by - wing * ux}z`);
-  context.fill(tip);
-  if (width > 4) context.stroke(tip);
 }

@@ -1,4 +1,6 @@
-// The motion of the scene: where everything is at any time. Knows no screen.
+// The motion of the scene: where everything is at any time, and how it moves. Knows no screen.
+
+const GROUND = [0, 0, 0];
 
 /** A motion over the frames of a scene. */
 export class Motion {
@@ -20,31 +22,53 @@ export class Motion {
       else high = middle;
     }
     const h = this.t[high] - this.t[low];
-    return { low, high, h, share: h > 0 ? (t - this.t[low]) / h : 0 };
+    const share = h > 0 ? (t - this.t[low]) / h : 0;
+    return { low, high, h, share: this.smooth ? share : Math.round(share) };
   }
 
   /** The frame nearest to t. */
   nearest(t) {
-    const { low, high, share } = this.place(t);
-    return share < 0.5 ? low : high;
+    const { low, high } = this.place(t);
+    return t - this.t[low] < this.t[high] - t ? low : high;
   }
 
-  /** Everything at t: pose of each body, ground first, and the reaction of each joint. */
+  /** Everything at t: pose, rates and accelerations of each body, ground first, and the force of each joint. */
   at(t) {
     const place = this.place(t);
-    if (!this.smooth) place.share = Math.round(place.share);
-    const { poses, rates, reactions } = this.scene.frames;
-    const moving = poses[place.low].map((_, body) => hermite(poses, rates, body, place));
+    const { poses, rates, accelerations, reactions } = this.scene.frames;
+    const bodies = poses[place.low].map((_, body) => body);
     const forces = reactions[place.low].map((_, joint) => linear(reactions, joint, place));
-    return { t, poses: [[0, 0, 0], ...moving], forces };
+    return {
+      t,
+      poses: [GROUND, ...bodies.map((body) => hermite(poses, rates, body, place))],
+      rates: [GROUND, ...bodies.map((body) => hermite(rates, accelerations, body, place))],
+      accelerations: [GROUND, ...bodies.map((body) => linear(accelerations, body, place))],
+      forces,
+    };
   }
 
-  /** Value of a channel at t. */
-  value(channel, t) {
-    const { low, high, share } = this.place(t);
-    const [a, b] = [channel.values[low], channel.values[high]];
-    if (a === null || b === null) return NaN;
-    return a + (b - a) * (this.smooth ? share : Math.round(share));
+  /** Everything at frame k. */
+  frame(k) {
+    const { poses, rates, accelerations, reactions } = this.scene.frames;
+    const [pose, rate, acceleration] = [poses, rates, accelerations].map((all) => [GROUND, ...all[k]]);
+    return { t: this.t[k], poses: pose, rates: rate, accelerations: acceleration, forces: reactions[k] };
+  }
+
+  /** Value at t of a curve: `values` at the frames and their `slopes`. */
+  value({ values, slopes }, t) {
+    const { low, high, h, share } = this.place(t);
+    if (share === 0) return values[low];
+    if (share === 1) return values[high];
+    return cubic([values[low], values[high]], [slopes[low], slopes[high]], h, share);
+  }
+
+  /** Slopes of values at the frames, by central differences. */
+  slopes(values) {
+    const last = values.length - 1;
+    return values.map((_, k) => {
+      const [a, b] = [Math.max(0, k - 1), Math.min(last, k + 1)];
+      return b > a ? (values[b] - values[a]) / (this.t[b] - this.t[a]) : 0;
+    });
   }
 
   /** The path of a point of a body, in pieces of about the length `piece` where it is smooth. */
@@ -69,14 +93,36 @@ export function placed([x, y, angle], [a, b]) {
   return [x + cos * a - sin * b, y + sin * a + cos * b];
 }
 
-/** Hermite's cubic polynomial through poses and rates of two frames. */
-function hermite(poses, rates, body, { low, high, h, share: s }) {
-  const [p, q, u, v] = [poses[low], poses[high], rates[low], rates[high]].map((all) => all[body]);
-  if (s === 0) return p.map(known);
-  if (s === 1) return q.map(known);
+/** Velocity of a point of a body: ṙ + ω B s (Haug 2.6.6). */
+export function velocity(now, body, point) {
+  const [[dx, dy], [vx, vy, omega]] = [arm(now.poses[body], point), now.rates[body]];
+  return [vx - omega * dy, vy + omega * dx];
+}
+
+/** Acceleration of a point of a body: r̈ + α B s - ω² A s (Haug 2.6.8). */
+export function acceleration(now, body, point) {
+  const [[dx, dy], [ax, ay, alpha]] = [arm(now.poses[body], point), now.accelerations[body]];
+  const square = now.rates[body][2] ** 2;
+  return [ax - alpha * dy - square * dx, ay + alpha * dx - square * dy];
+}
+
+/** A s: the global components of a vector of a body. */
+function arm([, , angle], [a, b]) {
+  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+  return [cos * a - sin * b, sin * a + cos * b];
+}
+
+/** Hermite's cubic polynomial through the rows of two frames with the given rates. */
+function hermite(rows, rates, body, { low, high, h, share }) {
+  const [p, q, u, v] = [rows[low], rows[high], rates[low], rates[high]].map((all) => all[body].map(known));
+  return p.map((_, k) => cubic([p[k], q[k]], [u[k], v[k]], h, share));
+}
+
+function cubic([p, q], [u, v], h, s) {
+  if (s === 0) return p;
+  if (s === 1) return q;
   const r = 1 - s;
-  const [a, b] = [r * r * (1 + 2 * s), s * s * (1 + 2 * r)];
-  return p.map((_, k) => a * known(p[k]) + b * known(q[k]) + h * r * s * (r * known(u[k]) - s * known(v[k])));
+  return r * r * (1 + 2 * s) * p + s * s * (1 + 2 * r) * q + h * r * s * (r * u - s * v);
 }
 
 function linear(values, which, { low, high, share }) {
@@ -85,6 +131,6 @@ function linear(values, which, { low, high, share }) {
 }
 
 /** A number that was not finite is null in a scene. */
-function known(value) {
+export function known(value) {
   return value === null ? NaN : value;
 }

@@ -22,17 +22,19 @@ export function paintPaths(context, view, traces, colours) {
   context.globalAlpha = 1;
 }
 
-/** Everything in the display list that is shown. */
+/** Everything in the display list that is shown; returns the boxes of the texts. */
 export function paintItems(context, view, items, poses, shown, colours) {
+  const boxes = [];
   for (const item of items) {
     if (!isShown(item, shown)) continue;
     const { points, angle } = placeItem(item, poses, view, UNIT);
     if (!points.every(([x, y]) => Number.isFinite(x + y))) continue;
     const colour = tinted(colours, item);
-    if (item.kind === "text") paintText(context, view, item, points[0], angle, colours);
+    if (item.kind === "text") boxes.push(paintText(context, view, item, points[0], angle, colours));
     else if (item.kind === "fill") paintFill(context, points, colour);
     else paintLine(context, item, points, colour);
   }
+  return boxes;
 }
 
 /** Names and numbers can be switched off; the circle of a number goes with it. */
@@ -77,10 +79,13 @@ function paintText(context, view, item, [x, y], angle, colours) {
   context.textBaseline = "middle";
   const text = shortened(item.text);
   const place = [x + item.offset[0] * UNIT, y - item.offset[1] * UNIT];
-  context.translate(...(item.turned ? place : inside(context, text, place, view)));
+  const [cx, cy] = item.turned ? place : inside(context, text, place, view);
+  context.translate(cx, cy);
   if (item.turned) context.rotate(-readable(angle));
   rimmed(context, text, [0, 0], tinted(colours, item), colours.panel);
+  const [wide, high] = [context.measureText(text).width / 2, 0.6 * item.size * UNIT];
   context.restore();
+  return [cx - wide, cy - high, cx + wide, cy + high];
 }
 
 /** The same direction of a line of text, read from the left or from below. */

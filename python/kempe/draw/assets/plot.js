@@ -1,28 +1,41 @@
-// A plot over time with a cursor at the present.
-import { scaled, ticks } from "./numbers.js";
-import { cleared, font, sharpen } from "./surface.js";
+// A plot over time with a cursor at the present, and the values under the pointer.
+import { Axes } from "./axes.js";
+import { axisLabel, fixed, scaled, significant, withUnit } from "./numbers.js";
+import { exponents, widened } from "./ranges.js";
+import { cleared, colourOf, dashOf, font, rimmed, sharpen } from "./surface.js";
 
-const ROOM = { left: 58, right: 16, top: 26, bottom: 40 };
+const DEGREES = 180 / Math.PI;
 
-/** Plots channels of a scene on a canvas; all of them share a unit. */
+/** Plots curves of one unit on a canvas. */
 export class Plot {
-  constructor(canvas, motion) {
-    this.canvas = canvas;
-    this.motion = motion;
-    this.curves = [];
-    this.showAll();
-    this.resize();
+  constructor(canvas, motion, span) {
+    Object.assign(this, { canvas, motion, span, curves: [], symbol: "", log: false, degrees: false, pointer: null, version: 0 });
+    this.scale();
   }
 
-  /** Show these curves: `{channel, colour(colours)}`. */
-  show(curves) {
-    this.curves = curves;
-    const values = curves.flatMap(({ channel }) => channel.values.filter((value) => value !== null));
-    const low = values.reduce((least, value) => Math.min(least, value), Infinity);
-    const high = values.reduce((most, value) => Math.max(most, value), -Infinity);
-    const largest = Number.isFinite(low) ? Math.max(Math.abs(low), Math.abs(high)) : 0;
-    const { factor, unit } = scaled(largest, curves[0]?.channel.unit ?? "");
-    Object.assign(this, { factor, unit, range: widened(low / factor, high / factor) });
+  /** Show these curves. */
+  show(curves, symbol) {
+    Object.assign(this, { curves, symbol });
+    this.scale();
+  }
+
+  /** Choose units and ranges for the curves. */
+  scale() {
+    const given = this.curves[0]?.unit ?? "";
+    const turns = this.degrees && given.startsWith("rad");
+    const factor = turns ? DEGREES : 1;
+    const values = this.curves.map((curve) => curve.values.map((value) => factor * curve.shown(value)).filter(Number.isFinite));
+    this.peaks = values.map((all) => all.reduce((most, value) => Math.max(most, Math.abs(value)), 0));
+    const peak = Math.max(0, ...this.peaks);
+    const unit = turns ? given.replace("rad", "°") : given;
+    const written = this.log && peak > 0 ? { factor: 1, unit } : scaled(peak, unit);
+    this.factor = factor / written.factor;
+    this.peaks = this.peaks.map((one) => one / written.factor);
+    this.unit = written.unit;
+    this.onLog = this.log && peak > 0;
+    this.version += 1;
+    this.range = this.onLog ? exponents(values) : widened(values, written.factor);
+    this.label = axisLabel(this.onLog && !this.symbol.startsWith("|") ? `|${this.symbol}|` : this.symbol, this.unit);
   }
 
   resize() {
@@ -31,129 +44,142 @@ export class Plot {
     Object.assign(this, { width, height });
   }
 
-  /** Show all times. */
-  showAll() {
-    this.window = [this.motion.begin, this.motion.end];
+  /** A value of a curve in the unit of the axis. */
+  shown(curve, t) {
+    return this.factor * curve.at(t);
   }
 
-  /** Show `factor` times as much time, with that under a place (px) staying there. */
-  stretch(factor, px) {
-    const { begin, end } = this.motion;
-    const at = this.timeAt(px);
-    const [from, to] = this.window.map((t) => at + (t - at) * factor);
-    if (to - from < 1e-6 * (end - begin)) return;
-    this.window = [Math.max(begin, from), Math.min(end, to)];
+  /** A value as text with its unit: on a linear axis with the decimals of its curve. */
+  write(curve, t) {
+    const value = this.shown(curve, t);
+    const text = this.onLog ? significant(value) : fixed(value, this.peaks[this.curves.indexOf(curve)]);
+    return withUnit(text, this.unit);
   }
 
-  /** Move the window so that it holds t. */
-  follow(t) {
-    const [from, to] = this.window;
-    if (t >= from && t <= to) return;
-    const length = to - from;
-    const start = Math.min(Math.max(t - 0.1 * length, this.motion.begin), this.motion.end - length);
-    this.window = [start, start + length];
+  /** Characters of the longest text of a curve. */
+  widest(curve) {
+    const peak = this.peaks[this.curves.indexOf(curve)];
+    return withUnit(this.onLog ? significant(-peak) : fixed(-peak, peak), this.unit).length;
   }
 
-  /** The time under a place on the canvas, px from its left edge. */
   timeAt(px) {
-    const [begin, end] = this.window;
-    const share = (px - ROOM.left) / Math.max(1, this.width - ROOM.left - ROOM.right);
-    return begin + Math.min(1, Math.max(0, share)) * (end - begin);
+    return this.axes ? this.axes.timeAt(px) : this.motion.begin;
   }
 
-  toScreen(t, value) {
-    const [begin, end] = this.window;
-    const [low, high] = this.range;
-    const share = end > begin ? (t - begin) / (end - begin) : 0;
-    const x = ROOM.left + share * (this.width - ROOM.left - ROOM.right);
-    const rise = (value - low) / (high - low);
-    return [x, this.height - ROOM.bottom - rise * (this.height - ROOM.top - ROOM.bottom)];
-  }
-
-  /** Draw with the cursor at t. */
-  paint(t, colours) {
+  /** Draw with the cursor at t and, if a time is looked at, a line there. */
+  paint(t, looked, colours) {
     const context = cleared(this.canvas);
     if (!this.curves.length) return;
-    this.follow(t);
-    this.paintAxes(context, colours);
+    context.drawImage(this.picture(colours), 0, 0, this.width, this.height);
+    this.paintLine(context, t, colours.text);
+    if (looked !== null) this.paintLine(context, looked, colours.accent);
+    this.paintDots(context, looked ?? t, colours);
+    this.reading = looked !== null && this.pointer ? this.paintReading(context, looked, colours) : "";
+  }
+
+  /** Axes and curves, painted anew only when they change. */
+  picture(colours) {
+    const key = JSON.stringify([this.width, this.height, this.canvas.width, this.span.from, this.span.to, this.version, colours.text]);
+    if (key !== this.key) {
+      this.kept = document.createElement("canvas");
+      this.kept.width = this.canvas.width;
+      this.kept.height = this.canvas.height;
+      const context = this.kept.getContext("2d");
+      context.scale(this.kept.width / this.width, this.kept.height / this.height);
+      context.lineCap = context.lineJoin = "round";
+      this.paintStill(context, colours);
+      this.key = key;
+    }
+    return this.kept;
+  }
+
+  paintStill(context, colours) {
+    this.axes = new Axes(context, this, this.span, { range: this.range, log: this.onLog });
+    this.axes.paint(context, this.label, colours);
     context.save();
-    context.beginPath();
-    context.rect(ROOM.left - 2, 0, this.width - ROOM.left - ROOM.right + 4, this.height);
-    context.clip();
-    for (const { channel, colour } of this.curves) this.paintCurve(context, channel, colour(colours));
+    this.axes.clip(context);
+    for (const curve of this.curves) this.paintCurve(context, curve, colours);
     context.restore();
-    this.paintCursor(context, t, colours);
   }
 
-  paintAxes(context, colours) {
-    const { width, height, range } = this;
-    const across = ticks(...this.window, Math.max(2, Math.floor(width / 90)));
-    const up = ticks(...range, Math.max(2, Math.floor(height / 60)));
-    context.strokeStyle = colours.grid;
-    context.fillStyle = colours.soft;
-    context.lineWidth = 1;
-    context.font = font(12);
-    context.textAlign = "right";
-    context.textBaseline = "middle";
-    for (const value of up.values) {
-      const y = Math.round(this.toScreen(0, value)[1]) + 0.5;
-      context.stroke(new Path2D(`M${ROOM.left} ${y}H${width - ROOM.right}`));
-      context.fillText(up.write(value), ROOM.left - 8, y);
-    }
-    context.strokeStyle = colours.edge;
-    context.textAlign = "center";
-    context.textBaseline = "top";
-    context.stroke(new Path2D(`M${ROOM.left} ${height - ROOM.bottom + 0.5}H${width - ROOM.right}`));
-    for (const value of across.values) {
-      const x = Math.round(this.toScreen(value, 0)[0]) + 0.5;
-      context.stroke(new Path2D(`M${x} ${height - ROOM.bottom}v5`));
-      context.fillText(across.write(value), x, height - ROOM.bottom + 8);
-    }
-    context.fillStyle = colours.text;
-    context.fillText("t / s", (ROOM.left + width - ROOM.right) / 2, height - 16);
-    context.textAlign = "left";
-    context.fillText(this.unit, 12, 7);
+  /** For a picture: axes, curves and the cursor at t. */
+  paintAll(context, t, colours) {
+    this.paintStill(context, colours);
+    this.paintLine(context, t, colours.text);
+    this.paintDots(context, t, colours);
   }
 
-  paintCurve(context, channel, colour) {
+  /** The place of a value on the canvas; null where a logarithm has none. */
+  place(t, value) {
+    if (!Number.isFinite(value) || (this.onLog && value === 0)) return null;
+    return this.axes.place(t, this.onLog ? Math.log10(Math.abs(value)) : value);
+  }
+
+  paintCurve(context, curve, colours) {
     const path = new Path2D();
+    const { t } = this.motion;
+    const [first, last] = [this.span.from, this.span.to].map((edge) => this.motion.place(edge));
+    const apart = this.width / Math.max(1, last.high - first.low);
+    const pieces = this.motion.smooth ? Math.min(16, Math.ceil(apart / 4)) : 1;
     let broken = true;
-    channel.values.forEach((value, k) => {
-      if (value === null) {
-        broken = true;
-        return;
+    const visit = (at, value) => {
+      const place = this.place(at, value);
+      if (place && broken) path.moveTo(...place);
+      if (place) path.lineTo(...place);
+      broken = !place;
+    };
+    for (let k = first.low; k <= last.high; k += 1) {
+      visit(t[k], this.factor * curve.shown(curve.values[k]));
+      for (let piece = 1; piece < pieces && k < last.high; piece += 1) {
+        const at = t[k] + (piece / pieces) * (t[k + 1] - t[k]);
+        visit(at, this.shown(curve, at));
       }
-      const place = this.toScreen(this.motion.t[k], value / this.factor);
-      if (broken) path.moveTo(...place);
-      path.lineTo(...place);
-      broken = false;
-    });
-    context.strokeStyle = colour;
+    }
+    context.strokeStyle = colourOf(curve, colours);
+    context.setLineDash(dashOf(curve));
     context.lineWidth = 1.8;
     context.stroke(path);
+    context.setLineDash([]);
   }
 
-  paintCursor(context, t, colours) {
-    const x = this.toScreen(t, 0)[0];
-    context.strokeStyle = colours.text;
+  paintLine(context, t, colour) {
+    context.strokeStyle = colour;
     context.lineWidth = 1.2;
-    context.stroke(new Path2D(`M${x} ${ROOM.top - 6}V${this.height - ROOM.bottom}`));
-    for (const { channel, colour } of this.curves) {
-      const value = this.motion.value(channel, t) / this.factor;
-      if (!Number.isFinite(value)) continue;
+    this.axes.line(context, t);
+  }
+
+  paintDots(context, t, colours) {
+    for (const curve of this.curves) {
+      const place = this.place(t, this.shown(curve, t));
+      if (!place) continue;
       const dot = new Path2D();
-      dot.arc(...this.toScreen(t, value), 4.5, 0, 2 * Math.PI);
-      context.fillStyle = colour(colours);
+      dot.arc(...place, 4, 0, 2 * Math.PI);
+      context.fillStyle = colourOf(curve, colours);
       context.fill(dot);
       context.strokeStyle = colours.panel;
       context.stroke(dot);
     }
   }
-}
 
-/** A range with some room above and below. */
-function widened(low, high) {
-  if (!(high >= low)) return [0, 1];
-  const room = 0.06 * (high - low) || 0.5 * Math.abs(high) || 1;
-  return [low === 0 ? 0 : low - room, high + room];
+  /** The curve nearest to the pointer at t. */
+  nearest(t) {
+    const away = (curve) => {
+      const place = this.place(t, this.shown(curve, t));
+      return place ? Math.abs(place[1] - this.pointer[1]) : Infinity;
+    };
+    return this.curves.reduce((best, curve) => (away(curve) < away(best) ? curve : best));
+  }
+
+  /** Time and value of the curve nearest to the pointer, as text beside the line. */
+  paintReading(context, t, colours) {
+    const curve = this.nearest(t);
+    const text = `${curve.name} = ${this.write(curve, t)}`;
+    context.font = font(12, 600);
+    context.textBaseline = "top";
+    context.textAlign = "left";
+    const x = this.axes.place(t, this.range[0])[0] + 8;
+    const width = context.measureText(text).width;
+    rimmed(context, text, [Math.max(4, Math.min(x, this.width - width - 6)), 24], colours.text, colours.panel);
+    return text;
+  }
 }

@@ -24,12 +24,22 @@ export function cleared(canvas) {
 }
 
 const BODY_COLOURS = 7;
+/** Lengths of strokes and gaps of the curves after the colours are used up, px. */
+const DASHES = [[], [7, 4], [2, 4], [9, 3, 2, 3]];
+
+/** The colours of a picture on white paper, whatever the page has. */
+export function paperPalette() {
+  document.documentElement.classList.add("paper");
+  const found = palette();
+  document.documentElement.classList.remove("paper");
+  return found;
+}
 
 /** The colours of the page as they are now, light or dark. */
 export function palette() {
   const style = getComputedStyle(document.documentElement);
   const read = (name) => style.getPropertyValue(`--${name}`).trim();
-  const names = ["panel", "edge", "text", "soft", "accent", "grid", "ground", "paper", "ink", "force", "drive", "quiet", "reaction"];
+  const names = ["page", "panel", "edge", "text", "soft", "accent", "grid", "ground", "paper", "ink", "force", "drive", "quiet", "reactions", "velocities", "accelerations"];
   const colours = Object.fromEntries(names.map((name) => [name, read(name)]));
   const bodies = Array.from({ length: BODY_COLOURS }, (_, k) => read(`body-${k + 1}`));
   return { ...colours, body: (number) => (number ? bodies[(number - 1) % BODY_COLOURS] : colours.ground) };
@@ -49,4 +59,14 @@ export function rimmed(context, text, [x, y], colour, rim) {
   context.strokeText(text, x, y);
   context.fillStyle = colour;
   context.fillText(text, x, y);
+}
+
+/** The colour of a curve. */
+export function colourOf({ look }, colours) {
+  return colours.body(look + 1);
+}
+
+/** Its dashes. */
+export function dashOf({ look }) {
+  return DASHES[Math.floor(look / BODY_COLOURS) % DASHES.length];
 }

@@ -1,13 +1,15 @@
 // Which part of the plane a canvas shows: the only place where metres become pixels.
 
 const MARGIN = 56;
+/** Room at the lower edge for scales, px. */
+const FOOT = 26;
 
 /** The larger side of what a motion covers, m. */
 export function extent([x0, y0, x1, y1]) {
   return Math.max(x1 - x0, y1 - y0) || 1;
 }
 
-/** The part of the plane that is seen: px = width/2 + scale (x - cx), upside down for y. */
+/** The part of the plane that is seen: px = middle + scale (x - cx), upside down for y. */
 export class View {
   constructor(bounds) {
     this.bounds = bounds;
@@ -29,7 +31,7 @@ export class View {
     const [x0, y0, x1, y1] = this.bounds;
     const margin = Math.min(MARGIN, 0.15 * Math.min(this.width, this.height));
     const wide = x1 > x0 ? (this.width - 2 * margin) / (x1 - x0) : Infinity;
-    const high = y1 > y0 ? (this.height - 2 * margin) / (y1 - y0) : Infinity;
+    const high = y1 > y0 ? (this.height - FOOT - 2 * margin) / (y1 - y0) : Infinity;
     const scale = Math.min(wide, high);
     return Number.isFinite(scale) && scale > 0 ? scale : 100;
   }
@@ -43,18 +45,23 @@ export class View {
     else this.fit();
   }
 
+  /** Where the middle of the motion is when all of it is shown, px. */
+  middle() {
+    return [this.width / 2, (this.height - FOOT) / 2];
+  }
+
   toScreen([x, y]) {
-    const { width, height, scale, center } = this;
-    return [width / 2 + scale * (x - center[0]), height / 2 - scale * (y - center[1])];
+    const [[mx, my], { scale, center }] = [this.middle(), this];
+    return [mx + scale * (x - center[0]), my - scale * (y - center[1])];
   }
 
   toPlane([px, py]) {
-    const { width, height, scale, center } = this;
-    return [center[0] + (px - width / 2) / scale, center[1] - (py - height / 2) / scale];
+    const [[mx, my], { scale, center }] = [this.middle(), this];
+    return [center[0] + (px - mx) / scale, center[1] - (py - my) / scale];
   }
 
   /** Zoom so that the point under `at` (px) stays where it is. */
-  zoom(factor, at = [this.width / 2, this.height / 2]) {
+  zoom(factor, at = this.middle()) {
     const fitted = this.fitted();
     const before = this.toPlane(at);
     this.scale = Math.min(1e4 * fitted, Math.max(0.02 * fitted, this.scale * factor));

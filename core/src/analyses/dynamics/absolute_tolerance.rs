@@ -1,0 +1,90 @@
+//! Absolute tolerances of a mechanism. One number cannot serve metres and radians at every size, so there is one for
+//! each kind of component: lengths, angles, and first-order states. Rates have the number of their coordinate, per s.
+
+use crate::analyses::options::{not_negative, Kind, Reader};
+use crate::elements::{Default, Shape, TOLERANCES};
+use crate::integrate::Atol;
+use crate::model::{size, Model, Value};
+
+/// An absolute tolerance as written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AbsoluteTolerance {
+    /// The same number for every component, in its unit.
+    Uniform(f64),
+    /// For each component of (q, v, z) the number of its kind, if there is one, and its scale.
+    ByKind(Vec<(Option<f64>, f64)>),
+}
+
+impl AbsoluteTolerance {
+    /// The tolerance for the integrator. A kind without a number has `usual` times its scale.
+    pub fn resolve(given: Option<Self>, usual: f64) -> Atol {
+        match given {
+            None => Atol::Scaled(usual),
+            Some(Self::Uniform(atol)) => Atol::Scalar(atol),
+            Some(Self::ByKind(all)) => Atol::Each(
+                all.into_iter().map(|(own, scale)| own.unwrap_or(usual * scale)).collect(),
+            ),
+        }
+    }
+}
+
+/// The kind of each component of (q, v, z), as a place in [`TOLERANCES`].
+fn kinds(model: &Model) -> impl Iterator<Item = usize> {
+    let of_q = model.layout.lengths().into_iter().map(|length| usize::from(!length));
+    let of_q: Vec<usize> = of_q.collect();
+    let states = std::iter::repeat_n(2, model.layout.n_z);
+    of_q.clone().into_iter().chain(of_q).chain(states)
+}
+
+/// The scale of each kind: the size of the mechanism for lengths, 1 for angles and first-order states.
+fn scales(model: &Model) -> [f64; 3] {
+    [size(model), 1.0, 1.0]
+}
+
+/// One number for each component of (q, v, z), as most methods control them.
+pub(super) fn for_model(model: &Model, atol: &Atol) -> Atol {
+    match atol {
+        Atol::Scaled(part) => {
+            let scales = scales(model);
+            Atol::Each(kinds(model).map(|kind| part * scales[kind]).collect())
+        }
+        given => given.clone(),
+    }
+}
+
+/// The kind of option.
+#[allow(non_camel_case_types)] // a type in `options!`, written like a word
+pub enum absolute_tolerance {}
+
+impl Kind for absolute_tolerance {
+    type Value = AbsoluteTolerance;
+
+    fn shape() -> Shape {
+        Shape::Tolerance
+    }
+
+    fn data(_: &AbsoluteTolerance) -> Default {
+        Default::Absent
+    }
+
+    fn read(
+        reader: &mut Reader<'_>,
+        key: &'static str,
+        unit: &'static str,
+    ) -> Option<AbsoluteTolerance> {
+        if !matches!(reader.get(key), Some(Value::Table(_))) {
+            return not_negative::read(reader, key, unit).map(AbsoluteTolerance::Uniform);
+        }
+        let model = reader.model();
+        let own = reader.table(key, |reader| {
+            let units = ["m", "rad", ""];
+            let mut all = [None; 3];
+            for ((own, key), unit) in all.iter_mut().zip(TOLERANCES).zip(units) {
+                *own = Option::<not_negative>::optional(reader, key, unit, None)?;
+            }
+            Some(all)
+        })?;
+        let scales = scales(model);
+        Some(AbsoluteTolerance::ByKind(kinds(model).map(|k| (own[k], scales[k])).collect()))
+    }
+}

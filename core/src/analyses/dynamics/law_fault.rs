@@ -1,0 +1,69 @@
+//! The law without a value, where a run fails because the motion is not finite.
+
+use crate::elements::{catalogue, Group, Shape};
+use crate::equations::at;
+use crate::equations::kinematics::Motions;
+use crate::expression::Tape;
+use crate::model::{Model, Variable};
+
+/// Largest distance from the failure at which a law is evaluated, relative to 1 s + |t|; the step of an integrator
+/// shrinks before the law ends.
+const NEAR: f64 = 1e-5;
+
+/// The first law that has no value near a state at time `t`: `torque of drive`. The failure is at the time `failed`.
+pub(super) fn undefined_law(
+    model: &Model,
+    (t, failed): (f64, f64),
+    [q, v, z]: [&[f64]; 3],
+) -> Option<String> {
+    let reach = f64::max(NEAR * (1.0 + t.abs()), 2.0 * (failed - t).abs());
+    let distances = (0..40).map(|k| reach * 0.5_f64.powi(39 - k));
+    let beside = std::iter::once(0.0).chain(distances.flat_map(|d| [d, -d]));
+    beside.into_iter().find_map(|d| {
+        let moved: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + d * v).collect();
+        // accelerations are unknown
+        let faster = |x: &[f64]| x.iter().map(|x| x * (1.0 + d / (1.0 + t.abs()))).collect();
+        let [v, z]: [Vec<f64>; 2] = [faster(v), faster(z)];
+        undefined_at(model, t + d, [&moved, &v, &z])
+    })
+}
+
+fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<String> {
+    let motions = Motions::at(&model.layout, q, v);
+    let motions: &[_] = &motions;
+    let values = at(&model.parameters, motions, z, t);
+    let finite = |tape: &Tape| {
+        // the states of elements are unknown where only the position is
+        let known = |k: &usize| match Variable::at(*k) {
+            Variable::State(k) => k < z.len(),
+            Variable::Coordinate(..) => true,
+        };
+        !tape.variables().all(|k| known(&k)) || tape.evaluate(&values).is_finite()
+    };
+    let constraints = model.constraints.iter().filter_map(|item| {
+        let mut all = Vec::new();
+        item.law.as_ref()?.map(&mut |tape| all.push(finite(tape)));
+        Some((item.group, item.element.kind(), &item.name, all))
+    });
+    let forces = model.forces.iter().filter_map(|item| {
+        let mut all = Vec::new();
+        item.law.as_ref()?.map(&mut |tape| all.push(finite(tape)));
+        Some((Group::Forces, item.element.kind(), &item.name, all))
+    });
+    constraints.chain(forces).find_map(|(group, kind, name, finite)| {
+        let k = finite.iter().position(|finite| !finite)?;
+        Some(format!("{} of {name}", fields(group, kind).get(k)?))
+    })
+}
+
+/// The name of the field of each formula of an element, in the order of its declaration.
+fn fields(group: Group, kind: &str) -> Vec<&'static str> {
+    let declared = catalogue().into_iter().find(|(g, table)| *g == group && table.name == kind);
+    let fields = declared.map(|(_, table)| table.fields).unwrap_or_default();
+    let formulas = |shape| match shape {
+        Shape::Number | Shape::Law => 1,
+        Shape::Pair | Shape::Point => 2,
+        _ => 0,
+    };
+    fields.iter().flat_map(|field| vec![field.name; formulas(field.shape)]).collect()
+}

@@ -1,0 +1,191 @@
+//! The dimension of a formula, from those of its parameters.
+//!
+//! A parameter that is written with a unit has a dimension. A plain number takes the SI unit of its
+//! place: as a factor it has no dimension, as a summand that of the other summand.
+
+use super::names::constant;
+use super::operation::{Binary, Unary};
+use super::tree::{Kind, Node};
+use super::unit::Dimension;
+use super::{ExpressionError, Names, Symbol};
+use std::fmt;
+use std::ops::Range;
+
+/// The dimension of a formula, as far as it is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inferred {
+    /// Numbers only, or a ratio: fits any unit.
+    Number,
+    /// Contains a value whose unit is not written: fits any unit.
+    Open,
+    /// Known from the units of its parameters.
+    Of(Dimension),
+}
+
+const ANGLE: Dimension = Dimension::new(0, 0, 0);
+
+/// With the unit that people use: `N (kg*m*s^-2)`.
+impl fmt::Display for Inferred {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number => f.write_str("a number"),
+            Self::Open => f.write_str("an unknown unit"),
+            Self::Of(dimension) => match dimension.common_unit() {
+                Some(name) => write!(f, "{name} ({dimension})"),
+                None if *dimension == ANGLE => f.write_str("rad"),
+                None => write!(f, "{dimension}"),
+            },
+        }
+    }
+}
+
+/// A part of a formula that was read.
+struct Part {
+    of: Inferred,
+    /// Its value, if it is a literal number: exponents change dimensions.
+    value: Option<f64>,
+    span: Range<usize>,
+}
+
+/// Infers the dimension of a tree that was read from `text`.
+pub(super) fn infer<N: Names + ?Sized>(
+    text: &str,
+    nodes: &[Node],
+    names: &N,
+    of: &dyn Fn(Symbol) -> Inferred,
+) -> Result<Inferred, ExpressionError> {
+    let mut stack: Vec<Part> = Vec::new();
+    for node in nodes {
+        let first = stack.len() - operands(&node.kind);
+        let parts = stack.split_off(first);
+        let inference = Inference { text, parts: &parts };
+        let (inferred, value) = match &node.kind {
+            Kind::Number(value) => (Inferred::Number, Some(*value)),
+            Kind::Name(name) if constant(name).is_some() => (Inferred::Number, None),
+            Kind::Name(name) => (names.resolve(name).map_or(Inferred::Open, of), None),
+            Kind::Unary(operation) => inference.unary(*operation)?,
+            Kind::Binary(operation) => inference.binary(*operation)?,
+            Kind::Compare(_) => (inference.alike(0, 1)?, None),
+            Kind::If => (inference.alike(1, 2)?, None),
+        };
+        stack.push(Part { of: inferred, value, span: node.span.clone() });
+    }
+    Ok(stack.pop().map_or(Inferred::Open, |part| part.of))
+}
+
+fn operands(kind: &Kind) -> usize {
+    match kind {
+        Kind::Number(_) | Kind::Name(_) => 0,
+        Kind::Unary(_) => 1,
+        Kind::Binary(_) | Kind::Compare(_) => 2,
+        Kind::If => 3,
+    }
+}
+
+/// One operation on parts.
+struct Inference<'a> {
+    text: &'a str,
+    parts: &'a [Part],
+}
+
+type Found = Result<(Inferred, Option<f64>), ExpressionError>;
+
+impl Inference<'_> {
+    fn unary(&self, operation: Unary) -> Found {
+        let Part { of, value, .. } = &self.parts[0];
+        let inferred = match operation {
+            Unary::Negate => return Ok((*of, value.map(|x| -x))),
+            Unary::Abs | Unary::Floor => *of,
+            Unary::Sqrt => raised(*of, Some(0.5)),
+            Unary::Sign | Unary::Step => Inferred::Number,
+            _ => {
+                self.pure(0, "the argument of a function")?;
+                Inferred::Number
+            }
+        };
+        Ok((inferred, None))
+    }
+
+    fn binary(&self, operation: Binary) -> Found {
+        let [a, b] = [&self.parts[0], &self.parts[1]];
+        let value = a.value.zip(b.value).map(|(a, b)| operation.apply(a, b));
+        let inferred = match operation {
+            Binary::Add | Binary::Subtract | Binary::Min | Binary::Max | Binary::Hypot => {
+                self.alike(0, 1)?
+            }
+            Binary::Atan2 => self.alike(0, 1).map(|_| Inferred::Number)?,
+            Binary::Multiply => product(a.of, b.of, 1),
+            Binary::Divide => product(a.of, b.of, -1),
+            Binary::Power => {
+                self.pure(1, "an exponent")?;
+                raised(a.of, b.value)
+            }
+        };
+        Ok((inferred, value))
+    }
+
+    fn written(&self, k: usize) -> &str {
+        &self.text[self.parts[k].span.clone()]
+    }
+
+    /// The common dimension of two parts that are added or compared.
+    fn alike(&self, a: usize, b: usize) -> Result<Inferred, ExpressionError> {
+        match (self.parts[a].of, self.parts[b].of) {
+            (Inferred::Of(one), Inferred::Of(other)) if one != other => {
+                let [left, right] = [a, b].map(|k| format!("'{}'", self.written(k)));
+                let message = format!(
+                    "{left} is in {}, but {right} is in {}",
+                    self.parts[a].of, self.parts[b].of
+                );
+                let span = self.parts[a].span.start..self.parts[b].span.end;
+                let hint = "only values of one dimension can be added or compared";
+                Err(ExpressionError::new(span, message).hint(hint.to_string()))
+            }
+            (Inferred::Of(d), _) | (_, Inferred::Of(d)) => Ok(Inferred::Of(d)),
+            (Inferred::Number, Inferred::Number) => Ok(Inferred::Number),
+            _ => Ok(Inferred::Open),
+        }
+    }
+
+    /// Refuses a part with a dimension where a number or an angle must be.
+    fn pure(&self, k: usize, place: &str) -> Result<(), ExpressionError> {
+        match self.parts[k].of {
+            Inferred::Of(dimension) if dimension != ANGLE => {
+                let message = format!(
+                    "'{}' is in {}; {place} must be a number or an angle",
+                    self.written(k),
+                    self.parts[k].of
+                );
+                let hint = "divide it by a value of the same dimension".to_string();
+                Err(ExpressionError::new(self.parts[k].span.clone(), message).hint(hint))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The dimension of a · b^power.
+fn product(a: Inferred, b: Inferred, power: i8) -> Inferred {
+    match (a, b) {
+        (Inferred::Of(a), Inferred::Of(b)) => match a.times(b, power) {
+            // lengths in a ratio leave a number
+            Some(ANGLE) if a != ANGLE => Inferred::Number,
+            Some(dimension) => Inferred::Of(dimension),
+            None => Inferred::Open,
+        },
+        (Inferred::Open, _) | (_, Inferred::Open) => Inferred::Open,
+        (Inferred::Of(a), Inferred::Number) => Inferred::Of(a),
+        (Inferred::Number, b) => raised(b, Some(f64::from(power))),
+    }
+}
+
+/// The dimension of a base to a power, which is known if it is a literal number.
+fn raised(base: Inferred, power: Option<f64>) -> Inferred {
+    match (base, power) {
+        (Inferred::Of(dimension), Some(power)) => {
+            dimension.raised(power).map_or(Inferred::Open, Inferred::Of)
+        }
+        (Inferred::Of(dimension), None) if dimension != ANGLE => Inferred::Open,
+        (base, _) => base,
+    }
+}

@@ -1,0 +1,39 @@
+// One arrow.
+
+/** A straight arrow with a solid head, with a rim of another colour if one is given. */
+export function paintArrow(context, [x0, y0], [x1, y1], colour, width, rim = null) {
+  const length = Math.hypot(x1 - x0, y1 - y0);
+  if (!(length > 0)) return;
+  const head = Math.min(4 + 2.4 * width, 0.6 * length);
+  const [ux, uy] = [(x1 - x0) / length, (y1 - y0) / length];
+  const [bx, by] = [x1 - head * ux, y1 - head * uy];
+  const wing = 0.42 * head;
+  const shaft = new Path2D(`M${x0} ${y0}L${bx} ${by}`);
+  const tip = new Path2D(`M${x1} ${y1}L${bx - wing * uy} ${by + wing * ux}L${bx + wing * uy} ${by - wing * ux}z`);
+  if (rim) {
+    context.strokeStyle = rim;
+    context.lineWidth = width + 3;
+    context.stroke(shaft);
+    context.lineWidth = 3;
+    context.stroke(tip);
+  }
+  context.strokeStyle = context.fillStyle = colour;
+  context.lineWidth = width;
+  context.stroke(shaft);
+  context.fill(tip);
+}
+
+/** Two strokes across an arrow that is drawn shorter than its value. */
+export function paintBreak(context, [x0, y0], [x1, y1], colour, background) {
+  const length = Math.hypot(x1 - x0, y1 - y0);
+  if (length < 24) return;
+  const [ux, uy] = [(x1 - x0) / length, (y1 - y0) / length];
+  const [mx, my] = [x0 + 0.45 * (x1 - x0), y0 + 0.45 * (y1 - y0)];
+  const [sx, sy] = [5 * (uy - 0.4 * ux), 5 * (ux + 0.4 * uy)];
+  const stroke = (at) => `M${mx + at * ux - sx} ${my + at * uy + sy}l${2 * sx} ${-2 * sy}`;
+  for (const [paint, width] of [[background, 6], [colour, 1.6]]) {
+    context.strokeStyle = paint;
+    context.lineWidth = width;
+    context.stroke(new Path2D(stroke(-2.5) + stroke(2.5)));
+  }
+}

@@ -1,0 +1,62 @@
+// The controls of playback: buttons, the slider of time, speed.
+
+const SPEEDS = [0.1, 0.2, 0.5, 1, 2, 5, 10];
+
+/** Buttons, slider and speed of a clock. */
+export class Controls {
+  constructor(find, clock, motion, decimals) {
+    Object.assign(this, { find, clock, motion, decimals });
+    this.connectSlider();
+    this.connectSpeed(clock.rate);
+    if (motion.t.length > 1) return;
+    for (const id of ["play", "first", "last", "back", "forward", "loop", "scrub", "speed"]) find(id).disabled = true;
+  }
+
+  connectSlider() {
+    const scrub = this.find("scrub");
+    scrub.min = String(this.motion.begin);
+    scrub.max = String(this.motion.end);
+    scrub.addEventListener("input", () => this.clock.seek(Number(scrub.value)));
+  }
+
+  connectSpeed(rate) {
+    const select = this.find("speed");
+    for (const speed of SPEEDS) {
+      const option = document.createElement("option");
+      option.value = String(speed);
+      option.textContent = `${Number((speed * rate).toPrecision(3))}×`;
+      select.append(option);
+    }
+    select.value = "1";
+    select.addEventListener("change", () => {
+      this.clock.speed = Number(select.value);
+    });
+  }
+
+  changeSpeed(places) {
+    const place = SPEEDS.indexOf(this.clock.speed) + places;
+    this.clock.speed = SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, place))];
+    this.find("speed").value = String(this.clock.speed);
+  }
+
+  toggle() {
+    if (this.clock.playing) this.clock.pause();
+    else this.clock.play();
+  }
+
+  repeat() {
+    this.clock.loop = !this.clock.loop;
+    this.find("loop").setAttribute("aria-pressed", String(this.clock.loop));
+  }
+
+  paint() {
+    const written = `${this.clock.t.toFixed(this.decimals)} s`;
+    this.find("now").textContent = written;
+    const scrub = this.find("scrub");
+    scrub.value = String(this.clock.t);
+    scrub.setAttribute("aria-valuetext", written);
+    const play = this.find("play");
+    play.classList.toggle("playing", this.clock.playing);
+    play.setAttribute("aria-label", this.clock.playing ? "Pause" : "Play");
+  }
+}

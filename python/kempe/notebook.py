@@ -1,0 +1,102 @@
+"""What a notebook shows for an object: a drawing and tables as HTML."""
+
+from __future__ import annotations
+
+import html
+import io
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from kempe.errors import KempeError
+
+if TYPE_CHECKING:
+    from kempe.model import Model
+    from kempe.solution import Solution
+    from kempe.state import State
+
+#: Width of a drawing, pixels.
+_WIDTH = 480
+#: A table has at most so many rows; the last row gives the number of the others.
+_MOST_ROWS = 30
+
+
+def of_model(model: Model) -> str:
+    """Drawing of the assembled mechanism, and its bodies and elements."""
+    from kempe.analyses import assemble
+
+    try:
+        import warnings
+
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            picture = drawing(assemble(model))
+        bodies = [
+            (str(body.number), body.name, body.type, f"{body.mass:.6g}", f"{body.inertia:.6g}")
+            for body in model.bodies.values()
+        ]
+    except KempeError as error:  # a model that is not finished
+        return _block(model.title, _paragraph(repr(model)), _paragraph(str(error)))
+    tables = [table(("", "body", "type", "mass / kg", "inertia / kg m²"), bodies)]
+    rows = [(joint.name, joint.type, joint.i, joint.j) for joint in model.constraints.values()]
+    rows += [(force.name, force.type, force.i, force.j) for force in model.forces.values()]
+    if rows:
+        tables.append(table(("element", "type", "body i", "body j"), rows))
+    return _block(model.title, picture, *tables)
+
+
+def of_state(state: State) -> str:
+    """Drawing of the mechanism in a state, and the motion of its bodies."""
+    header, rows = state.table()
+    caption = f"{state.compiled.title}, t = {state.t:g} s"
+    return _block(caption, drawing(state), table(header, rows))
+
+
+def of_solution(solution: Solution) -> str:
+    """Drawing of the last state, and the extent, cost and accuracy of a run."""
+    rows = [
+        ("time", f"{solution.t[0]:g} to {solution.t[-1]:g} s, {len(solution.t)} outputs"),
+        ("end", solution.message),
+        ("method", f"{solution.statistics['method']}, {solution.statistics['steps']} steps"),
+        ("largest opening of a joint", f"{solution.drift.position.max(initial=0.0):.3g} m or rad"),
+    ]
+    picture = drawing(solution.final) if len(solution.t) else ""
+    return _block(solution.compiled.title, picture, table(("", ""), rows))
+
+
+def drawing(state: State) -> str:
+    """The mechanism as an SVG picture; empty if it has no bodies."""
+    if not state.compiled.bodies:
+        return ""
+    from kempe.plot import mechanism, style
+
+    with style.applied():
+        figure = style.figure(style.WIDTH * 0.6)
+        mechanism(state, ax=figure.add_subplot())
+        text = io.StringIO()
+        figure.savefig(text, format="svg", metadata={"Date": None})
+    svg = text.getvalue()
+    return svg[svg.index("<svg") :].replace(
+        "<svg ", f'<svg style="display: block; max-width: {_WIDTH}px" ', 1
+    )
+
+
+def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table; its cells are texts."""
+    given = list(rows)
+    lines = [_row("th", header)] if any(header) else []
+    lines += [_row("td", row) for row in given[:_MOST_ROWS]]
+    if len(given) > _MOST_ROWS:
+        lines.append(_row("td", (f"… {len(given) - _MOST_ROWS} more",)))
+    return f"<table>{''.join(lines)}</table>"
+
+
+def _row(kind: str, cells: Sequence[str]) -> str:
+    return "<tr>" + "".join(f"<{kind}>{html.escape(cell)}</{kind}>" for cell in cells) + "</tr>"
+
+
+def _paragraph(text: str) -> str:
+    return f"<p>{html.escape(text)}</p>"
+
+
+def _block(caption: str, *parts: str) -> str:
+    return f"<div><b>{html.escape(caption)}</b>{''.join(parts)}</div>"

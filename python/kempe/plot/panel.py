@@ -1,0 +1,86 @@
+"""Curves over time and panels of them, as data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from kempe.arrays import Floats
+from kempe.extrema import Extreme, Quantity, largest, least
+from kempe.fine import fine
+
+if TYPE_CHECKING:
+    from kempe.motion import Motion
+
+#: A line that varies by less than this share of its value is a constant.
+CONSTANT = 1e-6
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A quantity over time.
+
+    Attributes:
+        label: text of the legend.
+        values: (n_t,), SI units.
+        line: colour, dashes and width; chosen by its place in the panel when empty.
+        high, low: its largest and its least value, if they may be marked.
+    """
+
+    label: str
+    values: Floats
+    line: Mapping[str, Any] = field(default_factory=dict)
+    high: Extreme | None = None
+    low: Extreme | None = None
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Curves of one unit over time.
+
+    Attributes:
+        symbol: of the quantity, such as "F".
+        unit: SI unit of the values.
+        curves: the curves.
+        title: title above the panel, to the left.
+        name: its name in a sentence on the page.
+        legend: whether to write one, above the panel to the right.
+        degrees: whether an axis to the right gives an angle in degrees.
+        turning_points: whether extreme values at the first and the last time stay unmarked.
+    """
+
+    symbol: str
+    unit: str
+    curves: Sequence[Curve]
+    title: str = ""
+    name: str = ""
+    legend: bool = False
+    degrees: bool = False
+    turning_points: bool = False
+
+    @property
+    def peak(self) -> float:
+        """The largest magnitude, SI units."""
+        return max(
+            (float(np.abs(curve.values).max(initial=0.0)) for curve in self.curves), default=0.0
+        )
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The least and the largest value, SI units."""
+        values = np.concatenate([np.atleast_1d(curve.values) for curve in self.curves])
+        return float(values.min()), float(values.max())
+
+
+def curve(motion: Motion, label: str, quantity: Quantity, line: Mapping[str, Any]) -> Curve:
+    """A quantity on the interpolant of a solution, or at the times of another motion."""
+    values = np.atleast_1d(quantity(fine(motion)))
+    return Curve(label, values, line, largest(motion, quantity), least(motion, quantity))
+
+
+def times(motion: Motion) -> Floats:
+    """The times of the curves of a motion, (n_t,), s."""
+    return np.atleast_1d(fine(motion).t)

@@ -1,0 +1,92 @@
+"""The energy balance is relative to the energies of the run, at every scale."""
+
+import kempe as kp
+import numpy as np
+import pytest
+
+
+def damped_rod(mass: float, stiffness: float, damping: float) -> tuple[kp.Model, kp.State]:
+    """A rod of 1 m on a pin with a torsional spring-damper, released at half a radian."""
+    m = kp.Model("rod")
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass=mass, length=1, ends=("O", "P"))
+    m.revolute("pin", "ground.O", "rod.O")
+    m.torsion_spring("spring", "ground", "rod", stiffness=stiffness, damping=damping)
+    return m, kp.assemble(m, {"rod.angle": 0.5})
+
+
+@pytest.mark.parametrize("mass", [1.0, 1e-6, 1e-12])
+def test_strong_damping_dissipates_far_more_than_there_is_kinetic_energy(mass: float) -> None:
+    stiffness, damping = 4.0, 1e3
+    m, start = damped_rod(mass, stiffness, damping)
+    sol = kp.dynamics(m, start, t_end=1000, output_step=10)
+    # φ = 0.5 exp(-k t / c) without inertia; the spring loses k (φ0² - φ²) / 2 to the damper
+    angle = 0.5 * np.exp(-stiffness / damping * sol.t)
+    np.testing.assert_allclose(sol["rod"].angle, angle, atol=1e-5)
+    lost = 0.5 * stiffness * (0.25 - angle**2)
+    np.testing.assert_allclose(sol.energy.dissipated, lost, atol=1e-4)
+    assert sol.energy.scale == pytest.approx(lost[-1], rel=1e-4)
+    assert sol.energy.kinetic.max() < 1e-5 * sol.energy.scale
+    assert np.abs(sol.energy.balance).max() < 1e-6
+
+
+def test_the_scale_is_the_largest_energy_that_is_exchanged(solution: kp.Solution) -> None:
+    energy = solution.energy
+    parts = energy.potential, energy.dissipated, energy.work_of_drivers, energy.work_of_forces
+    largest = max(energy.kinetic.max(), *(part.max() - part.min() for part in parts))
+    assert energy.scale == largest
+    np.testing.assert_array_equal(energy.balance, (energy.total - energy.total[0]) / largest)
+
+
+def test_a_pendulum_has_the_scale_of_its_fall() -> None:
+    m = kp.Model("pendulum", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass=2, length=1, ends=("O", "P"))
+    m.revolute("pin", "ground.O", "rod.O")
+    sol = kp.dynamics(m, kp.assemble(m, {"rod.angle": 0}), t_end=3, output_step=1e-3)
+    # from level to hanging, the centre falls by 0.5 m
+    assert sol.energy.scale == pytest.approx(2 * 9.81 * 0.5, rel=1e-5)
+
+
+@pytest.mark.parametrize("mass", [1.0, 1e6])
+def test_rest_is_balanced(mass: float) -> None:
+    """A hanging chain: its energies change by rounding errors."""
+    m = kp.Model("chain", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    end = "ground.O"
+    for number in range(3):
+        m.bar(f"link{number}", mass=mass, length=1, ends=("P", "Q"))
+        m.revolute(f"J{number}", end, f"link{number}.P")
+        end = f"link{number}.Q"
+    hanging = {f"link{number}.angle": "-90*deg" for number in range(3)}
+    sol = kp.dynamics(m, kp.assemble(m, hanging), t_end=5)
+    assert np.abs(sol.energy.balance).max() < 1e-6
+
+
+def rods(scale: float) -> tuple[kp.Model, kp.State]:
+    """Three point masses on massless rods; gravity is scaled so that times stay."""
+    m = kp.Model("rods", gravity=(0, -9.81 * scale))
+    m.ground.points(O=(0, 0))
+    end, x, y, held, guess = "ground.O", 0.0, 0.0, {}, {}
+    for number, angle in enumerate((-0.3, 0.4, 1.2)):
+        m.point_mass(f"bob{number}", mass=1 + number)
+        m.distance(f"rod{number}", end, f"bob{number}.P", length=scale)
+        x, y = x + scale * np.cos(angle), y + scale * np.sin(angle)
+        held[f"bob{number}.x"], guess[f"bob{number}.y"] = x, y
+        end = f"bob{number}.P"
+    return m, kp.assemble(m, held, guess)
+
+
+def test_nanometres_keep_their_digits_and_their_balance() -> None:
+    """The motion was wrong, not the balance: 1e-11 m is a hundredth of the rods."""
+    grid = {"t_end": 3, "output_step": 0.1}
+    metre = kp.dynamics(*rods(1.0), **grid)
+    nanometre = kp.dynamics(*rods(1e-9), **grid)
+    np.testing.assert_allclose(nanometre.q / 1e-9, metre.q, atol=1e-5)
+    assert np.abs(metre.energy.balance).max() < 1e-6
+    assert np.abs(nanometre.energy.balance).max() < 1e-6
+    coarse = kp.dynamics(*rods(1e-9), **grid, method=kp.Auto(atol=1e-11))
+    assert np.abs(coarse.q / 1e-9 - metre.q).max() > 1e-3
+    assert np.abs(coarse.energy.balance).max() > 1e-4
+    by_kind = kp.dynamics(*rods(1e-9), **grid, method=kp.Auto(atol={"length": 1e-20}))
+    np.testing.assert_allclose(by_kind.q / 1e-9, metre.q, atol=1e-5)

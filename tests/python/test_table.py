@@ -1,0 +1,135 @@
+"""The table of a solution: reactions by body and frame, paths, units, names that are formulas."""
+
+import csv
+from collections.abc import Iterator
+from pathlib import Path
+
+import kempe as kp
+import numpy as np
+import pytest
+from house.places import ROOT
+
+
+@pytest.fixture(autouse=True)
+def si_units() -> Iterator[None]:
+    yield
+    kp.units("SI")
+
+
+@pytest.fixture(scope="module", params=["four_bar", "slider_crank", "six_bar"])
+def sol(request: pytest.FixtureRequest) -> kp.Solution:
+    case = kp.load(ROOT / "examples" / f"{request.param}.toml")
+    return case.with_analysis(next(iter(case.analyses)), t_end=0.2, output_step=0.02).run()[0]
+
+
+def read(path: Path) -> dict[str, np.ndarray]:
+    with path.open(encoding="utf-8", newline="") as file:
+        header, *rows = csv.reader(file)
+    values = np.array(rows, dtype=float).T
+    assert len(set(header)) == len(header)
+    return dict(zip(header, values, strict=True))
+
+
+def test_reactions_are_written_by_body_and_frame(sol: kp.Solution, tmp_path: Path) -> None:
+    sol.to_csv(tmp_path / "s.csv", frames=("global", "body", "joint"))
+    table = read(tmp_path / "s.csv")
+    for name, joint in sol.model.constraints.items():
+        for body in joint.bodies:
+            if body == "ground":
+                assert f"{name}.fx_on_ground [N]" not in table
+                continue
+            for frame, mark in (("global", ""), ("body", "body_"), ("joint", "joint_")):
+                force = sol[name].force(on=body, frame=frame)
+                assert np.array_equal(table[f"{name}.{mark}fx_on_{body} [N]"], force[:, 0])
+                assert np.array_equal(table[f"{name}.{mark}fy_on_{body} [N]"], force[:, 1])
+            torque = sol[name].torque(on=body)
+            assert np.array_equal(table[f"{name}.torque_on_{body} [N*m]"], torque)
+
+
+def test_newtons_law_holds_in_the_table(sol: kp.Solution, tmp_path: Path) -> None:
+    sol.to_csv(tmp_path / "s.csv")
+    table = read(tmp_path / "s.csv")
+    gravity = np.array(sol.model.gravity)
+    for name, body in sol.model.bodies.items():
+        center = sol.body(name).at(body.center)
+        for k, axis in enumerate("xy"):
+            acting = [v for key, v in table.items() if key.endswith(f".f{axis}_on_{name} [N]")]
+            total = np.sum(acting, axis=0) + body.mass * gravity[k]
+            scale = max(np.abs(acting).max(), body.mass)
+            expected = body.mass * center.acceleration[:, k]
+            np.testing.assert_allclose(total, expected, atol=1e-9 * scale)
+
+
+def test_paths_are_written_on_request(sol: kp.Solution, tmp_path: Path) -> None:
+    name, body = next(iter(sol.model.bodies.items()))
+    point = next(iter(body.points))
+    sol.to_csv(tmp_path / "without.csv")
+    sol.to_csv(tmp_path / "one.csv", points=[f"{name}.{point}"])
+    sol.to_csv(tmp_path / "all.csv", points=True)
+    without, one, every = (read(tmp_path / f"{n}.csv") for n in ("without", "one", "all"))
+    assert set(one) - set(without) == {f"{name}.{point}.{c} [m]" for c in "xy"}
+    assert np.array_equal(one[f"{name}.{point}.y [m]"], sol[name].point(point).position[:, 1])
+    count = sum(len(b.points) for b in sol.model.bodies.values())
+    assert len(every) == len(without) + 2 * count
+
+
+def test_the_table_follows_the_display_units(sol: kp.Solution, tmp_path: Path) -> None:
+    sol.to_csv(tmp_path / "si.csv")
+    kp.units("mm,deg,rpm,kN,N*mm,kJ,ms")
+    sol.to_csv(tmp_path / "own.csv")
+    si, own = read(tmp_path / "si.csv"), read(tmp_path / "own.csv")
+    body = next(iter(sol.model.bodies))
+    joint, other = next((n, c.j) for n, c in sol.model.joints.items() if c.j != "ground")
+    for name, old, new, factor in [
+        ("t", "s", "ms", 1e3),
+        (f"{body}.x", "m", "mm", 1e3),
+        (f"{body}.vy", "m/s", "mm/s", 1e3),
+        (f"{body}.ay", "m/s^2", "mm/s^2", 1e3),
+        (f"{body}.angle", "rad", "deg", 180 / np.pi),
+        (f"{body}.omega", "rad/s", "rpm", 30 / np.pi),
+        (f"{body}.alpha", "rad/s^2", "deg/s^2", 180 / np.pi),
+        (f"{joint}.fx_on_{other}", "N", "kN", 1e-3),
+        (f"{joint}.torque_on_{other}", "N*m", "N*mm", 1e3),
+        ("energy.kinetic", "J", "kJ", 1e-3),
+    ]:
+        np.testing.assert_allclose(
+            own[f"{name} [{new}]"], si[f"{name} [{old}]"] * factor, rtol=1e-14
+        )
+    frame = sol.to_dataframe()
+    assert frame.attrs["units"][f"{body}.omega"] == "rpm"
+    np.testing.assert_array_equal(frame[f"{body}.omega"], own[f"{body}.omega [rpm]"])
+
+
+@pytest.mark.parametrize(
+    ("extent", "message"),
+    [
+        ({"frames": ("lokal",)}, "unknown frame 'lokal'"),
+        ({"frames": "global"}, r"write \['global'\]"),
+        ({"points": ["crank.Q"]}, "unknown quantity 'crank.Q.x'"),
+        ({"points": "crank.B"}, r"write \['crank.B'\]"),
+    ],
+)
+def test_a_wrong_extent_is_refused(
+    solution: kp.Solution, tmp_path: Path, extent: dict, message: str
+) -> None:
+    with pytest.raises(kp.ModelError, match=message):
+        solution.to_csv(tmp_path / "s.csv", **extent)
+    assert not list(tmp_path.iterdir())
+
+
+def test_no_cell_is_a_formula_of_a_spreadsheet(tmp_path: Path) -> None:
+    names = ["=1+1", "+a", "-b", "@c", 'd,"e', "plain"]
+    m = kp.Model(gravity=(0, -9.81))
+    for name in names:
+        m.body(name, mass=1, inertia=1)
+    start = kp.assemble(m)
+    sol = kp.dynamics(m, start, t_end=0.1, output_step=0.05)
+    sol.to_csv(tmp_path / "s.csv")
+    texts = [(tmp_path / "s.csv").read_text(encoding="utf-8"), kp.show(m, start, "M").csv()]
+    for text in texts:
+        header, *rows = csv.reader(text.splitlines())
+        cells = header + [row[0] for row in rows if not row[0][:1].isdigit()]
+        assert not [cell for cell in cells if cell[:1] in {*"=+-@"}]
+        for name in names:
+            mark = "'" if name[0] in "=+-@" else ""
+            assert any(cell.startswith(f"{mark}{name}.x") for cell in cells), name

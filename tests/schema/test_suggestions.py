@@ -1,0 +1,65 @@
+"""Every "did you mean" of a mistyped case is applied, and the fault is gone."""
+
+import copy
+import json
+import random
+import re
+from typing import Any
+
+import kempe as kp
+import pytest
+from kempe import _core
+from schema.cases import cases, places, typo
+
+CASES = cases()
+MEANT = re.compile(r"'([^']*)'[^']*; did you mean '([^']*)'\?")
+
+
+def faults(case: dict[str, Any]) -> list[str]:
+    """The faults that are known without a run."""
+    try:
+        core = _core.Case(json.dumps(case), "json", None)
+        core.check(core.model("{}"))
+    except kp.KempeError as error:
+        return [problem.message for problem in error.problems] or [str(error)]
+    return []
+
+
+def replaced(node: dict[str, Any], key: str, wrong: str, meant: str) -> None:
+    """Replaces a part of a key."""
+    name = key.replace(wrong, meant)
+    entries = [(name if known == key else known, value) for known, value in node.items()]
+    node.clear()
+    node.update(entries)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_suggestions_remove_the_fault(name: str) -> None:
+    chance = random.Random(4)
+    assert faults(CASES[name]) == []
+    applied = 0
+    for k, (node, key) in enumerate(places(CASES[name])):
+        for is_key in (True, False):
+            word = key if is_key else node[key]
+            if not isinstance(word, str) or len(word) < 3 or (not is_key and key == "title"):
+                continue
+            case = copy.deepcopy(CASES[name])
+            own, own_key = list(places(case))[k]
+            wrong = typo(word, chance)
+            if is_key and wrong in own:
+                continue
+            if is_key:
+                replaced(own, key, key, wrong)
+            else:
+                own[own_key] = wrong
+            found = [match for text in faults(case) if (match := MEANT.search(text))]
+            if len(found) != 1 or (part := found[0][1]) not in wrong:
+                continue  # the name of a part: those that refer to it are at fault
+            applied += 1
+            meant = found[0][2]
+            if is_key:
+                replaced(own, wrong, part, meant)
+            else:
+                own[own_key] = wrong.replace(part, meant)
+            assert faults(case) == [], f"{wrong!r} of {word!r} at {key!r}: {part!r} as {meant!r}"
+    assert applied > 20
