@@ -12,8 +12,11 @@ fn survives(text: &str, format: Format) {
             assert_eq!(again, Ok(read), "{text}");
         }
         Err(faults) => {
-            assert!(!faults.is_empty() && faults.len() <= MOST_REPORTED);
-            for fault in faults {
+            assert!(!faults.is_empty());
+            // the last may be the number of further faults
+            let placed = faults.len() - usize::from(faults.last().is_some_and(|f| f.line == 0));
+            assert!(placed > 0 && placed <= MOST_REPORTED);
+            for fault in &faults[..placed] {
                 let lines = text.split('\n').count();
                 assert!((1..=lines).contains(&fault.line), "{fault}");
                 assert_eq!(fault.excerpt.lines().count(), 2, "{fault}");

@@ -158,8 +158,8 @@ def assemble(
     Returns:
         t, q, v, z and a report as JSON: ``{"iterations": [{"residual", "step", "damping"}],
         "degrees_of_freedom", "modes": [{"bodies", "joint", "side": "left" | "right" |
-        "ahead" | "behind"}],
-        "alternatives": int, "warnings": [text]}``.
+        "ahead" | "behind", "folded": bool | None}],
+        "warnings": [text]}``.
 
     Raises:
         AssemblyError, RedundancyError, ModelError.

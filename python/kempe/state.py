@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +16,11 @@ from kempe.motion import Motion
 from kempe.names import few
 from kempe.values import Number, mapping
 from kempe.views import BodyView, ConstraintView, ForceView
+
+#: Largest number of modes that a report lists.
+MOST_MODES = 20
+#: Numbers of other assemblies from here on are given as a power of two.
+MOST_COUNTED = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -45,12 +50,16 @@ class Mode:
         side: side of the line from the first to the second anchor on which the joint lies, "left"
             or "right". If the second anchor is a slide: "ahead" of the first anchor along the
             slide, or "behind" it.
+        folded: whether the loop is folded: the joint and the pin between the two bodies that carry
+            the dyad lie on the same side of the line between the anchors. None if there is no
+            such pin.
     """
 
     bodies: tuple[str, ...]
     joint: str
     anchors: tuple[str, ...]
     side: str
+    folded: bool | None = None
 
 
 @dataclass(frozen=True, repr=False)
@@ -61,15 +70,18 @@ class AssemblyReport:
         iterations: the Newton iterations.
         degrees_of_freedom: number of degrees of freedom.
         modes: the side of every dyad.
-        alternatives: number of other assembly modes.
         warnings: texts of the warnings.
     """
 
     iterations: tuple[Iteration, ...]
     degrees_of_freedom: int
     modes: tuple[Mode, ...]
-    alternatives: int
     warnings: tuple[str, ...]
+
+    @property
+    def alternatives(self) -> int:
+        """Number of other combinations of sides, reachable or not: 2 for each dyad, less one."""
+        return int(2 ** len(self.modes) - 1)
 
     @classmethod
     def from_json(cls, text: str) -> AssemblyReport:
@@ -81,10 +93,9 @@ class AssemblyReport:
             ),
             degrees_of_freedom=report["degrees_of_freedom"],
             modes=tuple(
-                Mode(tuple(m["bodies"]), m["joint"], tuple(m["anchors"]), m["side"])
+                Mode(tuple(m["bodies"]), m["joint"], tuple(m["anchors"]), m["side"], m["folded"])
                 for m in report["modes"]
             ),
-            alternatives=report["alternatives"],
             warnings=tuple(report["warnings"]),
         )
 
@@ -97,18 +108,34 @@ class AssemblyReport:
         last = f", residual {self.iterations[-1].residual:.1e}" if self.iterations else ""
         count = len(self.iterations)
         lines = [f"{count} iteration{'' if count == 1 else 's'}{last}"]
-        lines += [f"{' and '.join(m.bodies)}: {m.joint} lies {_place(m)}" for m in self.modes]
-        if self.alternatives:
+        shown = self.modes[:MOST_MODES]
+        lines += [f"{' and '.join(m.bodies)}: {m.joint} lies {_place(m)}" for m in shown]
+        if len(self.modes) > MOST_MODES:
+            lines.append(_others(self.modes[MOST_MODES:]))
+        if 0 < self.alternatives < MOST_COUNTED:
             lines.append(f"other assemblies exist: {self.alternatives}")
+        elif self.alternatives:
+            lines.append(f"other assemblies exist: up to 2^{len(self.modes)} - 1")
         return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings)])
 
 
+def _others(modes: Sequence[Mode]) -> str:
+    """``and 244 more, of which 3 are folded: R12, R40, R77``."""
+    folded = [mode.joint for mode in modes if mode.folded]
+    text = f"and {len(modes)} more"
+    if not folded:
+        return text + ", none of them folded"
+    more = ", …" if len(folded) > MOST_MODES else ""
+    return f"{text}, of which {len(folded)} folded: {', '.join(folded[:MOST_MODES])}{more}"
+
+
 def _place(mode: Mode) -> str:
-    """``to the left of A → D``, or ``ahead of B along the slide S``."""
+    """``to the left of A → D, unfolded``, or ``ahead of B along the slide S``."""
     if mode.side in ("ahead", "behind"):
         first, slide = mode.anchors
         return f"{mode.side}{' of' * (mode.side == 'ahead')} {first} along the slide {slide}"
-    return f"to the {mode.side} of {' → '.join(mode.anchors)}"
+    folded = {None: "", False: ", unfolded", True: ", folded"}[mode.folded]
+    return f"to the {mode.side} of {' → '.join(mode.anchors)}{folded}"
 
 
 #: Columns of a printed state: quantity, SI unit, and the unit where none was chosen.

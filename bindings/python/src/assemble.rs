@@ -1,5 +1,6 @@
 //! Assembly as Python sees it.
 
+use crate::attended::attended;
 use crate::convert::{number, state, tree, Row};
 use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
@@ -57,7 +58,7 @@ pub fn assemble<'py>(
             from_guess,
         };
         let core_model = std::sync::Arc::clone(&model.model);
-        let outcome = py.detach(|| core::assemble(&core_model, &request));
+        let outcome = attended(py, move |stop| core::assemble_until(&core_model, &request, stop))?;
         let (state, report) = outcome.map_err(|failure| raise(py, &failure))?;
         let [q, v, z] = [state.q, state.v, state.z].map(|row| row.into_pyarray(py));
         Ok((state.t, q, v, z, describe(&report).to_string()))
@@ -67,7 +68,7 @@ pub fn assemble<'py>(
 fn raise(py: Python<'_>, failure: &core::Failure) -> PyErr {
     let kind = match failure.fault {
         Fault::Redundant => Kind::Redundancy,
-        Fault::Open | Fault::Rates => Kind::Assembly,
+        Fault::Open | Fault::Rates | Fault::Stopped => Kind::Assembly,
     };
     let error = Failure::new(kind, failure.message.clone()).hint(failure.hint.clone());
     let named = if failure.name.is_empty() { error } else { error.name(failure.name.clone()) };
@@ -86,13 +87,12 @@ fn describe(report: &Report) -> Value {
             (true, true) => "ahead",
             (true, false) => "behind",
         };
-        json!({ "bodies": m.bodies, "joint": m.joint, "anchors": m.anchors, "side": side })
+        json!({ "bodies": m.bodies, "joint": m.joint, "anchors": m.anchors, "side": side, "folded": m.folded })
     });
     json!({
         "iterations": iterations.collect::<Vec<_>>(),
         "degrees_of_freedom": report.degrees_of_freedom,
         "modes": modes.collect::<Vec<_>>(),
-        "alternatives": report.alternatives,
         "warnings": report.warnings,
     })
 }

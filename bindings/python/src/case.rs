@@ -1,18 +1,20 @@
 //! A case as Python sees it: text in, text out, and the compiled model.
 
+use crate::attended::attended;
 use crate::convert::tree;
 use crate::errors::{raise, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
-use kempe::case::{self, Case, Diagnostic, Document, Format};
+use kempe::case::{self, Case, Diagnostic, Document, Format, MOST_REPORTED};
 use kempe::model::{self, Value};
 use pyo3::prelude::*;
 use serde_json::json;
+use std::sync::Arc;
 
 /// Text of a case, checked for its structure.
 #[pyclass(name = "Case", module = "kempe._core", frozen)]
 pub struct PyCase {
-    case: Case,
+    case: Arc<Case>,
     document: Document,
     origin: Option<String>,
 }
@@ -31,9 +33,12 @@ fn format_named(py: Python<'_>, name: &str) -> PyResult<Format> {
 impl PyCase {
     /// Faults with their places in this text.
     fn raise(&self, py: Python<'_>, kind: Kind, found: &[model::Problem]) -> PyErr {
-        let mut found: Vec<Diagnostic> = found.iter().map(|p| self.document.diagnose(p)).collect();
-        found.sort_by_key(|d| (d.line, d.column));
-        raise(py, kind, &found, self.origin.as_deref())
+        let more = found.len().saturating_sub(MOST_REPORTED);
+        let shown = found.iter().take(MOST_REPORTED);
+        let mut shown: Vec<Diagnostic> = shown.map(|p| self.document.diagnose(p)).collect();
+        shown.sort_by_key(|d| (d.line, d.column));
+        shown.extend((more > 0).then(|| Diagnostic::more(more)));
+        raise(py, kind, &shown, self.origin.as_deref())
     }
 }
 
@@ -45,9 +50,10 @@ impl PyCase {
         guard("Case", || {
             let kind = if origin.is_some() { Kind::File } else { Kind::Model };
             let format = format_named(py, format)?;
-            let (case, document) = case::read(text, format)
+            let text = text.to_string();
+            let (case, document) = attended(py, move |_| case::read(&text, format))?
                 .map_err(|found| raise(py, kind, &found, origin.as_deref()))?;
-            Ok(Self { case, document, origin })
+            Ok(Self { case: Arc::new(case), document, origin })
         })
     }
 
@@ -65,9 +71,11 @@ impl PyCase {
     fn model(&self, py: Python<'_>, overrides: &str) -> PyResult<PyModel> {
         guard("Case.model", || {
             let overrides = tree(py, overrides)?;
-            let model = model::build(&self.case.definition, &overrides)
-                .map_err(|found| self.raise(py, Kind::Model, &found))?;
-            Ok(PyModel::new(model))
+            let case = Arc::clone(&self.case);
+            let built = attended(py, move |_| {
+                model::build(&case.definition, &overrides).map(PyModel::new)
+            })?;
+            built.map_err(|found| self.raise(py, Kind::Model, &found))
         })
     }
 

@@ -2,7 +2,7 @@
 //! `kempe.errors`, which is imported only when there is something to raise.
 
 use kempe::case::Diagnostic;
-use kempe::model;
+use kempe::model::{self, MOST_REPORTED};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -159,12 +159,17 @@ fn problem(diagnostic: &Diagnostic, origin: Option<&str>) -> Problem {
 
 /// All faults as one exception.
 pub fn raise(py: Python<'_>, kind: Kind, found: &[Diagnostic], origin: Option<&str>) -> PyErr {
-    let problems: Vec<Problem> = found.iter().map(|d| problem(d, origin)).collect();
-    let texts: Vec<&str> = problems.iter().map(|p| p.message.as_str()).collect();
+    // the last entry may be the number of further faults
+    let (shown, more): (Vec<_>, Vec<_>) = found.iter().partition(|d| d.line > 0);
+    let problems: Vec<Problem> = shown.into_iter().map(|d| problem(d, origin)).collect();
+    let texts = problems.iter().map(|p| p.message.as_str());
+    let texts: Vec<&str> = texts.chain(more.iter().map(|d| d.message.as_str())).collect();
     let text = texts.join("\n");
+    let count = problems.len();
     let message = match origin {
         Some(origin) if found.len() == 1 => format!("{origin}: {text}"),
-        Some(origin) => format!("{origin}: {} problems\n{text}", found.len()),
+        Some(origin) if more.is_empty() => format!("{origin}: {count} problems\n{text}"),
+        Some(origin) => format!("{origin}: more than {count} problems\n{text}"),
         None => text,
     };
     let name = found.first().and_then(|d| d.path.get(1).cloned()).unwrap_or_default();
@@ -178,9 +183,9 @@ pub fn raise_plain(py: Python<'_>, kind: Kind, found: &[model::Problem]) -> PyEr
         path: p.path.join("."),
         position: None,
     };
-    let problems: Vec<Problem> = found.iter().map(problem).collect();
-    let texts: Vec<&str> = problems.iter().map(|p| p.message.as_str()).collect();
-    Failure::new(kind, texts.join("\n")).problems(problems).raise(py)
+    let problems: Vec<Problem> = found.iter().take(MOST_REPORTED).map(problem).collect();
+    let message = model::Problems(found.to_vec()).to_string();
+    Failure::new(kind, message).problems(problems).raise(py)
 }
 
 /// A failure of the class named `kind` with every attribute filled, for the tests in Python.

@@ -12,7 +12,7 @@
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
-use std::panic::{catch_unwind, set_hook, take_hook, AssertUnwindSafe};
+use std::panic::{catch_unwind, resume_unwind, set_hook, take_hook, AssertUnwindSafe};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, Once, PoisonError};
 
@@ -43,6 +43,28 @@ pub fn guard<T>(entry: &'static str, body: impl FnOnce() -> PyResult<T>) -> PyRe
     }));
     DEPTH.set(DEPTH.get() - 1);
     outcome.unwrap_or_else(|payload| Err(internal_error(entry, payload.as_ref())))
+}
+
+/// A panic on another thread, with its place.
+pub struct Caught {
+    payload: Box<dyn Any + Send>,
+    place: Option<String>,
+}
+
+impl Caught {
+    /// Panics again, on this thread.
+    pub fn resume(self) -> ! {
+        PLACE.set(self.place);
+        resume_unwind(self.payload)
+    }
+}
+
+/// Runs `body` on a thread without a guard; a panic is caught without being printed.
+pub fn caught<T>(body: impl FnOnce() -> T) -> Result<T, Caught> {
+    DEPTH.set(DEPTH.get() + 1);
+    let outcome = catch_unwind(AssertUnwindSafe(body));
+    DEPTH.set(DEPTH.get() - 1);
+    outcome.map_err(|payload| Caught { payload, place: PLACE.take() })
 }
 
 /// Makes the next guard of `entry` panic, or none for `None`.

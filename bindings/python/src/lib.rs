@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 mod assemble;
+mod attended;
 mod case;
 mod convert;
 mod dynamics;

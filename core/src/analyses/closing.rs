@@ -14,11 +14,23 @@ use crate::solve::newton::{Damping, Equations, Newton, Options, Outcome, Record}
 pub const TOLERANCE: f64 = 1e-12;
 /// Damping if a row of Φ_q depends on the others: far below the tolerance, but large enough for a pivot.
 const REDUNDANT: f64 = 1e-9;
+/// Damping of a row that is left out: its multiplier becomes zero.
+const LEFT_OUT: f64 = 1e200;
+
+/// Whether the work shall end early; once true, it stays true.
+pub type Stop<'a> = &'a dyn Fn() -> bool;
+
+/// The work ended early.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stopped;
 
 /// The position equations of a model at a fixed time.
 pub struct Closing<'a> {
     model: &'a Model,
     t: f64,
+    stop: Stop<'a>,
+    /// Rows that are left out; empty for none.
+    left_out: Vec<bool>,
     matrix: Augmented,
     /// Size of the mechanism, m.
     pub size: f64,
@@ -30,7 +42,7 @@ pub struct Closing<'a> {
 
 impl<'a> Closing<'a> {
     /// For a model at time `t`.
-    pub fn new(model: &'a Model, t: f64) -> Self {
+    pub fn new(model: &'a Model, t: f64, stop: Stop<'a>) -> Self {
         let size = size(model);
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let weights = column_scales(model).iter().map(|scale| 1.0 / (scale * scale)).collect();
@@ -38,12 +50,26 @@ impl<'a> Closing<'a> {
         Self {
             model,
             t,
+            stop,
+            left_out: Vec::new(),
             matrix,
             size,
             scales: row_scales(model),
             weights,
             solution: vec![0.0; n + m],
         }
+    }
+
+    /// The same without some rows of Φ.
+    pub fn without(mut self, rows: &[usize]) -> Self {
+        self.left_out = vec![false; self.model.layout.n_rows];
+        rows.iter().for_each(|row| self.left_out[*row] = true);
+        self
+    }
+
+    /// Whether the work shall end.
+    pub fn stopped(&self) -> bool {
+        (self.stop)()
     }
 
     /// The model with the drivers for `set`.
@@ -88,13 +114,18 @@ impl<'a> Closing<'a> {
 
     fn factor(&mut self, levenberg: f64) -> bool {
         let damping = levenberg * levenberg;
-        self.matrix.set_damping(self.scales.iter().map(|s| damping * s * s));
+        let damping = self.scales.iter().map(|s| damping * s * s).enumerate();
+        let left_out = &self.left_out;
+        self.matrix.set_damping(damping.map(|(row, damping)| match left_out.get(row) {
+            Some(true) => LEFT_OUT,
+            _ => damping,
+        }));
         self.matrix.factor().is_ok()
     }
 }
 
 impl Equations for Closing<'_> {
-    type Stop = std::convert::Infallible;
+    type Stop = Stopped;
 
     fn unknowns(&self) -> usize {
         self.model.layout.n_q
@@ -105,10 +136,15 @@ impl Equations for Closing<'_> {
     }
 
     fn residual(&mut self, q: &[f64], out: &mut [f64]) -> Result<(), Self::Stop> {
+        if self.stopped() {
+            return Err(Stopped);
+        }
         constraints::residual(self.model, &self.at(q), self.t, out);
         for (r, s) in out.iter_mut().zip(&self.scales) {
             *r /= s;
         }
+        let left_out = out.iter_mut().zip(&self.left_out).filter(|(_, left_out)| **left_out);
+        left_out.for_each(|(r, _)| *r = 0.0);
         Ok(())
     }
 

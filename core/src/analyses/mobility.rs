@@ -1,26 +1,33 @@
 //! Degrees of freedom and redundant constraints.
 //!
-//! The rank is that of the row-scaled Φ_q. If a rank deficiency vanishes at a neighbouring admissible
-//! position, the position is singular. If it remains, the constraints are redundant. The left null vectors
-//! of Φ_q give all joints that take part.
+//! The rank is that of the row-scaled Φ_q. If an equation depends on the others, it is left out and the mechanism is
+//! moved a little: if the equation still holds, it is redundant; if not, it restricts the motion, and the position is
+//! singular. Several dependent equations may restrict the motion together. They are therefore judged at a neighbouring
+//! admissible position, if fewer equations are dependent there. The left null vectors of Φ_q give all joints that take
+//! part.
 
-use super::closing::Closing;
+use super::closing::{Closing, Stop};
+use super::dependence::{self, Dependence, MOST_DENSE};
 use crate::elements::{BodyId, Coordinate, CoordinateOf};
 use crate::equations::augmented::Augmented;
+use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::equations::{self, constraints};
-use crate::model::{column_scales, Model};
-use crate::solve::{normalize_rows, rank, Rank, RANK_TOLERANCE};
+use crate::model::{column_scales, row_scales, Model};
+use crate::solve::RANK_TOLERANCE;
 use std::sync::Arc;
 
-/// Part of a left null vector below which a row does not take part.
-const PART: f64 = 1e-6;
 /// If all pivots keep this part of their magnitude, the rank is certain.
 const BEYOND_DOUBT: f64 = 1e-7;
 /// Size of the excursion to a neighbouring position, rad.
 const EXCURSION: f64 = 3e-3;
-
-/// Largest number of bodies whose angle is tried to reach a neighbouring position.
+/// Size of the excursion without the dependent equations, rad: small beside [`EXCURSION`], so that the mechanism does not
+/// change to another branch.
+const EXCURSION_WITHOUT: f64 = 3e-4;
+/// Largest residual of an equation that holds, relative to the size of the mechanism. Others have a residual of the
+/// order of the square of the excursion.
+const HOLDS: f64 = 1e-11;
+/// Largest number of bodies whose angle is tried to reach a neighbouring position, and of excursions without the dependent
+/// equations.
 const EXCURSIONS: usize = 6;
 
 /// How a mechanism can move at a position.
@@ -38,26 +45,94 @@ pub struct Mobility {
 
 /// Mobility at an assembled position.
 pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
+    mobility_until(model, t, q, &|| false)
+}
+
+/// The same; without a meaning if `stop` became true.
+pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Stop<'_>) -> Mobility {
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
     if beyond_doubt(model, t, q) {
         let degrees_of_freedom = n - m;
         return Mobility { degrees_of_freedom, rank: m, redundant: vec![], singular: vec![] };
     }
-    let here = dense_rank(model, t, q);
-    let mut redundant = groups(model, &here);
-    let mut singular = Vec::new();
-    if !redundant.is_empty() {
-        let near = (0..=EXCURSIONS).filter_map(|held| neighbour(model, t, q, held));
-        let near = near.map(|q| dense_rank(model, t, &q)).max_by_key(|near| near.rank);
-        if let Some(near) = near.filter(|near| near.rank > here.rank) {
-            singular = std::mem::replace(&mut redundant, groups(model, &near));
-        }
-    }
-    Mobility { degrees_of_freedom: n - here.rank, rank: here.rank, redundant, singular }
+    let here = dependence::at(model, t, q, RANK_TOLERANCE, stop);
+    let rank = m - here.rows.len();
+    let [mut redundant, mut singular] = judge(model, t, q, here, stop);
+    redundant.dedup();
+    singular.dedup();
+    Mobility { degrees_of_freedom: n.saturating_sub(rank), rank, redundant, singular }
 }
 
-/// Largest number of equations for which all joints of a near dependence are determined.
-const MOST_ROWS: usize = 300;
+/// The groups of redundant equations, and of those that are dependent at this position only.
+fn judge(
+    model: &Model,
+    t: f64,
+    q: &[f64],
+    here: Dependence,
+    stop: Stop<'_>,
+) -> [Vec<Vec<usize>>; 2] {
+    let found = split(model, t, q, &here, stop);
+    if found[1].len() < 2 {
+        return found;
+    }
+    let mut best: Option<(Vec<f64>, Dependence)> = None;
+    for held in (0..=EXCURSIONS).take_while(|_| !stop()) {
+        let Some(near) = neighbour(model, t, q, held, stop) else { continue };
+        let there = dependence::at(model, t, &near, RANK_TOLERANCE, stop);
+        let fewest = best.as_ref().map_or(&here, |(_, dependence)| dependence).rows.len();
+        if there.rows.len() < fewest {
+            let full = there.rows.is_empty();
+            best = Some((near, there));
+            if full {
+                break;
+            }
+        }
+    }
+    match best {
+        Some((near, there)) => {
+            let [redundant, _] = split(model, t, &near, &there, stop);
+            [redundant, here.groups]
+        }
+        None => found,
+    }
+}
+
+/// The groups of the equations that hold near a position even without them, and of the others.
+fn split(
+    model: &Model,
+    t: f64,
+    q: &[f64],
+    dependence: &Dependence,
+    stop: Stop<'_>,
+) -> [Vec<Vec<usize>>; 2] {
+    let Dependence { rows, groups } = dependence;
+    if rows.is_empty() {
+        return [Vec::new(), Vec::new()];
+    }
+    let mut closing = Closing::new(model, t, stop).without(rows);
+    let scales = row_scales(model);
+    let mut holds = vec![true; rows.len()];
+    // one excursion may by chance keep an equation almost satisfied
+    for number in 0..EXCURSIONS {
+        let mut near = moved(model, q, EXCURSION_WITHOUT, number);
+        if !closing.close(&mut near).1 {
+            continue;
+        }
+        let phi = closing.phi(&near);
+        for (row, holds) in rows.iter().zip(&mut holds) {
+            *holds &= phi[*row].abs() <= HOLDS * scales[*row];
+        }
+        if !holds.contains(&true) {
+            break;
+        }
+    }
+    let mut split = [Vec::new(), Vec::new()];
+    for (holds, group) in holds.iter().zip(groups) {
+        split[usize::from(!holds)].push(group.clone());
+    }
+    split
+}
+
 /// Remainder of a row that counts as dependent near a singular position.
 const NEAR: f64 = 0.05;
 
@@ -65,10 +140,10 @@ const NEAR: f64 = 0.05;
 /// of them.
 pub(super) fn dependent(model: &Model, t: f64, q: &[f64], row: usize) -> Vec<usize> {
     let own = model.layout.owner(row).0;
-    if model.layout.n_rows > MOST_ROWS {
+    if model.layout.n_rows > MOST_DENSE {
         return vec![own];
     }
-    let found = groups(model, &scaled_rank(model, t, q, NEAR));
+    let found = dependence::at(model, t, q, NEAR, &|| false).groups;
     found.into_iter().find(|group| group.contains(&own)).unwrap_or(vec![own])
 }
 
@@ -84,39 +159,9 @@ fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
     matrix.factor().is_ok() && matrix.cancellation().is_none_or(|(_, kept)| kept > BEYOND_DOUBT)
 }
 
-fn dense_rank(model: &Model, t: f64, q: &[f64]) -> Rank {
-    scaled_rank(model, t, q, RANK_TOLERANCE)
-}
-
-fn scaled_rank(model: &Model, t: f64, q: &[f64], tolerance: f64) -> Rank {
-    let n = model.layout.n_q;
-    let mut dense = equations::dense::jacobian(model, &Motions::at_rest(&model.layout, q), t);
-    // the size of the mechanism makes metres and radians comparable
-    let scales = column_scales(model);
-    for row in dense.chunks_exact_mut(n.max(1)) {
-        row.iter_mut().zip(&scales).for_each(|(entry, scale)| *entry *= scale);
-    }
-    // a law without a derivative at this position has zero rows
-    dense.iter_mut().filter(|entry| !entry.is_finite()).for_each(|entry| *entry = 0.0);
-    normalize_rows(&mut dense, n);
-    rank(&dense, n, tolerance)
-}
-
-fn groups(model: &Model, rank: &Rank) -> Vec<Vec<usize>> {
-    let of = |y: &Vec<f64>| {
-        let rows = y.iter().enumerate().filter(|(_, part)| part.abs() > PART);
-        let mut group: Vec<usize> = rows.map(|(row, _)| model.layout.owner(row).0).collect();
-        group.dedup();
-        group
-    };
-    let mut groups: Vec<Vec<usize>> = rank.left_null.iter().map(of).collect();
-    groups.dedup();
-    groups
-}
-
 /// A position a little way along an admissible motion, if there is one. Where branches meet, Newton's method
 /// returns to the meeting point; therefore the angle of body `held` is kept away from it (ground: none).
-fn neighbour(model: &Model, t: f64, q: &[f64], held: usize) -> Option<Vec<f64>> {
+fn neighbour(model: &Model, t: f64, q: &[f64], held: usize, stop: Stop<'_>) -> Option<Vec<f64>> {
     let extended = match held.checked_sub(1) {
         Some(_) => {
             let columns = model.layout.bodies.get(held).filter(|columns| columns.count == 3)?;
@@ -124,16 +169,21 @@ fn neighbour(model: &Model, t: f64, q: &[f64], held: usize) -> Option<Vec<f64>> 
         }
         None => None,
     };
-    let mut closing = Closing::new(extended.as_ref().unwrap_or(model), t);
-    // fixed arbitrary numbers, which have no symmetry of the mechanism
-    let excursion =
-        |k: usize| EXCURSION * ((12.9898 * (k as f64 + 1.0)).sin() * 43758.5453).fract();
-    let unit = column_scales(model);
-    let mut near: Vec<f64> =
-        q.iter().enumerate().map(|(k, q)| q + excursion(k) * unit[k]).collect();
+    let mut closing = Closing::new(extended.as_ref().unwrap_or(model), t, stop);
+    let mut near = moved(model, q, EXCURSION, 0);
     let (_, closed) = closing.close(&mut near);
+    let unit = column_scales(model);
     let moved = q.iter().zip(&near).enumerate().any(|(k, (a, b))| (a - b).abs() > 1e-5 * unit[k]);
     (closed && moved).then_some(near)
+}
+
+/// `q` with the excursion of this number of each coordinate: fixed arbitrary numbers, which have no symmetry of the
+/// mechanism.
+fn moved(model: &Model, q: &[f64], size: f64, number: usize) -> Vec<f64> {
+    let first = 1.0 + 0.618 * number as f64;
+    let part = |k: usize| ((12.9898 * (k as f64 + first)).sin() * 43758.5453).fract();
+    let unit = column_scales(model);
+    q.iter().enumerate().map(|(k, q)| q + size * part(k) * unit[k]).collect()
 }
 
 fn holding(model: &Model, body: BodyId, angle: f64) -> Model {

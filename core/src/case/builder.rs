@@ -150,8 +150,9 @@ fn structure(case: &Case) -> Result<(), Problems> {
 fn given_twice(definition: &Definition) -> Vec<Problem> {
     let mut problems = Vec::new();
     let mut report = |path: &[&str], names: Vec<&str>| {
-        for (k, name) in names.iter().enumerate() {
-            if names[..k].contains(name) {
+        let mut seen = std::collections::HashSet::new();
+        for name in names {
+            if !seen.insert(name) {
                 let message = format!("'{}' is given twice", super::shown(name));
                 problems.push(Problem::at(&[path, &[name]].concat(), message));
             }

@@ -28,14 +28,15 @@ const SECTIONS: [&str; 11] = [
     "analyses",
 ];
 
-/// The case that a tree holds, which is complete if there are no problems of its structure.
-pub(super) fn case(root: &Table, format: Format) -> (Case, Vec<Problem>) {
+/// The case that a tree holds, which is complete if there are no problems of its structure. The problems come with the
+/// number of those that are not kept.
+pub(super) fn case(root: &Table, format: Format) -> (Case, (Vec<Problem>, usize)) {
     if let Some(problem) = newer(root) {
-        return (Case::default(), vec![problem]);
+        return (Case::default(), (vec![problem], 0));
     }
     let mut report = Report::new(format);
     version(&mut report, root);
-    for problem in refused(root, format) {
+    for problem in refused(root, format).0 {
         report.add(problem);
     }
     let mut case = Case::default();
@@ -124,7 +125,7 @@ fn version(report: &mut Report, root: &Table) {
 }
 
 /// All values that no case may hold.
-pub(super) fn refused(root: &Table, format: Format) -> Vec<Problem> {
+pub(super) fn refused(root: &Table, format: Format) -> (Vec<Problem>, usize) {
     let mut report = Report::new(format);
     refused_in(&mut report, root);
     report.finish()

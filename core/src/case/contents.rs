@@ -1,13 +1,12 @@
 //! The contents of a case, its formats and the limits of its texts.
 
+pub use crate::model::MOST_REPORTED;
 use crate::model::{Definition, Entry, Value};
 
 /// The version of the format that is read and written: `kempe = 1`.
 pub const FORMAT_VERSION: u32 = 1;
 /// Largest text that is read, in bytes: 16 MiB.
 pub const MOST_BYTES: usize = 16 << 20;
-/// Largest number of faults that are reported.
-pub const MOST_REPORTED: usize = 100;
 
 /// The format of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! A fault for the author of a file: its place, description and remedy.
 
+use crate::model::more_problems;
 use std::fmt;
 use std::ops::Range;
 
@@ -13,7 +14,7 @@ use std::ops::Range;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// Line, from 1.
+    /// Line, from 1; 0 for the number of further faults.
     pub line: usize,
     /// Column in characters, from 1; a tab is one character.
     pub column: usize,
@@ -34,6 +35,9 @@ impl fmt::Display for Diagnostic {
             let path: Vec<String> = self.path.iter().map(part).collect();
             write!(f, "{}: ", path.join("."))?;
         }
+        if self.line == 0 {
+            return f.write_str(&self.message); // the number of further faults
+        }
         write!(f, "{} (line {}, column {})", self.message, self.line, self.column)?;
         write!(f, "\n{}", self.excerpt)?;
         match &self.hint {
@@ -53,6 +57,12 @@ const BEFORE: usize = 30;
 const MOST_SHOWN: usize = 80;
 
 impl Diagnostic {
+    /// The entry after the last fault that is shown.
+    pub fn more(faults: usize) -> Self {
+        let (message, excerpt) = (more_problems(faults), String::new());
+        Self { line: 0, column: 0, path: Vec::new(), message, hint: None, excerpt }
+    }
+
     /// A fault at some bytes of a text.
     pub(super) fn new(text: &str, place: Range<usize>, message: String) -> Self {
         // a fault at the end of the text is shown after the last word

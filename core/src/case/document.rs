@@ -32,12 +32,13 @@ impl Document {
             Format::Toml => toml::parse(text, &mut faults),
             Format::Json => json::parse(text, &mut faults),
         };
-        let sound = faults.sound();
+        let (sound, dropped) = (faults.sound(), faults.1);
         faults.0.sort_by_key(|fault| (fault.place.start, fault.place.end));
         let mut found: Vec<Diagnostic> =
             faults.0.into_iter().map(|fault| of_fault(text, fault)).collect();
         if !sound {
             found.dedup_by_key(|fault| fault.line);
+            found.extend((dropped > 0).then(|| Diagnostic::more(dropped)));
             return Err(found);
         }
         let root = Node { key: 0..0, span: 0..0, data: Data::Table(table) };

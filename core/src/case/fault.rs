@@ -19,9 +19,9 @@ impl Fault {
     }
 }
 
-/// The faults found so far; those beyond [`MOST_REPORTED`](super::MOST_REPORTED) are dropped.
+/// The faults found so far; those beyond [`MOST_REPORTED`](super::MOST_REPORTED) are only counted.
 #[derive(Debug, Default)]
-pub(super) struct Faults(pub Vec<Fault>);
+pub(super) struct Faults(pub Vec<Fault>, pub usize);
 
 impl Faults {
     /// A fault of syntax.
@@ -29,8 +29,9 @@ impl Faults {
         self.add(Fault { place, message: message.into(), earlier: None });
     }
     pub(super) fn add(&mut self, fault: Fault) {
-        if self.0.len() < super::MOST_REPORTED {
-            self.0.push(fault);
+        match self.0.len() < super::MOST_REPORTED {
+            true => self.0.push(fault),
+            false => self.1 += 1,
         }
     }
     /// Whether the tree contains all of the text, except keys that occur twice.

@@ -55,17 +55,17 @@ use crate::model::Value;
 /// Reads a case.
 ///
 /// Errors: every fault of syntax; or else, every fault of structure: unknown or missing keys,
-/// wrong shapes, names that cannot be; sorted by place, at most [`MOST_REPORTED`].
+/// wrong shapes, names that cannot be; sorted by place, at most [`MOST_REPORTED`]. If there are more, a last entry
+/// without a place gives their number.
 pub fn read(text: &str, format: Format) -> Result<(Case, Document), Vec<Diagnostic>> {
     let (document, mut found) = Document::parse(text, format)?;
-    let (case, problems) = check::case(document.root(), format);
+    let (case, (problems, dropped)) = check::case(document.root(), format);
     found.extend(problems.iter().map(|problem| document.diagnose(problem)));
     if found.is_empty() {
         return Ok((case, document));
     }
     found.sort_by_key(|fault| (fault.line, fault.column));
-    found.truncate(MOST_REPORTED);
-    Err(found)
+    Err(shortened(found, dropped))
 }
 
 /// The values of any text in order, without checks of their meaning.
@@ -73,11 +73,19 @@ pub fn read(text: &str, format: Format) -> Result<(Case, Document), Vec<Diagnost
 /// Errors: faults of syntax; values that no case may hold, such as dates and numbers not finite.
 pub fn parse_tree(text: &str, format: Format) -> Result<Value, Vec<Diagnostic>> {
     let (document, mut found) = Document::parse(text, format)?;
-    let refused = check::refused(document.root(), format);
+    let (refused, dropped) = check::refused(document.root(), format);
     found.extend(refused.iter().map(|problem| document.diagnose(problem)));
     if found.is_empty() {
         Ok(document.value())
     } else {
-        Err(found)
+        Err(shortened(found, dropped))
     }
+}
+
+/// The first faults, and the number of the others.
+fn shortened(mut found: Vec<Diagnostic>, dropped: usize) -> Vec<Diagnostic> {
+    let more = found.len().saturating_sub(MOST_REPORTED) + dropped;
+    found.truncate(MOST_REPORTED);
+    found.extend((more > 0).then(|| Diagnostic::more(more)));
+    found
 }

@@ -9,12 +9,14 @@ pub(super) struct Report {
     format: Format,
     path: Vec<String>,
     problems: Vec<Problem>,
+    /// Number of problems that are not kept.
+    dropped: usize,
 }
 
 impl Report {
     /// Without problems, of a text in a format.
     pub(super) fn new(format: Format) -> Self {
-        Self { format, path: Vec::new(), problems: Vec::new() }
+        Self { format, path: Vec::new(), problems: Vec::new(), dropped: 0 }
     }
     /// An example in the format of the text.
     pub(super) fn example(&self, toml: &str, json: &str) -> String {
@@ -38,10 +40,11 @@ impl Report {
     pub(super) fn key(&self) -> &str {
         self.path.last().map_or("", String::as_str)
     }
-    /// Reports a problem; those beyond [`MOST_REPORTED`](super::MOST_REPORTED) are dropped.
+    /// Reports a problem; those beyond [`MOST_REPORTED`](super::MOST_REPORTED) are counted.
     pub(super) fn add(&mut self, problem: Problem) {
-        if self.problems.len() < super::MOST_REPORTED {
-            self.problems.push(problem);
+        match self.problems.len() < super::MOST_REPORTED {
+            true => self.problems.push(problem),
+            false => self.dropped += 1,
         }
     }
     /// Reports a problem of the present value.
@@ -57,8 +60,9 @@ impl Report {
         let hint = did_you_mean(key, known).unwrap_or_else(|| among("it may have", known));
         self.add(self.here(message).at_key().hint(hint));
     }
-    pub(super) fn finish(self) -> Vec<Problem> {
-        self.problems
+    /// The problems that are kept, and the number of the others.
+    pub(super) fn finish(self) -> (Vec<Problem>, usize) {
+        (self.problems, self.dropped)
     }
 }
 

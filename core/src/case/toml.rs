@@ -21,10 +21,9 @@ pub(super) fn parse(text: &str, faults: &mut Faults) -> Table {
     let tokens = source.lex().into_vec();
     let mut events = Events { source, builder: Builder::default(), joined: false };
     let mut errors = Vec::new();
-    let mut sink = |error: ParseError| {
-        if errors.len() < super::MOST_REPORTED {
-            errors.push(error);
-        }
+    let mut sink = |error: ParseError| match errors.len() < super::MOST_REPORTED {
+        true => errors.push(error),
+        false => faults.1 += 1,
     };
     let mut checked = ValidateWhitespace::new(&mut events, source);
     let mut guarded = RecursionGuard::new(&mut checked, MOST_DEPTH as u32);

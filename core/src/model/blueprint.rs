@@ -45,8 +45,8 @@ impl Blueprint {
             problems.push(Problem::at(&[group.section(), &entry.name], message));
             return;
         };
-        let joints: Vec<&str> = self.constraints.iter().map(|(name, ..)| name.as_str()).collect();
-        let mut linker = Linker::new(group, entry, scope, (&self.bodies, &joints), problems);
+        let linked = (self.bodies.as_slice(), self.constraints.as_slice());
+        let mut linker = Linker::new(group, entry, scope, linked, problems);
         let known = if group == Group::Forces {
             ForceElement::read(kind, &mut linker).map(|e| {
                 let e = e.filter(|e| self.two_bodies(group, entry, &e.bodies(), problems));

@@ -3,11 +3,15 @@
 use super::definition::{Entry, Value};
 use super::items::Body;
 use super::problem::Problem;
+use super::problems::MOST_REPORTED;
 use super::scope::{Reach, Scope, ANY_UNIT};
 use crate::elements::{
-    BodyId, Coordinate, CoordinateOf, Default, Field, Group, JointId, PointOn, Source,
+    BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Group, JointId, PointOn, Source,
 };
 use crate::expression::{suggest, Tape};
+
+/// A linked joint or driver.
+type Named = (String, Group, Constraint<Tape>);
 
 /// Reads the fields of one element.
 pub struct Linker<'a> {
@@ -16,7 +20,7 @@ pub struct Linker<'a> {
     entry: &'a Entry,
     scope: &'a Scope,
     bodies: &'a [Body<Tape>],
-    joints: &'a [&'a str],
+    constraints: &'a [Named],
     problems: &'a mut Vec<Problem>,
 }
 
@@ -26,10 +30,10 @@ impl<'a> Linker<'a> {
         group: Group,
         entry: &'a Entry,
         scope: &'a Scope,
-        (bodies, joints): (&'a [Body<Tape>], &'a [&'a str]),
+        (bodies, constraints): (&'a [Body<Tape>], &'a [Named]),
         problems: &'a mut Vec<Problem>,
     ) -> Self {
-        Self { group, section: group.section(), entry, scope, bodies, joints, problems }
+        Self { group, section: group.section(), entry, scope, bodies, constraints, problems }
     }
 
     fn path(&self, field: &Field) -> [String; 3] {
@@ -39,6 +43,11 @@ impl<'a> Linker<'a> {
     fn report<T>(&mut self, field: &Field, message: String, hint: Option<String>) -> Option<T> {
         self.problems.push(Problem::at(&self.path(field), message).maybe_hint(hint));
         None
+    }
+
+    /// Whether the next problem is shown, so that a suggestion is worth its time.
+    fn suggests(&self) -> bool {
+        self.problems.len() < MOST_REPORTED
     }
 
     fn missing<T>(&mut self, field: &Field) -> Option<T> {
@@ -60,11 +69,11 @@ impl<'a> Linker<'a> {
 
     /// A body by name, with a report that suggests one.
     fn find(&mut self, field: &Field, name: &str) -> Option<BodyId> {
-        if let Some(k) = self.bodies.iter().position(|b| b.name == name) {
+        if let Some(k) = self.scope.body(name) {
             return Some(BodyId(k));
         }
         let body = name.split_once('.').map_or("", |(body, _)| body);
-        if self.bodies.iter().any(|b| b.name == body) {
+        if self.scope.body(body).is_some() {
             let message = format!("'{name}' is not a body, but a point of {body}");
             let written = self.text(field)?;
             let word = written.rsplit_once('.').map_or("", |(_, word)| word);
@@ -74,9 +83,11 @@ impl<'a> Linker<'a> {
             };
             return self.report(field, message, Some(hint));
         }
-        let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).collect();
-        let message = format!("unknown body '{name}'");
-        self.report(field, message, did_you_mean(name, &names, "bodies"))
+        let hint = self.suggests().then(|| {
+            let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).collect();
+            did_you_mean(name, &names, "bodies")
+        });
+        self.report(field, format!("unknown body '{name}'"), hint.flatten())
     }
 
     /// `body.word`, with the body looked up.
@@ -143,11 +154,12 @@ impl Source for Linker<'_> {
         if owner.lacks_points() {
             return None; // its own fault is reported
         }
-        let names: Vec<&str> = owner.points.iter().map(|(n, _)| n.as_str()).collect();
-        let plural = format!("points of {}", owner.name);
-        let hint = did_you_mean(name, &names, &plural);
+        let hint = self.suggests().then(|| {
+            let names: Vec<&str> = owner.points.iter().map(|(n, _)| n.as_str()).collect();
+            did_you_mean(name, &names, &format!("points of {}", owner.name))
+        });
         let message = format!("body '{}' has no point '{name}'", owner.name);
-        self.report(field, message, hint)
+        self.report(field, message, hint.flatten())
     }
 
     fn coordinate(&mut self, field: &Field) -> Option<CoordinateOf> {
@@ -170,11 +182,17 @@ impl Source for Linker<'_> {
 
     fn joint(&mut self, field: &Field) -> Option<JointId> {
         let name = self.text(field)?;
-        if let Some(k) = self.joints.iter().position(|joint| *joint == name) {
+        // a faulty constraint before it moves it from its written place
+        let is_named = |k: &usize| self.constraints.get(*k).is_some_and(|(own, ..)| own == name);
+        let written = self.scope.constraint(name).filter(is_named);
+        if let Some(k) = written.or_else(|| (0..self.constraints.len()).find(is_named)) {
             return Some(JointId(k));
         }
-        let hint = did_you_mean(name, self.joints, "joints");
-        self.report(field, format!("unknown joint '{name}'"), hint)
+        let hint = self.suggests().then(|| {
+            let names: Vec<&str> = self.constraints.iter().map(|(own, ..)| own.as_str()).collect();
+            did_you_mean(name, &names, "joints")
+        });
+        self.report(field, format!("unknown joint '{name}'"), hint.flatten())
     }
 
     fn number(&mut self, field: &Field) -> Option<Tape> {

@@ -28,7 +28,7 @@ pub use layout::{Block, Columns, Slots, StateLayout, WORKS};
 pub use link::did_you_mean;
 pub use model::Model;
 pub use problem::Problem;
-pub use problems::Problems;
+pub use problems::{listed, more_problems, Problems, MOST_REPORTED};
 pub use scope::{Reach, Scope};
 pub use size::{column_scales, row_scales, size};
 pub use variable::{Dependence, Variable};

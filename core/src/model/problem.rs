@@ -53,7 +53,8 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.path.join("."), self.message)?;
+        let path = self.path.join(".");
+        write!(f, "{path}{}{}", if path.is_empty() { "" } else { ": " }, self.message)?;
         match &self.hint {
             Some(hint) => write!(f, "; {hint}"),
             None => Ok(()),

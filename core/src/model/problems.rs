@@ -7,12 +7,33 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problems(pub Vec<Problem>);
 
+/// Largest number of faults in a message.
+pub const MOST_REPORTED: usize = 100;
+/// Largest number of names in a sentence.
+const MOST_NAMES: usize = 20;
+
 impl fmt::Display for Problems {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, problem) in self.0.iter().enumerate() {
+        for (k, problem) in self.0.iter().take(MOST_REPORTED).enumerate() {
             write!(f, "{}{problem}", if k == 0 { "" } else { "\n" })?;
         }
-        Ok(())
+        match self.0.len().checked_sub(MOST_REPORTED) {
+            None | Some(0) => Ok(()),
+            Some(more) => write!(f, "\n{}", more_problems(more)),
+        }
+    }
+}
+
+/// The last line of a message that does not show all problems.
+pub fn more_problems(more: usize) -> String {
+    format!("… and {more} more problem{}", if more == 1 { "" } else { "s" })
+}
+
+/// "A, B, C", or the first names and the number of the others.
+pub fn listed(names: &[&str]) -> String {
+    match names.len().checked_sub(MOST_NAMES) {
+        None | Some(0) => names.join(", "),
+        Some(more) => format!("{} and {more} more", names[..MOST_NAMES].join(", ")),
     }
 }
 

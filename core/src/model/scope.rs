@@ -3,10 +3,12 @@
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::problem::Problem;
+use super::problems::MOST_REPORTED;
 use super::variable::Variable;
 use crate::elements::{states_of, BodyId, Coordinate, OwnState};
 use crate::expression::unit::Unit;
 use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Tape};
+use std::collections::HashMap;
 
 /// The names that formulas may use.
 #[derive(Clone, Debug, Default)]
@@ -19,6 +21,24 @@ pub struct Scope {
     pub bodies: Vec<(String, bool)>,
     /// First-order states of elements, such as `motor.current`, in the order of z.
     pub states: Vec<String>,
+    places: Places,
+}
+
+/// The places of names, so that a name is found at once in a large model.
+#[derive(Clone, Debug, Default)]
+struct Places {
+    parameters: HashMap<String, usize>,
+    bodies: HashMap<String, usize>,
+    states: HashMap<String, usize>,
+    /// Joints and drivers as they are written.
+    constraints: HashMap<String, usize>,
+}
+
+/// The first place of each name.
+fn places<'n>(names: impl Iterator<Item = &'n String>) -> HashMap<String, usize> {
+    let mut places = HashMap::new();
+    names.enumerate().for_each(|(k, name)| _ = places.entry(name.clone()).or_insert(k));
+    places
 }
 
 /// The first-order states of a force as written.
@@ -39,12 +59,13 @@ pub enum Reach {
     State,
 }
 
-struct Visible<'a>(&'a Scope, Reach);
+/// The names of a scope within reach, and whether unknown names get a suggestion.
+struct Visible<'a>(&'a Scope, Reach, bool);
 
 impl Names for Visible<'_> {
     fn resolve(&self, name: &str) -> Option<Symbol> {
         let scope = self.0;
-        if let Some(k) = scope.parameters.iter().position(|p| p == name) {
+        if let Some(&k) = scope.places.parameters.get(name) {
             return Some(Symbol::Parameter(k));
         }
         if self.1 == Reach::Parameters {
@@ -54,16 +75,19 @@ impl Names for Visible<'_> {
             return Some(Symbol::Time);
         }
         let variable = |variable: Variable| Some(Symbol::Variable(variable.index()));
-        if let Some(k) = scope.states.iter().position(|state| state == name) {
+        if let Some(&k) = scope.places.states.get(name) {
             return variable(Variable::State(k)).filter(|_| self.1 == Reach::State);
         }
         let (body, coordinate) = name.rsplit_once('.')?;
-        let body = scope.bodies.iter().position(|(b, _)| b == body).filter(|k| *k > 0)?;
+        let body = scope.body(body).filter(|k| *k > 0)?;
         let coordinate = Coordinate::named(coordinate).filter(|c| self.sees(body, *c))?;
         variable(Variable::Coordinate(BodyId(body), coordinate))
     }
 
     fn known(&self) -> Vec<String> {
+        if !self.2 {
+            return Vec::new();
+        }
         let mut known = self.0.parameters.clone();
         if self.1 == Reach::Parameters {
             return known;
@@ -97,24 +121,45 @@ impl Scope {
             let names = states(entry).iter();
             names.map(move |state| format!("{}.{}", entry.name, state.name))
         });
-        Self {
-            parameters: definition.parameters.iter().map(|(name, _)| name.clone()).collect(),
-            bodies: std::iter::once(("ground".to_string(), true))
-                .chain(moving.map(|b| (b.name.clone(), turns(b))))
-                .collect(),
-            states: states.collect(),
-            inferred,
-        }
+        let bodies = std::iter::once(("ground".to_string(), true))
+            .chain(moving.map(|b| (b.name.clone(), turns(b))))
+            .collect();
+        let parameters = definition.parameters.iter().map(|(name, _)| name.clone()).collect();
+        let mut scope = Self::of(parameters, inferred, bodies, states.collect());
+        let constraints = definition.joints.iter().chain(&definition.drivers);
+        scope.places.constraints = places(constraints.map(|entry| &entry.name));
+        scope
+    }
+
+    fn of(
+        parameters: Vec<String>,
+        inferred: Vec<Inferred>,
+        bodies: Vec<(String, bool)>,
+        states: Vec<String>,
+    ) -> Self {
+        let places = Places {
+            parameters: places(parameters.iter()),
+            bodies: places(bodies.iter().map(|(name, _)| name)),
+            states: places(states.iter()),
+            constraints: HashMap::new(),
+        };
+        Self { parameters, inferred, bodies, states, places }
+    }
+
+    /// The place at which a joint or driver is written, joints first.
+    pub(super) fn constraint(&self, name: &str) -> Option<usize> {
+        self.places.constraints.get(name).copied()
+    }
+
+    /// The place of a body, ground first.
+    pub fn body(&self, name: &str) -> Option<usize> {
+        self.places.bodies.get(name).copied()
     }
 
     /// Only the parameters.
     pub fn of_parameters(parameters: &[String], inferred: &[Inferred]) -> Self {
-        Self {
-            parameters: parameters.to_vec(),
-            inferred: inferred.to_vec(),
-            bodies: vec![("ground".to_string(), true)],
-            states: Vec::new(),
-        }
+        let bodies = vec![("ground".to_string(), true)];
+        Self::of(parameters.to_vec(), inferred.to_vec(), bodies, Vec::new())
     }
 
     /// A formula from a number or a text; reports a fault at `path`.
@@ -139,8 +184,9 @@ impl Scope {
                 return None;
             }
         };
+        let reported = problems.len() < MOST_REPORTED;
         let parsed = Expression::parse(text).and_then(|e| {
-            let names = Visible(self, reach);
+            let names = Visible(self, reach, reported);
             let tape = e.compile(&names).map_err(|fault| ExpressionError {
                 hint: self.out_of_reach(&e, reach).or(fault.hint),
                 ..fault
@@ -164,7 +210,7 @@ impl Scope {
     }
 
     fn out_of_reach(&self, e: &Expression, reach: Reach) -> Option<String> {
-        let wide = e.compile(&Visible(self, Reach::State));
+        let wide = e.compile(&Visible(self, Reach::State, false));
         let hint = match reach {
             Reach::Parameters => "only laws of drivers and forces may use t and the state",
             Reach::Positions => {

@@ -84,3 +84,12 @@ free_angle = "-4*pi"
     assert!((state.q[2] - 5.0 * PI).abs() <= PI * (1.0 + 1e-12), "{}", state.q[2]);
     assert!((state.q[2] - state.q[5] + 4.0 * PI).abs() <= PI * (1.0 + 1e-12), "{}", state.q[5]);
 }
+
+/// The free angle is infinite at t = 0; found by a random case.
+#[test]
+fn a_free_angle_without_a_value_turns_nothing() {
+    let (angle, warnings) = rocker("1/t", &[("coupler.angle", "14*deg")]);
+    // the turn of the placement stays
+    close("rocker", angle, 4.213075806186499 - TAU, 1e-11);
+    assert!(warnings.is_empty(), "{warnings:?}");
+}

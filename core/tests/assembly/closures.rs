@@ -13,7 +13,7 @@ fn without_a_guess_it_takes_one_and_says_so() {
     let m = model(FOUR_BAR);
     let (state, report) = start(&m, &SET, &[]);
     assert!(largest(&residual(&m, &state)) < 1e-11);
-    assert_eq!((report.modes.len(), report.alternatives), (1, 1));
+    assert_eq!((report.modes.len(), report.alternatives), (1, Some(1)));
     let mode = &report.modes[0];
     assert_eq!(
         (mode.bodies.clone(), mode.joint.as_str()),

@@ -8,6 +8,7 @@ mod angle_winding;
 mod closures;
 mod drivers;
 mod failures;
+mod large;
 mod redundancy;
 mod six_bars;
 mod velocities;

@@ -16,9 +16,13 @@ pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
     for (b, turn) in targets.turn.iter().enumerate() {
         fixed[group[b]] |= turn;
     }
+    let mut members = vec![Vec::new(); group.len()];
+    group.iter().enumerate().skip(1).for_each(|(b, g)| members[*g].push(model.layout.bodies[b]));
     let mut warnings = Vec::new();
     for item in &model.forces {
-        let Some(free_angle) = item.element.free_angle() else { continue };
+        // a law may be infinite at this time
+        let finite = item.element.free_angle().filter(|angle| angle.is_finite());
+        let Some(free_angle) = finite else { continue };
         let [i, j] = [item.bodies[0], item.bodies[1]];
         let angle = |q: &[f64], b: BodyId| model.layout.bodies[b.0].of(q)[2];
         let stretch = angle(q, j) - angle(q, i) - free_angle;
@@ -26,9 +30,8 @@ pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
         let [own, other] = [group[j.0], group[i.0]];
         let (turned, shift) = if fixed[own] { (other, -shift) } else { (own, shift) };
         if !fixed[turned] && own != other {
-            let members = group.iter().enumerate().skip(1).filter(|(_, g)| **g == turned);
-            let members = members.map(|(b, _)| model.layout.bodies[b]);
-            members.filter(|own| own.count == 3).for_each(|own| q[own.first + 2] += shift);
+            let turning = members[turned].iter().filter(|own| own.count == 3);
+            turning.for_each(|own| q[own.first + 2] += shift);
         }
         fixed[own] = true;
         fixed[other] = true;
@@ -49,9 +52,17 @@ fn turning_together(model: &Model) -> Vec<usize> {
     let mut group: Vec<usize> = (0..model.bodies.len()).collect();
     let turns_together = |item: &&ConstraintItem| item.element.fixes().contains(&Fixes::Direction);
     for item in model.constraints.iter().filter(turns_together) {
-        let [a, b] = [group[item.bodies[0].0], group[item.bodies[1].0]];
-        let (kept, merged) = (a.min(b), a.max(b));
-        group.iter_mut().filter(|g| **g == merged).for_each(|g| *g = kept);
+        let [a, b] = [0, 1].map(|end| root(&mut group, item.bodies[end].0));
+        group[a.max(b)] = a.min(b);
     }
-    group
+    (0..group.len()).map(|b| root(&mut group, b)).collect()
+}
+
+/// The first body of a group; the way to it is halved.
+fn root(group: &mut [usize], mut b: usize) -> usize {
+    while group[b] != b {
+        group[b] = group[group[b]];
+        b = group[b];
+    }
+    b
 }

@@ -7,7 +7,7 @@ use crate::analyses::Mobility;
 use crate::elements::{Attachment, BodyId, Fixes, Group};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::model::{ConstraintItem, Model};
+use crate::model::{listed, ConstraintItem, Model};
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -20,6 +20,8 @@ pub enum Fault {
     Rates,
     /// Constraints are redundant.
     Redundant,
+    /// The assembly was ended early.
+    Stopped,
 }
 
 /// An assembly that failed.
@@ -166,7 +168,7 @@ fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a CoordinateTarget>) -> 
     let all: Vec<String> = set.map(one).collect();
     match all.is_empty() {
         true => String::new(),
-        false => format!("with {} ", all.join(", ")),
+        false => format!("with {} ", listed(&all.iter().map(String::as_str).collect::<Vec<_>>())),
     }
 }
 
@@ -189,18 +191,25 @@ fn length(x: f64) -> String {
     }
 }
 
+/// Largest number of joints of a loop that are named.
+const MOST_IN_LOOP: usize = 20;
+
 /// Names of the joints around the shortest loop through a joint, from the first of the file.
 pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
     let [from, to] = ends(&model.constraints[joint]);
+    let mut neighbours: Vec<Vec<(usize, usize)>> = vec![Vec::new(); model.bodies.len()];
+    for (k, item) in model.constraints.iter().enumerate() {
+        let [i, j] = ends(item);
+        if k != joint && item.group != Group::Drivers && i != j {
+            neighbours[i].push((k, j));
+            neighbours[j].push((k, i));
+        }
+    }
     let mut via: Vec<Option<(usize, usize)>> = vec![None; model.bodies.len()];
     let mut queue = VecDeque::from([to]);
     while let Some(body) = queue.pop_front() {
-        for (k, item) in model.constraints.iter().enumerate() {
-            let [i, j] = ends(item);
-            let held = item.group == Group::Drivers;
-            let next = if i == body { j } else { i };
-            let joins = k != joint && !held && (i == body || j == body) && i != j;
-            if joins && next != to && via[next].is_none() {
+        for &(k, next) in &neighbours[body] {
+            if next != to && via[next].is_none() {
                 via[next] = Some((k, body));
                 queue.push_back(next);
             }
@@ -219,7 +228,15 @@ pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
         loop_[1..].reverse();
     }
     let names: Vec<&str> = loop_.iter().map(|k| model.constraints[*k].name.as_str()).collect();
-    Some(names.join("-"))
+    // a long loop is shortened in its middle
+    Some(match names.len() {
+        0..=MOST_IN_LOOP => names.join("-"),
+        n => format!(
+            "{}-…-{}",
+            names[..MOST_IN_LOOP / 2].join("-"),
+            names[n - MOST_IN_LOOP / 2..].join("-")
+        ),
+    })
 }
 
 /// Bodies i and j of a constraint.
@@ -244,6 +261,17 @@ pub(super) fn rates(model: &Model, request: &Request) -> Failure {
     }
 }
 
+/// The caller has ended the assembly.
+pub(super) fn stopped() -> Failure {
+    Failure {
+        fault: Fault::Stopped,
+        name: String::new(),
+        gap: 0.0,
+        message: "the assembly was stopped".to_string(),
+        hint: "assemble again".to_string(),
+    }
+}
+
 /// Constraints are redundant.
 pub(super) fn redundant(model: &Model, mobility: &Mobility) -> Failure {
     let group = mobility.redundant.first().cloned().unwrap_or_default();
@@ -252,7 +280,7 @@ pub(super) fn redundant(model: &Model, mobility: &Mobility) -> Failure {
     let message = twin(model, &group).unwrap_or_else(|| {
         format!(
             "the constraints {} depend on each other: {} of their equations add{} nothing",
-            names.join(", "),
+            listed(&names),
             mobility.redundant.len(),
             if mobility.redundant.len() == 1 { "s" } else { "" },
         )

@@ -9,34 +9,41 @@
 
 mod angle_winding;
 mod dyad;
+mod dyad_placement;
 mod failure;
+mod legs;
 mod open_placement;
 mod placement;
+mod placements;
+mod placer;
 mod report;
 mod request;
 mod slider_placement;
 mod targets;
 mod velocities;
+mod worklist;
 
 pub use super::closing::Closing;
 pub use failure::{Failure, Fault};
 pub use open_placement::open_placement;
-pub use placement::{place, Dyad, Gap, Placement};
+pub use placement::{Dyad, Gap, Placement};
+pub use placer::place;
 pub use report::{Mode, Report};
 pub use request::{targets, CoordinateTarget, Request, Target};
 pub use targets::Targets;
 
-use super::{mobility, State};
+use super::closing::Stop;
+use super::mobility::mobility_until;
+use super::State;
 use crate::elements::CoordinateOf;
 use crate::equations::kinematics;
 use crate::math::Pose;
 use crate::model::Model;
 use crate::solve::newton::Record;
+use placements::Placements;
 use request::{of_positions, of_rates};
 use std::sync::Arc;
 
-/// Largest number of placements that are computed.
-const MOST_PLACEMENTS: usize = 256;
 /// Largest number of placements from which Newton's method is tried.
 const MOST_TRIES: usize = 16;
 /// Largest difference of a given pose from `set` with which bodies are not placed anew, rad.
@@ -48,29 +55,47 @@ const NEAR: f64 = 0.35;
 /// [`Failure`] if the mechanism cannot close, if rates contradict the constraints, or if constraints are redundant
 /// and redundancy is not allowed.
 pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box<Failure>> {
+    assemble_until(model, request, &|| false)
+}
+
+/// [`assemble`], which ends soon after `stop` has become true.
+///
+/// # Errors
+/// As [`assemble`], and [`Fault::Stopped`].
+pub fn assemble_until(
+    model: &Model,
+    request: &Request,
+    stop: Stop<'_>,
+) -> Result<(State, Report), Box<Failure>> {
+    let outcome = complete(model, request, stop);
+    match stop() {
+        true => Err(Box::new(failure::stopped())),
+        false => outcome,
+    }
+}
+
+fn complete(
+    model: &Model,
+    request: &Request,
+    stop: Stop<'_>,
+) -> Result<(State, Report), Box<Failure>> {
     let asked = asked(model, request);
     let extended = holding(model, request);
-    let mut closing = Closing::new(&extended, request.t);
-    let (mut q, iterations) = close(model, request, &asked, &mut closing)?;
-    let mut report = Report { iterations, ..Report::default() };
+    let mut closing = Closing::new(&extended, request.t, stop);
+    let Closed { mut q, iterations, mut warnings } = close(model, request, &asked, &mut closing)?;
     if request.state.is_none() {
-        report.warnings = angle_winding::relax(model, &asked, &mut q);
+        warnings.extend(angle_winding::relax(model, &asked, &mut q));
     }
+    let mut report = Report { iterations, warnings, ..Report::default() };
     if let Some(failure) = failure::undefined(model, request.t, &q) {
         return Err(Box::new(failure));
     }
-    let mobility = mobility(model, request.t, &q);
+    let mobility = mobility_until(model, request.t, &q, stop);
     if !mobility.redundant.is_empty() && !model.allow_redundancy {
         return Err(Box::new(failure::redundant(model, &mobility)));
     }
     report.degrees_of_freedom = mobility.degrees_of_freedom;
-    for group in &mobility.singular {
-        let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
-        report.warnings.push(format!(
-            "this is a singular position: the constraints {} depend on each other here",
-            names.join(", ")
-        ));
-    }
+    report.warnings.extend(report::singular(model, &mobility.singular));
     let v = velocities(model, request, &q)?;
     describe(model, &asked, &q, &mut report);
     Ok((State { t: request.t, q, v, z: states(model, request) }, report))
@@ -132,39 +157,55 @@ fn column(model: &Model, target: &CoordinateTarget) -> usize {
     model.layout.bodies[target.body.0].first + target.coordinate.column()
 }
 
+/// A position in which the mechanism closes.
+struct Closed {
+    q: Vec<f64>,
+    iterations: Vec<Record>,
+    warnings: Vec<String>,
+}
+
 /// The first position, in the order of preference, from which the mechanism closes.
 fn close(
     model: &Model,
     request: &Request,
     asked: &Targets,
     closing: &mut Closing<'_>,
-) -> Result<(Vec<f64>, Vec<Record>), Box<Failure>> {
+) -> Result<Closed, Box<Failure>> {
     if request.from_guess {
-        let mut q = given(model, asked).unwrap_or_else(|| open_placement(model, asked));
-        return match closing.close(&mut q) {
-            (history, true) => Ok((q, history)),
-            _ => Err(Box::new(failure::open(closing.model(), request, closing, &q, None))),
-        };
+        let q = given(model, asked).unwrap_or_else(|| open_placement(model, asked));
+        let outcome = close_from(closing, q, Vec::new());
+        return outcome
+            .map_err(|q| Box::new(failure::open(closing.model(), request, closing, &q, None)));
     }
-    if let Some(mut q) = given(model, asked) {
-        let (history, closed) = closing.close(&mut q);
-        if closed {
-            return Ok((q, history));
+    if let Some(found) = given(model, asked).and_then(|q| close_from(closing, q, Vec::new()).ok()) {
+        return Ok(found);
+    }
+    // the first placement, and the position that Newton's method reached from it
+    let mut first: Option<(Placement, Vec<f64>)> = None;
+    for placement in Placements::new(model, asked).take(MOST_TRIES) {
+        let warnings = report::folded(model, &placement.dyads);
+        match close_from(closing, placement.q.clone(), warnings) {
+            Ok(found) => return Ok(found),
+            Err(q) => _ = first.get_or_insert((placement, q)),
+        }
+        if closing.stopped() {
+            break;
         }
     }
-    let placements = placements(model, asked);
-    for placement in placements.iter().take(MOST_TRIES) {
-        let mut q = placement.q.clone();
-        let (history, closed) = closing.close(&mut q);
-        if closed {
-            return Ok((q, history));
-        }
+    let (gap, q) = first.map_or((None, Vec::new()), |(p, q)| (p.gaps.into_iter().next(), q));
+    Err(Box::new(failure::open(closing.model(), request, closing, &q, gap.as_ref())))
+}
+
+/// Newton's method from a position; the error is the position that it reached.
+fn close_from(
+    closing: &mut Closing<'_>,
+    mut q: Vec<f64>,
+    warnings: Vec<String>,
+) -> Result<Closed, Vec<f64>> {
+    match closing.close(&mut q) {
+        (iterations, true) => Ok(Closed { q, iterations, warnings }),
+        (_, false) => Err(q),
     }
-    let best = placements.first().map_or(&[] as &[f64], |p| &p.q);
-    let mut q = best.to_vec();
-    closing.close(&mut q);
-    let gap = placements.first().and_then(|p| p.gaps.first());
-    Err(Box::new(failure::open(closing.model(), request, closing, &q, gap)))
 }
 
 /// The whole position, if every coordinate has a target and hard targets lie near soft ones.
@@ -178,31 +219,6 @@ fn given(model: &Model, asked: &Targets) -> Option<Vec<f64>> {
     let moving: Option<Vec<Pose>> = (1..asked.soft.len()).map(pose).collect();
     let poses: Vec<Pose> = std::iter::once(Pose::identity()).chain(moving?).collect();
     Some(kinematics::coordinates(model, &poses))
-}
-
-/// Placements through all undecided choices, those without gaps first.
-fn placements(model: &Model, asked: &Targets) -> Vec<Placement> {
-    let mut choices: Vec<usize> = Vec::new();
-    let mut found = Vec::new();
-    for _ in 0..MOST_PLACEMENTS {
-        let placement = place(model, asked, &choices);
-        choices.resize(placement.options.len(), 0);
-        let options = placement.options.clone();
-        let closes = placement.gaps.is_empty();
-        found.push(placement);
-        // a placement that closes by construction is enough, unless Newton's method fails from it
-        if closes && found.iter().filter(|p| p.gaps.is_empty()).count() >= MOST_TRIES {
-            break;
-        }
-        // the next combination: the last choice that still has an option
-        let Some(last) = (0..options.len()).rev().find(|k| choices[*k] + 1 < options[*k]) else {
-            break;
-        };
-        choices.truncate(last + 1);
-        choices[last] += 1;
-    }
-    found.sort_by_key(|p| !p.gaps.is_empty()); // stable: order of preference is kept
-    found
 }
 
 /// Velocities from the guess, made consistent; drivers hold the rates of `set`.
@@ -234,5 +250,6 @@ fn describe(model: &Model, asked: &Targets, q: &[f64], report: &mut Report) {
     taken.approach(model, q);
     let placement = place(model, &taken, &[]);
     report.modes = report::modes(model, &placement.dyads, q);
-    report.alternatives = 2_usize.saturating_pow(report.modes.len() as u32) - 1;
+    let combinations = u32::try_from(report.modes.len()).ok().and_then(|n| 2_usize.checked_pow(n));
+    report.alternatives = combinations.map(|all| all - 1);
 }

@@ -3,7 +3,7 @@
 //! This is the usual first guess for Newton–Raphson by hand (Haug 4.2). In the order of the file, each body is placed
 //! at its first joint to a placed body; the joint that would close the loop stays open.
 
-use super::placement::legs;
+use super::legs::legs;
 use super::slider_placement::slides;
 use super::targets::Targets;
 use crate::equations::kinematics;

@@ -1,9 +1,10 @@
 //! The report of an assembly.
 
 use super::placement::Dyad;
+use super::placer::ON_LINE;
 use crate::equations::kinematics::Motions;
 use crate::math::{Local, Motion, Rotation, Vec2};
-use crate::model::Model;
+use crate::model::{listed, Model, MOST_REPORTED};
 use crate::solve::newton::Record;
 
 /// The closure of a dyad, one of two.
@@ -20,6 +21,9 @@ pub struct Mode {
     pub left: bool,
     /// Whether the second anchor is a slide.
     pub slides: bool,
+    /// Whether the loop is folded: the joint and the pin between the bodies that carry the dyad lie on the same side of
+    /// the line between the anchors. None if there is no such pin, or if it lies on this line.
+    pub folded: Option<bool>,
 }
 
 /// The course and the result of an assembly.
@@ -31,8 +35,8 @@ pub struct Report {
     pub degrees_of_freedom: usize,
     /// The assembly mode: the closure of each dyad.
     pub modes: Vec<Mode>,
-    /// Number of other combinations of closures, reachable or not.
-    pub alternatives: usize,
+    /// Number of other combinations of closures, reachable or not; None if it is too large for the type.
+    pub alternatives: Option<usize>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
 }
@@ -49,15 +53,47 @@ pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<Mode> {
         } else {
             (p2 - p1).cross(joint - p1) > 0.0
         };
+        let side = |at: Vec2| (p2 - p1).cross(at - p1);
+        let pin = dyad.opposite.map(|k| side(point(model, &motions, k)));
+        let pin = pin.filter(|side| side.abs() > ON_LINE * (p2 - p1).dot(p2 - p1));
         Mode {
             bodies: dyad.bodies.map(|b| model.bodies[b].name.clone()),
             joint: name(dyad.joint),
             anchors: dyad.anchors.map(name),
             left,
             slides: dyad.slides,
+            folded: pin.map(|pin| pin * side(joint) > 0.0),
         }
     };
     dyads.iter().filter(|d| d.has_other).map(of).collect()
+}
+
+/// A warning for each dyad that no guess decided and whose unfolded closure did not lead to an assembly.
+pub(super) fn folded(model: &Model, dyads: &[Dyad]) -> Vec<String> {
+    let second = dyads.iter().filter(|dyad| dyad.second && dyad.opposite.is_some());
+    let joints: Vec<&str> = second.map(|d| model.constraints[d.joint].name.as_str()).collect();
+    match joints.is_empty() {
+        true => Vec::new(),
+        false => vec![format!(
+            "folded at {}: the unfolded placement does not close; a guess of an angle decides the side",
+            listed(&joints)
+        )],
+    }
+}
+
+/// A warning for each group of constraints that depend on each other at this position only.
+pub(super) fn singular(model: &Model, groups: &[Vec<usize>]) -> Vec<String> {
+    let one = |group: &Vec<usize>| {
+        let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+        let names = listed(&names);
+        format!("this is a singular position: the constraints {names} depend on each other here")
+    };
+    let mut warnings: Vec<String> = groups.iter().take(MOST_REPORTED).map(one).collect();
+    if groups.len() > MOST_REPORTED {
+        let more = groups.len() - MOST_REPORTED;
+        warnings.push(format!("{more} more groups of constraints depend on each other here"));
+    }
+    warnings
 }
 
 fn point(model: &Model, motions: &[Motion], constraint: usize) -> Vec2 {

@@ -3,7 +3,8 @@
 use crate::analyses::State;
 use crate::elements::{BodyId, Coordinate};
 use crate::equations::at;
-use crate::model::{did_you_mean, Model, Problem, Reach, Scope, Value};
+use crate::model::{did_you_mean, Model, Problem, Reach, Scope, Value, MOST_REPORTED};
+use std::collections::HashMap;
 
 /// A value given for a coordinate or a rate of a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,10 +76,11 @@ pub fn targets(
 ) -> Result<Vec<Target>, Vec<Problem>> {
     let mut problems = Vec::new();
     let mut found = Vec::new();
+    let names = Names::of(model);
+    let scope = Scope::of_parameters(&model.blueprint.parameters, &model.blueprint.inferred);
     for (key, value) in written {
         let path = ["start".to_string(), section.to_string(), key.clone()];
-        let Some(named) = named(model, key, &path, &mut problems) else { continue };
-        let scope = Scope::of_parameters(&model.blueprint.parameters, &model.blueprint.inferred);
+        let Some(named) = named(&names, key, &path, &mut problems) else { continue };
         let unit = named.unit;
         let tape = scope.formula(value, &path, unit, Reach::Parameters, &mut problems);
         let Some(tape) = tape else { continue };
@@ -118,17 +120,41 @@ impl Named {
     }
 }
 
+/// The moving bodies and the forces of a model by name.
+struct Names<'a> {
+    model: &'a Model,
+    bodies: HashMap<&'a str, usize>,
+    forces: HashMap<&'a str, usize>,
+}
+
+impl<'a> Names<'a> {
+    fn of(model: &'a Model) -> Self {
+        let bodies = model.bodies.iter().enumerate().skip(1);
+        Self {
+            model,
+            bodies: bodies.map(|(k, body)| (body.name.as_str(), k)).collect(),
+            forces: model.forces.iter().enumerate().map(|(k, f)| (f.name.as_str(), k)).collect(),
+        }
+    }
+}
+
 /// A first-order state such as `motor.current`.
-fn state(model: &Model, key: &str) -> Option<Named> {
+fn state(names: &Names<'_>, key: &str) -> Option<Named> {
     let (element, name) = key.rsplit_once('.')?;
-    let k = model.force(element)?;
+    let (model, k) = (names.model, *names.forces.get(element)?);
     let at = model.forces[k].states.iter().position(|state| state.name == name)?;
     let place = model.layout.states[k].start + at;
     Some(Named { of: Quantity::State(place), unit: model.forces[k].states[at].unit })
 }
 
-fn named(model: &Model, key: &str, path: &[String], problems: &mut Vec<Problem>) -> Option<Named> {
-    if let Some(found) = state(model, key) {
+fn named(
+    names: &Names<'_>,
+    key: &str,
+    path: &[String],
+    problems: &mut Vec<Problem>,
+) -> Option<Named> {
+    let model = names.model;
+    if let Some(found) = state(names, key) {
         return Some(found);
     }
     let fault = |message: String, hint: Option<String>| {
@@ -148,14 +174,17 @@ fn named(model: &Model, key: &str, path: &[String], problems: &mut Vec<Problem>)
             return None;
         }
     }
-    let names: Vec<&str> = model.bodies[1..].iter().map(|b| b.name.as_str()).collect();
-    let id = model.body(body).filter(|id| !id.is_ground());
+    let id = names.bodies.get(body).map(|k| BodyId(*k));
     if id.is_none() {
         let message = match body {
             "ground" => "ground does not move".to_string(),
             _ => format!("unknown body '{body}'"),
         };
-        problems.push(fault(message, did_you_mean(body, &names, "bodies")));
+        let hint = (problems.len() < MOST_REPORTED).then(|| {
+            let known: Vec<&str> = model.bodies[1..].iter().map(|b| b.name.as_str()).collect();
+            did_you_mean(body, &known, "bodies")
+        });
+        problems.push(fault(message, hint.flatten()));
     }
     let found = Coordinate::named(coordinate);
     if found.is_none() {

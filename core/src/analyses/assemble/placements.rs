@@ -1,0 +1,62 @@
+//! The placements through all undecided choices, those without gaps first.
+
+use super::placement::Placement;
+use super::placer::place;
+use super::targets::Targets;
+use crate::model::Model;
+
+/// Largest number of placements that are computed.
+const MOST: usize = 256;
+
+/// Placements, in the order in which assembly tries them. They are computed as they are needed: one without gaps at
+/// once, those with gaps after all others.
+pub(super) struct Placements<'a> {
+    model: &'a Model,
+    targets: &'a Targets,
+    /// The choices of the next placement; None if all have been computed.
+    choices: Option<Vec<usize>>,
+    computed: usize,
+    /// Placements with gaps, in order.
+    open: std::collections::VecDeque<Placement>,
+}
+
+impl<'a> Placements<'a> {
+    pub fn new(model: &'a Model, targets: &'a Targets) -> Self {
+        let choices = Some(Vec::new());
+        Self { model, targets, choices, computed: 0, open: std::collections::VecDeque::new() }
+    }
+
+    /// The next placement, with or without gaps.
+    fn compute(&mut self) -> Option<Placement> {
+        let choices = self.choices.take().filter(|_| self.computed < MOST)?;
+        let placement = place(self.model, self.targets, &choices);
+        self.computed += 1;
+        self.choices = following(choices, &placement);
+        Some(placement)
+    }
+}
+
+/// The next combination: the last choice that still has an option takes it. A gap remains whatever is chosen after it.
+fn following(mut choices: Vec<usize>, placement: &Placement) -> Option<Vec<usize>> {
+    let options = &placement.options;
+    choices.resize(options.len(), 0);
+    let before_gap = placement.gaps.first().map_or(options.len(), |gap| gap.choices);
+    let last = (0..before_gap).rev().find(|k| choices[*k] + 1 < options[*k])?;
+    choices.truncate(last + 1);
+    choices[last] += 1;
+    Some(choices)
+}
+
+impl Iterator for Placements<'_> {
+    type Item = Placement;
+
+    fn next(&mut self) -> Option<Placement> {
+        while let Some(placement) = self.compute() {
+            if placement.gaps.is_empty() {
+                return Some(placement);
+            }
+            self.open.push_back(placement);
+        }
+        self.open.pop_front()
+    }
+}
