@@ -11,7 +11,7 @@ HOSTILE = {
     "A": "👩‍🔧 ground 🔩",
     "B": "</script><svg onload=alert(1)>",
     "C": "W" * 200,
-    "D": "\u202etsrif eht\u2028",
+    "D": "\u05e8\u05d0\u05e9\u05d5\u05df first \u0661",
     "spring": "constructor",
 }
 PLAIN = {name: name for name in HOSTILE} | {"title": "Four-bar linkage"}
