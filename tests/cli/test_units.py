@@ -5,15 +5,11 @@ from pathlib import Path
 
 import kempe as kp
 import pytest
-from kempe import display_units, plot
+from kempe import plot
 from kempe.cli import main
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SLIDER = EXAMPLES / "slider_crank.toml"
-
-tables = pytest.mark.skipif(
-    not hasattr(display_units, "heading"), reason="tables without display units"
-)
 
 
 @pytest.fixture(autouse=True)
@@ -26,8 +22,8 @@ def test_figures_have_the_units() -> None:
     words = ["plot", "r/solution.npz", "--figure", "motion", "--format", "svg"]
     for name, more in (("si", []), ("mm", ["--units", "mm,deg"])):
         assert main([*words, "-o", name, *more]) == 0
-    pages = plot.select(plot.pages(kp.load_solution("r/solution.npz")), ["motion"])
     with kp.units("mm", "deg"):
+        pages = plot.select(plot.pages(kp.load_solution("r/solution.npz")), ["motion"])
         plot.save(pages, Path("python"), ["svg"])
     (given,), (expected,), (usual,) = (
         list(Path(name).iterdir()) for name in ("mm", "python", "si")
@@ -56,7 +52,6 @@ def test_wrong_units_are_refused(
     assert list(Path().iterdir()) == []
 
 
-@tables
 def test_tables_and_csv_have_the_units(capsys: pytest.CaptureFixture[str]) -> None:
     words = [str(SLIDER), "--units", "mm,rpm,deg"]
     assert main(["run", *words, "--no-figures", "-o", "r"]) == 0
