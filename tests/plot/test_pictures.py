@@ -35,7 +35,6 @@ PICTURES = {
     "four_bar_frame": ("flagship", "frame 40"),
     "six_bar_angle": ("six_bar", "angle"),
     "six_bar_energy": ("six_bar", "energy"),
-    "six_bar_residual": ("six_bar", "residual"),
     "six_bar_motion": ("six_bar", "motion"),
     "slider_crank_slider": ("crank", "slider"),
     "slider_crank_frame": ("crank", "frame 0"),

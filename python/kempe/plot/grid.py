@@ -156,7 +156,7 @@ class _Drawing:
         )
         degrees = add_degrees(axes, panel)
         if degrees is not None:
-            degrees.yaxis.set_label_coords(1.0 + 10.0 / box[2], 0.5, axes.transAxes)
+            degrees.yaxis.set_label_coords(1.0 + 11.5 / box[2], 0.5, axes.transAxes)
         if not timed:
             axes.set_xlabel("")
             axes.tick_params(labelbottom=False)
