@@ -71,10 +71,14 @@ impl Dice {
             word
         }
     }
-    /// A name that has not been used: `used` counts them.
+    /// A name that has not been used: `used` counts them. Names have no characters of direction.
     fn name(&mut self, used: &mut usize) -> String {
         *used += 1;
-        format!("{}x{used}", self.word())
+        format!("{}x{used}", self.word()).replace('\u{202e}', "")
+    }
+    /// The name of an analysis, which is also that of a folder.
+    fn folder(&mut self, used: &mut usize) -> String {
+        self.name(used).replace(['/', '\\', '"'], "").trim().to_string()
     }
     fn formula(&mut self) -> Value {
         if self.roll(2) == 0 {
@@ -163,7 +167,8 @@ impl Dice {
         };
         let analyses: Vec<Table> =
             kempe::analyses::declarations().iter().map(|d| d.table.clone()).collect();
-        let analyses = self.entries(&analyses, used);
+        let mut analyses = self.entries(&analyses, used);
+        analyses.iter_mut().for_each(|entry| entry.name = self.folder(used));
         let start = Start { set: self.coordinates(used), guess: self.coordinates(used) };
         Case { definition, start, analyses: analyses.into_iter().map(consistent).collect() }
     }

@@ -53,10 +53,10 @@ def test_suggestions_remove_the_fault(name: str) -> None:
             else:
                 own[own_key] = wrong
             found = [match for text in faults(case) if (match := MEANT.search(text))]
-            if len(found) != 1 or (part := found[0][1]) not in wrong:
+            if len(found) != 1 or not re.search(rf"(?<!\w){re.escape(found[0][1])}(?!\w)", wrong):
                 continue  # the name of a part: those that refer to it are at fault
             applied += 1
-            meant = found[0][2]
+            part, meant = found[0].groups()
             if is_key:
                 replaced(own, wrong, part, meant)
             else:

@@ -27,11 +27,21 @@ fn reference(name: &str) -> Value {
 
 /// Names, except some. `(?![\s\S])` is the end of the text in every dialect of regular expressions.
 fn names(except: &[&str]) -> Value {
+    names_without("", except)
+}
+
+/// Names of analyses: they are names of folders, too.
+fn folders() -> Value {
+    names_without(r#"/\\:*?"<>|"#, &["start"])
+}
+
+/// Names without some further characters.
+fn names_without(more: &str, except: &[&str]) -> Value {
     let reserved = match except {
         [] => String::new(),
         _ => format!("(?!(?:{})(?![\\s\\S]))", except.join("|")),
     };
-    let pattern = format!("^{reserved}(?=[^.]*[^.\\s])[^.{HIDDEN}]+(?![\\s\\S])");
+    let pattern = format!("^{reserved}(?=[^.]*[^.\\s])[^.{HIDDEN}{more}]+(?![\\s\\S])");
     json!({ "pattern": pattern, "maxLength": MOST_CHARACTERS })
 }
 
@@ -66,7 +76,9 @@ fn sections() -> Map<String, Value> {
         sections[group.section()] = by_name(one_of(&tables, None), &RESERVED);
     }
     sections["start"] = closed(object(start), json!({}));
-    sections["analyses"] = by_name(options(declarations()), &["start"]);
+    let mut analyses = by_name(options(declarations()), &[]);
+    analyses["propertyNames"] = folders();
+    sections["analyses"] = analyses;
     object(sections)
 }
 

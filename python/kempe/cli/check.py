@@ -28,7 +28,7 @@ from kempe.cli.failure import document
 
 if TYPE_CHECKING:
     from kempe.case import Case
-    from kempe.state import State
+    from kempe.state import AssemblyReport, State
 
 EXAMPLES = """Examples:
 
@@ -65,6 +65,10 @@ def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
     console.print(Text(f"{name}: OK; analyses: {analyses or 'none'}"))
 
 
+def _report(report: AssemblyReport) -> dict[str, Any]:
+    return asdict(report) | {"alternatives": report.alternatives}
+
+
 def _content(case: Case, state: State) -> dict[str, Any]:
     """The mechanism, its configuration and the report of its assembly; units: m, rad, kg, s."""
     from kempe.report.summary import mechanism
@@ -74,6 +78,6 @@ def _content(case: Case, state: State) -> dict[str, Any]:
         "mechanism": mechanism(state),
         "t": float(state.t),
         "start": state.coordinates(),
-        "assembly": None if state.report is None else asdict(state.report),
+        "assembly": None if state.report is None else _report(state.report),
         "analyses": [{"name": name, "type": e["type"]} for name, e in case.analyses.items()],
     }
