@@ -55,7 +55,6 @@ TESTS = {
         "tests/plot/test_functions.py",
         "tests/plot/test_drawings.py",
         "tests/plot/test_units.py",
-        "tests/plot/test_geometry.py",
         "tests/study",
     ),
     "studies": ("tests/study",),

@@ -197,3 +197,14 @@ def test_an_open_joint_may_turn_a_body_that_does_not_move() -> None:
     sampled = Sampled(sol)
     sampled.solution = Opened()  # type: ignore[assignment]
     assert _turning_by_violation(sampled) == pytest.approx(2 * 1e-3 / 4)
+
+
+def test_a_body_at_rest_has_its_angle() -> None:
+    """A slider on a rail at 0.5 rad cannot turn; its angle is that of the rail."""
+    m = kp.Model(gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.body("slider", mass=1, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "slider.P", axes=(0.5, 0))
+    sol = kp.dynamics(m, kp.assemble(m, set={"slider.x": 0.2}), t_end=0.3)
+    found = summary(sol)["settling"][0]
+    assert found == {"body": "slider", "moves": False, "time": None, "angle": pytest.approx(0.5)}

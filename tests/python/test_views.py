@@ -133,7 +133,10 @@ def test_the_force_of_a_spring_by_hand_in_both_frames_and_on_both_bodies() -> No
     np.testing.assert_allclose(np.sum(parts, axis=0), force, rtol=1e-12)
     damping = view.damping_force(on="rod", frame="body")
     np.testing.assert_allclose(damping, view.force(on="rod", frame="body", part="damping"))
-    assert view.damping_torque(on="rod") == view.torque(on="rod", part="damping") != 0.0
+    parts_of_torque = [view.torque(on="rod", part=part) for part in view.parts]
+    assert sum(parts_of_torque) == pytest.approx(view.torque(on="rod"), rel=1e-12)
+    assert 0.0 < abs(view.torque(on="rod", part="damping")) < 0.2 * abs(view.torque(on="rod"))
+    assert view.damping_torque(on="rod") == view.torque(on="rod", part="damping")
 
 
 def test_a_wrong_frame_has_the_right_remedy() -> None:
