@@ -1,5 +1,6 @@
 """Numbers of bodies, joints and forces: closed forms of the slider-crank, Newton on the six-bar."""
 
+import copy
 import math
 
 import kempe as kp
@@ -137,6 +138,14 @@ def test_the_force_of_a_spring_by_hand_in_both_frames_and_on_both_bodies() -> No
     assert sum(parts_of_torque) == pytest.approx(view.torque(on="rod"), rel=1e-12)
     assert 0.0 < abs(view.torque(on="rod", part="damping")) < 0.2 * abs(view.torque(on="rod"))
     assert view.damping_torque(on="rod") == view.torque(on="rod", part="damping")
+
+
+def test_a_view_can_be_copied() -> None:
+    state, force = spring_on_a_turning_rod()
+    again = copy.copy(state.force("s"))
+    np.testing.assert_allclose(again.force(on="rod"), force, rtol=1e-12)
+    with pytest.raises(AttributeError, match="its parts: stiffness, damping"):
+        again.spring_force  # noqa: B018
 
 
 def test_a_wrong_frame_has_the_right_remedy() -> None:
