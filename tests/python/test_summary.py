@@ -199,6 +199,14 @@ def test_an_open_joint_may_turn_a_body_that_does_not_move() -> None:
     assert _turning_by_violation(sampled) == pytest.approx(0.005)
 
 
+@pytest.mark.parametrize("value", [0.0, 3.0, 1e9])
+def test_a_constant_does_not_settle(value: float) -> None:
+    t = np.linspace(0.0, 1.0, 11)
+    for ripple, moves in ((0.0, False), (0.5e-12, False), (1e-9, True)):
+        values = value + ripple * max(1.0, value) * (t > 0.5)
+        assert settling(t, values).moves == moves
+
+
 def test_a_body_at_rest_has_its_angle() -> None:
     """A slider on a rail at 0.5 rad cannot turn; its angle is that of the rail."""
     m = kp.Model(gravity=(0, -9.81))

@@ -210,6 +210,32 @@ def test_tables_have_the_numbers_of_the_outcomes(tmp_path: Path) -> None:
         assert row == {key: "" if one is None else str(one) for key, one in record.items()}
 
 
+def test_a_study_has_these_variants() -> None:
+    """Three classical gains, four critically damped ones and projection at two tolerances."""
+    found = [(v.group, v.alpha, v.beta, v.scheme, v.number) for v in variants()]
+    assert found[0] == ("reference", 10.0, 200.0, "RK45", 1e-11)
+    gains = [(10, 200), (1, 20), (0, 0), (5, 5), (20, 20), (50, 50), (200, 200), (0, 0)]
+    for k, rtol in enumerate((1e-3, 1e-6)):
+        part = found[1 + 8 * k : 9 + 8 * k]
+        assert part == [("stabilization", *pair, "RK45", rtol) for pair in gains]
+    assert found[17:24] == [
+        ("beta", 10, beta, "RK45", 1e-6) for beta in (10, 20, 50, 100, 200, 500, 1000)
+    ]
+    steps = [
+        ("step", *g, "RK4", h)
+        for h in (1e-3, 2e-3, 5e-3, 0.01, 0.02)
+        for g in ((10, 200), (1, 20), (0, 0), (20, 20))
+    ]
+    assert found[24:44] == steps
+    tolerances = [
+        ("tolerance", *pair, scheme, 10.0**-k)
+        for k in range(3, 10)
+        for *pair, scheme in ((10, 200, "RK45"), (1, 20, "RK45"), (0, 0, "RK45"), (0, 0, "DOP853"))
+    ]
+    assert [one[:4] for one in found[44:]] == [one[:4] for one in tolerances]
+    assert [one[4] for one in found[44:]] == pytest.approx([one[4] for one in tolerances])
+
+
 def test_a_variant_is_the_analysis_that_its_name_says() -> None:
     for way in variants():
         entry = way.entry()
