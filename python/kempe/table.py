@@ -109,10 +109,7 @@ def _points(solution: Solution, wanted: Sequence[str] | bool) -> list[str]:
     known = [f"{name}.{p}" for name, body in solution.compiled.bodies.items() for p in body.points]
     if isinstance(wanted, bool):
         return known if wanted else []
-    points = texts(wanted, "points")
-    for name in points:
-        quantities.named(solution, f"{name}.x")
-    return points
+    return list(texts(wanted, "points"))
 
 
 def dataframe(solution: Solution, extent: Extent | None = None) -> pandas.DataFrame:

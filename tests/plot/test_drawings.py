@@ -53,6 +53,29 @@ def test_strokes_of_ground_are_on_its_side() -> None:
     assert (strokes[:, 1, 1] < 0.0).all()
 
 
+@pytest.mark.parametrize("name", GROUND)
+def test_hatching_of_a_pin_is_below_its_line(name: str, request: pytest.FixtureRequest) -> None:
+    level = [
+        (item, ends)
+        for item, ends in hatched(plot.mechanism(request.getfixturevalue(name)))
+        if item["of"] != "guide"
+    ]
+    assert len(level) >= len(GROUND[name])
+    for item, ends in level:
+        strokes = hatching(ends[[0, -1]] * [1e3, 1e3], int(item["hatch"]))
+        assert (strokes[:, 1, 1] < 1e3 * ends[0, 1]).all()
+
+
+def test_a_slider_is_turned_as_its_rail() -> None:
+    """A rail at 0.3 rad in ground and 0.1 rad in the slider: the block is drawn along the rail."""
+    axes = plot.configuration(slider_crank())
+    items = [i for i in painting(axes).items if i["of"] == "guide" and i["kind"] == "fill"]
+    block = corners(axes, items[0])
+    sides = np.diff(np.vstack([block, block[:1]]), axis=0)
+    longest = sides[np.hypot(*sides.T).argmax()]
+    assert math.atan2(longest[1], longest[0]) % math.pi == pytest.approx(0.3, abs=1e-6)
+
+
 def test_links_of_a_six_bar_reach_from_pin_to_pin(six_bar: kp.Solution) -> None:
     """Crank upright: B = (0, 0.1) m; C and F follow from two circles each."""
     axes = plot.configuration(six_bar)

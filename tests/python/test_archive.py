@@ -10,6 +10,7 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
+from house.places import ROOT
 from kempe import archive
 
 Arrays = dict[str, Any]
@@ -233,6 +234,29 @@ def test_every_kind_of_run_is_read_again(
     again = kp.load_solution(tmp_path / "s.npz")
     assert np.array_equal(again.lam, sol.lam)
     assert (again.dense is None) == (not dense)
+
+
+@pytest.mark.parametrize("name", ["four_bar", "slider_crank", "six_bar"])
+def test_every_number_is_read_as_it_was_saved(name: str, tmp_path: Path) -> None:
+    case = kp.load(ROOT / "examples" / f"{name}.toml")
+    sol = case.with_analysis(next(iter(case.analyses)), t_end=0.2, output_step=0.01).run()[0]
+    sol.save(tmp_path / "s.npz")
+    again = kp.load_solution(tmp_path / "s.npz")
+    for key in ("t", "q", "v", "z", "a", "lam", "nfev", "status", "message", "statistics"):
+        assert np.array_equal(getattr(again, key), getattr(sol, key)), key
+    for key in ("kinetic", "potential", "dissipated", "work_of_drivers", "work_of_forces", "total"):
+        assert np.array_equal(getattr(again.energy, key), getattr(sol.energy, key)), key
+    assert bool(sol.energy.work_of_drivers.any()) == (name == "six_bar")
+    assert not sol.energy.work_of_forces.any()
+    between = np.linspace(0.003, 0.197, 7)
+    for key in ("q", "v", "a", "lam"):
+        assert np.array_equal(getattr(again(between), key), getattr(sol(between), key)), key
+    for key in ("dissipated", "work_of_drivers", "work_of_forces"):
+        one, other = (getattr(each.energy_at(between), key) for each in (again, sol))
+        assert np.array_equal(one, other), key
+    with np.load(tmp_path / "s.npz") as arrays:
+        for k, key in enumerate(("kinetic", "potential", "dissipated", "work_of_drivers")):
+            assert np.array_equal(arrays["energy"][:, k], getattr(sol.energy, key))
 
 
 def test_the_next_save_clears_what_killed_saves_left(solution: kp.Solution, tmp_path: Path) -> None:

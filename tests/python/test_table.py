@@ -133,3 +133,50 @@ def test_no_cell_is_a_formula_of_a_spreadsheet(tmp_path: Path) -> None:
         for name in names:
             mark = "'" if name[0] in "=+-@" else ""
             assert any(cell.startswith(f"{mark}{name}.x") for cell in cells), name
+
+
+def test_every_column_is_its_quantity(tmp_path: Path) -> None:
+    """All columns of a driven rod with two springs: header in order, values by hand."""
+    m = kp.Model(gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass=2, length=1, ends=("O", "P"))
+    m.revolute("O", "ground.O", "rod.O")
+    m.torsion_spring("s", "ground", "rod", stiffness=50, damping=3)
+    m.spring_damper("line", "ground.O", "rod.P", stiffness=7, free_length=0.5)
+    m.coordinate_driver("motor", "rod.angle", value="0.3 + 2*t")
+    sol = kp.dynamics(m, kp.assemble(m), t_end=0.4, output_step=0.1)
+    sol.to_csv(tmp_path / "s.csv")
+    table = read(tmp_path / "s.csv")
+    assert list(table) == [
+        "t [s]",
+        *(f"rod.{name}" for name in ("x [m]", "y [m]", "angle [rad]")),
+        *(f"rod.{name}" for name in ("vx [m/s]", "vy [m/s]", "omega [rad/s]")),
+        *(f"rod.{name}" for name in ("ax [m/s^2]", "ay [m/s^2]", "alpha [rad/s^2]")),
+        *("O.lambda_x [N]", "O.lambda_y [N]", "motor.lambda_angle [N*m]"),
+        *("O.fx_on_rod [N]", "O.fy_on_rod [N]", "O.torque_on_rod [N*m]"),
+        *("motor.fx_on_rod [N]", "motor.fy_on_rod [N]", "motor.torque_on_rod [N*m]"),
+        *("s.torque_on_rod [N*m]", "line.force [N]", "line.torque_on_rod [N*m]"),
+        *(f"energy.{n} [J]" for n in ("kinetic", "potential", "dissipated", "work", "total")),
+    ]
+    t = table["t [s]"]
+    phi = 0.3 + 2 * t
+    by_hand = {
+        "rod.x [m]": np.cos(phi) / 2,
+        "rod.vy [m/s]": np.cos(phi),
+        "rod.ay [m/s^2]": -2 * np.sin(phi),
+        "rod.omega [rad/s]": 2 + 0 * t,
+        "s.torque_on_rod [N*m]": -50 * phi - 6,
+        "line.force [N]": -3.5 + 0 * t,
+        # The motor carries spring, damper and weight: M = 50 φ + 6 + m g cos φ / 2.
+        "motor.torque_on_rod [N*m]": 50 * phi + 6 + 9.81 * np.cos(phi),
+        "motor.lambda_angle [N*m]": -(50 * phi + 6 + 9.81 * np.cos(phi)),
+        "energy.kinetic [J]": 4 / 3 + 0 * t,
+        "energy.dissipated [J]": 12 * t,
+        "energy.work [J]": 25 * (phi**2 - 0.09) + 12 * t + 9.81 * (np.sin(phi) - np.sin(0.3)),
+    }
+    for name, values in by_hand.items():
+        np.testing.assert_allclose(table[name], values, atol=1e-6, err_msg=name)
+    potential = table["energy.potential [J]"]
+    expected = 25 * phi**2 + 9.81 * np.sin(phi)
+    np.testing.assert_allclose(potential - potential[0], expected - expected[0], atol=1e-9)
+    np.testing.assert_allclose(table["energy.total [J]"], table["energy.total [J]"][0], atol=1e-6)

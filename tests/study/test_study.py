@@ -221,6 +221,32 @@ def test_arrows_of_gaps_can_be_seen(found: kp.Study) -> None:
         assert np.hypot(*(ends[1] - ends[0])) > 10.0  # points of print
 
 
+def test_curves_of_a_study_are_its_numbers(found: kp.Study) -> None:
+    steps = drawn(found, "steps").lines[0]
+    sweep = [o for o in found.group("beta") if not o.diverged]
+    points = [(o.variant.beta, o.steps) for o in sweep]
+    assert [tuple(point) for point in steps.get_xydata()] == points
+    axes = drawn(found, "error")
+    line = next(one for one in axes.lines if one.get_label() == "α = 1, β = 20")
+    solution = one(found, "stabilization", 1, 20, 1e-6).solution
+    best = found.reference.solution
+    assert solution is not None
+    assert best is not None
+    apart = np.max(
+        [np.hypot(*(solution[b].r - best[b].r).T) for b in solution.model.bodies], axis=0
+    )
+    assert line.get_ydata().max() == pytest.approx(apart.max(), rel=1e-12)
+    gaps = drawn(found, "gaps")
+    painting = next(a for a in gaps.get_children() if isinstance(a, Painting))
+    weak = one(found, "stabilization", 1, 20, 1e-3).solution
+    assert weak is not None
+    k = int(weak.drift.position.argmax())
+    _, along = joint_gaps(kp.State(weak.model, float(weak.t[k]), weak.q[k], weak.v[k]))
+    texts = {item["text"] for item, _ in painting.texts}
+    for name, gap in zip("ABCD", along, strict=True):
+        assert f"{name}: {1e3 * float(np.hypot(*gap)):.3g} mm" in texts
+
+
 def test_other_variants_and_a_case_without_output_step(four_bar_file: Path) -> None:
     text = four_bar_file.read_text(encoding="utf-8").replace("output_step = 0.01\n", "")
     four_bar_file.write_text(text, encoding="utf-8")
