@@ -1,6 +1,7 @@
 """No file has more than 400 lines and no function more than 60, except generated ones."""
 
 import ast
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,11 +12,11 @@ FILE_LIMIT = 400
 FUNCTION_LIMIT = 60
 GENERATED = "@generated"  # in the first line of generated files
 
-FILES = [
-    path
+TEXTS = {
+    path: path.read_text(encoding="utf-8")
     for path in sources(".rs", ".py", ".pyi", ".sh", ".js", ".ts", ".css", ".html")
-    if GENERATED not in path.read_text(encoding="utf-8").partition("\n")[0]
-]
+}
+FILES = [path for path, text in TEXTS.items() if GENERATED not in text.partition("\n")[0]]
 
 
 def name_of(path: Path) -> str:
@@ -32,19 +33,16 @@ def too_long(found: list[Function]) -> list[Function]:
     return [function for function in found if function.lines > FUNCTION_LIMIT]
 
 
-@pytest.mark.parametrize("path", FILES, ids=name_of)
-def test_a_file_is_small(path: Path) -> None:
-    assert len(path.read_text(encoding="utf-8").splitlines()) <= FILE_LIMIT
+def test_files_are_small() -> None:
+    lengths = {name_of(path): len(TEXTS[path].splitlines()) for path in FILES}
+    assert not {name: length for name, length in lengths.items() if length > FILE_LIMIT}
 
 
-@pytest.mark.parametrize("path", [path for path in FILES if path.suffix == ".py"], ids=name_of)
-def test_python_functions_are_small(path: Path) -> None:
-    assert not too_long(python_functions(path.read_text(encoding="utf-8")))
-
-
-@pytest.mark.parametrize("path", [path for path in FILES if path.suffix == ".rs"], ids=name_of)
-def test_rust_functions_are_small(path: Path) -> None:
-    assert not too_long(functions(path.read_text(encoding="utf-8")))
+@pytest.mark.parametrize(("suffix", "of"), [(".py", python_functions), (".rs", functions)])
+def test_functions_are_small(suffix: str, of: Callable[[str], list[Function]]) -> None:
+    files = [path for path in FILES if path.suffix == suffix]
+    assert files
+    assert not {name_of(path): found for path in files if (found := too_long(of(TEXTS[path])))}
 
 
 def test_a_long_python_function_is_found() -> None:
