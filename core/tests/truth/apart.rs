@@ -15,6 +15,11 @@ fn with(options: Options, alpha: f64, beta: f64) -> Options {
     Options { stabilization: Stabilization::Baumgarte(Gains { alpha, beta }), ..options }
 }
 
+/// The limit in a message, m.
+fn limit(message: &str) -> Option<f64> {
+    message.split("more than ").nth(1)?.strip_suffix(" m")?.parse().ok()
+}
+
 fn failed(options: &Options) -> (Failure, f64) {
     let (m, start) = four_bar();
     let failure = *dynamics(&m, &start, options, |_| Flow::Continue).expect_err("it opens");
@@ -23,10 +28,8 @@ fn failed(options: &Options) -> (Failure, f64) {
     };
     let t = *t;
     assert!(message.starts_with(&format!("the joints come apart at t = {t:.6} s: ")), "{message}");
-    assert!(
-        message.contains(" is open by ") && message.contains("more than 2.00e-1 m"),
-        "{message}"
-    );
+    assert!(message.contains(" is open by "), "{message}");
+    assert_eq!(limit(message), Some(0.2), "{message}");
     assert!(["A.", "B.", "C.", "D."].iter().any(|name| message.contains(name)), "{message}");
     assert!(["projection", "tolerance", "gains"].iter().all(|word| hint.contains(word)), "{hint}");
     // the earlier states are kept, with gaps below the limit
@@ -97,5 +100,5 @@ fn without_stabilization_they_drift_so_far_and_no_further() {
     let drifts = Options { stabilization: Stabilization::None, ..loose };
     let outcome = dynamics(&free, &start, &drifts, |_| Flow::Continue).map(|run| run.reached);
     let reason = outcome.expect_err("it opens").reason.to_string();
-    assert!(reason.contains("more than 2.00e1 m"), "{reason}");
+    assert_eq!(limit(&reason), Some(20.0), "{reason}");
 }
