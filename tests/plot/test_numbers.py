@@ -209,6 +209,14 @@ def test_panels_without_information_are_left_out(crank: kp.Solution, six_bar: kp
     assert note(found) == told
 
 
+def test_a_constant_is_drawn_if_the_page_has_nothing_else(squeezer: kp.Solution) -> None:
+    found = figure(squeezer, "torque_motor")
+    (axes,) = found.axes
+    assert axes.get_ylabel() == "T / mN·m"
+    np.testing.assert_allclose(axes.lines[0].get_ydata(), 33.0, rtol=1e-12)
+    assert not found.texts
+
+
 def test_an_odd_last_panel_is_as_wide_as_the_page(squeezer: kp.Solution) -> None:
     found = figure(squeezer, "angle")
     boxes = [axes.get_position() for axes in found.axes]

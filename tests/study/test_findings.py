@@ -121,7 +121,7 @@ def test_a_divergence_gives_time_gains_and_growth() -> None:
     found = told(lost(Variant("step", 200, 200, "RK4", 0.02)))
     assert found[0] == (
         "RK4 h = 0.02 s with α = β = 200 diverges at t = 0.0625 s: it broke; with β h = 4 the "
-        "stabilization multiplies what is open by 5 in each step."
+        "stabilization multiplies the opening of the joints by 5 in each step."
     )
     assert "No constant step of the study diverges." not in found
     other = told(lost(Variant("tolerance", 10, 200, "RK45", 1e-3)))

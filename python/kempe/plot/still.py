@@ -51,6 +51,8 @@ def drawn_and_left_out(
 ) -> tuple[list[Panel], str]:
     """The panels that show something, and a sentence about the others.
 
+    Constants are drawn if the page has nothing else.
+
     Args:
         panels: the panels of a page.
         largest: the largest magnitude of each quantity in the mechanism, by SI unit.
@@ -58,6 +60,7 @@ def drawn_and_left_out(
     """
     kept: list[Panel] = []
     zero, constant, equal = list[str](), list[str](), list[str]()
+    still: list[Panel] = []
     for panel in panels:
         twin = next((other for other in kept if _same(panel, other)), None)
         if panel.peak <= _NOTHING * largest.get(panel.unit, 0.0):
@@ -66,10 +69,13 @@ def drawn_and_left_out(
             unit = fixed.get(panel.unit) or scale(panel.unit, panel.peak)
             value = f"{sum(panel.span) / 2.0 / unit.divisor:.4g}".replace("-", "−")
             constant.append(f"{panel.name} = {value} {unit.unit}")
+            still.append(panel)
         elif twin is not None:
             equal.append(f"{panel.name} (equal to {twin.name})")
         else:
             kept.append(panel)
+    if not kept:
+        kept, constant = still, []
     families = (("zero", zero), ("constant", constant))
     told = [f"{', '.join(names)} ({word})" for word, names in families if names]
     return kept, f"Not drawn: {'; '.join([*told, *equal])}." if told or equal else ""

@@ -93,7 +93,7 @@ def _divergence(study: Outcomes) -> Iterator[str]:
             told = (
                 f"; with β h = {o.variant.beta * o.variant.number:g} the stabilization multiplies"
             )
-            told += f" what is open by {factor:.3g} in each step"
+            told += f" the opening of the joints by {factor:.3g} in each step"
         yield f"{o.variant.method} with {o.variant.gains} diverges{when}: {o.reason}{told}."
     rk4 = [o for o in study.group("step") if o.variant.beta > 0.0]
     if rk4 and not any(o.diverged for o in rk4):

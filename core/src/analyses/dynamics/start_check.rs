@@ -2,7 +2,7 @@
 //!
 //! A start is accepted if Φ and Φ_q v - ν, with lengths over the size of the mechanism, are at most [`CLOSED`] and
 //! [`CLOSED`] times the pace: the fastest rate of the state, and at least 1/s. Any other state is refused. It is never
-//! moved: the run would then start elsewhere than its caller believes.
+//! moved, because the run would then start at another state than the given one.
 
 use super::constraint_violation::{ADRIFT, APART};
 use super::failure::{Failure, Reason};
