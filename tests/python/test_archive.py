@@ -61,6 +61,8 @@ CHANGES: dict[str, tuple[Callable[[Arrays], Arrays], str]] = {
     "NaN between": (entry("dense_c", (3, 2, 1), np.nan), "dense_c contains a number"),
     "disorder": (entry("t", 3, 0.5), "the times t are not in order"),
     "disorder between": (entry("dense_t", 3, 0.0), "the times dense_t are not in order"),
+    "falling": (given(t=lambda t: t[::-1]), "the times t are not in order"),
+    "falling between": (given(dense_t=lambda t: t[::-1]), "the times dense_t are not in order"),
     "integers": (given(q=lambda q: q.astype(int)), "q has numbers of type int64; must be float64"),
     "complex": (given(q=lambda q: q * 1j), "q has numbers of type complex128"),
     "single": (given(v=np.float32), "v has numbers of type float32"),
