@@ -27,7 +27,7 @@ from cosmic_ray.work_db import WorkDB
 from cosmic_ray.work_item import MutationSpec, TestOutcome
 
 ROOT = Path(__file__).resolve().parents[1]
-#: Modules of python/kempe, and the tests that concern each. The tests of pictures and of whole
+#: Modules of python/kempe, and the tests that concern each, the quick ones first. The tests of whole
 #: pages take long; quicker ones cover the same code.
 TESTS = {
     "views": (
@@ -51,6 +51,12 @@ TESTS = {
         "tests/python/test_copies.py",
     ),
     "plot": (
+        "tests/plot/test_time_axis.py",
+        "tests/plot/test_peaks.py",
+        "tests/plot/test_dimensions.py",
+        "tests/plot/test_grid.py",
+        "tests/plot/test_pictures.py",
+        "tests/plot/test_rules.py",
         "tests/plot/test_numbers.py",
         "tests/plot/test_functions.py",
         "tests/plot/test_drawings.py",

@@ -100,12 +100,18 @@ def test_a_length_is_beside_its_bar_away_from_the_middle() -> None:
         ([80, 120, 68, 132, 56], 44.0),
     ],
 )
-def test_a_length_goes_where_the_lines_leave_room(taken: list[float], aside: float) -> None:
-    made = bars((1.0, 1.0, 1.0, 0.0))
-    for y in taken:
-        obstacle(made, (110.0, y), (120.0, y))
+@pytest.mark.parametrize("y", [1.0, 2.0])
+def test_a_length_goes_where_the_lines_leave_room(
+    taken: list[float], aside: float, y: float
+) -> None:
+    """Away from the middle first: downwards below it, upwards above it."""
+    made, outwards = bars((1.0, y, 1.0, 0.0)), 1.0 if y < 1.5 else -1.0
+    for height in taken:
+        there = 100.0 * y + outwards * (height - 100.0)
+        obstacle(made, (110.0, there), (120.0, there))
     dimensions.add_dimensions(made)
-    check(made, "length 1 m", (100, 100), (200, 100), aside)
+    check(made, "length 1 m", (100, 100 * y), (200, 100 * y), outwards * aside)
+    assert {i["width"] for i in made._items if i["of"] == "length 1 m" and "width" in i} == {0.6}
 
 
 @pytest.mark.parametrize("angle", [0.0, 2.0, -0.7])

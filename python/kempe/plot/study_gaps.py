@@ -16,6 +16,7 @@ from kempe.plot.picture import drawn, paint
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from kempe.compiled import ConstraintInfo
     from kempe.solution import Solution
     from kempe.state import State
     from kempe.studies import Study
@@ -74,24 +75,24 @@ def joint_gaps(state: State) -> tuple[Floats, Floats]:
     begin, along = [], []
     for info in state.compiled.joints.values():
         at_i = state.body(info.i).at(info.point_i).position
-        gap = state.body(info.j).at(info.point_j).position - at_i
-        units = [unit for _, unit in info.equations]
-        if units.count("m") < 2:  # a slide: the normal distance is Φ itself
-            gap = _across(gap, float(state.constraint(info.name).residual[0]))
         begin.append(at_i)
-        along.append(gap)
+        apart = state.body(info.j).at(info.point_j).position - at_i
+        along.append(_forbidden(state, info, apart))
     return np.array(begin).reshape(-1, 2), np.array(along).reshape(-1, 2)
 
 
-def _across(apart: Floats, normal: float) -> Floats:
-    """The part of a distance that is normal to the slide, from its known length."""
-    length = float(np.hypot(*apart))
-    if length <= abs(normal):
-        return apart
-    sine = normal / length
-    cosine = math.sqrt(1.0 - sine**2)
-    direction = np.array([[cosine, sine], [-sine, cosine]]) @ (apart / length)
-    return normal * np.array([-direction[1], direction[0]])
+def _forbidden(state: State, info: ConstraintInfo, apart: Floats) -> Floats:
+    """The part of the distance of the joint's points that its equations do not allow."""
+    equations = [name for name, _ in info.equations]
+    if "normal" in equations:  # across the rail
+        angle = float(state.body(info.i).angle) + info.axis_i
+        normal = np.array([-np.sin(angle), np.cos(angle)])
+        return normal * float(normal @ apart)
+    if equations == ["length"]:  # Φ = (d² - l²) / 2l gives the length l
+        phi, d = float(state.constraint(info.name).residual[0]), float(np.hypot(*apart))
+        excess: Floats = (d - (math.hypot(phi, d) - phi)) * apart / (d or 1.0)
+        return excess
+    return apart
 
 
 def magnification(largest: float, size: float) -> float:
