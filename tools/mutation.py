@@ -27,8 +27,8 @@ from cosmic_ray.work_db import WorkDB
 from cosmic_ray.work_item import MutationSpec, TestOutcome
 
 ROOT = Path(__file__).resolve().parents[1]
-#: Modules of python/kempe, and the tests that concern each, the quick ones first. The tests of whole
-#: pages take long; quicker ones cover the same code.
+#: Modules of python/kempe, and the tests that concern each, the quick ones first. The tests of
+#: whole pages take long; quicker ones cover the same code.
 TESTS = {
     "views": (
         "tests/python/test_views.py",

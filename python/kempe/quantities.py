@@ -28,8 +28,9 @@ _LINE = (("length", "m"), ("rate", "m/s"), ("acceleration", "m/s^2"))
 _SLIDE = (("displacement", "m"), ("rate", "m/s"), ("acceleration", "m/s^2"))
 _TURN = (("angle", "rad"), ("omega", "rad/s"), ("alpha", "rad/s^2"))
 ENERGIES = ("kinetic", "potential", "dissipated", "work", "total")
-#: A multiplier times its residual is an energy, so its unit is J per unit of the residual.
-_MULTIPLIER_UNITS = {"m": "N", "rad": "N*m"}
+#: A force times its coordinate, or a multiplier times its residual, is an energy: its unit is J per
+#: unit of the other.
+FORCE_UNITS = {"m": "N", "rad": "N*m"}
 
 
 @dataclass(frozen=True)
@@ -133,7 +134,7 @@ def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
         rate = partial(_column, partial(getattr, motion, "v"), k)
         found[f"{name}_rate"] = Quantity(f"{unit}/s", rate)
     for k, (name, unit) in enumerate(info.equations):
-        of = _MULTIPLIER_UNITS.get(unit, f"J/{unit}")
+        of = FORCE_UNITS.get(unit, f"J/{unit}")
         multiplier = partial(_column, partial(getattr, view, "lam"), k)
         found[f"lambda_{name}"] = Quantity(of, multiplier)
     return found

@@ -1,4 +1,4 @@
-"""Dimension lines and gravity: where they are drawn, derived by hand from the places of the bars."""
+"""Dimension lines and gravity: where they are drawn, by hand from the places of the bars."""
 
 import math
 from types import SimpleNamespace
@@ -233,9 +233,7 @@ def test_if_no_corner_is_free_it_is_the_one_with_the_shortest_lines() -> None:
     made: Any = SimpleNamespace(view=View(np.zeros(2), 1.0, SIZE), taken=lambda: found)
     assert tuple(dimensions._free_corner(made)) == CORNERS["lower right"]
     # What only touches the room of 48 × 31.5 points from outside is not in the corner.
-    beside = taken(
-        [[[303, 268], [303, 200]]], boxes=[[300, 200, 304, 290], [310, 200, 390, 237]]
-    )
+    beside = taken([[[303, 268], [303, 200]]], boxes=[[300, 200, 304, 290], [310, 200, 390, 237]])
     made = SimpleNamespace(view=View(np.zeros(2), 1.0, SIZE), taken=lambda: beside)
     assert tuple(dimensions._free_corner(made)) == CORNERS["upper right"]
 

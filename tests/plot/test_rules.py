@@ -82,7 +82,9 @@ def test_the_largest_values_of_a_mechanism(crank: kp.Solution, six_bar: kp.Solut
         ):
             most = max(np.abs(getattr(body, n)).max() for body in moving for n in names)
             assert found[unit] == pytest.approx(most, rel=2e-3)
-        forces = [solution.constraint(n).force(on=i.j) for n, i in solution.model.constraints.items()]
+        forces = [
+            solution.constraint(n).force(on=i.j) for n, i in solution.model.constraints.items()
+        ]
         assert found["N"] == pytest.approx(np.abs(forces).max(), rel=2e-2)
         assert found["N·m"] == pytest.approx(found["N"] * found["m"])
 
@@ -317,11 +319,11 @@ def test_the_gap_of_a_joint_is_what_it_forbids(along: float, across: float, turn
     m.distance("rod", "ground.O", "arm.C", length=2.0)
     u, n = np.array([math.cos(0.3), math.sin(0.3)]), np.array([-math.sin(0.3), math.cos(0.3)])
     at = np.array([1.0, 2.0]) + along * u + across * n
-    q = np.array([*at, 0.2 + turned, *(at + [0.003, -0.004]), 0.0])
+    q = np.array([*at, 0.2 + turned, *(at + np.array([0.003, -0.004])), 0.0])
     state = kp.State(m, 0.0, q, np.zeros(6))
     begin, gaps = joint_gaps(state)
     np.testing.assert_allclose(begin, [[1.0, 2.0], at, [1.0, 2.0]])
-    to_end = at + [0.003, 0.996] - [1.0, 2.0]
+    to_end = at + np.array([0.003, 0.996]) - [1.0, 2.0]
     length = math.hypot(*to_end)
     expected = [across * n, [0.003, -0.004], (length - 2.0) * to_end / length]
     np.testing.assert_allclose(gaps, expected, atol=1e-12)

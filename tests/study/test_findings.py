@@ -221,6 +221,49 @@ def test_tables_have_the_numbers_of_the_outcomes(tmp_path: Path) -> None:
         assert row == {key: "" if one is None else str(one) for key, one in record.items()}
 
 
+def test_tables_and_findings_have_the_display_units(tmp_path: Path) -> None:
+    """1.25e-4 rad = 0.00716°, 3.5 mm, 7.5 µm, 12.5 ms, 62.5 ms; JSON is in SI units."""
+    made = outcome(Variant("stabilization", 10, 200, "RK4", 2e-3))
+    broken = lost(Variant("tolerance", 10, 20, "RK45", 1e-4))
+    good = outcome(Variant("tolerance", 10, 20, "RK45", 1e-9), position_error=1e-7)
+    study = Study("rig", "run", (REFERENCE, made, broken, good))
+    study.save(tmp_path / "si")
+    with kp.units("mm", "deg", "us"):
+        study.save(tmp_path / "own")
+        found = study.findings()
+    lines = (tmp_path / "own" / "study.md").read_text(encoding="utf-8").splitlines()
+    assert (
+        "| variant | angle error / ° | position error / mm | residual / mm | energy error | steps "
+        "| evaluations | time / µs |" in lines
+    )
+    assert (
+        "| α = 10, β = 200, RK4 h = 0.002 s | 0.0072 | 3.5 | 0.0075 | 4.5e-05 | 300 | 2100 "
+        "| 1.25e+04 |" in lines
+    )
+    assert "diverged at t = 6.25e+04 µs: it broke" in "".join(lines)
+    assert found[0].endswith("α = 10, β = 200 0.0075 mm in 300 steps.")
+    assert "diverges at t = 6.25e+04 µs: it broke." in found[1]
+    assert "every position within 0.001 mm is" in found[-1]
+    assert "every position within 1 mm is" in found[-2]
+    si, own = (
+        list(csv.DictReader((tmp_path / n / "study.csv").read_text("utf-8").splitlines()))
+        for n in ("si", "own")
+    )
+    converted = {
+        "angle_error": ("deg", math.pi / 180.0),
+        "position_error": ("mm", 1e-3),
+        "residual": ("mm", 1e-3),
+        **dict.fromkeys(("step", "diverged_at", "residual_at", "seconds"), ("us", 1e-6)),
+    }
+    for one, other in zip(si, own, strict=True):
+        for name, value in one.items():
+            unit, factor = converted.get(name, ("", 1.0))
+            there = other[f"{name} [{unit}]" if unit else name]
+            assert there == value or float(there) == pytest.approx(float(value) / factor)
+    rows = [json.loads((tmp_path / n / "study.json").read_text("utf-8")) for n in ("si", "own")]
+    assert rows[0]["variants"] == rows[1]["variants"]
+
+
 def test_outcomes_cannot_change() -> None:
     for one, name in ((REFERENCE, "steps"), (REFERENCE.variant, "alpha")):
         with pytest.raises(FrozenInstanceError):

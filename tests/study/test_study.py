@@ -247,6 +247,24 @@ def test_curves_of_a_study_are_its_numbers(found: kp.Study) -> None:
         assert f"{name}: {1e3 * float(np.hypot(*gap)):.3g} mm" in texts
 
 
+def test_figures_have_the_display_units(found: kp.Study) -> None:
+    with kp.units("mm", "ms"):
+        work, error, gaps = (drawn(found, name) for name in ("work_precision", "error", "gaps"))
+    usual = [drawn(found, name) for name in ("work_precision", "error")]
+    assert work.get_xlabel() == "largest position error / mm"
+    assert error.get_ylabel() == "position error / mm"
+    assert error.get_xlabel() == "time t / ms"
+    for one, k in ((work, 0), (error, 1)):
+        for line, si in zip(one.lines, usual[k].lines, strict=True):
+            clear = si.get_xydata()[:, k] > 1e-12  # the error is cut off below
+            shown, expected = line.get_xydata()[clear], si.get_xydata()[clear] * 1.0
+            expected[:, k] *= 1e3
+            expected[:, 0] *= 1e3 if k else 1.0
+            # An instant between two spans may fall into the other one.
+            assert np.isclose(shown, expected, rtol=1e-12).mean() > 0.98
+    assert re.search(r"t = [\d.e+]+ ms, gaps", gaps.get_title("left"))
+
+
 def test_other_variants_and_a_case_without_output_step(four_bar_file: Path) -> None:
     text = four_bar_file.read_text(encoding="utf-8").replace("output_step = 0.01\n", "")
     four_bar_file.write_text(text, encoding="utf-8")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.arrays import Floats
+from kempe.display_units import display
 from kempe.draw.items import PIN, arrow_head, fill, line, on_body
 from kempe.draw.scene import scene
 from kempe.plot import style
@@ -48,7 +49,9 @@ def gaps(study: Study, ax: Axes) -> None:
     shown = scene(state)
     low, high = np.array(shown["bounds"]).reshape(2, 2)
     factor = magnification(float(np.hypot(*along.T).max(initial=0.0)), float((high - low).max()))
-    when = f"t = {float(state.t):.3g} s, gaps magnified {factor:g} times"
+    time, unit = display("s"), display("m", "mm")
+    instant = f"t = {float(state.t) / time.divisor:.3g} {time.symbol}"
+    when = f"{instant}, gaps magnified {factor:g} times"
     made = drawn(ax, shown, style.verbatim(f"{outcome.variant.name}\n{when}"))
     for name, point, gap in zip(state.compiled.joints, begin, along, strict=True):
         length = float(np.hypot(*gap))
@@ -63,7 +66,7 @@ def gaps(study: Study, ax: Axes) -> None:
         made.add([fill(name, frame, edge, "paper", layer=PIN)])
         made.add([line(name, frame, shaft, "reaction", _WIDTH, layer=PIN)])
         made.add([fill(name, frame, head, "reaction", layer=PIN)])
-        made.name("joint", f"{name}: {1e3 * length:.3g} mm", frame)
+        made.name("joint", f"{name}: {length / unit.divisor:.3g} {unit.symbol}", frame)
     paint(ax, made)
 
 
