@@ -206,8 +206,7 @@ def of_force(motion: Motion, info: ForceInfo) -> Family:
         found |= _pushing(motion, info)
     else:
         found |= _turn(motion, info.i, info.j)
-        omega, torque = found["omega"].read, found["torque"].read
-        found["power"] = Quantity("W", lambda: scalar(torque() * omega()))
+    found["power"] = Quantity("W", partial(getattr, view, "power"))
     for name, unit in info.states:
         found[name] = Quantity(unit, partial(view.state, name))
     for body in dict.fromkeys(info.bodies):
@@ -225,7 +224,6 @@ def _pushing(motion: Motion, info: ForceInfo) -> dict[str, Quantity]:
 
     found = _three(_LINE, line)
     found["force"] = Quantity("N", force)
-    found["power"] = Quantity("W", lambda: scalar(force() * line.rate))
     return found
 
 

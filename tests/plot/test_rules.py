@@ -6,6 +6,7 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
+from kempe import plot
 from kempe.draw.units import Scale
 from kempe.plot import drawing_pages, style
 from kempe.plot.envelope import BINS, draw_envelope, envelope, logarithmic
@@ -56,6 +57,27 @@ def test_constants_are_told_with_their_value_and_unit() -> None:
         ["a", "c"],
         "Not drawn: z (zero).",
     )
+
+
+def test_a_page_has_a_panel_at_least() -> None:
+    zeros = [panel(name, 0.0 * RAMP) for name in "abc"]
+    assert told(*zeros) == (["a"], "Not drawn: b, c (zero).")
+    assert told(zeros[0]) == (["a"], "")
+    assert told() == ([], "")
+    # A mass that moves along x only: its y and its angle are zero.
+    m = kp.Model("mass", gravity=(0, 0))
+    m.ground.points(O=(0, 0))
+    m.body("mass", mass=2, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "mass.P")
+    start = kp.assemble(m, set={"mass.x": 1.0, "mass.vx": 2.0})
+    solution = kp.dynamics(m, start, t_end=1.0, output_step=0.1)
+    for page in plot.pages(solution):
+        found = page.figure()
+        assert found.axes, page.stem
+        if page.name == "y":
+            assert list(found.axes[0].lines[0].get_ydata()) == pytest.approx(
+                np.zeros(len(found.axes[0].lines[0].get_ydata()))
+            )
 
 
 def test_equal_panels_are_drawn_once() -> None:
@@ -258,8 +280,6 @@ def test_a_figure_has_the_sizes_of_print() -> None:
 
 @pytest.mark.parametrize(("count", "columns"), [(4, 1), (5, 2)])
 def test_more_than_four_panels_have_two_columns(count: int, columns: int) -> None:
-    from kempe import plot
-
     solution = chain([f"l{k}" for k in range(count)])
     made = plot.select(plot.pages(solution), ["y"])[0].figure()
     assert len(made.axes) == count
