@@ -7,6 +7,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import plot
+from kempe.draw.labels import measured
 from kempe.draw.units import Scale
 from kempe.plot import drawing_pages, style
 from kempe.plot.envelope import BINS, draw_envelope, envelope, logarithmic
@@ -14,7 +15,7 @@ from kempe.plot.panel import Curve, Panel
 from kempe.plot.picture import frame
 from kempe.plot.still import drawn_and_left_out, largest_values
 from kempe.plot.study_gaps import joint_gaps, magnification
-from kempe.plot.ticks import labels
+from kempe.plot.ticks import labels, set_ticks
 from matplotlib.axes import Axes
 from plot.conftest import chain
 
@@ -203,6 +204,23 @@ def test_a_logarithmic_axis_has_whole_decades(
 )
 def test_numbers_of_ticks_have_equal_decimals(ticks: list[float], words: list[str]) -> None:
     assert labels(ticks) == words
+
+
+@pytest.mark.parametrize(("more", "count"), [(0.1, 6), (-0.1, 3)])
+def test_as_many_ticks_as_have_room(more: float, count: int) -> None:
+    """Six numbers from 0 to 5 need 13 points each in a column; in a row 10 points more than wide.
+
+    Where six do not fit, there are the three numbers 0, 2 and 4.
+    """
+    wide = measured("0", 8.0, bold=False, slanted=False)[0]
+    size = [(6.0 * room + more) * 25.4 / 72.0 for room in (wide + 10.0, 13.0)]
+    with style.applied():
+        found = style.axes_at(style.figure(60.0, layout=None), (20.0, 15.0, *size), 60.0)
+        for axis, limits in ((found.xaxis, found.set_xlim), (found.yaxis, found.set_ylim)):
+            limits(0.0, 5.0)
+            set_ticks(axis)
+            step = 1.0 if count == 6 else 2.0
+            assert list(axis.get_ticklocs()) == [k * step for k in range(count)]
 
 
 @pytest.mark.parametrize(

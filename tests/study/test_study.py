@@ -211,7 +211,8 @@ def test_arrows_of_gaps_can_be_seen(found: kp.Study) -> None:
     weak = one(found, "stabilization", 1, 20, 1e-3).solution
     assert weak is not None
     k = int(weak.drift.position.argmax())
-    _, along = joint_gaps(kp.State(weak.model, float(weak.t[k]), weak.q[k], weak.v[k]))
+    worst = kp.State(weak.model, float(weak.t[k]), weak.q[k], weak.v[k])
+    _, along = joint_gaps(worst)
     shafts = [i for i in painting.items if (i["kind"], i["colour"]) == ("line", "reaction")]
     assert [item["of"] for item in shafts] == ["A", "B", "C", "D"]
     for item, gap in zip(shafts, along, strict=True):
@@ -219,6 +220,24 @@ def test_arrows_of_gaps_can_be_seen(found: kp.Study) -> None:
         assert item["width"] >= 2.0
         ends = place(item, painting.poses, painting.view())
         assert np.hypot(*(ends[1] - ends[0])) > 10.0  # points of print
+    fills = [i for i in painting.items if i["kind"] == "fill" and i["of"] in "ABCD"]
+    for name, begin, gap in zip("ABCD", *joint_gaps(worst), strict=True):
+        tip = painting.view().points(begin + factor * gap)
+        along = gap / np.hypot(*gap)
+        shaft = next(item for item in shafts if item["of"] == name)
+        ends = place(shaft, painting.poses, painting.view())
+        np.testing.assert_allclose(ends[0], painting.view().points(begin), atol=1e-6)
+        np.testing.assert_allclose(ends[1], tip - 6.0 * along, atol=1e-6)
+        for colour, ahead, size in (("reaction", 0.0, 10.0), ("paper", 1.5, 14.0)):
+            (head,) = (
+                i
+                for i in fills
+                if (i["of"], i["colour"]) == (name, colour) and i["points"][0][0] > 0.0
+            )
+            corners = place(head, painting.poses, painting.view())
+            np.testing.assert_allclose(corners[0], tip + ahead * along, atol=1e-6)
+            back = corners[1:].mean(axis=0)
+            np.testing.assert_allclose(back, tip + (ahead - size) * along, atol=1e-6)
 
 
 def test_curves_of_a_study_are_its_numbers(found: kp.Study) -> None:

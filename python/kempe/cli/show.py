@@ -23,7 +23,6 @@ from kempe.cli.arguments import (
 from kempe.cli.console import answers, figure
 from kempe.cli.failure import document
 from kempe.cli.solved import CaseOrSolution, is_stored, stored
-from kempe.display_units import display
 from kempe.errors import FileError, ModelError
 
 if TYPE_CHECKING:
@@ -165,6 +164,8 @@ def _matrices(case: Case, state: State, wanted: list[str], assembly: bool) -> It
 
 def _written(shown: Labelled, state: State, form: Form) -> str:
     if form is Form.text:
+        from kempe.display_units import display
+
         time = display("s")
         when = f"t = {figure(float(state.t) / time.divisor)} {time.symbol}"
         return f"{shown.title}, {when}\n{shown.text()}"
