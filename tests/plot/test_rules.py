@@ -360,7 +360,7 @@ def test_the_gap_of_a_joint_is_what_it_forbids(along: float, across: float, turn
     q = np.array([*at, 0.2 + turned, *(at + np.array([0.003, -0.004])), 0.0])
     state = kp.State(m, 0.0, q, np.zeros(6))
     begin, gaps = joint_gaps(state)
-    np.testing.assert_allclose(begin, [[1.0, 2.0], at, [1.0, 2.0]])
+    np.testing.assert_allclose(begin, [[1.0, 2.0] + along * u, at, [1.0, 2.0]])
     to_end = at + np.array([0.003, 0.996]) - [1.0, 2.0]
     length = math.hypot(*to_end)
     expected = [across * n, [0.003, -0.004], (length - 2.0) * to_end / length]

@@ -187,6 +187,12 @@ def test_rates_of_residuals_are_their_derivatives(crank: kp.Solution) -> None:
         )
 
 
+def test_a_joint_without_coordinates_of_its_own_has_an_empty_array(crank: kp.Solution) -> None:
+    for name in crank.model.joints:
+        assert crank.joint(name).coordinates.shape == (len(crank.t), 0)
+    assert crank.initial.joint("A").coordinates.shape == (0,)
+
+
 @pytest.mark.parametrize("damping", [0.0, 4.0])
 def test_the_power_of_a_damped_oscillator(damping: float) -> None:
     """x = x0 e^(-δt) (cos ωt + δ/ω sin ωt), P = -(k x + c v) v; its integral is what T gains."""

@@ -240,6 +240,22 @@ def test_arrows_of_gaps_can_be_seen(found: kp.Study) -> None:
             np.testing.assert_allclose(back, tip + (ahead - size) * along, atol=1e-6)
 
 
+def test_closed_joints_have_no_arrow() -> None:
+    """The guide of a slider-crank stays closed to rounding; A and B open."""
+    case = kp.load(ROOT / "examples" / "slider_crank.toml").with_analysis("coasting", t_end=0.3)
+    ways = [
+        Variant("reference", 0, 0, "DOP853", 1e-11, projected=True),
+        Variant("stabilization", 1, 20, "RK45", 1e-3),
+    ]
+    painting = next(
+        a
+        for a in drawn(kp.study(case, ways=ways), "gaps").get_children()
+        if isinstance(a, Painting)
+    )
+    names = {item["text"].partition(":")[0] for item, _ in painting.texts}
+    assert names == {"A", "B"}
+
+
 def test_curves_of_a_study_are_its_numbers(found: kp.Study) -> None:
     steps = drawn(found, "steps").lines[0]
     sweep = [o for o in found.group("beta") if not o.diverged]

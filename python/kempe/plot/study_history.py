@@ -63,11 +63,9 @@ def _draw(ax: Axes, outcomes: Sequence[Outcome], value: Callable[[Solution], Flo
         return
     time = TimeAxis.of(np.concatenate([solution.t for solution in solved]))
     drawn: list[Floats] = []
-    for k, outcome in enumerate(outcomes):
-        if outcome.solution is None:
-            continue
-        y = np.maximum(value(outcome.solution), FLOOR)
-        t, _, y = envelope(outcome.solution.t[: len(y)] / time.unit.divisor, y)
+    for k, (outcome, solution) in enumerate(zip(outcomes, solved, strict=True)):
+        y = np.maximum(value(solution), FLOOR)
+        t, _, y = envelope(solution.t[: len(y)] / time.unit.divisor, y)
         # The markers of different curves are at different places.
         marks = (_MARKED * (k % 7) / 7.0, _MARKED)
         ax.plot(t, y, **style.marked_line(k), markevery=marks, label=outcome.variant.gains)
