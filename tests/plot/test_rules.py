@@ -302,6 +302,7 @@ def test_a_figure_has_the_sizes_of_print() -> None:
 def test_a_page_cannot_change() -> None:
     with pytest.raises(FrozenInstanceError):
         plot.Page(1, "x", "x", style.figure).name = "y"  # type: ignore[misc]
+    assert not plot.Page(1, "x", "x", style.figure).key
 
 
 @pytest.mark.parametrize(("count", "columns"), [(4, 1), (5, 2)])
