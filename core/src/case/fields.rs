@@ -2,7 +2,9 @@
 
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
-use super::values::{count, number, numbers, pair, points, tolerance, two_names, word, wrong};
+use super::values::{
+    count, number, numbers, pair, points, terms, tolerance, two_names, units, word, wrong,
+};
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
 use crate::elements::{catalogue, Field, Shape, Table as Declaration};
@@ -96,6 +98,8 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Number | Shape::Law, _) => number(report, node),
         (Shape::Pair | Shape::LawPair, _) => pair(report, node),
         (Shape::Laws, _) => numbers(report, node),
+        (Shape::Terms, _) => terms(report, node),
+        (Shape::Units, _) => units(report, node),
         (Shape::Points, _) => points(report, node),
         (Shape::Names, _) => two_names(report, node),
         (Shape::Count, _) => count(report, node),
