@@ -14,17 +14,28 @@ mod joint_trait;
 mod kinds;
 mod symbols;
 mod value;
+mod wheels;
 mod written;
 
 /// Joints: holonomic constraints between bodies, without time.
 pub mod joints {
+    mod belt;
     mod distance;
+    mod gear;
+    mod pin_in_slot;
+    mod rack;
     mod revolute;
+    mod rolling;
     mod translational;
     mod weld;
 
+    pub use belt::Belt;
     pub use distance::Distance;
+    pub use gear::Gear;
+    pub use pin_in_slot::PinInSlot;
+    pub use rack::Rack;
     pub use revolute::Revolute;
+    pub use rolling::Rolling;
     pub use translational::Translational;
     pub use weld::Weld;
 }
@@ -63,7 +74,9 @@ use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
-pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
+pub use joint_trait::{
+    At, Attachment, Equation, Fixes, Joint, Linearized, Moving, Required, ResultOf,
+};
 use joints::*;
 pub use kinds::{
     body, coordinate, flag, joint, law, law_pair, laws, number, optional_law, optional_number,
@@ -83,6 +96,11 @@ constraints! {
         Translational,
         Distance,
         Weld,
+        PinInSlot,
+        Gear,
+        Belt,
+        Rack,
+        Rolling,
         #[cfg(feature = "test-elements")] TurnedPin,
         #[cfg(feature = "test-elements")] Bead,
         #[cfg(feature = "test-elements")] Levels,

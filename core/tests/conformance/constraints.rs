@@ -97,12 +97,18 @@ fn rate_and_gamma_are_those_of_a_jet() {
 fn rate_and_gamma_are_differences_along_a_motion() {
     let h = 1e-4;
     each(|c, at| {
-        let [before, here, after] = [-h, 0.0, h].map(|h| phi(c, &at.later(h), TIME + h));
+        // of fourth order
+        let [far_before, before, here, after, far_after] =
+            [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| phi(c, &at.later(k * h), TIME + k * h));
         let ([residual, rate, gamma], _) = terms(c, at, TIME);
         assert!(worst(&residual, &here) < 1e-13);
         for k in 0..here.len() {
-            close(c.kind(), rate[k], (after[k] - before[k]) / (2.0 * h), 1e-6);
-            close(c.kind(), -gamma[k], (after[k] - 2.0 * here[k] + before[k]) / (h * h), 1e-5);
+            let first =
+                (8.0 * (after[k] - before[k]) - (far_after[k] - far_before[k])) / (12.0 * h);
+            let second =
+                16.0 * (after[k] + before[k]) - (far_after[k] + far_before[k]) - 30.0 * here[k];
+            close(c.kind(), rate[k], first, 1e-6);
+            close(c.kind(), -gamma[k], second / (12.0 * h * h), 1e-5);
         }
     });
 }
@@ -194,6 +200,22 @@ fn constant_columns_are_minus_and_plus_one() {
     });
 }
 
+/// The last row, after body j was turned by the angle that makes a linear row zero.
+fn turned_to_zero(c: &Constraint, at: &Participants) -> f64 {
+    let (_, columns) = terms(c, at, TIME);
+    let m = c.equations().len();
+    let last = |at: &Participants| phi(c, at, TIME)[m - 1];
+    let (pose, s) = (motion(at.bodies[1]).pose, c.attachment(1).s);
+    let [x, y, slope] = columns[2 * m - 1];
+    // the joint point stays where it is
+    let arm = pose.global(s).perp();
+    let mut turned = at.moved(5, -last(at) / (slope - x * arm.x - y * arm.y));
+    let moved = pose.point(s) - motion(turned.bodies[1]).pose.point(s);
+    turned.bodies[1][0] += moved.x;
+    turned.bodies[1][1] += moved.y;
+    last(&turned)
+}
+
 /// The geometry that a joint declares for assembly holds exactly where its residual is zero.
 #[test]
 fn joints_fix_what_they_declare() {
@@ -210,6 +232,13 @@ fn joints_fix_what_they_declare() {
             match fixed {
                 Fixes::Points => rows.extend([gap.norm()]),
                 Fixes::Line => rows.push(Rotation::new(axis_i).inverse(gap).y.abs()),
+                Fixes::Beside(distance) => {
+                    rows.push((Rotation::new(axis_i).inverse(gap).y - distance).abs());
+                }
+                Fixes::Turn => {
+                    rows.push(residual[residual.len() - 1].abs());
+                    assert!(turned_to_zero(c, at).abs() < 1e-12, "{}", c.kind());
+                }
                 Fixes::Direction => rows.push((axis_j - axis_i).abs()),
                 Fixes::Distance(length) => {
                     let excess = (gap.dot(gap) - length * length) / (2.0 * length);

@@ -15,6 +15,7 @@ mod pendulum;
 mod point_mass;
 mod position;
 mod projection;
+mod wheels;
 
 use serde_json::Value;
 
