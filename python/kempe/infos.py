@@ -81,6 +81,7 @@ class ConstraintInfo:
         equations: names and units of the equations.
         columns: slice of its internal coordinates in q; empty for most joints.
         coordinates: names and units of its internal coordinates.
+        results: names, units, rows and factors of results that follow from single multipliers.
     """
 
     name: str
@@ -97,6 +98,7 @@ class ConstraintInfo:
     bodies: tuple[str, ...]
     columns: slice
     coordinates: tuple[tuple[str, str], ...]
+    results: tuple[tuple[str, str, int, float], ...]
 
     def __repr__(self) -> str:
         return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
@@ -181,6 +183,7 @@ def constraint(entry: dict[str, Any]) -> ConstraintInfo:
         bodies=tuple(entry["bodies"]),
         columns=slice(*entry["columns"]),
         coordinates=_units(entry["coordinates"]),
+        results=tuple((r["name"], r["unit"], r["row"], r["factor"]) for r in entry["results"]),
     )
 
 

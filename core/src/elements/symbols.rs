@@ -36,10 +36,10 @@ pub enum Mark {
     DriveShift,
     /// A slot on i along its axis, and a pin on j at its point.
     Slot,
-    /// A rack on i along its axis, with teeth, as far as the point of j moves.
-    ToothedLine,
-    /// A line on i along its axis, as far as the point of j moves.
-    Track,
+    /// A rack on i along its axis for a wheel on j with this radius in m, < 0 on its right.
+    ToothedLine(f64),
+    /// A line on i along its axis for a wheel on j with this radius in m, < 0 on its right.
+    Track(f64),
     /// The strands of a belt on wheels around the points, with these radii in m.
     Strands {
         /// Radius around the point of i and of j.
@@ -68,8 +68,8 @@ impl Mark {
             Self::DriveTurn => "drive_turn",
             Self::DriveShift => "drive_shift",
             Self::Slot => "slot",
-            Self::ToothedLine => "toothed_line",
-            Self::Track => "track",
+            Self::ToothedLine(_) => "toothed_line",
+            Self::Track(_) => "track",
             Self::Strands { crossed: false, .. } => "open_strands",
             Self::Strands { crossed: true, .. } => "crossed_strands",
             Self::Circle(_) => "circle",
@@ -79,7 +79,9 @@ impl Mark {
     /// Radii in m, around the points of i and of j, of a symbol that has the size of the mechanism.
     pub fn radii(self) -> Option<[f64; 2]> {
         match self {
-            Self::Circle(radius) => Some([0.0, radius]),
+            Self::Circle(radius) | Self::Track(radius) | Self::ToothedLine(radius) => {
+                Some([0.0, radius])
+            }
             Self::Strands { radii, .. } => Some(radii),
             _ => None,
         }

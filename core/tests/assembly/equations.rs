@@ -51,8 +51,8 @@ fn wheels_follow_one_another() {
         pin("A", "ground.A", "a.P"),
         pin("B", "ground.B", "b.P"),
         pin("C", "ground.C", "c.P"),
-        joint("g", "gear", "a.P", "b.P", "radii = [1, 2]"),
-        joint("t", "belt", "b.P", "c.P", "radii = [2, 1]"),
+        joint("mesh", "gear", "a.P", "b.P", "radii = [1, 2]"),
+        joint("belt", "belt", "b.P", "c.P", "radii = [2, 1]"),
         joint("slide", "translational", "ground.D", "rack.S", ""),
         joint("r", "rack", "rack.S", "c.P", "radius = -1\naxis = \"90*deg\"\noffset = 3.0"),
     ];

@@ -59,7 +59,7 @@ impl Joint for Rack {
 
     fn symbols(e: &Rack) -> Vec<SceneSymbol> {
         let (i, j) = (SymbolEnd::point(&e.i).along(e.axis), SymbolEnd::point(&e.j));
-        let line = SceneSymbol { mark: Mark::ToothedLine, i: i.clone(), j: j.clone() };
+        let line = SceneSymbol { mark: Mark::ToothedLine(e.radius), i: i.clone(), j: j.clone() };
         vec![SceneSymbol { mark: Mark::Circle(e.radius.abs()), i, j }, line]
     }
 

@@ -50,7 +50,7 @@ impl Joint for Rolling {
 
     fn symbols(e: &Rolling) -> Vec<SceneSymbol> {
         let (i, j) = (SymbolEnd::point(&e.i).along(e.axis), SymbolEnd::point(&e.j));
-        let line = SceneSymbol { mark: Mark::Track, i: i.clone(), j: j.clone() };
+        let line = SceneSymbol { mark: Mark::Track(e.radius), i: i.clone(), j: j.clone() };
         vec![SceneSymbol { mark: Mark::Circle(e.radius.abs()), i, j }, line]
     }
 
