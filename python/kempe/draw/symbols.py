@@ -18,8 +18,9 @@ _BLOCK = np.array([[-13.0, -7.5], [13.0, -7.5], [13.0, 7.5], [-13.0, 7.5]])
 _RAIL, _OVERHANG = 9.0, 24.0
 #: Place of the bars of a spring beside a dashpot, as a part of the distance, and their distance.
 _BAR, _ASIDE = 0.15, 6.5
-_SLOT = 5.5  # half width
+_SLOT, _BEYOND = 5.5, 14.0  # half width, length beyond the places of the pin
 _TEETH = 18.0  # of a wheel
+_TOOTH = [(-0.38, -1.0), (-0.14, 1.0), (0.14, 1.0), (0.38, -1.0)]
 _ROOM = 60.0  # of a dashpot along its line
 _SPIRAL = (4.5, 12.0)  # inner and outer radius
 _WINDINGS = 5.0 * np.pi
@@ -125,11 +126,12 @@ def _slide(symbol: Symbol) -> Iterator[Item]:
 
 
 def _circle(symbol: Symbol) -> Iterator[Item]:
-    """A pitch circle, with a radius of it that shows how the wheel turns."""
+    """A pitch circle, with a radius of it that shows how the wheel turns if it can."""
     body, radius = symbol["bodies"][1], symbol["radii"][1]
     frame, of, colour = on_body(body, symbol["points"][1]), symbol["element"], f"body {body}"
     yield line(of, frame, metres(items.circle(radius, 96)), colour, 1.2, closed=True)
-    yield line(of, frame, metres([(0.0, 0.0), (radius, 0.0)]), colour, 0.8)
+    if body:
+        yield line(of, frame, metres([(0.0, 0.0), (radius, 0.0)]), colour, 0.8)
 
 
 def _slot(symbol: Symbol) -> Iterator[Item]:
@@ -138,8 +140,15 @@ def _slot(symbol: Symbol) -> Iterator[Item]:
     low, high = symbol["reach"]
     frame = on_body(i, symbol["points"][0], turn=symbol["axes"][0])
     quarter = np.pi / 2.0
-    ends = [(low, items.arc(_SLOT, quarter, 3.0 * quarter)), (high, items.arc(_SLOT, -quarter, quarter))]
-    rim = [[x, 0.0, float(px), float(py)] for x, arc in ends for px, py in arc]
+    ends = [
+        (low, items.arc(_SLOT, quarter, 3.0 * quarter)),
+        (high, items.arc(_SLOT, -quarter, quarter)),
+    ]
+    rim = [
+        [x, 0.0, float(px) + beyond, float(py)]
+        for (x, arc), beyond in zip(ends, (-_BEYOND, _BEYOND), strict=True)
+        for px, py in arc
+    ]
     yield fill(of, frame, rim, "paper", layer=items.BODY)
     yield line(of, frame, rim, f"body {i}", 1.2, layer=items.BODY, closed=True)
     yield from _pin_at(symbol, 1)
@@ -159,10 +168,10 @@ def _toothed_line(symbol: Symbol) -> Iterator[Item]:
     """The teeth of a rack on body i across its pitch line, and its back."""
     of, i, radius = symbol["element"], symbol["bodies"][0], symbol["radii"][1]
     pitch, side = 2.0 * np.pi * abs(radius) / _TEETH, np.sign(radius)
-    low, high = (end + sign * 2.0 * pitch for end, sign in zip(symbol["reach"], (-1, 1), strict=True))
-    first = np.floor(low / pitch)
-    shape = np.array([(-0.38, -1.0), (-0.14, 1.0), (0.14, 1.0), (0.38, -1.0)]) * (pitch, 0.25 * pitch * side)
-    teeth = [(x + k * pitch, y) for k in np.arange(first, np.ceil(high / pitch) + 1.0) for x, y in shape]
+    low, high = symbol["reach"]
+    tooth = np.array(_TOOTH) * (pitch, 0.25 * pitch * side)
+    first, last = np.floor(low / pitch) - 2.0, np.ceil(high / pitch) + 2.0
+    teeth = [(x + k * pitch, y) for k in np.arange(first, last + 1.0) for x, y in tooth]
     back = -0.8 * pitch * side
     rim = metres([(teeth[0][0], back), *teeth, (teeth[-1][0], back)])
     frame = on_body(i, symbol["points"][0], turn=symbol["axes"][0])

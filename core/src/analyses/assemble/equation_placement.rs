@@ -6,7 +6,6 @@ use super::placer::Placer;
 use super::slider_placement::Rail;
 use crate::elements::{At, Fixes};
 use crate::math::{Local, Pose, Rotation, Vec2};
-use crate::model::{size, Model};
 
 /// Angles at which an equation is evaluated to find the signs of its solutions.
 const SAMPLES: usize = 72;
@@ -14,15 +13,6 @@ const SAMPLES: usize = 72;
 const NOTHING: f64 = 1e-9;
 /// Smallest component of a line along a coordinate with which the coordinate decides the place.
 const ACROSS: f64 = 1e-9;
-
-/// The constraints of each body that may place it, and the size of the mechanism.
-pub(super) struct ByEquation<'a> {
-    model: &'a Model,
-    size: f64,
-    of: Vec<Vec<usize>>,
-    /// The bodies that an equation joins to each body.
-    linked: Vec<Vec<usize>>,
-}
 
 /// The freedom that a body has left.
 enum Freedom {
@@ -40,33 +30,6 @@ impl Freedom {
                 pose
             }
         }
-    }
-}
-
-impl<'a> ByEquation<'a> {
-    pub fn new(model: &'a Model) -> Self {
-        let mut of = vec![Vec::new(); model.bodies.len()];
-        let mut linked = of.clone();
-        for (k, item) in model.constraints.iter().enumerate() {
-            let fixes = item.element.fixes();
-            let has = |wanted: fn(&Fixes<f64>) -> bool| fixes.iter().any(wanted);
-            let otherwise = has(|f| matches!(f, Fixes::Points | Fixes::Coordinate(..)))
-                || has(|f| *f == Fixes::Line) && has(|f| *f == Fixes::Direction);
-            if !otherwise && item.law.is_none() && item.element.own() == 0 {
-                item.bodies.iter().filter(|b| !b.is_ground()).for_each(|b| of[b.0].push(k));
-                for (a, b) in
-                    item.bodies.iter().flat_map(|a| item.bodies.iter().map(move |b| (a, b)))
-                {
-                    linked[a.0].extend((a != b && !b.is_ground()).then_some(b.0));
-                }
-            }
-        }
-        Self { model, size: size(model), of, linked }
-    }
-
-    /// The bodies that an equation joins to body `b`.
-    pub fn linked(&self, b: usize) -> &[usize] {
-        &self.linked[b]
     }
 }
 
@@ -122,7 +85,7 @@ impl Placer<'_> {
                 let (from, far) = (place.dot(rail.direction), 4.0 * self.equations.size);
                 let starts = [from, from + far, from - far];
                 let last = row(m - 1);
-                starts.iter().filter_map(|x| newton(&last, *x, self.equations.size)).collect()
+                starts.iter().filter_map(|x| newton(last, *x, self.equations.size)).collect()
             }
         };
         let mut poses: Vec<Pose> = Vec::new();
@@ -160,7 +123,7 @@ impl Placer<'_> {
         u.dot(j.point(at[1].s) - i.point(at[0].s)) >= 0.0
     }
 
-    /// The pose nearest to what is asked of body `b`; without that, an undecided choice.
+    /// The pose nearest to the targets of body `b`; without that, an undecided choice.
     fn chosen(&mut self, b: usize, poses: &[Pose]) -> Option<Pose> {
         if poses.len() < 2 {
             return poses.first().copied();
@@ -271,7 +234,7 @@ fn around(f: impl Fn(f64) -> f64, nothing: f64) -> Vec<f64> {
                 false => high = middle,
             }
         }
-        // a jump is no zero
+        // a jump is not a zero
         (f(low).abs() <= 1e-6 * spread).then_some(low)
     });
     halved.collect()

@@ -8,6 +8,7 @@
 //! A consistent position is not changed.
 
 mod angle_winding;
+mod by_equation;
 mod dyad;
 mod dyad_placement;
 mod equation_placement;

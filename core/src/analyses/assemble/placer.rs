@@ -12,7 +12,7 @@
 //! If no body can be placed, a coordinate is taken from the guess, or several angles are tried. Choices that
 //! no guess decides are numbered, so that a caller can go through all of them.
 
-use super::equation_placement::ByEquation;
+use super::by_equation::ByEquation;
 use super::legs::{legs, Leg};
 use super::placement::Placement;
 use super::slider_placement::{slides, Rail, Slide};
