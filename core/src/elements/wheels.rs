@@ -1,7 +1,6 @@
 //! Wheels that roll on each other or on a line, for the elements that contain them.
 
 use super::joint_trait::{At, Required, ResultOf};
-use super::kinds::PointOn;
 use crate::math::{Local, Pose, Real, Rotation, Vec2};
 
 /// Radii, r = module z/2 where the numbers of teeth z are given; NaN if neither is.
@@ -22,11 +21,6 @@ pub(super) fn centres<S: Real>(d: Vec2<S>, must: Option<S>) -> Vec<Required<S>> 
     let remedy =
         "hold both centres by joints on the same body, such as an arm or ground, at that distance";
     vec![Required { what: "distance of the centres", is: d.norm(), must, remedy }]
-}
-
-/// The vector from the first point to the second.
-pub(super) fn apart<S: Real>(i: &PointOn<S>, j: &PointOn<S>, at: &At<'_, S>) -> Vec2<S> {
-    at.j().point(j.s) - at.i().point(i.s)
 }
 
 /// r_i (φ_i - θ) + σ r_j (φ_j - θ) with θ the direction of `d`.

@@ -5,9 +5,10 @@
 //! a branch cut, so Φ is taken modulo 2π (rᵢ + σ rⱼ), nearest 0; where that is 0, θ cancels. λ is the difference of
 //! the forces of the two strands. The mechanism must hold the distance of the centres, which may have any value > 0.
 
-use crate::elements::wheels::{apart, centres, nearest, radius_fault, rolled, tangential};
+use crate::elements::wheels::{centres, nearest, radius_fault, rolled, tangential};
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required, ResultOf, SceneSymbol,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required, ResultOf,
+    SceneSymbol,
 };
 use crate::math::Real;
 
@@ -46,7 +47,7 @@ impl Joint for Belt {
     }
 
     fn residual<S: Real>(e: &Belt<S>, at: &At<'_, S>, phi: &mut [S]) {
-        let ([r_i, r_j], d) = (e.radii, apart(&e.i, &e.j, at));
+        let ([r_i, r_j], d) = (e.radii, measure::apart(at, &e.i, &e.j));
         phi[0] = match e.crossed {
             true => nearest(rolled(d, e.radii, 1.0, at) - e.offset, r_i + r_j),
             false => {
@@ -58,7 +59,7 @@ impl Joint for Belt {
     }
 
     fn requires<S: Real>(e: &Belt<S>, at: &At<'_, S>) -> Vec<Required<S>> {
-        centres(apart(&e.i, &e.j, at), None)
+        centres(measure::apart(at, &e.i, &e.j), None)
     }
 
     fn symbols(e: &Belt) -> Vec<SceneSymbol> {

@@ -7,9 +7,10 @@
 //! centres, so the pins carry it: ∂Φ/∂Pⱼ has length |rᵢ + σ rⱼ|/|d| = 1. The mechanism must hold the centres
 //! |rᵢ + σ rⱼ| apart.
 
-use crate::elements::wheels::{apart, centres, nearest, radii, radius_fault, rolled, tangential};
+use crate::elements::wheels::{centres, nearest, radii, radius_fault, rolled, tangential};
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Joint, Required, ResultOf, SceneSymbol,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Required, ResultOf,
+    SceneSymbol,
 };
 use crate::math::Real;
 
@@ -76,12 +77,12 @@ impl Joint for Gear {
 
     fn residual<S: Real>(e: &Gear<S>, at: &At<'_, S>, phi: &mut [S]) {
         let (sigma, sum) = sum(e);
-        let d = apart(&e.i, &e.j, at);
+        let d = measure::apart(at, &e.i, &e.j);
         phi[0] = nearest(rolled(d, radii_of(e), sigma, at) - e.offset, sum);
     }
 
     fn requires<S: Real>(e: &Gear<S>, at: &At<'_, S>) -> Vec<Required<S>> {
-        centres(apart(&e.i, &e.j, at), Some(sum(e).1.abs()))
+        centres(measure::apart(at, &e.i, &e.j), Some(sum(e).1.abs()))
     }
 
     fn symbols(e: &Gear) -> Vec<SceneSymbol> {

@@ -3,9 +3,10 @@
 //! With u the direction of the line, n = u turned by +90° and d = Pⱼ - Pᵢ: Φ = nᵀ d = 0, the first equation of the
 //! translational joint (Haug 3.3.13). No restriction of the domain.
 
-use crate::elements::wheels::{apart, directions};
+use crate::elements::wheels::directions;
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, SceneSymbol, SymbolEnd,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Measured, SceneSymbol,
+    SymbolEnd,
 };
 use crate::math::Real;
 
@@ -24,6 +25,7 @@ element! {
 }
 
 impl Joint for PinInSlot {
+    const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT];
     fn bodies<S>(e: &PinInSlot<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
     }
@@ -34,7 +36,11 @@ impl Joint for PinInSlot {
 
     fn residual<S: Real>(e: &PinInSlot<S>, at: &At<'_, S>, phi: &mut [S]) {
         let (_, n) = directions(e.axis, at.i());
-        phi[0] = n.dot(apart(&e.i, &e.j, at));
+        phi[0] = n.dot(measure::apart(at, &e.i, &e.j));
+    }
+
+    fn measure<S: Real>(e: &PinInSlot<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = measure::along(at, e.axis, &e.i, &e.j);
     }
 
     fn symbols(e: &PinInSlot) -> Vec<SceneSymbol> {

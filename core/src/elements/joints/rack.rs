@@ -4,10 +4,10 @@
 //! left of u; r < 0: on its right. λ is the tangential force at the pitch line. The mechanism must hold the centre at
 //! the distance r from the line; then the force acts at the pitch point.
 
-use crate::elements::wheels::{apart, directions, radius_fault, tangential};
+use crate::elements::wheels::{directions, radius_fault, tangential};
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required, ResultOf, SceneSymbol,
-    SymbolEnd,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Measured, Required,
+    ResultOf, SceneSymbol, SymbolEnd,
 };
 use crate::math::Real;
 
@@ -31,6 +31,7 @@ element! {
 }
 
 impl Joint for Rack {
+    const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT];
     const RESULTS: &'static [ResultOf] = &[tangential(0)];
 
     fn bodies<S>(e: &Rack<S>) -> Vec<BodyId> {
@@ -44,17 +45,21 @@ impl Joint for Rack {
     fn residual<S: Real>(e: &Rack<S>, at: &At<'_, S>, phi: &mut [S]) {
         let (u, _) = directions(e.axis, at.i());
         let turned = at.j().angle - at.i().angle;
-        phi[0] = u.dot(apart(&e.i, &e.j, at)) + e.radius * turned - e.offset;
+        phi[0] = u.dot(measure::apart(at, &e.i, &e.j)) + e.radius * turned - e.offset;
     }
 
     fn requires<S: Real>(e: &Rack<S>, at: &At<'_, S>) -> Vec<Required<S>> {
         let (_, n) = directions(e.axis, at.i());
         vec![Required {
             what: "distance of the centre from the pitch line, to its left,",
-            is: n.dot(apart(&e.i, &e.j, at)),
+            is: n.dot(measure::apart(at, &e.i, &e.j)),
             must: Some(e.radius),
             remedy: "hold line and centre by guides and pins at that distance; radius < 0 is a pinion on the right",
         }]
+    }
+
+    fn measure<S: Real>(e: &Rack<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = measure::along(at, e.axis, &e.i, &e.j);
     }
 
     fn symbols(e: &Rack) -> Vec<SceneSymbol> {

@@ -5,9 +5,10 @@
 //! line. r > 0: the wheel is on the left of u; r < 0: on its right. The line keeps the wheel on both sides: λ₁ may
 //! have any sign.
 
-use crate::elements::wheels::{apart, directions, radius_fault, tangential};
+use crate::elements::wheels::{directions, radius_fault, tangential};
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, ResultOf, SceneSymbol, SymbolEnd,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Measured, ResultOf,
+    SceneSymbol, SymbolEnd,
 };
 use crate::math::Real;
 
@@ -31,6 +32,7 @@ element! {
 }
 
 impl Joint for Rolling {
+    const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT];
     const RESULTS: &'static [ResultOf] = &[tangential(1)];
 
     fn bodies<S>(e: &Rolling<S>) -> Vec<BodyId> {
@@ -42,10 +44,14 @@ impl Joint for Rolling {
     }
 
     fn residual<S: Real>(e: &Rolling<S>, at: &At<'_, S>, phi: &mut [S]) {
-        let ((u, n), d) = (directions(e.axis, at.i()), apart(&e.i, &e.j, at));
+        let ((u, n), d) = (directions(e.axis, at.i()), measure::apart(at, &e.i, &e.j));
         let turned = at.j().angle - at.i().angle;
         let rolled = u.dot(d) + e.radius * turned - e.offset;
         phi.copy_from_slice(&[n.dot(d) - e.radius, rolled]);
+    }
+
+    fn measure<S: Real>(e: &Rolling<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = measure::along(at, e.axis, &e.i, &e.j);
     }
 
     fn symbols(e: &Rolling) -> Vec<SceneSymbol> {
