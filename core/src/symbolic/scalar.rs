@@ -121,6 +121,10 @@ impl Real for Symbolic {
     fn largest_magnitude(self) -> f64 {
         self.least_magnitude()
     }
+    /// That of a constant; NaN for all other expressions.
+    fn in_lanes(self) -> [f64; 4] {
+        [constant(self).unwrap_or(f64::NAN); 4]
+    }
     /// Whether a constant is finite; true for all other expressions.
     fn is_finite(self) -> bool {
         constant(self).is_none_or(f64::is_finite)
