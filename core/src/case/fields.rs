@@ -2,7 +2,9 @@
 
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
-use super::values::{count, number, pair, points, tolerance, two_names, word, wrong};
+use super::values::{
+    count, number, numbers, pair, points, tolerance, two_columns, two_names, word, wrong,
+};
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
 use crate::elements::{catalogue, Field, Shape, Table as Declaration};
@@ -97,6 +99,8 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Pair, _) => pair(report, node),
         (Shape::Points, _) => points(report, node),
         (Shape::Names, _) => two_names(report, node),
+        (Shape::Numbers, _) => numbers(report, node),
+        (Shape::Columns, _) => two_columns(report, node),
         (Shape::Count, _) => count(report, node),
         (Shape::Tolerance, _) => tolerance(report, node),
         (Shape::Word(words), _) => word(report, node, words),

@@ -1,6 +1,8 @@
 //! The names that an expression may use, and their meaning.
 
 use super::operation::FUNCTIONS;
+use super::table::Table;
+use std::sync::Arc;
 
 /// The meaning of a name in an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -22,6 +24,11 @@ pub trait Names {
 
     /// Every name that [`resolve`](Names::resolve) accepts, for suggestions.
     fn known(&self) -> Vec<String>;
+
+    /// The tables that it may call.
+    fn tables(&self) -> &[Arc<Table>] {
+        &[]
+    }
 }
 
 /// A list of names is a list of parameters.

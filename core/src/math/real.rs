@@ -68,6 +68,11 @@ pub trait Real:
     fn in_lanes(self) -> [f64; 4];
     /// Whether every part, derivatives included, is finite.
     fn is_finite(self) -> bool;
+    /// The function of a name of x, for a scalar that prints formulas; numbers have none.
+    fn named_function(self, name: &str) -> Option<Self> {
+        let _ = name;
+        None
+    }
 
     /// Zero.
     fn zero() -> Self {

@@ -9,7 +9,8 @@ use super::variable::Variable;
 use crate::elements::{
     holding, BodyId, Constraint, CoordinateOf, Fixes, ForceElement, Group, OwnState,
 };
-use crate::expression::{Inferred, Symbol, Tape};
+use crate::expression::{Inferred, Symbol, Table, Tape};
+use std::sync::Arc;
 
 /// The linked content of a file: elements over [`Tape`].
 #[derive(Clone, Debug)]
@@ -20,6 +21,8 @@ pub struct Blueprint {
     pub parameters: Vec<String>,
     /// Their dimensions, as far as they are written with units.
     pub inferred: Vec<Inferred>,
+    /// The tables that formulas may call.
+    pub tables: Vec<Arc<Table>>,
     /// Whether redundant constraints are accepted.
     pub allow_redundancy: bool,
     /// Acceleration of free fall.

@@ -113,6 +113,19 @@ impl<'a> Linker<'a> {
         [first, other].into_iter().find(|known| *known == unit).unwrap_or(ANY_UNIT)
     }
 
+    /// Refuses the law of a constraint that reads a table whose slope jumps between its points.
+    fn with_velocity(&mut self, field: &Field, law: Tape) -> Option<Tape> {
+        let Some(table) = law.tables().into_iter().find(|table| table.is_broken()) else {
+            return Some(law);
+        };
+        let name = table.name();
+        let message = format!(
+            "the law reads table '{name}', whose linear interpolation makes the velocity jump at its points"
+        );
+        let hint = format!("write interpolation = \"cubic\" in tables.{name}");
+        self.report(field, message, Some(hint))
+    }
+
     fn formula(&mut self, field: &Field, reach: Reach) -> Option<Tape> {
         match (self.entry.get(field.name), field.default) {
             (Some(value), _) => {
@@ -204,7 +217,11 @@ impl Source for Linker<'_> {
             Group::Forces => Reach::State,
             Group::Joints | Group::Drivers => Reach::Positions,
         };
-        self.formula(field, reach)
+        let law = self.formula(field, reach)?;
+        match self.group {
+            Group::Forces => Some(law),
+            Group::Joints | Group::Drivers => self.with_velocity(field, law),
+        }
     }
 
     fn pair(&mut self, field: &Field) -> Option<[Tape; 2]> {

@@ -123,7 +123,8 @@ impl Drawn<'_> {
             Shape::Law => self.law(),
             Shape::Pair => Value::List(vec![self.number(), self.number()]),
             Shape::Points => self.points(),
-            Shape::Names => Value::List(vec![text("A"), text("B")]),
+            Shape::Names | Shape::Columns => Value::List(vec![text("A"), text("B")]),
+            Shape::Numbers => Value::List((0..4).map(|k| Value::Number(f64::from(k))).collect()),
             Shape::Name => {
                 let known = self.joints.get(self.random.below(self.joints.len())).cloned();
                 text(&known.unwrap_or_default())

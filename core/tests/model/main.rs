@@ -10,3 +10,4 @@ mod refused;
 mod remedies;
 mod running;
 mod symbols;
+mod tables;

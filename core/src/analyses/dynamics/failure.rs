@@ -1,9 +1,10 @@
 //! Failures of forward dynamics, in terms of the mechanism.
 
-use super::law_fault::undefined_law;
+use super::law_fault::{undefined_law, LawFault};
 use super::run_results::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
+use crate::expression::TABLE_ENDS;
 use crate::integrate::Cause;
 use crate::model::Model;
 use crate::solve::Breakdown;
@@ -155,7 +156,7 @@ impl Failure {
             Cause::StepTooSmall { h, .. } => {
                 let step = format!("the step fell to {h:.1e} s at t = {t:.6} s");
                 match law(t) {
-                    Some(law) => (format!("{step}: {}", law_ends(&law)), LAW_ENDS),
+                    Some(law) => (format!("{step}: {}", law_ends(&law)), remedy(&law)),
                     None => (
                         format!("{step}: the tolerance cannot be met"),
                         "a singular position or a discontinuity lies here; look at the solution so far",
@@ -188,19 +189,26 @@ impl Failure {
     }
 }
 
-fn not_finite(t: f64, law: Option<String>) -> (String, &'static str) {
+fn not_finite(t: f64, law: Option<LawFault>) -> (String, &'static str) {
     let message = format!("the motion became infinite or undefined at t = {t:.6} s");
     match law {
-        Some(law) => (format!("{message}: {}", law_ends(&law)), LAW_ENDS),
+        Some(law) => (format!("{message}: {}", law_ends(&law)), remedy(&law)),
         None => (message, "use a smaller step or tolerance; check forces and laws at this state"),
     }
 }
 
-const LAW_ENDS: &str =
-    "write a formula that has a value during the whole run, or end the run before";
+fn remedy(fault: &LawFault) -> &'static str {
+    match fault.table {
+        Some(_) => TABLE_ENDS,
+        None => "write a formula that has a value during the whole run, or end the run before",
+    }
+}
 
-fn law_ends(law: &str) -> String {
-    format!("the law {law} has no finite value there")
+fn law_ends(LawFault { law, table }: &LawFault) -> String {
+    match table {
+        Some(table) => format!("the law {law} has no value there: {table}"),
+        None => format!("the law {law} has no finite value there"),
+    }
 }
 
 /// Two unequal numbers with as many digits as show the difference.
