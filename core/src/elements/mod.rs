@@ -5,6 +5,7 @@
 //! reference page and all derivatives follow from these two. To add an element, write its file, name it
 //! here, and give it a test sample and a page. No other source file names it.
 
+mod attachment;
 mod declare;
 pub(crate) mod derive;
 mod dispatch;
@@ -12,6 +13,8 @@ mod field;
 mod force_trait;
 mod joint_trait;
 mod kinds;
+mod measure;
+mod measured;
 mod symbols;
 mod value;
 mod written;
@@ -55,6 +58,7 @@ pub mod test_elements;
 
 use crate::expression::Tape;
 use crate::math::{Lift, Local, Pose, Real};
+pub use attachment::Attachment;
 use declare::join;
 pub use declare::{Element, Table};
 use dispatch::{constraints, declared, forces};
@@ -63,12 +67,13 @@ use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
-pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
+pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving};
 use joints::*;
 pub use kinds::{
-    body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, JointId,
-    Kind, PointOn, Source,
+    body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, Followed,
+    JointId, Kind, PointOn, QuantityOf, Source,
 };
+pub use measured::Measured;
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
 use test_elements::*;
@@ -108,5 +113,5 @@ pub fn catalogue() -> Vec<(Group, Table)> {
 
 /// The driver that holds a coordinate at a value: assembly holds by it what is `set`.
 pub fn holding(coordinate: CoordinateOf, value: Tape) -> Constraint<Tape> {
-    Constraint::CoordinateDriver(CoordinateDriver { coordinate, value })
+    Constraint::CoordinateDriver(CoordinateDriver { coordinate: coordinate.into(), value })
 }

@@ -4,7 +4,7 @@ use super::names::{function, internal, point, BodyName, Coordinates};
 use super::scalars::{scalars, Scalar};
 use super::{print, residual, Formulas};
 use crate::elements::{
-    BodyId, Constraint, Coordinate, CoordinateOf, Field, Group, JointId, PointOn, Source,
+    BodyId, Constraint, Coordinate, CoordinateOf, Field, Followed, Group, JointId, PointOn, Source,
 };
 use crate::expression::Tape;
 use crate::math::{Local, Pose};
@@ -90,8 +90,9 @@ impl Source for Sample {
         let s = Local { x: Tape::from(0.0), y: Tape::from(0.0) };
         Some(PointOn { body: self.next_body(), s })
     }
-    fn coordinate(&mut self, _: &Field) -> Option<CoordinateOf> {
-        Some(CoordinateOf { body: self.next_body(), coordinate: Coordinate::Angle })
+    fn coordinate(&mut self, _: &Field) -> Option<Followed<Tape>> {
+        let of = CoordinateOf { body: self.next_body(), coordinate: Coordinate::Angle };
+        Some(of.into())
     }
     fn joint(&mut self, _: &Field) -> Option<JointId> {
         Some(JointId(0))
