@@ -1,4 +1,4 @@
-"""The figure of the motion laws in docs/laws.md: value, velocity and acceleration of a driven slide.
+"""The figure of docs/laws.md: a slide driven by each motion law.
 
 Run ``.venv/bin/python tools/motion_laws.py``; it writes ``docs/images/motion_laws.png``.
 """

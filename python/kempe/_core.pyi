@@ -94,9 +94,9 @@ class Model:
         "forces": [{"name", "type", "i", "j", "bodies": [name], "parts": ["stiffness", "damping"],
         "points": null | [[x, y], [x, y]], "places": [start, stop], "states": [{"name", "unit"}],
         "reaction": null | joint}],
-        "tables": [{"name", "interpolation", "range": [first, last], "period": null | x}]}``; the first body is ground. ``columns`` of a body are its
-        coordinates in q, those of a constraint its internal coordinates; ``places`` of a force are
-        its states in z.
+        "tables": [{"name", "interpolation", "range": [first, last], "period": null | x}]}``; the
+        first body is ground. ``columns`` of a body are its coordinates in q, those of a constraint
+        its internal coordinates; ``places`` of a force are its states in z.
         """
 
     def table(self, name: str, derivative: int, x: _F) -> _F:

@@ -126,7 +126,9 @@ class TableFile:
             return self.path.as_posix()
 
 
-def _points(text: str, path: Path, columns: Sequence[str] | None) -> tuple[list[float], list[float]]:
+def _points(
+    text: str, path: Path, columns: Sequence[str] | None
+) -> tuple[list[float], list[float]]:
     """Two columns of a CSV text.
 
     Empty lines and lines that begin with # are left out. The first line is a header if it contains
@@ -147,7 +149,9 @@ def _points(text: str, path: Path, columns: Sequence[str] | None) -> tuple[list[
     at = _places(header, len(rows[0]), columns, path)
     if header is not None:
         rows, numbers = rows[1:], numbers[1:]
-    x, y = ([_cell(row, k, line, path) for row, line in zip(rows, numbers, strict=True)] for k in at)
+    x, y = (
+        [_cell(row, k, line, path) for row, line in zip(rows, numbers, strict=True)] for k in at
+    )
     return x, y
 
 

@@ -160,7 +160,9 @@ def test_results_need_no_file(tmp_path: Path) -> None:
     np.testing.assert_array_equal(stored["slide.x"], sol["slide.x"])
     assert stored.model.tables["lift"](np.pi) == pytest.approx(0.02, abs=1e-15)
     assert pickle.loads(text).tables["lift"](np.pi) == pytest.approx(0.02, abs=1e-15)
-    with pytest.raises(kp.FileError, match=r"tables.lift: cannot read .*lift.csv: it does not exist"):
+    with pytest.raises(
+        kp.FileError, match=r"tables.lift: cannot read .*lift.csv: it does not exist"
+    ):
         kp.load(path)
 
 
@@ -209,7 +211,10 @@ def test_faults_of_points_in_a_file_have_the_line_of_the_case(tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"x": [0, 90, 180, 170, 360]}, r"tables.lift.x.3: x\[3\] = 170 does not exceed x\[2\] = 180"),
+        (
+            {"x": [0, 90, 180, 170, 360]},
+            r"tables.lift.x.3: x\[3\] = 170 does not exceed x\[2\] = 180",
+        ),
         ({"y": [0, 1]}, "tables.lift.y: 2 numbers, but x has 5; give one y for each x"),
         ({"y": [0, 1, 2, 3, 4]}, r"y\[4\] = 4 is not y\[0\] = 0, as a period needs"),
         ({"y": [0, 1, float("nan"), 3, 0]}, r"tables.lift.y\[2\]: nan; must be finite"),
@@ -220,8 +225,14 @@ def test_faults_of_points_in_a_file_have_the_line_of_the_case(tmp_path: Path) ->
         ({"y_unit": "N"}, "'lift\\(3\\*t\\)' is in N .* must be in m"),
         ({"interpolation": "spline"}, "unknown word 'spline'; it may be linear, cubic"),
         ({"outside": "hold"}, "a periodic table has no outside; remove outside, or periodic"),
-        ({"interpolation": "linear"}, "makes the velocity jump .* interpolation = \"cubic\" in tables"),
-        ({"x": [0, 180, 360], "y": [0, 1, 0]}, "3 points; the interpolation periodic cubic needs at"),
+        (
+            {"interpolation": "linear"},
+            'makes the velocity jump .* interpolation = "cubic" in tables',
+        ),
+        (
+            {"x": [0, 180, 360], "y": [0, 1, 0]},
+            "3 points; the interpolation periodic cubic needs at",
+        ),
         ({"periodic": "yes"}, "tables.lift.periodic: 'yes'; must be True or False"),
     ],
 )
@@ -234,14 +245,16 @@ def test_wrong_tables_are_refused(changes: dict[str, Any], message: str) -> None
 def test_names_that_formulas_cannot_call_are_refused(name: str) -> None:
     m = kp.Model(parameters={"h": 1})
     m.table(name, x=[0, 1], y=[0, 1])
-    with pytest.raises(kp.ModelError, match="another name|rename the table or the parameter"):
+    with pytest.raises(kp.ModelError, match=r"another name|rename the table or the parameter"):
         m.compile()
     with pytest.raises(kp.ModelError, match="the name is taken by another table"):
         m.table(name, x=[0, 1], y=[0, 1])
 
 
 def test_names_of_functions_are_refused_for_parameters_only() -> None:
-    with pytest.raises(kp.ModelError, match="reserved: it is a function of formulas; rename the para"):
+    with pytest.raises(
+        kp.ModelError, match="reserved: it is a function of formulas; rename the para"
+    ):
         kp.Model(parameters={"harmonic": 1}).compile()
     m = kp.Model()
     m.body("harmonic", mass=1, inertia=1)

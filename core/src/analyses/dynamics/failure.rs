@@ -98,6 +98,7 @@ impl Failure {
                 (name(row), message)
             }
             Breakdown::Column(column) => no_inertia(model, t, column),
+            Breakdown::Open { gap, .. } if gap.is_nan() => return Self::undefined(model, t, q),
             Breakdown::Open { row, gap } => {
                 let message = format!(
                     "projection fails at t = {t:.6} s: constraint {} stays open by {gap:.1e}",
@@ -117,13 +118,16 @@ impl Failure {
                             must meet the constraints; check the size of the forces";
                 return Reason::Integration { t, message, hint }.into();
             }
-            Breakdown::NotFinite => {
-                let rest = vec![0.0; q.len()];
-                let (message, hint) = not_finite(t, undefined_law(model, (t, t), [q, &rest, &[]]));
-                return Reason::Integration { t, message, hint }.into();
-            }
+            Breakdown::NotFinite => return Self::undefined(model, t, q),
         };
         Reason::Singular { t, name, message }.into()
+    }
+
+    /// A number of the equations is not finite at a time and a position.
+    fn undefined(model: &Model, t: f64, q: &[f64]) -> Box<Self> {
+        let rest = vec![0.0; q.len()];
+        let (message, hint) = not_finite(t, undefined_law(model, (t, t), [q, &rest, &[]]));
+        Reason::Integration { t, message, hint }.into()
     }
 
     /// A row depends on the others where a run with projection continues.
@@ -145,7 +149,7 @@ impl Failure {
         let [q, v, z, _] = model.layout.split(y);
         let law = |failed| undefined_law(model, (t, failed), [q, v, z]);
         let (message, hint) = match cause {
-            Cause::Equations { t, error: Breakdown::NotFinite } => not_finite(t, law(t)),
+            Cause::Equations { t, error } if is_undefined(error) => not_finite(t, law(t)),
             Cause::Equations { t, error } => {
                 return Self::at_state(model, t, q, error)
             }
@@ -186,6 +190,15 @@ impl Failure {
             }
         };
         Reason::Integration { t, message, hint }.into()
+    }
+}
+
+/// Whether numbers are lost, so that a law may have no value.
+fn is_undefined(breakdown: Breakdown) -> bool {
+    match breakdown {
+        Breakdown::NotFinite => true,
+        Breakdown::Open { gap, .. } => gap.is_nan(),
+        _ => false,
     }
 }
 
