@@ -117,7 +117,11 @@ fn faults_have_their_places() {
         3,
         &["tables.lift.x: missing", "file = \"NAME.csv\""],
     );
-    refused(("periodic = true", "file = \"a.csv\""), 4, &["not together with file"]);
+    let found = problems(&text(("periodic = true", "file = \"a.csv\"")));
+    for (k, field) in ["x", "y"].into_iter().enumerate() {
+        let start = format!("{}: tables.lift.{field}: not together with file", 4 + k);
+        assert!(found.len() == 2 && found[k].starts_with(&start), "{found:?}");
+    }
     refused(
         ("periodic = true", "columns = [\"a\", \"b\"]"),
         8,
@@ -157,7 +161,9 @@ fn wrong_uses_in_laws_are_refused() {
     let force = "[forces.push]\ntype = \"spring_damper\"\ni = \"ground.O\"\nj = \"slide.P\"\nstiffness = \"torque(t)\"\n";
     assert!(problems_of(("[drivers.cam]", &format!("{force}[drivers.cam]"))).is_empty());
     // the unit of the table is not that of the place
-    refused(("y_unit = \"mm\"", "y_unit = \"N\""), 17, &["N"]);
+    let found = problems(&text(("y_unit = \"mm\"", "y_unit = \"N\"")));
+    assert_eq!(found.len(), 2, "of the parameter and of the law: {found:?}");
+    assert!(found[1].contains("'lift(3*t) - h' is in N (kg*m*s^-2); must be in m"), "{}", found[1]);
 }
 
 fn problems_of(change: (&str, &str)) -> Vec<String> {
