@@ -32,8 +32,9 @@ if TYPE_CHECKING:
 
 UNITS = (("m", "m", "rad"), ("m/s", "m/s", "rad/s"), ("m/s^2", "m/s^2", "rad/s^2"))
 ENERGIES = ("kinetic", "potential", "dissipated", "work", "total")
-#: A multiplier times its residual is an energy, so its unit is J per unit of the residual.
-_MULTIPLIER_UNITS = {"m": "N", "rad": "N*m"}
+#: A force times its coordinate, or a multiplier times its residual, is an energy: its unit is J per
+#: unit of the other.
+FORCE_UNITS = {"m": "N", "rad": "N*m"}
 
 
 @dataclass(frozen=True)
@@ -137,7 +138,7 @@ def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
         rate = partial(_column, partial(getattr, motion, "v"), k)
         found[f"{name}_rate"] = Quantity(f"{unit}/s", rate)
     for k, (name, unit) in enumerate(info.equations):
-        of = _MULTIPLIER_UNITS.get(unit, f"J/{unit}")
+        of = FORCE_UNITS.get(unit, f"J/{unit}")
         multiplier = partial(_column, partial(getattr, view, "lam"), k)
         found[f"lambda_{name}"] = Quantity(of, multiplier)
     return found
@@ -233,9 +234,7 @@ def of_force(motion: Motion, info: ForceInfo) -> Family:
     found |= _measured(motion, info)
     if info.points is not None:
         found |= _pushing(motion, info)
-    elif "omega" in found:
-        omega, torque = found["omega"].read, found["torque"].read
-        found["power"] = Quantity("W", lambda: scalar(torque() * omega()))
+    found["power"] = Quantity("W", partial(getattr, view, "power"))
     for name, unit in info.states:
         found[name] = Quantity(unit, partial(view.state, name))
     for body in dict.fromkeys(info.bodies):
@@ -252,10 +251,7 @@ def _pushing(motion: Motion, info: ForceInfo) -> dict[str, Quantity]:
     def force() -> Any:
         return scalar(_along(motion, ends, view.force(on=info.j)))
 
-    def power() -> Any:
-        return scalar(force() * motion.measured(info.name, 0, 1))
-
-    return {"force": Quantity("N", force), "power": Quantity("W", power)}
+    return {"force": Quantity("N", force)}
 
 
 def _acting(force: Callable[[], Floats], torque: Callable[[], Any]) -> dict[str, Quantity]:

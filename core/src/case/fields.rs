@@ -3,7 +3,8 @@
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
 use super::values::{
-    count, number, numbers, pair, points, tolerance, two_columns, two_names, word, wrong,
+    count, number, numbers, pair, plain_numbers, points, tolerance, two_columns, two_names, word,
+    wrong,
 };
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
@@ -96,10 +97,11 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
     match (shape, &node.data) {
         (_, Data::Refused(_)) => {}
         (Shape::Number | Shape::Law, _) => number(report, node),
-        (Shape::Pair, _) => pair(report, node),
+        (Shape::Pair | Shape::LawPair, _) => pair(report, node),
+        (Shape::Laws, _) => numbers(report, node),
         (Shape::Points, _) => points(report, node),
         (Shape::Names, _) => two_names(report, node),
-        (Shape::Numbers, _) => numbers(report, node),
+        (Shape::Numbers, _) => plain_numbers(report, node),
         (Shape::Columns, _) => two_columns(report, node),
         (Shape::Count, _) => count(report, node),
         (Shape::Tolerance, _) => tolerance(report, node),

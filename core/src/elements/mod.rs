@@ -70,14 +70,15 @@ use forces::*;
 pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving};
 use joints::*;
 pub use kinds::{
-    body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, Followed,
-    JointId, Kind, PointOn, QuantityOf, Source,
+    body, coordinate, flag, joint, law, law_pair, laws, number, optional_law, optional_number,
+    optional_pair, pair, point, side, BodyId, Coordinate, CoordinateOf, Followed, JointId, Kind,
+    Optional, PointOn, QuantityOf, Side, Source,
 };
 pub use measured::Measured;
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
 use test_elements::*;
-pub use value::{Number, Pair, Value};
+pub use value::{Number, Numbers, Pair, Value};
 pub use written::Written;
 pub(crate) use written::{argument, declare as element};
 
@@ -102,6 +103,7 @@ forces! {
     Motor,
     #[cfg(feature = "test-elements")] Lag,
     #[cfg(feature = "test-elements")] Rubbing,
+    #[cfg(feature = "test-elements")] Blower,
 }
 
 /// The declarations of all elements, in the order of the list.

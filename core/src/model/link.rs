@@ -164,17 +164,41 @@ impl<'a> Linker<'a> {
         }
     }
 
-    /// Refuses the law of a constraint that reads a table whose slope jumps between its points.
-    fn with_velocity(&mut self, field: &Field, law: Tape) -> Option<Tape> {
-        let Some(table) = law.tables().into_iter().find(|table| table.is_broken()) else {
-            return Some(law);
-        };
-        let name = table.name();
-        let message = format!(
-            "the law reads table '{name}', whose linear interpolation makes the velocity jump at its points"
-        );
-        let hint = format!("write interpolation = \"cubic\" in tables.{name}");
-        self.report(field, message, Some(hint))
+    /// The symbols that a law may use.
+    fn reach(&self) -> Reach {
+        match self.group {
+            Group::Forces => Reach::State,
+            Group::Joints | Group::Drivers => Reach::Positions,
+        }
+    }
+
+    /// A formula at a place within the entry.
+    fn read(&mut self, value: &Value, path: &[String], unit: &str, reach: Reach) -> Option<Tape> {
+        if reach != Reach::Parameters && !self.laws {
+            return Some(Tape::from(0.0));
+        }
+        self.scope.law(value, path, unit, (reach, Some(self.place())), self.problems)
+    }
+
+    /// The quantities that the laws of the entry may use.
+    fn place(&self) -> LawOf<'a> {
+        let (element, own) = (self.entry.name.as_str(), self.own_quantities());
+        LawOf { quantities: self.quantities, element, own }
+    }
+
+    fn two(&mut self, field: &Field, reach: Reach) -> Option<[Tape; 2]> {
+        if reach != Reach::Parameters && !self.laws {
+            return Some([0.0, 0.0].map(Tape::from));
+        }
+        match (self.entry.get(field.name), field.default) {
+            (Some(value), _) => {
+                let path = self.path(field);
+                let place = (reach, Some(self.place()));
+                self.scope.two(value, &path, &field.unit, place, self.problems)
+            }
+            (None, Some(Default::Pair(p))) => Some(p.map(Tape::from)),
+            (None, _) => self.missing(field),
+        }
     }
 
     fn formula(&mut self, field: &Field, reach: Reach) -> Option<Tape> {
@@ -182,12 +206,7 @@ impl<'a> Linker<'a> {
             (Some(value), _) => {
                 let path = self.path(field);
                 let unit = self.unit(field);
-                let law = LawOf {
-                    quantities: self.quantities,
-                    element: &self.entry.name,
-                    own: self.own_quantities(),
-                };
-                self.scope.law(value, &path, &unit, (reach, Some(law)), self.problems)
+                self.read(value, &path, &unit, reach)
             }
             (None, Some(Default::Number(x))) => Some(Tape::from(x)),
             (None, _) => self.missing(field),
@@ -206,6 +225,10 @@ pub fn did_you_mean(word: &str, known: &[&str], plural: &str) -> Option<String> 
 }
 
 impl Source for Linker<'_> {
+    fn given(&mut self, field: &Field) -> bool {
+        self.entry.get(field.name).is_some()
+    }
+
     fn body(&mut self, field: &Field) -> Option<BodyId> {
         let name = match (self.entry.get(field.name), field.default) {
             (None, Some(Default::Body(name))) => name,
@@ -278,28 +301,57 @@ impl Source for Linker<'_> {
     }
 
     fn law(&mut self, field: &Field) -> Option<Tape> {
-        if !self.laws {
-            return Some(Tape::from(0.0));
-        }
-        let reach = match self.group {
-            Group::Forces => Reach::State,
-            Group::Joints | Group::Drivers => Reach::Positions,
-        };
-        let law = self.formula(field, reach)?;
-        match self.group {
-            Group::Forces => Some(law),
-            Group::Joints | Group::Drivers => self.with_velocity(field, law),
-        }
+        self.formula(field, self.reach())
     }
 
     fn pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
-        match (self.entry.get(field.name), field.default) {
-            (Some(value), _) => {
-                let path = self.path(field);
-                self.scope.pair(value, &path, &field.unit, self.problems)
+        self.two(field, Reach::Parameters)
+    }
+
+    fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
+        self.two(field, self.reach())
+    }
+
+    fn laws(&mut self, field: &Field) -> Option<Vec<Tape>> {
+        let items = match self.entry.get(field.name) {
+            Some(Value::List(items)) => items,
+            Some(other) => {
+                let message = format!("must be a list of formulas, not {}", other.noun());
+                return self.report(field, message, None);
             }
-            (None, Some(Default::Pair(p))) => Some(p.map(Tape::from)),
+            None => return self.missing(field),
+        };
+        let (path, reach) = (self.path(field), self.reach());
+        let read = |(k, item): (usize, &Value)| {
+            let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
+            self.read(item, &path, &field.unit, reach)
+        };
+        // every formula is read, so that all errors are reported at once
+        let all: Vec<Option<Tape>> = items.iter().enumerate().map(read).collect();
+        all.into_iter().collect()
+    }
+
+    fn flag(&mut self, field: &Field) -> Option<bool> {
+        match (self.entry.get(field.name), field.default) {
+            (Some(Value::Flag(flag)), _) => Some(*flag),
+            (Some(other), _) => {
+                let message = format!("must be true or false, not {}", other.noun());
+                self.report(field, message, None)
+            }
+            (None, Some(Default::Flag(flag))) => Some(flag),
             (None, _) => self.missing(field),
         }
+    }
+
+    fn word(&mut self, field: &Field, words: &[&str]) -> Option<usize> {
+        let word = match (self.entry.get(field.name), field.default) {
+            (None, Some(Default::Body(word))) => word,
+            _ => self.text(field)?,
+        };
+        let found = words.iter().position(|known| *known == word);
+        found.or_else(|| {
+            let hint = did_you_mean(word, words, "words");
+            self.report(field, format!("unknown word '{word}'"), hint)
+        })
     }
 }

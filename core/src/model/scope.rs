@@ -321,11 +321,23 @@ impl Scope {
         unit: &str,
         problems: &mut Vec<Problem>,
     ) -> Option<[Tape; 2]> {
+        self.two(value, path, unit, (Reach::Parameters, None), problems)
+    }
+
+    /// Two formulas that may use the symbols within reach.
+    pub fn two(
+        &self,
+        value: &Value,
+        path: &[String],
+        unit: &str,
+        place: (Reach, Option<LawOf<'_>>),
+        problems: &mut Vec<Problem>,
+    ) -> Option<[Tape; 2]> {
         match value {
             Value::List(items) if items.len() == 2 => {
                 let mut at = |k: usize| {
                     let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
-                    self.formula(&items[k], &path, unit, Reach::Parameters, problems)
+                    self.law(&items[k], &path, unit, place, problems)
                 };
                 let (x, y) = (at(0), at(1));
                 Some([x?, y?])

@@ -122,6 +122,7 @@ impl Drawn<'_> {
             },
             Shape::Law => self.law(),
             Shape::Pair => Value::List(vec![self.number(), self.number()]),
+            Shape::LawPair | Shape::Laws => Value::List(vec![self.law(), self.law()]),
             Shape::Points => self.points(),
             Shape::Names | Shape::Columns => Value::List(vec![text("A"), text("B")]),
             Shape::Numbers => Value::List((0..4).map(|k| Value::Number(f64::from(k))).collect()),
