@@ -85,6 +85,7 @@ fn derivatives_are_the_integrals_of_the_acceleration() {
 
 /// Peak velocity and acceleration to the digits of the handbook's table.
 #[test]
+#[allow(clippy::approx_constant)] // digits of a table, two of which are those of π/2 and 2π
 fn the_peaks_are_those_of_the_literature() {
     for (name, velocity, acceleration) in [
         ("cycloidal", 2.0, 6.2832),
