@@ -110,6 +110,36 @@ pub(super) fn two_names(report: &mut Report, node: &Node) {
     }
 }
 
+/// Numbers, not formulas.
+pub(super) fn plain_numbers(report: &mut Report, node: &Node) {
+    let Data::List(items) = &node.data else { return wrong(report, node, "a list of numbers") };
+    for (k, item) in items.iter().enumerate() {
+        report.within(&k.to_string(), |report| match &item.data {
+            Data::Number(_) => {}
+            Data::Text(_) => {
+                let hint = "units are given by x_unit and y_unit; a parameter multiplies the function, as in h*lift(x)";
+                report.add(report.here("a text; must be a number").hint(hint));
+            }
+            _ => wrong(report, item, "a number"),
+        });
+    }
+}
+
+/// Two different names of columns, of any characters.
+pub(super) fn two_columns(report: &mut Report, node: &Node) {
+    let texts = match &node.data {
+        Data::List(items) => items.iter().map(|item| match &item.data {
+            Data::Text(text) => Some(text),
+            _ => None,
+        }),
+        _ => return wrong(report, node, "a list of two columns [\"angle\", \"lift\"]"),
+    };
+    match texts.collect::<Vec<_>>()[..] {
+        [Some(x), Some(y)] if x != y => {}
+        _ => report.say("must be a list of two different names of columns [\"angle\", \"lift\"]"),
+    }
+}
+
 /// A whole number from 1, or a formula.
 pub(super) fn count(report: &mut Report, node: &Node) {
     match &node.data {

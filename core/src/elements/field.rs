@@ -29,6 +29,10 @@ pub enum Shape {
     Names,
     /// One name.
     Name,
+    /// Numbers, without formulas.
+    Numbers,
+    /// Names of two columns of a file.
+    Columns,
     /// true or false.
     Flag,
     /// A whole number from 1.

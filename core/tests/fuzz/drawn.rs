@@ -131,7 +131,8 @@ impl Drawn<'_> {
             Shape::Units => Value::List(vec![text("m"), text("rad")]),
             Shape::LawPair | Shape::Laws => Value::List(vec![self.law(), self.law()]),
             Shape::Points => self.points(),
-            Shape::Names => Value::List(vec![text("A"), text("B")]),
+            Shape::Names | Shape::Columns => Value::List(vec![text("A"), text("B")]),
+            Shape::Numbers => Value::List((0..4).map(|k| Value::Number(f64::from(k))).collect()),
             Shape::Name => {
                 let known = self.joints.get(self.random.below(self.joints.len())).cloned();
                 text(&known.unwrap_or_default())
