@@ -15,6 +15,7 @@ mod joint_trait;
 mod kinds;
 mod measure;
 mod measured;
+mod pool;
 mod symbols;
 mod value;
 mod wheels;
@@ -72,8 +73,8 @@ use crate::math::{Lift, Local, Pose, Real};
 pub use attachment::Attachment;
 use declare::join;
 pub use declare::{Element, Table};
+pub use dispatch::Group;
 use dispatch::{constraints, declared, forces};
-pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
 use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
@@ -86,6 +87,7 @@ pub use kinds::{
     Optional, PointOn, QuantityOf, Side, Source,
 };
 pub use measured::Measured;
+pub use pool::{Place, Pooled, VisitForces, VisitJoints};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
 use test_elements::*;
