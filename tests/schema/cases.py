@@ -20,6 +20,18 @@ gravity = [0, "-g"]
 redundancy = "allow"
 [parameters]
 g = "9.81 m/s^2"
+[tables.lift]
+x = [0, 90, 180]
+y = [0, 10, 0]
+x_unit = "deg"
+y_unit = "mm"
+interpolation = "quintic"
+periodic = false
+outside = "hold"
+[tables.measured]
+file = "measured.csv"
+columns = ["t / s", "lift.y"]
+interpolation = "monotone"
 [bodies.ground]
 points = { O = [0, 0], P = [1, 0] }
 [bodies.a]

@@ -8,6 +8,7 @@
 //! unary      = ("-" | "+") unary | power
 //! power      = primary ["^" unary]      so -2^2 = -4, 2^-1 = 0.5, 2^3^2 = 2^9
 //! primary    = number | name | function "(" arguments ")" | "(" comparison ")"
+//! function   = one of FUNCTIONS, or the name of a table with one argument
 //! name       = part {"." part}          L1, t, pi, crank.omega, `my body`.omega
 //! ```
 //!
@@ -32,15 +33,18 @@ mod error;
 mod inference;
 mod lexer;
 mod limits;
+mod motion_law;
 mod names;
 mod operation;
 pub mod parameters;
 mod parser;
+mod points;
 mod postfix;
 mod print;
 mod quantity;
 pub mod suggest;
 mod symbol;
+mod table;
 mod tape;
 mod text;
 mod tree;
@@ -49,9 +53,12 @@ pub mod unit;
 pub use error::ExpressionError;
 pub use inference::Inferred;
 pub use limits::{MAX_DEPTH, MAX_LENGTH, MAX_OPERANDS};
+pub use motion_law::MotionLaw;
 pub use names::{is_identifier, is_reserved, Names};
 pub use operation::{Function, FUNCTIONS};
+pub use points::{Outside, Points, TableError, TABLE_ENDS};
 pub(crate) use postfix::Postfix;
 pub use symbol::Symbol;
+pub use table::{Kink, Table};
 pub use tape::{Scope, Tape, Values};
 pub use text::Expression;

@@ -1,8 +1,10 @@
 //! A compiled expression: instructions for a stack of operands.
 
-use super::operation::{Binary, Relation, Unary};
+use super::operation::{step5, Binary, Relation, Unary};
+use super::table::Table;
 use super::{Symbol, MAX_OPERANDS};
 use crate::math::Real;
+use std::sync::Arc;
 
 /// One step of an evaluation. Operands are on the stack, the last one on top.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +21,10 @@ pub(super) enum Instruction {
     PowerConstant(f64),
     /// Replaces (left - right, a, b) by a or b.
     Choose(Relation),
+    /// Replaces (t, t0, y0, t1, y1) by the rise.
+    Step5,
+    /// Replaces x by the value of a table, by its place among those of the tape.
+    Table(usize),
 }
 
 impl Instruction {
@@ -26,9 +32,10 @@ impl Instruction {
     pub fn operands(self) -> usize {
         match self {
             Self::Constant(_) | Self::Load(_) => 0,
-            Self::Unary(_) | Self::PowerConstant(_) => 1,
+            Self::Unary(_) | Self::PowerConstant(_) | Self::Table(_) => 1,
             Self::Binary(_) => 2,
             Self::Choose(_) => 3,
+            Self::Step5 => 5,
         }
     }
 }
@@ -68,12 +75,13 @@ impl<S: Real> Values<S> for Scope<'_, S> {
 }
 
 /// A compiled expression.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tape {
     pub(super) code: Vec<Instruction>,
     /// Most operands on the stack at a time, at most [`MAX_OPERANDS`].
     pub(super) operands: usize,
     pub(super) symbols: Vec<Symbol>,
+    pub(super) tables: Vec<Arc<Table>>,
 }
 
 impl Tape {
@@ -83,13 +91,18 @@ impl Tape {
     pub fn evaluate<S: Real>(&self, values: &impl Values<S>) -> S {
         // a large stack of large scalars costs more to clear than a short expression to evaluate
         if self.operands <= 8 {
-            self.run::<S, 8>(values)
+            self.run::<S, 8>(values, &mut |_, _| {})
         } else {
-            self.run::<S, MAX_OPERANDS>(values)
+            self.run::<S, MAX_OPERANDS>(values, &mut |_, _| {})
         }
     }
 
-    fn run<S: Real, const DEPTH: usize>(&self, values: &impl Values<S>) -> S {
+    /// Calls `read` with each table and the place at which it is read.
+    fn run<S: Real, const DEPTH: usize>(
+        &self,
+        values: &impl Values<S>,
+        read: &mut impl FnMut(&Table, S),
+    ) -> S {
         let mut stack = [S::zero(); DEPTH];
         let mut top = 0; // first free place
         for instruction in &self.code {
@@ -105,6 +118,11 @@ impl Tape {
                 Instruction::Choose(relation) => {
                     relation.choose(stack[first], stack[first + 1], stack[first + 2])
                 }
+                Instruction::Step5 => step5(std::array::from_fn(|k| stack[first + k])),
+                Instruction::Table(k) => {
+                    read(&self.tables[k], stack[first]);
+                    self.tables[k].value(stack[first])
+                }
             };
             top = first + 1;
         }
@@ -114,6 +132,34 @@ impl Tape {
     /// The symbols that the expression uses, each once, in order of appearance.
     pub fn symbols(&self) -> &[Symbol] {
         &self.symbols
+    }
+
+    /// The tables that are read at places which vary with time or state, in order of appearance.
+    pub fn tables(&self) -> Vec<&Arc<Table>> {
+        let mut stack: Vec<bool> = Vec::new();
+        let mut found = Vec::new();
+        for instruction in &self.code {
+            let operands = stack.split_off(stack.len() - instruction.operands());
+            let varies = operands.contains(&true);
+            stack.push(match instruction {
+                Instruction::Load(Symbol::Time | Symbol::Variable(_)) => true,
+                Instruction::Table(k) if varies => {
+                    found.push(&self.tables[*k]);
+                    true
+                }
+                _ => varies,
+            });
+        }
+        found
+    }
+
+    /// Why the expression has no value, if a table is read outside its range.
+    pub fn refusal(&self, values: &impl Values<f64>) -> Option<String> {
+        let mut reason = None;
+        self.run::<f64, MAX_OPERANDS>(values, &mut |table, x: f64| {
+            reason = reason.take().or_else(|| table.refusal(x));
+        });
+        reason
     }
 
     /// The indices of the parameters that the expression uses, each once.
@@ -154,7 +200,7 @@ impl Tape {
 impl From<f64> for Tape {
     /// A tape that is one constant.
     fn from(x: f64) -> Self {
-        Self { code: vec![Instruction::Constant(x)], operands: 1, symbols: Vec::new() }
+        Self { code: vec![Instruction::Constant(x)], operands: 1, ..Self::default() }
     }
 }
 
@@ -171,6 +217,6 @@ impl Tape {
             Instruction::Constant(position),
             Instruction::Binary(Add),
         ];
-        Self { code, operands: 2, symbols: vec![Symbol::Time] }
+        Self { code, operands: 2, symbols: vec![Symbol::Time], ..Self::default() }
     }
 }

@@ -18,6 +18,7 @@ mod quantity;
 mod scope;
 mod size;
 mod symbols;
+mod tables;
 mod variable;
 
 pub use blueprint::Blueprint;
@@ -32,4 +33,5 @@ pub use problem::Problem;
 pub use problems::{listed, more_problems, Problems, MOST_REPORTED};
 pub use scope::{Reach, Scope};
 pub use size::{column_scales, row_scales, size};
+pub use tables::table_fields;
 pub use variable::{Dependence, Variable};

@@ -4,7 +4,8 @@ use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{Motor, SpringDamper, Torque, TorsionSpring};
 use kempe::elements::joints::{
-    Belt, Distance, Gear, PinInSlot, Rack, Revolute, Rolling, Translational, Weld,
+    Belt, Coupling, Distance, Gear, GivenConstraint, PinInSlot, Rack, Revolute, Rolling,
+    Translational, Weld,
 };
 use kempe::elements::test_elements::{Bead, Blower, Lag, Levels, Pulley, Rubbing, TurnedPin};
 use kempe::elements::{
@@ -20,6 +21,7 @@ fn on(body: usize, x: f64, y: f64) -> PointOn {
 /// Joints and drivers; drivers act from ground.
 pub fn constraints() -> Vec<Constraint> {
     let driven = |coordinate| CoordinateOf { body: BodyId(2), coordinate };
+    let of = |body, coordinate| CoordinateOf { body: BodyId(body), coordinate }.into();
     let mut all = vec![
         Constraint::Revolute(Revolute {
             i: on(1, 0.3, -0.7),
@@ -33,6 +35,15 @@ pub fn constraints() -> Vec<Constraint> {
         }),
         Constraint::Distance(Distance { i: on(1, 0.6, -0.2), j: on(2, -0.3, 0.8), length: 1.4 }),
         Constraint::Weld(Weld { i: on(1, -0.2, 0.6), j: on(2, 0.7, -0.5), angle: 0.8 }),
+        Constraint::Coupling(Coupling {
+            terms: vec![(of(1, Coordinate::Angle), 2.0), (of(2, Coordinate::Y), -0.7)],
+            value: 0.4,
+            unit: None,
+        }),
+        Constraint::GivenConstraint(GivenConstraint {
+            residual: vec![0.3, -0.2],
+            units: vec!["m", "rad"],
+        }),
         Constraint::PinInSlot(PinInSlot { i: on(1, 0.4, -0.3), j: on(2, -0.6, 0.2), axis: 0.7 }),
         Constraint::Rack(Rack {
             i: on(1, 0.3, 0.1),
