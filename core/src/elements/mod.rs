@@ -16,6 +16,7 @@ mod joint_trait;
 mod kinds;
 mod measure;
 mod measured;
+mod pool;
 mod symbols;
 mod value;
 mod wheels;
@@ -77,8 +78,8 @@ use crate::math::{Lift, Local, Pose, Real};
 pub use attachment::Attachment;
 use declare::join;
 pub use declare::{Element, Table};
+pub use dispatch::Group;
 use dispatch::{constraints, declared, forces};
-pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
 use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
 pub use followed::{BodyId, Coordinate, CoordinateOf, Followed, QuantityOf};
@@ -92,6 +93,7 @@ pub use kinds::{
     JointId, Kind, Optional, PointOn, Side, Source,
 };
 pub use measured::Measured;
+pub use pool::{Place, Pooled, VisitForces, VisitJoints};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
 use test_elements::*;
