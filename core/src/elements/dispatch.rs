@@ -109,6 +109,10 @@ macro_rules! constraints {
             pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Constraint<T> {
                 match self { $($($(#[$on])* Self::$Name(e) => Constraint::$Name(<$Name>::map(e, f)),)+)+ }
             }
+            /// The number of scalars of each field, in the order of [`Constraint::map`].
+            pub fn scalars(&self) -> Vec<usize> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name>::scalars(e),)+)+ }
+            }
             /// Name of the type.
             pub fn kind(&self) -> &'static str {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name>::NAME,)+)+ }
@@ -254,6 +258,10 @@ macro_rules! forces {
             /// The same force over another scalar.
             pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> ForceElement<T> {
                 match self { $($(#[$on])* Self::$Name(e) => ForceElement::$Name(<$Name>::map(e, f)),)+ }
+            }
+            /// The number of scalars of each field, in the order of [`ForceElement::map`].
+            pub fn scalars(&self) -> Vec<usize> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::scalars(e),)+ }
             }
             /// Name of the type.
             pub fn kind(&self) -> &'static str {

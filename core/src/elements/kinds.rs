@@ -1,6 +1,6 @@
 //! Kinds of fields: the values that an element may hold, and how each is read and converted between scalars.
 
-use super::field::{Field, Shape};
+use super::field::{Default, Field, Shape};
 use crate::expression::Tape;
 use crate::math::{Local, Pose, Real, Twist};
 
@@ -96,6 +96,8 @@ pub struct CoordinateOf {
 
 /// Where fields are read from; it keeps the reports of their faults.
 pub trait Source {
+    /// Whether the field has a value of its own.
+    fn given(&mut self, field: &Field) -> bool;
     /// A body by name.
     fn body(&mut self, field: &Field) -> Option<BodyId>;
     /// A named point of a body.
@@ -110,6 +112,14 @@ pub trait Source {
     fn law(&mut self, field: &Field) -> Option<Tape>;
     /// Two formulas in the parameters.
     fn pair(&mut self, field: &Field) -> Option<[Tape; 2]>;
+    /// Two formulas in the parameters, time and state.
+    fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]>;
+    /// Formulas in the parameters, time and state.
+    fn laws(&mut self, field: &Field) -> Option<Vec<Tape>>;
+    /// true or false.
+    fn flag(&mut self, field: &Field) -> Option<bool>;
+    /// The place of a word among those that the field may hold.
+    fn word(&mut self, field: &Field, words: &[&str]) -> Option<usize>;
 }
 
 /// A kind of field.
@@ -118,6 +128,8 @@ pub trait Kind {
     type Over<S>;
     /// The values that the file may hold.
     const SHAPE: Shape;
+    /// The default of a field that declares none; None if the field must then be given.
+    const DEFAULT: Option<Default> = None;
     /// Reads one field.
     fn read(source: &mut dyn Source, field: &Field) -> Option<Self::Over<Tape>>;
     /// Converts it to another scalar.
@@ -173,3 +185,92 @@ kind!(
     /// Two constants.
     pair, Pair, S => [S; 2], |v, f| [f(&v[0]), f(&v[1])]
 );
+kind!(
+    /// Two quantities that may depend on time and state.
+    law_pair, LawPair, S => [S; 2], |v, f| [f(&v[0]), f(&v[1])]
+);
+kind!(
+    /// Any number of quantities that may depend on time and state.
+    laws, Laws, S => Vec<S>, |v, f| v.iter().map(f).collect()
+);
+kind!(
+    /// true or false.
+    flag, Flag, S => bool, |v, _f| *v
+);
+
+/// A field of kind `K` that may be left out.
+#[derive(Clone, Copy, Debug)]
+pub struct Optional<K>(std::marker::PhantomData<K>);
+
+impl<K: Kind> Kind for Optional<K> {
+    type Over<S> = Option<K::Over<S>>;
+    const SHAPE: Shape = K::SHAPE;
+    const DEFAULT: Option<Default> = Some(Default::Absent);
+    fn read(source: &mut dyn Source, field: &Field) -> Option<Self::Over<Tape>> {
+        match source.given(field) {
+            true => K::read(source, field).map(Some),
+            false => Some(None),
+        }
+    }
+    fn map<S, T>(value: &Self::Over<S>, f: &mut dyn FnMut(&S) -> T) -> Self::Over<T> {
+        value.as_ref().map(|value| K::map(value, f))
+    }
+}
+
+macro_rules! optional {
+    ($($(#[$doc:meta])* $kind:ident: $of:ident),+ $(,)?) => {
+        $(
+            $(#[$doc])*
+            #[allow(non_camel_case_types)] // a type in `element!`, written like a word
+            pub type $kind = Optional<$of>;
+        )+
+    };
+}
+
+optional! {
+    /// A constant that may be left out.
+    optional_number: number,
+    /// Two constants that may be left out.
+    optional_pair: pair,
+    /// A quantity that may be left out.
+    optional_law: law,
+}
+
+/// Declares a kind of field that holds one of some words, and the enum of its values.
+macro_rules! words {
+    ($(#[$doc:meta])* $kind:ident: $Words:ident { $($(#[$about:meta])* $Word:ident = $word:literal),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $Words {
+            $($(#[$about])* $Word,)+
+        }
+        $(#[$doc])*
+        #[allow(non_camel_case_types)] // a type in `element!`, written like a word
+        #[derive(Clone, Copy, Debug)]
+        pub enum $kind {}
+        impl $kind {
+            const WORDS: &'static [&'static str] = &[$($word),+];
+            const VALUES: &'static [$Words] = &[$($Words::$Word),+];
+        }
+        impl Kind for $kind {
+            type Over<S> = $Words;
+            const SHAPE: Shape = Shape::Word(Self::WORDS);
+            fn read(source: &mut dyn Source, field: &Field) -> Option<$Words> {
+                source.word(field, Self::WORDS).map(|k| Self::VALUES[k])
+            }
+            fn map<S, T>(value: &$Words, _: &mut dyn FnMut(&S) -> T) -> $Words {
+                *value
+            }
+        }
+    };
+}
+
+words! {
+    /// A side of a curve, seen along it.
+    side: Side {
+        /// To the right.
+        Right = "right",
+        /// To the left.
+        Left = "left",
+    }
+}

@@ -66,13 +66,14 @@ use forces::*;
 pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
 use joints::*;
 pub use kinds::{
-    body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, JointId,
-    Kind, PointOn, Source,
+    body, coordinate, flag, joint, law, law_pair, laws, number, optional_law, optional_number,
+    optional_pair, pair, point, side, BodyId, Coordinate, CoordinateOf, JointId, Kind, Optional,
+    PointOn, Side, Source,
 };
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
 use test_elements::*;
-pub use value::{Number, Pair, Value};
+pub use value::{Number, Numbers, Pair, Value};
 pub use written::Written;
 pub(crate) use written::{argument, declare as element};
 
@@ -97,6 +98,7 @@ forces! {
     Motor,
     #[cfg(feature = "test-elements")] Lag,
     #[cfg(feature = "test-elements")] Rubbing,
+    #[cfg(feature = "test-elements")] Blower,
 }
 
 /// The declarations of all elements, in the order of the list.

@@ -113,6 +113,25 @@ impl<'a> Linker<'a> {
         [first, other].into_iter().find(|known| *known == unit).unwrap_or(ANY_UNIT)
     }
 
+    /// The symbols that a law may use.
+    fn reach(&self) -> Reach {
+        match self.group {
+            Group::Forces => Reach::State,
+            Group::Joints | Group::Drivers => Reach::Positions,
+        }
+    }
+
+    fn two(&mut self, field: &Field, reach: Reach) -> Option<[Tape; 2]> {
+        match (self.entry.get(field.name), field.default) {
+            (Some(value), _) => {
+                let path = self.path(field);
+                self.scope.two(value, &path, (&field.unit, reach), self.problems)
+            }
+            (None, Some(Default::Pair(p))) => Some(p.map(Tape::from)),
+            (None, _) => self.missing(field),
+        }
+    }
+
     fn formula(&mut self, field: &Field, reach: Reach) -> Option<Tape> {
         match (self.entry.get(field.name), field.default) {
             (Some(value), _) => {
@@ -137,6 +156,10 @@ pub fn did_you_mean(word: &str, known: &[&str], plural: &str) -> Option<String> 
 }
 
 impl Source for Linker<'_> {
+    fn given(&mut self, field: &Field) -> bool {
+        self.entry.get(field.name).is_some()
+    }
+
     fn body(&mut self, field: &Field) -> Option<BodyId> {
         let name = match (self.entry.get(field.name), field.default) {
             (None, Some(Default::Body(name))) => name,
@@ -200,21 +223,57 @@ impl Source for Linker<'_> {
     }
 
     fn law(&mut self, field: &Field) -> Option<Tape> {
-        let reach = match self.group {
-            Group::Forces => Reach::State,
-            Group::Joints | Group::Drivers => Reach::Positions,
-        };
-        self.formula(field, reach)
+        self.formula(field, self.reach())
     }
 
     fn pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
-        match (self.entry.get(field.name), field.default) {
-            (Some(value), _) => {
-                let path = self.path(field);
-                self.scope.pair(value, &path, &field.unit, self.problems)
+        self.two(field, Reach::Parameters)
+    }
+
+    fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
+        self.two(field, self.reach())
+    }
+
+    fn laws(&mut self, field: &Field) -> Option<Vec<Tape>> {
+        let items = match self.entry.get(field.name) {
+            Some(Value::List(items)) => items,
+            Some(other) => {
+                let message = format!("must be a list of formulas, not {}", other.noun());
+                return self.report(field, message, None);
             }
-            (None, Some(Default::Pair(p))) => Some(p.map(Tape::from)),
+            None => return self.missing(field),
+        };
+        let (path, reach) = (self.path(field), self.reach());
+        let read = |(k, item): (usize, &Value)| {
+            let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
+            self.scope.formula(item, &path, &field.unit, reach, self.problems)
+        };
+        // every formula is read, so that all errors are reported at once
+        let all: Vec<Option<Tape>> = items.iter().enumerate().map(read).collect();
+        all.into_iter().collect()
+    }
+
+    fn flag(&mut self, field: &Field) -> Option<bool> {
+        match (self.entry.get(field.name), field.default) {
+            (Some(Value::Flag(flag)), _) => Some(*flag),
+            (Some(other), _) => {
+                let message = format!("must be true or false, not {}", other.noun());
+                self.report(field, message, None)
+            }
+            (None, Some(Default::Flag(flag))) => Some(flag),
             (None, _) => self.missing(field),
         }
+    }
+
+    fn word(&mut self, field: &Field, words: &[&str]) -> Option<usize> {
+        let word = match (self.entry.get(field.name), field.default) {
+            (None, Some(Default::Body(word))) => word,
+            _ => self.text(field)?,
+        };
+        let found = words.iter().position(|known| *known == word);
+        found.or_else(|| {
+            let hint = did_you_mean(word, words, "words");
+            self.report(field, format!("unknown word '{word}'"), hint)
+        })
     }
 }

@@ -229,11 +229,22 @@ impl Scope {
         unit: &str,
         problems: &mut Vec<Problem>,
     ) -> Option<[Tape; 2]> {
+        self.two(value, path, (unit, Reach::Parameters), problems)
+    }
+
+    /// Two formulas that may use the symbols within reach.
+    pub fn two(
+        &self,
+        value: &Value,
+        path: &[String],
+        (unit, reach): (&str, Reach),
+        problems: &mut Vec<Problem>,
+    ) -> Option<[Tape; 2]> {
         match value {
             Value::List(items) if items.len() == 2 => {
                 let mut at = |k: usize| {
                     let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
-                    self.formula(&items[k], &path, unit, Reach::Parameters, problems)
+                    self.formula(&items[k], &path, unit, reach, problems)
                 };
                 let (x, y) = (at(0), at(1));
                 Some([x?, y?])

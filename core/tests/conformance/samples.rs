@@ -4,10 +4,10 @@ use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{Motor, SpringDamper, Torque, TorsionSpring};
 use kempe::elements::joints::{Distance, Revolute, Translational, Weld};
-use kempe::elements::test_elements::{Bead, Lag, Levels, Pulley, Rubbing, TurnedPin};
+use kempe::elements::test_elements::{Bead, Blower, Lag, Levels, Pulley, Rubbing, TurnedPin};
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, JointId,
-    Linearized, Moving, PointOn,
+    Linearized, Moving, PointOn, Side,
 };
 use kempe::math::{Local, Motion, Pose, Real, Twist, Vec2};
 
@@ -58,6 +58,17 @@ pub fn forces() -> Vec<ForceElement> {
     all.push(ForceElement::Lag(Lag { i: BodyId(1), j: BodyId(2), stiffness: 4.0, time: 0.3 }));
     let (joint, i, j) = (JointId(0), BodyId(1), BodyId(2));
     all.push(ForceElement::Rubbing(Rubbing { joint, i, j, arm: 0.05, speed: 0.4 }));
+    all.push(ForceElement::Blower(Blower {
+        j,
+        i,
+        force: [1.2, -0.4],
+        gusts: vec![0.3, 0.9],
+        factor: Some(1.7),
+        side: Side::Left,
+        off: false,
+        more: None,
+        less: Some(0.2),
+    }));
     for inductance in [0.0, 0.3] {
         all.push(ForceElement::Motor(Motor {
             i: BodyId(1),

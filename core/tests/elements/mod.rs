@@ -2,6 +2,7 @@
 //! to the core where the feature `test-elements` is on, as in its tests.
 
 mod bead;
+mod blower;
 mod lag;
 mod levels;
 mod pulley;
@@ -9,6 +10,7 @@ mod rubbing;
 mod turned_pin;
 
 pub use bead::Bead;
+pub use blower::Blower;
 pub use lag::Lag;
 pub use levels::Levels;
 pub use pulley::Pulley;

@@ -6,6 +6,7 @@ mod mechanisms;
 mod building;
 mod dimensions;
 mod edges;
+mod fields;
 mod refused;
 mod remedies;
 mod running;
