@@ -3,7 +3,7 @@
 use crate::guard::guard;
 use crate::recent_options::RecentOptions;
 use kempe::analyses::dynamics::Prepared;
-use kempe::elements::{BodyId, OwnState, SceneSymbol, SymbolEnd};
+use kempe::elements::{BodyId, Curve, OwnState, ResultQuantity, SceneSymbol, SymbolEnd};
 use kempe::math::Local;
 use kempe::model::{Body, Columns, Model};
 use pyo3::prelude::*;
@@ -94,6 +94,7 @@ fn describe(model: &Model) -> Value {
 fn body(body: &Body, columns: Columns) -> Value {
     let points: Map<String, Value> =
         body.points.iter().map(|(name, s)| (name.clone(), pair(s))).collect();
+    let curves: Map<String, Value> = body.curves.iter().filter_map(drawn).collect();
     json!({
         "name": body.name,
         "type": body.kind,
@@ -101,8 +102,16 @@ fn body(body: &Body, columns: Columns) -> Value {
         "inertia": body.inertia,
         "center": pair(&body.center),
         "points": points,
+        "curves": curves,
         "columns": span(&columns.range()),
     })
+}
+
+/// The name of a curve and points along it, for drawings.
+fn drawn((name, curve): &(String, Option<Curve>)) -> Option<(String, Value)> {
+    let curve = curve.as_ref()?;
+    let points: Vec<Value> = curve.drawn().iter().map(pair).collect();
+    Some((name.clone(), json!({ "points": points, "closed": curve.periodic() })))
 }
 
 fn span(range: &Range<usize>) -> Value {
@@ -129,6 +138,7 @@ fn internal(columns: Columns) -> Vec<Value> {
 fn constraint(model: &Model, k: usize) -> Value {
     let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
     let (i, j, bodies) = connected(model, &item.bodies);
+    let result = |r: &ResultQuantity| json!({ "name": r.name, "unit": r.unit, "negative": r.negative });
     let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.unit });
     json!({
         "name": item.name,
@@ -145,6 +155,7 @@ fn constraint(model: &Model, k: usize) -> Value {
         "coordinates": internal(slots.own),
         "rows": span(&slots.rows),
         "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
+        "results": item.element.result_quantities().iter().map(result).collect::<Vec<_>>(),
     })
 }
 

@@ -2,7 +2,9 @@
 
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
-use super::values::{count, number, numbers, pair, points, tolerance, two_names, word, wrong};
+use super::values::{
+    count, curves, number, numbers, pair, points, tolerance, two_names, word, wrong,
+};
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
 use crate::elements::{catalogue, Field, Shape, Table as Declaration};
@@ -97,6 +99,7 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Pair | Shape::LawPair, _) => pair(report, node),
         (Shape::Laws, _) => numbers(report, node),
         (Shape::Points, _) => points(report, node),
+        (Shape::Curves, _) => curves(report, node),
         (Shape::Names, _) => two_names(report, node),
         (Shape::Count, _) => count(report, node),
         (Shape::Tolerance, _) => tolerance(report, node),
@@ -104,6 +107,8 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Options(family), _) => chosen(report, node, family),
         (Shape::Flag, Data::Flag(_)) => {}
         (Shape::Flag, _) => wrong(report, node, "true or false"),
+        (Shape::Curve, Data::Text(_)) => {}
+        (Shape::Curve, _) => wrong(report, node, "a curve as \"body.curve\""),
         (Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name, Data::Text(_)) => {}
         (Shape::Body, _) => wrong(report, node, "the name of a body"),
         (Shape::Point, _) => wrong(report, node, "a point as \"body.point\""),

@@ -19,4 +19,3 @@ pub const CURVE_FORMS: &[CurveForm] = &[
     CurveForm { keys: &["circle"], more: &[], words: "circle" },
     CurveForm { keys: &["line"], more: &[], words: "line" },
 ];
-

@@ -125,6 +125,18 @@ macro_rules! constraints {
             pub fn own(&self) -> usize {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::OWN,)+)+ }
             }
+            /// Results beside the reaction.
+            pub fn result_quantities(&self) -> &'static [ResultQuantity] {
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::RESULTS,)+)+ }
+            }
+            /// The curve along which the first internal coordinate is measured.
+            pub fn curve(&self) -> Option<&CurveOn<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::curve(e),)+)+ }
+            }
+            /// The same, mutable.
+            pub fn curve_mut(&mut self) -> Option<&mut CurveOn<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::curve_mut(e),)+)+ }
+            }
             /// Whether the columns of translation are -I for body i and +I for body j.
             pub fn constant_columns(&self) -> bool {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::CONSTANT_COLUMNS,)+)+ }
@@ -165,6 +177,14 @@ macro_rules! constraints {
             /// Φ, Φ̇, γ and Φ_q for fields that do not vary with time or state.
             pub fn linearize(&self, at: &Moving<'_, S>, out: Linearized<'_, S>) {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::linearize(e, at, out),)+)+ }
+            }
+            /// The place where the reaction acts, in the frame of body j, if it moves.
+            pub fn contact(&self, at: &At<'_, S>) -> Option<Local<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::contact(e, at),)+)+ }
+            }
+            /// The values of [`Constraint::result_quantities`].
+            pub fn results(&self, at: &At<'_, S>, lam: &[S], out: &mut [S]) {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::results(e, at, lam, out),)+)+ }
             }
             /// The joint frame on a body, given by its place in [`bodies`](Self::bodies).
             pub fn attachment(&self, body: usize) -> Attachment<S> {

@@ -3,6 +3,7 @@
 use super::declare::Element;
 use super::derive;
 use super::kinds::{BodyId, CoordinateOf};
+use super::plane_curve::CurveOn;
 use super::symbols::SceneSymbol;
 use crate::math::{Local, Motion, Pose, Real};
 
@@ -91,6 +92,17 @@ pub enum Fixes<S> {
     Coordinate(CoordinateOf, S),
 }
 
+/// A result of a joint beside its reaction, such as the normal force of a roller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ResultQuantity {
+    /// Name within the joint: `sol["cam.normal"]`.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// The event of a run where it becomes negative.
+    pub negative: Option<&'static str>,
+}
+
 /// A joint or driver: equations Φ(q, t) = 0 between any number of bodies and internal coordinates.
 pub trait Joint: Element {
     /// Whether there are two equations whose columns of translation never change: -I for body i, +I for
@@ -99,6 +111,9 @@ pub trait Joint: Element {
 
     /// Number of internal coordinates, 0 to 3.
     const OWN: usize = 0;
+
+    /// Results beside the reaction, in the order of [`Joint::results`].
+    const RESULTS: &'static [ResultQuantity] = &[];
 
     /// The bodies whose poses enter Φ: i and j first.
     fn bodies<S>(e: &Self::Over<S>) -> Vec<BodyId>;
@@ -111,6 +126,29 @@ pub trait Joint: Element {
 
     /// The joint frame on a body, given by its place in [`Joint::bodies`].
     fn attachment<S: Real>(e: &Self::Over<S>, body: usize) -> Attachment<S>;
+
+    /// The place where the reaction acts, in the frame of body j; None if it acts at the origins of the joint frames.
+    fn contact<S: Real>(e: &Self::Over<S>, at: &At<'_, S>) -> Option<Local<S>> {
+        let _ = (e, at);
+        None
+    }
+
+    /// The [`RESULTS`](Joint::RESULTS) for the multipliers `lam` of the rows of the joint.
+    fn results<S: Real>(e: &Self::Over<S>, at: &At<'_, S>, lam: &[S], out: &mut [S]) {
+        let _ = (e, at, lam, out);
+    }
+
+    /// The curve along which the first internal coordinate is measured.
+    fn curve<S>(e: &Self::Over<S>) -> Option<&CurveOn<S>> {
+        let _ = e;
+        None
+    }
+
+    /// The same, mutable.
+    fn curve_mut<S>(e: &mut Self::Over<S>) -> Option<&mut CurveOn<S>> {
+        let _ = e;
+        None
+    }
 
     /// The geometry that the joint fixes, for assembly.
     fn fixes<S: Clone>(e: &Self::Over<S>) -> Vec<Fixes<S>> {

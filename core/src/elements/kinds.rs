@@ -1,6 +1,7 @@
 //! Kinds of fields: the values that an element may hold, and how each is read and converted between scalars.
 
 use super::field::{Default, Field, Shape};
+use super::plane_curve::CurveOn;
 use crate::expression::Tape;
 use crate::math::{Local, Pose, Real, Twist};
 
@@ -102,6 +103,8 @@ pub trait Source {
     fn body(&mut self, field: &Field) -> Option<BodyId>;
     /// A named point of a body.
     fn point(&mut self, field: &Field) -> Option<PointOn<Tape>>;
+    /// A named curve of a body.
+    fn curve(&mut self, field: &Field) -> Option<CurveOn<Tape>>;
     /// A coordinate of a moving body.
     fn coordinate(&mut self, field: &Field) -> Option<CoordinateOf>;
     /// A joint by name.
@@ -164,6 +167,10 @@ kind!(
     point, Point, S => PointOn<S>, |v, f| PointOn {
         body: v.body, s: Local { x: f(&v.s.x), y: f(&v.s.y) }
     }
+);
+kind!(
+    /// A curve of a body.
+    curve, Curve, S => CurveOn<S>, |v, f| CurveOn { body: v.body, curve: v.curve.map(f) }
 );
 kind!(
     /// A coordinate of a body.

@@ -5,6 +5,9 @@
 //! reference page and all derivatives follow from these two. To add an element, write its file, name it
 //! here, and give it a test sample and a page. No other source file names it.
 
+pub(crate) mod contact;
+mod curve_forms;
+mod curve_formula;
 mod declare;
 pub(crate) mod derive;
 mod dispatch;
@@ -12,6 +15,7 @@ mod field;
 mod force_trait;
 mod joint_trait;
 mod kinds;
+mod plane_curve;
 mod symbols;
 mod value;
 mod written;
@@ -19,12 +23,18 @@ mod written;
 /// Joints: holonomic constraints between bodies, without time.
 pub mod joints {
     mod distance;
+    mod flat_on_curve;
+    mod point_on_curve;
     mod revolute;
+    mod roller_on_curve;
     mod translational;
     mod weld;
 
     pub use distance::Distance;
+    pub use flat_on_curve::FlatOnCurve;
+    pub use point_on_curve::PointOnCurve;
     pub use revolute::Revolute;
+    pub use roller_on_curve::RollerOnCurve;
     pub use translational::Translational;
     pub use weld::Weld;
 }
@@ -55,6 +65,8 @@ pub mod test_elements;
 
 use crate::expression::Tape;
 use crate::math::{Lift, Local, Pose, Real};
+pub use curve_forms::{CurveForm, CURVE_FORMS};
+pub use curve_formula::Formula as CurveFormula;
 use declare::join;
 pub use declare::{Element, Table};
 use dispatch::{constraints, declared, forces};
@@ -63,13 +75,14 @@ use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
-pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
+pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving, ResultQuantity};
 use joints::*;
 pub use kinds::{
-    body, coordinate, flag, joint, law, law_pair, laws, number, optional_law, optional_number,
-    optional_pair, pair, point, side, BodyId, Coordinate, CoordinateOf, JointId, Kind, Optional,
-    PointOn, Side, Source,
+    body, coordinate, curve, flag, joint, law, law_pair, laws, number, optional_law,
+    optional_number, optional_pair, pair, point, side, BodyId, Coordinate, CoordinateOf, JointId,
+    Kind, Optional, PointOn, Side, Source,
 };
+pub use plane_curve::{Curve, CurveOn, Points as CurvePoints};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
 use test_elements::*;
@@ -83,6 +96,9 @@ constraints! {
         Translational,
         Distance,
         Weld,
+        PointOnCurve,
+        RollerOnCurve,
+        FlatOnCurve,
         #[cfg(feature = "test-elements")] TurnedPin,
         #[cfg(feature = "test-elements")] Bead,
         #[cfg(feature = "test-elements")] Levels,

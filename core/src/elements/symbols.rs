@@ -36,6 +36,12 @@ pub enum Mark {
     DriveShift,
     /// A pitch circle on j around its point, with this radius in m.
     Circle(f64),
+    /// A roller on i around its point, with this radius in m.
+    Roller(f64),
+    /// A point of i that touches a curve.
+    Contact,
+    /// A flat face of i through its point, along the axis of i.
+    Face,
 }
 
 impl Mark {
@@ -55,13 +61,16 @@ impl Mark {
             Self::DriveTurn => "drive_turn",
             Self::DriveShift => "drive_shift",
             Self::Circle(_) => "circle",
+            Self::Roller(_) => "roller",
+            Self::Contact => "contact",
+            Self::Face => "face",
         }
     }
 
     /// Radius in m of a symbol that has the size of the mechanism.
     pub fn radius(self) -> Option<f64> {
         match self {
-            Self::Circle(radius) => Some(radius),
+            Self::Circle(radius) | Self::Roller(radius) => Some(radius),
             _ => None,
         }
     }

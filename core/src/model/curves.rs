@@ -16,7 +16,8 @@ pub(super) fn read(entry: &Entry, scope: &Scope, problems: &mut Vec<Problem>) ->
     let one = |(name, value): &(String, Value)| {
         let path = vec!["bodies".into(), entry.name.clone(), "curves".into(), name.clone()];
         let Value::Table(fields) = value else {
-            let message = format!("must be a table such as {{ circle = [0, 0, 1] }}, not {}", value.noun());
+            let message =
+                format!("must be a table such as {{ circle = [0, 0, 1] }}, not {}", value.noun());
             problems.push(Problem::at(&path, message));
             return (name.clone(), None);
         };
@@ -75,7 +76,8 @@ impl<'a> Reader<'a> {
                 self.report(None, format!("a curve needs one of: {}", words.join("; ")))
             }
             [first, second, ..] => {
-                let message = format!("both {} and {} are given; keep one", first.words, second.words);
+                let message =
+                    format!("both {} and {} are given; keep one", first.words, second.words);
                 self.report(None, message)
             }
         }
@@ -156,7 +158,8 @@ impl<'a> Reader<'a> {
     /// A formula in u and the parameters.
     fn formula(&mut self, key: &str) -> Option<Tape> {
         if self.scope.parameters.iter().any(|name| name == "u") {
-            let message = "u is the parameter of the curve, but the model has a parameter 'u'; rename it";
+            let message =
+                "u is the parameter of the curve, but the model has a parameter 'u'; rename it";
             return self.report(Some(key), message.to_string());
         }
         let value = self.get(key)?;

@@ -5,6 +5,7 @@ mod bodies;
 mod body_fields;
 mod build;
 mod checks;
+mod curves;
 mod definition;
 mod items;
 mod layout;

@@ -53,6 +53,8 @@ pub(super) fn states(entry: &Entry) -> &'static [OwnState] {
 pub enum Reach {
     /// Parameters only.
     Parameters,
+    /// Parameters and the parameter u of a curve.
+    Curve,
     /// Parameters, time and positions: laws of constraints, which must be holonomic.
     Positions,
     /// Parameters, time and state.
@@ -68,8 +70,10 @@ impl Names for Visible<'_> {
         if let Some(&k) = scope.places.parameters.get(name) {
             return Some(Symbol::Parameter(k));
         }
-        if self.1 == Reach::Parameters {
-            return None;
+        match self.1 {
+            Reach::Parameters => return None,
+            Reach::Curve => return (name == "u").then_some(Symbol::Variable(0)),
+            Reach::Positions | Reach::State => {}
         }
         if name == "t" {
             return Some(Symbol::Time);
@@ -89,7 +93,10 @@ impl Names for Visible<'_> {
             return Vec::new();
         }
         let mut known = self.0.parameters.clone();
-        if self.1 == Reach::Parameters {
+        if self.1 == Reach::Curve {
+            known.push("u".to_string());
+        }
+        if matches!(self.1, Reach::Parameters | Reach::Curve) {
             return known;
         }
         known.push("t".to_string());
@@ -213,6 +220,7 @@ impl Scope {
         let wide = e.compile(&Visible(self, Reach::State, false));
         let hint = match reach {
             Reach::Parameters => "only laws of drivers and forces may use t and the state",
+            Reach::Curve => "a curve is fixed in its body: its formulas may use u and the parameters",
             Reach::Positions => {
                 "the law of a driver may use t and positions, not velocities: it would not be holonomic"
             }

@@ -106,6 +106,9 @@ impl Joint for FlatOnCurve {
 
     fn fault(e: &FlatOnCurve) -> Option<(&'static str, String)> {
         let curve = &e.curve.curve;
+        if curve.fault().is_some() {
+            return None; // it is reported at the curve
+        }
         if let Some(message) = contact::cusp(curve) {
             return Some(("curve", message));
         }

@@ -111,6 +111,9 @@ impl Joint for RollerOnCurve {
             return Some(("radius", format!("{} m; must be > 0", e.radius)));
         }
         let curve = &e.curve.curve;
+        if curve.fault().is_some() {
+            return None; // it is reported at the curve
+        }
         if let Some(message) = contact::cusp(curve) {
             return Some(("curve", message));
         }

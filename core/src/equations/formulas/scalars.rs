@@ -8,6 +8,8 @@ pub(super) enum Scalar {
     Pair(String),
     Number(String),
     Law(String),
+    /// A curve with this number of scalars; it is printed by the names of C and its derivatives.
+    Curve(usize),
     /// Laws by their numbers within the field.
     Laws(String, usize),
 }
@@ -24,6 +26,7 @@ pub(super) fn scalars<T>(element: &Constraint<T>) -> Vec<Scalar> {
             Shape::Pair => Some(Scalar::Pair(name)),
             Shape::Number => Some(Scalar::Number(name)),
             Shape::Law => Some(Scalar::Law(name)),
+            Shape::Curve => Some(Scalar::Curve(count)),
             Shape::LawPair | Shape::Laws => Some(Scalar::Laws(name, count)),
             _ => None,
         }
