@@ -138,7 +138,8 @@ fn internal(columns: Columns) -> Vec<Value> {
 fn constraint(model: &Model, k: usize) -> Value {
     let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
     let (i, j, bodies) = connected(model, &item.bodies);
-    let result = |r: &ResultQuantity| json!({ "name": r.name, "unit": r.unit, "negative": r.negative });
+    let result =
+        |r: &ResultQuantity| json!({ "name": r.name, "unit": r.unit, "negative": r.negative });
     let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.unit });
     json!({
         "name": item.name,

@@ -1,8 +1,8 @@
-//! A force with every kind of field: (Fx, Fy) plus the sum of some gusts along x on body j at its origin, times a
-//! factor, reversed on the left side; none if it is off.
+//! A force with every kind of field: (Fx, Fy) plus the sum of some gusts along x, in the frame of i, on body j at
+//! its origin, times a factor, reversed on the left side; none if it is off.
 
 use crate::elements::{element, BodyId, Force, Nature, Part, Side, Situation, Wrenches};
-use crate::math::{Real, Vec2, Wrench};
+use crate::math::{Local, Real, Wrench};
 
 element! {
     /// A force of wind.
@@ -36,17 +36,18 @@ impl Force for Blower {
     }
 
     fn action<S: Real>(e: &Blower<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
-        let mut sum = Vec2::new(e.force[0], e.force[1]);
+        let mut sum = Local::new(e.force[0], e.force[1]);
         e.gusts.iter().for_each(|gust| sum.x += *gust);
         let more = e.more.unwrap_or([S::zero(); 2]);
         let less = e.less.unwrap_or(S::zero());
-        sum = sum + Vec2::new(more[0] - less, more[1] - less);
+        sum = sum + Local::new(more[0] - less, more[1] - less);
         let sign = match (e.off, e.side) {
             (true, _) => 0.0,
             (false, Side::Right) => 1.0,
             (false, Side::Left) => -1.0,
         };
-        let force = sum.scale(e.factor.unwrap_or(S::one()) * S::constant(sign));
+        let local = sum.scale(e.factor.unwrap_or(S::one()) * S::constant(sign));
+        let force = at.i().pose.global(local);
         let arm = at.j().pose.r - at.i().pose.r;
         out.put(0, 0, -Wrench::at(arm, force));
         out.put(0, 1, Wrench { force, torque: S::zero() });

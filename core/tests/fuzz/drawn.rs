@@ -100,7 +100,8 @@ impl Drawn<'_> {
         let count = 2 + self.random.below(5);
         let points: Vec<Value> = (0..count).map(|_| Value::List(list(self, 2))).collect();
         let periodic = Value::Flag(self.random.chance(0.5));
-        let second = vec![("points".to_string(), Value::List(points)), ("periodic".into(), periodic)];
+        let second =
+            vec![("points".to_string(), Value::List(points)), ("periodic".into(), periodic)];
         Value::Table(vec![("A".into(), Value::Table(first)), ("B".into(), Value::Table(second))])
     }
 
