@@ -30,6 +30,7 @@ pub use link::did_you_mean;
 pub use model::Model;
 pub use problem::Problem;
 pub use problems::{listed, more_problems, Problems, MOST_REPORTED};
+pub(crate) use scope::ANY_UNIT;
 pub use scope::{Reach, Scope};
 pub use size::{column_scales, row_scales, size};
 pub use variable::{Dependence, Variable};

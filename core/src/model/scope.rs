@@ -272,7 +272,7 @@ impl Scope {
 }
 
 /// The unit of a formula that is composed of checked formulas.
-pub(super) const ANY_UNIT: &str = "any";
+pub(crate) const ANY_UNIT: &str = "any";
 
 /// A formula whose dimension is known must have that of its place; without a unit, the place takes a number.
 fn check_unit(e: &Expression, inferred: Inferred, unit: &str) -> Result<(), ExpressionError> {

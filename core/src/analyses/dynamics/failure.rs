@@ -66,6 +66,13 @@ impl From<Reason> for Box<Failure> {
 }
 
 impl Failure {
+    /// A contact is beyond the end of its curve.
+    pub(super) fn off_the_curve(t: f64, message: &str) -> Box<Self> {
+        let message = format!("{message} at t = {t:.6} s");
+        let hint = "extend the range of the curve, or end the run before";
+        Reason::Integration { t, message, hint }.into()
+    }
+
     /// The equations have no usable solution at a time and a position.
     pub(super) fn at_state(model: &Model, t: f64, q: &[f64], breakdown: Breakdown) -> Box<Self> {
         let name = |row| model.constraints[model.layout.owner(row).0].name.clone();
