@@ -50,7 +50,8 @@ pub(super) fn curvature(terms: &[Local; 4]) -> f64 {
 /// "u = 0.3 at (0.1, 0.2) m".
 pub(super) fn place(curve: &Curve, u: f64) -> String {
     let p = curve.point(u);
-    format!("u = {u:.6} at ({:.6}, {:.6}) m", p.x, p.y)
+    let [u, x, y] = [u, p.x, p.y].map(|x| (1e6 * x).round() / 1e6 + 0.0);
+    format!("u = {u:.6} at ({x:.6}, {y:.6}) m")
 }
 
 impl Curve {

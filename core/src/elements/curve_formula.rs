@@ -73,6 +73,12 @@ impl<S: Real> Values<Third<S>> for Named<'_, S> {
 impl<S: Real> Formula<S> {
     /// C, C′, C″ and C‴ at u.
     pub(super) fn derivatives(&self, u: S) -> [Local<S>; 4] {
+        let [a, b] = self.range;
+        let u = match self.periodic {
+            // the formulas are those of the range
+            true => u - ((u - a) / (b - a)).floor() * (b - a),
+            false => u,
+        };
         let u = Jet::new(Dual::variable(u, 0), Dual::one(), Dual::zero());
         let named = Named { parameters: &self.written.parameters, values: &self.values, u };
         let part = |tape: &Tape| {

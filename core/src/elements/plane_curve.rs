@@ -153,6 +153,14 @@ impl<S: Real> Curve<S> {
         }
     }
 
+    /// About the largest distance from the origin, m.
+    pub fn reach(&self) -> S {
+        let [a, b] = self.range();
+        let share = |k: u32| S::constant(f64::from(k) / 8.0);
+        let far = (0..=8).map(|k| self.point(a + share(k) * (b - a)).norm());
+        far.fold(S::zero(), |most, r| S::select(r - most, r, most))
+    }
+
     /// C at u.
     pub fn point(&self, u: S) -> Local<S> {
         self.derivatives(u)[0]

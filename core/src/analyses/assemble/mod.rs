@@ -182,7 +182,9 @@ fn close(
         return outcome
             .map_err(|q| Box::new(failure::open(closing.model(), request, closing, &q, None)));
     }
-    if let Some(found) = given(model, asked).and_then(|q| close_from(closing, &internal, q, Vec::new()).ok()) {
+    if let Some(found) =
+        given(model, asked).and_then(|q| close_from(closing, &internal, q, Vec::new()).ok())
+    {
         return Ok(found);
     }
     // the first placement, and the position that Newton's method reached from it
