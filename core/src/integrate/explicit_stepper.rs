@@ -359,8 +359,12 @@ impl<P: RungeKutta> ExplicitStepper<P> {
     }
 
     /// The error norm of a rejected step by its tangential error alone, if that is smaller.
+    ///
+    /// The manifold is curved: a projection over a relative distance e leaves a tangential error of e². Where e² exceeds
+    /// rtol, the whole error counts.
     fn tangential<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>, norm: f64, h: f64) -> f64 {
-        if norm < 1.0 || !norm.is_finite() {
+        let farthest = self.control.rtol.sqrt().recip();
+        if norm < 1.0 || !norm.is_finite() || norm > farthest {
             return norm;
         }
         let Some(manifold) = rhs.system.manifold() else { return norm };
