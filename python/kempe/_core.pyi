@@ -218,6 +218,12 @@ def reaction(model: Model, joint: str, on: str, frame: str, t: _F, q: _F, lam: _
 def results(model: Model, joint: str, t: _F, q: _F, lam: _F) -> _F:
     """The results of a joint beside its reaction, (n_t, n); ``describe`` names them."""
 
+def measured(model: Model, name: str, t: _F, q: _F, v: _F, a: _F | None = None) -> _F:
+    """Position, rate and acceleration of each position quantity of an element: (n_t, 3 n).
+
+    Without accelerations ``a``, (n_t, n_q), these are taken as zero.
+    """
+
 def force(
     model: Model,
     name: str,

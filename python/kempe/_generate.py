@@ -88,7 +88,9 @@ def source(catalogue: str) -> str:
     imports = ", ".join(sorted(used & {"Number", "Numbers", "Pair"}))
     classes = [element_class(section, table) for section, table in tables]
     methods = [method(table) for _, table in tables]
-    return "\n\n".join([HEADER.format(imports=imports, words=words), *classes, "\n".join([METHODS, *methods])])
+    return "\n\n".join(
+        [HEADER.format(imports=imports, words=words), *classes, "\n".join([METHODS, *methods])]
+    )
 
 
 def element_class(section: str, table: dict[str, Any]) -> str:

@@ -68,6 +68,24 @@ class BodyInfo:
         return "angle" in self.quantities
 
 
+@dataclass(frozen=True)
+class Measured:
+    """A position quantity of an element: the motion of body j as seen from body i.
+
+    Attributes:
+        names: of the position, its rate and its acceleration, such as angle, omega, alpha.
+        unit: SI unit of the position.
+    """
+
+    names: tuple[str, str, str]
+    unit: str
+
+    @property
+    def units(self) -> tuple[str, str, str]:
+        """SI units of the position, its rate and its acceleration."""
+        return self.unit, f"{self.unit}/s", f"{self.unit}/s^2"
+
+
 @dataclass(frozen=True, repr=False)
 class ConstraintInfo:
     """A joint or a driver with numerical values.
@@ -86,6 +104,7 @@ class ConstraintInfo:
         coordinates: names and units of its internal coordinates.
         results: names and units of its results beside the reaction, such as ``("normal", "N")``.
         events: for each of these results the event where it becomes negative, or None.
+        measured: its position quantities.
     """
 
     name: str
@@ -104,6 +123,7 @@ class ConstraintInfo:
     coordinates: tuple[tuple[str, str], ...]
     results: tuple[tuple[str, str], ...]
     events: tuple[str | None, ...]
+    measured: tuple[Measured, ...]
 
     def __repr__(self) -> str:
         return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
@@ -124,6 +144,7 @@ class ForceInfo:
         places: slice of its first-order states in z; empty for most forces.
         states: names and units of its first-order states, such as ``("current", "A")``.
         reaction: the joint whose reaction enters it; None for most forces.
+        measured: its position quantities.
     """
 
     name: str
@@ -136,6 +157,7 @@ class ForceInfo:
     places: slice
     states: tuple[tuple[str, str], ...]
     reaction: str | None
+    measured: tuple[Measured, ...]
 
     def __repr__(self) -> str:
         return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
@@ -155,6 +177,10 @@ def vector(two: list[float] | None) -> Vector:
 def _units(entries: list[dict[str, str]]) -> tuple[tuple[str, str], ...]:
     """Names and units."""
     return tuple((entry["name"], entry["unit"]) for entry in entries)
+
+
+def _measured(entries: list[dict[str, Any]]) -> tuple[Measured, ...]:
+    return tuple(Measured(names=tuple(of["names"]), unit=of["unit"]) for of in entries)
 
 
 def body(number: int, entry: dict[str, Any]) -> BodyInfo:
@@ -196,6 +222,7 @@ def constraint(entry: dict[str, Any]) -> ConstraintInfo:
         coordinates=_units(entry["coordinates"]),
         results=_units(entry["results"]),
         events=tuple(result["negative"] for result in entry["results"]),
+        measured=_measured(entry["measured"]),
     )
 
 
@@ -213,4 +240,5 @@ def force(entry: dict[str, Any]) -> ForceInfo:
         places=slice(*entry["places"]),
         states=_units(entry["states"]),
         reaction=entry["reaction"],
+        measured=_measured(entry["measured"]),
     )

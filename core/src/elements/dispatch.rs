@@ -121,6 +121,10 @@ macro_rules! constraints {
             pub fn bodies(&self) -> Vec<BodyId> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+)+ }
             }
+            /// The position quantities that may be measured on it.
+            pub fn measured(&self) -> &'static [Measured] {
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::MEASURED,)+)+ }
+            }
             /// Number of internal coordinates.
             pub fn own(&self) -> usize {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::OWN,)+)+ }
@@ -173,6 +177,10 @@ macro_rules! constraints {
             /// Φ, one entry for each equation.
             pub fn residual(&self, at: &At<'_, S>, phi: &mut [S]) {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::residual(e, at, phi),)+)+ }
+            }
+            /// The values of [`measured`](Self::measured).
+            pub fn measure(&self, at: &At<'_, S>, out: &mut [S]) {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::measure(e, at, out),)+)+ }
             }
             /// Φ, Φ̇, γ and Φ_q for fields that do not vary with time or state.
             pub fn linearize(&self, at: &Moving<'_, S>, out: Linearized<'_, S>) {
@@ -264,6 +272,16 @@ macro_rules! forces {
             }
         }
 
+        /// The position quantities of a force of a type.
+        pub fn measured_of(kind: &str) -> &'static [Measured] {
+            $($(#[$on])* {
+                if kind == <$Name>::NAME {
+                    return <$Name as Force>::MEASURED;
+                }
+            })+
+            &[]
+        }
+
         /// The first-order states of a force of a type for which the named fields are `given`.
         pub fn states_of(kind: &str, given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
             $($(#[$on])* {
@@ -291,6 +309,10 @@ macro_rules! forces {
             pub fn bodies(&self) -> Vec<BodyId> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+ }
             }
+            /// The position quantities that may be measured on it.
+            pub fn measured(&self) -> &'static [Measured] {
+                match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::MEASURED,)+ }
+            }
             /// The named parts, in the order of [`ForceElement::action`].
             pub fn parts(&self) -> &'static [Part] {
                 match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::PARTS,)+ }
@@ -316,6 +338,10 @@ macro_rules! forces {
             /// The wrench of each part on each body, see [`Force::action`].
             pub fn action(&self, at: &Situation<'_, S>, out: impl Wrenches<S>) {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::action(e, at, out),)+ }
+            }
+            /// The values of [`measured`](Self::measured).
+            pub fn measure(&self, at: &At<'_, S>, out: &mut [S]) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::measure(e, at, out),)+ }
             }
             /// ż of the element.
             pub fn state_rates(&self, at: &Situation<'_, S>, out: &mut [S]) {

@@ -1,5 +1,6 @@
 //! Kinds of fields: the values that an element may hold, and how each is read and converted between scalars.
 
+use super::attachment::Attachment;
 use super::field::{Default, Field, Shape};
 use super::plane_curve::CurveOn;
 use crate::expression::Tape;
@@ -95,6 +96,80 @@ pub struct CoordinateOf {
     pub coordinate: Coordinate,
 }
 
+/// A position quantity of an element or of a point, as a formula of the coordinates of bodies.
+#[derive(Clone, Debug)]
+pub struct QuantityOf<S = f64> {
+    /// Its name as written, such as `slide.displacement`.
+    pub name: String,
+    /// The last part of its name.
+    pub kind: &'static str,
+    /// SI unit: `m` or `rad`.
+    pub unit: &'static str,
+    /// Bodies i and j: it is the motion of j as seen from i.
+    pub bodies: [BodyId; 2],
+    /// The frame on each of these bodies to which forces are reduced.
+    pub ends: [Attachment<S>; 2],
+    /// Its value, m or rad.
+    pub value: S,
+}
+
+/// A position quantity that an element follows or acts on.
+#[derive(Clone, Debug)]
+pub enum Followed<S = f64> {
+    /// A coordinate of a body, measured from ground.
+    Coordinate(CoordinateOf),
+    /// A quantity of an element or of a point.
+    Quantity(Box<QuantityOf<S>>),
+}
+
+impl<S> From<CoordinateOf> for Followed<S> {
+    fn from(coordinate: CoordinateOf) -> Self {
+        Self::Coordinate(coordinate)
+    }
+}
+
+impl<S> Followed<S> {
+    /// Bodies i and j: the effort acts on j, the opposite on i.
+    pub fn bodies(&self) -> [BodyId; 2] {
+        match self {
+            Self::Coordinate(of) => [BodyId::GROUND, of.body],
+            Self::Quantity(of) => of.bodies,
+        }
+    }
+
+    /// Its name in labels, and its SI unit.
+    pub fn label(&self) -> (&'static str, &'static str) {
+        match self {
+            Self::Coordinate(of) => (of.coordinate.name(), of.coordinate.unit()),
+            Self::Quantity(of) => (of.kind, of.unit),
+        }
+    }
+}
+
+impl<S: Real> Followed<S> {
+    /// Its value, m or rad, for bodies i and j at given poses.
+    pub fn value(&self, i: &Pose<S>, j: &Pose<S>) -> S {
+        let of = match self {
+            Self::Quantity(of) => return of.value,
+            Self::Coordinate(of) => of,
+        };
+        let from_ground = i.rotation.inverse(j.r - i.r);
+        match of.coordinate {
+            Coordinate::X | Coordinate::Vx => from_ground.x,
+            Coordinate::Y | Coordinate::Vy => from_ground.y,
+            Coordinate::Angle | Coordinate::Omega => j.angle - i.angle,
+        }
+    }
+
+    /// The frame on a body, by its place among [`Followed::bodies`], to which its effort is reduced.
+    pub fn attachment(&self, body: usize) -> Attachment<S> {
+        match self {
+            Self::Coordinate(_) => Attachment { s: Local::zero(), axis: S::zero() },
+            Self::Quantity(of) => of.ends[body],
+        }
+    }
+}
+
 /// Where fields are read from; it keeps the reports of their faults.
 pub trait Source {
     /// Whether the field has a value of its own.
@@ -105,8 +180,8 @@ pub trait Source {
     fn point(&mut self, field: &Field) -> Option<PointOn<Tape>>;
     /// A named curve of a body.
     fn curve(&mut self, field: &Field) -> Option<CurveOn<Tape>>;
-    /// A coordinate of a moving body.
-    fn coordinate(&mut self, field: &Field) -> Option<CoordinateOf>;
+    /// A position quantity.
+    fn coordinate(&mut self, field: &Field) -> Option<Followed<Tape>>;
     /// A joint by name.
     fn joint(&mut self, field: &Field) -> Option<JointId>;
     /// A formula in the parameters.
@@ -173,8 +248,21 @@ kind!(
     curve, Curve, S => CurveOn<S>, |v, f| CurveOn { body: v.body, curve: v.curve.map(f) }
 );
 kind!(
-    /// A coordinate of a body.
-    coordinate, Coordinate, S => CoordinateOf, |v, _f| *v
+    /// A position quantity.
+    coordinate, Coordinate, S => Followed<S>, |v, f| match v {
+        Followed::Coordinate(of) => Followed::Coordinate(*of),
+        Followed::Quantity(of) => Followed::Quantity(Box::new(QuantityOf {
+            name: of.name.clone(),
+            kind: of.kind,
+            unit: of.unit,
+            bodies: of.bodies,
+            ends: of.ends.each_ref().map(|end| Attachment {
+                s: Local { x: f(&end.s.x), y: f(&end.s.y) },
+                axis: f(&end.axis),
+            }),
+            value: f(&of.value),
+        })),
+    }
 );
 kind!(
     /// A joint.

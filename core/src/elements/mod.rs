@@ -5,6 +5,7 @@
 //! reference page and all derivatives follow from these two. To add an element, write its file, name it
 //! here, and give it a test sample and a page. No other source file names it.
 
+mod attachment;
 pub(crate) mod contact;
 mod curve_forms;
 mod curve_formula;
@@ -15,6 +16,8 @@ mod field;
 mod force_trait;
 mod joint_trait;
 mod kinds;
+mod measure;
+mod measured;
 mod plane_curve;
 mod symbols;
 mod value;
@@ -65,6 +68,7 @@ pub mod test_elements;
 
 use crate::expression::Tape;
 use crate::math::{Lift, Local, Pose, Real};
+pub use attachment::Attachment;
 pub use curve_forms::{CurveForm, CURVE_FORMS};
 pub use curve_formula::Formula as CurveFormula;
 use declare::join;
@@ -75,13 +79,14 @@ use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
-pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving, ResultQuantity};
+pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, ResultQuantity};
 use joints::*;
 pub use kinds::{
     body, coordinate, curve, flag, joint, law, law_pair, laws, number, optional_law,
-    optional_number, optional_pair, pair, point, side, BodyId, Coordinate, CoordinateOf, JointId,
-    Kind, Optional, PointOn, Side, Source,
+    optional_number, optional_pair, pair, point, side, BodyId, Coordinate, CoordinateOf, Followed,
+    JointId, Kind, Optional, PointOn, QuantityOf, Side, Source,
 };
+pub use measured::Measured;
 pub use plane_curve::{Curve, CurveOn, Points as CurvePoints};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
@@ -126,5 +131,5 @@ pub fn catalogue() -> Vec<(Group, Table)> {
 
 /// The driver that holds a coordinate at a value: assembly holds by it what is `set`.
 pub fn holding(coordinate: CoordinateOf, value: Tape) -> Constraint<Tape> {
-    Constraint::CoordinateDriver(CoordinateDriver { coordinate, value })
+    Constraint::CoordinateDriver(CoordinateDriver { coordinate: coordinate.into(), value })
 }

@@ -15,6 +15,7 @@ mod model;
 mod parameters;
 mod problem;
 mod problems;
+mod quantity;
 mod scope;
 mod size;
 mod symbols;

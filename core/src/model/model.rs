@@ -71,7 +71,7 @@ impl<S: Real> Model<S> {
                 bodies,
                 element: formula.map(value),
                 law: depends.any().then(|| Box::new(formula.clone())),
-                driven: *group == Group::Drivers,
+                driven: *group == Group::Drivers || depends.time,
                 equations,
             });
         }

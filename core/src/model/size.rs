@@ -15,7 +15,11 @@ pub fn size<S: Real>(model: &Model<S>) -> f64 {
         Fixes::Distance(length) => Some(length),
         _ => None,
     });
-    let largest = points.chain(rods).chain(curves).map(|length| length.largest_magnitude()).fold(0.0, f64::max);
+    let largest = points
+        .chain(rods)
+        .chain(curves)
+        .map(|length| length.largest_magnitude())
+        .fold(0.0, f64::max);
     if largest > 0.0 {
         largest
     } else {

@@ -108,7 +108,7 @@ pub fn constraints() -> Vec<Constraint> {
     for (coordinate, value) in
         [(Coordinate::X, 0.4), (Coordinate::Y, -1.3), (Coordinate::Angle, 2.1)]
     {
-        let driver = CoordinateDriver { coordinate: driven(coordinate), value };
+        let driver = CoordinateDriver { coordinate: driven(coordinate).into(), value };
         all.push(Constraint::CoordinateDriver(driver));
     }
     all

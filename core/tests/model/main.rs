@@ -7,6 +7,7 @@ mod building;
 mod dimensions;
 mod edges;
 mod fields;
+mod quantities;
 mod refused;
 mod remedies;
 mod running;

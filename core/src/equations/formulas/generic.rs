@@ -4,8 +4,8 @@ use super::names::{curve, function, internal, point, BodyName, Coordinates};
 use super::scalars::{scalars, Scalar};
 use super::{print, residual, Formulas};
 use crate::elements::{
-    BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, Default, Field, Group, JointId,
-    PointOn, Source,
+    BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, Default, Field, Followed, Group,
+    JointId, PointOn, Source,
 };
 use crate::expression::Tape;
 use crate::math::{Local, Pose};
@@ -106,8 +106,9 @@ impl Source for Sample {
         let curve = Curve::Line { from: zero(), to: zero() };
         Some(CurveOn { body: self.next_body(), curve })
     }
-    fn coordinate(&mut self, _: &Field) -> Option<CoordinateOf> {
-        Some(CoordinateOf { body: self.next_body(), coordinate: Coordinate::Angle })
+    fn coordinate(&mut self, _: &Field) -> Option<Followed<Tape>> {
+        let of = CoordinateOf { body: self.next_body(), coordinate: Coordinate::Angle };
+        Some(of.into())
     }
     fn joint(&mut self, _: &Field) -> Option<JointId> {
         Some(JointId(0))

@@ -27,7 +27,7 @@ pub(super) fn scalars<T>(element: &Constraint<T>) -> Vec<Scalar> {
             Shape::Number => Some(Scalar::Number(name)),
             Shape::Law => Some(Scalar::Law(name)),
             Shape::Curve => Some(Scalar::Curve(count)),
-            Shape::LawPair | Shape::Laws => Some(Scalar::Laws(name, count)),
+            Shape::LawPair | Shape::Laws | Shape::Coordinate => Some(Scalar::Laws(name, count)),
             _ => None,
         }
     };
