@@ -5,7 +5,7 @@ mod mechanisms;
 use kempe::equations::kinematics::Motions;
 use kempe::equations::reactions::{self, Frame};
 use kempe::model::Model;
-use mechanisms::{column, every, faults, model, refused, run, start, tolerances, worst};
+use mechanisms::{column, every, model, refused, run, start, tolerances, worst};
 
 const G: f64 = 9.81;
 const SPEED: f64 = 7.0;
@@ -324,81 +324,6 @@ fn the_guess_of_u_chooses_the_contact() {
     let y = column(&m, "follower", 1);
     assert!(above.q[y] > 0.03 && below.q[y] < -0.03, "{} {}", above.q[y], below.q[y]);
     assert!((below.q[u] - 250_f64.to_radians()).abs() < 1.0, "{}", below.q[u]);
-}
-
-/// Each refusal names the curve, the place and the number.
-#[test]
-fn impossible_curves_are_refused() {
-    let refuses = |curve: &str, joint: &str, words: &[&str]| {
-        let text = format!(
-            r#"
-[bodies.ground]
-points = {{ O = [0, 0] }}
-[bodies.cam]
-mass = 1
-inertia = 1
-points = {{ O = [0, 0] }}
-curves = {{ rim = {curve} }}
-[joints.contact]
-i = "ground.O"
-curve = "cam.rim"
-{joint}
-"#
-        );
-        let found = faults(&text);
-        for word in words {
-            assert!(found.contains(word), "{curve}, {joint}: {found:?} lacks {word:?}");
-        }
-        assert!(!words.is_empty() || found.is_empty(), "{found}");
-    };
-    let (point, flat) = ("type = \"point_on_curve\"", "type = \"flat_on_curve\"");
-    let roller =
-        |r: f64, side: &str| format!("type = \"roller_on_curve\"\nradius = {r}\nside = \"{side}\"");
-    let circle = "{ circle = [0, 0, 0.05] }";
-    refuses(circle, point, &[]);
-    refuses(circle, &roller(0.2, "right"), &[]);
-    refuses(circle, &roller(0.04, "left"), &[]);
-    refuses(circle, &roller(0.05, "left"), &["contact.radius", "undercut", "0.05"]);
-    let kidney = "{ polar = \"0.05 + 0.02*cos(2*u)\" }";
-    // κ = -0.5556 1/m · 100 at u = 90°: (r² - r r″)/r³ with r = 0.03, r″ = 0.08
-    refuses(kidney, &roller(0.01, "right"), &[]);
-    refuses(kidney, &roller(0.02, "right"), &["undercut", "0.018000", "(0.000000, 0.030000)"]);
-    refuses(
-        kidney,
-        flat,
-        &["contact.curve", "not strictly convex", "-55.5", "(0.000000, 0.030000)"],
-    );
-    refuses("{ line = [[0, 0], [1, 0]] }", flat, &["not strictly convex"]);
-    let cusp = "{ x = \"u^2\", y = \"u^3\", range = [-1, 1] }";
-    refuses(cusp, point, &["contact.curve", "cusp", "(0.000000, 0.000000)"]);
-    refuses(
-        "{ points = [[0, 0], [1, 0], [1, 1]], interpolation = \"linear\" }",
-        point,
-        &["corners"],
-    );
-    // faults of the curve itself
-    refuses("{ circle = [0, 0, -1] }", point, &["bodies.cam.curves.rim.circle", "-1"]);
-    refuses("{ circle = [0, 0] }", point, &["must hold 3"]);
-    refuses(
-        "{ points = [[0, 0], [1, 0]] }",
-        point,
-        &["bodies.cam.curves.rim.points", "at least 3"],
-    );
-    refuses("{ points = [[0, 0], [1, 0], [1, 0], [2, 3]] }", point, &["points 2 and 3"]);
-    let closed = "{ points = [[0, 0], [1, 0], [1, 1], [0, 0]], periodic = true }";
-    refuses(closed, point, &["repeats the first"]);
-    refuses("{ circle = [0, 0, 1], polar = \"1\" }", point, &["both polar and circle"]);
-    refuses("{ x = \"u\", range = [0, 1] }", point, &["'y' is missing"]);
-    refuses("{ x = \"u\", y = \"0\", range = [1, 0] }", point, &["range", "increase"]);
-    refuses("{ polar = \"r*2\" }", point, &["polar", "'r'"]);
-    refuses("{ polar = \"0.1 + t\" }", point, &["polar", "time t"]);
-    let open = "{ x = \"u\", y = \"u^2\", range = [0, 1], periodic = true }";
-    refuses(open, point, &["periodic", "apart"]);
-    let wrong = faults(
-        "[bodies.b]\nmass = 1\ninertia = 1\npoints = { P = [0, 0] }\n[bodies.ground]\ncurves = { rim = { circle = \
-         [0, 0, 1] } }\n[joints.c]\ntype = \"point_on_curve\"\ni = \"b.P\"\ncurve = \"ground.rin\"\n",
-    );
-    assert!(wrong.contains("no curve 'rin'") && wrong.contains("did you mean 'rim'"), "{wrong}");
 }
 
 /// The contact of a run that leaves its curve, and of an assembly.

@@ -106,7 +106,11 @@ impl Curve {
 
     /// A periodic curve that does not close with its tangent.
     fn open_seam(&self, a: f64, b: f64) -> Option<(&'static str, String)> {
-        let (first, last) = (self.derivatives(a), self.derivatives(b));
+        let mut unwound = self.clone();
+        if let Self::Formula(formula) = &mut unwound {
+            formula.periodic = false;
+        }
+        let (first, last) = (unwound.derivatives(a), unwound.derivatives(b));
         let size = places(self)
             .map(|u| self.point(u))
             .fold(0.0, |m, p| f64::max(m, p.x.abs().max(p.y.abs())));

@@ -2,8 +2,6 @@
 //! elements by type. The macros are called once, in `mod.rs`.
 
 use super::declare::Table;
-use super::force_trait::Force;
-use super::joint_trait::Joint;
 
 /// The section of an element in a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,57 +23,6 @@ impl Group {
     pub fn singular(self) -> &'static str {
         ["joint", "driver", "force"][self as usize]
     }
-}
-
-/// An element of a pool, with all data that its loop reads.
-#[derive(Clone, Debug)]
-pub struct Pooled<E> {
-    /// The element.
-    pub element: E,
-    /// Its place in the model.
-    pub place: Place,
-}
-
-/// The place of an element of a pool in the model.
-#[derive(Clone, Copy, Debug)]
-pub struct Place {
-    /// Its place among the constraints or forces.
-    pub item: u32,
-    /// Bodies i and j; ground where there are fewer.
-    pub bodies: [u32; 2],
-    /// The first of its rows of Φ; 0 for a force.
-    pub row: u32,
-    /// Its place in a list of the room that uses the pool.
-    pub slot: u32,
-}
-
-impl Place {
-    /// From the place among the constraints or forces, the bodies, and the first row.
-    ///
-    /// # Panics
-    /// If a number exceeds 32 bits.
-    pub fn new(item: usize, bodies: &[super::kinds::BodyId], row: usize) -> Self {
-        let index = |i: usize| u32::try_from(i).expect("fewer than 2^32 items");
-        let body = |k: usize| bodies.get(k).map_or(0, |body| index(body.0));
-        Self { item: index(item), bodies: [body(0), body(1)], row: index(row), slot: 0 }
-    }
-
-    /// The same with a place in a list of the room that uses the pool.
-    pub fn with_slot(self, slot: usize) -> Self {
-        Self { slot: u32::try_from(slot).expect("fewer than 2^32 items"), ..self }
-    }
-}
-
-/// Visits the joints and drivers of a model, type by type.
-pub trait VisitJoints<S> {
-    /// Takes all elements of one type.
-    fn visit<E: Joint>(&mut self, pool: &[Pooled<E::Over<S>>]);
-}
-
-/// Visits the forces of a model, type by type.
-pub trait VisitForces<S> {
-    /// Takes all elements of one type.
-    fn visit<E: Force>(&mut self, pool: &[Pooled<E::Over<S>>]);
 }
 
 /// A declaration with the section it belongs to.

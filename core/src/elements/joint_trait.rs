@@ -3,9 +3,8 @@
 use super::attachment::Attachment;
 use super::declare::Element;
 use super::derive;
-use super::kinds::{BodyId, CoordinateOf};
+use super::kinds::{BodyId, CoordinateOf, CurveOn};
 use super::measured::Measured;
-use super::plane_curve::CurveOn;
 use super::symbols::SceneSymbol;
 use crate::math::{Local, Motion, Pose, Real};
 

@@ -2,7 +2,7 @@
 
 use super::attachment::Attachment;
 use super::field::{Default, Field, Shape};
-use super::plane_curve::CurveOn;
+use super::plane_curve::Curve;
 use crate::expression::Tape;
 use crate::math::{Local, Pose, Real, Twist};
 
@@ -31,6 +31,22 @@ pub struct PointOn<S = f64> {
     pub body: BodyId,
     /// s′, from the origin of the body frame, m.
     pub s: Local<S>,
+}
+
+/// The curve of a joint, and the body that carries it.
+#[derive(Clone, Debug)]
+pub struct CurveOn<S = f64> {
+    /// The body.
+    pub body: BodyId,
+    /// In the frame of the body.
+    pub curve: Curve<S>,
+}
+
+impl<S: Real> CurveOn<S> {
+    /// [`Curve::near`] on the same body.
+    pub fn near(&self, u: S) -> Self {
+        Self { body: self.body, curve: self.curve.near(u) }
+    }
 }
 
 /// A coordinate of a body or its rate.

@@ -19,6 +19,7 @@ mod kinds;
 mod measure;
 mod measured;
 mod plane_curve;
+mod pools;
 mod symbols;
 mod value;
 mod written;
@@ -73,8 +74,8 @@ pub use curve_forms::{CurveForm, CURVE_FORMS};
 pub use curve_formula::Formula as CurveFormula;
 use declare::join;
 pub use declare::{Element, Table};
+pub use dispatch::Group;
 use dispatch::{constraints, declared, forces};
-pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
 use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
@@ -83,11 +84,12 @@ pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, ResultQuan
 use joints::*;
 pub use kinds::{
     body, coordinate, curve, flag, joint, law, law_pair, laws, number, optional_law,
-    optional_number, optional_pair, pair, point, side, BodyId, Coordinate, CoordinateOf, Followed,
-    JointId, Kind, Optional, PointOn, QuantityOf, Side, Source,
+    optional_number, optional_pair, pair, point, side, BodyId, Coordinate, CoordinateOf, CurveOn,
+    Followed, JointId, Kind, Optional, PointOn, QuantityOf, Side, Source,
 };
 pub use measured::Measured;
-pub use plane_curve::{Curve, CurveOn, Points as CurvePoints};
+pub use plane_curve::{Curve, Points as CurvePoints};
+pub use pools::{Place, Pooled, VisitForces, VisitJoints};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
 use test_elements::*;

@@ -172,22 +172,6 @@ impl<S: Real> Curve<S> {
     }
 }
 
-/// The curve of a joint, and the body that carries it.
-#[derive(Clone, Debug)]
-pub struct CurveOn<S = f64> {
-    /// The body.
-    pub body: super::kinds::BodyId,
-    /// In the frame of the body.
-    pub curve: Curve<S>,
-}
-
-impl<S: Real> CurveOn<S> {
-    /// [`Curve::near`] on the same body.
-    pub fn near(&self, u: S) -> Self {
-        Self { body: self.body, curve: self.curve.near(u) }
-    }
-}
-
 fn apart<S: Real>(from: Local<S>, to: Local<S>) -> Local<S> {
     Local::new(to.x - from.x, to.y - from.y)
 }
