@@ -31,7 +31,7 @@ The values of fields:
 | law_pair, laws | two laws, any number of laws: `["t", "2*t"]` |
 | points | a table of points, `{ P = [x, y] }` |
 | names | two names, `["A", "B"]` |
-| curves | a table of curves, `{ rim = { circle = [x, y, r] } }`; see [file-format.md](file-format.md#curves) |
+| curves | a table of [curves](file-format.md#curves), `{ rim = { circle = [x, y, r] } }` |
 | body, point, curve, coordinate | `"crank"`, `"crank.B"`, `"cam.rim"`, `"crank.angle"` |
 | count | a whole number from 1 |
 | flag | `true` or `false` |

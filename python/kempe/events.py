@@ -1,7 +1,8 @@
 """Events of a run: the times at which a result of a joint becomes negative.
 
-An element declares such results in its own source file: the normal force of a roller that becomes
-negative is the event ``lift_off``, since the curve would have to pull from there on. The run goes on.
+An element declares such results in its own source file: a normal force of a roller that becomes
+negative is the event ``lift_off``, since the curve would have to pull from there on. The run goes
+on.
 """
 
 from __future__ import annotations
@@ -80,8 +81,8 @@ def warnings_of(solution: Solution) -> list[str]:
             joint, _, kind = event.name.rpartition(".")
             found.append(
                 f"{event.name}: {count}, first at t = {event.t[0]:.6g} s; from there the joint "
-                f"{joint} holds bodies together that would separate ({kind.replace('_', ' ')}), and "
-                "the run goes on"
+                f"{joint} holds bodies together that would separate "
+                f"({kind.replace('_', ' ')}), and the run goes on"
             )
     return found
 

@@ -128,7 +128,9 @@ class Motion:
     def results(self, joint: str) -> Floats:
         """Results of a joint beside its reaction, (…, n); see ``ConstraintInfo.results``."""
         t, q, _ = self._rows()
-        return self._as_given(_core.results(self.compiled.core, joint, t, q, np.atleast_2d(self.lam)))
+        return self._as_given(
+            _core.results(self.compiled.core, joint, t, q, np.atleast_2d(self.lam))
+        )
 
     def action(self, name: str, on: str, part: str | None, frame: str) -> Floats:
         """Force and torque of a force element on a body, (…, 3); see ``ForceView``."""

@@ -51,7 +51,7 @@ def joint(model: CompiledModel, name: str) -> dict[str, Any]:
 
 def _moves_on(info: ConstraintInfo) -> bool:
     """Whether the place of a joint on body j moves, as on a curve."""
-    return info.columns.stop > info.columns.start
+    return bool(info.columns.stop > info.columns.start)
 
 
 def symbols(motion: Motion) -> list[dict[str, Any]]:
@@ -94,7 +94,7 @@ def _touched(motion: Motion, symbol: dict[str, Any]) -> list[float]:
     angle = np.atleast_1d(j.angle)[:, None]
     x = points[:, 0] * np.cos(angle) - points[:, 1] * np.sin(angle)
     y = points[:, 0] * np.sin(angle) + points[:, 1] * np.cos(angle)
-    away = np.atleast_2d(j.position - i.at(symbol["points"][0]).position)
+    away = np.atleast_2d(j.r - i.at(symbol["points"][0]).position)
     x, y = x + away[:, :1], y + away[:, 1:]
     turn = np.atleast_1d(i.angle + symbol["axes"][0])[:, None]
     along, aside = x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn)
