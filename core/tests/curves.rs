@@ -107,6 +107,9 @@ fn an_eccentric_cam_with_a_flat_follower() {
         [y, vy, ay, normal, normal * E * phi.cos()]
     };
     check(&cam("{ circle = [0.02, 0, 0.05] }", "type = \"flat_on_curve\""), &closed, 1e-11);
+    // the normal of the face may point into the cam or out of it
+    let turned = "type = \"flat_on_curve\"\naxis = \"180*deg\"";
+    check(&cam("{ circle = [0.02, 0, 0.05] }", turned), &closed, 1e-11);
     // the same circle as a formula, clockwise, and as a polar curve about the shaft
     let clockwise = "{ x = \"0.02 + 0.05*cos(u)\", y = \"-0.05*sin(u)\", range = [0, \"2*pi\"], periodic = true }";
     check(&cam(clockwise, "type = \"flat_on_curve\""), &closed, 1e-11);
