@@ -42,7 +42,7 @@ fn impossible_curves_are_refused() {
     refuses(circle, &roller(0.04, "left"), &[]);
     refuses(circle, &roller(0.05, "left"), &["contact.radius", "undercut", "0.05"]);
     let kidney = "{ polar = \"0.05 + 0.02*cos(2*u)\" }";
-    // κ = -0.5556 1/m · 100 at u = 90°: (r² - r r″)/r³ with r = 0.03, r″ = 0.08
+    // κ = (r - r″)/r² = -55.6 1/m at u = 90°, with r = 0.03 m and r″ = 0.08 m
     refuses(kidney, &roller(0.01, "right"), &[]);
     refuses(kidney, &roller(0.02, "right"), &["undercut", "0.018000", "(0.000000, 0.030000)"]);
     refuses(

@@ -5,7 +5,7 @@ use super::run_results::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
 use crate::integrate::Cause;
-use crate::model::Model;
+use crate::model::{Model, Slots};
 use crate::solve::Breakdown;
 use std::fmt;
 
@@ -232,6 +232,14 @@ fn equation(model: &Model, row: usize) -> (String, &'static str) {
 
 /// The name of a body without inertia on which a torque acts, and a message.
 fn no_inertia(model: &Model, t: f64, column: usize) -> (String, String) {
+    let owner = |slots: &Slots| slots.own.range().contains(&column);
+    if let Some(k) = model.layout.constraints.iter().position(owner) {
+        let name = model.constraints[k].name.clone();
+        let message = format!(
+            "the place of {name} on its curve is not determined at t = {t:.6} s: nothing resists its motion along the curve"
+        );
+        return (name, message);
+    }
     let id = model.layout.body_of(column).map_or(BodyId::GROUND, |(body, _)| body);
     let body = &model.bodies[id.0];
     let (name, inertia) = (body.name.clone(), body.inertia);
