@@ -5,7 +5,7 @@ mod mechanisms;
 use kempe::equations::kinematics::Motions;
 use kempe::equations::reactions::{self, Frame};
 use kempe::model::Model;
-use mechanisms::{column, every, model, refused, run, start, tolerances, worst};
+use mechanisms::{column, every, model, refused, run, start, tolerances, with, worst};
 
 const G: f64 = 9.81;
 const SPEED: f64 = 7.0;
@@ -355,4 +355,23 @@ fn the_end_of_an_open_curve_is_an_error() {
     );
     let message = refused(&m, &[("bead.x", "1.5")]).to_string();
     assert!(message.contains("wire") && message.contains("u = 1.5"), "{message}");
+}
+
+/// A step that began in a dwell is as long as the error allows, also where projection would correct any error: the
+/// contact must not end turns away.
+#[test]
+fn no_step_loses_the_contact_after_a_dwell() {
+    for speed in [60.0, 100.0, 120.0, 150.0] {
+        let text = include_str!("../../examples/cam_roller.toml");
+        let m = with(text, &[("speed", speed)]);
+        let (state, _) = start(&m, &[], &[("follower.y", "0.05")]);
+        let u = m.layout.constraints[2].own.first;
+        let t_end = 3.0 * std::f64::consts::TAU / speed;
+        let options = kempe::analyses::dynamics::Options { t_end, ..kempe_options() };
+        let done = run(&m, &state, &every(t_end / 300.0, options));
+        for (q, t) in done.trajectory.q.chunks(m.layout.n_q).zip(&done.trajectory.t) {
+            let turned = q[u] - state.q[u] - speed * t;
+            assert!(turned.abs() < 0.5, "{speed} rad/s, t = {t}: {turned}");
+        }
+    }
 }
