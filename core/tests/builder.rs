@@ -154,11 +154,13 @@ fn a_second_value_replaces_the_first() {
 /// Each body has a method for each field that it declares, and no other.
 #[test]
 fn every_field_of_bodies() {
+    let circle = || [("circle", Value::List([0.0, 0.0, 1.0].map(Value::from).into()))];
     let mut m = ModelBuilder::new("all");
-    m.ground().point("O", 0, 0);
-    let bar = m.bar("bar").mass(1).length(1).ends("A", "B");
+    m.ground().point("O", 0, 0).curve("ring", circle());
+    let bar = m.bar("bar").mass(1).length(1).ends("A", "B").curve("rim", circle());
     bar.through("A", 0, 0).through("B", 1, 0).point("C", 0, 1);
     let body = m.body("body").mass(1).inertia(1).center(0, 0).point("C", 0, 1);
+    let body = body.curve("rim", circle());
     body.through("C", 0, 0).through("D", 1, 1);
     m.point_mass("point_mass").mass(1).at(0.5, 2);
     m.build().unwrap();

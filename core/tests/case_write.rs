@@ -93,7 +93,14 @@ impl Dice {
 
     fn value(&mut self, shape: Shape, used: &mut usize) -> Value {
         match shape {
-            Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name => {
+            Shape::Curves => {
+                let circle = |own: &mut Self| {
+                    let numbers = vec![own.formula(), own.formula(), own.formula()];
+                    Value::Table(vec![("circle".to_string(), Value::List(numbers))])
+                };
+                Value::Table((0..self.roll(3)).map(|_| (self.name(used), circle(self))).collect())
+            }
+            Shape::Body | Shape::Point | Shape::Curve | Shape::Coordinate | Shape::Name => {
                 Value::Text(self.text())
             }
             Shape::Number | Shape::Law => self.formula(),

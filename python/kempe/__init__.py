@@ -80,6 +80,8 @@ if TYPE_CHECKING:
     from kempe.errors import ModelError as ModelError
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
+    from kempe.events import Event as Event
+    from kempe.events import EventWarning as EventWarning
     from kempe.matrices import Labelled as Labelled
     from kempe.matrices import Matrices as Matrices
     from kempe.matrices import show as show
@@ -116,6 +118,8 @@ _HOME = {
     "DOP853": "options",
     "Dynamics": "options",
     "Energy": "energy",
+    "Event": "events",
+    "EventWarning": "events",
     "FileError": "errors",
     "GeneralizedAlpha": "options",
     "HHT": "options",

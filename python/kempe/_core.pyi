@@ -86,11 +86,12 @@ class Model:
 
         ``{"title", "gravity": [x, y], "parameters": {…}, "n_q", "n_z", "n_rows",
         "bodies": [{"name", "type", "mass", "inertia", "center": [x, y], "points": {"B": [x, y]},
-        "columns": [start, stop]}],
+        "curves": {"rim": {"points": [[x, y]], "closed": bool}}, "columns": [start, stop]}],
         "constraints": [{"name", "group": "joints" | "drivers", "type", "i", "j", "bodies": [name],
         "point_i": [x, y], "point_j": [x, y], "axis_i": angle, "axis_j": angle,
         "rows": [start, stop], "equations": [{"name", "unit"}],
-        "columns": [start, stop], "coordinates": [{"name", "unit"}]}],
+        "columns": [start, stop], "coordinates": [{"name", "unit"}],
+        "results": [{"name", "unit", "negative": null | event}]}],
         "forces": [{"name", "type", "i", "j", "bodies": [name], "parts": ["stiffness", "damping"],
         "points": null | [[x, y], [x, y]], "places": [start, stop], "states": [{"name", "unit"}],
         "reaction": null | joint}],
@@ -230,6 +231,9 @@ def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
 
 def reaction(model: Model, joint: str, on: str, frame: str, t: _F, q: _F, lam: _F) -> _F:
     """Force and torque about the joint point of a joint on a body: (n_t, 3), N and N·m."""
+
+def results(model: Model, joint: str, t: _F, q: _F, lam: _F) -> _F:
+    """The results of a joint beside its reaction, (n_t, n); ``describe`` names them."""
 
 def measured(model: Model, name: str, t: _F, q: _F, v: _F, a: _F | None = None) -> _F:
     """Position, rate and acceleration of each position quantity of an element: (n_t, 3 n).

@@ -17,7 +17,7 @@ from kempe import _core, _reference, files
 
 WIDTH = 100
 SECTIONS = ("joints", "drivers", "forces")
-REFERENCES = ("body", "point", "coordinate")
+REFERENCES = ("body", "point", "curve", "coordinate")
 TYPES = dict.fromkeys(REFERENCES, "str") | {
     "number": "Number",
     "law": "Number",

@@ -35,8 +35,9 @@ The values of fields:
 | names | two names, `["A", "B"]` |
 | numbers | a list of numbers, without units and formulas |
 | columns | two names of columns, `["angle", "lift"]` |
+| curves | a table of [curves](file-format.md#curves), `{ rim = { circle = [x, y, r] } }` |
 | name | a name, such as that of a joint, of a file or of a unit |
-| body, point, coordinate | `"crank"`, `"crank.B"`, `"crank.angle"` |
+| body, point, curve, coordinate | `"crank"`, `"crank.B"`, `"cam.rim"`, `"crank.angle"` |
 | count | a whole number from 1 |
 | flag | `true` or `false` |
 """

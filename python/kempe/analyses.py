@@ -154,7 +154,13 @@ def _simulate(
         if partial is not None and len(partial.t):
             error.solution = Solution(model, partial, method)  # type: ignore[attr-defined]
         raise
-    return Solution(model, run, method)
+    solution = Solution(model, run, method)
+    if any(any(info.events) for info in model.constraints.values()):
+        from kempe.events import EventWarning, warnings_of
+
+        for warning in warnings_of(solution):
+            warnings.warn(warning, EventWarning, stacklevel=3)
+    return solution
 
 
 def _method(entry: Mapping[str, Any]) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from kempe.element import Element
-from kempe.values import Number, Pair, Points
+from kempe.values import Curves, Number, Pair, Points
 
 
 @dataclass(frozen=True)
@@ -20,6 +20,7 @@ class Bar(Element):
         ends: names of the points at (-length/2, 0) and (length/2, 0).
         through: global coordinates of two named points, m; initial placement of the bar.
         points: further named points in the frame of the bar, m.
+        curves: named curves in the frame of the bar.
     """
 
     mass: Number
@@ -27,6 +28,7 @@ class Bar(Element):
     ends: Sequence[str] | None = None
     through: Points | None = None
     points: Points | None = None
+    curves: Curves | None = None
     section: ClassVar[str] = "bodies"
     kind: ClassVar[str] = "bar"
     shapes: ClassVar[Mapping[str, str]] = {
@@ -35,6 +37,7 @@ class Bar(Element):
         "ends": "names",
         "through": "points",
         "points": "points",
+        "curves": "curves",
     }
 
 
@@ -48,6 +51,7 @@ class Body(Element):
         center: mass centre in the body's frame, m.
         points: named points in the body's frame, m.
         through: global coordinates of two named points, m; initial placement of the body.
+        curves: named curves in the body's frame.
     """
 
     mass: Number
@@ -55,6 +59,7 @@ class Body(Element):
     center: Pair = (0.0, 0.0)
     points: Points | None = None
     through: Points | None = None
+    curves: Curves | None = None
     section: ClassVar[str] = "bodies"
     kind: ClassVar[str] = "body"
     shapes: ClassVar[Mapping[str, str]] = {
@@ -63,6 +68,7 @@ class Body(Element):
         "center": "pair",
         "points": "points",
         "through": "points",
+        "curves": "curves",
     }
 
 

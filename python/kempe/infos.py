@@ -28,6 +28,8 @@ class BodyInfo:
         inertia: about the mass centre, kg·m².
         center: mass centre in the body's frame, m.
         points: named points in the body's frame, m.
+        curves: named curves, each by points along it in the body's frame, m, and whether it is
+            closed.
         columns: slice of its coordinates in q: x, y, angle; x, y of a point mass; empty for ground.
     """
 
@@ -38,6 +40,7 @@ class BodyInfo:
     inertia: float
     center: Vector
     points: Mapping[str, Vector]
+    curves: Mapping[str, tuple[tuple[Vector, ...], bool]]
     columns: slice
 
     def __repr__(self) -> str:
@@ -47,7 +50,7 @@ class BodyInfo:
     def __reduce__(self) -> tuple[Any, ...]:
         """A view of a mapping cannot be pickled; the mapping can."""
         values = {field.name: getattr(self, field.name) for field in fields(self)}
-        return _body_of, ({**values, "points": dict(self.points)},)
+        return _body_of, ({**values, "points": dict(self.points), "curves": dict(self.curves)},)
 
     @property
     def count(self) -> int:
@@ -99,7 +102,8 @@ class ConstraintInfo:
         equations: names and units of the equations.
         columns: slice of its internal coordinates in q; empty for most joints.
         coordinates: names and units of its internal coordinates.
-        results: names, units, rows and factors of results that follow from single multipliers.
+        results: names and units of its results beside the reaction, such as ``("normal", "N")``.
+        events: for each of these results the event where it becomes negative, or None.
         measured: its position quantities.
     """
 
@@ -117,7 +121,8 @@ class ConstraintInfo:
     bodies: tuple[str, ...]
     columns: slice
     coordinates: tuple[tuple[str, str], ...]
-    results: tuple[tuple[str, str, int, float], ...]
+    results: tuple[tuple[str, str], ...]
+    events: tuple[str | None, ...]
     measured: tuple[Measured, ...]
 
     def __repr__(self) -> str:
@@ -159,7 +164,8 @@ class ForceInfo:
 
 
 def _body_of(values: dict[str, Any]) -> BodyInfo:
-    return BodyInfo(**{**values, "points": MappingProxyType(values["points"])})
+    named = {key: MappingProxyType(values[key]) for key in ("points", "curves")}
+    return BodyInfo(**{**values, **named})
 
 
 def vector(two: list[float] | None) -> Vector:
@@ -180,7 +186,12 @@ def _measured(entries: list[dict[str, Any]]) -> tuple[Measured, ...]:
 def body(number: int, entry: dict[str, Any]) -> BodyInfo:
     """A body from its entry in the description by the core."""
     points = {name: vector(point) for name, point in entry["points"].items()}
+    curves = {
+        name: (tuple(map(vector, curve["points"])), bool(curve["closed"]))
+        for name, curve in entry["curves"].items()
+    }
     return BodyInfo(
+        curves=MappingProxyType(curves),
         name=entry["name"],
         type=entry["type"] or "",
         number=number,
@@ -209,7 +220,8 @@ def constraint(entry: dict[str, Any]) -> ConstraintInfo:
         bodies=tuple(entry["bodies"]),
         columns=slice(*entry["columns"]),
         coordinates=_units(entry["coordinates"]),
-        results=tuple((r["name"], r["unit"], r["row"], r["factor"]) for r in entry["results"]),
+        results=_units(entry["results"]),
+        events=tuple(result["negative"] for result in entry["results"]),
         measured=_measured(entry["measured"]),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
@@ -14,35 +14,29 @@ from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
 from kempe.errors import ModelError
+from kempe.ground import Ground
 from kempe.lookup_tables import TableInfo
 from kempe.names import few, unknown
 from kempe.table_methods import TableMethods
-from kempe.values import Number, Pair, Points, data, mapping, numbers, pair, points, refuse
+from kempe.values import (
+    Curves,
+    Number,
+    Pair,
+    Points,
+    curves,
+    data,
+    mapping,
+    numbers,
+    pair,
+    points,
+    refuse,
+)
 
 #: Version of the case format.
 FORMAT = 1
 #: Whether redundant constraints are accepted.
 Redundancy: TypeAlias = Literal["refuse", "allow"]
 SECTIONS = ("bodies", "joints", "drivers", "forces")
-
-
-class Ground:
-    """The fixed body; its frame is the global frame."""
-
-    def __init__(self, model: Model) -> None:
-        self._model = model
-
-    def points(self, **points: Pair) -> None:
-        """Add named points to ground, m: ``m.ground.points(A=(0, 0), D=("G", 0))``.
-
-        Raises:
-            ModelError: the name is taken, or the point does not consist of two numbers or formulas.
-        """
-        self._model._ground_points(points)
-
-    def __repr__(self) -> str:
-        points = self._model.tree().get("bodies", {}).get("ground", {}).get("points", {})
-        return f"<ground of {self._model.title!r}: points {', '.join(points) or 'none'}>"
 
 
 class Model(ElementMethods, TableMethods):
@@ -113,6 +107,7 @@ class Model(ElementMethods, TableMethods):
         ends: tuple[str, str] | None = None,
         through: Points | None = None,
         points: Points | None = None,
+        curves: Curves | None = None,
     ) -> Bar:
         """Add a uniform slender bar: frame at its centre, x along it, inertia mass·length²/12.
 
@@ -123,8 +118,9 @@ class Model(ElementMethods, TableMethods):
             ends: names of the points at (-length/2, 0) and (length/2, 0).
             through: global coordinates of two named points, m: ``{"B": (3.4, 9.4), …}``.
             points: further named points in the frame of the bar, m.
+            curves: named curves in the frame of the bar, for joints on curves; see ``body``.
         """
-        return self._add(Bar(name, mass, length, ends, through, points))
+        return self._add(Bar(name, mass, length, ends, through, points, curves))
 
     def body(
         self,
@@ -135,6 +131,7 @@ class Model(ElementMethods, TableMethods):
         center: Pair = (0.0, 0.0),
         points: Points | None = None,
         through: Points | None = None,
+        curves: Curves | None = None,
     ) -> Body:
         """Add a general rigid body.
 
@@ -145,8 +142,13 @@ class Model(ElementMethods, TableMethods):
             center: mass centre in the body's frame, m.
             points: named points in the body's frame, m.
             through: global coordinates of two named points, m.
+            curves: named curves in the body's frame, for joints on curves, each in one of the forms
+                ``{"x": "…u…", "y": "…u…", "range": (a, b), "periodic": False}``,
+                ``{"polar": "r(u)"}``, ``{"points": [(x, y), …], "periodic": False,
+                "interpolation": "quintic"}``, ``{"circle": (x, y, r)}`` and
+                ``{"line": [(x, y), (x, y)]}``.
         """
-        return self._add(Body(name, mass, inertia, center, points, through))
+        return self._add(Body(name, mass, inertia, center, points, through, curves))
 
     def point_mass(self, name: str, *, mass: Number, at: Pair | None = None) -> PointMass:
         """Add a point with mass. It has no angle and one named point, P.
@@ -173,16 +175,27 @@ class Model(ElementMethods, TableMethods):
                 refuse(path, f"the name is taken by {section}.{element.name}; choose another")
 
     def _ground_points(self, given: Mapping[str, Pair]) -> None:
+        self._on_ground("point", given, points)
+
+    def _ground_curves(self, given: Mapping[str, Mapping[str, Any]]) -> None:
+        self._on_ground("curve", given, curves)
+
+    def _on_ground(
+        self,
+        what: str,
+        given: Mapping[str, Any],
+        check: Callable[[object, str], dict[str, Any]],
+    ) -> None:
+        """Add named points or curves to ground."""
         bodies: dict[str, Any] = self._tree["bodies"]
-        known = bodies.get("ground", {}).get("points", {})
+        ground = bodies.get("ground", {})
+        key, known = f"{what}s", ground.get(f"{what}s", {})
         for name in given:
             if name in known:
-                refuse(
-                    f"bodies.ground.points.{name}",
-                    "the name is taken by another point; choose another",
-                )
-        checked = points(given, "bodies.ground.points")
-        self._tree["bodies"] = {"ground": {"points": {**known, **checked}}} | {
+                path = f"bodies.ground.{key}.{name}"
+                refuse(path, f"the name is taken by another {what}; choose another")
+        checked = check(given, f"bodies.ground.{key}")
+        self._tree["bodies"] = {"ground": {**ground, key: {**known, **checked}}} | {
             name: body for name, body in bodies.items() if name != "ground"
         }
         self._changed()

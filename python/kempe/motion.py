@@ -125,6 +125,13 @@ class Motion:
             self._last_reaction = (joint, on, frame), values
         return values
 
+    def results(self, joint: str) -> Floats:
+        """Results of a joint beside its reaction, (…, n); see ``ConstraintInfo.results``."""
+        t, q, _ = self._rows()
+        return self._as_given(
+            _core.results(self.compiled.core, joint, t, q, np.atleast_2d(self.lam))
+        )
+
     def action(self, name: str, on: str, part: str | None, frame: str) -> Floats:
         """Force and torque of a force element on a body, (…, 3); see ``ForceView``."""
         rows = *self._rows(), np.atleast_2d(self.z)

@@ -139,6 +139,8 @@ def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
         found[name] = Quantity(unit, partial(_column, partial(getattr, motion, "q"), k))
         rate = partial(_column, partial(getattr, motion, "v"), k)
         found[f"{name}_rate"] = Quantity(f"{unit}/s", rate)
+    for name, unit in info.results:
+        found[name] = Quantity(unit, partial(getattr, view, name))
     for k, (name, unit) in enumerate(info.equations):
         of = FORCE_UNITS.get(unit, f"J/{unit}")
         multiplier = partial(_column, partial(getattr, view, "lam"), k)

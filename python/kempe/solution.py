@@ -26,6 +26,7 @@ from kempe.state import State
 if TYPE_CHECKING:
     import pandas
 
+    from kempe.events import Event
     from kempe.model import Model
     from kempe.runs import Run
     from kempe.views.frames import Frame
@@ -182,6 +183,16 @@ class Solution(Motion):
         """Constraint violation over time."""
         position, velocity = (np.abs(r).max(axis=1, initial=0.0) for r in self.residuals)
         return Drift(fixed(position), fixed(velocity))
+
+    @cached_property
+    def events(self) -> Mapping[str, Event]:
+        """Events of the run by name, such as ``cam.lift_off``; see ``kempe.events``.
+
+        An event that a joint of the model may have and that did not occur has no times.
+        """
+        from kempe.events import events
+
+        return events(self)
 
     @property
     def initial(self) -> State:

@@ -27,6 +27,9 @@ Tolerance: TypeAlias = "float | str | Mapping[str, float | str]"
 #: Named points of a body, in its frame, m.
 Points: TypeAlias = "Mapping[str, Sequence[float | str]]"
 
+#: Named curves of a body, each a mapping in one of the forms that ``Model.body`` lists.
+Curves: TypeAlias = "Mapping[str, Mapping[str, Any]]"
+
 #: Longer texts of wrong values are not part of a message.
 _LONGEST = 80
 #: A float represents every integer up to this limit exactly.
@@ -137,6 +140,27 @@ def points(value: object, path: str) -> dict[str, tuple[float | str, float | str
     }
 
 
+def curves(value: object, path: str) -> dict[str, dict[str, Any]]:
+    """Named curves; the core checks which keys make a curve."""
+    form = "{'rim': {'circle': (x, y, r)}}"
+    return {
+        reference(name, path): {
+            reference(key, f"{path}.{name}"): _of_curve(entry, f"{path}.{name}.{key}")
+            for key, entry in _items(curve, f"{path}.{name}", "{'circle': (x, y, r)}")
+        }
+        for name, curve in _items(value, path, form)
+    }
+
+
+def _of_curve(value: object, path: str) -> Any:
+    """A number, a text, a flag, or lists of them to any depth, arrays included."""
+    if isinstance(value, bool | str):
+        return value
+    if getattr(value, "ndim", 0) or isinstance(value, list | tuple):
+        return [_of_curve(entry, f"{path}[{k}]") for k, entry in enumerate(value)]  # type: ignore[arg-type, var-annotated]
+    return number(value, path)
+
+
 def numbers(value: object, path: str) -> dict[str, float | str]:
     """Named numbers or formulas, such as parameters or given coordinates."""
     return {
@@ -236,4 +260,6 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "word": reference,
     "names": names,
     "points": points,
+    "curves": curves,
+    "curve": reference,
 }

@@ -57,6 +57,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "residual": lambda: _core.residual(MODEL, TIMES, ROW, ROW),
     "measured": lambda: _core.measured(MODEL, "C", TIMES, ROW, ROW, ROW),
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
+    "results": lambda: _core.results(MODEL, "C", TIMES, ROW, LAM),
     "force": lambda: _core.force(
         MODEL, "spring", "rocker", None, "global", TIMES, ROW, ROW, STATES
     ),

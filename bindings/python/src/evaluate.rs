@@ -235,6 +235,35 @@ pub fn reaction<'py>(
     })
 }
 
+/// The results of a joint beside its reaction, such as the normal force of a roller: (n_t, n).
+#[pyfunction]
+#[pyo3(signature = (model, joint, t, q, lam))]
+pub fn results<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    joint: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+    lam: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("results", || {
+        let model = &*model.model;
+        let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
+        let states = Rates::read(py, model, &t, &q, &q)?;
+        let (m, count) = (model.layout.n_rows, states.t.len());
+        let lam = rows(py, "lam", &lam, (count, m))?;
+        let own = model.layout.constraints[k].rows.clone();
+        let width = model.constraints[k].element.result_quantities().len();
+        let mut out = vec![0.0; width * count];
+        states.each(model, |at, t, motions| {
+            let lam = &lam[at * m..][own.clone()];
+            let out = &mut out[at * width..(at + 1) * width];
+            reactions::results(model, k, motions, t, lam, out);
+        });
+        table(py, out, (count, width))
+    })
+}
+
 /// Force, and torque about the body's origin, of a force element or one of its parts on a body.
 #[pyfunction]
 #[pyo3(signature = (model, name, on, part, frame, t, q, v, z, lam=None))]

@@ -86,6 +86,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(evaluate::residual, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::measured, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::reaction, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::results, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::matrices, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::formulas, module)?)?;

@@ -4,7 +4,7 @@ use crate::convert::{refuse, Row};
 use crate::guard::guard;
 use crate::recent_options::RecentOptions;
 use kempe::analyses::dynamics::Prepared;
-use kempe::elements::{BodyId, Measured, OwnState, ResultOf, SceneSymbol, SymbolEnd};
+use kempe::elements::{BodyId, Curve, Measured, OwnState, ResultQuantity, SceneSymbol, SymbolEnd};
 use kempe::expression::Table;
 use kempe::math::Local;
 use kempe::model::{Body, Columns, Model};
@@ -121,6 +121,7 @@ fn describe(model: &Model) -> Value {
 fn body(body: &Body, columns: Columns) -> Value {
     let points: Map<String, Value> =
         body.points.iter().map(|(name, s)| (name.clone(), pair(s))).collect();
+    let curves: Map<String, Value> = body.curves.iter().filter_map(drawn).collect();
     json!({
         "name": body.name,
         "type": body.kind,
@@ -128,6 +129,7 @@ fn body(body: &Body, columns: Columns) -> Value {
         "inertia": body.inertia,
         "center": pair(&body.center),
         "points": points,
+        "curves": curves,
         "columns": span(&columns.range()),
     })
 }
@@ -139,6 +141,13 @@ fn table(table: &Table) -> Value {
         "range": table.range(),
         "period": table.period(),
     })
+}
+
+/// The name of a curve and points along it, for drawings.
+fn drawn((name, curve): &(String, Option<Curve>)) -> Option<(String, Value)> {
+    let curve = curve.as_ref()?;
+    let points: Vec<Value> = curve.drawn().iter().map(pair).collect();
+    Some((name.clone(), json!({ "points": points, "closed": curve.periodic() })))
 }
 
 fn span(range: &Range<usize>) -> Value {
@@ -170,9 +179,9 @@ fn measured(all: &[Measured]) -> Vec<Value> {
 fn constraint(model: &Model, k: usize) -> Value {
     let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
     let (i, j, bodies) = connected(model, &item.bodies);
-    let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.unit });
     let result =
-        |r: &ResultOf| json!({ "name": r.name, "unit": r.unit, "row": r.row, "factor": r.factor });
+        |r: &ResultQuantity| json!({ "name": r.name, "unit": r.unit, "negative": r.negative });
+    let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.unit });
     json!({
         "name": item.name,
         "group": item.group.section(),
@@ -187,8 +196,8 @@ fn constraint(model: &Model, k: usize) -> Value {
         "columns": span(&slots.own.range()),
         "coordinates": internal(slots.own),
         "rows": span(&slots.rows),
-        "results": item.element.results().iter().map(result).collect::<Vec<_>>(),
         "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
+        "results": item.element.result_quantities().iter().map(result).collect::<Vec<_>>(),
         "measured": measured(item.element.measured()),
     })
 }

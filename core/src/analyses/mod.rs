@@ -2,6 +2,7 @@
 
 pub mod assemble;
 mod closing;
+mod curves;
 mod dependence;
 pub mod dynamics;
 mod errors;

@@ -36,9 +36,9 @@ impl<'m, Type> BodyBuilder<'m, Type> {
         self
     }
 
-    /// Adds to a table of points.
-    fn place(self, field: &str, name: &str, point: Pair) -> Self {
-        let point = (name.to_string(), Value::from(point));
+    /// Adds to a table of points or curves.
+    fn place(self, field: &str, name: &str, value: impl Into<Value>) -> Self {
+        let point = (name.to_string(), value.into());
         let table = self.entry.fields.iter_mut().find(|(key, _)| key == field);
         match table {
             Some((_, Value::Table(points))) => points.push(point),
@@ -55,6 +55,16 @@ macro_rules! extended {
             /// A named point in the frame of the body, m.
             pub fn point(self, name: &str, x: impl Into<Number>, y: impl Into<Number>) -> Self {
                 self.place("points", name, Pair::from((x, y)))
+            }
+
+            /// A named curve in the frame of the body, by the keys of its form: `[("circle", …)]`.
+            pub fn curve<'k>(
+                self,
+                name: &str,
+                form: impl IntoIterator<Item = (&'k str, Value)>,
+            ) -> Self {
+                let fields = form.into_iter().map(|(key, value)| (key.to_string(), value));
+                self.place("curves", name, Value::Table(fields.collect()))
             }
         })+
     };

@@ -3,8 +3,8 @@
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
 use super::values::{
-    count, number, numbers, pair, plain_numbers, points, terms, tolerance, two_columns, two_names,
-    units, word, wrong,
+    count, curves, number, numbers, pair, plain_numbers, points, terms, tolerance, two_columns,
+    two_names, units, word, wrong,
 };
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
@@ -102,6 +102,7 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Terms, _) => terms(report, node),
         (Shape::Units, _) => units(report, node),
         (Shape::Points, _) => points(report, node),
+        (Shape::Curves, _) => curves(report, node),
         (Shape::Names, _) => two_names(report, node),
         (Shape::Numbers, _) => plain_numbers(report, node),
         (Shape::Columns, _) => two_columns(report, node),
@@ -111,6 +112,8 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Options(family), _) => chosen(report, node, family),
         (Shape::Flag, Data::Flag(_)) => {}
         (Shape::Flag, _) => wrong(report, node, "true or false"),
+        (Shape::Curve, Data::Text(_)) => {}
+        (Shape::Curve, _) => wrong(report, node, "a curve as \"body.curve\""),
         (Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name, Data::Text(_)) => {}
         (Shape::Body, _) => wrong(report, node, "the name of a body"),
         (Shape::Point, _) => wrong(report, node, "a point as \"body.point\""),

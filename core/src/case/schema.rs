@@ -8,9 +8,11 @@ use super::FORMAT_VERSION;
 use crate::analyses::options::Declaration;
 use crate::analyses::{declarations, option_families};
 use crate::elements::{
-    catalogue, Default, Field, Group, Shape, Table, TOLERANCES, UNITS_OF_EQUATIONS,
+    catalogue, CurveForm, Default, Field, Group, Shape, Table, CURVE_FORMS, TOLERANCES,
+    UNITS_OF_EQUATIONS,
 };
 use crate::expression::FUNCTIONS;
+use crate::math::Interpolation;
 use crate::model::{body_tables, table_fields};
 
 /// The JSON Schema (draft 2020-12) of a case, for editors: sections, types, fields, descriptions and
@@ -205,6 +207,8 @@ fn meaning(f: &Field) -> String {
 
 fn property(f: &Field) -> Value {
     let schema = match f.shape {
+        Shape::Curve => json!({ "type": "string" }),
+        Shape::Curves => reference("curves"),
         Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name => json!({ "type": "string" }),
         Shape::Flag => json!({ "type": "boolean" }),
         Shape::Word(words) => json!({ "enum": words }),
@@ -239,6 +243,32 @@ fn property(f: &Field) -> Value {
     schema
 }
 
+/// A curve in one of its forms.
+fn curve() -> Value {
+    let word = |kind: Interpolation| kind.name();
+    let points =
+        |least: usize| json!({ "type": "array", "items": reference("pair"), "minItems": least });
+    let mut line = points(2);
+    line["maxItems"] = json!(2);
+    let three =
+        json!({ "type": "array", "items": reference("number"), "minItems": 3, "maxItems": 3 });
+    let number = || reference("number");
+    let properties = json!({
+        "x": described(number(), "x(u) in the frame of the body (m): a formula in u and the parameters."),
+        "y": described(number(), "y(u) in the frame of the body (m): a formula in u and the parameters."),
+        "range": described(reference("pair"), "First and last u of x and y."),
+        "polar": described(number(), "Distance r(u) from the origin (m) at the polar angle u; closed."),
+        "points": described(points(2), "Points [x, y] (m); u is the accumulated chord length."),
+        "periodic": described(json!({ "type": "boolean" }), "Whether the curve closes itself."),
+        "interpolation": { "enum": Interpolation::ALL.map(word), "description": "Of points; quintic if absent." },
+        "circle": described(three, "Centre x, y and radius (m); u is the angle, counter-clockwise."),
+        "line": described(line, "Both ends [x, y] (m); u is the length from the first."),
+    });
+    let one = |form: &CurveForm| json!({ "required": form.keys });
+    let forms: Vec<Value> = CURVE_FORMS.iter().map(one).collect();
+    closed(object(properties), json!({ "oneOf": forms }))
+}
+
 fn definitions() -> Value {
     let two_of =
         |item: Value| json!({ "type": "array", "items": item, "minItems": 2, "maxItems": 2 });
@@ -258,6 +288,7 @@ fn definitions() -> Value {
         "names": two_different(names(&[])),
         "count": { "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string" }] },
     });
+    definitions["curves"] = by_name(curve(), &[]);
     let kinds = TOLERANCES.iter().map(|kind| (kind.to_string(), reference("number")));
     let by_kind = closed(kinds.collect(), json!({}));
     definitions["tolerance"] = json!({ "anyOf": [reference("number"), by_kind] });

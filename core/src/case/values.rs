@@ -3,7 +3,7 @@
 use super::names;
 use super::report::{among, Report};
 use super::tree::{Data, Node};
-use crate::elements::{TOLERANCES, UNITS_OF_EQUATIONS};
+use crate::elements::{CURVE_FORMS, TOLERANCES, UNITS_OF_EQUATIONS};
 use crate::expression::suggest::did_you_mean;
 
 /// Reports a value of the wrong shape.
@@ -85,6 +85,29 @@ pub(super) fn points(report: &mut Report, node: &Node) {
         report.within(name, |report| {
             names::key(report, name);
             pair(report, point);
+        });
+    }
+}
+
+/// Named curves; the model checks the values of each.
+pub(super) fn curves(report: &mut Report, node: &Node) {
+    let form = report.example("{ circle = [x, y, radius] }", "{ \"circle\": [x, y, radius] }");
+    let Data::Table(table) = &node.data else {
+        return wrong(report, node, &format!("a table of curves such as rim = {form}"));
+    };
+    let known: Vec<&str> =
+        CURVE_FORMS.iter().flat_map(|form| form.keys.iter().chain(form.more)).copied().collect();
+    for (name, curve) in &table.entries {
+        report.within(name, |report| {
+            names::key(report, name);
+            let Data::Table(fields) = &curve.data else {
+                return wrong(report, curve, &format!("a curve such as {form}"));
+            };
+            for (key, _) in fields.entries.iter().filter(|(key, _)| !known.contains(&key.as_str()))
+            {
+                let message = format!("unknown field '{}' of a curve", super::shown(key));
+                report.within(key, |report| report.unknown_key(message, key, &known));
+            }
         });
     }
 }

@@ -76,13 +76,21 @@ macro_rules! constraints {
             pub fn own(&self) -> usize {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::OWN,)+)+ }
             }
+            /// Results beside the reaction.
+            pub fn result_quantities(&self) -> &'static [ResultQuantity] {
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::RESULTS,)+)+ }
+            }
+            /// The curve along which the first internal coordinate is measured.
+            pub fn curve(&self) -> Option<&CurveOn<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::curve(e),)+)+ }
+            }
+            /// The same, mutable.
+            pub fn curve_mut(&mut self) -> Option<&mut CurveOn<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::curve_mut(e),)+)+ }
+            }
             /// Whether the columns of translation are -I for body i and +I for body j.
             pub fn constant_columns(&self) -> bool {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::CONSTANT_COLUMNS,)+)+ }
-            }
-            /// Results that follow from single multipliers.
-            pub fn results(&self) -> &'static [ResultOf] {
-                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::RESULTS,)+)+ }
             }
             /// Names and units of the equations.
             pub fn equations(&self) -> Vec<Equation> {
@@ -128,6 +136,14 @@ macro_rules! constraints {
             /// Quantities that the other joints of the mechanism must hold.
             pub fn requires(&self, at: &At<'_, S>) -> Vec<Required<S>> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::requires(e, at),)+)+ }
+            }
+            /// The place where the reaction acts, in the frame of body j, if it moves.
+            pub fn contact(&self, at: &At<'_, S>) -> Option<Local<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::contact(e, at),)+)+ }
+            }
+            /// The values of [`Constraint::result_quantities`].
+            pub fn results(&self, at: &At<'_, S>, lam: &[S], out: &mut [S]) {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::results(e, at, lam, out),)+)+ }
             }
             /// The joint frame on a body, given by its place in [`bodies`](Self::bodies).
             pub fn attachment(&self, body: usize) -> Attachment<S> {

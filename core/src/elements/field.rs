@@ -7,6 +7,10 @@ pub enum Shape {
     Body,
     /// `body.point`.
     Point,
+    /// `body.curve`.
+    Curve,
+    /// Names of curves, each with a table.
+    Curves,
     /// `body.x`, `body.y` or `body.angle`.
     Coordinate,
     /// Number or expression in the parameters.

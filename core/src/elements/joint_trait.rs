@@ -4,9 +4,10 @@ use super::attachment::Attachment;
 use super::declare::Element;
 use super::derive;
 use super::followed::{BodyId, CoordinateOf};
+use super::kinds::CurveOn;
 use super::measured::Measured;
 use super::symbols::SceneSymbol;
-use crate::math::{Motion, Pose, Real};
+use crate::math::{Local, Motion, Pose, Real};
 
 /// A scalar constraint equation of a joint: its name in labels and its unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,17 +103,15 @@ pub struct Required<S> {
     pub remedy: &'static str,
 }
 
-/// A result with a name of its own: the multiplier of a row times a factor.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ResultOf {
-    /// Name of the quantity.
+/// A result of a joint beside its reaction, such as the normal force of a roller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ResultQuantity {
+    /// Name within the joint: `sol["cam.normal"]`.
     pub name: &'static str,
     /// SI unit.
     pub unit: &'static str,
-    /// Row among those of the element.
-    pub row: usize,
-    /// Factor of the multiplier.
-    pub factor: f64,
+    /// The event of a run where it becomes negative.
+    pub negative: Option<&'static str>,
 }
 
 /// A joint or driver: equations Φ(q, t) = 0 between any number of bodies and internal coordinates.
@@ -124,8 +123,8 @@ pub trait Joint: Element {
     /// Number of internal coordinates, 0 to 3.
     const OWN: usize = 0;
 
-    /// Results that follow from single multipliers.
-    const RESULTS: &'static [ResultOf] = &[];
+    /// Results beside the reaction, in the order of [`Joint::results`].
+    const RESULTS: &'static [ResultQuantity] = &[];
 
     /// The position quantities that may be measured on the joint.
     const MEASURED: &'static [Measured] = &[];
@@ -141,6 +140,29 @@ pub trait Joint: Element {
 
     /// The joint frame on a body, given by its place in [`Joint::bodies`].
     fn attachment<S: Real>(e: &Self::Over<S>, body: usize) -> Attachment<S>;
+
+    /// The place where the reaction acts, in the frame of body j; None if it acts at the origins of the joint frames.
+    fn contact<S: Real>(e: &Self::Over<S>, at: &At<'_, S>) -> Option<Local<S>> {
+        let _ = (e, at);
+        None
+    }
+
+    /// The [`RESULTS`](Joint::RESULTS) for the multipliers `lam` of the rows of the joint.
+    fn results<S: Real>(e: &Self::Over<S>, at: &At<'_, S>, lam: &[S], out: &mut [S]) {
+        let _ = (e, at, lam, out);
+    }
+
+    /// The curve along which the first internal coordinate is measured.
+    fn curve<S>(e: &Self::Over<S>) -> Option<&CurveOn<S>> {
+        let _ = e;
+        None
+    }
+
+    /// The same, mutable.
+    fn curve_mut<S>(e: &mut Self::Over<S>) -> Option<&mut CurveOn<S>> {
+        let _ = e;
+        None
+    }
 
     /// The geometry that the joint fixes, for assembly.
     fn fixes<S: Clone>(e: &Self::Over<S>) -> Vec<Fixes<S>> {

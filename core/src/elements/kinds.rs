@@ -3,8 +3,9 @@
 use super::attachment::Attachment;
 use super::field::{Default, Field, Shape};
 use super::followed::{BodyId, Followed, QuantityOf};
+use super::plane_curve::Curve;
 use crate::expression::Tape;
-use crate::math::Local;
+use crate::math::{Local, Real};
 
 /// A joint or driver of a model, in the order of the rows of Φ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +20,22 @@ pub struct PointOn<S = f64> {
     pub s: Local<S>,
 }
 
+/// The curve of a joint, and the body that carries it.
+#[derive(Clone, Debug)]
+pub struct CurveOn<S = f64> {
+    /// The body.
+    pub body: BodyId,
+    /// In the frame of the body.
+    pub curve: Curve<S>,
+}
+
+impl<S: Real> CurveOn<S> {
+    /// [`Curve::near`] on the same body.
+    pub fn near(&self, u: S) -> Self {
+        Self { body: self.body, curve: self.curve.near(u) }
+    }
+}
+
 /// Where fields are read from; it keeps the reports of their faults.
 pub trait Source {
     /// Whether the field has a value of its own.
@@ -27,6 +44,8 @@ pub trait Source {
     fn body(&mut self, field: &Field) -> Option<BodyId>;
     /// A named point of a body.
     fn point(&mut self, field: &Field) -> Option<PointOn<Tape>>;
+    /// A named curve of a body.
+    fn curve(&mut self, field: &Field) -> Option<CurveOn<Tape>>;
     /// A position quantity.
     fn coordinate(&mut self, field: &Field) -> Option<Followed<Tape>>;
     /// A joint by name.
@@ -93,6 +112,10 @@ kind!(
     point, Point, S => PointOn<S>, |v, f| PointOn {
         body: v.body, s: Local { x: f(&v.s.x), y: f(&v.s.y) }
     }
+);
+kind!(
+    /// A curve of a body.
+    curve, Curve, S => CurveOn<S>, |v, f| CurveOn { body: v.body, curve: v.curve.map(f) }
 );
 kind!(
     /// A position quantity.

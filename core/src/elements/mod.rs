@@ -6,6 +6,9 @@
 //! here, and give it a test sample and a page. No other source file names it.
 
 mod attachment;
+pub(crate) mod contact;
+mod curve_forms;
+mod curve_formula;
 mod declare;
 pub(crate) mod derive;
 mod dispatch;
@@ -16,6 +19,7 @@ mod joint_trait;
 mod kinds;
 mod measure;
 mod measured;
+mod plane_curve;
 mod pool;
 mod symbols;
 mod value;
@@ -27,11 +31,14 @@ pub mod joints {
     mod belt;
     mod coupling;
     mod distance;
+    mod flat_on_curve;
     mod gear;
     mod given_constraint;
     mod pin_in_slot;
+    mod point_on_curve;
     mod rack;
     mod revolute;
+    mod roller_on_curve;
     mod rolling;
     mod translational;
     mod weld;
@@ -39,11 +46,14 @@ pub mod joints {
     pub use belt::Belt;
     pub use coupling::Coupling;
     pub use distance::Distance;
+    pub use flat_on_curve::FlatOnCurve;
     pub use gear::Gear;
     pub use given_constraint::GivenConstraint;
     pub use pin_in_slot::PinInSlot;
+    pub use point_on_curve::PointOnCurve;
     pub use rack::Rack;
     pub use revolute::Revolute;
+    pub use roller_on_curve::RollerOnCurve;
     pub use rolling::Rolling;
     pub use translational::Translational;
     pub use weld::Weld;
@@ -76,6 +86,8 @@ pub mod test_elements;
 use crate::expression::Tape;
 use crate::math::{Lift, Local, Pose, Real};
 pub use attachment::Attachment;
+pub use curve_forms::{CurveForm, CURVE_FORMS};
+pub use curve_formula::Formula as CurveFormula;
 use declare::join;
 pub use declare::{Element, Table};
 pub use dispatch::Group;
@@ -85,14 +97,15 @@ pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
 pub use followed::{BodyId, Coordinate, CoordinateOf, Followed, QuantityOf};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
-pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, Required, ResultOf};
+pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, Required, ResultQuantity};
 use joints::*;
 pub use kinds::{
-    body, coordinate, equation_unit, flag, joint, law, law_pair, laws, number, optional_law,
-    optional_number, optional_pair, optional_unit, pair, point, side, terms, units, EquationUnit,
-    JointId, Kind, Optional, PointOn, Side, Source,
+    body, coordinate, curve, equation_unit, flag, joint, law, law_pair, laws, number, optional_law,
+    optional_number, optional_pair, optional_unit, pair, point, side, terms, units, CurveOn,
+    EquationUnit, JointId, Kind, Optional, PointOn, Side, Source,
 };
 pub use measured::Measured;
+pub use plane_curve::{Curve, Points as CurvePoints};
 pub use pool::{Place, Pooled, VisitForces, VisitJoints};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
@@ -112,6 +125,9 @@ constraints! {
         Belt,
         Rack,
         Rolling,
+        PointOnCurve,
+        RollerOnCurve,
+        FlatOnCurve,
         Coupling,
         GivenConstraint,
         #[cfg(feature = "test-elements")] TurnedPin,

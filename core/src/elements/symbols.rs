@@ -50,6 +50,12 @@ pub enum Mark {
     },
     /// A pitch circle on j around its point, with this radius in m.
     Circle(f64),
+    /// A roller on i around its point, with this radius in m.
+    Roller(f64),
+    /// A point of i that touches a curve.
+    Contact,
+    /// A flat face of i through its point, along the axis of i.
+    Face,
 }
 
 impl Mark {
@@ -74,6 +80,9 @@ impl Mark {
             Self::Strands { crossed: false, .. } => "open_strands",
             Self::Strands { crossed: true, .. } => "crossed_strands",
             Self::Circle(_) => "circle",
+            Self::Roller(_) => "roller",
+            Self::Contact => "contact",
+            Self::Face => "face",
         }
     }
 
@@ -83,6 +92,7 @@ impl Mark {
             Self::Circle(radius) | Self::Track(radius) | Self::ToothedLine(radius) => {
                 Some([0.0, radius])
             }
+            Self::Roller(radius) => Some([radius, 0.0]),
             Self::Strands { radii, .. } => Some(radii),
             _ => None,
         }

@@ -1,6 +1,6 @@
 //! Wheels that roll on each other or on a line, for the elements that contain them.
 
-use super::joint_trait::{At, Required, ResultOf};
+use super::joint_trait::{At, Required, ResultQuantity};
 use crate::math::{Local, Pose, Real, Rotation, Vec2};
 
 /// Radii, r = module z/2 where the numbers of teeth z are given; NaN if neither is.
@@ -42,10 +42,9 @@ pub(super) fn directions<S: Real>(axis: S, on: &Pose<S>) -> (Vec2<S>, Vec2<S>) {
     (u, u.perp())
 }
 
-/// The force at the place of rolling: the multiplier of a row.
-pub(super) const fn tangential(row: usize) -> ResultOf {
-    ResultOf { name: "tangential", unit: "N", row, factor: 1.0 }
-}
+/// The force at the place of rolling, a multiplier.
+pub(super) const TANGENTIAL: ResultQuantity =
+    ResultQuantity { name: "tangential", unit: "N", negative: None };
 
 /// A radius that is zero or, where it has no sides, negative.
 pub(super) fn radius_fault(

@@ -3,7 +3,7 @@
 use super::constraints;
 use super::kinematics::Motions;
 use crate::elements::derive::with_values;
-use crate::elements::{Attachment, BodyId};
+use crate::elements::{At, Attachment, BodyId};
 use crate::math::{Local, Pose, Real, Rotation, Vec2, Wrench};
 use crate::model::Model;
 
@@ -40,7 +40,14 @@ pub fn reaction<S: Real>(
         return None;
     }
     let at = match place {
-        Some(place) => item.element.attachment(place),
+        Some(place) => match contact(model, k, motions, t) {
+            // the place where the reaction acts, seen from this body
+            Some(contact) => Attachment {
+                s: motions[body.0].pose.rotation.inverse(contact - motions[body.0].pose.r),
+                ..item.element.attachment(place)
+            },
+            None => item.element.attachment(place),
+        },
         None => Attachment { s: Local::zero(), axis: S::zero() },
     };
     let on_body = match body.is_ground() && item.law.is_some() {
@@ -48,6 +55,40 @@ pub fn reaction<S: Real>(
         false => against(model, k, body, motions, t, lam),
     };
     Some(reduced(on_body, &motions[body.0].pose, at, frame))
+}
+
+/// Calls `f` with the positions of the participants of constraint `k`.
+fn positions<S: Real, R>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    t: S,
+    f: impl FnOnce(&At<'_, S>) -> R,
+) -> R {
+    let item = &model.constraints[k];
+    let (own, _) = motions.own(model.layout.constraints[k].own);
+    let pose = |b: usize| motions[item.bodies[b].0].pose;
+    with_values(item.bodies.len(), pose, |bodies| f(&At { bodies, own, t }))
+}
+
+/// The global place where the reaction of constraint `k` acts, if it moves on body j.
+fn contact<S: Real>(model: &Model<S>, k: usize, motions: &Motions<S>, t: S) -> Option<Vec2<S>> {
+    let item = &model.constraints[k];
+    let on_j = positions(model, k, motions, t, |at| item.element.contact(at))?;
+    Some(motions[item.bodies[1].0].pose.point(on_j))
+}
+
+/// The results of constraint `k` beside its reaction, in the order of its declaration; `lam` are the multipliers of
+/// its own rows.
+pub fn results<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    t: S,
+    lam: &[S],
+    out: &mut [S],
+) {
+    positions(model, k, motions, t, |at| model.constraints[k].element.results(at, lam, out));
 }
 
 /// -Φ_qᵀ λ in the columns of one body: the wrench about the origin of its frame.

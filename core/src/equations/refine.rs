@@ -20,6 +20,9 @@ const FOR_REDUNDANCY: usize = 2;
 const MOST: usize = 50;
 /// Correction of accelerations, relative to the largest, that ends the steps.
 const SETTLED: f64 = 1e-14;
+/// Remainder of the equations that is rounding, relative to the largest load or multiplier. It ends the steps where no
+/// body accelerates, so that corrections have no scale of their own.
+const ROUNDING: f64 = 1e-13;
 /// Correction that is accepted where rounding prevents a smaller one.
 const ACCEPTED: f64 = 1e-9;
 
@@ -44,9 +47,12 @@ pub(super) fn solve<S: Real>(
     }
     let mut last = f64::INFINITY;
     for _ in 0..MOST {
-        step(model, motions, matrix, &b, x, correction);
+        let left = step(model, motions, matrix, &b, x, correction);
         let relative = largest(&correction[..n]) / largest(&x[..n]).max(f64::MIN_POSITIVE);
         if relative <= SETTLED || (relative <= ACCEPTED && relative >= 0.5 * last) {
+            return Ok(());
+        }
+        if relative >= 0.5 * last && left <= ROUNDING * largest(&b).max(largest(&x[n..])) {
             return Ok(());
         }
         last = relative;
@@ -54,6 +60,7 @@ pub(super) fn solve<S: Real>(
     Err(Breakdown::Column(unresisted(model, &compiled.added_inertia, correction)))
 }
 
+/// One correction; returns the largest remainder before it.
 fn step<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -61,10 +68,12 @@ fn step<S: Real>(
     b: &[S],
     x: &mut [S],
     correction: &mut [S],
-) {
+) -> f64 {
     remainder(model, motions, matrix.jacobian(), b, x, correction);
+    let left = largest(correction);
     matrix.solve(correction);
     x.iter_mut().zip(correction.iter()).for_each(|(x, dx)| *x += *dx);
+    left
 }
 
 /// b - K x.

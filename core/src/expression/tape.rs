@@ -205,6 +205,17 @@ impl From<f64> for Tape {
 }
 
 impl Tape {
+    /// A tape that is the parameter with index `k`.
+    pub fn parameter(k: usize) -> Self {
+        let symbol = Symbol::Parameter(k);
+        Self {
+            code: vec![Instruction::Load(symbol)],
+            operands: 1,
+            symbols: vec![symbol],
+            ..Self::default()
+        }
+    }
+
     /// The law position + rate (t - t0).
     pub fn line(position: f64, rate: f64, t0: f64) -> Self {
         use super::operation::Binary::{Add, Multiply};

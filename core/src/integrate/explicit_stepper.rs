@@ -24,6 +24,9 @@ use std::marker::PhantomData;
 /// Number of rejected steps that ends a run; half of max_steps if that is more.
 const MANY: usize = 10_000;
 
+/// Relative error of a step beyond which projection is not trusted to remove it.
+const FAR: f64 = 1e-2;
+
 /// Memory of a stepper.
 pub(super) struct Work {
     /// Blocks in a row.
@@ -359,8 +362,12 @@ impl<P: RungeKutta> ExplicitStepper<P> {
     }
 
     /// The error norm of a rejected step by its tangential error alone, if that is smaller.
+    ///
+    /// The manifold is curved. Where the relative error exceeds [`FAR`], projection may end on another branch, so the
+    /// whole error counts.
     fn tangential<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>, norm: f64, h: f64) -> f64 {
-        if norm < 1.0 || !norm.is_finite() {
+        let farthest = self.placement.strictness() * FAR / self.control.rtol;
+        if norm < 1.0 || !norm.is_finite() || norm > farthest {
             return norm;
         }
         let Some(manifold) = rhs.system.manifold() else { return norm };

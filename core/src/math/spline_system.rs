@@ -53,7 +53,7 @@ pub(super) fn solve<S: Real, const M: usize>(
 ) -> Vec<[S; M]> {
     let n = stretches.len() + usize::from(!periodic);
     let none = [[S::zero(); M]; M];
-    let mut system = System {
+    let mut conditions = Conditions {
         diagonal: vec![none; n],
         next: vec![none; n],
         corner: vec![none; n],
@@ -62,18 +62,18 @@ pub(super) fn solve<S: Real, const M: usize>(
     for (k, stretch) in stretches.iter().enumerate() {
         let share = share(stretch);
         let last = (k + 1) % n;
-        add(&mut system.diagonal[k], &share.first);
-        add(&mut system.diagonal[last], &share.last);
+        add(&mut conditions.diagonal[k], &share.first);
+        add(&mut conditions.diagonal[last], &share.last);
         match last {
-            0 => system.corner[0] = transposed(&share.across),
-            _ => system.next[k] = share.across,
+            0 => conditions.corner[0] = transposed(&share.across),
+            _ => conditions.next[k] = share.across,
         }
         for m in 0..M {
-            system.right[k][m] += share.right[0][m];
-            system.right[last][m] += share.right[1][m];
+            conditions.right[k][m] += share.right[0][m];
+            conditions.right[last][m] += share.right[1][m];
         }
     }
-    let mut solution = system.solve();
+    let mut solution = conditions.solve();
     if periodic {
         solution.push(solution[0]);
     }
@@ -81,14 +81,14 @@ pub(super) fn solve<S: Real, const M: usize>(
 }
 
 /// Blocks of a symmetric matrix by rows: the diagonal, beside it, and the last column.
-struct System<S, const M: usize> {
+struct Conditions<S, const M: usize> {
     diagonal: Vec<Block<S, M>>,
     next: Vec<Block<S, M>>,
     corner: Vec<Block<S, M>>,
     right: Vec<[S; M]>,
 }
 
-impl<S: Real, const M: usize> System<S, M> {
+impl<S: Real, const M: usize> Conditions<S, M> {
     fn solve(mut self) -> Vec<[S; M]> {
         let last = self.diagonal.len() - 1;
         for k in 0..last {

@@ -41,7 +41,8 @@ struct Written {
 
 impl Reader<'_> {
     fn ground(&mut self) -> Body<Tape> {
-        Body { points: self.points(), ..self.blank("ground") }
+        let points = self.points();
+        Body { points, ..self.blank("ground") }
     }
 
     fn moving(&mut self) -> Body<Tape> {
@@ -57,7 +58,7 @@ impl Reader<'_> {
         }
     }
 
-    fn blank(&self, kind: &'static str) -> Body<Tape> {
+    fn blank(&mut self, kind: &'static str) -> Body<Tape> {
         let zero = || Tape::from(0.0);
         let moving = Tape::from(if kind == "ground" { 0.0 } else { 1.0 });
         Body {
@@ -67,6 +68,7 @@ impl Reader<'_> {
             inertia: moving,
             center: Local { x: zero(), y: zero() },
             points: Vec::new(),
+            curves: super::curves::read(self.entry, self.scope, self.problems),
             drawn: None,
             turns: kind != POINT_MASS,
         }

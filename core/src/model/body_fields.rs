@@ -16,6 +16,12 @@ fn points() -> Field {
     Field::optional("points", Shape::Points, "m", Default::Absent, doc)
 }
 
+fn curves() -> Field {
+    let doc = "Named curves in the frame of the body, for joints on curves: formulas x, y of u with range and \
+    periodic; polar; points; circle; or line.";
+    Field::optional("curves", Shape::Curves, "", Default::Absent, doc)
+}
+
 fn through() -> Field {
     let doc = "Global positions of named points of the body when assembly starts, each [x, y]. \
     A bar with two of them needs no length and no ends.";
@@ -46,6 +52,7 @@ fn body() -> Table {
                 "Mass centre, [x, y] in the frame of the body.",
             ),
             points(),
+            curves(),
             through(),
         ],
     }
@@ -74,6 +81,7 @@ fn bar() -> Table {
             ),
             through(),
             points(),
+            curves(),
         ],
     }
 }
@@ -99,6 +107,6 @@ fn ground() -> Table {
     Table {
         name: "ground",
         doc: "What does not move; its frame is the global frame.".to_string(),
-        fields: vec![points()],
+        fields: vec![points(), curves()],
     }
 }

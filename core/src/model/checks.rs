@@ -3,6 +3,7 @@
 use super::items::Body;
 use super::model::Model;
 use super::problem::Problem;
+use crate::elements::Curve;
 use crate::expression::{Scope as Values, Tape};
 
 /// Longer lengths, m, have powers that overflow where positions are solved for.
@@ -12,6 +13,11 @@ const LONGEST: f64 = 1e60;
 pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
     for body in &model.bodies {
         finite_points(body, problems);
+        for (name, curve) in &body.curves {
+            if let Some((key, message)) = curve.as_ref().and_then(Curve::fault) {
+                problems.push(Problem::at(&["bodies", &body.name, "curves", name, key], message));
+            }
+        }
         if body.name != "ground" {
             positive(body, problems);
         }

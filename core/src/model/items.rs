@@ -1,5 +1,6 @@
 //! The items of a model, over any scalar: bodies, joints, drivers and forces.
 
+use super::curves::Curves;
 use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, JointId, OwnState};
 use crate::expression::Tape;
 use crate::math::Local;
@@ -19,6 +20,8 @@ pub struct Body<S = f64> {
     pub center: Local<S>,
     /// Named points in the body frame, m.
     pub points: Vec<(String, Local<S>)>,
+    /// Named curves in the body frame.
+    pub curves: Curves<S>,
     /// Where it was drawn: x, y, angle; a guess for assembly.
     pub drawn: Option<[S; 3]>,
     /// Whether the angle is a coordinate; a point mass has none.
@@ -31,7 +34,10 @@ impl<S> Body<S> {
         let mut local = |s: &Local<S>| Local { x: f(&s.x), y: f(&s.y) };
         let center = local(&self.center);
         let points = self.points.iter().map(|(name, s)| (name.clone(), local(s))).collect();
+        let curves = self.curves.iter();
+        let curves = curves.map(|(name, c)| (name.clone(), c.as_ref().map(|c| c.map(f)))).collect();
         Body {
+            curves,
             name: self.name.clone(),
             kind: self.kind,
             mass: f(&self.mass),

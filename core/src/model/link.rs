@@ -6,8 +6,8 @@ use super::problem::Problem;
 use super::problems::MOST_REPORTED;
 use super::scope::{LawOf, Quantities, Reach, Scope, ANY_UNIT};
 use crate::elements::{
-    measured_of, BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Followed, Group,
-    JointId, Measured, PointOn, Source, UNITS_OF_EQUATIONS,
+    measured_of, BodyId, Constraint, Coordinate, CoordinateOf, CurveOn, Default, Field, Followed,
+    Group, JointId, Measured, PointOn, Source, UNITS_OF_EQUATIONS,
 };
 use crate::expression::{suggest, Tape};
 
@@ -277,6 +277,25 @@ impl Source for Linker<'_> {
             did_you_mean(name, &names, &format!("points of {}", owner.name))
         });
         let message = format!("body '{}' has no point '{name}'", owner.name);
+        self.report(field, message, hint.flatten())
+    }
+
+    fn curve(&mut self, field: &Field) -> Option<CurveOn<Tape>> {
+        let text = self.text(field)?;
+        let (body, name) = self.split(field, text, "body.curve")?;
+        let owner = &self.bodies[body.0];
+        if let Some((_, found)) = owner.curves.iter().find(|(own, _)| own == name) {
+            // the fault of a faulty curve is reported at the curve
+            return found.clone().map(|curve| CurveOn { body, curve });
+        }
+        let hint = self.suggests().then(|| {
+            let names: Vec<&str> = owner.curves.iter().map(|(n, _)| n.as_str()).collect();
+            match owner.point(name) {
+                Some(_) => Some(format!("'{name}' is a point of {}", owner.name)),
+                None => did_you_mean(name, &names, &format!("curves of {}", owner.name)),
+            }
+        });
+        let message = format!("body '{}' has no curve '{name}'", owner.name);
         self.report(field, message, hint.flatten())
     }
 

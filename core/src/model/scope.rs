@@ -59,6 +59,8 @@ pub(super) fn states(entry: &Entry) -> &'static [OwnState] {
 pub enum Reach {
     /// Parameters only.
     Parameters,
+    /// Parameters and the parameter u of a curve.
+    Curve,
     /// Parameters, time and positions: laws of constraints, which must be holonomic.
     Positions,
     /// Parameters, time and state.
@@ -108,8 +110,10 @@ impl Names for Visible<'_> {
             }
             return Some(Symbol::Parameter(k));
         }
-        if self.reach == Reach::Parameters {
-            return None;
+        match self.reach {
+            Reach::Parameters => return None,
+            Reach::Curve => return (name == "u").then_some(Symbol::Variable(0)),
+            Reach::Positions | Reach::State => {}
         }
         if name == "t" {
             return Some(Symbol::Time);
@@ -129,7 +133,10 @@ impl Names for Visible<'_> {
     }
 
     fn formula(&self, name: &str) -> Option<Tape> {
-        let quantities = self.law.filter(|_| self.reach != Reach::Parameters)?.quantities;
+        let quantities = self
+            .law
+            .filter(|_| !matches!(self.reach, Reach::Parameters | Reach::Curve))?
+            .quantities;
         let full = self.own(name);
         quantities.formula(full.as_deref().unwrap_or(name), self.reach == Reach::State)
     }
@@ -139,7 +146,10 @@ impl Names for Visible<'_> {
             return Vec::new();
         }
         let mut known = self.scope.parameters.clone();
-        if self.reach == Reach::Parameters {
+        if self.reach == Reach::Curve {
+            known.push("u".to_string());
+        }
+        if matches!(self.reach, Reach::Parameters | Reach::Curve) {
             return known;
         }
         known.push("t".to_string());
@@ -305,6 +315,7 @@ impl Scope {
         let wide = e.compile(&state);
         let hint = match reach {
             Reach::Parameters => "only laws of drivers and forces may use t and the state",
+            Reach::Curve => "a curve is fixed in its body: its formulas may use u and the parameters",
             Reach::Positions => {
                 "the law of a driver may use t and positions, not velocities: it would not be holonomic"
             }
@@ -365,7 +376,7 @@ fn ambiguity(text: &str, name: &str, law: Option<LawOf<'_>>) -> ExpressionError 
 }
 
 /// The unit of a formula that is composed of checked formulas.
-pub(super) const ANY_UNIT: &str = "any";
+pub(crate) const ANY_UNIT: &str = "any";
 
 /// A formula whose dimension is known must have that of its place; without a unit, the place takes a number.
 fn check_unit(e: &Expression, inferred: Inferred, unit: &str) -> Result<(), ExpressionError> {

@@ -4,16 +4,22 @@ use super::Model;
 use crate::elements::Fixes;
 use crate::math::Real;
 
-/// The size of a mechanism: the largest distance of a point from the origin of its frame, and that of two points which
-/// a joint fixes, m; 1 m without any.
+/// The size of a mechanism: the largest distance of a point or of a curve from the origin of its frame, and that of two
+/// points which a joint fixes, m; 1 m without any.
 pub fn size<S: Real>(model: &Model<S>) -> f64 {
     let points = model.bodies.iter().flat_map(|b| &b.points).map(|(_, s)| s.norm());
+    let curves = model.bodies.iter().flat_map(|b| &b.curves).filter_map(|(_, c)| c.as_ref());
+    let curves = curves.map(crate::elements::Curve::reach);
     let rods = model.constraints.iter().flat_map(|c| c.element.fixes());
     let rods = rods.filter_map(|fixed| match fixed {
         Fixes::Distance(length) | Fixes::Beside(length) => Some(length),
         _ => None,
     });
-    let largest = points.chain(rods).map(|length| length.largest_magnitude()).fold(0.0, f64::max);
+    let largest = points
+        .chain(rods)
+        .chain(curves)
+        .map(|length| length.largest_magnitude())
+        .fold(0.0, f64::max);
     if largest > 0.0 {
         largest
     } else {

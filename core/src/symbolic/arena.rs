@@ -46,6 +46,8 @@ pub(super) enum Node {
 pub(super) enum Rate {
     /// Its rate is this expression.
     Is(Id),
+    /// It is a function of the first, and its derivative by it is the second.
+    Along(Id, Id),
     /// The derivative of its definition.
     Inline,
     /// The same under this name, if it is a sum.

@@ -66,6 +66,10 @@ impl Derivation {
             return ONE;
         }
         let symbol = arena.symbols[k].clone();
+        if let Rate::Along(variable, slope) = symbol.rate {
+            let change = self.of(arena, variable);
+            return arena.multiply(slope, change);
+        }
         match (self.by, symbol.rate, symbol.definition) {
             (By::Time, Rate::Is(rate), _) => rate,
             (By::Time, Rate::Named(name), Some(definition)) => {

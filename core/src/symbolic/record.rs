@@ -108,6 +108,12 @@ impl Record {
         self.of(self.with(NAN, |arena| arena.symbol(Symbol { name, rate, definition: None })))
     }
 
+    /// A function of another expression, with its derivative by it.
+    pub fn along(&self, name: Name, variable: Symbolic, slope: Symbolic) -> Symbolic {
+        let rate = Rate::Along(self.own(variable), self.own(slope));
+        self.of(self.with(NAN, |arena| arena.symbol(Symbol { name, rate, definition: None })))
+    }
+
     /// Time.
     pub fn time(&self) -> Symbolic {
         self.changing(Name::time(), self.of(ONE))

@@ -77,7 +77,7 @@ fn wishes_that_cannot_be_read() {
     }
     let value = |key: &str, text: &str| match &asked(&m, "set", &[(key, text)])[0] {
         Target::Coordinate(target) => target.value,
-        Target::State { .. } => panic!("not a state"),
+        other => panic!("not a coordinate: {other:?}"),
     };
     close("a formula", value("crank.angle", "L1*30*deg/10"), 30_f64.to_radians(), 1e-15);
     close("a unit", value("crank.x", "250 mm"), 0.25, 1e-16);

@@ -56,10 +56,19 @@ fn table(c: &Constraint, at: &Participants, formulas: &Formulas) -> Table {
             "Pair" => vec![format!("{name}_i"), format!("{name}_j")],
             "Number" | "Law" => vec![name.to_string()],
             "Laws" | "Terms" => (1..=count).map(|k| format!("{name}_{k}")).collect(),
+            "Curve" => (0..count).map(|k| format!("number_{k}_of_the_curve")).collect(),
             _ => vec![],
         }
     });
     c.map(&mut |x| table.put(&names.next().unwrap(), *x));
+    if let Some(on) = c.curve() {
+        for (order, term) in on.curve.derivatives(at.own[0][0]).into_iter().enumerate() {
+            let derivative =
+                if order == 0 { String::new() } else { format!("_{}", "u".repeat(order)) };
+            table.put(&format!("curve.x{derivative}"), term.x);
+            table.put(&format!("curve.y{derivative}"), term.y);
+        }
+    }
     for law in laws {
         table.put(&format!("{law}_t"), 0.0);
         table.put(&format!("{law}_tt"), 0.0);

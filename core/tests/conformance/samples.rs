@@ -4,18 +4,61 @@ use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{Motor, SpringDamper, Torque, TorsionSpring};
 use kempe::elements::joints::{
-    Belt, Coupling, Distance, Gear, GivenConstraint, PinInSlot, Rack, Revolute, Rolling,
-    Translational, Weld,
+    Belt, Coupling, Distance, FlatOnCurve, Gear, GivenConstraint, PinInSlot, PointOnCurve, Rack,
+    Revolute, RollerOnCurve, Rolling, Translational, Weld,
 };
 use kempe::elements::test_elements::{Bead, Blower, Lag, Levels, Pulley, Rubbing, TurnedPin};
 use kempe::elements::{
-    catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, JointId,
-    Linearized, Moving, PointOn, Side,
+    catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveFormula, CurveOn,
+    CurvePoints, ForceElement, Group, JointId, Linearized, Moving, PointOn, Side,
 };
-use kempe::math::{Local, Motion, Pose, Real, Twist, Vec2};
+use kempe::expression::{Expression, Names, Scope, Symbol, Tape};
+use kempe::math::{Interpolation, Local, Motion, Pose, Real, Twist, Vec2};
 
 fn on(body: usize, x: f64, y: f64) -> PointOn {
     PointOn { body: BodyId(body), s: Local::new(x, y) }
+}
+
+/// A curve of body 2 in one of its forms.
+fn curve(form: &str) -> CurveOn {
+    let local = |x, y| Local::new(x, y);
+    let curve = match form {
+        "circle" => Curve::Circle { center: local(0.3, -0.2), radius: 0.8 },
+        "line" => Curve::Line { from: local(-0.4, 0.1), to: local(0.9, 0.7) },
+        "points" => {
+            let points = [[1.0, 0.0], [0.8, 0.9], [-0.2, 1.1], [-1.2, 0.1], [0.1, -0.8]];
+            let points = points.map(|[x, y]| local(x, y)).to_vec();
+            Curve::Points(CurvePoints::new(points, Interpolation::Quintic, true))
+        }
+        _ => {
+            let tape = |text: &str| {
+                let names = ["a", "b"].as_slice();
+                Expression::parse(text).unwrap().compile(&WithU(names)).unwrap()
+            };
+            let x = tape("a*cos(u) + 0.1*u^3");
+            let y = tape("b*sin(u) - a*exp(0.3*u)");
+            let range = [-2.0, 2.0].map(Tape::from);
+            let curve = Curve::Formula(CurveFormula::new(x, y, range, false));
+            let values = Scope { parameters: &[1.3, 0.7], time: f64::NAN, variables: &[] };
+            curve.map(&mut |tape: &Tape| tape.evaluate(&values))
+        }
+    };
+    CurveOn { body: BodyId(2), curve }
+}
+
+/// Parameters, and the variable u.
+struct WithU<'a>(&'a [&'a str]);
+
+impl Names for WithU<'_> {
+    fn resolve(&self, name: &str) -> Option<Symbol> {
+        match name {
+            "u" => Some(Symbol::Variable(0)),
+            _ => self.0.iter().position(|own| *own == name).map(Symbol::Parameter),
+        }
+    }
+    fn known(&self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// Joints and drivers; drivers act from ground.
@@ -58,6 +101,30 @@ pub fn constraints() -> Vec<Constraint> {
             radius: 0.8,
             axis: -1.1,
             offset: -0.2,
+        }),
+        Constraint::PointOnCurve(PointOnCurve { i: on(1, 0.2, 0.5), curve: curve("formula") }),
+        Constraint::PointOnCurve(PointOnCurve { i: on(1, 0.2, 0.5), curve: curve("line") }),
+        Constraint::RollerOnCurve(RollerOnCurve {
+            i: on(1, -0.3, 0.4),
+            curve: curve("points"),
+            radius: 0.3,
+            side: Side::Right,
+        }),
+        Constraint::RollerOnCurve(RollerOnCurve {
+            i: on(1, -0.3, 0.4),
+            curve: curve("formula"),
+            radius: 0.2,
+            side: Side::Left,
+        }),
+        Constraint::FlatOnCurve(FlatOnCurve {
+            i: on(1, 0.1, 0.6),
+            curve: curve("circle"),
+            axis: 0.4,
+        }),
+        Constraint::FlatOnCurve(FlatOnCurve {
+            i: on(1, 0.1, 0.6),
+            curve: curve("points"),
+            axis: -0.7,
         }),
         Constraint::TurnedPin(TurnedPin { i: on(1, 0.3, -0.7), j: on(2, -1.1, 0.4) }),
         Constraint::Bead(Bead { i: on(1, 0.2, 0.5), j: BodyId(2), bend: 0.8 }),

@@ -75,7 +75,34 @@ impl Drawn<'_> {
             fields.push(("inertia".into(), self.positive()));
             fields.push(("points".into(), self.points()));
         }
+        if self.random.chance(0.3) {
+            fields.push(("curves".into(), self.curves()));
+        }
         fields
+    }
+
+    /// A curve A, and a curve B through points.
+    fn curves(&mut self) -> Value {
+        let list = |own: &mut Self, n: usize| (0..n).map(|_| own.number()).collect::<Vec<_>>();
+        let first = match self.random.below(4) {
+            0 => vec![("circle".to_string(), Value::List(list(self, 3)))],
+            1 => {
+                let ends = [0, 1].map(|_| Value::List(list(self, 2)));
+                vec![("line".to_string(), Value::List(ends.to_vec()))]
+            }
+            2 => vec![("polar".to_string(), text("1 + 0.2*cos(3*u)"))],
+            _ => vec![
+                ("x".to_string(), text("L*cos(u)")),
+                ("y".to_string(), text("u^2 + k")),
+                ("range".to_string(), Value::List(list(self, 2))),
+            ],
+        };
+        let count = 2 + self.random.below(5);
+        let points: Vec<Value> = (0..count).map(|_| Value::List(list(self, 2))).collect();
+        let periodic = Value::Flag(self.random.chance(0.5));
+        let second =
+            vec![("points".to_string(), Value::List(points)), ("periodic".into(), periodic)];
+        Value::Table(vec![("A".into(), Value::Table(first)), ("B".into(), Value::Table(second))])
     }
 
     fn points(&mut self) -> Value {
@@ -113,6 +140,8 @@ impl Drawn<'_> {
         match field.shape {
             Shape::Body => text(&self.owner()),
             Shape::Point => text(&format!("{}.{}", self.owner(), self.random.choice(&["A", "B"]))),
+            Shape::Curve => text(&format!("{}.{}", self.owner(), self.random.choice(&["A", "B"]))),
+            Shape::Curves => self.curves(),
             Shape::Coordinate => {
                 text(&format!("{}.{}", self.body_name(), self.random.choice(&["x", "y", "angle"])))
             }

@@ -21,6 +21,7 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     heading(console, f"{span_text}, {span['outputs']} outputs")
     console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
     _show_peaks(console, summary["peaks"])
+    _show_events(console, summary["events"])
     _show_accuracy(console, summary)
     _show_settling(console, summary["settling"])
     cost = summary["statistics"]
@@ -47,6 +48,19 @@ def _show_peaks(console: Console, peaks: dict[str, Any]) -> None:
         header, cells = _columns(forces)
         rows = [(f["name"], f["on"], *row, _parts(f)) for f, row in zip(forces, cells, strict=True)]
         table(console, ("force", "on", *header, _header("torque of parts", "N*m")), rows, left=2)
+
+
+def _show_events(console: Console, events: dict[str, list[float]]) -> None:
+    occurred = {name: times for name, times in events.items() if times}
+    if not occurred:
+        return
+    heading(console, "Events")
+    rows = [
+        (name, str(len(times)), _number(times[0], "s"), _number(times[-1], "s"))
+        for name, times in occurred.items()
+    ]
+    header = (_header("first at", "s"), _header("last at", "s"))
+    table(console, ("event", "times", *header), rows)
 
 
 def _columns(peaks: list[dict[str, Any]]) -> tuple[list[str], list[list[str]]]:

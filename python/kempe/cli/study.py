@@ -45,6 +45,7 @@ def study(  # noqa: PLR0917 - typer distinguishes options by their annotations
     import warnings
 
     from kempe.analyses import AssemblyWarning
+    from kempe.events import EventWarning
     from kempe.plot import study_figures
     from kempe.studies import study as compute
     from kempe.studies.table import json_text
@@ -54,6 +55,7 @@ def study(  # noqa: PLR0917 - typer distinguishes options by their annotations
         silent = not remarks().is_terminal
         with warnings.catch_warnings(), remarks().status("", spinner="line") as status:
             warnings.simplefilter("ignore", AssemblyWarning)
+            warnings.simplefilter("ignore", EventWarning)
             found = compute(case, analysis, progress=None if silent else status.update)
         console = answers(silent=as_json)
         _show(console, found)

@@ -31,7 +31,7 @@ _HALF_WAY = {"body": 0.0, "line": 0.5}
 BETWEEN_NAMES = " · "
 #: More names than these do not fit on a drawing.
 MOST_NAMES, MOST_NUMBERS = 60, 40
-_LINK, _EDGE, _TINT = 8.0, 1.0, 0.72
+_LINK, _EDGE, _CURVE, _TINT = 8.0, 1.0, 1.4, 0.72
 _NUMBER = 7.0  # radius of the circle around a number
 _MOST_OBSTACLES = 60  # corners of one item
 
@@ -104,8 +104,10 @@ class Display:
 
     def draw_mechanism(self) -> None:
         """Bodies, the symbols of all elements, supports, and points without a symbol."""
-        for body in self.scene["bodies"][1:]:
-            self.add(_link(body))
+        for body in self.scene["bodies"]:
+            self.add(_rims(body))
+            if body["number"] and not (body["curves"] and len(body["outline"]) == 1):
+                self.add(_link(body))
         rings, pinned = symbols.Rings(), Places(self._near)
         for _, group in groupby(self.scene["symbols"], key=lambda symbol: symbol["element"]):
             own = list(group)
@@ -219,6 +221,8 @@ class Display:
     def _free_place(self, body: dict[str, Any], pins: list[Floats]) -> items.At | None:
         """Where a number covers no pin and no other number; None if there is no room."""
         corners = np.array(body["outline"])
+        if body["curves"] and len(corners) == 1:
+            corners = np.array(body["curves"][0]["points"])
         shares = [0.5, 0.35, 0.65, 0.25, 0.75]
         along = [corners[0] + share * (corners[len(corners) // 2] - corners[0]) for share in shares]
         for at in (corners.mean(axis=0), np.array(body["center"]), *along):
@@ -318,6 +322,18 @@ def _link(body: dict[str, Any]) -> Iterator[Item]:
     if closed:
         yield fill(of, frame, rows, colour, layer=items.BODY, tint=_TINT)
     yield line(of, frame, rows, colour, _LINK, layer=items.BODY, closed=closed, tint=_TINT)
+
+
+def _rims(body: dict[str, Any]) -> Iterator[Item]:
+    """The curves of a body: areas, or lines where they are open."""
+    number, of = body["number"], body["name"]
+    frame, colour = on_body(number), f"body {number}" if number else "ground"
+    layer = items.BODY if number else items.GROUND
+    for curve in body["curves"]:
+        rows, closed = metres(curve["points"]), curve["closed"]
+        if closed and number:
+            yield fill(of, frame, rows, colour, layer=layer, tint=_TINT)
+        yield line(of, frame, rows, colour, _CURVE, layer=layer, closed=closed)
 
 
 def _numbered(body: dict[str, Any], at: items.At, number: str) -> list[Item]:

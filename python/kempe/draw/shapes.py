@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.compiled import BodyInfo, CompiledModel, Vector
+from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, Vector
 from kempe.draw.numbers import plain
 from kempe.motion import Motion
 
@@ -17,7 +17,7 @@ _STRAIGHT = 1e-9
 
 
 def body(model: CompiledModel, name: str) -> dict[str, Any]:
-    """A body: name, number, kind, named points, mass centre and outline."""
+    """A body: name, number, kind, named points, mass centre, outline and curves."""
     info = model.all_bodies[name]
     return {
         "name": name,
@@ -26,17 +26,32 @@ def body(model: CompiledModel, name: str) -> dict[str, Any]:
         "points": [{"name": point, "at": _numbers(at)} for point, at in info.points.items()],
         "center": _numbers(info.center),
         "outline": plain(outline(model, info)) if info.number else [],
+        "curves": [
+            {"points": plain(np.array(points)), "closed": closed}
+            for points, closed in info.curves.values()
+        ],
     }
 
 
 def joint(model: CompiledModel, name: str) -> dict[str, Any]:
-    """A joint: name, the numbers of its bodies, and its point on each."""
+    """A joint: name, the numbers of its bodies, and its point on each.
+
+    A joint on a curve has no point of body j; both are that of body i.
+    """
     info = model.joints[name]
+    ends = [(info.i, info.point_i), (info.j, info.point_j)]
+    if _moves_on(info):
+        ends[1] = ends[0]
     return {
         "name": name,
-        "bodies": [model.all_bodies[info.i].number, model.all_bodies[info.j].number],
-        "points": [_numbers(info.point_i), _numbers(info.point_j)],
+        "bodies": [model.all_bodies[owner].number for owner, _ in ends],
+        "points": [_numbers(point) for _, point in ends],
     }
+
+
+def _moves_on(info: ConstraintInfo) -> bool:
+    """Whether the place of a joint on body j moves, as on a curve."""
+    return bool(info.columns.stop > info.columns.start)
 
 
 def symbols(motion: Motion) -> list[dict[str, Any]]:
@@ -68,7 +83,25 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         found["reach"] = _reach(motion, found)
     elif told["mark"].endswith("_strands"):
         found["reach"] = _distance(motion, found)
+    elif told["mark"] == "face":
+        found["reach"] = _touched(motion, found)
     return found
+
+
+def _touched(motion: Motion, symbol: dict[str, Any]) -> list[float]:
+    """Least and largest place of the contact along a face of i, from the point of i, m."""
+    i, j = (motion.body(_name(motion, number)) for number in symbol["bodies"])
+    curve = motion.compiled.tree["joints"][symbol["element"]]["curve"].rpartition(".")[2]
+    points = np.array(j.info.curves[curve][0])
+    angle = np.atleast_1d(j.angle)[:, None]
+    x = points[:, 0] * np.cos(angle) - points[:, 1] * np.sin(angle)
+    y = points[:, 0] * np.sin(angle) + points[:, 1] * np.cos(angle)
+    away = np.atleast_2d(j.r - i.at(symbol["points"][0]).position)
+    x, y = x + away[:, :1], y + away[:, 1:]
+    turn = np.atleast_1d(i.angle + symbol["axes"][0])[:, None]
+    along, aside = x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn)
+    touched = np.take_along_axis(along, np.abs(aside).argmin(axis=1)[:, None], axis=1)
+    return [float(touched.min()), float(touched.max())]
 
 
 def _name(motion: Motion, number: int) -> str:
@@ -118,7 +151,8 @@ def outline(model: CompiledModel, info: BodyInfo) -> Floats:
     """
     corners = [*info.points.values()]
     corners += [c.point_i for c in model.joints.values() if c.i == info.name]
-    corners += [c.point_j for c in model.joints.values() if c.j == info.name]
+    ends = (c for c in model.joints.values() if c.j == info.name and not _moves_on(c))
+    corners += [c.point_j for c in ends]
     if info.type == "bar" and info.mass > 0.0:
         half = math.sqrt(12.0 * info.inertia / info.mass) / 2.0
         corners += [(-half, 0.0), (half, 0.0)]
@@ -154,6 +188,11 @@ def _turn(a: Floats, b: Floats, c: Floats) -> float:
     return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
 
+def _some(points: list[Any]) -> list[Any]:
+    """Some points along a curve, with the last one."""
+    return [*points[:: len(points) // 50 + 1], points[-1]]
+
+
 def own_size(bodies: list[dict[str, Any]], joints: list[dict[str, Any]]) -> float:
     """The largest extent of a body, ground included, in its own frame, m.
 
@@ -162,6 +201,7 @@ def own_size(bodies: list[dict[str, Any]], joints: list[dict[str, Any]]) -> floa
     sizes = [0.0]
     for entry in bodies:
         corners = [*entry["outline"], *(point["at"] for point in entry["points"])]
+        corners += [at for curve in entry["curves"] for at in curve["points"]]
         for one in joints:
             pairs = zip(one["bodies"], one["points"], strict=True)
             corners += [at for number, at in pairs if number == entry["number"]]
@@ -180,6 +220,7 @@ def bounds(
     low, high = np.full(2, np.inf), np.full(2, -np.inf)
     for entry in bodies:
         corners = [*entry["outline"], *(point["at"] for point in entry["points"])]
+        corners += [at for curve in entry["curves"] for at in _some(curve["points"])]
         if entry["number"]:
             corners.append([0.0, 0.0])
         corners += [

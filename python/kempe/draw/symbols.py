@@ -26,6 +26,7 @@ _SPIRAL = (4.5, 12.0)  # inner and outer radius
 _WINDINGS = 5.0 * np.pi
 _FIRST_RING, _RING = 13.0, 8.0
 _FORCE = 1.2
+_FACE = 8.0  # overhang of a face beyond its contacts
 
 #: An entry of ``scene["symbols"]``.
 Symbol = dict[str, Any]
@@ -192,6 +193,30 @@ def _strands(symbol: Symbol, crossed: bool) -> Iterator[Item]:
         yield line(symbol["element"], frame, [begin, end], "ground", 1.8)
 
 
+def _roller(symbol: Symbol) -> Iterator[Item]:
+    """A roller of body i on its pin."""
+    (i, _), of = symbol["bodies"], symbol["element"]
+    frame, rim = on_body(i, symbol["points"][0]), metres(items.circle(symbol["radius"], 64))
+    yield fill(of, frame, rim, "paper", layer=items.BODY)
+    yield line(of, frame, rim, f"body {i}", 1.4, layer=items.BODY, closed=True)
+    yield from _pin_at(symbol, 0)
+
+
+def _contact(symbol: Symbol) -> Iterator[Item]:
+    """The point of body i that slides on a curve."""
+    frame = upright(symbol["bodies"][0], symbol["points"][0])
+    dot = print_points(items.circle(3.5))
+    yield fill(symbol["element"], frame, dot, f"body {symbol['bodies'][0]}", layer=items.PIN)
+
+
+def _face(symbol: Symbol) -> Iterator[Item]:
+    """A face of body i as far as the curve touches it."""
+    (i, _), (low, high) = symbol["bodies"], symbol["reach"]
+    frame = on_body(i, symbol["points"][0], turn=symbol["axes"][0])
+    rows = [[min(low, 0.0), 0.0, -_FACE, 0.0], [max(high, 0.0), 0.0, _FACE, 0.0]]
+    yield line(symbol["element"], frame, rows, f"body {i}", 3.0, layer=items.BODY)
+
+
 def _straight_arrow(symbol: Symbol, colour: str, width: float) -> Iterator[Item]:
     (i, j), at = symbol["bodies"], symbol["points"][1]
     frame = on_body(j, at, turns_with=i, turn=symbol["axes"][0])
@@ -310,6 +335,9 @@ _AT: dict[str, Callable[[Symbol], Iterator[Item]]] = {
     "open_strands": lambda symbol: _strands(symbol, crossed=False),
     "crossed_strands": lambda symbol: _strands(symbol, crossed=True),
     "circle": _circle,
+    "roller": _roller,
+    "contact": _contact,
+    "face": _face,
     "force_arrow": lambda symbol: _straight_arrow(symbol, "force", 1.6),
     "drive_shift": lambda symbol: _straight_arrow(symbol, "drive", 2.4),
 }

@@ -23,7 +23,7 @@ _NO_ANGLE = 1e-9
 
 
 def summary(solution: Solution) -> dict[str, Any]:
-    """Mechanism, initial and final state, peak values, energy balance and settling times.
+    """Mechanism, initial and final state, peak values, energy balance, events, settling times.
 
     Peaks and settling times are those of the interpolant, also between the outputs; those of the
     residual are the largest at the outputs and the states at which steps begin, since between them
@@ -53,6 +53,7 @@ def summary(solution: Solution) -> dict[str, Any]:
             "residual_rate": max(_largest_rate(solution), _largest_rate(sampled.steps)),
         },
         "energy": energy(sampled),
+        "events": {name: event.t.tolist() for name, event in solution.events.items()},
         "settling": [settling_of(sampled, name) for name in compiled.bodies],
         "statistics": dict(solution.statistics),
     }

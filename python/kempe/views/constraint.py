@@ -73,17 +73,16 @@ class ConstraintView(Generic[S]):
         """Multipliers of the joint, (n_t, m), N or N·m."""
         return fixed(self._motion.lam[..., self.info.rows])
 
-    def __getattr__(self, name: str) -> Any:
-        """A result that follows from one multiplier, such as ``tangential`` of a gear, (n_t,)."""
+    def __getattr__(self, name: str) -> S:
+        """A result of the joint beside its reaction, such as ``normal``, (n_t,)."""
         info = self.__dict__.get("info")
-        for of, _, row, factor in info.results if info is not None else ():
-            if of == name:
-                return scalar(factor * self.lam[..., row])
-        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        names = [known for known, _ in info.results] if info else []
+        if name not in names:
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        return cast(S, scalar(self._motion.results(self.name)[..., names.index(name)]))
 
     def __dir__(self) -> list[str]:
-        """Attributes, with the results."""
-        return [*super().__dir__(), *(name for name, *_ in self.info.results)]
+        return [*super().__dir__(), *(name for name, _ in self.info.results)]
 
     def _reaction(self, on: str, frame: str) -> Floats:
         body, axes = checked_body(self.info, on), checked_frame(frame)

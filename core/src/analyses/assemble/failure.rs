@@ -112,6 +112,12 @@ fn refusal(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> O
     found
 }
 
+/// A contact beyond the end of its curve.
+pub(super) fn off_the_curve((name, message): (String, String)) -> Failure {
+    let hint = "extend the range of the curve, or give a guess of the contact on it".to_string();
+    Failure { fault: Fault::Open, name, gap: 0.0, message, hint }
+}
+
 fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
     let joint = &model.constraints[gap.joint].name;
     let [a, b] = gap.bodies.map(|k| model.bodies[k].name.as_str());

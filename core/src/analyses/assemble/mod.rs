@@ -35,6 +35,7 @@ pub use request::{targets, CoordinateTarget, Request, Target};
 pub use targets::Targets;
 
 use super::closing::Stop;
+use super::curves;
 use super::mobility::mobility_until;
 use super::required;
 use super::State;
@@ -95,6 +96,9 @@ fn complete(
     }
     if let Some(failure) = failure::undefined(model, request.t, &q) {
         return Err(Box::new(failure));
+    }
+    if let Some(message) = curves::beyond(model, &q) {
+        return Err(Box::new(failure::off_the_curve(message)));
     }
     let mobility = mobility_until(model, request.t, &q, stop);
     if !mobility.redundant.is_empty() && !model.allow_redundancy {
@@ -180,20 +184,23 @@ fn close(
     asked: &Targets,
     closing: &mut Closing<'_>,
 ) -> Result<Closed, Box<Failure>> {
+    let internal = internal(model, request);
     if request.from_guess {
         let q = given(model, asked).unwrap_or_else(|| open_placement(model, asked));
-        let outcome = close_from(closing, q, Vec::new());
+        let outcome = close_from(closing, &internal, q, Vec::new());
         return outcome
             .map_err(|q| Box::new(failure::open(closing.model(), request, closing, &q, None)));
     }
-    if let Some(found) = given(model, asked).and_then(|q| close_from(closing, q, Vec::new()).ok()) {
+    if let Some(found) =
+        given(model, asked).and_then(|q| close_from(closing, &internal, q, Vec::new()).ok())
+    {
         return Ok(found);
     }
     // the first placement, and the position that Newton's method reached from it
     let mut first: Option<(Placement, Vec<f64>)> = None;
     for placement in Placements::new(model, asked).take(MOST_TRIES) {
         let warnings = report::folded(model, &placement.dyads);
-        match close_from(closing, placement.q.clone(), warnings) {
+        match close_from(closing, &internal, placement.q.clone(), warnings) {
             Ok(found) => return Ok(found),
             Err(q) => _ = first.get_or_insert((placement, q)),
         }
@@ -205,12 +212,30 @@ fn close(
     Err(Box::new(failure::open(closing.model(), request, closing, &q, gap.as_ref())))
 }
 
+/// The internal coordinates that the state or the guess gives, by their columns. All others are those of the nearest
+/// contact.
+fn internal(model: &Model, request: &Request) -> Vec<(usize, f64)> {
+    let state = request.state.iter().flat_map(|state| {
+        let columns = model.layout.constraints.iter().flat_map(|slots| slots.own.range());
+        columns.filter_map(|column| Some((column, *state.q.get(column)?)))
+    });
+    let guess = request.guess.iter().filter_map(|target| match target {
+        Target::Internal { column, value } => Some((*column, *value)),
+        _ => None,
+    });
+    state.chain(guess).collect()
+}
+
 /// Newton's method from a position; the error is the position that it reached.
 fn close_from(
     closing: &mut Closing<'_>,
+    internal: &[(usize, f64)],
     mut q: Vec<f64>,
     warnings: Vec<String>,
 ) -> Result<Closed, Vec<f64>> {
+    for (column, value) in internal {
+        q[*column] = *value;
+    }
     match closing.close(&mut q) {
         (iterations, true) => Ok(Closed { q, iterations, warnings }),
         (_, false) => Err(q),

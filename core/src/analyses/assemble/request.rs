@@ -3,7 +3,7 @@
 use crate::analyses::State;
 use crate::elements::{BodyId, Coordinate};
 use crate::equations::at;
-use crate::model::{did_you_mean, Model, Problem, Reach, Scope, Value, MOST_REPORTED};
+use crate::model::{did_you_mean, Model, Problem, Reach, Scope, Value, ANY_UNIT, MOST_REPORTED};
 use std::collections::HashMap;
 
 /// A value given for a coordinate or a rate of a body.
@@ -22,6 +22,13 @@ pub struct CoordinateTarget {
 pub enum Target {
     /// Of a body.
     Coordinate(CoordinateTarget),
+    /// Of an internal coordinate of a joint; a guess.
+    Internal {
+        /// Its column.
+        column: usize,
+        /// m or rad.
+        value: f64,
+    },
     /// Of a first-order state of an element.
     State {
         /// Its place in z.
@@ -45,7 +52,7 @@ pub(super) fn of_rates(targets: &[Target]) -> impl Iterator<Item = &CoordinateTa
 pub(super) fn of_bodies(targets: &[Target]) -> impl Iterator<Item = &CoordinateTarget> + Clone {
     targets.iter().filter_map(|target| match target {
         Target::Coordinate(target) => Some(target),
-        Target::State { .. } => None,
+        Target::State { .. } | Target::Internal { .. } => None,
     })
 }
 
@@ -82,6 +89,11 @@ pub fn targets(
     for (key, value) in written {
         let path = ["start".to_string(), section.to_string(), key.clone()];
         let Some(named) = named(&names, key, &path, &mut problems) else { continue };
+        if section == "set" && matches!(named.of, Quantity::Internal(_)) {
+            let message = format!("{key} follows the bodies and cannot be set");
+            problems.push(Problem::at(&path, message).hint("give it as a guess").at_key());
+            continue;
+        }
         let unit = named.unit;
         let tape = scope.formula(value, &path, unit, Reach::Parameters, &mut problems);
         let Some(tape) = tape else { continue };
@@ -107,6 +119,7 @@ struct Named {
 
 enum Quantity {
     Coordinate(BodyId, Coordinate),
+    Internal(usize),
     State(usize),
 }
 
@@ -117,6 +130,7 @@ impl Named {
                 Target::Coordinate(CoordinateTarget { body, coordinate, value })
             }
             Quantity::State(place) => Target::State { place, value },
+            Quantity::Internal(column) => Target::Internal { column, value },
         }
     }
 }
@@ -148,6 +162,18 @@ fn state(names: &Names<'_>, key: &str) -> Option<Named> {
     Some(Named { of: Quantity::State(place), unit: model.forces[k].states[at].unit })
 }
 
+/// An internal coordinate such as `cam.u`.
+fn internal(model: &Model, key: &str) -> Option<Named> {
+    let (joint, name) = key.rsplit_once('.')?;
+    let k = model.constraint(joint)?;
+    let own = model.layout.constraints[k].own;
+    let place = match own.count {
+        1 => (name == "u").then_some(0)?,
+        count => (0..count).find(|place| name == format!("u{}", place + 1))?,
+    };
+    Some(Named { of: Quantity::Internal(own.first + place), unit: ANY_UNIT })
+}
+
 fn named(
     names: &Names<'_>,
     key: &str,
@@ -155,7 +181,7 @@ fn named(
     problems: &mut Vec<Problem>,
 ) -> Option<Named> {
     let model = names.model;
-    if let Some(found) = state(names, key) {
+    if let Some(found) = state(names, key).or_else(|| internal(model, key)) {
         return Some(found);
     }
     let fault = |message: String, hint: Option<String>| {

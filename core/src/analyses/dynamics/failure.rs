@@ -6,7 +6,7 @@ use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
 use crate::expression::TABLE_ENDS;
 use crate::integrate::Cause;
-use crate::model::Model;
+use crate::model::{Model, Slots};
 use crate::solve::Breakdown;
 use std::fmt;
 
@@ -67,6 +67,13 @@ impl From<Reason> for Box<Failure> {
 }
 
 impl Failure {
+    /// A contact is beyond the end of its curve.
+    pub(super) fn off_the_curve(t: f64, message: &str) -> Box<Self> {
+        let message = format!("{message} at t = {t:.6} s");
+        let hint = "extend the range of the curve, or end the run before";
+        Reason::Integration { t, message, hint }.into()
+    }
+
     /// The equations have no usable solution at a time and a position.
     pub(super) fn at_state(model: &Model, t: f64, q: &[f64], breakdown: Breakdown) -> Box<Self> {
         let name = |row| model.constraints[model.layout.owner(row).0].name.clone();
@@ -246,6 +253,14 @@ fn equation(model: &Model, row: usize) -> (String, &'static str) {
 
 /// The name of a body without inertia on which a torque acts, and a message.
 fn no_inertia(model: &Model, t: f64, column: usize) -> (String, String) {
+    let owner = |slots: &Slots| slots.own.range().contains(&column);
+    if let Some(k) = model.layout.constraints.iter().position(owner) {
+        let name = model.constraints[k].name.clone();
+        let message = format!(
+            "the place of {name} on its curve is not determined at t = {t:.6} s: nothing resists its motion along the curve"
+        );
+        return (name, message);
+    }
     let id = model.layout.body_of(column).map_or(BodyId::GROUND, |(body, _)| body);
     let body = &model.bodies[id.0];
     let (name, inertia) = (body.name.clone(), body.inertia);

@@ -10,6 +10,7 @@ use super::recorder::{self, Recorder};
 use super::run_results::Run;
 use super::stabilizations::Stabilization;
 use super::start_check::StartCheck;
+use crate::analyses::curves::Ranges;
 use crate::analyses::State;
 use crate::integrate::{Cause, Direction, Flow, Step};
 use crate::model::Model;
@@ -158,13 +159,19 @@ fn step_through<W: FnMut(f64) -> Flow>(
     let failed = |cause, t, y: &[f64]| Failure::of_integrator(model, cause, t, y);
     let mut stepper = MotionStepper::new(ode, options, at.t, &at.y)
         .map_err(|cause| failed(cause, at.t, &at.y))?;
+    let ranges = Ranges::of(model);
     let mut event = phase.event;
     let outcome = loop {
         if stepper.t() == recorder.t_end {
             break Ok(Flow::Continue);
         }
         match next_step(&mut stepper, &mut event, recorder, watcher) {
-            Ok(Next::Step(Flow::Continue)) => {}
+            Ok(Next::Step(Flow::Continue)) => {
+                let q = model.layout.split(stepper.y())[0];
+                if let Some((_, message)) = ranges.beyond(model, q) {
+                    break Err(Failure::off_the_curve(stepper.t(), &message));
+                }
+            }
             Ok(Next::Step(Flow::Stop)) => break Ok(Flow::Stop),
             // the step is taken again, to end at the event
             Ok(Next::Event(t)) => {

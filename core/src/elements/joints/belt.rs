@@ -5,10 +5,10 @@
 //! a branch cut, so Φ is taken modulo 2π (rᵢ + σ rⱼ), nearest 0; where that is 0, θ cancels. λ is the difference of
 //! the forces of the two strands. The mechanism must hold the distance of the centres, which may have any value > 0.
 
-use crate::elements::wheels::{centres, nearest, radius_fault, rolled, tangential};
+use crate::elements::wheels::{centres, nearest, radius_fault, rolled, TANGENTIAL};
 use crate::elements::{
-    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required, ResultOf,
-    SceneSymbol,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required,
+    ResultQuantity, SceneSymbol,
 };
 use crate::math::Real;
 
@@ -36,7 +36,7 @@ element! {
 const EQUAL: f64 = 1e-5;
 
 impl Joint for Belt {
-    const RESULTS: &'static [ResultOf] = &[tangential(0)];
+    const RESULTS: &'static [ResultQuantity] = &[TANGENTIAL];
 
     fn bodies<S>(e: &Belt<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
@@ -67,6 +67,10 @@ impl Joint for Belt {
         let mark = Mark::Strands { radii: e.radii, crossed: e.crossed };
         all.push(SceneSymbol::between_points(mark, &e.i, &e.j));
         all
+    }
+
+    fn results<S: Real>(_: &Belt<S>, _: &At<'_, S>, lam: &[S], out: &mut [S]) {
+        out[0] = lam[0];
     }
 
     fn attachment<S: Real>(e: &Belt<S>, body: usize) -> Attachment<S> {

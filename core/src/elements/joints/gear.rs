@@ -7,9 +7,9 @@
 //! centres, so the pins carry it: ∂Φ/∂Pⱼ has length |rᵢ + σ rⱼ|/|d| = 1. The mechanism must hold the centres
 //! |rᵢ + σ rⱼ| apart.
 
-use crate::elements::wheels::{centres, nearest, radii, radius_fault, rolled, tangential};
+use crate::elements::wheels::{centres, nearest, radii, radius_fault, rolled, TANGENTIAL};
 use crate::elements::{
-    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Required, ResultOf,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Required, ResultQuantity,
     SceneSymbol,
 };
 use crate::math::Real;
@@ -65,7 +65,7 @@ fn given(e: &Gear) -> Option<(&'static str, String)> {
 }
 
 impl Joint for Gear {
-    const RESULTS: &'static [ResultOf] = &[tangential(0)];
+    const RESULTS: &'static [ResultQuantity] = &[TANGENTIAL];
 
     fn bodies<S>(e: &Gear<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
@@ -87,6 +87,10 @@ impl Joint for Gear {
 
     fn symbols(e: &Gear) -> Vec<SceneSymbol> {
         SceneSymbol::wheels(radii_of(e), [&e.i, &e.j])
+    }
+
+    fn results<S: Real>(_: &Gear<S>, _: &At<'_, S>, lam: &[S], out: &mut [S]) {
+        out[0] = lam[0];
     }
 
     fn attachment<S: Real>(e: &Gear<S>, body: usize) -> Attachment<S> {

@@ -4,10 +4,10 @@
 //! left of u; r < 0: on its right. λ is the tangential force at the pitch line. The mechanism must hold the centre at
 //! the distance r from the line; then the force acts at the pitch point.
 
-use crate::elements::wheels::{directions, radius_fault, tangential};
+use crate::elements::wheels::{directions, radius_fault, TANGENTIAL};
 use crate::elements::{
     element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Measured, Required,
-    ResultOf, SceneSymbol, SymbolEnd,
+    ResultQuantity, SceneSymbol, SymbolEnd,
 };
 use crate::math::Real;
 
@@ -32,7 +32,7 @@ element! {
 
 impl Joint for Rack {
     const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT];
-    const RESULTS: &'static [ResultOf] = &[tangential(0)];
+    const RESULTS: &'static [ResultQuantity] = &[TANGENTIAL];
 
     fn bodies<S>(e: &Rack<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
@@ -66,6 +66,10 @@ impl Joint for Rack {
         let (i, j) = (SymbolEnd::point(&e.i).along(e.axis), SymbolEnd::point(&e.j));
         let line = SceneSymbol { mark: Mark::ToothedLine(e.radius), i: i.clone(), j: j.clone() };
         vec![SceneSymbol { mark: Mark::Circle(e.radius.abs()), i, j }, line]
+    }
+
+    fn results<S: Real>(_: &Rack<S>, _: &At<'_, S>, lam: &[S], out: &mut [S]) {
+        out[0] = lam[0];
     }
 
     fn attachment<S: Real>(e: &Rack<S>, body: usize) -> Attachment<S> {

@@ -5,10 +5,10 @@
 //! line. r > 0: the wheel is on the left of u; r < 0: on its right. The line keeps the wheel on both sides: λ₁ may
 //! have any sign.
 
-use crate::elements::wheels::{directions, radius_fault, tangential};
+use crate::elements::wheels::{directions, radius_fault, TANGENTIAL};
 use crate::elements::{
-    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Measured, ResultOf,
-    SceneSymbol, SymbolEnd,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Measured,
+    ResultQuantity, SceneSymbol, SymbolEnd,
 };
 use crate::math::Real;
 
@@ -33,7 +33,7 @@ element! {
 
 impl Joint for Rolling {
     const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT];
-    const RESULTS: &'static [ResultOf] = &[tangential(1)];
+    const RESULTS: &'static [ResultQuantity] = &[TANGENTIAL];
 
     fn bodies<S>(e: &Rolling<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
@@ -58,6 +58,10 @@ impl Joint for Rolling {
         let (i, j) = (SymbolEnd::point(&e.i).along(e.axis), SymbolEnd::point(&e.j));
         let line = SceneSymbol { mark: Mark::Track(e.radius), i: i.clone(), j: j.clone() };
         vec![SceneSymbol { mark: Mark::Circle(e.radius.abs()), i, j }, line]
+    }
+
+    fn results<S: Real>(_: &Rolling<S>, _: &At<'_, S>, lam: &[S], out: &mut [S]) {
+        out[0] = lam[1];
     }
 
     fn attachment<S: Real>(e: &Rolling<S>, body: usize) -> Attachment<S> {

@@ -1,11 +1,11 @@
 //! The equations of a type of element, with the names of its fields.
 
-use super::names::{function, internal, point, BodyName, Coordinates};
+use super::names::{curve, function, internal, point, BodyName, Coordinates};
 use super::scalars::{scalars, Scalar};
 use super::{print, residual, Formulas};
 use crate::elements::{
-    BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Followed, Group, JointId,
-    PointOn, Source,
+    BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, Default, Field, Followed, Group,
+    JointId, PointOn, Source,
 };
 use crate::expression::Tape;
 use crate::math::{Local, Pose};
@@ -23,7 +23,7 @@ pub fn of_element<T>(element: &Constraint<T>, form: Form) -> Formulas {
     record(|record| {
         let t = record.time();
         let mut fields = symbols(record, element).into_iter();
-        let element = element.map(&mut |_| fields.next().unwrap_or(t));
+        let mut element = element.map(&mut |_| fields.next().unwrap_or(t));
         let bodies: Vec<(BodyId, Coordinates)> = element
             .bodies()
             .into_iter()
@@ -36,6 +36,9 @@ pub fn of_element<T>(element: &Constraint<T>, form: Form) -> Formulas {
             None => Pose::identity(),
         };
         let own = internal(record, element.own());
+        if let Some(on) = element.curve_mut() {
+            on.curve = curve(record, None, own[0]);
+        }
         let phi = residual(&element, pose, &own, t);
         let columns: Vec<&Coordinates> = bodies.iter().map(|(_, body)| body).collect();
         print(record, &phi, (&columns, &own), form)
@@ -58,6 +61,7 @@ fn symbols<T>(record: &Record, element: &Constraint<T>) -> Vec<Symbolic> {
                 let name = |k| Name::field(&format!("{field}_{k}"));
                 all.extend((1..=count).map(|k| record.symbol(name(k))));
             }
+            Scalar::Curve(count) => all.extend((0..count).map(|_| record.time())),
             Scalar::Laws(field, count) => {
                 all.extend((1..=count).map(|k| function(record, &format!("{field}_{k}"))));
             }
@@ -100,6 +104,11 @@ impl Source for Sample {
     fn point(&mut self, _: &Field) -> Option<PointOn<Tape>> {
         let s = Local { x: Tape::from(0.0), y: Tape::from(0.0) };
         Some(PointOn { body: self.next_body(), s })
+    }
+    fn curve(&mut self, _: &Field) -> Option<CurveOn<Tape>> {
+        let zero = || Local { x: Tape::from(0.0), y: Tape::from(0.0) };
+        let curve = Curve::Line { from: zero(), to: zero() };
+        Some(CurveOn { body: self.next_body(), curve })
     }
     fn coordinate(&mut self, _: &Field) -> Option<Followed<Tape>> {
         let of = CoordinateOf { body: self.next_body(), coordinate: Coordinate::Angle };

@@ -1,6 +1,6 @@
 //! Names of bodies, their coordinates and their points.
 
-use crate::elements::Coordinate;
+use crate::elements::{Coordinate, Curve};
 use crate::expression::is_identifier;
 use crate::math::{Local, Pose, Real};
 use crate::symbolic::{upright, Axis, Kind, Name, Record, Symbolic};
@@ -121,6 +121,28 @@ pub(super) fn point(
     let turned = [format!("a_{}", index.text), format!("a{}", index.unicode), index.latex];
     record.vector(s.x, s.y, turned, Some(owner));
     s
+}
+
+/// A curve by the names of C and its derivatives by `u`; `label` is its name in a model.
+pub(super) fn curve(record: &Record, label: Option<&str>, u: Symbolic) -> Curve<Symbolic> {
+    let component = |axis: Axis| {
+        let c = ["x", "y"][axis as usize];
+        let named = |order: usize| {
+            let (us, primes) = ("u".repeat(order), "′".repeat(order));
+            let quoted: Vec<String> = label.unwrap_or("curve").split('.').map(quoted).collect();
+            let derivative = if order == 0 { String::new() } else { format!("_{us}") };
+            let text = format!("{}.{c}{derivative}", quoted.join("."));
+            let unicode = format!("C{primes}.{c}");
+            let latex = format!("C{}_{{{c}}}", "'".repeat(order));
+            Name::new(&text, &unicode, &latex, Kind::Field)
+        };
+        let third = record.symbol(named(3));
+        let second = record.along(named(2), u, third);
+        let first = record.along(named(1), u, second);
+        [record.along(named(0), u, first), first, second, third]
+    };
+    let (x, y) = (component(Axis::X), component(Axis::Y));
+    Curve::Near { at: u, terms: std::array::from_fn(|n| Local { x: x[n], y: y[n] }) }
 }
 
 /// A given function of time.

@@ -1,6 +1,6 @@
 //! The equations of a joint or driver of a model, with the names and numbers of the model.
 
-use super::names::{internal, point, BodyName, Coordinates};
+use super::names::{curve, internal, point, BodyName, Coordinates};
 use super::scalars::{scalars, Scalar};
 use super::{print, residual, Formulas};
 use crate::elements::{BodyId, Constraint, Coordinate};
@@ -38,7 +38,7 @@ pub fn of_constraint(
         };
         let values = Laws { parameters: &parameters, t, coordinate, z: &[] };
         let mut points = points(record, model, element, written).into_iter();
-        let over = element.map(&mut |tape| match points.next().flatten() {
+        let mut over = element.map(&mut |tape| match points.next().flatten() {
             Some(component) => component,
             None => tape.evaluate(&values),
         });
@@ -46,6 +46,9 @@ pub fn of_constraint(
             find(body).map_or(Pose::identity(), |(_, coordinates)| coordinates.pose())
         };
         let own = internal(record, element.own());
+        if let Some(on) = over.curve_mut() {
+            on.curve = curve(record, written("curve").as_deref(), own[0]);
+        }
         let phi = residual(&over, pose, &own, t);
         let columns: Vec<&Coordinates> = bodies.iter().map(|(_, body)| body).collect();
         print(record, &phi, (&columns, &own), form)
@@ -90,7 +93,7 @@ fn points(
             }
             Scalar::Pair(_) => all.extend([None, None]),
             Scalar::Number(_) | Scalar::Law(_) => all.push(None),
-            Scalar::Laws(_, count) | Scalar::Numbers(_, count) => {
+            Scalar::Curve(count) | Scalar::Laws(_, count) | Scalar::Numbers(_, count) => {
                 all.extend((0..count).map(|_| None))
             }
         }

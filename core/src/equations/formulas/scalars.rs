@@ -10,6 +10,8 @@ pub(super) enum Scalar {
     Law(String),
     /// Numbers by their places within the field.
     Numbers(String, usize),
+    /// A curve with this number of scalars; it is printed by the names of C and its derivatives.
+    Curve(usize),
     /// Laws by their numbers within the field.
     Laws(String, usize),
 }
@@ -27,6 +29,7 @@ pub(super) fn scalars<T>(element: &Constraint<T>) -> Vec<Scalar> {
             Shape::Number => Some(Scalar::Number(name)),
             Shape::Law => Some(Scalar::Law(name)),
             Shape::Terms => Some(Scalar::Numbers(name, count)),
+            Shape::Curve => Some(Scalar::Curve(count)),
             Shape::LawPair | Shape::Laws | Shape::Coordinate => Some(Scalar::Laws(name, count)),
             _ => None,
         }

@@ -1,0 +1,189 @@
+//! Curves in a body: points C(u) of its frame, m, with their derivatives by the parameter u.
+//!
+//! A curve is evaluated over any scalar. C, C′, C″ and C‴ are exact: a formula is evaluated over jets of dual numbers,
+//! and the polynomials of a spline are differentiated. The equations of a joint on a curve are differentiated twice and
+//! contain C′, so that γ needs C‴. They take these four from one evaluation: [`Curve::near`].
+
+use super::curve_formula::Formula;
+use crate::math::{Interpolation, Local, Real, Spline};
+use std::sync::OnceLock;
+
+/// A curve.
+#[derive(Clone, Debug)]
+pub enum Curve<S = f64> {
+    /// x(u) and y(u) as formulas.
+    Formula(Formula<S>),
+    /// A spline over the accumulated chord length of its points.
+    Points(Points<S>),
+    /// A circle; u is the angle, counter-clockwise.
+    Circle {
+        /// Its centre, m.
+        center: Local<S>,
+        /// Its radius, m.
+        radius: S,
+    },
+    /// A straight line; u is the length from its first end.
+    Line {
+        /// Its first end, m.
+        from: Local<S>,
+        /// Its last end, m.
+        to: Local<S>,
+    },
+    /// The curve near u = `at`, by its derivatives of order 0 to 3 there.
+    Near {
+        /// u.
+        at: S,
+        /// C, C′, C″, C‴.
+        terms: [Local<S>; 4],
+    },
+}
+
+/// A spline through points.
+#[derive(Clone, Debug)]
+pub struct Points<S = f64> {
+    /// The points, m.
+    pub points: Vec<Local<S>>,
+    /// How they are joined.
+    pub kind: Interpolation,
+    /// Whether the last point is joined to the first.
+    pub periodic: bool,
+    solved: OnceLock<Box<[Spline<S>; 2]>>,
+}
+
+impl<S> Points<S> {
+    /// A spline that is solved at its first use.
+    pub fn new(points: Vec<Local<S>>, kind: Interpolation, periodic: bool) -> Self {
+        Self { points, kind, periodic, solved: OnceLock::new() }
+    }
+}
+
+impl<S: Real> Points<S> {
+    /// x and y over the chord length.
+    fn splines(&self) -> &[Spline<S>; 2] {
+        self.solved.get_or_init(|| {
+            let closing = self.points.first().filter(|_| self.periodic);
+            let all: Vec<Local<S>> = self.points.iter().chain(closing).copied().collect();
+            let mut chord = vec![S::zero()];
+            for pair in all.windows(2) {
+                let step = Local::new(pair[1].x - pair[0].x, pair[1].y - pair[0].y).norm();
+                chord.push(chord[chord.len() - 1] + step);
+            }
+            let along = |component: fn(&Local<S>) -> S| {
+                let values: Vec<S> = all.iter().map(component).collect();
+                Spline::new(self.kind, self.periodic, &chord, &values)
+            };
+            Box::new([along(|s| s.x), along(|s| s.y)])
+        })
+    }
+}
+
+impl<S> Curve<S> {
+    /// Whether it repeats itself.
+    pub fn periodic(&self) -> bool {
+        match self {
+            Self::Formula(formula) => formula.periodic,
+            Self::Points(points) => points.periodic,
+            Self::Circle { .. } => true,
+            Self::Line { .. } | Self::Near { .. } => false,
+        }
+    }
+
+    /// The same curve over another scalar.
+    pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Curve<T> {
+        let mut local = |s: &Local<S>| Local { x: f(&s.x), y: f(&s.y) };
+        match self {
+            Self::Formula(formula) => Curve::Formula(formula.map(f)),
+            Self::Points(own) => {
+                let points = own.points.iter().map(local).collect();
+                let mut curve = Points::new(points, own.kind, own.periodic);
+                if let Some([x, y]) = own.solved.get().map(|solved| &**solved) {
+                    curve.solved = Box::new([x.map(f), y.map(f)]).into();
+                }
+                Curve::Points(curve)
+            }
+            Self::Circle { center, radius } => {
+                let center = local(center);
+                Curve::Circle { center, radius: f(radius) }
+            }
+            Self::Line { from, to } => Curve::Line { from: local(from), to: local(to) },
+            Self::Near { at, terms } => {
+                let terms = terms.each_ref().map(local);
+                Curve::Near { terms, at: f(at) }
+            }
+        }
+    }
+}
+
+impl<S: Real> Curve<S> {
+    /// The ends of u; a periodic curve repeats itself beyond them.
+    pub fn range(&self) -> [S; 2] {
+        match self {
+            Self::Formula(formula) => formula.range,
+            Self::Points(points) => {
+                let knots = points.splines()[0].knots();
+                [knots[0], knots[knots.len() - 1]]
+            }
+            Self::Circle { .. } => [S::zero(), S::constant(std::f64::consts::TAU)],
+            Self::Line { from, to } => [S::zero(), apart(*from, *to).norm()],
+            Self::Near { at, .. } => [*at, *at],
+        }
+    }
+
+    /// C, C′, C″ and C‴ at u.
+    pub fn derivatives(&self, u: S) -> [Local<S>; 4] {
+        match self {
+            Self::Formula(formula) => formula.derivatives(u),
+            Self::Points(points) => {
+                let [x, y] = points.splines().each_ref().map(|s| s.derivatives::<S, 4>(u, |c| c));
+                std::array::from_fn(|n| Local::new(x[n], y[n]))
+            }
+            Self::Circle { center, radius } => {
+                let (sin, cos) = u.sin_cos();
+                let arm = Local::new(*radius * cos, *radius * sin);
+                let first = arm.perp();
+                [Local::new(center.x + arm.x, center.y + arm.y), first, -arm, -first]
+            }
+            Self::Line { from, to } => {
+                let along = apart(*from, *to);
+                let direction = along.scale(S::one() / along.norm());
+                let here = Local::new(from.x + direction.x * u, from.y + direction.y * u);
+                [here, direction, Local::zero(), Local::zero()]
+            }
+            Self::Near { at, terms } => taylor(*terms, u - *at),
+        }
+    }
+
+    /// About the largest distance from the origin, m.
+    pub fn reach(&self) -> S {
+        let [a, b] = self.range();
+        let share = |k: u32| S::constant(f64::from(k) / 8.0);
+        let far = (0..=8).map(|k| self.point(a + share(k) * (b - a)).norm());
+        far.fold(S::zero(), |most, r| S::select(r - most, r, most))
+    }
+
+    /// C at u.
+    pub fn point(&self, u: S) -> Local<S> {
+        self.derivatives(u)[0]
+    }
+
+    /// The cubic with the derivatives of the curve at u. Derivatives of order 0 to 3 of both agree there.
+    pub fn near(&self, u: S) -> Self {
+        Self::Near { at: u, terms: self.derivatives(u) }
+    }
+}
+
+fn apart<S: Real>(from: Local<S>, to: Local<S>) -> Local<S> {
+    Local::new(to.x - from.x, to.y - from.y)
+}
+
+/// The derivatives of a cubic at `d` from those at 0.
+fn taylor<S: Real>([c0, c1, c2, c3]: [Local<S>; 4], d: S) -> [Local<S>; 4] {
+    let (half, sixth) = (S::constant(0.5), S::constant(1.0 / 6.0));
+    let part = |c: fn(&Local<S>) -> S| {
+        let [c0, c1, c2, c3] = [c(&c0), c(&c1), c(&c2), c(&c3)];
+        let first = c1 + d * (c2 + d * half * c3);
+        [c0 + d * (c1 + d * (half * c2 + d * sixth * c3)), first, c2 + d * c3, c3]
+    };
+    let (x, y) = (part(|s| s.x), part(|s| s.y));
+    std::array::from_fn(|n| Local::new(x[n], y[n]))
+}

@@ -1,0 +1,88 @@
+//! Curves that cannot carry a joint, and faults of their definition.
+
+mod mechanisms;
+
+use mechanisms::faults;
+
+/// Builds a joint on a curve; the faults contain the words, or there are none.
+fn refuses(curve: &str, joint: &str, words: &[&str]) {
+    let text = format!(
+        r#"
+[bodies.ground]
+points = {{ O = [0, 0] }}
+[bodies.cam]
+mass = 1
+inertia = 1
+points = {{ O = [0, 0] }}
+curves = {{ rim = {curve} }}
+[joints.contact]
+i = "ground.O"
+curve = "cam.rim"
+{joint}
+"#
+    );
+    let found = faults(&text);
+    for word in words {
+        assert!(found.contains(word), "{curve}, {joint}: {found:?} lacks {word:?}");
+    }
+    assert!(!words.is_empty() || found.is_empty(), "{found}");
+}
+
+const POINT: &str = "type = \"point_on_curve\"";
+const FLAT: &str = "type = \"flat_on_curve\"";
+
+/// Each refusal names the curve, the place and the number.
+#[test]
+fn impossible_curves_are_refused() {
+    let roller =
+        |r: f64, side: &str| format!("type = \"roller_on_curve\"\nradius = {r}\nside = \"{side}\"");
+    let circle = "{ circle = [0, 0, 0.05] }";
+    refuses(circle, POINT, &[]);
+    refuses(circle, &roller(0.2, "right"), &[]);
+    refuses(circle, &roller(0.04, "left"), &[]);
+    refuses(circle, &roller(0.05, "left"), &["contact.radius", "undercut", "0.05"]);
+    let kidney = "{ polar = \"0.05 + 0.02*cos(2*u)\" }";
+    // κ = (r - r″)/r² = -55.6 1/m at u = 90°, with r = 0.03 m and r″ = 0.08 m
+    refuses(kidney, &roller(0.01, "right"), &[]);
+    refuses(kidney, &roller(0.02, "right"), &["undercut", "0.018000", "(0.000000, 0.030000)"]);
+    refuses(
+        kidney,
+        FLAT,
+        &["contact.curve", "not strictly convex", "-55.5", "(0.000000, 0.030000)"],
+    );
+    refuses("{ line = [[0, 0], [1, 0]] }", FLAT, &["not strictly convex"]);
+    let cusp = "{ x = \"u^2\", y = \"u^3\", range = [-1, 1] }";
+    refuses(cusp, POINT, &["contact.curve", "cusp", "(0.000000, 0.000000)"]);
+    refuses(
+        "{ points = [[0, 0], [1, 0], [1, 1]], interpolation = \"linear\" }",
+        POINT,
+        &["corners"],
+    );
+}
+
+/// Faults of the curve itself, at the curve.
+#[test]
+fn faulty_curves_are_refused() {
+    refuses("{ circle = [0, 0, -1] }", POINT, &["bodies.cam.curves.rim.circle", "-1"]);
+    refuses("{ circle = [0, 0] }", POINT, &["must hold 3"]);
+    refuses(
+        "{ points = [[0, 0], [1, 0]] }",
+        POINT,
+        &["bodies.cam.curves.rim.points", "at least 3"],
+    );
+    refuses("{ points = [[0, 0], [1, 0], [1, 0], [2, 3]] }", POINT, &["points 2 and 3"]);
+    let closed = "{ points = [[0, 0], [1, 0], [1, 1], [0, 0]], periodic = true }";
+    refuses(closed, POINT, &["repeats the first"]);
+    refuses("{ circle = [0, 0, 1], polar = \"1\" }", POINT, &["both polar and circle"]);
+    refuses("{ x = \"u\", range = [0, 1] }", POINT, &["'y' is missing"]);
+    refuses("{ x = \"u\", y = \"0\", range = [1, 0] }", POINT, &["range", "increase"]);
+    refuses("{ polar = \"r*2\" }", POINT, &["polar", "'r'"]);
+    refuses("{ polar = \"0.1 + t\" }", POINT, &["polar", "time t"]);
+    let open = "{ x = \"u\", y = \"u^2\", range = [0, 1], periodic = true }";
+    refuses(open, POINT, &["periodic", "apart"]);
+    let wrong = faults(
+        "[bodies.b]\nmass = 1\ninertia = 1\npoints = { P = [0, 0] }\n[bodies.ground]\ncurves = { rim = { circle = \
+         [0, 0, 1] } }\n[joints.c]\ntype = \"point_on_curve\"\ni = \"b.P\"\ncurve = \"ground.rin\"\n",
+    );
+    assert!(wrong.contains("no curve 'rin'") && wrong.contains("did you mean 'rim'"), "{wrong}");
+}

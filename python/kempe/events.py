@@ -1,0 +1,150 @@
+"""Events of a run: the times at which a result of a joint becomes negative.
+
+An element declares such results in its own source file: a normal force of a roller that becomes
+negative is the event ``lift_off``, since the curve would have to pull from there on. The run goes
+on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from kempe.arrays import Floats, fixed
+from kempe.errors import KempeError
+from kempe.fine import fine
+
+if TYPE_CHECKING:
+    from kempe.motion import Motion
+    from kempe.solution import Solution
+    from kempe.state import State
+
+#: A value counts as negative below this share of the largest multiplier of the run.
+_NOISE = 1e-9
+#: A bracket is divided until it is this short, s, so often at most.
+_SHORTEST, _ROUNDS = 1e-13, 60
+
+Read = Callable[["Motion"], Floats]
+
+
+class EventWarning(UserWarning):
+    """A run had an event after which its result is no longer what the mechanism would do."""
+
+
+@dataclass(frozen=True, repr=False)
+class Event:
+    """An event of a run.
+
+    Attributes:
+        name: joint and event, such as ``cam.lift_off``.
+        t: its times, (n_events,), s.
+        states: the state at each of them.
+    """
+
+    name: str
+    t: Floats
+    states: tuple[State, ...]
+
+    def __repr__(self) -> str:
+        times = ", ".join(f"{t:g}" for t in self.t[:3])
+        more = ", …" if len(self.t) > 3 else ""
+        return f"<Event {self.name!r}: {f't = {times}{more} s' if len(self.t) else 'never'}>"
+
+
+def events(solution: Solution) -> Mapping[str, Event]:
+    """All events that the joints of a model declare, by name; an event that did not occur is empty.
+
+    Times are found on the interpolant of the integrator. Without one, they are the outputs at which
+    the value is negative for the first time.
+    """
+    found = {}
+    for joint, info in solution.compiled.constraints.items():
+        for (quantity, _), event in zip(info.results, info.events, strict=True):
+            if event is not None:
+                name = f"{joint}.{event}"
+                times = _times(solution, partial(_result, joint, quantity))
+                found[name] = Event(name, fixed(np.array(times)), _states(solution, times))
+    return MappingProxyType(found)
+
+
+def warnings_of(solution: Solution) -> list[str]:
+    """A warning for each event that occurred."""
+    found = []
+    for event in solution.events.values():
+        if len(event.t):
+            count = "once" if len(event.t) == 1 else f"{len(event.t)} times"
+            joint, _, kind = event.name.rpartition(".")
+            found.append(
+                f"{event.name}: {count}, first at t = {event.t[0]:.6g} s; from there the joint "
+                f"{joint} holds bodies together that would separate "
+                f"({kind.replace('_', ' ')}), and the run goes on"
+            )
+    return found
+
+
+def _result(joint: str, quantity: str, motion: Motion) -> Floats:
+    return np.atleast_1d(getattr(motion.constraint(joint), quantity))
+
+
+def _states(solution: Solution, times: list[float]) -> tuple[State, ...]:
+    if solution.dense is not None:
+        return tuple(solution(t) for t in times)  # type: ignore[misc]  # one time gives a State
+    rows = [int(np.flatnonzero(solution.t == t)[0]) for t in times]
+    return tuple(
+        solution._state(float(solution.t[k]), solution.q[k], solution.v[k], solution.z[k])
+        for k in rows
+    )
+
+
+def _times(solution: Solution, read: Read) -> list[float]:
+    """Times at which a value becomes negative; the first time if it is negative from the start."""
+    try:
+        motion = fine(solution)
+        values = read(motion)
+        noise = _NOISE * float(np.abs(motion.lam).max(initial=0.0))
+    except KempeError:  # no unique multipliers
+        return []
+    negative = values < -noise
+    first = np.flatnonzero(negative & ~np.concatenate([[False], negative[:-1]]))
+    found = []
+    for k in first:
+        at = float(motion.t[k])
+        # the last instant before with a value that is not negative
+        before = np.flatnonzero(values[:k] >= 0.0)
+        if motion is not solution and len(before):
+            at = _crossing(solution, read, float(motion.t[before[-1]]), at)
+        found.append(at)
+    return found
+
+
+def _crossing(solution: Solution, read: Read, low: float, high: float) -> float:
+    """The time at which a value crosses zero, between one with a value ≥ 0 and one below.
+
+    Regula falsi with halved weights (Illinois), so that the bracket shrinks from both sides.
+    """
+
+    def value(t: float) -> float:
+        return float(read(solution(np.array([t])))[0])
+
+    at_low, at_high, kept = value(low), value(high), 0
+    for _ in range(_ROUNDS):
+        if abs(high - low) <= _SHORTEST or at_low == at_high:
+            break
+        t = (low * at_high - high * at_low) / (at_high - at_low)
+        now = value(t)
+        if now >= 0.0:
+            low, at_low = t, now
+            at_high = at_high / 2.0 if kept > 0 else at_high
+            kept = 1
+        else:
+            high, at_high = t, now
+            at_low = at_low / 2.0 if kept < 0 else at_low
+            kept = -1
+        if now == 0.0:
+            return t
+    return high
