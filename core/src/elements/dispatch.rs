@@ -297,6 +297,14 @@ macro_rules! forces {
             pub fn own_powers(&self, at: &Situation<'_, S>) -> OwnPowers<S> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::own_powers(e, at),)+ }
             }
+            /// Number of switches.
+            pub fn switch_count(&self) -> usize {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::switch_count(e),)+ }
+            }
+            /// The functions of the switches.
+            pub fn switches(&self, at: &Situation<'_, S>, out: &mut [S]) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::switches(e, at, out),)+ }
+            }
             /// The relative angle at which a rotational spring is relaxed.
             pub fn free_angle(&self) -> Option<S> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::free_angle(e),)+ }

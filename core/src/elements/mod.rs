@@ -61,7 +61,7 @@ use dispatch::{constraints, declared, forces};
 pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
 use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES};
-pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
+pub use force_trait::{Force, Held, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
 pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
 use joints::*;

@@ -3,6 +3,7 @@
 use super::names::constant;
 use super::operation::Relation;
 use super::suggest::did_you_mean;
+use super::switch::Piecewise;
 use super::tape::{Instruction, Scope};
 use super::tree::{Kind, Node};
 use super::{ExpressionError, Names, Symbol, Tape, MAX_OPERANDS};
@@ -15,11 +16,12 @@ pub(super) fn compile<N: Names + ?Sized>(
     nodes: &[Node],
     names: &N,
 ) -> Result<Tape, ExpressionError> {
-    let tape = Tape { code: Vec::with_capacity(nodes.len()), operands: 0, symbols: Vec::new() };
+    let tape = Tape { code: Vec::with_capacity(nodes.len()), ..Tape::default() };
     let mut compiler = Compiler { text, tape, depth: 0, conditions: Vec::new() };
     for node in nodes {
         compiler.node(node, names)?;
     }
+    compiler.tape.count_switches();
     Ok(compiler.tape)
 }
 
@@ -38,15 +40,21 @@ impl Compiler<'_> {
         let instruction = match &node.kind {
             Kind::Number(value) => Instruction::Constant(*value),
             Kind::Name(name) => self.name(name, node.span.clone(), names)?,
-            Kind::Unary(operation) => Instruction::Unary(*operation),
+            Kind::Unary(operation) => match Piecewise::unary(*operation) {
+                Some(piecewise) => Instruction::Piecewise(piecewise),
+                None => Instruction::Unary(*operation),
+            },
             Kind::Binary(Binary::Power) => self.power(),
-            Kind::Binary(operation) => Instruction::Binary(*operation),
+            Kind::Binary(operation) => match Piecewise::binary(*operation) {
+                Some(piecewise) => Instruction::Piecewise(piecewise),
+                None => Instruction::Binary(*operation),
+            },
             Kind::Compare(relation) => {
                 self.conditions.push(*relation);
                 Instruction::Binary(Binary::Subtract)
             }
             Kind::If => match self.conditions.pop() {
-                Some(relation) => Instruction::Choose(relation),
+                Some(relation) => Instruction::Piecewise(Piecewise::Choose(relation)),
                 None => unreachable!("the parser lets no `if` pass without a condition"),
             },
         };
@@ -124,7 +132,7 @@ impl Compiler<'_> {
 
 /// The value of a piece of tape without symbols, by the evaluation that it replaces.
 fn fold(code: &[Instruction]) -> f64 {
-    let tape = Tape { code: code.to_vec(), operands: code.len(), symbols: Vec::new() };
+    let tape = Tape { code: code.to_vec(), operands: code.len(), ..Tape::default() };
     tape.evaluate(&Scope { parameters: &[], time: f64::NAN, variables: &[] })
 }
 

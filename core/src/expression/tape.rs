@@ -1,6 +1,7 @@
 //! A compiled expression: instructions for a stack of operands.
 
-use super::operation::{Binary, Relation, Unary};
+use super::operation::{Binary, Unary};
+use super::switch::{Boundaries, Piecewise};
 use super::{Symbol, MAX_OPERANDS};
 use crate::math::Real;
 
@@ -17,8 +18,8 @@ pub(super) enum Instruction {
     Binary(Binary),
     /// Replaces x by xᵖ.
     PowerConstant(f64),
-    /// Replaces (left - right, a, b) by a or b.
-    Choose(Relation),
+    /// Replaces the operands of an operation that has a switch.
+    Piecewise(Piecewise),
 }
 
 impl Instruction {
@@ -28,7 +29,7 @@ impl Instruction {
             Self::Constant(_) | Self::Load(_) => 0,
             Self::Unary(_) | Self::PowerConstant(_) => 1,
             Self::Binary(_) => 2,
-            Self::Choose(_) => 3,
+            Self::Piecewise(operation) => operation.operands(),
         }
     }
 }
@@ -41,6 +42,26 @@ pub trait Values<S> {
     fn time(&self) -> S;
     /// The state variable with index `k`.
     fn variable(&self, k: usize) -> S;
+    /// The piece that is held for the switch with index `k`; NaN if none is held.
+    fn piece(&self, k: usize) -> f64 {
+        let _ = k;
+        f64::NAN
+    }
+}
+
+/// The same values without held pieces.
+struct Free<'a, V>(&'a V);
+
+impl<S, V: Values<S>> Values<S> for Free<'_, V> {
+    fn parameter(&self, k: usize) -> S {
+        self.0.parameter(k)
+    }
+    fn time(&self) -> S {
+        self.0.time()
+    }
+    fn variable(&self, k: usize) -> S {
+        self.0.variable(k)
+    }
 }
 
 /// Values in slices: `parameters[k]` for [`Symbol::Parameter`], `variables[k]` for
@@ -68,30 +89,84 @@ impl<S: Real> Values<S> for Scope<'_, S> {
 }
 
 /// A compiled expression.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tape {
     pub(super) code: Vec<Instruction>,
     /// Most operands on the stack at a time, at most [`MAX_OPERANDS`].
     pub(super) operands: usize,
     pub(super) symbols: Vec<Symbol>,
+    /// Number of switches.
+    pub(super) switches: usize,
+    /// Index of the first switch in the held pieces.
+    pub(super) first_switch: usize,
+}
+
+/// A switch of an expression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Switch {
+    /// The boundaries of its pieces.
+    pub boundaries: Boundaries,
+    /// Whether its function depends on the time.
+    pub time: bool,
+    /// Whether its function depends on the state.
+    pub state: bool,
 }
 
 impl Tape {
     /// The value of the expression, with the further content of the scalar (derivatives, lanes).
     ///
-    /// Nothing is allocated. Outside the domain of a function the value is NaN, never a panic.
+    /// Nothing is allocated. Outside the domain of a function the value is NaN, never a panic. A switch has the piece
+    /// that is held for it. Where the held pieces have no value, as √x of x > 0 just below zero, none is held.
     pub fn evaluate<S: Real>(&self, values: &impl Values<S>) -> S {
-        // a large stack of large scalars costs more to clear than a short expression to evaluate
-        if self.operands <= 8 {
-            self.run::<S, 8>(values)
-        } else {
-            self.run::<S, MAX_OPERANDS>(values)
+        if self.switches == 0 {
+            return self.by_depth(values, &mut |_, _| {});
+        }
+        let value = self.value_with_switches(values, &mut |_, _| {});
+        match value.is_finite() {
+            true => value,
+            false => self.value_with_switches(&Free(values), &mut |_, _| {}),
         }
     }
 
-    fn run<S: Real, const DEPTH: usize>(&self, values: &impl Values<S>) -> S {
+    /// Calls `take` with the index and the function σ of each switch, with the held pieces of the switches before.
+    pub fn switch_functions<S: Real>(
+        &self,
+        values: &impl Values<S>,
+        mut take: impl FnMut(usize, S),
+    ) {
+        if self.switches > 0 {
+            self.value_with_switches(values, &mut take);
+        }
+    }
+
+    #[inline(always)]
+    fn by_depth<S: Real>(&self, values: &impl Values<S>, take: &mut impl FnMut(usize, S)) -> S {
+        // a large stack of large scalars costs more to clear than a short expression to evaluate
+        if self.operands <= 8 {
+            self.run::<S, 8>(values, take)
+        } else {
+            self.run::<S, MAX_OPERANDS>(values, take)
+        }
+    }
+
+    #[inline(never)]
+    fn value_with_switches<S: Real>(
+        &self,
+        values: &impl Values<S>,
+        take: &mut impl FnMut(usize, S),
+    ) -> S {
+        self.by_depth(values, take)
+    }
+
+    #[inline(always)]
+    fn run<S: Real, const DEPTH: usize>(
+        &self,
+        values: &impl Values<S>,
+        take: &mut impl FnMut(usize, S),
+    ) -> S {
         let mut stack = [S::zero(); DEPTH];
         let mut top = 0; // first free place
+        let mut switch = self.first_switch;
         for instruction in &self.code {
             let first = top - instruction.operands();
             stack[first] = match *instruction {
@@ -102,13 +177,57 @@ impl Tape {
                 Instruction::Unary(operation) => operation.apply(stack[first]),
                 Instruction::Binary(operation) => operation.apply(stack[first], stack[first + 1]),
                 Instruction::PowerConstant(exponent) => stack[first].powc(exponent),
-                Instruction::Choose(relation) => {
-                    relation.choose(stack[first], stack[first + 1], stack[first + 2])
+                Instruction::Piecewise(operation) => {
+                    let (operands, piece) = (&stack[first..top], values.piece(switch));
+                    take(switch, operation.function(operands));
+                    switch += 1;
+                    match piece.is_nan() {
+                        true => operation.value(operands),
+                        false => operation.value_on(piece, operands),
+                    }
                 }
             };
             top = first + 1;
         }
         stack[0]
+    }
+
+    /// The number of switches is that of the code.
+    pub(super) fn count_switches(&mut self) {
+        let switches = self.code.iter().filter(|code| matches!(code, Instruction::Piecewise(_)));
+        self.switches = switches.count();
+    }
+
+    /// The switches of the expression, in the order of their indices.
+    pub fn switches(&self) -> Vec<Switch> {
+        let mut stack: Vec<(bool, bool)> = Vec::new(); // (time, state)
+        let mut switches = Vec::with_capacity(self.switches);
+        let either = |all: &[(bool, bool)]| {
+            all.iter().fold((false, false), |sum, one| (sum.0 | one.0, sum.1 | one.1))
+        };
+        for instruction in &self.code {
+            let operands = stack.split_off(stack.len() - instruction.operands());
+            if let Instruction::Piecewise(operation) = instruction {
+                let (time, state) = either(&operands[..operation.arguments()]);
+                switches.push(Switch { boundaries: operation.boundaries(), time, state });
+            }
+            stack.push(match instruction {
+                Instruction::Load(Symbol::Time) => (true, false),
+                Instruction::Load(Symbol::Variable(_)) => (false, true),
+                _ => either(&operands),
+            });
+        }
+        switches
+    }
+
+    /// The same expression with `first` as the index of its first switch.
+    pub fn with_first_switch(&self, first: usize) -> Self {
+        Self { first_switch: first, ..self.clone() }
+    }
+
+    /// The indices of the switches in the held pieces.
+    pub fn switch_range(&self) -> std::ops::Range<usize> {
+        self.first_switch..self.first_switch + self.switches
     }
 
     /// The symbols that the expression uses, each once, in order of appearance.
@@ -154,7 +273,7 @@ impl Tape {
 impl From<f64> for Tape {
     /// A tape that is one constant.
     fn from(x: f64) -> Self {
-        Self { code: vec![Instruction::Constant(x)], operands: 1, symbols: Vec::new() }
+        Self { code: vec![Instruction::Constant(x)], operands: 1, ..Self::default() }
     }
 }
 
@@ -171,6 +290,6 @@ impl Tape {
             Instruction::Constant(position),
             Instruction::Binary(Add),
         ];
-        Self { code, operands: 2, symbols: vec![Symbol::Time] }
+        Self { code, operands: 2, symbols: vec![Symbol::Time], ..Self::default() }
     }
 }

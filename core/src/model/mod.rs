@@ -16,6 +16,7 @@ mod problem;
 mod problems;
 mod scope;
 mod size;
+mod switch;
 mod symbols;
 mod variable;
 
@@ -31,4 +32,5 @@ pub use problem::Problem;
 pub use problems::{listed, more_problems, Problems, MOST_REPORTED};
 pub use scope::{Reach, Scope};
 pub use size::{column_scales, row_scales, size};
+pub use switch::{Owner, Switch};
 pub use variable::{Dependence, Variable};

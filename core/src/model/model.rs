@@ -3,6 +3,7 @@
 use super::blueprint::Blueprint;
 use super::items::{Body, ConstraintItem, ForceItem};
 use super::layout::{StateLayout, Touched};
+use super::switch::{Owner, Switch};
 use super::variable::Dependence;
 use crate::elements::{BodyId, Group};
 use crate::expression::{Tape, Values};
@@ -28,6 +29,8 @@ pub struct Model<S = f64> {
     pub layout: StateLayout,
     /// Whether a joint or driver is driven.
     pub driven: bool,
+    /// Switches of laws and forces: of the constraints, then of the forces; those of a force's laws before its own.
+    pub switches: Vec<Switch>,
     /// Whether redundant constraints are accepted; their multipliers are then the smallest that
     /// balance the loads.
     pub allow_redundancy: bool,
@@ -55,6 +58,7 @@ impl<S: Real> Model<S> {
         let value = &mut |tape: &Tape| tape.evaluate(&reference);
         let mut touched = Vec::new();
         let mut constraints = Vec::new();
+        let mut switches = Vec::new();
         for (name, group, formula) in &blueprint.constraints {
             let mut depends = Dependence::default();
             formula.map(&mut |tape| depends.add(tape));
@@ -70,21 +74,31 @@ impl<S: Real> Model<S> {
                 group: *group,
                 bodies,
                 element: formula.map(value),
-                law: depends.any().then(|| Box::new(formula.clone())),
+                law: depends.any().then(|| {
+                    let owner = Owner::Constraint(constraints.len());
+                    Box::new(formula.map(&mut |tape| Switch::number(tape, owner, &mut switches)))
+                }),
                 driven: *group == Group::Drivers,
                 equations,
             });
         }
-        let forces = blueprint.forces.iter().map(|(name, states, formula)| {
+        let forces = blueprint.forces.iter().enumerate().map(|(k, (name, states, formula))| {
             let mut depends = Dependence::default();
             formula.map(&mut |tape| depends.add(tape));
+            let owner = Owner::Force(k);
+            let law = depends.any().then(|| {
+                Box::new(formula.map(&mut |tape| Switch::number(tape, owner, &mut switches)))
+            });
+            let (element, first_switch) = (formula.map(value), switches.len());
+            switches.extend((0..element.switch_count()).map(|_| Switch::of_element(owner)));
             ForceItem {
                 name: name.clone(),
                 bodies: formula.bodies(),
                 reaction: formula.reaction(),
                 states,
-                element: formula.map(value),
-                law: depends.any().then(|| Box::new(formula.clone())),
+                element,
+                law,
+                first_switch,
             }
         });
         let forces: Vec<ForceItem<S>> = forces.collect();
@@ -102,6 +116,7 @@ impl<S: Real> Model<S> {
             layout,
             constraints,
             forces,
+            switches,
             allow_redundancy: blueprint.allow_redundancy,
         }
     }

@@ -2,10 +2,11 @@
 
 use super::law_fault::undefined_law;
 use super::run_results::Run;
+use super::switch_schedule::{owner_name, Jump, SMOOTH};
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
 use crate::integrate::Cause;
-use crate::model::Model;
+use crate::model::{Model, Switch};
 use crate::solve::Breakdown;
 use std::fmt;
 
@@ -37,6 +38,17 @@ pub enum Reason {
         /// The joint or driver that is open.
         name: String,
         /// Description, with the gap.
+        message: String,
+        /// Remedy.
+        hint: &'static str,
+    },
+    /// A law that no run can follow, found before the run.
+    Law {
+        /// The time at which it cannot, s.
+        t: f64,
+        /// The joint, driver or force.
+        name: String,
+        /// Description.
         message: String,
         /// Remedy.
         hint: &'static str,
@@ -116,6 +128,11 @@ impl Failure {
                             must meet the constraints; check the size of the forces";
                 return Reason::Integration { t, message, hint }.into();
             }
+            Breakdown::Jump { constraint, position, values } => {
+                let message = Jump { constraint, position, values }.describe(model, t);
+                return Reason::Integration { t, message, hint: SMOOTH }.into();
+            }
+            Breakdown::Sliding(switch) => return sliding(model, t, switch),
             Breakdown::NotFinite => {
                 let rest = vec![0.0; q.len()];
                 let (message, hint) = not_finite(t, undefined_law(model, (t, t), [q, &rest, &[]]));
@@ -186,6 +203,18 @@ impl Failure {
         };
         Reason::Integration { t, message, hint }.into()
     }
+}
+
+/// The motion slides along a switch.
+fn sliding(model: &Model, t: f64, switch: usize) -> Box<Failure> {
+    let Switch { owner, law, .. } = model.switches[switch];
+    let message = format!(
+        "{}{} switches back and forth at t = {t:.6} s: on both sides of its condition the motion returns to it",
+        if law { "a law of " } else { "" },
+        owner_name(model, owner)
+    );
+    let hint = "replace the jump by a steep smooth function: sign(x) by tanh(x/x0), with x0 small against the usual x";
+    Reason::Integration { t, message, hint }.into()
 }
 
 fn not_finite(t: f64, law: Option<String>) -> (String, &'static str) {
@@ -264,6 +293,7 @@ impl fmt::Display for Reason {
         match self {
             Self::Singular { message, .. }
             | Self::Start { message, .. }
+            | Self::Law { message, .. }
             | Self::Option { message, .. }
             | Self::Integration { message, .. } => f.write_str(message),
         }

@@ -12,6 +12,7 @@
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
+//! | `switch_schedule`, `switching` | switches in time, found before a run; switches during a run |
 //! | `singularity_passage`, `singularity_forecast`, `branch_averaging` | singular positions |
 //! | `recorder`, `trajectory`, `report_projection`, `lane_batch` | reported states |
 //! | `interpolated_states` | states between them |
@@ -51,6 +52,8 @@ mod stabilizations;
 mod start_check;
 mod stepper;
 mod stiffness_detection;
+mod switch_schedule;
+mod switching;
 mod trajectory;
 
 pub use accelerations::Accelerations;
