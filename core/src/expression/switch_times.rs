@@ -261,7 +261,8 @@ mod tests {
             assert!(worst < 1e-14 * 10.0, "{worst:e}: {found:?} {expected:?}");
         };
         let pi = std::f64::consts::PI;
-        let both = |k: i32| [pi / 6.0, 5.0 * pi / 6.0].map(|x| (x + 2.0 * pi * f64::from(k)) / 30.0);
+        let both =
+            |k: i32| [pi / 6.0, 5.0 * pi / 6.0].map(|x| (x + 2.0 * pi * f64::from(k)) / 30.0);
         let sines = (0..48).flat_map(both).filter(|t| *t < 10.0).collect();
         close(times("if(sin(30*t) > 0.5, 1, 0)", [0.0, 10.0]), sines);
         let floors = (1..70).map(|k| f64::from(k) / 7.0).collect();

@@ -94,9 +94,12 @@ impl Sampled<'_, '_> {
             }
             // the samples approach zero and turn back
             let Some(next) = points.get(k + 1) else { continue };
-            if let Some([before, beyond, after]) = self.turn(index, [points[k - 1], points[k], *next]) {
+            if let Some([before, beyond, after]) =
+                self.turn(index, [points[k - 1], points[k], *next])
+            {
                 let found = self.between(index, before, beyond, direction);
-                if let Some(found) = found.or_else(|| self.between(index, beyond, after, direction)) {
+                if let Some(found) = found.or_else(|| self.between(index, beyond, after, direction))
+                {
                     return Some(found);
                 }
             }
@@ -105,7 +108,13 @@ impl Sampled<'_, '_> {
     }
 
     /// The change of sign between two times.
-    fn between(&mut self, index: usize, a: Point, b: Point, direction: Direction) -> Option<Crossing> {
+    fn between(
+        &mut self,
+        index: usize,
+        a: Point,
+        b: Point,
+        direction: Direction,
+    ) -> Option<Crossing> {
         let rising = direction.counts(a.1, b.1)?;
         if b.1 == 0.0 {
             return Some(Crossing { index, t: b.0, rising });

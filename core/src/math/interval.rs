@@ -187,7 +187,11 @@ impl Real for Interval {
         let ends = [self.low.powc(exponent), self.high.powc(exponent)];
         if exponent.fract() != 0.0 {
             let low = self.low.max(0.0);
-            return if self.high < 0.0 { Self::ALL } else { Self::of(&[low.powc(exponent), ends[1]]) };
+            return if self.high < 0.0 {
+                Self::ALL
+            } else {
+                Self::of(&[low.powc(exponent), ends[1]])
+            };
         }
         let found = Self::of(&ends);
         if exponent % 2.0 == 0.0 && self.contains_zero() {
@@ -251,7 +255,9 @@ mod tests {
         ];
         let mut seed = 1_u64;
         let mut random = || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             (seed >> 11) as f64 / (1_u64 << 53) as f64
         };
         for _ in 0..2000 {

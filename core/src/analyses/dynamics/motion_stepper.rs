@@ -103,12 +103,7 @@ impl<'a> MotionStepper<'a> {
     }
 
     /// Goes on from a state with the pieces of the switches, to the next one.
-    fn hold(
-        &mut self,
-        switching: &Switching,
-        t: f64,
-        y: &[f64],
-    ) -> Result<(), Cause<Breakdown>> {
+    fn hold(&mut self, switching: &Switching, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         self.ode.workspace.motions.pieces.clone_from(&switching.pieces);
         match &mut self.kind {
             Kind::Explicit(stepper) => stepper.restart_until(t, y, switching.end()),

@@ -132,9 +132,7 @@ fn run_phase<W: FnMut(f64) -> Flow>(
     let outcome = match started {
         Err(breakdown) => Err(Failure::at_state(model, at.t, &q, breakdown)),
         Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(Flow::Stop),
-        Ok(()) => {
-            step_through(ode, phase, at, options, (&mut recorder, watcher), schedule, run)
-        }
+        Ok(()) => step_through(ode, phase, at, options, (&mut recorder, watcher), schedule, run),
     };
     recorder.flush();
     run.statistics.factorisations += recorder.factorisations();

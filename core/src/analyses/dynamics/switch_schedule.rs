@@ -148,9 +148,8 @@ impl Jump {
         pairs.filter(|(_, selected)| *selected).find_map(|((old, new), _)| {
             let Jet { value: a, rate: va, .. } = old;
             let Jet { value: b, rate: vb, .. } = new;
-            let differ = |a: f64, b: f64| {
-                (b - a).abs() > CONTINUOUS * a.abs().max(b.abs()).max(scale)
-            };
+            let differ =
+                |a: f64, b: f64| (b - a).abs() > CONTINUOUS * a.abs().max(b.abs()).max(scale);
             let (position, velocity) = (differ(a, b), differ(va, vb));
             let values = if position { [a, b] } else { [va, vb] };
             (position || velocity).then_some(Self { constraint: k, position, values })
@@ -178,7 +177,8 @@ impl Jump {
 }
 
 /// The remedy for a law that jumps.
-pub(super) const SMOOTH: &str = "join the pieces with equal values and equal rates, for instance by step5 or another \
+pub(super) const SMOOTH: &str =
+    "join the pieces with equal values and equal rates, for instance by step5 or another \
                                  motion law";
 
 fn too_many(model: &Model, tape: &Tape, t0: f64) -> Box<Failure> {

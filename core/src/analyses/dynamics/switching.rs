@@ -305,7 +305,9 @@ impl Switching {
         let spacing = 4.0 * f64::EPSILON * step.t.abs().max(step.t_old.abs());
         // with a more accurate interpolant the same switch may lie slightly earlier; it is approached a few times
         let (goal, tries) = match &self.due {
-            Some(due) if due.tries >= AGAIN => (due.t - sign * (step.t - step.t_old).abs(), due.tries),
+            Some(due) if due.tries >= AGAIN => {
+                (due.t - sign * (step.t - step.t_old).abs(), due.tries)
+            }
             Some(due) => (due.t, due.tries),
             None => (f64::NAN, 0),
         };
@@ -313,7 +315,8 @@ impl Switching {
             self.due.as_ref().is_some_and(|due| due.changes.iter().any(|(switch, _)| *switch == k))
         };
         let earlier = |t: f64, k: usize| !awaited(k) || sign * (goal - t) > 1e3 * spacing;
-        let found = scanned.crossings.iter().filter(|crossing| earlier(crossing.t, own(crossing.index)));
+        let found =
+            scanned.crossings.iter().filter(|crossing| earlier(crossing.t, own(crossing.index)));
         let Some(first) = found.clone().map(|crossing| crossing.t).next() else {
             return self.after_smooth_step(model, step, &scanned);
         };
