@@ -97,6 +97,8 @@ forces! {
     Motor,
     #[cfg(feature = "test-elements")] Lag,
     #[cfg(feature = "test-elements")] Rubbing,
+    #[cfg(feature = "test-elements")] GapSpring,
+    #[cfg(feature = "test-elements")] Overload,
 }
 
 /// The declarations of all elements, in the order of the list.

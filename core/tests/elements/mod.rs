@@ -2,15 +2,19 @@
 //! to the core where the feature `test-elements` is on, as in its tests.
 
 mod bead;
+mod gap_spring;
 mod lag;
 mod levels;
+mod overload;
 mod pulley;
 mod rubbing;
 mod turned_pin;
 
 pub use bead::Bead;
+pub use gap_spring::GapSpring;
 pub use lag::Lag;
 pub use levels::Levels;
+pub use overload::Overload;
 pub use pulley::Pulley;
 pub use rubbing::Rubbing;
 pub use turned_pin::TurnedPin;

@@ -7,6 +7,7 @@ mod mechanisms;
 
 mod in_time;
 mod jumps;
+mod of_elements;
 mod on_state;
 
 use kempe::analyses::dynamics::{dynamics, Auto, Options, Run, Scheme, Stabilization};
