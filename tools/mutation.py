@@ -18,6 +18,7 @@ import sys
 import tempfile
 import time
 from collections import defaultdict
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -27,8 +28,8 @@ from cosmic_ray.work_db import WorkDB
 from cosmic_ray.work_item import MutationSpec, TestOutcome
 
 ROOT = Path(__file__).resolve().parents[1]
-#: Modules of python/kempe, and the tests that concern each. The tests of pictures and of whole
-#: pages take long; quicker ones cover the same code.
+#: Modules of python/kempe, and the tests that concern each, the quick ones first. The tests of
+#: whole pages take long; quicker ones cover the same code.
 TESTS = {
     "views": (
         "tests/python/test_views.py",
@@ -37,6 +38,7 @@ TESTS = {
         "tests/python/test_table.py",
     ),
     "report": (
+        "tests/python/test_settling.py",
         "tests/python/test_summary.py",
         "tests/python/test_extremes.py",
         "tests/python/test_solution.py",
@@ -51,6 +53,12 @@ TESTS = {
         "tests/python/test_copies.py",
     ),
     "plot": (
+        "tests/plot/test_time_axis.py",
+        "tests/plot/test_peaks.py",
+        "tests/plot/test_dimensions.py",
+        "tests/plot/test_grid.py",
+        "tests/plot/test_pictures.py",
+        "tests/plot/test_rules.py",
         "tests/plot/test_numbers.py",
         "tests/plot/test_functions.py",
         "tests/plot/test_drawings.py",
@@ -119,7 +127,7 @@ def _copy(folder: Path) -> None:
 
 
 def _run(module: str, sample: int | None, seed: int) -> Score | None:
-    command = " ".join([sys.executable, "-m pytest -x -q -p no:cacheprovider", *TESTS[module]])
+    command = _command(TESTS[module])
     begin = time.monotonic()
     before = subprocess.run(command.split(), capture_output=True, text=True, check=False)
     if before.returncode:
@@ -130,7 +138,7 @@ def _run(module: str, sample: int | None, seed: int) -> Score | None:
     score = Score(all=len(mutants))
     chosen = mutants if sample is None else _sample(mutants, sample, f"{module} {seed}")
     for mutant in chosen:
-        result = mutate_and_test([mutant], command, timeout)
+        result = mutate_and_test([mutant], _command(_nearest(module, mutant)), timeout)
         killed = result.test_outcome != TestOutcome.SURVIVED
         score.killed += killed
         if not killed:
@@ -138,6 +146,20 @@ def _run(module: str, sample: int | None, seed: int) -> Score | None:
         line = _told(mutant, result.diff or "") if not killed else ""
         print(f"{module} {'killed' if killed else 'SURVIVED'} {line}", flush=True)
     return score
+
+
+def _command(tests: Sequence[str]) -> str:
+    return " ".join([sys.executable, "-m pytest -x -q -p no:cacheprovider", *tests])
+
+
+def _nearest(module: str, mutant: MutationSpec) -> list[str]:
+    """The tests of a module, those first that name the changed file."""
+
+    def is_other(test: str) -> bool:
+        files = [Path(test)] if test.endswith(".py") else Path(test).glob("*.py")
+        return not any(mutant.module_path.stem in file.read_text("utf-8") for file in files)
+
+    return sorted(TESTS[module], key=is_other)
 
 
 def _mutants(path: Path) -> list[MutationSpec]:

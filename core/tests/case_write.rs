@@ -97,7 +97,8 @@ impl Dice {
                 Value::Text(self.text())
             }
             Shape::Number | Shape::Law => self.formula(),
-            Shape::Pair => self.pair(),
+            Shape::Pair | Shape::LawPair => self.pair(),
+            Shape::Laws => Value::List(vec![self.formula(), self.formula()]),
             Shape::Points => {
                 Value::Table((0..self.roll(4)).map(|_| (self.name(used), self.pair())).collect())
             }

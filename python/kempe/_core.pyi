@@ -214,6 +214,12 @@ def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
 def reaction(model: Model, joint: str, on: str, frame: str, t: _F, q: _F, lam: _F) -> _F:
     """Force and torque about the joint point of a joint on a body: (n_t, 3), N and N·m."""
 
+def measured(model: Model, name: str, t: _F, q: _F, v: _F, a: _F | None = None) -> _F:
+    """Position, rate and acceleration of each position quantity of an element: (n_t, 3 n).
+
+    Without accelerations ``a``, (n_t, n_q), these are taken as zero.
+    """
+
 def force(
     model: Model,
     name: str,

@@ -22,6 +22,8 @@ TYPES = dict.fromkeys(REFERENCES, "str") | {
     "number": "Number",
     "law": "Number",
     "pair": "Pair",
+    "law_pair": "Pair",
+    "laws": "Numbers",
     "count": "int",
     "flag": "bool",
     "name": "str",
@@ -46,7 +48,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, TypeVar
+from typing import ClassVar{words}, TypeVar
 
 from kempe.element import Element
 from kempe.values import {imports}
@@ -81,27 +83,52 @@ def source(catalogue: str) -> str:
     """The text of ``elements.py`` for a catalogue (JSON, as ``_core.catalogue()`` gives it)."""
     sections = json.loads(catalogue)
     tables = [(section, table) for section in SECTIONS for table in sections[section]]
-    used = {TYPES[field["shape"]] for _, table in tables for field in table["fields"]}
-    imports = ", ".join(sorted(used - {"str"}))
+    used = {element_type(field) for _, table in tables for field in table["fields"]}
+    words = ", Literal" if any(kind.startswith("Literal") for kind in used) else ""
+    imports = ", ".join(sorted(used & {"Number", "Numbers", "Pair"}))
     classes = [element_class(section, table) for section, table in tables]
     methods = [method(table) for _, table in tables]
-    return "\n\n".join([HEADER.format(imports=imports), *classes, "\n".join([METHODS, *methods])])
+    return "\n\n".join(
+        [HEADER.format(imports=imports, words=words), *classes, "\n".join([METHODS, *methods])]
+    )
 
 
 def element_class(section: str, table: dict[str, Any]) -> str:
     """The dataclass of one element."""
     fields = table["fields"]
-    members = [f"{f['name']}: {TYPES[f['shape']]}{default(f)}" for f in fields]
+    members = [f"{f['name']}: {annotated(f)}" for f in fields]
     members += [
         f'section: ClassVar[str] = "{section}"',
         f'kind: ClassVar[str] = "{table["name"]}"',
         "shapes: ClassVar[Mapping[str, str]] = {",
-        *(f'    "{f["name"]}": "{f["shape"]}",' for f in fields),
+        *(f'    "{f["name"]}": "{element_shape(f)}",' for f in fields),
         "}",
     ]
     doc = docstring(f"An element of type ``{table['name']}``.", table, "Attributes")
     head = f"@dataclass(frozen=True)\nclass {camel(table['name'])}(Element):\n"
     return head + textwrap.indent(f"{doc}\n\n" + "\n".join(members), "    ") + "\n"
+
+
+def element_type(field: dict[str, Any]) -> str:
+    """The type of a field of an element."""
+    shape = field["shape"]
+    return literal(shape["words"]) if isinstance(shape, dict) else TYPES[shape]
+
+
+def element_shape(field: dict[str, Any]) -> str:
+    """The kind of value of a field of an element."""
+    return "word" if isinstance(field["shape"], dict) else str(field["shape"])
+
+
+def annotated(field: dict[str, Any]) -> str:
+    """The type of a field of an element, with its default."""
+    absent = " | None" if isinstance(field["default"], dict) else ""
+    return f"{element_type(field)}{absent}{default(field)}"
+
+
+def literal(words: Iterable[str]) -> str:
+    """The type of some words."""
+    return f"Literal[{', '.join(json.dumps(word) for word in words)}]"
 
 
 def options_source(catalogue: str) -> str:
@@ -157,7 +184,7 @@ def option_type(field: dict[str, Any], classes: dict[str, str]) -> str:
     if of_family:
         kind = "Option"
     elif isinstance(shape, dict):
-        kind = f"Literal[{', '.join(json.dumps(word) for word in shape['words'])}]"
+        kind = literal(shape["words"])
     else:
         kind = TYPES[shape]
     if field["name"] == "stabilization":
@@ -179,7 +206,7 @@ def method(table: dict[str, Any]) -> str:
     keyword = [f for f in fields if f not in positional]
     arguments = [f"{f['name']}: str{default(f)}" for f in positional]
     arguments += ["*"] * bool(keyword)
-    arguments += [f"{f['name']}: {TYPES[f['shape']]}{default(f)}" for f in keyword]
+    arguments += [f"{f['name']}: {annotated(f)}" for f in keyword]
     passed = [f"{f['name']}={f['name']}" for f in fields]
     doc = docstring(f"Add an element of type ``{name}`` and return it.", table, "Args")
     head = call(f"def {name}", ["self", "name: str", *arguments], f" -> {camel(name)}:", 4)
@@ -227,6 +254,8 @@ def default(field: dict[str, Any]) -> str:
         return ""
     if isinstance(value, str):
         return f' = "{value}"'
+    if isinstance(value, dict | bool):
+        return f" = {value if isinstance(value, bool) else None}"
     return f" = {tuple(map(float, value)) if isinstance(value, Iterable) else float(value)}"
 
 

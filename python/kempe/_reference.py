@@ -28,6 +28,7 @@ The values of fields:
 | number | a number, a number with a unit (`"250 mm"`), or a formula in the parameters |
 | law | the same, and the formula may use `t` and the coordinates of bodies |
 | pair | two numbers, `[x, y]` |
+| law_pair, laws | two laws, any number of laws: `["t", "2*t"]` |
 | points | a table of points, `{ P = [x, y] }` |
 | names | two names, `["A", "B"]` |
 | body, point, coordinate | `"crank"`, `"crank.B"`, `"crank.angle"` |
@@ -115,7 +116,8 @@ def default(field: dict[str, Any]) -> str:
     if isinstance(given, list):
         return f"`[{', '.join(f'{x:g}' for x in given)}]`"
     if isinstance(given, str):
-        return f'`{{ type = "{given}" }}`'
+        family = isinstance(field["shape"], dict) and "options" in field["shape"]
+        return f'`{{ type = "{given}" }}`' if family else f'`"{given}"`'
     return f"`{str(given).lower()}`" if isinstance(given, bool) else f"`{given:g}`"
 
 

@@ -189,6 +189,11 @@ class CompiledModel:
         """
         return self._column_names(COORDINATES, "")
 
+    def column_units(self) -> list[str]:
+        """Units of the coordinates in the order of q: m, rad, or that of an internal coordinate."""
+        of_bodies = [("m", "m", "rad")[k] for b in self.bodies.values() for k in range(b.count)]
+        return of_bodies + [unit for c in self.constraints.values() for _, unit in c.coordinates]
+
     def rate_names(self) -> list[str]:
         """Names of the velocities in the order of v, such as ``crank.omega``.
 

@@ -77,7 +77,8 @@ class Distance(Element):
     Attributes:
         i: Point of body i, as `body.point`.
         j: Point of body j, as `body.point`.
-        length: Length of the rod [m].
+        length: Length of the rod; may use `t` and positions, as the length of a cylinder does
+            [m].
     """
 
     i: str
@@ -88,7 +89,7 @@ class Distance(Element):
     shapes: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
-        "length": "number",
+        "length": "law",
     }
 
 
@@ -123,11 +124,13 @@ class Weld(Element):
 class CoordinateDriver(Element):
     """An element of type ``coordinate_driver``.
 
-    Coordinate driver: x, y or angle of a body is a given function of time, Φ = coordinate -
-    value (Haug 3.5.1, 3.5.2). The driving force or torque on the body is -λ.
+    Coordinate driver: a position quantity is a given function of time, Φ = coordinate - value
+    (Haug 3.5.1, 3.5.2). The driving force or torque on body j of the quantity is -λ, on body i
+    +λ; the coordinates of a body are measured from ground.
 
     Attributes:
-        coordinate: Driven coordinate, as `body.x`, `body.y` or `body.angle`.
+        coordinate: Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`,
+            `joint.angle`, `joint.displacement` and so on.
         value: Its value, m or rad; may use `t` and the positions of other bodies [m or rad].
     """
 
@@ -314,7 +317,8 @@ class ElementMethods:
             name: its name in the model.
             i: Point of body i, as `body.point`.
             j: Point of body j, as `body.point`.
-            length: Length of the rod [m].
+            length: Length of the rod; may use `t` and positions, as the length of a cylinder does
+                [m].
         """
         return self._add(Distance(name, i=i, j=j, length=length))
 
@@ -337,12 +341,14 @@ class ElementMethods:
     def coordinate_driver(self, name: str, coordinate: str, *, value: Number) -> CoordinateDriver:
         """Add an element of type ``coordinate_driver`` and return it.
 
-        Coordinate driver: x, y or angle of a body is a given function of time, Φ = coordinate -
-        value (Haug 3.5.1, 3.5.2). The driving force or torque on the body is -λ.
+        Coordinate driver: a position quantity is a given function of time, Φ = coordinate - value
+        (Haug 3.5.1, 3.5.2). The driving force or torque on body j of the quantity is -λ, on body i
+        +λ; the coordinates of a body are measured from ground.
 
         Args:
             name: its name in the model.
-            coordinate: Driven coordinate, as `body.x`, `body.y` or `body.angle`.
+            coordinate: Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`,
+                `joint.angle`, `joint.displacement` and so on.
             value: Its value, m or rad; may use `t` and the positions of other bodies [m or rad].
         """
         return self._add(CoordinateDriver(name, coordinate=coordinate, value=value))

@@ -75,6 +75,8 @@ def _extreme(motion: Motion, quantity: Quantity, sign: float) -> Extreme:
         closer = _refined(motion, quantity, sign, _brackets(dense.t, values))
         room = _EQUAL * abs(found.value)
         found = closer if sign * closer.value >= sign * found.value - room else found
+        if values[0] >= sign * found.value - _EQUAL * abs(found.value):
+            found = Extreme(found.value, float(dense.t[0]))  # it begins at its extreme value
     room = _SAME * abs(output.value)
     return output if sign * output.value > sign * found.value + room else found
 

@@ -65,6 +65,24 @@ class BodyInfo:
         return "angle" in self.quantities
 
 
+@dataclass(frozen=True)
+class Measured:
+    """A position quantity of an element: the motion of body j as seen from body i.
+
+    Attributes:
+        names: of the position, its rate and its acceleration, such as angle, omega, alpha.
+        unit: SI unit of the position.
+    """
+
+    names: tuple[str, str, str]
+    unit: str
+
+    @property
+    def units(self) -> tuple[str, str, str]:
+        """SI units of the position, its rate and its acceleration."""
+        return self.unit, f"{self.unit}/s", f"{self.unit}/s^2"
+
+
 @dataclass(frozen=True, repr=False)
 class ConstraintInfo:
     """A joint or a driver with numerical values.
@@ -81,6 +99,7 @@ class ConstraintInfo:
         equations: names and units of the equations.
         columns: slice of its internal coordinates in q; empty for most joints.
         coordinates: names and units of its internal coordinates.
+        measured: its position quantities.
     """
 
     name: str
@@ -97,6 +116,7 @@ class ConstraintInfo:
     bodies: tuple[str, ...]
     columns: slice
     coordinates: tuple[tuple[str, str], ...]
+    measured: tuple[Measured, ...]
 
     def __repr__(self) -> str:
         return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
@@ -117,6 +137,7 @@ class ForceInfo:
         places: slice of its first-order states in z; empty for most forces.
         states: names and units of its first-order states, such as ``("current", "A")``.
         reaction: the joint whose reaction enters it; None for most forces.
+        measured: its position quantities.
     """
 
     name: str
@@ -129,6 +150,7 @@ class ForceInfo:
     places: slice
     states: tuple[tuple[str, str], ...]
     reaction: str | None
+    measured: tuple[Measured, ...]
 
     def __repr__(self) -> str:
         return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
@@ -147,6 +169,10 @@ def vector(two: list[float] | None) -> Vector:
 def _units(entries: list[dict[str, str]]) -> tuple[tuple[str, str], ...]:
     """Names and units."""
     return tuple((entry["name"], entry["unit"]) for entry in entries)
+
+
+def _measured(entries: list[dict[str, Any]]) -> tuple[Measured, ...]:
+    return tuple(Measured(names=tuple(of["names"]), unit=of["unit"]) for of in entries)
 
 
 def body(number: int, entry: dict[str, Any]) -> BodyInfo:
@@ -181,6 +207,7 @@ def constraint(entry: dict[str, Any]) -> ConstraintInfo:
         bodies=tuple(entry["bodies"]),
         columns=slice(*entry["columns"]),
         coordinates=_units(entry["coordinates"]),
+        measured=_measured(entry["measured"]),
     )
 
 
@@ -198,4 +225,5 @@ def force(entry: dict[str, Any]) -> ForceInfo:
         places=slice(*entry["places"]),
         states=_units(entry["states"]),
         reaction=entry["reaction"],
+        measured=_measured(entry["measured"]),
     )

@@ -97,6 +97,23 @@ class Motion:
         position, velocity = _core.residual(self.compiled.core, *self._rows())
         return self._as_given(position), self._as_given(velocity)
 
+    def measured(self, name: str, k: int, order: int) -> Floats:
+        """Position quantity ``k`` of an element, (n_t,), or its derivative of this order in time.
+
+        Raises:
+            SingularityError: the accelerations, for order 2, are not unique at one of the times.
+        """
+        if (name, order == 2) not in self._measured:
+            a = np.atleast_2d(self.a) if order == 2 else None
+            values = _core.measured(self.compiled.core, name, *self._rows(), a)
+            self._measured[name, order == 2] = values
+        return self._as_given(self._measured[name, order == 2][:, 3 * k + order])
+
+    @cached_property
+    def _measured(self) -> dict[tuple[str, bool], Floats]:
+        """Position quantities of elements that were computed, without and with accelerations."""
+        return {}
+
     def reaction(self, joint: str, on: str, frame: str) -> Floats:
         """Force and torque of a joint on a body, (…, 3); see ``ConstraintView``."""
         kept, values = self._last_reaction

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, TypeAlias
 
 from kempe.errors import ModelError
 from kempe.names import one_of
-from kempe.values import CHECKS, flag, number, reference, tolerance
+from kempe.values import CHECKS, number, reference, tolerance
 
 #: The values that a field accepts: the name of a shape, the name of a family of options, or words.
 Shape: TypeAlias = "str | tuple[str, ...]"
@@ -21,7 +21,6 @@ _FAMILIES = {"method": "kp.RK45(rtol=1e-6)", "stabilization": "kp.Projection()"}
 _CHECKS = {
     **CHECKS,
     "count": number,
-    "flag": flag,
     "name": reference,
     "tolerance": tolerance,
 }

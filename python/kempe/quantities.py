@@ -15,21 +15,26 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from kempe.arrays import Floats, scalar
-from kempe.compiled import ACCELERATIONS, COORDINATES, RATES, BodyInfo, ConstraintInfo, ForceInfo
+from kempe.compiled import (
+    ACCELERATIONS,
+    COORDINATES,
+    RATES,
+    BodyInfo,
+    ConstraintInfo,
+    ForceInfo,
+    Vector,
+)
 from kempe.names import unknown
-from kempe.relative import Line, Slide, turning
 from kempe.views.frames import FRAMES
 
 if TYPE_CHECKING:
     from kempe.motion import Motion
 
 UNITS = (("m", "m", "rad"), ("m/s", "m/s", "rad/s"), ("m/s^2", "m/s^2", "rad/s^2"))
-_LINE = (("length", "m"), ("rate", "m/s"), ("acceleration", "m/s^2"))
-_SLIDE = (("displacement", "m"), ("rate", "m/s"), ("acceleration", "m/s^2"))
-_TURN = (("angle", "rad"), ("omega", "rad/s"), ("alpha", "rad/s^2"))
 ENERGIES = ("kinetic", "potential", "dissipated", "work", "total")
-#: A multiplier times its residual is an energy, so its unit is J per unit of the residual.
-_MULTIPLIER_UNITS = {"m": "N", "rad": "N*m"}
+#: A force times its coordinate, or a multiplier times its residual, is an energy: its unit is J per
+#: unit of the other.
+FORCE_UNITS = {"m": "N", "rad": "N*m"}
 
 
 @dataclass(frozen=True)
@@ -123,7 +128,7 @@ def of_point(motion: Motion, body: str, point: str) -> Family:
 def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
     """What a joint or driver leaves free, its reaction on body j, multipliers, coordinates."""
     view = motion.constraint(info.name)
-    found = _free(motion, info) if info.group == "joints" else _driving(motion, info)
+    found = _measured(motion, info) | _tension(motion, info) | _driving(motion, info)
     found |= _acting(partial(view.force, on=info.j), partial(view.torque, on=info.j))
     found["force"] = Quantity("N", lambda: _size(view.force(on=info.j)))
     for body in dict.fromkeys(info.bodies):
@@ -133,7 +138,7 @@ def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
         rate = partial(_column, partial(getattr, motion, "v"), k)
         found[f"{name}_rate"] = Quantity(f"{unit}/s", rate)
     for k, (name, unit) in enumerate(info.equations):
-        of = _MULTIPLIER_UNITS.get(unit, f"J/{unit}")
+        of = FORCE_UNITS.get(unit, f"J/{unit}")
         multiplier = partial(_column, partial(getattr, view, "lam"), k)
         found[f"lambda_{name}"] = Quantity(of, multiplier)
     return found
@@ -164,49 +169,72 @@ def _reaction(motion: Motion, joint: str, body: str) -> dict[str, Quantity]:
     return {**found, torque: Quantity("N*m", partial(view.torque, on=body))}
 
 
-def _free(motion: Motion, info: ConstraintInfo) -> dict[str, Quantity]:
-    """The relative motion that the equations of a joint leave free, or the length that they fix."""
-    equations = {name for name, _ in info.equations}
-    if equations == {"x", "y"}:
-        return _turn(motion, info.i, info.j)
-    if "normal" in equations:
-        return _three(_SLIDE, Slide(motion, info))
-    if equations != {"length"}:
+def _measured(motion: Motion, info: ConstraintInfo | ForceInfo) -> dict[str, Quantity]:
+    """The position quantities of an element, with their rates and accelerations."""
+    found = {}
+    for k, of in enumerate(info.measured):
+        for order, (name, unit) in enumerate(zip(of.names, of.units, strict=True)):
+            if name:
+                found[name] = Quantity(unit, partial(_measure, motion, info.name, k, order))
+    return found
+
+
+def _measure(motion: Motion, name: str, k: int, order: int) -> Any:
+    return scalar(motion.measured(name, k, order))
+
+
+def _tension(motion: Motion, info: ConstraintInfo) -> dict[str, Quantity]:
+    """The tension of a joint that fixes a length."""
+    if [name for name, _ in info.equations] != ["length"]:
         return {}
-    line = Line(motion, info.i, info.j, info.point_i, info.point_j)
     reaction = partial(motion.constraint(info.name).force, on=info.i)
-    tension = Quantity("N", lambda: scalar(line.along(reaction())))
-    return {**_three(_LINE, line), "tension": tension}
+    ends = (info.i, info.point_i), (info.j, info.point_j)
+    return {"tension": Quantity("N", lambda: scalar(_along(motion, ends, reaction())))}
+
+
+def _along(motion: Motion, ends: tuple[tuple[str, Vector], ...], vectors: Floats) -> Floats:
+    """Components of vectors from the first point to the second; zero where the points coincide."""
+    first, second = (motion.body(body).at(point).position for body, point in ends)
+    line = second - first
+    length = np.hypot(line[..., 0], line[..., 1])
+    return np.asarray((line * vectors).sum(axis=-1) / np.where(length > 0.0, length, np.inf))
 
 
 def _driving(motion: Motion, info: ConstraintInfo) -> dict[str, Quantity]:
     """Effort of a driver, which increases its coordinate if positive, and its power."""
-    coordinate = motion.compiled.tree["drivers"][info.name].get("coordinate")
-    if coordinate is None:
+    driver = motion.compiled.tree.get("drivers", {}).get(info.name, {})
+    if info.group != "drivers" or "coordinate" not in driver:
         return {}
-    owner, _, name = coordinate.rpartition(".")
-    rate = dict(zip(COORDINATES, RATES, strict=True))[name]
-    view, body = motion.constraint(info.name), motion.body(owner)
+    owner, _, name = driver["coordinate"].rpartition(".")
+    view = motion.constraint(info.name)
 
     def effort() -> Any:
         return scalar(-view.lam[..., 0])
 
-    return {
-        "effort": Quantity("N*m" if name == "angle" else "N", effort),
-        "power": Quantity("W", lambda: scalar(effort() * getattr(body, rate))),
-    }
+    def power() -> Any:
+        return scalar(effort() * named(motion, f"{owner}.{_rate_name(motion, owner, name)}").read())
+
+    unit = "N*m" if info.equations[0][1] == "rad" else "N"
+    return {"effort": Quantity(unit, effort), "power": Quantity("W", power)}
+
+
+def _rate_name(motion: Motion, owner: str, position: str) -> str:
+    """The name of the rate of a position quantity."""
+    compiled = motion.compiled
+    element = compiled.constraints.get(owner) or compiled.forces.get(owner)
+    of_body = dict(zip(COORDINATES, RATES, strict=True))
+    measured = element.measured if element is not None else ()
+    return {**of_body, **{of.names[0]: of.names[1] for of in measured}}[position]
 
 
 def of_force(motion: Motion, info: ForceInfo) -> Family:
     """Length or angle of a force element, its force or torque on body j, power and states."""
     view = motion.force(info.name)
     found = _acting(partial(view.force, on=info.j), partial(view.torque, on=info.j))
+    found |= _measured(motion, info)
     if info.points is not None:
         found |= _pushing(motion, info)
-    else:
-        found |= _turn(motion, info.i, info.j)
-        omega, torque = found["omega"].read, found["torque"].read
-        found["power"] = Quantity("W", lambda: scalar(torque() * omega()))
+    found["power"] = Quantity("W", partial(getattr, view, "power"))
     for name, unit in info.states:
         found[name] = Quantity(unit, partial(view.state, name))
     for body in dict.fromkeys(info.bodies):
@@ -216,38 +244,20 @@ def of_force(motion: Motion, info: ForceInfo) -> Family:
 
 def _pushing(motion: Motion, info: ForceInfo) -> dict[str, Quantity]:
     """A force along the line of two points, which pushes them apart if positive."""
-    line = Line(motion, info.i, info.j, *(info.points or ()))
+    at_i, at_j = info.points or ((0.0, 0.0), (0.0, 0.0))
+    ends = (info.i, at_i), (info.j, at_j)
     view = motion.force(info.name)
 
     def force() -> Any:
-        return scalar(line.along(view.force(on=info.j)))
+        return scalar(_along(motion, ends, view.force(on=info.j)))
 
-    found = _three(_LINE, line)
-    found["force"] = Quantity("N", force)
-    found["power"] = Quantity("W", lambda: scalar(force() * line.rate))
-    return found
+    return {"force": Quantity("N", force)}
 
 
 def _acting(force: Callable[[], Floats], torque: Callable[[], Any]) -> dict[str, Quantity]:
     """Components of a force, and a torque."""
     found = {name: Quantity("N", partial(_column, force, k)) for k, name in enumerate(("fx", "fy"))}
     return {**found, "torque": Quantity("N*m", torque)}
-
-
-def _turn(motion: Motion, i: str, j: str) -> dict[str, Quantity]:
-    return {name: Quantity(unit, partial(turning, motion, i, j, name)) for name, unit in _TURN}
-
-
-def _three(names: tuple[tuple[str, str], ...], of: Line | Slide) -> dict[str, Quantity]:
-    """Position, rate and acceleration of a line or slide."""
-    return {
-        name: Quantity(unit, partial(_scalar_of, of, what))
-        for (name, unit), what in zip(names, ("position", "rate", "acceleration"), strict=True)
-    }
-
-
-def _scalar_of(of: object, what: str) -> Any:
-    return scalar(getattr(of, what))
 
 
 def _column(values: Callable[[], Floats], k: int) -> Any:

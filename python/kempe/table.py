@@ -67,7 +67,7 @@ def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
 
 def _column(name: str, unit: str, values: Floats) -> Column:
     shown = display(unit)
-    return Column(name, shown.unit, values if shown.divisor == 1.0 else values / shown.divisor)
+    return Column(name, shown.unit, values / shown.divisor)
 
 
 def _names(solution: Solution, extent: Extent) -> Iterator[str]:

@@ -16,6 +16,8 @@ from kempe.errors import ModelError, Problem
 Number: TypeAlias = "float | str"
 #: Two numbers or formulas, such as a point or a vector.
 Pair: TypeAlias = "Sequence[float | str]"
+#: Numbers or formulas.
+Numbers: TypeAlias = "Sequence[float | str]"
 #: A number for all quantities, or one for each of ``length``, ``angle`` and ``z``.
 Tolerance: TypeAlias = "float | str | Mapping[str, float | str]"
 #: Named points of a body, in its frame, m.
@@ -155,6 +157,13 @@ def _two(value: object, path: str, what: str) -> tuple[object, object]:
     return entries[0], entries[1]
 
 
+def listed_numbers(value: object, path: str) -> tuple[float | str, ...]:
+    """Numbers or formulas from any sequence."""
+    if isinstance(value, str | bytes | Mapping) or (found := _listed(value)) is None:
+        refuse(path, f"{value!r}; must be a list of numbers or formulas")
+    return tuple(number(entry, f"{path}[{k}]") for k, entry in enumerate(found))
+
+
 def flag(value: object, path: str) -> bool:
     """True or False."""
     if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
@@ -208,6 +217,10 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "number": number,
     "law": number,
     "pair": pair,
+    "law_pair": pair,
+    "laws": listed_numbers,
+    "flag": flag,
+    "word": reference,
     "names": names,
     "points": points,
 }

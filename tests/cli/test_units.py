@@ -1,6 +1,7 @@
 """``--units``: the display units of tables, figures and CSV files."""
 
 import csv
+import json
 from pathlib import Path
 
 import kempe as kp
@@ -41,7 +42,7 @@ def test_figures_have_the_units() -> None:
         ("kg/s", "measures no shown quantity"),
     ],
 )
-@pytest.mark.parametrize("command", ["run", "check", "plot", "animate"])
+@pytest.mark.parametrize("command", ["run", "check", "plot", "animate", "show", "study"])
 def test_wrong_units_are_refused(
     command: str, units: str, told: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -68,3 +69,25 @@ def test_tables_and_csv_have_the_units(capsys: pytest.CaptureFixture[str]) -> No
     body = header[k].split(".")[0]
     expected = float(solution.initial[body].omega) * 60.0 / (2.0 * 3.141592653589793)
     assert float(first[k]) == pytest.approx(expected, rel=1e-12, abs=1e-12)
+
+
+def test_show_has_the_units(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["show", str(SLIDER), "--multipliers", "--t", "0.5"]
+    assert main([*words, "--units", "kN,ms"]) == 0
+    first, *lines = capsys.readouterr().out.splitlines()
+    assert first == "λ, multipliers, kN and N·m, 8, t = 500 ms"
+    assert main([*words, "--json", "--units", "kN,ms"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["t"] == 0.5
+    for line, value in zip(lines, found["matrices"][0]["values"], strict=True):
+        divisor = 1e3 if "[kN]" in line else 1.0
+        number = line.split()[-1].replace("·", "0")
+        assert float(number) == pytest.approx(value / divisor, abs=6e-5)
+
+
+def test_a_study_has_the_units(capsys: pytest.CaptureFixture[str]) -> None:
+    kp.load(SLIDER).with_analysis("coasting", t_end=0.02).save("short.toml")
+    assert main(["study", "short.toml", "-o", "s", "--units", "um,deg"]) == 0
+    assert "position error / µm" in capsys.readouterr().out
+    assert "angle_error [deg]" in Path("s/study.csv").read_text(encoding="utf-8")
+    assert kp.units().chosen == ()

@@ -53,6 +53,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "project": lambda: _core.project(MODEL, 1e-12, TIMES, ROW, ROW, STATES),
     "energies": lambda: _core.energies(MODEL, TIMES, ROW, ROW, STATES, WORKS),
     "residual": lambda: _core.residual(MODEL, TIMES, ROW, ROW),
+    "measured": lambda: _core.measured(MODEL, "C", TIMES, ROW, ROW, ROW),
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
     "force": lambda: _core.force(
         MODEL, "spring", "rocker", None, "global", TIMES, ROW, ROW, STATES

@@ -61,6 +61,10 @@ CHANGES: dict[str, tuple[Callable[[Arrays], Arrays], str]] = {
     "NaN between": (entry("dense_c", (3, 2, 1), np.nan), "dense_c contains a number"),
     "disorder": (entry("t", 3, 0.5), "the times t are not in order"),
     "disorder between": (entry("dense_t", 3, 0.0), "the times dense_t are not in order"),
+    "falling": (given(t=lambda t: t[::-1]), "the times t are not in order"),
+    "falling between": (given(dense_t=lambda t: t[::-1]), "the times dense_t are not in order"),
+    "first a": (entry("a", (0, 2), 1e9), "its accelerations at t = 0 s are not those of its"),
+    "last a": (entry("a", (-1, 2), 1e9), "its accelerations at t = 1 s are not those of its"),
     "integers": (given(q=lambda q: q.astype(int)), "q has numbers of type int64; must be float64"),
     "complex": (given(q=lambda q: q * 1j), "q has numbers of type complex128"),
     "single": (given(v=np.float32), "v has numbers of type float32"),
@@ -276,3 +280,19 @@ def test_the_next_save_clears_what_killed_saves_left(solution: kp.Solution, tmp_
         (tmp_path / name).write_bytes(b"left")
     solution.save(tmp_path / "s.npz")
     assert {path.name for path in tmp_path.iterdir()} == {"s.npz", *kept}
+
+
+@pytest.mark.parametrize(("runs", "told"), [(["rk45"], "rk45"), (["rk45", "radau"], "unknown")])
+def test_a_file_without_the_name_of_its_method(
+    stored: Arrays, tmp_path: Path, runs: list[str], told: str
+) -> None:
+    """Version 0.1 wrote none; the only analysis of its case gives it."""
+
+    def old(a: dict[str, Any]) -> None:
+        del a["statistics"]["method"]
+        common = {"type": "dynamics", "t_end": 1.0}
+        entries = ({**common, "method": {"type": kind}} for kind in runs)
+        a["case"]["analyses"] = {f"run{k}": one for k, one in enumerate(entries)}
+
+    np.savez(tmp_path / "old.npz", **about(old)(dict(stored)))
+    assert kp.load_solution(tmp_path / "old.npz").statistics["method"] == told

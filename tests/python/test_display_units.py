@@ -1,5 +1,7 @@
 """Units of tables, figures and CSV files, chosen once."""
 
+import csv
+import io
 import math
 from collections.abc import Iterator
 
@@ -144,3 +146,60 @@ def test_printed_tables_have_the_chosen_units(capsys: pytest.CaptureFixture[str]
     assert any(line[-4:-2] == told for line in lines if line[:1] == ["spring"])
     residual = found["peaks"]["residual"]
     assert any(f"{residual['value'] * 1e3:.3g}" in line and "mm" in line for line in lines)
+
+
+def cells(shown: kp.Labelled) -> tuple[list[str], list[str], np.ndarray]:
+    """Names of columns and rows, and numbers, as the CSV has them."""
+    header, *lines = csv.reader(io.StringIO(shown.csv()))
+    return header[1:], [one[0] for one in lines], np.array([one[1:] for one in lines], dtype=float)
+
+
+@pytest.mark.parametrize("name", ["slider_crank", "six_bar", "four_bar"])
+@pytest.mark.parametrize("units", ["SI", "mm,deg", "cm,kN,N*mm,rpm", "ms,deg/s^2,N*mm"])
+def test_matrices_in_display_units_still_belong_together(name: str, units: str) -> None:
+    """M a + Φ_qᵀ λ = Q and Φ_q a = γ hold for the numbers that are written."""
+    state = kp.load(ROOT / "examples" / f"{name}.toml").start()
+    with kp.units(units):
+        parts = {n: cells(kp.show(state.model, state, n)) for n in ("kkt", "a", "lam", "rhs", "M")}
+    unknowns = np.concatenate([parts["a"][2], parts["lam"][2]])[:, 0]
+    found, expected = parts["kkt"][2] @ unknowns, parts["rhs"][2][:, 0]
+    np.testing.assert_allclose(found, expected, atol=1e-9 * np.abs(expected).max())
+    n = len(state.q)
+    np.testing.assert_array_equal(parts["M"][2], parts["kkt"][2][:n, :n])
+    names = {one: [[n.partition(" [")[0] for n in p] for p in parts[one][:2]] for one in parts}
+    assert names["kkt"][1] == names["rhs"][1]
+    assert names["kkt"][0] == [*names["a"][1], *(f"λ {one}" for one in names["lam"][1])]
+    assert names["M"] == [names["a"][1], names["a"][1]]
+
+
+def test_numbers_of_matrices_have_the_units_beside_them() -> None:
+    """A crank of 0.1 m with 2 kg at 60°: its pin is 50 mm and 86.6 mm from its middle at O."""
+    state = kp.load(ROOT / "examples" / "slider_crank.toml").start()
+    shown = {n: kp.show(state.model, state, n) for n in ("M", "Phi_q", "lam", "Phi", "nu", "gamma")}
+    jacobian = kp.show(state.model, state, "Phi_q", assembly={"crank.angle": 1.0})
+    values = {name: one.values.copy() for name, one in shown.items()}
+    with kp.units("mm,deg,kN"):
+        columns, rows, numbers = cells(shown["Phi_q"])
+        at = numbers[rows.index("A.x [mm]"), columns.index("crank.angle [deg]")]
+        assert abs(at) == pytest.approx(1e2 * math.sqrt(0.75) * math.pi / 180.0)
+        columns, rows, numbers = cells(shown["M"])
+        at = numbers[rows.index("crank.x [kN]"), columns.index("crank.x [mm/s^2]")]
+        assert at == pytest.approx(2e-6)
+        assert rows[2] == "crank.angle [N*m]"
+        _, rows, numbers = cells(shown["lam"])
+        np.testing.assert_allclose(numbers[:-1, 0], values["lam"][:-1] / 1e3)
+        assert (rows[0], rows[-1]) == ("O.x [kN]", "guide.angle [N*m]")
+        assert [cells(shown[n])[1][0] for n in ("Phi", "nu", "gamma")] == [
+            *("O.x [mm]", "O.x [mm/s]", "O.x [mm/s^2]"),
+        ]
+        assert cells(jacobian)[1][-1] == "set.crank.angle [deg]"
+        assert shown["lam"].title == "λ, multipliers, kN and N·m, 8"
+        assert shown["gamma"].title.endswith("mm/s² and °/s², 8")
+        assert shown["M"].title == "M, mass matrix, in mm, deg, kN, 9 × 9"
+        for text in (shown["lam"].text(), shown["lam"].latex(), shown["lam"]._repr_html_()):
+            assert "guide.normal [kN]" in text, text
+        assert "0.0547" in shown["lam"].text()  # 54.72 N
+    assert shown["M"].title == "M, mass matrix, 9 × 9"
+    assert cells(shown["lam"])[1][0] == "O.x"
+    for name, one in shown.items():
+        np.testing.assert_array_equal(one.values, values[name])

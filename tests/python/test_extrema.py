@@ -118,3 +118,29 @@ def test_fine_instants_follow_the_steps_and_not_the_outputs() -> None:
     assert set(steps) <= set(fine(one).t)
     assert len(fine(one).t) == 32 * (len(steps) - 1) + 1
     assert fine(one) is fine(one)
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.3])
+def test_an_extreme_value_at_the_start_has_its_time(damping: float) -> None:
+    """A mass of 2 kg on a spring of 50 N/m, stretched by 0.1 m: a(0) = -2.5 m/s²."""
+    m = kp.Model("mass", gravity=(0, 0))
+    m.ground.points(O=(0, 0))
+    m.body("mass", mass=2, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "mass.P")
+    m.spring_damper("s", "ground.O", "mass.P", stiffness=50, damping=damping, free_length=1)
+    start = kp.assemble(m, set={"mass.x": 1.1})
+    for method in (kp.RK45(), kp.Radau(), kp.DOP853(rtol=1e-9, atol=1e-12)):
+        solution = kp.dynamics(m, start, t_end=3.0, output_step=0.13, method=method)
+        low = least(solution, lambda motion: motion.body("mass").ax)
+        assert low == (pytest.approx(-2.5, rel=1e-7), 0.0)
+        assert largest(solution, lambda motion: motion.body("mass").x).t == 0.0
+        late = largest(solution, lambda motion: motion.body("mass").ax)
+        assert late.t == pytest.approx(math.pi / 5.0, abs=2e-2)
+
+
+def test_a_peak_at_the_start_of_the_example_is_there() -> None:
+    solution = example("pendulum")
+    for name in ("ax", "ay", "alpha"):
+        for extreme in (largest, least):
+            t = extreme(solution, lambda motion, name=name: getattr(motion.body("rod"), name)).t
+            assert t == 0.0 or t > 0.01

@@ -2,12 +2,16 @@
 
 import csv
 from collections.abc import Iterator
+from dataclasses import FrozenInstanceError
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
+from kempe import table
 
 
 @pytest.fixture(autouse=True)
@@ -180,3 +184,49 @@ def test_every_column_is_its_quantity(tmp_path: Path) -> None:
     expected = 25 * phi**2 + 9.81 * np.sin(phi)
     np.testing.assert_allclose(potential - potential[0], expected - expected[0], atol=1e-9)
     np.testing.assert_allclose(table["energy.total [J]"], table["energy.total [J]"][0], atol=1e-6)
+
+
+def test_coordinates_of_a_joint_are_columns_with_their_rates() -> None:
+    """They come after the bodies and before the multipliers, whatever joints have some."""
+    joints = {
+        "cam": SimpleNamespace(coordinates=(("u", "m"), ("v", "rad")), bodies=()),
+        "pin": SimpleNamespace(coordinates=(), bodies=()),
+    }
+    compiled = SimpleNamespace(
+        bodies={},
+        constraints=joints,
+        forces={},
+        row_names=lambda: ["pin.x"],
+        state_names=lambda: ["motor.current"],
+    )
+    solution: Any = SimpleNamespace(compiled=compiled)
+    assert list(table._names(solution, table.Extent()))[:6] == [
+        *("cam.u", "cam.u_rate", "cam.v", "cam.v_rate"),
+        *("pin.lambda_x", "motor.current"),
+    ]
+
+
+def test_the_torque_is_written_once_however_the_frame_is_given(
+    sol: kp.Solution, tmp_path: Path
+) -> None:
+    sol.to_csv(tmp_path / "s.csv", frames=["".join(["glo", "bal"]), "joint"])
+    header = list(read(tmp_path / "s.csv"))
+    name, joint = next(iter(sol.model.constraints.items()))
+    torques = [f"{name}.torque_on_{body} [N*m]" for body in joint.bodies if body != "ground"]
+    assert [one for one in header if one.startswith(f"{name}.torque_on")] == torques
+
+
+def test_columns_and_their_extent_cannot_change(sol: kp.Solution) -> None:
+    for one, name in ((table.columns(sol)[0], "unit"), (table.Extent(), "points")):
+        with pytest.raises(FrozenInstanceError):
+            setattr(one, name, "x")
+
+
+def test_without_pandas_the_remedy_is_named(
+    sol: kp.Solution, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import sys
+
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(kp.ModelError, match="pip install pandas"):
+        sol.to_dataframe()

@@ -185,3 +185,51 @@ def test_rates_of_residuals_are_their_derivatives(crank: kp.Solution) -> None:
         np.testing.assert_allclose(
             np.mean(rate, axis=0), np.mean(view.residual_rate, axis=0), atol=1e-5
         )
+
+
+def test_a_joint_without_coordinates_of_its_own_has_an_empty_array(crank: kp.Solution) -> None:
+    for name in crank.model.joints:
+        assert crank.joint(name).coordinates.shape == (len(crank.t), 0)
+    assert crank.initial.joint("A").coordinates.shape == (0,)
+
+
+@pytest.mark.parametrize("damping", [0.0, 4.0])
+def test_the_power_of_a_damped_oscillator(damping: float) -> None:
+    """x = x0 e^(-δt) (cos ωt + δ/ω sin ωt), P = -(k x + c v) v; its integral is what T gains."""
+    m = kp.Model("mass", gravity=(0, 0))
+    m.ground.points(O=(0, 0))
+    m.body("mass", mass=2, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "mass.P")
+    m.spring_damper("s", "ground.O", "mass.P", stiffness=50, damping=damping, free_length=1)
+    start = kp.assemble(m, set={"mass.x": 1.1})
+    sol = kp.dynamics(m, start, t_end=2.0, output_step=1e-3, method=kp.DOP853(rtol=1e-11))
+    delta = damping / 4.0
+    omega, t = math.sqrt(25.0 - delta**2), sol.t
+    x = 0.1 * np.exp(-delta * t) * (np.cos(omega * t) + delta / omega * np.sin(omega * t))
+    v = -0.1 * np.exp(-delta * t) * 25.0 / omega * np.sin(omega * t)
+    power = sol.force("s").power
+    np.testing.assert_allclose(power, -(50.0 * x + damping * v) * v, atol=1e-8)
+    np.testing.assert_array_equal(sol["s.power"], power)
+    work = np.concatenate([[0.0], np.cumsum((power[1:] + power[:-1]) / 2e3)])
+    np.testing.assert_allclose(work, v**2, atol=1e-5)
+    assert isinstance(sol.final.force("s").power, float)
+    assert sol.final.force("s").power == power[-1]
+
+
+def test_power_between_two_moving_bodies_is_force_by_rate_and_torque_by_rate() -> None:
+    """Free bodies: an oblique spring-damper off their centres, and a torsion spring."""
+    m = kp.Model("two", gravity=(0, -9.81))
+    for name in "ab":
+        m.body(name, mass=1, inertia=0.2, points={"P": (0.3, 0.1)})
+    m.spring_damper("s", "a.P", "b.P", stiffness=30, damping=2, free_length=0.4)
+    m.torsion_spring("coil", "a", "b", stiffness=3, damping=0.5)
+    q, v = [0, 0, 0.3, 1, 0.4, -0.6], [0.4, -0.2, 1.5, -0.3, 0.7, -0.8]
+    state = kp.State(m, 0.0, np.array(q, float), np.array(v, float))
+    d = state["b"].point("P").position - state["a"].point("P").position
+    d_rate = state["b"].point("P").velocity - state["a"].point("P").velocity
+    length = np.hypot(*d)
+    rate = d @ d_rate / length
+    force = -(30.0 * (length - 0.4) + 2.0 * rate)
+    assert state.force("s").power == pytest.approx(force * rate)
+    torque = -(3.0 * -0.9 + 0.5 * -2.3)
+    assert state.force("coil").power == pytest.approx(torque * -2.3)

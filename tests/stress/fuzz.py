@@ -6,10 +6,8 @@ prints the stages that the inputs reach and every fault with its number. ``--onl
 one input. The exit code is 1 if there is a fault. ``CONTRIBUTING.md`` has the same run of the core.
 """
 
-import argparse
 import copy
 import json
-import multiprocessing
 import sys
 import tempfile
 import time
@@ -17,13 +15,14 @@ import warnings
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import kempe as kp
 import numpy as np
 from house.places import ROOT
+from stress import command
 from stress.mechanisms import KINDS, Random, chance
 from stress.trial import finite
 
@@ -163,43 +162,19 @@ def run(seed: int, number: int) -> Outcome:
     return outcome
 
 
-def say(text: str) -> None:
-    print(text, flush=True)
-
-
-def report(outcomes: list[Outcome]) -> int:
-    """Print the results and return the number of faults."""
+def report(outcomes: list[Outcome]) -> None:
+    """Print how many inputs each stage was the last of."""
     reached = Counter(o.reached for o in outcomes)
-    say(", ".join(f"{stage} {reached[stage]}" for stage in STAGES))
-    longest = max(outcomes, key=lambda o: o.seconds)
-    say(f"longest: input {longest.number}, {longest.seconds:.2f} s")
-    faulty = [o for o in outcomes if o.faults]
-    for o in faulty[:50]:
-        say(f"FAULT input {o.number}: {'; '.join(o.faults)}")
-    say(f"{len(outcomes)} inputs, {len(faulty)} with faults")
-    return len(faulty)
+    command.say(", ".join(f"{stage} {reached[stage]}" for stage in STAGES))
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", maxsplit=1)[0])
-    parser.add_argument("--runs", type=int, default=100_000)
-    parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--seed", type=int, default=4)
-    parser.add_argument("--processes", type=int, default=2)
-    parser.add_argument("--only", type=int)
-    asked = parser.parse_args()
-    if asked.only is not None:
-        say(json.dumps(tree(np.random.default_rng([asked.seed, asked.only])), indent=1))
-        return 1 if report([run(asked.seed, asked.only)]) else 0
-    numbers = range(asked.first, asked.first + asked.runs)
-    outcomes: list[Outcome] = []
-    with multiprocessing.get_context("spawn").Pool(asked.processes) as pool:
-        for outcome in pool.imap_unordered(partial(run, asked.seed), numbers, chunksize=50):
-            outcomes.append(outcome)
-            if len(outcomes) % 10_000 == 0:
-                say(f"… {len(outcomes)}, faults so far {sum(bool(o.faults) for o in outcomes)}")
-    return 1 if report(outcomes) else 0
+def shown(seed: int, number: int) -> dict[str, Any]:
+    return tree(np.random.default_rng([seed, number]))
+
+
+def told(o: Outcome) -> str:
+    return "; ".join(o.faults)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(command.main(__doc__ or "", run, report, told, shown))

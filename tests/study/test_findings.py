@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import re
+from dataclasses import FrozenInstanceError
 from pathlib import Path
 
 import kempe as kp
@@ -31,11 +32,11 @@ def outcome(variant: Variant, **numbers: float) -> Outcome:
 
 def lost(variant: Variant) -> Outcome:
     nan = math.nan
-    return Outcome(variant, None, 0.0625, "it broke", nan, nan, nan, nan, nan, 12, 48, 0.5)
+    return Outcome(variant, None, 0.0625, "it broke", nan, nan, nan, nan, nan, 12, 48, 0.8)
 
 
 PARTS = (("first", 0.2), ("later", 0.8))
-REFERENCE = outcome(Variant("reference", 10, 200, "RK45", 1e-11), position_error=0.0)
+REFERENCE = outcome(Variant("reference", 10, 200, "RK45", 1e-11), position_error=0.0, evaluations=1)
 
 
 def told(*outcomes: Outcome) -> list[str]:
@@ -91,6 +92,12 @@ def test_the_sweep_gives_its_ends_its_best_and_its_power() -> None:
         "Above β = 200 the steps grow as β^0.50: accuracy still sets the step."
     )
     assert not [one for one in told(found[0]) if "From β" in one]
+    # Below 200 /s accuracy sets the steps: only from there on is the power taken, to the last one.
+    low, *high = (
+        outcome(Variant("beta", 10, beta, "RK45", 1e-6), steps=steps)
+        for beta, steps in ((199.0, 7), (200.0, 100), (300.0, 500), (800.0, 800))
+    )
+    assert told(low, *high)[1].startswith("Above β = 200 the steps grow as β^1.50:")
 
 
 def test_weak_and_strong_gains_are_compared_at_each_step() -> None:
@@ -126,6 +133,8 @@ def test_a_divergence_gives_time_gains_and_growth() -> None:
     assert "No constant step of the study diverges." not in found
     other = told(lost(Variant("tolerance", 10, 200, "RK45", 1e-3)))
     assert other[0] == ("RK45 rtol 0.001 with α = 10, β = 200 diverges at t = 0.0625 s: it broke.")
+    third = told(lost(Variant("tolerance", 0, 0, "DOP853", 1e-3, projected=True)))
+    assert third[0] == "DOP853 rtol 0.001 with projection diverges at t = 0.0625 s: it broke."
 
 
 def test_the_observed_order_is_the_slope() -> None:
@@ -178,9 +187,11 @@ def test_tables_have_the_numbers_of_the_outcomes(tmp_path: Path) -> None:
     )
     assert (
         "| α = 10, β = 20, RK45 rtol 0.0001 | diverged at t = 0.0625 s: it broke |  |  |  | 12 "
-        "| 48 | 500 |" in lines
+        "| 48 | 800 |" in lines
     )
-    rows = json.loads(written[2].read_text(encoding="utf-8"))["variants"]
+    text = written[2].read_text(encoding="utf-8")
+    assert "α = 10, β = 20" in text
+    rows = json.loads(text)["variants"]
     common = {
         "angle_error": 1.25e-4,
         "position_error": 3.5e-3,
@@ -208,6 +219,55 @@ def test_tables_have_the_numbers_of_the_outcomes(tmp_path: Path) -> None:
     table = list(csv.DictReader(written[1].read_text(encoding="utf-8").splitlines()))
     for row, record in zip(table, rows, strict=True):
         assert row == {key: "" if one is None else str(one) for key, one in record.items()}
+
+
+def test_tables_and_findings_have_the_display_units(tmp_path: Path) -> None:
+    """1.25e-4 rad = 0.00716°, 3.5 mm, 7.5 µm, 12.5 ms, 62.5 ms; JSON is in SI units."""
+    made = outcome(Variant("stabilization", 10, 200, "RK4", 2e-3))
+    broken = lost(Variant("tolerance", 10, 20, "RK45", 1e-4))
+    good = outcome(Variant("tolerance", 10, 20, "RK45", 1e-9), position_error=1e-7)
+    study = Study("rig", "run", (REFERENCE, made, broken, good))
+    study.save(tmp_path / "si")
+    with kp.units("mm", "deg", "us"):
+        study.save(tmp_path / "own")
+        found = study.findings()
+    lines = (tmp_path / "own" / "study.md").read_text(encoding="utf-8").splitlines()
+    assert (
+        "| variant | angle error / ° | position error / mm | residual / mm | energy error | steps "
+        "| evaluations | time / µs |" in lines
+    )
+    assert (
+        "| α = 10, β = 200, RK4 h = 0.002 s | 0.0072 | 3.5 | 0.0075 | 4.5e-05 | 300 | 2100 "
+        "| 1.25e+04 |" in lines
+    )
+    assert "diverged at t = 6.25e+04 µs: it broke" in "".join(lines)
+    assert found[0].endswith("α = 10, β = 200 0.0075 mm in 300 steps.")
+    assert "diverges at t = 6.25e+04 µs: it broke." in found[1]
+    assert "every position within 0.001 mm is" in found[-1]
+    assert "every position within 1 mm is" in found[-2]
+    si, own = (
+        list(csv.DictReader((tmp_path / n / "study.csv").read_text("utf-8").splitlines()))
+        for n in ("si", "own")
+    )
+    converted = {
+        "angle_error": ("deg", math.pi / 180.0),
+        "position_error": ("mm", 1e-3),
+        "residual": ("mm", 1e-3),
+        **dict.fromkeys(("step", "diverged_at", "residual_at", "seconds"), ("us", 1e-6)),
+    }
+    for one, other in zip(si, own, strict=True):
+        for name, value in one.items():
+            unit, factor = converted.get(name, ("", 1.0))
+            there = other[f"{name} [{unit}]" if unit else name]
+            assert there == value or float(there) == pytest.approx(float(value) / factor)
+    rows = [json.loads((tmp_path / n / "study.json").read_text("utf-8")) for n in ("si", "own")]
+    assert rows[0]["variants"] == rows[1]["variants"]
+
+
+def test_outcomes_cannot_change() -> None:
+    for one, name in ((REFERENCE, "steps"), (REFERENCE.variant, "alpha")):
+        with pytest.raises(FrozenInstanceError):
+            setattr(one, name, 1)
 
 
 def test_a_study_has_these_variants() -> None:

@@ -211,7 +211,8 @@ def test_arrows_of_gaps_can_be_seen(found: kp.Study) -> None:
     weak = one(found, "stabilization", 1, 20, 1e-3).solution
     assert weak is not None
     k = int(weak.drift.position.argmax())
-    _, along = joint_gaps(kp.State(weak.model, float(weak.t[k]), weak.q[k], weak.v[k]))
+    worst = kp.State(weak.model, float(weak.t[k]), weak.q[k], weak.v[k])
+    _, along = joint_gaps(worst)
     shafts = [i for i in painting.items if (i["kind"], i["colour"]) == ("line", "reaction")]
     assert [item["of"] for item in shafts] == ["A", "B", "C", "D"]
     for item, gap in zip(shafts, along, strict=True):
@@ -219,6 +220,40 @@ def test_arrows_of_gaps_can_be_seen(found: kp.Study) -> None:
         assert item["width"] >= 2.0
         ends = place(item, painting.poses, painting.view())
         assert np.hypot(*(ends[1] - ends[0])) > 10.0  # points of print
+    fills = [i for i in painting.items if i["kind"] == "fill" and i["of"] in "ABCD"]
+    for name, begin, gap in zip("ABCD", *joint_gaps(worst), strict=True):
+        tip = painting.view().points(begin + factor * gap)
+        along = gap / np.hypot(*gap)
+        shaft = next(item for item in shafts if item["of"] == name)
+        ends = place(shaft, painting.poses, painting.view())
+        np.testing.assert_allclose(ends[0], painting.view().points(begin), atol=1e-6)
+        np.testing.assert_allclose(ends[1], tip - 6.0 * along, atol=1e-6)
+        for colour, ahead, size in (("reaction", 0.0, 10.0), ("paper", 1.5, 14.0)):
+            (head,) = (
+                i
+                for i in fills
+                if (i["of"], i["colour"]) == (name, colour) and i["points"][0][0] > 0.0
+            )
+            corners = place(head, painting.poses, painting.view())
+            np.testing.assert_allclose(corners[0], tip + ahead * along, atol=1e-6)
+            back = corners[1:].mean(axis=0)
+            np.testing.assert_allclose(back, tip + (ahead - size) * along, atol=1e-6)
+
+
+def test_closed_joints_have_no_arrow() -> None:
+    """The guide of a slider-crank stays closed to rounding; A and B open."""
+    case = kp.load(ROOT / "examples" / "slider_crank.toml").with_analysis("coasting", t_end=0.3)
+    ways = [
+        Variant("reference", 0, 0, "DOP853", 1e-11, projected=True),
+        Variant("stabilization", 1, 20, "RK45", 1e-3),
+    ]
+    painting = next(
+        a
+        for a in drawn(kp.study(case, ways=ways), "gaps").get_children()
+        if isinstance(a, Painting)
+    )
+    names = {item["text"].partition(":")[0] for item, _ in painting.texts}
+    assert names == {"A", "B"}
 
 
 def test_curves_of_a_study_are_its_numbers(found: kp.Study) -> None:
@@ -245,6 +280,24 @@ def test_curves_of_a_study_are_its_numbers(found: kp.Study) -> None:
     texts = {item["text"] for item, _ in painting.texts}
     for name, gap in zip("ABCD", along, strict=True):
         assert f"{name}: {1e3 * float(np.hypot(*gap)):.3g} mm" in texts
+
+
+def test_figures_have_the_display_units(found: kp.Study) -> None:
+    with kp.units("mm", "ms"):
+        work, error, gaps = (drawn(found, name) for name in ("work_precision", "error", "gaps"))
+    usual = [drawn(found, name) for name in ("work_precision", "error")]
+    assert work.get_xlabel() == "largest position error / mm"
+    assert error.get_ylabel() == "position error / mm"
+    assert error.get_xlabel() == "time t / ms"
+    for one, k in ((work, 0), (error, 1)):
+        for line, si in zip(one.lines, usual[k].lines, strict=True):
+            clear = si.get_xydata()[:, k] > 1e-12  # the error is cut off below
+            shown, expected = line.get_xydata()[clear], si.get_xydata()[clear] * 1.0
+            expected[:, k] *= 1e3
+            expected[:, 0] *= 1e3 if k else 1.0
+            # An instant between two spans may fall into the other one.
+            assert np.isclose(shown, expected, rtol=1e-12).mean() > 0.98
+    assert re.search(r"t = [\d.e+]+ ms, gaps", gaps.get_title("left"))
 
 
 def test_other_variants_and_a_case_without_output_step(four_bar_file: Path) -> None:

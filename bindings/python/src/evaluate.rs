@@ -11,6 +11,7 @@ use kempe::elements::BodyId;
 use kempe::equations::constraints;
 use kempe::equations::forces::{self, Acting};
 use kempe::equations::kinematics::Motions;
+use kempe::equations::measured::{measured as measure, offered, ElementId};
 use kempe::equations::reactions::{self, Frame};
 use kempe::math::Wrench;
 use kempe::model::Model;
@@ -111,6 +112,37 @@ pub fn energies<'py>(
         let z = &rows(py, "z", &z, (t.len(), layout.n_z))?;
         let works = rows(py, "works", &works, (t.len(), layout.n_works))?;
         respond::energies(py, &model.prepared, core::States { t, q, v, z }, &works)
+    })
+}
+
+/// The position quantities of an element with their rates and accelerations: (n_t, 3 for each quantity).
+#[pyfunction]
+#[pyo3(signature = (model, name, t, q, v, a=None))]
+pub fn measured<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    name: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    a: Option<Rows<'py>>,
+) -> PyResult<Table<'py>> {
+    guard("measured", || {
+        let model = &*model.model;
+        let constraint = model.constraint(name).map(ElementId::Constraint);
+        let id = constraint.or_else(|| model.force(name).map(ElementId::Force));
+        let id = id.ok_or_else(|| unknown(py, "element", name))?;
+        let states = Rates::read(py, model, &t, &q, &v)?;
+        let (n, count) = (model.layout.n_q, states.t.len());
+        let a = a.map(|a| rows(py, "a", &a, (count, n))).transpose()?;
+        let a = a.unwrap_or_else(|| vec![0.0; count * n]);
+        let mut out = Vec::new();
+        states.each(model, |k, _, motions| {
+            for jet in measure(model, id, motions, &a[k * n..(k + 1) * n]) {
+                out.extend([jet.value, jet.rate, jet.second]);
+            }
+        });
+        table(py, out, (count, 3 * offered(model, id).len()))
     })
 }
 

@@ -84,6 +84,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(evaluate::project, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::energies, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::residual, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::measured, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::reaction, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::matrices, module)?)?;

@@ -3,7 +3,7 @@
 use crate::guard::guard;
 use crate::recent_options::RecentOptions;
 use kempe::analyses::dynamics::Prepared;
-use kempe::elements::{BodyId, OwnState, SceneSymbol, SymbolEnd};
+use kempe::elements::{BodyId, Measured, OwnState, SceneSymbol, SymbolEnd};
 use kempe::math::Local;
 use kempe::model::{Body, Columns, Model};
 use pyo3::prelude::*;
@@ -126,6 +126,11 @@ fn internal(columns: Columns) -> Vec<Value> {
     (0..columns.count).map(|k| json!({ "name": name(k), "unit": "m" })).collect()
 }
 
+/// Position quantities: the names of position, rate and acceleration, and the unit of the position.
+fn measured(all: &[Measured]) -> Vec<Value> {
+    all.iter().map(|of| json!({ "names": of.names, "unit": of.unit })).collect()
+}
+
 fn constraint(model: &Model, k: usize) -> Value {
     let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
     let (i, j, bodies) = connected(model, &item.bodies);
@@ -145,6 +150,7 @@ fn constraint(model: &Model, k: usize) -> Value {
         "coordinates": internal(slots.own),
         "rows": span(&slots.rows),
         "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
+        "measured": measured(item.element.measured()),
     })
 }
 
@@ -165,5 +171,6 @@ fn force(model: &Model, k: usize) -> Value {
         "states": item.states.iter().map(state).collect::<Vec<_>>(),
         "reaction": item.reaction.map(|joint| model.constraints[joint.0].name.as_str()),
         "points": points.map(|ends| ends.each_ref().map(pair)),
+        "measured": measured(item.element.measured()),
     })
 }

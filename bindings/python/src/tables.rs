@@ -24,6 +24,7 @@ fn shape(shape: Shape) -> Value {
     match shape {
         Shape::Word(words) => json!({ "words": words }),
         Shape::Options(family) => json!({ "options": family }),
+        Shape::LawPair => json!("law_pair"),
         plain => json!(format!("{plain:?}").to_lowercase()),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
-use super::values::{count, number, pair, points, tolerance, two_names, word, wrong};
+use super::values::{count, number, numbers, pair, points, tolerance, two_names, word, wrong};
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
 use crate::elements::{catalogue, Field, Shape, Table as Declaration};
@@ -94,7 +94,8 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
     match (shape, &node.data) {
         (_, Data::Refused(_)) => {}
         (Shape::Number | Shape::Law, _) => number(report, node),
-        (Shape::Pair, _) => pair(report, node),
+        (Shape::Pair | Shape::LawPair, _) => pair(report, node),
+        (Shape::Laws, _) => numbers(report, node),
         (Shape::Points, _) => points(report, node),
         (Shape::Names, _) => two_names(report, node),
         (Shape::Count, _) => count(report, node),

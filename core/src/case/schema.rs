@@ -187,7 +187,8 @@ fn property(f: &Field) -> Value {
         Shape::Flag => json!({ "type": "boolean" }),
         Shape::Word(words) => json!({ "enum": words }),
         Shape::Number | Shape::Law => reference("number"),
-        Shape::Pair => reference("pair"),
+        Shape::Pair | Shape::LawPair => reference("pair"),
+        Shape::Laws => reference("laws"),
         Shape::Points => reference("points"),
         Shape::Names => reference("names"),
         Shape::Count => reference("count"),
@@ -220,6 +221,7 @@ fn definitions() -> Value {
         "number": described(number, "A number or a formula."),
         "pair": two_of(reference("number")),
         "points": by_name(reference("pair"), &[]),
+        "laws": { "type": "array", "items": reference("number"), "minItems": 1 },
         "names": two_different(names(&[])),
         "count": { "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string" }] },
     });

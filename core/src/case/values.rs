@@ -35,6 +35,19 @@ pub(super) fn pair(report: &mut Report, node: &Node) {
     }
 }
 
+/// Any number of numbers or formulas, at least one.
+pub(super) fn numbers(report: &mut Report, node: &Node) {
+    match &node.data {
+        Data::List(items) if !items.is_empty() => {
+            for (k, item) in items.iter().enumerate() {
+                report.within(&k.to_string(), |report| number(report, item));
+            }
+        }
+        Data::List(_) => report.say("an empty list; must be a list of formulas".to_string()),
+        _ => wrong(report, node, "a list of formulas [\"…\"]"),
+    }
+}
+
 /// Named points.
 pub(super) fn points(report: &mut Report, node: &Node) {
     let Data::Table(table) = &node.data else {

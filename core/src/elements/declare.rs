@@ -28,6 +28,8 @@ pub trait Element {
     fn read(source: &mut dyn Source) -> Option<Self::Over<Tape>>;
     /// The same element over another scalar.
     fn map<S, T>(e: &Self::Over<S>, f: &mut dyn FnMut(&S) -> T) -> Self::Over<T>;
+    /// The number of scalars of each field, in the order in which [`Element::map`] visits them.
+    fn scalars<S>(e: &Self::Over<S>) -> Vec<usize>;
 }
 
 /// Doc lines of a declaration, joined.
@@ -59,7 +61,8 @@ macro_rules! element {
                         name: stringify!($field),
                         shape: <$crate::elements::$kind as $crate::elements::Kind>::SHAPE,
                         unit: concat!($($(stringify!($unit)),*)?).to_string(),
-                        default: None$(.or(Some($default.into())))?,
+                        default: <$crate::elements::$kind as $crate::elements::Kind>::DEFAULT
+                            $(.or(Some($default.into())))?,
                         doc: $crate::elements::join(&[$($about),*]),
                     }),+],
                 }
@@ -78,6 +81,15 @@ macro_rules! element {
             fn map<S, T>(e: &$Name<S>, f: &mut dyn FnMut(&S) -> T) -> $Name<T> {
                 $Name { $($field: <$crate::elements::$kind as $crate::elements::Kind>::map(
                     &e.$field, f)),+ }
+            }
+
+            fn scalars<S>(e: &$Name<S>) -> Vec<usize> {
+                vec![$({
+                    let mut count = 0;
+                    <$crate::elements::$kind as $crate::elements::Kind>::map::<S, ()>(
+                        &e.$field, &mut |_| count += 1);
+                    count
+                }),+]
             }
         }
     };

@@ -3,29 +3,8 @@
 
 use super::declare::Table;
 use super::force_trait::Force;
+use super::group::Group;
 use super::joint_trait::Joint;
-
-/// The section of an element in a model file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Group {
-    /// `[joints.…]`
-    Joints,
-    /// `[drivers.…]`
-    Drivers,
-    /// `[forces.…]`
-    Forces,
-}
-
-impl Group {
-    /// The section's name in the file.
-    pub fn section(self) -> &'static str {
-        ["joints", "drivers", "forces"][self as usize]
-    }
-    /// The name of one entry of the section.
-    pub fn singular(self) -> &'static str {
-        ["joint", "driver", "force"][self as usize]
-    }
-}
 
 /// An element of a pool, with all data that its loop reads.
 #[derive(Clone, Debug)]
@@ -109,6 +88,10 @@ macro_rules! constraints {
             pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Constraint<T> {
                 match self { $($($(#[$on])* Self::$Name(e) => Constraint::$Name(<$Name>::map(e, f)),)+)+ }
             }
+            /// The number of scalars of each field, in the order of [`Constraint::map`].
+            pub fn scalars(&self) -> Vec<usize> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name>::scalars(e),)+)+ }
+            }
             /// Name of the type.
             pub fn kind(&self) -> &'static str {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name>::NAME,)+)+ }
@@ -116,6 +99,10 @@ macro_rules! constraints {
             /// The bodies whose poses enter Φ: i and j first.
             pub fn bodies(&self) -> Vec<BodyId> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+)+ }
+            }
+            /// The position quantities that may be measured on it.
+            pub fn measured(&self) -> &'static [Measured] {
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::MEASURED,)+)+ }
             }
             /// Number of internal coordinates.
             pub fn own(&self) -> usize {
@@ -157,6 +144,10 @@ macro_rules! constraints {
             /// Φ, one entry for each equation.
             pub fn residual(&self, at: &At<'_, S>, phi: &mut [S]) {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::residual(e, at, phi),)+)+ }
+            }
+            /// The values of [`measured`](Self::measured).
+            pub fn measure(&self, at: &At<'_, S>, out: &mut [S]) {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::measure(e, at, out),)+)+ }
             }
             /// Φ, Φ̇, γ and Φ_q for fields that do not vary with time or state.
             pub fn linearize(&self, at: &Moving<'_, S>, out: Linearized<'_, S>) {
@@ -240,6 +231,16 @@ macro_rules! forces {
             }
         }
 
+        /// The position quantities of a force of a type.
+        pub fn measured_of(kind: &str) -> &'static [Measured] {
+            $($(#[$on])* {
+                if kind == <$Name>::NAME {
+                    return <$Name as Force>::MEASURED;
+                }
+            })+
+            &[]
+        }
+
         /// The first-order states of a force of a type for which the named fields are `given`.
         pub fn states_of(kind: &str, given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
             $($(#[$on])* {
@@ -255,6 +256,10 @@ macro_rules! forces {
             pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> ForceElement<T> {
                 match self { $($(#[$on])* Self::$Name(e) => ForceElement::$Name(<$Name>::map(e, f)),)+ }
             }
+            /// The number of scalars of each field, in the order of [`ForceElement::map`].
+            pub fn scalars(&self) -> Vec<usize> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::scalars(e),)+ }
+            }
             /// Name of the type.
             pub fn kind(&self) -> &'static str {
                 match self { $($(#[$on])* Self::$Name(_) => <$Name>::NAME,)+ }
@@ -262,6 +267,10 @@ macro_rules! forces {
             /// The bodies on which the force acts: i and j first.
             pub fn bodies(&self) -> Vec<BodyId> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+ }
+            }
+            /// The position quantities that may be measured on it.
+            pub fn measured(&self) -> &'static [Measured] {
+                match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::MEASURED,)+ }
             }
             /// The named parts, in the order of [`ForceElement::action`].
             pub fn parts(&self) -> &'static [Part] {
@@ -288,6 +297,10 @@ macro_rules! forces {
             /// The wrench of each part on each body, see [`Force::action`].
             pub fn action(&self, at: &Situation<'_, S>, out: impl Wrenches<S>) {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::action(e, at, out),)+ }
+            }
+            /// The values of [`measured`](Self::measured).
+            pub fn measure(&self, at: &At<'_, S>, out: &mut [S]) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::measure(e, at, out),)+ }
             }
             /// ż of the element.
             pub fn state_rates(&self, at: &Situation<'_, S>, out: &mut [S]) {

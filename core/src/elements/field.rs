@@ -15,6 +15,10 @@ pub enum Shape {
     Law,
     /// Two numbers.
     Pair,
+    /// Two laws.
+    LawPair,
+    /// Any number of laws.
+    Laws,
     /// Names of points with two numbers each.
     Points,
     /// Two names.
@@ -47,7 +51,7 @@ pub enum Default {
     Flag(bool),
     /// The options of this type, each with its own default.
     Type(&'static str),
-    /// This body.
+    /// This body or word.
     Body(&'static str),
     /// Nothing: the field may be left out.
     Absent,
@@ -63,9 +67,14 @@ impl From<[f64; 2]> for Default {
         Self::Pair(x)
     }
 }
+impl From<bool> for Default {
+    fn from(flag: bool) -> Self {
+        Self::Flag(flag)
+    }
+}
 impl From<&'static str> for Default {
-    fn from(body: &'static str) -> Self {
-        Self::Body(body)
+    fn from(name: &'static str) -> Self {
+        Self::Body(name)
     }
 }
 

@@ -1,7 +1,9 @@
 //! The physics of a force, stated once.
 
 use super::declare::Element;
+use super::joint_trait::At;
 use super::kinds::{BodyId, JointId};
+use super::measured::Measured;
 use super::symbols::SceneSymbol;
 use crate::math::{Local, Motion, Real, Wrench};
 
@@ -132,11 +134,19 @@ pub trait Force: Element {
     /// The parts; [`Force::action`] refers to them by their places.
     const PARTS: &'static [Part];
 
+    /// The position quantities that may be measured on the force.
+    const MEASURED: &'static [Measured] = &[];
+
     /// The bodies on which the force acts: i and j first.
     fn bodies<S>(e: &Self::Over<S>) -> Vec<BodyId>;
 
     /// Puts the wrench of each part on each body into `out`. A wrench that is left out is zero.
     fn action<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>, out: impl Wrenches<S>);
+
+    /// The values of [`Force::MEASURED`] for the poses of [`Force::bodies`].
+    fn measure<S: Real>(e: &Self::Over<S>, at: &At<'_, S>, out: &mut [S]) {
+        let _ = (e, at, out);
+    }
 
     /// The first-order states of an element for which the named fields are `given` and not zero.
     fn states(given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {

@@ -1,10 +1,12 @@
 //! The physics of a joint or driver, stated once.
 
+use super::attachment::Attachment;
 use super::declare::Element;
 use super::derive;
 use super::kinds::{BodyId, CoordinateOf};
+use super::measured::Measured;
 use super::symbols::SceneSymbol;
-use crate::math::{Local, Motion, Pose, Real};
+use crate::math::{Motion, Pose, Real};
 
 /// A scalar constraint equation of a joint: its name in labels and its unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,16 +15,6 @@ pub struct Equation {
     pub name: &'static str,
     /// Unit of the residual: `m` or `rad`.
     pub unit: &'static str,
-}
-
-/// The joint frame on one body: its origin s′ and the angle of its x″ axis in the body frame; C of
-/// (6.6.8) is the rotation by that angle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Attachment<S = f64> {
-    /// Origin, m.
-    pub s: Local<S>,
-    /// Angle of x″ from the body's x axis, rad.
-    pub axis: S,
 }
 
 /// Positions of the participants of a joint, and the time.
@@ -100,6 +92,9 @@ pub trait Joint: Element {
     /// Number of internal coordinates, 0 to 3.
     const OWN: usize = 0;
 
+    /// The position quantities that may be measured on the joint.
+    const MEASURED: &'static [Measured] = &[];
+
     /// The bodies whose poses enter Φ: i and j first.
     fn bodies<S>(e: &Self::Over<S>) -> Vec<BodyId>;
 
@@ -116,6 +111,11 @@ pub trait Joint: Element {
     fn fixes<S: Clone>(e: &Self::Over<S>) -> Vec<Fixes<S>> {
         let _ = e;
         Vec::new()
+    }
+
+    /// The values of [`Joint::MEASURED`].
+    fn measure<S: Real>(e: &Self::Over<S>, at: &At<'_, S>, out: &mut [S]) {
+        let _ = (e, at, out);
     }
 
     /// First values of the internal coordinates for bodies at given poses.

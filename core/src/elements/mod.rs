@@ -5,13 +5,17 @@
 //! reference page and all derivatives follow from these two. To add an element, write its file, name it
 //! here, and give it a test sample and a page. No other source file names it.
 
+mod attachment;
 mod declare;
 pub(crate) mod derive;
 mod dispatch;
 mod field;
 mod force_trait;
+mod group;
 mod joint_trait;
 mod kinds;
+mod measure;
+mod measured;
 mod symbols;
 mod value;
 mod written;
@@ -55,24 +59,28 @@ pub mod test_elements;
 
 use crate::expression::Tape;
 use crate::math::{Lift, Local, Pose, Real};
+pub use attachment::Attachment;
 use declare::join;
 pub use declare::{Element, Table};
 use dispatch::{constraints, declared, forces};
-pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
+pub use dispatch::{Place, Pooled, VisitForces, VisitJoints};
 use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES};
 pub use force_trait::{Force, Held, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
-pub use joint_trait::{At, Attachment, Equation, Fixes, Joint, Linearized, Moving};
+pub use group::Group;
+pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving};
 use joints::*;
 pub use kinds::{
-    body, coordinate, joint, law, number, pair, point, BodyId, Coordinate, CoordinateOf, JointId,
-    Kind, PointOn, Source,
+    body, coordinate, flag, joint, law, law_pair, laws, number, optional_law, optional_number,
+    optional_pair, pair, point, side, BodyId, Coordinate, CoordinateOf, Followed, JointId, Kind,
+    Optional, PointOn, QuantityOf, Side, Source,
 };
+pub use measured::Measured;
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
 use test_elements::*;
-pub use value::{Number, Pair, Value};
+pub use value::{Number, Numbers, Pair, Value};
 pub use written::Written;
 pub(crate) use written::{argument, declare as element};
 
@@ -99,6 +107,7 @@ forces! {
     #[cfg(feature = "test-elements")] Rubbing,
     #[cfg(feature = "test-elements")] GapSpring,
     #[cfg(feature = "test-elements")] Overload,
+    #[cfg(feature = "test-elements")] Blower,
 }
 
 /// The declarations of all elements, in the order of the list.
@@ -110,5 +119,5 @@ pub fn catalogue() -> Vec<(Group, Table)> {
 
 /// The driver that holds a coordinate at a value: assembly holds by it what is `set`.
 pub fn holding(coordinate: CoordinateOf, value: Tape) -> Constraint<Tape> {
-    Constraint::CoordinateDriver(CoordinateDriver { coordinate, value })
+    Constraint::CoordinateDriver(CoordinateDriver { coordinate: coordinate.into(), value })
 }

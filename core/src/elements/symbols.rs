@@ -4,7 +4,7 @@
 //! of the model; a law that depends on time or state is NaN there. The test `x != 0.0` is therefore true
 //! for every law that may differ from zero.
 
-use super::kinds::{BodyId, Coordinate, CoordinateOf, PointOn};
+use super::kinds::{BodyId, Coordinate, CoordinateOf, Followed, PointOn};
 use crate::math::Local;
 
 /// The vocabulary of the scene.
@@ -117,17 +117,29 @@ impl SceneSymbol {
         Self { mark, i: SymbolEnd::body(i), j: SymbolEnd::body(j) }
     }
 
-    /// The arrow of a prescribed coordinate, measured from ground.
-    pub fn drive(driven: CoordinateOf) -> Self {
-        let CoordinateOf { body, coordinate } = driven;
-        let axis = match coordinate {
-            Coordinate::Angle | Coordinate::Omega => {
-                return Self::between_bodies(Mark::DriveTurn, BodyId::GROUND, body);
+    /// The arrow of a prescribed quantity.
+    pub fn drive(driven: &Followed) -> Self {
+        let (i, j) = match driven {
+            Followed::Coordinate(CoordinateOf { body, coordinate }) => {
+                let axis = match coordinate {
+                    Coordinate::Y | Coordinate::Vy => std::f64::consts::FRAC_PI_2,
+                    _ => 0.0,
+                };
+                let origin = SymbolEnd { point: Some(Local::zero()), ..SymbolEnd::body(*body) };
+                (SymbolEnd::body(BodyId::GROUND).along(axis), origin)
             }
-            Coordinate::X | Coordinate::Vx => 0.0,
-            Coordinate::Y | Coordinate::Vy => std::f64::consts::FRAC_PI_2,
+            Followed::Quantity(of) => {
+                let end = |k: usize| SymbolEnd {
+                    body: of.bodies[k],
+                    point: Some(of.ends[k].s),
+                    axis: of.ends[k].axis,
+                };
+                (end(0), end(1))
+            }
         };
-        let origin = SymbolEnd { point: Some(Local::zero()), ..SymbolEnd::body(body) };
-        Self { mark: Mark::DriveShift, i: SymbolEnd::body(BodyId::GROUND).along(axis), j: origin }
+        match driven.label().1 {
+            "rad" => Self::between_bodies(Mark::DriveTurn, i.body, j.body),
+            _ => Self { mark: Mark::DriveShift, i, j },
+        }
     }
 }

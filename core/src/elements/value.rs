@@ -43,6 +43,16 @@ impl From<String> for Value {
         Self::Text(text)
     }
 }
+impl From<bool> for Value {
+    fn from(flag: bool) -> Self {
+        Self::Flag(flag)
+    }
+}
+impl From<Numbers> for Value {
+    fn from(numbers: Numbers) -> Self {
+        Self::List(numbers.0.into_iter().map(Self::from).collect())
+    }
+}
 impl From<Number> for Value {
     fn from(number: Number) -> Self {
         number.0
@@ -91,5 +101,20 @@ impl<N: Into<Number>> From<[N; 2]> for Pair {
 impl<X: Into<Number>, Y: Into<Number>> From<(X, Y)> for Pair {
     fn from((x, y): (X, Y)) -> Self {
         Self([x.into(), y.into()])
+    }
+}
+
+/// Any number of numbers or formulas: `["a + t", "2"]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numbers(Vec<Number>);
+
+impl<N: Into<Number>, const COUNT: usize> From<[N; COUNT]> for Numbers {
+    fn from(numbers: [N; COUNT]) -> Self {
+        Self(numbers.map(Into::into).into())
+    }
+}
+impl<N: Into<Number>> From<Vec<N>> for Numbers {
+    fn from(numbers: Vec<N>) -> Self {
+        Self(numbers.into_iter().map(Into::into).collect())
     }
 }

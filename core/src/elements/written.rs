@@ -41,7 +41,7 @@ impl<E> Written<E> {
     }
 }
 
-/// Rust type of the argument for a kind of field: a number, two numbers, or else a name.
+/// Rust type of the argument for a kind of field: numbers, a flag, or else a name or word.
 macro_rules! argument {
     (number) => {
         $crate::elements::Number
@@ -49,8 +49,26 @@ macro_rules! argument {
     (law) => {
         $crate::elements::Number
     };
+    (optional_number) => {
+        $crate::elements::Number
+    };
+    (optional_law) => {
+        $crate::elements::Number
+    };
     (pair) => {
         $crate::elements::Pair
+    };
+    (optional_pair) => {
+        $crate::elements::Pair
+    };
+    (law_pair) => {
+        $crate::elements::Pair
+    };
+    (laws) => {
+        $crate::elements::Numbers
+    };
+    (flag) => {
+        bool
     };
     ($name:ident) => {
         String

@@ -19,6 +19,7 @@ pub mod iteration;
 pub mod kinematics;
 mod laws;
 pub mod mass;
+pub mod measured;
 pub mod motion;
 mod plan;
 mod powers;

@@ -34,12 +34,21 @@ struct Compiler<'a> {
     conditions: Vec<Relation>,
 }
 
+/// The meaning of a name.
+enum Meaning {
+    One(Instruction),
+    Formula(Tape),
+}
+
 impl Compiler<'_> {
     fn node<N: Names + ?Sized>(&mut self, node: &Node, names: &N) -> Result<(), ExpressionError> {
         use super::operation::Binary;
         let instruction = match &node.kind {
             Kind::Number(value) => Instruction::Constant(*value),
-            Kind::Name(name) => self.name(name, node.span.clone(), names)?,
+            Kind::Name(name) => match self.name(name, node.span.clone(), names)? {
+                Meaning::One(instruction) => instruction,
+                Meaning::Formula(tape) => return self.insert(&tape, &node.span),
+            },
             Kind::Unary(operation) => match Piecewise::unary(*operation) {
                 Some(piecewise) => Instruction::Piecewise(piecewise),
                 None => Instruction::Unary(*operation),
@@ -66,15 +75,38 @@ impl Compiler<'_> {
         name: &str,
         span: Range<usize>,
         names: &N,
-    ) -> Result<Instruction, ExpressionError> {
+    ) -> Result<Meaning, ExpressionError> {
         if let Some(value) = constant(name) {
-            return Ok(Instruction::Constant(value));
+            return Ok(Meaning::One(Instruction::Constant(value)));
         }
-        let symbol = names.resolve(name).ok_or_else(|| unknown(name, span, names))?;
+        match names.resolve(name) {
+            Some(symbol) => {
+                self.add_symbol(symbol);
+                Ok(Meaning::One(Instruction::Load(symbol)))
+            }
+            None => match names.formula(name) {
+                Some(tape) => Ok(Meaning::Formula(tape)),
+                None => Err(unknown(name, span, names)),
+            },
+        }
+    }
+
+    fn add_symbol(&mut self, symbol: Symbol) {
         if !self.tape.symbols.contains(&symbol) {
             self.tape.symbols.push(symbol);
         }
-        Ok(Instruction::Load(symbol))
+    }
+
+    /// Inserts a formula, whose value is one operand.
+    fn insert(&mut self, formula: &Tape, span: &Range<usize>) -> Result<(), ExpressionError> {
+        self.tape.operands = self.tape.operands.max(self.depth + formula.operands);
+        if self.tape.operands > MAX_OPERANDS {
+            return Err(too_many_operands(span));
+        }
+        formula.symbols.iter().for_each(|symbol| self.add_symbol(*symbol));
+        self.tape.code.extend(&formula.code);
+        self.depth += 1;
+        Ok(())
     }
 
     /// x^p: a constant exponent is taken from the tape into the instruction, which then is

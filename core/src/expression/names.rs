@@ -1,17 +1,8 @@
 //! The names that an expression may use, and their meaning.
 
 use super::operation::FUNCTIONS;
-
-/// The meaning of a name in an expression.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Symbol {
-    /// The named parameter with this index.
-    Parameter(usize),
-    /// The time `t`, s.
-    Time,
-    /// The state variable with this index, such as `crank.omega`; the caller numbers them.
-    Variable(usize),
-}
+use super::symbol::Symbol;
+use super::Tape;
 
 /// The names that an expression at a place may use.
 pub trait Names {
@@ -20,7 +11,13 @@ pub trait Names {
     /// Where the time has no meaning, `"t"` is `None`. `pi` and `deg` are never passed to it.
     fn resolve(&self, name: &str) -> Option<Symbol>;
 
-    /// Every name that [`resolve`](Names::resolve) accepts, for suggestions.
+    /// The formula that `name` abbreviates, if it is not a symbol: `"slide.displacement"`.
+    fn formula(&self, name: &str) -> Option<Tape> {
+        let _ = name;
+        None
+    }
+
+    /// Every name that [`resolve`](Names::resolve) or [`formula`](Names::formula) accepts, for suggestions.
     fn known(&self) -> Vec<String>;
 }
 

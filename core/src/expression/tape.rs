@@ -1,6 +1,6 @@
 //! A compiled expression: instructions for a stack of operands.
 
-use super::operation::{Binary, Unary};
+use super::operation::{Binary, Relation, Unary};
 use super::switch::{Boundaries, Piecewise};
 use super::{Symbol, MAX_OPERANDS};
 use crate::math::Real;
@@ -18,6 +18,9 @@ pub(super) enum Instruction {
     Binary(Binary),
     /// Replaces x by xᵖ.
     PowerConstant(f64),
+    /// Replaces (x, a, b) by a where x > 0, else by b, without a switch: a guard in the formula of a quantity, such as
+    /// that of a length where its points meet.
+    Guard,
     /// Replaces the operands of an operation that has a switch.
     Piecewise(Piecewise),
 }
@@ -29,6 +32,7 @@ impl Instruction {
             Self::Constant(_) | Self::Load(_) => 0,
             Self::Unary(_) | Self::PowerConstant(_) => 1,
             Self::Binary(_) => 2,
+            Self::Guard => 3,
             Self::Piecewise(operation) => operation.operands(),
         }
     }
@@ -177,6 +181,9 @@ impl Tape {
                 Instruction::Unary(operation) => operation.apply(stack[first]),
                 Instruction::Binary(operation) => operation.apply(stack[first], stack[first + 1]),
                 Instruction::PowerConstant(exponent) => stack[first].powc(exponent),
+                Instruction::Guard => {
+                    Relation::Greater.choose(stack[first], stack[first + 1], stack[first + 2])
+                }
                 Instruction::Piecewise(operation) => {
                     let (operands, piece) = (&stack[first..top], values.piece(switch));
                     take(switch, operation.function(operands));

@@ -4,7 +4,7 @@ use super::definition::{Entry, Value};
 use super::items::Body;
 use super::link::Linker;
 use super::problem::Problem;
-use super::scope::{states, Scope};
+use super::scope::{states, Quantities, Scope};
 use super::variable::Variable;
 use crate::elements::{
     holding, BodyId, Constraint, CoordinateOf, Fixes, ForceElement, Group, OwnState,
@@ -38,6 +38,7 @@ impl Blueprint {
         group: Group,
         entry: &Entry,
         scope: &Scope,
+        quantities: &dyn Quantities,
         problems: &mut Vec<Problem>,
     ) {
         let Some(Value::Text(kind)) = entry.get("type") else {
@@ -46,7 +47,7 @@ impl Blueprint {
             return;
         };
         let linked = (self.bodies.as_slice(), self.constraints.as_slice());
-        let mut linker = Linker::new(group, entry, scope, linked, problems);
+        let mut linker = Linker::new(group, entry, scope, linked, quantities, problems);
         let known = if group == Group::Forces {
             ForceElement::read(kind, &mut linker).map(|e| {
                 let e = e.filter(|e| self.two_bodies(group, entry, &e.bodies(), problems));

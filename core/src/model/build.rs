@@ -4,6 +4,7 @@ use super::blueprint::Blueprint;
 use super::definition::{Definition, Value};
 use super::model::Model;
 use super::problem::Problem;
+use super::quantity::Elements;
 use super::scope::Scope;
 use super::{bodies, checks, parameters};
 use crate::elements::Group;
@@ -22,13 +23,14 @@ pub fn build(
     let scope = Scope::new(definition, inferred);
     let gravity = gravity(definition, &scope, &mut problems);
     let bodies = bodies::read(definition, &scope, &mut problems);
+    let quantities = Elements::new(definition, &scope, &bodies);
     let mut blueprint = Blueprint {
         title: definition.title.clone().unwrap_or_default(),
         parameters: scope.parameters.clone(),
         inferred: scope.inferred.clone(),
         allow_redundancy: definition.redundancy.as_deref() == Some("allow"),
         gravity,
-        bodies,
+        bodies: bodies.clone(),
         constraints: Vec::new(),
         forces: Vec::new(),
     };
@@ -38,7 +40,7 @@ pub fn build(
         (Group::Forces, &definition.forces),
     ] {
         for entry in entries {
-            blueprint.link(group, entry, &scope, &mut problems);
+            blueprint.link(group, entry, &scope, &quantities, &mut problems);
         }
     }
     let model = Model::new(&Arc::new(blueprint), &values);

@@ -3,6 +3,7 @@
 use super::items::Body;
 use super::model::Model;
 use super::problem::Problem;
+use crate::expression::{Scope as Values, Tape};
 
 /// Longer lengths, m, have powers that overflow where positions are solved for.
 const LONGEST: f64 = 1e60;
@@ -21,19 +22,40 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
                 .push(Problem::at(&["gravity", &k.to_string()], format!("{g}; must be finite")));
         }
     }
-    for item in model.constraints.iter().filter(|c| c.law.is_none()) {
+    let parameters = &model.parameters;
+    for item in &model.constraints {
         let section = item.group.section();
-        item.element.map(&mut |x| check(&[section, &item.name], *x, problems));
-        if let Some((field, message)) = item.element.fault() {
+        let element = match &item.law {
+            None => item.element.clone(),
+            Some(law) => law.map(&mut |tape| constant(tape, parameters)),
+        };
+        if item.law.is_none() {
+            element.map(&mut |x| check(&[section, &item.name], *x, problems));
+        }
+        if let Some((field, message)) = element.fault() {
             problems.push(Problem::at(&[section, &item.name, field], message));
         }
     }
-    for item in model.forces.iter().filter(|f| f.law.is_none()) {
-        item.element.map(&mut |x| check(&["forces", &item.name], *x, problems));
-        if let Some((field, message)) = item.element.fault() {
+    for item in &model.forces {
+        let element = match &item.law {
+            None => item.element.clone(),
+            Some(law) => law.map(&mut |tape| constant(tape, parameters)),
+        };
+        if item.law.is_none() {
+            element.map(&mut |x| check(&["forces", &item.name], *x, problems));
+        }
+        if let Some((field, message)) = element.fault() {
             problems.push(Problem::at(&["forces", &item.name, field], message));
         }
     }
+}
+
+/// The value of a formula in the parameters; NaN for one of time or state.
+fn constant(tape: &Tape, parameters: &[f64]) -> f64 {
+    if tape.uses_time() || tape.uses_state() {
+        return f64::NAN;
+    }
+    tape.evaluate(&Values { parameters, time: f64::NAN, variables: &[] })
 }
 
 fn check(path: &[&str], x: f64, problems: &mut Vec<Problem>) {

@@ -4,9 +4,10 @@ use super::definition::{Entry, Value};
 use super::items::Body;
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
-use super::scope::{Reach, Scope, ANY_UNIT};
+use super::scope::{LawOf, Quantities, Reach, Scope, ANY_UNIT};
 use crate::elements::{
-    BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Group, JointId, PointOn, Source,
+    measured_of, BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Followed, Group,
+    JointId, Measured, PointOn, Source,
 };
 use crate::expression::{suggest, Tape};
 
@@ -21,6 +22,9 @@ pub struct Linker<'a> {
     scope: &'a Scope,
     bodies: &'a [Body<Tape>],
     constraints: &'a [Named],
+    quantities: &'a dyn Quantities,
+    /// Whether laws are read; they are zero if not.
+    laws: bool,
     problems: &'a mut Vec<Problem>,
 }
 
@@ -31,9 +35,24 @@ impl<'a> Linker<'a> {
         entry: &'a Entry,
         scope: &'a Scope,
         (bodies, constraints): (&'a [Body<Tape>], &'a [Named]),
+        quantities: &'a dyn Quantities,
         problems: &'a mut Vec<Problem>,
     ) -> Self {
-        Self { group, section: group.section(), entry, scope, bodies, constraints, problems }
+        let section = group.section();
+        Self { group, section, entry, scope, bodies, constraints, quantities, laws: true, problems }
+    }
+
+    /// For an entry without its laws: its quantities do not depend on them.
+    pub fn of_numbers(
+        group: Group,
+        entry: &'a Entry,
+        scope: &'a Scope,
+        bodies: &'a [Body<Tape>],
+        quantities: &'a dyn Quantities,
+        problems: &'a mut Vec<Problem>,
+    ) -> Self {
+        let linked = (bodies, [].as_slice());
+        Self { laws: false, ..Self::new(group, entry, scope, linked, quantities, problems) }
     }
 
     fn path(&self, field: &Field) -> [String; 3] {
@@ -103,14 +122,83 @@ impl<'a> Linker<'a> {
     }
 
     /// The unit of a field; one of several is that of the coordinate of the element.
-    fn unit<'f>(&self, field: &'f Field) -> &'f str {
-        let Some((first, other)) = field.unit.split_once('|') else { return &field.unit };
-        let coordinate = match self.entry.get("coordinate") {
-            Some(Value::Text(text)) => text.rsplit_once('.').map(|(_, word)| word),
-            _ => None,
+    fn unit(&self, field: &Field) -> String {
+        let Some((first, other)) = field.unit.split_once('|') else { return field.unit.clone() };
+        let unit = match self.entry.get("coordinate") {
+            Some(Value::Text(text)) => self.unit_of(text).unwrap_or(ANY_UNIT),
+            _ => ANY_UNIT,
         };
-        let unit = coordinate.and_then(Coordinate::named).map_or(ANY_UNIT, Coordinate::unit);
-        [first, other].into_iter().find(|known| *known == unit).unwrap_or(ANY_UNIT)
+        [first, other].into_iter().find(|known| *known == unit).unwrap_or(ANY_UNIT).to_string()
+    }
+
+    fn unit_of(&self, quantity: &str) -> Option<&'static str> {
+        let (owner, word) = quantity.rsplit_once('.')?;
+        match self.scope.body(owner) {
+            Some(_) => Coordinate::named(word).map(Coordinate::unit),
+            None => self.quantities.followed(quantity).map(|followed| followed.label().1),
+        }
+    }
+
+    /// Quantities of a force, which its laws may use without a name.
+    fn own_quantities(&self) -> &'static [Measured] {
+        match (self.group, self.entry.get("type")) {
+            (Group::Forces, Some(Value::Text(kind))) => measured_of(kind),
+            _ => &[],
+        }
+    }
+
+    /// A position quantity of a point or an element, which offers some.
+    fn quantity(&mut self, field: &Field, text: &str, offered: &[&str]) -> Option<Followed<Tape>> {
+        let followed = self.quantities.followed(text);
+        let moves = |of: &Followed<Tape>| of.bodies().iter().any(|body| !body.is_ground());
+        match followed {
+            Some(of) if moves(&of) => Some(of),
+            Some(_) => self.report(field, format!("'{text}' does not move"), None),
+            None => {
+                let (owner, word) = text.rsplit_once('.').unwrap_or(("", text));
+                let message = format!("'{word}' is not a position quantity of '{owner}'");
+                let plural = format!("position quantities of {owner}");
+                let hint = did_you_mean(word, offered, &plural);
+                self.report(field, message, hint)
+            }
+        }
+    }
+
+    /// The symbols that a law may use.
+    fn reach(&self) -> Reach {
+        match self.group {
+            Group::Forces => Reach::State,
+            Group::Joints | Group::Drivers => Reach::Positions,
+        }
+    }
+
+    /// A formula at a place within the entry.
+    fn read(&mut self, value: &Value, path: &[String], unit: &str, reach: Reach) -> Option<Tape> {
+        if reach != Reach::Parameters && !self.laws {
+            return Some(Tape::from(0.0));
+        }
+        self.scope.law(value, path, unit, (reach, Some(self.place())), self.problems)
+    }
+
+    /// The quantities that the laws of the entry may use.
+    fn place(&self) -> LawOf<'a> {
+        let (element, own) = (self.entry.name.as_str(), self.own_quantities());
+        LawOf { quantities: self.quantities, element, own }
+    }
+
+    fn two(&mut self, field: &Field, reach: Reach) -> Option<[Tape; 2]> {
+        if reach != Reach::Parameters && !self.laws {
+            return Some([0.0, 0.0].map(Tape::from));
+        }
+        match (self.entry.get(field.name), field.default) {
+            (Some(value), _) => {
+                let path = self.path(field);
+                let place = (reach, Some(self.place()));
+                self.scope.two(value, &path, &field.unit, place, self.problems)
+            }
+            (None, Some(Default::Pair(p))) => Some(p.map(Tape::from)),
+            (None, _) => self.missing(field),
+        }
     }
 
     fn formula(&mut self, field: &Field, reach: Reach) -> Option<Tape> {
@@ -118,7 +206,7 @@ impl<'a> Linker<'a> {
             (Some(value), _) => {
                 let path = self.path(field);
                 let unit = self.unit(field);
-                self.scope.formula(value, &path, unit, reach, self.problems)
+                self.read(value, &path, &unit, reach)
             }
             (None, Some(Default::Number(x))) => Some(Tape::from(x)),
             (None, _) => self.missing(field),
@@ -137,6 +225,10 @@ pub fn did_you_mean(word: &str, known: &[&str], plural: &str) -> Option<String> 
 }
 
 impl Source for Linker<'_> {
+    fn given(&mut self, field: &Field) -> bool {
+        self.entry.get(field.name).is_some()
+    }
+
     fn body(&mut self, field: &Field) -> Option<BodyId> {
         let name = match (self.entry.get(field.name), field.default) {
             (None, Some(Default::Body(name))) => name,
@@ -162,7 +254,14 @@ impl Source for Linker<'_> {
         self.report(field, message, hint.flatten())
     }
 
-    fn coordinate(&mut self, field: &Field) -> Option<CoordinateOf> {
+    fn coordinate(&mut self, field: &Field) -> Option<Followed<Tape>> {
+        let text = self.text(field)?;
+        let owner = text.rsplit_once('.').map_or("", |(owner, _)| owner);
+        if self.scope.body(owner).is_none() {
+            if let Some(offered) = self.quantities.offered(owner) {
+                return self.quantity(field, text, &offered);
+            }
+        }
         let (body, name) = self.split(field, "body.x, body.y or body.angle")?;
         match Coordinate::named(name) {
             _ if body.is_ground() => self.report(field, "ground does not move".to_string(), None),
@@ -171,7 +270,9 @@ impl Source for Linker<'_> {
                     format!("{} is a point mass and has no angle", self.bodies[body.0].name);
                 self.report(field, message, None)
             }
-            Some(coordinate) if !coordinate.is_rate() => Some(CoordinateOf { body, coordinate }),
+            Some(coordinate) if !coordinate.is_rate() => {
+                Some(CoordinateOf { body, coordinate }.into())
+            }
             _ => {
                 let message = format!("'{name}' is not one of x, y, angle");
                 let hint = did_you_mean(name, &["x", "y", "angle"], "coordinates");
@@ -200,21 +301,57 @@ impl Source for Linker<'_> {
     }
 
     fn law(&mut self, field: &Field) -> Option<Tape> {
-        let reach = match self.group {
-            Group::Forces => Reach::State,
-            Group::Joints | Group::Drivers => Reach::Positions,
-        };
-        self.formula(field, reach)
+        self.formula(field, self.reach())
     }
 
     fn pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
-        match (self.entry.get(field.name), field.default) {
-            (Some(value), _) => {
-                let path = self.path(field);
-                self.scope.pair(value, &path, &field.unit, self.problems)
+        self.two(field, Reach::Parameters)
+    }
+
+    fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
+        self.two(field, self.reach())
+    }
+
+    fn laws(&mut self, field: &Field) -> Option<Vec<Tape>> {
+        let items = match self.entry.get(field.name) {
+            Some(Value::List(items)) => items,
+            Some(other) => {
+                let message = format!("must be a list of formulas, not {}", other.noun());
+                return self.report(field, message, None);
             }
-            (None, Some(Default::Pair(p))) => Some(p.map(Tape::from)),
+            None => return self.missing(field),
+        };
+        let (path, reach) = (self.path(field), self.reach());
+        let read = |(k, item): (usize, &Value)| {
+            let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
+            self.read(item, &path, &field.unit, reach)
+        };
+        // every formula is read, so that all errors are reported at once
+        let all: Vec<Option<Tape>> = items.iter().enumerate().map(read).collect();
+        all.into_iter().collect()
+    }
+
+    fn flag(&mut self, field: &Field) -> Option<bool> {
+        match (self.entry.get(field.name), field.default) {
+            (Some(Value::Flag(flag)), _) => Some(*flag),
+            (Some(other), _) => {
+                let message = format!("must be true or false, not {}", other.noun());
+                self.report(field, message, None)
+            }
+            (None, Some(Default::Flag(flag))) => Some(flag),
             (None, _) => self.missing(field),
         }
+    }
+
+    fn word(&mut self, field: &Field, words: &[&str]) -> Option<usize> {
+        let word = match (self.entry.get(field.name), field.default) {
+            (None, Some(Default::Body(word))) => word,
+            _ => self.text(field)?,
+        };
+        let found = words.iter().position(|known| *known == word);
+        found.or_else(|| {
+            let hint = did_you_mean(word, words, "words");
+            self.report(field, format!("unknown word '{word}'"), hint)
+        })
     }
 }

@@ -14,6 +14,7 @@ mod model;
 mod parameters;
 mod problem;
 mod problems;
+mod quantity;
 mod scope;
 mod size;
 mod switch;

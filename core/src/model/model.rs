@@ -78,30 +78,11 @@ impl<S: Real> Model<S> {
                     let owner = Owner::Constraint(constraints.len());
                     Box::new(formula.map(&mut |tape| Switch::number(tape, owner, &mut switches)))
                 }),
-                driven: *group == Group::Drivers,
+                driven: *group == Group::Drivers || depends.time,
                 equations,
             });
         }
-        let forces = blueprint.forces.iter().enumerate().map(|(k, (name, states, formula))| {
-            let mut depends = Dependence::default();
-            formula.map(&mut |tape| depends.add(tape));
-            let owner = Owner::Force(k);
-            let law = depends.any().then(|| {
-                Box::new(formula.map(&mut |tape| Switch::number(tape, owner, &mut switches)))
-            });
-            let (element, first_switch) = (formula.map(value), switches.len());
-            switches.extend((0..element.switch_count()).map(|_| Switch::of_element(owner)));
-            ForceItem {
-                name: name.clone(),
-                bodies: formula.bodies(),
-                reaction: formula.reaction(),
-                states,
-                element,
-                law,
-                first_switch,
-            }
-        });
-        let forces: Vec<ForceItem<S>> = forces.collect();
+        let forces = forces(blueprint, value, &mut switches);
         let bodies: Vec<Body<S>> = blueprint.bodies.iter().map(|body| body.map(value)).collect();
         let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
         let unknowns = bodies[1..].iter().map(|body| if body.turns { 3 } else { 2 });
@@ -132,6 +113,34 @@ impl<S: Real> Model<S> {
         let parameters: Vec<T> = self.parameters.iter().map(|p| T::lift(*p)).collect();
         Model::new(&self.blueprint, &parameters)
     }
+}
+
+/// The forces of a blueprint; their switches are added to the list.
+fn forces<S: Real>(
+    blueprint: &Blueprint,
+    value: &mut dyn FnMut(&Tape) -> S,
+    switches: &mut Vec<Switch>,
+) -> Vec<ForceItem<S>> {
+    let items = blueprint.forces.iter().enumerate().map(|(k, (name, states, formula))| {
+        let mut depends = Dependence::default();
+        formula.map(&mut |tape| depends.add(tape));
+        let owner = Owner::Force(k);
+        let law = depends
+            .any()
+            .then(|| Box::new(formula.map(&mut |tape| Switch::number(tape, owner, switches))));
+        let (element, first_switch) = (formula.map(value), switches.len());
+        switches.extend((0..element.switch_count()).map(|_| Switch::of_element(owner)));
+        ForceItem {
+            name: name.clone(),
+            bodies: formula.bodies(),
+            reaction: formula.reaction(),
+            states,
+            element,
+            law,
+            first_switch,
+        }
+    });
+    items.collect()
 }
 
 impl<S> Model<S> {

@@ -5,9 +5,10 @@ use super::definition::{Definition, Entry, Value};
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
 use super::variable::Variable;
-use crate::elements::{states_of, BodyId, Coordinate, OwnState};
+use crate::elements::{states_of, BodyId, Coordinate, Followed, Measured, OwnState};
 use crate::expression::unit::Unit;
 use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Tape};
+use std::cell::RefCell;
 use std::collections::HashMap;
 
 /// The names that formulas may use.
@@ -32,6 +33,8 @@ struct Places {
     states: HashMap<String, usize>,
     /// Joints and drivers as they are written.
     constraints: HashMap<String, usize>,
+    /// Forces as they are written.
+    forces: HashMap<String, usize>,
 }
 
 /// The first place of each name.
@@ -59,16 +62,50 @@ pub enum Reach {
     State,
 }
 
-/// The names of a scope within reach, and whether unknown names get a suggestion.
-struct Visible<'a>(&'a Scope, Reach, bool);
+/// Quantities of points and elements, which formulas may use by their names.
+pub trait Quantities {
+    /// The formula of a position quantity, or of its rate where `rates` are within reach.
+    fn formula(&self, name: &str, rates: bool) -> Option<Tape>;
+    /// A position quantity with the bodies between which it is measured.
+    fn followed(&self, name: &str) -> Option<Followed<Tape>>;
+    /// The position quantities of a point or element; None if there is no such owner.
+    fn offered(&self, owner: &str) -> Option<Vec<&'static str>>;
+    /// Names for suggestions.
+    fn names(&self, rates: bool) -> Vec<String>;
+}
+
+/// The place of a law: the quantities that it may use, and the element whose own quantities need no name.
+#[derive(Clone, Copy)]
+pub struct LawOf<'a> {
+    /// The quantities of the model.
+    pub quantities: &'a dyn Quantities,
+    /// The name of the element.
+    pub element: &'a str,
+    /// Names of the position quantities and rates of the element.
+    pub own: &'a [Measured],
+}
+
+/// The names of a scope within reach.
+struct Visible<'a> {
+    scope: &'a Scope,
+    reach: Reach,
+    law: Option<LawOf<'a>>,
+    /// Whether unknown names get a suggestion.
+    suggests: bool,
+    /// A name that is a parameter and a quantity of the element.
+    ambiguous: RefCell<Option<String>>,
+}
 
 impl Names for Visible<'_> {
     fn resolve(&self, name: &str) -> Option<Symbol> {
-        let scope = self.0;
+        let scope = self.scope;
         if let Some(&k) = scope.places.parameters.get(name) {
+            if self.own(name).is_some() {
+                self.ambiguous.replace(Some(name.to_string()));
+            }
             return Some(Symbol::Parameter(k));
         }
-        if self.1 == Reach::Parameters {
+        if self.reach == Reach::Parameters {
             return None;
         }
         if name == "t" {
@@ -76,7 +113,7 @@ impl Names for Visible<'_> {
         }
         let variable = |variable: Variable| Some(Symbol::Variable(variable.index()));
         if let Some(&k) = scope.places.states.get(name) {
-            return variable(Variable::State(k)).filter(|_| self.1 == Reach::State);
+            return variable(Variable::State(k)).filter(|_| self.reach == Reach::State);
         }
         let (body, coordinate) = name.rsplit_once('.')?;
         let body = scope.body(body).filter(|k| *k > 0)?;
@@ -84,21 +121,33 @@ impl Names for Visible<'_> {
         variable(Variable::Coordinate(BodyId(body), coordinate))
     }
 
+    fn formula(&self, name: &str) -> Option<Tape> {
+        let quantities = self.law.filter(|_| self.reach != Reach::Parameters)?.quantities;
+        let full = self.own(name);
+        quantities.formula(full.as_deref().unwrap_or(name), self.reach == Reach::State)
+    }
+
     fn known(&self) -> Vec<String> {
-        if !self.2 {
+        if !self.suggests {
             return Vec::new();
         }
-        let mut known = self.0.parameters.clone();
-        if self.1 == Reach::Parameters {
+        let mut known = self.scope.parameters.clone();
+        if self.reach == Reach::Parameters {
             return known;
         }
         known.push("t".to_string());
-        for (k, (body, _)) in self.0.bodies.iter().enumerate().skip(1) {
+        for (k, (body, _)) in self.scope.bodies.iter().enumerate().skip(1) {
             let coordinates = Coordinate::ALL.into_iter().filter(|c| self.sees(k, *c));
             known.extend(coordinates.map(|c| format!("{body}.{}", c.name())));
         }
-        if self.1 == Reach::State {
-            known.extend(self.0.states.iter().cloned());
+        if self.reach == Reach::State {
+            known.extend(self.scope.states.iter().cloned());
+        }
+        if let Some(law) = self.law {
+            let orders = 1 + usize::from(self.reach == Reach::State);
+            let own = law.own.iter().flat_map(|of| of.names.iter().take(orders));
+            known.extend(own.map(|name| name.to_string()));
+            known.extend(law.quantities.names(self.reach == Reach::State));
         }
         known
     }
@@ -107,8 +156,15 @@ impl Names for Visible<'_> {
 impl Visible<'_> {
     /// Whether a formula may use a coordinate of a body.
     fn sees(&self, body: usize, coordinate: Coordinate) -> bool {
-        let has = coordinate.column() < 2 || self.0.bodies[body].1;
-        has && (self.1 == Reach::State || !coordinate.is_rate())
+        let has = coordinate.column() < 2 || self.scope.bodies[body].1;
+        has && (self.reach == Reach::State || !coordinate.is_rate())
+    }
+
+    /// The whole name of a quantity of the element that is written without a name.
+    fn own(&self, name: &str) -> Option<String> {
+        let law = self.law.filter(|_| self.reach == Reach::State)?;
+        let known = law.own.iter().any(|of| of.names[..2].contains(&name));
+        known.then(|| format!("{}.{name}", law.element))
     }
 }
 
@@ -128,6 +184,7 @@ impl Scope {
         let mut scope = Self::of(parameters, inferred, bodies, states.collect());
         let constraints = definition.joints.iter().chain(&definition.drivers);
         scope.places.constraints = places(constraints.map(|entry| &entry.name));
+        scope.places.forces = places(definition.forces.iter().map(|entry| &entry.name));
         scope
     }
 
@@ -141,7 +198,7 @@ impl Scope {
             parameters: places(parameters.iter()),
             bodies: places(bodies.iter().map(|(name, _)| name)),
             states: places(states.iter()),
-            constraints: HashMap::new(),
+            ..Places::default()
         };
         Self { parameters, inferred, bodies, states, places }
     }
@@ -149,6 +206,11 @@ impl Scope {
     /// The place at which a joint or driver is written, joints first.
     pub(super) fn constraint(&self, name: &str) -> Option<usize> {
         self.places.constraints.get(name).copied()
+    }
+
+    /// The place at which a force is written.
+    pub(super) fn force(&self, name: &str) -> Option<usize> {
+        self.places.forces.get(name).copied()
     }
 
     /// The place of a body, ground first.
@@ -171,6 +233,18 @@ impl Scope {
         reach: Reach,
         problems: &mut Vec<Problem>,
     ) -> Option<Tape> {
+        self.law(value, path, unit, (reach, None), problems)
+    }
+
+    /// The same at a place where quantities may be used.
+    pub fn law(
+        &self,
+        value: &Value,
+        path: &[String],
+        unit: &str,
+        (reach, law): (Reach, Option<LawOf<'_>>),
+        problems: &mut Vec<Problem>,
+    ) -> Option<Tape> {
         let text = match value {
             Value::Number(x) if x.is_finite() => return Some(Tape::from(*x)),
             Value::Number(x) => {
@@ -186,11 +260,15 @@ impl Scope {
         };
         let reported = problems.len() < MOST_REPORTED;
         let parsed = Expression::parse(text).and_then(|e| {
-            let names = Visible(self, reach, reported);
+            let ambiguous = RefCell::default();
+            let names = Visible { scope: self, reach, law, suggests: reported, ambiguous };
             let tape = e.compile(&names).map_err(|fault| ExpressionError {
-                hint: self.out_of_reach(&e, reach).or(fault.hint),
+                hint: self.out_of_reach(&e, reach, law).or(fault.hint),
                 ..fault
             })?;
+            if let Some(name) = names.ambiguous.take() {
+                return Err(ambiguity(text, &name, law));
+            }
             check_unit(&e, e.infer(&names, &|symbol| self.dimension(symbol))?, unit)?;
             Ok(tape)
         });
@@ -209,8 +287,10 @@ impl Scope {
         }
     }
 
-    fn out_of_reach(&self, e: &Expression, reach: Reach) -> Option<String> {
-        let wide = e.compile(&Visible(self, Reach::State, false));
+    fn out_of_reach(&self, e: &Expression, reach: Reach, law: Option<LawOf<'_>>) -> Option<String> {
+        let (scope, ambiguous) = (self, RefCell::default());
+        let state = Visible { scope, reach: Reach::State, law, suggests: false, ambiguous };
+        let wide = e.compile(&state);
         let hint = match reach {
             Reach::Parameters => "only laws of drivers and forces may use t and the state",
             Reach::Positions => {
@@ -229,11 +309,23 @@ impl Scope {
         unit: &str,
         problems: &mut Vec<Problem>,
     ) -> Option<[Tape; 2]> {
+        self.two(value, path, unit, (Reach::Parameters, None), problems)
+    }
+
+    /// Two formulas that may use the symbols within reach.
+    pub fn two(
+        &self,
+        value: &Value,
+        path: &[String],
+        unit: &str,
+        place: (Reach, Option<LawOf<'_>>),
+        problems: &mut Vec<Problem>,
+    ) -> Option<[Tape; 2]> {
         match value {
             Value::List(items) if items.len() == 2 => {
                 let mut at = |k: usize| {
                     let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
-                    self.formula(&items[k], &path, unit, Reach::Parameters, problems)
+                    self.law(&items[k], &path, unit, place, problems)
                 };
                 let (x, y) = (at(0), at(1));
                 Some([x?, y?])
@@ -250,6 +342,14 @@ impl Scope {
             }
         }
     }
+}
+
+/// The error for a name that is a parameter and a quantity of the element.
+fn ambiguity(text: &str, name: &str, law: Option<LawOf<'_>>) -> ExpressionError {
+    let element = law.map_or("", |law| law.element);
+    let message = format!("'{name}' is a parameter and a quantity of '{element}'");
+    let hint = format!("rename the parameter, or write '{element}.{name}' for the quantity");
+    ExpressionError::new(0..text.len(), message).hint(hint)
 }
 
 /// The unit of a formula that is composed of checked formulas.

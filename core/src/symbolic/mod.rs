@@ -34,6 +34,7 @@ mod print;
 mod record;
 mod scalar;
 mod style;
+mod tape;
 
 pub(crate) use name::upright;
 pub use name::{Axis, Kind, Name};

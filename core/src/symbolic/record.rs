@@ -4,7 +4,9 @@ use super::arena::{Arena, Id, Pair, Rate, Symbol, NAN, ONE, ZERO};
 use super::derivative::{By, Derivation};
 use super::name::Name;
 use super::style::Form;
+use crate::expression::{self, Tape};
 use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
 use std::marker::PhantomData;
 
 thread_local! {
@@ -158,6 +160,14 @@ impl Record {
     pub fn write(&self, x: Symbolic, form: Form) -> String {
         let id = self.own(x);
         self.with(String::new(), |arena| arena.write(id, form))
+    }
+
+    /// An expression as a tape; `symbols` are the names with a meaning there.
+    pub fn tape(&self, x: Symbolic, symbols: &[(Symbolic, expression::Symbol)]) -> Tape {
+        let known: HashMap<Id, expression::Symbol> =
+            symbols.iter().map(|(x, symbol)| (self.own(*x), *symbol)).collect();
+        let (root, none) = (self.own(x), Tape::from(f64::NAN));
+        self.with(none, |arena| arena.tape(root, &|id| known.get(&id).copied()))
     }
 
     /// Names and texts of the parts that expressions are written with, turned

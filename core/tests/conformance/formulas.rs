@@ -42,9 +42,10 @@ fn table(c: &Constraint, at: &Participants, formulas: &Formulas) -> Table {
     let fields = catalogue().into_iter().find(|(_, t)| t.name == c.kind()).unwrap().1.fields;
     let law = |field: &&Field| format!("{:?}", field.shape) == "Law";
     let laws: Vec<&str> = fields.iter().filter(law).map(|field| field.name).collect();
-    let mut names = fields.iter().flat_map(|field| {
+    let mut names = fields.iter().zip(c.scalars()).flat_map(|(field, count)| {
         let name = field.name;
         match format!("{:?}", field.shape).as_str() {
+            _ if count == 0 => vec![],
             "Point" => vec![format!("{name}.s.x"), format!("{name}.s.y")],
             "Pair" => vec![format!("{name}_i"), format!("{name}_j")],
             "Number" | "Law" => vec![name.to_string()],

@@ -5,11 +5,11 @@ use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{Motor, SpringDamper, Torque, TorsionSpring};
 use kempe::elements::joints::{Distance, Revolute, Translational, Weld};
 use kempe::elements::test_elements::{
-    Bead, GapSpring, Lag, Levels, Overload, Pulley, Rubbing, TurnedPin,
+    Bead, Blower, GapSpring, Lag, Levels, Overload, Pulley, Rubbing, TurnedPin,
 };
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, JointId,
-    Linearized, Moving, PointOn,
+    Linearized, Moving, PointOn, Side,
 };
 use kempe::math::{Local, Motion, Pose, Real, Twist, Vec2};
 
@@ -41,7 +41,7 @@ pub fn constraints() -> Vec<Constraint> {
     for (coordinate, value) in
         [(Coordinate::X, 0.4), (Coordinate::Y, -1.3), (Coordinate::Angle, 2.1)]
     {
-        let driver = CoordinateDriver { coordinate: driven(coordinate), value };
+        let driver = CoordinateDriver { coordinate: driven(coordinate).into(), value };
         all.push(Constraint::CoordinateDriver(driver));
     }
     all
@@ -63,6 +63,17 @@ pub fn forces() -> Vec<ForceElement> {
     let (stiffness, gap, preload) = (3.0, 0.4, 0.7);
     all.push(ForceElement::GapSpring(GapSpring { i, j, stiffness, gap, preload }));
     all.push(ForceElement::Overload(Overload { joint, i, j, torque: 1.2, limit: 0.5 }));
+    all.push(ForceElement::Blower(Blower {
+        j,
+        i,
+        force: [1.2, -0.4],
+        gusts: vec![0.3, 0.9],
+        factor: Some(1.7),
+        side: Side::Left,
+        off: false,
+        more: None,
+        less: Some(0.2),
+    }));
     for inductance in [0.0, 0.3] {
         all.push(ForceElement::Motor(Motor {
             i: BodyId(1),

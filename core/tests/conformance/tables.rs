@@ -43,7 +43,12 @@ fn quantities_have_units_that_exist_and_references_have_none() {
         for field in &table.fields {
             let place = format!("{}.{} [{}]", table.name, field.name, field.unit);
             match field.shape {
-                Shape::Number | Shape::Law | Shape::Pair | Shape::Points => {
+                Shape::Number
+                | Shape::Law
+                | Shape::Pair
+                | Shape::LawPair
+                | Shape::Laws
+                | Shape::Points => {
                     for unit in field.unit.split('|').filter(|u| !u.is_empty()) {
                         assert!(Unit::parse(unit).is_ok(), "{place}");
                     }

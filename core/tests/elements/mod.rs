@@ -2,6 +2,7 @@
 //! to the core where the feature `test-elements` is on, as in its tests.
 
 mod bead;
+mod blower;
 mod gap_spring;
 mod lag;
 mod levels;
@@ -11,6 +12,7 @@ mod rubbing;
 mod turned_pin;
 
 pub use bead::Bead;
+pub use blower::Blower;
 pub use gap_spring::GapSpring;
 pub use lag::Lag;
 pub use levels::Levels;

@@ -122,6 +122,7 @@ impl Drawn<'_> {
             },
             Shape::Law => self.law(),
             Shape::Pair => Value::List(vec![self.number(), self.number()]),
+            Shape::LawPair | Shape::Laws => Value::List(vec![self.law(), self.law()]),
             Shape::Points => self.points(),
             Shape::Names => Value::List(vec![text("A"), text("B")]),
             Shape::Name => {

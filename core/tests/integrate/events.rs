@@ -95,20 +95,19 @@ fn several_functions_are_scanned_for_all_their_first_changes() {
     let mut evaluate = |t: f64, y: &[f64], out: &mut [f64]| {
         assert_eq!((t, y.len(), out.len()), (y[0], 1, 8));
         out.copy_from_slice(&[
-            t - 0.25,                           // one change
-            band(t, -0.3, 0.15),                // two in a step
-            (t - 0.26) * (t - 0.26) - 0.0001,   // two between samples: the parabola finds them
-            (t - 0.26) * (t - 0.26) + 0.0001,   // none
-            t + 1.0,                            // zero at the beginning: of the step before
-            -1.0 - t * t,                       // always negative
-            f64::NAN,                           // no sign
-            1.0 - t,                            // zero at the end
+            t - 0.25,                         // one change
+            band(t, -0.3, 0.15),              // two in a step
+            (t - 0.26) * (t - 0.26) - 0.0001, // two between samples: the parabola finds them
+            (t - 0.26) * (t - 0.26) + 0.0001, // none
+            t + 1.0,                          // zero at the beginning: of the step before
+            -1.0 - t * t,                     // always negative
+            f64::NAN,                         // no sign
+            1.0 - t,                          // zero at the end
         ]);
     };
     with_unit_step(|step| {
         let found = scan(step, 8, &mut evaluate, Direction::Any);
-        let expected =
-            [(1, -0.45, true), (0, 0.25, true), (2, 0.25, false), (7, 1.0, false)];
+        let expected = [(1, -0.45, true), (0, 0.25, true), (2, 0.25, false), (7, 1.0, false)];
         assert_eq!(found.crossings.len(), expected.len(), "{found:?}");
         for (index, t, rising) in expected {
             let crossing = found.crossings.iter().find(|c| c.index == index).expect("a crossing");

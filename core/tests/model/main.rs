@@ -6,6 +6,8 @@ mod mechanisms;
 mod building;
 mod dimensions;
 mod edges;
+mod fields;
+mod quantities;
 mod refused;
 mod remedies;
 mod running;

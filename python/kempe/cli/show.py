@@ -11,7 +11,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.text import Text
 
-from kempe.cli.arguments import AsJson, Changes, Settings, assembled, read_case
+from kempe.cli.arguments import (
+    AsJson,
+    Changes,
+    Settings,
+    Units,
+    assembled,
+    read_case,
+    shown_in,
+)
 from kempe.cli.console import answers, figure
 from kempe.cli.failure import document
 from kempe.cli.solved import CaseOrSolution, is_stored, stored
@@ -88,6 +96,7 @@ def show(  # noqa: PLR0917 - typer distinguishes options by their annotations
     form: FormOption = None,
     output: Output = None,
     settings: Settings = None,
+    units: Units = None,
     as_json: AsJson = False,
 ) -> None:
     """Show matrices and equations of a case or of a solution, with names of joints and bodies."""
@@ -107,7 +116,7 @@ def show(  # noqa: PLR0917 - typer distinguishes options by their annotations
     if not (wanted or iterations or symbolic):
         wanted = ["Phi_q"]
     chosen = form or ENDINGS.get(output.suffix.lower() if output else "", Form.text)
-    with document(as_json) as found:
+    with document(as_json) as found, shown_in(units):
         if as_json and (form or output):
             raise ModelError("--json prints to the terminal", hint="leave --format and -o out")
         case, solution = _read(file, Changes(settings))
@@ -116,10 +125,10 @@ def show(  # noqa: PLR0917 - typer distinguishes options by their annotations
         if as_json:
             found.update(_content(case, state, matrices, iterations=iterations, symbolic=symbolic))
             return
-    pieces = [] if state is None else [_written(one, state, chosen) for one in matrices]
-    pieces += [_iterations(case, chosen)] if iterations else []
-    pieces += [_symbolic(case, chosen)] if symbolic else []
-    _put("\n".join(piece.rstrip("\n") + "\n" for piece in pieces), output)
+        pieces = [] if state is None else [_written(one, state, chosen) for one in matrices]
+        pieces += [_iterations(case, chosen)] if iterations else []
+        pieces += [_symbolic(case, chosen)] if symbolic else []
+        _put("\n".join(piece.rstrip("\n") + "\n" for piece in pieces), output)
 
 
 def _read(file: Path, changes: Changes) -> tuple[Case, Solution | None]:
@@ -155,7 +164,11 @@ def _matrices(case: Case, state: State, wanted: list[str], assembly: bool) -> It
 
 def _written(shown: Labelled, state: State, form: Form) -> str:
     if form is Form.text:
-        return f"{shown.title}, t = {figure(float(state.t))} s\n{shown.text()}"
+        from kempe.display_units import display
+
+        time = display("s")
+        when = f"t = {figure(float(state.t) / time.divisor)} {time.symbol}"
+        return f"{shown.title}, {when}\n{shown.text()}"
     return shown.csv() if form is Form.csv else shown.latex()
 
 

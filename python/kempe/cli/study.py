@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.text import Text
 
-from kempe.cli.arguments import AsJson, Changes, File, Settings, read_case, stem
+from kempe.cli.arguments import AsJson, Changes, File, Settings, Units, read_case, shown_in, stem
 from kempe.cli.console import answers, heading, remarks, table
 from kempe.cli.failure import document
 
@@ -28,7 +28,7 @@ EXAMPLES = """Examples:
 """
 
 
-def study(
+def study(  # noqa: PLR0917 - typer distinguishes options by their annotations
     file: File,
     analysis: Annotated[
         str | None, typer.Option("--analysis", help="Which analysis; the first if absent.")
@@ -38,6 +38,7 @@ def study(
         typer.Option("--output", "-o", help="Folder for results; out/<FILE>/study if absent."),
     ] = None,
     settings: Settings = None,
+    units: Units = None,
     as_json: AsJson = False,
 ) -> None:
     """Compute an analysis with many options, compare the results and summarize them."""
@@ -48,7 +49,7 @@ def study(
     from kempe.studies import study as compute
     from kempe.studies.table import json_text
 
-    with document(as_json) as content:
+    with document(as_json) as content, shown_in(units):
         case = read_case(file, Changes(settings))
         silent = not remarks().is_terminal
         with warnings.catch_warnings(), remarks().status("", spinner="line") as status:
@@ -66,7 +67,7 @@ def study(
 
 
 def _show(console: Console, found: Study) -> None:
-    from kempe.studies.table import HEADER, cells, fate
+    from kempe.studies.table import cells, fate, header
     from kempe.studies.variants import GROUPS
 
     console.print(Text(f"{found.title}: study of {found.analysis}", style="bold"))
@@ -76,7 +77,7 @@ def _show(console: Console, found: Study) -> None:
             continue
         heading(console, title[0].upper() + title[1:])
         good = [cells(outcome) for outcome in outcomes if not outcome.diverged]
-        table(console, HEADER, good)
+        table(console, header(), good)
         for outcome in outcomes:
             if outcome.diverged:
                 told = f"  {outcome.variant.name}  {fate(outcome)}"

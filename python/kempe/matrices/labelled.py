@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
 from kempe.arrays import Floats
+from kempe.display_units import chosen_for, display, units
 from kempe.errors import ModelError
 from kempe.matrices import writing
 from kempe.names import one_of
+from kempe.quantities import FORCE_UNITS
 from kempe.values import instance
 
 if TYPE_CHECKING:
@@ -23,18 +25,22 @@ if TYPE_CHECKING:
     from kempe.values import Number
 
 MatrixName: TypeAlias = Literal["M", "Phi", "Phi_q", "nu", "gamma", "Q", "kkt", "rhs", "a", "lam"]
-#: The matrices that can be shown, each with its symbol and its meaning.
-NAMES: Mapping[str, tuple[str, str]] = {
-    "M": ("M", "mass matrix"),
-    "Phi": ("Φ", "residuals of the constraints, m and rad"),
-    "Phi_q": ("Φ_q", "Jacobian"),
-    "nu": ("ν", "right side of the velocity equation, -Φ_t"),
-    "gamma": ("γ", "right side of the acceleration equation"),
-    "Q": ("Q", "generalized forces, N and N·m"),
-    "kkt": ("[M Φ_qᵀ; Φ_q 0]", "augmented matrix (Haug 6.3.18)"),
-    "rhs": ("[Q; γ]", "right side of the augmented equations (Haug 6.3.18)"),
-    "a": ("q̈", "accelerations, m/s² and rad/s²"),
-    "lam": ("λ", "multipliers, N and N·m"),
+#: The matrices that can be shown, each with its symbol, its meaning, and the units of a column.
+NAMES: Mapping[str, tuple[str, str, tuple[str, ...]]] = {
+    "M": ("M", "mass matrix", ()),
+    "Phi": ("Φ", "residuals of the constraints", ("m", "rad")),
+    "Phi_q": ("Φ_q", "Jacobian", ()),
+    "nu": ("ν", "right side of the velocity equation, -Φ_t", ("m/s", "rad/s")),
+    "gamma": ("γ", "right side of the acceleration equation", ("m/s^2", "rad/s^2")),
+    "Q": ("Q", "generalized forces", ("N", "N*m")),
+    "kkt": ("[M Φ_qᵀ; Φ_q 0]", "augmented matrix (Haug 6.3.18)", ()),
+    "rhs": (
+        "[Q; γ]",
+        "right side of the augmented equations (Haug 6.3.18)",
+        ("N", "N*m", "m/s^2", "rad/s^2"),
+    ),
+    "a": ("q̈", "accelerations", ("m/s^2", "rad/s^2")),
+    "lam": ("λ", "multipliers", ("N", "N*m")),
 }
 
 #: Entries below this fraction of the largest are rounding errors and are shown as zeros. A residual
@@ -46,56 +52,97 @@ ROUNDING = 1e-13
 class Labelled:
     """A matrix or a column with names; ``print`` shows it aligned.
 
+    What is written has the display units (``kp.units``): of the numbers in a column, and of the
+    quantities that a matrix connects. In other units than SI, the names have their units.
+
     Attributes:
         name: such as ``Phi_q``.
-        values: (rows, columns), or (rows,) for a column.
+        values: (rows, columns), or (rows,) for a column; always in SI units.
         rows: names of the rows, such as ``A.x``.
         columns: names of the columns, such as ``crank.angle``; empty for a column.
+        row_units: SI units of the rows of the product, such as m/s² in M a.
+        column_units: SI units of the factors of the columns.
     """
 
     name: str
     values: Floats
     rows: tuple[str, ...]
     columns: tuple[str, ...]
+    row_units: tuple[str, ...]
+    column_units: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:
-        """One line: symbol, meaning and size."""
-        symbol, meaning = NAMES[self.name]
-        size = " × ".join(map(str, self.values.shape))
-        return f"{symbol}, {meaning}, {size}"
+        """One line: symbol, meaning, units and size."""
+        symbol, meaning, column = NAMES[self.name]
+        words = [symbol, meaning]
+        if column:
+            *most, last = (display(unit).symbol for unit in column)
+            words.append(f"{', '.join(most)} and {last}")
+        elif self._is_converted:
+            words.append(f"in {', '.join(units().chosen)}")
+        return ", ".join([*words, " × ".join(map(str, self.values.shape))])
+
+    @property
+    def _is_converted(self) -> bool:
+        return any(chosen_for(unit) for unit in (*self.row_units, *self.column_units))
+
+    def _names(self, names: Sequence[str], of: Sequence[str]) -> list[str]:
+        """Names, with units if those are not of SI."""
+        if not self._is_converted:
+            return list(names)
+        return [f"{name} [{display(unit).unit}]" for name, unit in zip(names, of, strict=True)]
+
+    def _labels(self) -> tuple[list[str], list[str]]:
+        """Names of rows and columns."""
+        columns = self._names(self.columns, self.column_units)
+        return self._names(self.rows, self.row_units), columns
+
+    @property
+    def _full(self) -> Floats:
+        return self.values.reshape(len(self.rows), -1)
+
+    def _shown(self, full: Floats) -> Floats:
+        """A matrix (rows, columns) in display units."""
+        if not self._is_converted:
+            return full
+        out = np.array([display(unit).divisor for unit in self.row_units])
+        factors = np.array([display(unit).divisor for unit in self.column_units] or [1.0])
+        shown: Floats = full * factors / out[:, None]
+        return shown
 
     def cells(self) -> Floats:
-        """The values as a matrix (rows, columns), with rounding errors set to zero."""
-        full: Floats = self.values.reshape(len(self.rows), -1)
-        if self.name == "Phi":
-            return full
-        largest = float(np.abs(full).max(initial=0.0))
-        return np.where(np.abs(full) <= ROUNDING * largest, 0.0, full)
+        """The numbers as written, (rows, columns), with rounding errors set to zero."""
+        full = self._full
+        if self.name != "Phi":
+            largest = float(np.abs(full).max(initial=0.0))
+            full = np.where(np.abs(full) <= ROUNDING * largest, 0.0, full)
+        return self._shown(full)
 
     def text(self) -> str:
         """Aligned lines with the names, zeros as dots."""
-        return writing.text(self.rows, self.columns, self.cells())
+        return writing.text(*self._labels(), self.cells())
 
     def csv(self) -> str:
         """Comma-separated lines with a header, every digit kept."""
-        header = self.columns or (self.name,)
-        return writing.csv(self.rows, header, self.values.reshape(len(self.rows), -1))
+        rows, columns = self._labels()
+        return writing.csv(rows, columns or [self.name], self._shown(self._full))
 
     def latex(self) -> str:
         """A ``bmatrix`` of amsmath with the names of rows and columns beside it."""
-        return writing.latex(self.name, self.rows, self.columns, self.cells())
+        return writing.latex(self.name, *self._labels(), self.cells())
 
     def _repr_latex_(self) -> str:
-        body = writing.latex_body(self.name, self.rows, self.columns, self.cells())
+        body = writing.latex_body(self.name, *self._labels(), self.cells())
         return f"$\\displaystyle {body}$"
 
     def _repr_html_(self) -> str:
         from kempe.notebook import table
 
-        header = ["", *(self.columns or (self.name,))]
+        names, columns = self._labels()
+        header = ["", *(columns or [self.name])]
         numbers = ([writing.number(value) for value in row] for row in self.cells().tolist())
-        rows = [[name, *cells] for name, cells in zip(self.rows, numbers, strict=True)]
+        rows = [[name, *cells] for name, cells in zip(names, numbers, strict=True)]
         return f"<div><b>{html.escape(self.title)}</b>{table(header, rows)}</div>"
 
     def __array__(self, dtype: object = None, copy: bool | None = None) -> Floats:
@@ -135,25 +182,52 @@ def show(
     """
     one_of("matrix", what, NAMES)
     _refuse_foreign(model, state)
+    known = state.compiled
+    coordinates = dict(zip(known.column_names(), known.column_units(), strict=True))
     if what in ("a", "lam"):
         if assembly:
             raise ModelError(f"{what} is not of the assembly", hint="leave assembly out")
-        rows = state.compiled.column_names() if what == "a" else state.compiled.row_names()
-        return Labelled(what, getattr(state, what), tuple(rows), ())
-    return _of(state.matrices(assembly), what)
+        rows = coordinates if what == "a" else known.row_names()
+        of = (
+            [*map(_acceleration, coordinates.values())]
+            if what == "a"
+            else _duals(known.row_units())
+        )
+        return Labelled(what, getattr(state, what), tuple(rows), (), tuple(of))
+    found = state.matrices(assembly)
+    more = [coordinates.get(name.removeprefix("set."), "m") for name in found.rows]
+    return _of(found, what, list(coordinates.values()), [*known.row_units(), *more[known.n_rows :]])
 
 
-def _of(found: Matrices, what: str) -> Labelled:
+def _of(found: Matrices, what: str, q: list[str], phi: list[str]) -> Labelled:
+    """A matrix with its names; ``q`` and ``phi`` are the units of the coordinates and of Φ."""
     rows, columns = found.rows, found.columns
+    motion, forces = [*map(_acceleration, q)], _duals(q)
     if what == "rhs":
-        return Labelled(what, np.concatenate([found.Q, found.gamma]), (*columns, *rows), ())
+        of = (*forces, *map(_acceleration, phi))
+        return Labelled(what, np.concatenate([found.Q, found.gamma]), (*columns, *rows), (), of)
     values = getattr(found, what)
     if what == "kkt":
         labels = (*columns, *(f"λ {row}" for row in rows))
-        return Labelled(what, values, (*columns, *rows), labels)
-    if what in ("M", "Phi_q"):
-        return Labelled(what, values, columns if what == "M" else rows, columns)
-    return Labelled(what, values, columns if what == "Q" else rows, ())
+        of = (*forces, *map(_acceleration, phi))
+        return Labelled(what, values, (*columns, *rows), labels, of, (*motion, *_duals(phi)))
+    if what == "M":
+        return Labelled(what, values, columns, columns, tuple(forces), tuple(motion))
+    if what == "Phi_q":
+        return Labelled(what, values, rows, columns, tuple(phi), tuple(q))
+    if what == "Q":
+        return Labelled(what, values, columns, (), tuple(forces))
+    suffix = {"Phi": "", "nu": "/s", "gamma": "/s^2"}[what]
+    return Labelled(what, values, rows, (), tuple(f"{unit}{suffix}" for unit in phi))
+
+
+def _acceleration(unit: str) -> str:
+    return f"{unit}/s^2"
+
+
+def _duals(coordinates: Iterable[str]) -> list[str]:
+    """Units of forces: their work on a coordinate is an energy."""
+    return [FORCE_UNITS.get(unit, f"J/{unit}") for unit in coordinates]
 
 
 def _refuse_foreign(model: Model | CompiledModel, state: State) -> None:

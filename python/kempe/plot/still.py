@@ -51,7 +51,7 @@ def drawn_and_left_out(
 ) -> tuple[list[Panel], str]:
     """The panels that show something, and a sentence about the others.
 
-    Constants are drawn if the page has nothing else.
+    Constants are drawn if the page has nothing else, and of several that are zero the first one.
 
     Args:
         panels: the panels of a page.
@@ -60,11 +60,12 @@ def drawn_and_left_out(
     """
     kept: list[Panel] = []
     zero, constant, equal = list[str](), list[str](), list[str]()
-    still: list[Panel] = []
+    still, flat = list[Panel](), list[Panel]()
     for panel in panels:
         twin = next((other for other in kept if _same(panel, other)), None)
         if panel.peak <= _NOTHING * largest.get(panel.unit, 0.0):
             zero.append(panel.name)
+            flat.append(panel)
         elif all(_is_constant(curve.values) for curve in panel.curves):
             unit = fixed.get(panel.unit) or scale(panel.unit, panel.peak)
             value = f"{sum(panel.span) / 2.0 / unit.divisor:.4g}".replace("-", "−")
@@ -76,6 +77,8 @@ def drawn_and_left_out(
             kept.append(panel)
     if not kept:
         kept, constant = still, []
+    if not kept:
+        kept, zero = flat[:1], zero[1:]
     families = (("zero", zero), ("constant", constant))
     told = [f"{', '.join(names)} ({word})" for word, names in families if names]
     return kept, f"Not drawn: {'; '.join([*told, *equal])}." if told or equal else ""

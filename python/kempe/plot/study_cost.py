@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from kempe.display_units import display
+from kempe.draw.units import axis_label
 from kempe.plot import style
 from kempe.plot.legend import beside
 
@@ -34,15 +36,16 @@ def work_precision(study: Study, ax: Axes) -> None:
         way = outcome.variant
         if not outcome.diverged and outcome.position_error > 0.0:
             curves.setdefault((way.scheme, way.gains), []).append(outcome)
+    metre = display("m")
     for k, ((scheme, gains), outcomes) in enumerate(curves.items()):
         ordered = sorted(outcomes, key=lambda o: o.position_error)
         ax.loglog(
-            [o.position_error for o in ordered],
+            [o.position_error / metre.divisor for o in ordered],
             [o.evaluations for o in ordered],
             **style.marked_line(k),
             label=f"{scheme}, {gains}",
         )
-    ax.set_xlabel("largest position error / m")
+    ax.set_xlabel(axis_label("largest position error", [metre.symbol]))
     ax.set_ylabel("evaluations of the accelerations / 1")
     ax.set_title("Work and precision", loc="left")
     ax.grid(**_GRID)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.arrays import Floats
+from kempe.display_units import display
 from kempe.draw.items import PIN, arrow_head, fill, line, on_body
 from kempe.draw.scene import scene
 from kempe.plot import style
@@ -16,12 +17,15 @@ from kempe.plot.picture import drawn, paint
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from kempe.compiled import ConstraintInfo
     from kempe.solution import Solution
     from kempe.state import State
     from kempe.studies import Study
 
 #: The largest gap is drawn about this long, as a share of the drawing.
 LENGTH = 0.25
+#: A gap below this share of the largest one is not drawn.
+_CLOSED = 1e-3
 _WIDTH, _HEAD = 2.2, 10.0  # of an arrow, points
 
 
@@ -46,12 +50,15 @@ def gaps(study: Study, ax: Axes) -> None:
     begin, along = joint_gaps(state)
     shown = scene(state)
     low, high = np.array(shown["bounds"]).reshape(2, 2)
-    factor = magnification(float(np.hypot(*along.T).max(initial=0.0)), float((high - low).max()))
-    when = f"t = {float(state.t):.3g} s, gaps magnified {factor:g} times"
+    largest = float(np.hypot(*along.T).max(initial=0.0))
+    factor = magnification(largest, float((high - low).max()))
+    time, unit = display("s"), display("m", "mm")
+    instant = f"t = {float(state.t) / time.divisor:.3g} {time.symbol}"
+    when = f"{instant}, gaps magnified {factor:g} times"
     made = drawn(ax, shown, style.verbatim(f"{outcome.variant.name}\n{when}"))
     for name, point, gap in zip(state.compiled.joints, begin, along, strict=True):
         length = float(np.hypot(*gap))
-        if length == 0.0:
+        if length <= _CLOSED * largest:
             continue
         angle = float(np.arctan2(gap[1], gap[0]))
         frame = on_body(0, [float(x) for x in point], turn=angle)
@@ -62,36 +69,41 @@ def gaps(study: Study, ax: Axes) -> None:
         made.add([fill(name, frame, edge, "paper", layer=PIN)])
         made.add([line(name, frame, shaft, "reaction", _WIDTH, layer=PIN)])
         made.add([fill(name, frame, head, "reaction", layer=PIN)])
-        made.name("joint", f"{name}: {1e3 * length:.3g} mm", frame)
+        made.name("joint", f"{name}: {length / unit.divisor:.3g} {unit.symbol}", frame)
     paint(ax, made)
 
 
 def joint_gaps(state: State) -> tuple[Floats, Floats]:
     """Points of the joints on body i, and from there to the points on body j, (n, 2) each, m.
 
-    Along a slide the points may be apart; only what the joint forbids counts as its gap.
+    Along a slide the points may be apart; only what the joint forbids counts as its gap, from the
+    point of the rail beside that of body j.
     """
     begin, along = [], []
     for info in state.compiled.joints.values():
         at_i = state.body(info.i).at(info.point_i).position
-        gap = state.body(info.j).at(info.point_j).position - at_i
-        units = [unit for _, unit in info.equations]
-        if units.count("m") < 2:  # a slide: the normal distance is Φ itself
-            gap = _across(gap, float(state.constraint(info.name).residual[0]))
-        begin.append(at_i)
+        at_j = state.body(info.j).at(info.point_j).position
+        gap = _forbidden(state, info, at_j - at_i)
+        begin.append(at_j - gap if _is_slide(info) else at_i)
         along.append(gap)
     return np.array(begin).reshape(-1, 2), np.array(along).reshape(-1, 2)
 
 
-def _across(apart: Floats, normal: float) -> Floats:
-    """The part of a distance that is normal to the slide, from its known length."""
-    length = float(np.hypot(*apart))
-    if length <= abs(normal):
-        return apart
-    sine = normal / length
-    cosine = math.sqrt(1.0 - sine**2)
-    direction = np.array([[cosine, sine], [-sine, cosine]]) @ (apart / length)
-    return normal * np.array([-direction[1], direction[0]])
+def _forbidden(state: State, info: ConstraintInfo, apart: Floats) -> Floats:
+    """The part of the distance of the joint's points that its equations do not allow."""
+    if _is_slide(info):  # across the rail
+        angle = float(state.body(info.i).angle) + info.axis_i
+        normal = np.array([-np.sin(angle), np.cos(angle)])
+        return normal * float(normal @ apart)
+    if [name for name, _ in info.equations] == ["length"]:  # Φ = (d² - l²) / 2l gives the length l
+        phi, d = float(state.constraint(info.name).residual[0]), float(np.hypot(*apart))
+        excess: Floats = (d - (math.hypot(phi, d) - phi)) * apart / (d or 1.0)
+        return excess
+    return apart
+
+
+def _is_slide(info: ConstraintInfo) -> bool:
+    return any(name == "normal" for name, _ in info.equations)
 
 
 def magnification(largest: float, size: float) -> float:

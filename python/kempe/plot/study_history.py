@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.arrays import Floats
+from kempe.display_units import display
+from kempe.draw.units import axis_label
 from kempe.plot import style
 from kempe.plot.envelope import BINS, envelope, logarithmic
 from kempe.plot.legend import beside
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
     from kempe.studies import Outcome, Study
 
-#: Least value of the logarithmic axis, m.
+#: Least value of the logarithmic axis, in its unit.
 FLOOR = 1e-16
 _DECADES = 18
 #: Distance of the markers of a curve, as a share of its length.
@@ -40,8 +42,9 @@ def error_history(study: Study, ax: Axes) -> None:
     if reference is None:
         return
 
-    _draw(ax, _shown(study), lambda solution: differences(solution, reference)[1])
-    ax.set_ylabel("position error / m")
+    metre = display("m")
+    _draw(ax, _shown(study), lambda sol: differences(sol, reference)[1] / metre.divisor)
+    ax.set_ylabel(axis_label("position error", [metre.symbol]))
     title = f"Difference from {study.reference.variant.name}"
     ax.set_title(style.verbatim(title), loc="left")
 
@@ -60,11 +63,9 @@ def _draw(ax: Axes, outcomes: Sequence[Outcome], value: Callable[[Solution], Flo
         return
     time = TimeAxis.of(np.concatenate([solution.t for solution in solved]))
     drawn: list[Floats] = []
-    for k, outcome in enumerate(outcomes):
-        if outcome.solution is None:
-            continue
-        y = np.maximum(value(outcome.solution), FLOOR)
-        t, _, y = envelope(outcome.solution.t[: len(y)] / time.unit.divisor, y)
+    for k, (outcome, solution) in enumerate(zip(outcomes, solved, strict=True)):
+        y = np.maximum(value(solution), FLOOR)
+        t, _, y = envelope(solution.t[: len(y)] / time.unit.divisor, y)
         # The markers of different curves are at different places.
         marks = (_MARKED * (k % 7) / 7.0, _MARKED)
         ax.plot(t, y, **style.marked_line(k), markevery=marks, label=outcome.variant.gains)

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe.display_units import chosen_for, display
+
 if TYPE_CHECKING:
     from kempe.studies.outcome import Outcome, Outcomes
 
@@ -34,7 +36,7 @@ def _stabilization(study: Outcomes) -> Iterator[str]:
     for number, group in by_number:
         outcomes = [o for o in group if not o.diverged]
         told = [
-            f"{o.variant.gains} {_length(o.residual)} in {o.steps} steps"
+            f"{o.variant.gains} {length(o.residual)} in {o.steps} steps"
             for o in sorted(outcomes, key=lambda o: o.residual)
         ]
         if told:
@@ -49,8 +51,8 @@ def _sweep(study: Outcomes) -> Iterator[str]:
     best = min(outcomes, key=lambda o: o.position_error)
     yield (
         f"From β = {low.variant.beta:g} to {high.variant.beta:g} at the same tolerance the steps "
-        f"change from {low.steps} to {high.steps} and the residual from {_length(low.residual)} to "
-        f"{_length(high.residual)}; the smallest position error, {_length(best.position_error)}, "
+        f"change from {low.steps} to {high.steps} and the residual from {length(low.residual)} to "
+        f"{length(high.residual)}; the smallest position error, {length(best.position_error)}, "
         f"is that of β = {best.variant.beta:g}."
     )
     stiff = [(a, b) for a, b in pairwise(outcomes) if a.variant.beta >= 200.0]
@@ -71,7 +73,7 @@ def _steps(study: Outcomes) -> Iterator[str]:
         verb = "beats" if b.position_error < a.position_error else "loses to"
         yield (
             f"With constant steps of {h:g} s, {b.variant.gains} {verb} {a.variant.gains}: position "
-            f"error {_length(b.position_error)} against {_length(a.position_error)}."
+            f"error {length(b.position_error)} against {length(a.position_error)}."
         )
 
 
@@ -86,7 +88,7 @@ def _divergence(study: Outcomes) -> Iterator[str]:
     for o in study.outcomes:
         if not o.diverged:
             continue
-        when = "" if o.diverged_at is None else f" at t = {o.diverged_at:.3g} s"
+        when = instant(o, 3)
         told = ""
         if o.variant.scheme == "RK4":
             factor = growth(o.variant.alpha, o.variant.beta, o.variant.number)
@@ -125,18 +127,29 @@ def _logarithms(points: Iterable[tuple[float, float]]) -> tuple[list[float], lis
 
 def _cheapest(study: Outcomes) -> Iterator[str]:
     """The fewest evaluations that keep every position within a millimetre and a micrometre."""
-    for bound, told in ((1e-3, "1 mm"), (1e-6, "1 µm")):
+    for bound in (1e-3, 1e-6):
         good = [o for o in study.outcomes[1:] if o.position_error <= bound]
         if good:
             best = min(good, key=lambda o: o.evaluations)
             yield (
-                f"The cheapest variant with every position within {told} is {best.variant.name}: "
-                f"{best.evaluations} evaluations."
+                f"The cheapest variant with every position within {length(bound)} is "
+                f"{best.variant.name}: {best.evaluations} evaluations."
             )
 
 
-def _length(value: float) -> str:
-    """A length with a unit that suits it."""
+def instant(outcome: Outcome, digits: int) -> str:
+    """`` at t = 0.15 s`` of a divergence; empty if its time is unknown."""
+    if outcome.diverged_at is None:
+        return ""
+    time = display("s")
+    return f" at t = {outcome.diverged_at / time.divisor:.{digits}g} {time.symbol}"
+
+
+def length(value: float) -> str:
+    """A length in the chosen display unit, or in one that suits it."""
+    chosen = chosen_for("m")
+    if chosen is not None:
+        return f"{value / chosen.divisor:.3g} {chosen.symbol}"
     for unit, scale in (("m", 1.0), ("mm", 1e-3), ("µm", 1e-6)):
         if value >= scale:
             return f"{value / scale:.3g} {unit}"

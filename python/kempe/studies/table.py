@@ -10,33 +10,50 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from kempe import files
-from kempe.studies.findings import findings
+from kempe.display_units import chosen_for, display, heading
+from kempe.studies.findings import findings, instant
 from kempe.studies.variants import GROUPS
 
 if TYPE_CHECKING:
     from kempe.studies.outcome import Outcome, Outcomes
 
-HEADER = (
-    "variant",
-    "angle error / rad",
-    "position error / m",
-    "residual / m",
-    "energy error",
-    "steps",
-    "evaluations",
-    "time / ms",
-)
+#: SI units of the numbers in the CSV file; the others have none.
+_UNITS = {
+    "step": "s",
+    "diverged_at": "s",
+    "angle_error": "rad",
+    "position_error": "m",
+    "residual": "m",
+    "residual_at": "s",
+    "seconds": "s",
+}
+
+
+def header() -> tuple[str, ...]:
+    """Heads of the columns, with their display units."""
+    return (
+        "variant",
+        heading("angle error", "rad"),
+        heading("position error", "m"),
+        heading("residual", "m"),
+        "energy error",
+        "steps",
+        "evaluations",
+        heading("time", "s", "ms"),
+    )
 
 
 def cells(outcome: Outcome) -> tuple[str, ...]:
     """One row; where the variant diverged, when and why."""
-    cost = (str(outcome.steps), str(outcome.evaluations), f"{1e3 * outcome.seconds:.3g}")
+    seconds = outcome.seconds / display("s", "ms").divisor
+    cost = (str(outcome.steps), str(outcome.evaluations), f"{seconds:.3g}")
     if outcome.diverged:
         return (outcome.variant.name, fate(outcome), "", "", "", *cost)
+    metre = display("m").divisor
     measured = (
-        outcome.angle_error,
-        outcome.position_error,
-        outcome.residual,
+        outcome.angle_error / display("rad").divisor,
+        outcome.position_error / metre,
+        outcome.residual / metre,
         outcome.imbalance,
     )
     return (outcome.variant.name, *(f"{value:.2g}" for value in measured), *cost)
@@ -44,8 +61,7 @@ def cells(outcome: Outcome) -> tuple[str, ...]:
 
 def fate(outcome: Outcome) -> str:
     """``diverged at t = 0.15 s: why``."""
-    when = "" if outcome.diverged_at is None else f" at t = {outcome.diverged_at:.4g} s"
-    return f"diverged{when}: {outcome.reason}"
+    return f"diverged{instant(outcome, 4)}: {outcome.reason}"
 
 
 def markdown(study: Outcomes) -> str:
@@ -56,7 +72,7 @@ def markdown(study: Outcomes) -> str:
         if not rows:
             continue
         lines += ["", f"## {title[0].upper()}{title[1:]}", ""]
-        lines += [_row(HEADER), _row(["---", *["---:"] * (len(HEADER) - 1)])]
+        lines += [_row(header()), _row(["---", *["---:"] * (len(header()) - 1)])]
         lines += [_row(row) for row in rows]
     return "\n".join(lines)
 
@@ -104,13 +120,28 @@ def _record(outcome: Outcome) -> dict[str, Any]:
 
 
 def csv_text(study: Outcomes) -> str:
-    """One line for each variant; empty where there is no number."""
-    rows = records(study)
+    """One line for each variant; empty where there is no number.
+
+    The numbers have display units; the header names those that were chosen.
+    """
     out = io.StringIO()
+    rows = [_in_display_units(record) for record in records(study)]
     writer = csv.DictWriter(out, list(rows[0]), lineterminator="\n")
     writer.writeheader()
     writer.writerows(rows)
     return out.getvalue()
+
+
+def _in_display_units(record: dict[str, Any]) -> dict[str, Any]:
+    found = {}
+    for name, value in record.items():
+        chosen = chosen_for(_UNITS.get(name, ""))
+        if chosen is None:
+            found[name] = value
+        else:
+            converted = None if value is None else value / chosen.divisor
+            found[f"{name} [{chosen.unit}]"] = converted
+    return found
 
 
 def json_text(study: Outcomes) -> str:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Generic, Literal, cast
 
+import numpy as np
+
 from kempe.arrays import Floats, fixed, scalar
 from kempe.compiled import ForceInfo
 from kempe.names import one_of
@@ -72,6 +74,16 @@ class ForceView(Generic[S]):
             ModelError: ``on`` or ``part`` has another value.
         """
         return cast(S, scalar(self._action(on, "global", part)[..., 2]))
+
+    @property
+    def power(self) -> S:
+        """Power of its forces and torques on its bodies, (n_t,), W; negative for a damper."""
+        total = np.zeros(np.shape(self._motion.t))
+        for on in dict.fromkeys(self.info.bodies):
+            fx, fy, torque = np.moveaxis(self._action(on, "global", None), -1, 0)
+            body = self._motion.body(on)
+            total = total + fx * body.vx + fy * body.vy + torque * body.omega
+        return cast(S, scalar(total))
 
     def _action(self, on: str, frame: str, part: str | None) -> Floats:
         if part is not None:

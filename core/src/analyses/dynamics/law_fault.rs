@@ -1,6 +1,6 @@
 //! The law without a value, where a run fails because the motion is not finite.
 
-use crate::elements::{catalogue, Group, Shape};
+use crate::elements::{catalogue, Group};
 use crate::equations::at;
 use crate::equations::kinematics::Motions;
 use crate::expression::Tape;
@@ -43,27 +43,22 @@ fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<String>
     let constraints = model.constraints.iter().filter_map(|item| {
         let mut all = Vec::new();
         item.law.as_ref()?.map(&mut |tape| all.push(finite(tape)));
-        Some((item.group, item.element.kind(), &item.name, all))
+        Some((item.group, item.element.kind(), item.element.scalars(), &item.name, all))
     });
     let forces = model.forces.iter().filter_map(|item| {
         let mut all = Vec::new();
         item.law.as_ref()?.map(&mut |tape| all.push(finite(tape)));
-        Some((Group::Forces, item.element.kind(), &item.name, all))
+        Some((Group::Forces, item.element.kind(), item.element.scalars(), &item.name, all))
     });
-    constraints.chain(forces).find_map(|(group, kind, name, finite)| {
+    constraints.chain(forces).find_map(|(group, kind, scalars, name, finite)| {
         let k = finite.iter().position(|finite| !finite)?;
-        Some(format!("{} of {name}", fields(group, kind).get(k)?))
+        Some(format!("{} of {name}", fields(group, kind, &scalars).get(k)?))
     })
 }
 
-/// The name of the field of each formula of an element, in the order of its declaration.
-fn fields(group: Group, kind: &str) -> Vec<&'static str> {
+/// The name of the field of each formula of an element with this number of scalars in each field.
+fn fields(group: Group, kind: &str, scalars: &[usize]) -> Vec<&'static str> {
     let declared = catalogue().into_iter().find(|(g, table)| *g == group && table.name == kind);
     let fields = declared.map(|(_, table)| table.fields).unwrap_or_default();
-    let formulas = |shape| match shape {
-        Shape::Number | Shape::Law => 1,
-        Shape::Pair | Shape::Point => 2,
-        _ => 0,
-    };
-    fields.iter().flat_map(|field| vec![field.name; formulas(field.shape)]).collect()
+    fields.iter().zip(scalars).flat_map(|(field, count)| vec![field.name; *count]).collect()
 }

@@ -8,6 +8,7 @@ use super::constraint_violation::{ADRIFT, APART};
 use super::failure::{Failure, Reason};
 use super::options::Options;
 use super::stabilizations::Stabilization;
+use crate::elements::Group;
 use crate::equations::augmented::NearSingular;
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, Gains, Workspace};
@@ -120,7 +121,7 @@ impl Level<'_> {
         let own = model.layout.constraints[model.layout.owner(row).0].rows.clone();
         let alike = item.equations.iter().zip(&self.rows[own]).filter(|(e, _)| e.unit == unit);
         let gap = alike.map(|(_, x)| x * x).sum::<f64>().sqrt();
-        let (what, per) = (if item.driven { "driver" } else { "joint" }, self.per);
+        let (what, per) = (if item.group == Group::Drivers { "driver" } else { "joint" }, self.per);
         let (verb, most) = (if per.is_empty() { "is open by" } else { "opens at" }, self.most[row]);
         let message = format!(
             "the state does not meet the constraints at t = {t:.6} s: {what} {} {verb} {gap:.3e} {unit}{per}; at \

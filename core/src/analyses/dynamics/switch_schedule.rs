@@ -159,7 +159,7 @@ impl Jump {
     /// In the words of a message.
     pub fn describe(self, model: &Model, t: f64) -> String {
         let item = &model.constraints[self.constraint];
-        let what = if item.driven { "driver" } else { "joint" };
+        let what = item.group.singular();
         let (of, per) = if self.position { ("", "") } else { ("rate of the ", "/s") };
         let unit = item.equations[0].unit;
         let [before, after] = self.values;

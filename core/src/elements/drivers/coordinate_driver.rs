@@ -1,18 +1,20 @@
-//! Coordinate driver (Haug 3.5.1, 3.5.2): a coordinate of a body follows a law.
+//! Coordinate driver (Haug 3.5.1, 3.5.2): a position quantity follows a law.
 //!
-//! Φ = c - value(t), with c one of x, y, φ, measured in the frame of ground: the reaction of the driver
-//! acts on ground. The law may use t and the positions of other bodies.
+//! Φ = c - value(t). c is a coordinate x, y or φ of a body, measured from ground, or a position quantity of a point
+//! or of an element: the angle of a revolute joint, the displacement of a slide. The effort -λ acts between the two
+//! bodies of the quantity. The law may use t and the positions of other bodies.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Coordinate, Equation, Fixes, Joint, SceneSymbol,
+    element, At, Attachment, BodyId, Equation, Fixes, Followed, Joint, SceneSymbol,
 };
-use crate::math::{Local, Real};
+use crate::math::Real;
 
 element! {
-    /// Coordinate driver: x, y or angle of a body is a given function of time, Φ = coordinate - value
-    /// (Haug 3.5.1, 3.5.2). The driving force or torque on the body is -λ.
+    /// Coordinate driver: a position quantity is a given function of time, Φ = coordinate - value
+    /// (Haug 3.5.1, 3.5.2). The driving force or torque on body j of the quantity is -λ, on body i +λ; the
+    /// coordinates of a body are measured from ground.
     CoordinateDriver, "coordinate_driver" {
-        /// Driven coordinate, as `body.x`, `body.y` or `body.angle`.
+        /// Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`, `joint.angle`, `joint.displacement` and so on.
         coordinate: coordinate,
         /// Its value, m or rad; may use `t` and the positions of other bodies.
         value: law [m|rad],
@@ -21,34 +23,30 @@ element! {
 
 impl Joint for CoordinateDriver {
     fn bodies<S>(e: &CoordinateDriver<S>) -> Vec<BodyId> {
-        vec![BodyId::GROUND, e.coordinate.body]
+        e.coordinate.bodies().into()
     }
 
     fn equations<S>(e: &CoordinateDriver<S>) -> Vec<Equation> {
-        let coordinate = e.coordinate.coordinate;
-        vec![Equation { name: coordinate.name(), unit: coordinate.unit() }]
+        let (name, unit) = e.coordinate.label();
+        vec![Equation { name, unit }]
     }
 
     fn residual<S: Real>(e: &CoordinateDriver<S>, at: &At<'_, S>, phi: &mut [S]) {
-        let (i, j) = (at.i(), at.j());
-        let from_ground = i.rotation.inverse(j.r - i.r);
-        let measured = match e.coordinate.coordinate {
-            Coordinate::X | Coordinate::Vx => from_ground.x,
-            Coordinate::Y | Coordinate::Vy => from_ground.y,
-            Coordinate::Angle | Coordinate::Omega => j.angle - i.angle,
-        };
-        phi[0] = measured - e.value;
+        phi[0] = e.coordinate.value(at.i(), at.j()) - e.value;
     }
 
     fn symbols(e: &CoordinateDriver) -> Vec<SceneSymbol> {
-        vec![SceneSymbol::drive(e.coordinate)]
+        vec![SceneSymbol::drive(&e.coordinate)]
     }
 
-    fn attachment<S: Real>(_: &CoordinateDriver<S>, _: usize) -> Attachment<S> {
-        Attachment { s: Local::zero(), axis: S::zero() }
+    fn attachment<S: Real>(e: &CoordinateDriver<S>, body: usize) -> Attachment<S> {
+        e.coordinate.attachment(body)
     }
 
     fn fixes<S: Clone>(e: &CoordinateDriver<S>) -> Vec<Fixes<S>> {
-        vec![Fixes::Coordinate(e.coordinate, e.value.clone())]
+        match &e.coordinate {
+            Followed::Coordinate(of) => vec![Fixes::Coordinate(*of, e.value.clone())],
+            Followed::Quantity(_) => Vec::new(),
+        }
     }
 }

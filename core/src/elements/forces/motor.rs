@@ -11,8 +11,8 @@
 //! power of the torque. All states.
 
 use crate::elements::{
-    element, BodyId, Force, Mark, Nature, OwnPowers, OwnState, Part, SceneSymbol, Situation,
-    Wrenches,
+    element, measure, At, BodyId, Force, Mark, Measured, Nature, OwnPowers, OwnState, Part,
+    SceneSymbol, Situation, Wrenches,
 };
 use crate::math::{Real, Wrench};
 
@@ -50,10 +50,15 @@ fn current<S: Real>(e: &Motor<S>, at: &Situation<'_, S>) -> S {
 }
 
 impl Force for Motor {
+    const MEASURED: &'static [Measured] = &[Measured::ANGLE];
     const PARTS: &'static [Part] = &[Part { name: "drive", nature: Nature::Exchanged }];
 
     fn bodies<S>(e: &Motor<S>) -> Vec<BodyId> {
         vec![e.i, e.j]
+    }
+
+    fn measure<S: Real>(_: &Motor<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = measure::turned(at);
     }
 
     fn action<S: Real>(e: &Motor<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {

@@ -9,7 +9,8 @@
 //! passage. All states are allowed, and the force is finite in all of them.
 
 use crate::elements::{
-    element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation, Wrenches,
+    element, measure, At, BodyId, Force, Mark, Measured, Nature, Part, SceneSymbol, Situation,
+    Wrenches,
 };
 use crate::math::{Local, Real, Vec2, Wrench};
 
@@ -40,6 +41,7 @@ fn line<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>) -> (Vec2<S>, S, S) 
 }
 
 impl Force for SpringDamper {
+    const MEASURED: &'static [Measured] = &[Measured::LENGTH];
     const PARTS: &'static [Part] = &[
         Part { name: "stiffness", nature: Nature::Conservative },
         Part { name: "damping", nature: Nature::Dissipative },
@@ -47,6 +49,10 @@ impl Force for SpringDamper {
 
     fn bodies<S>(e: &SpringDamper<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
+    }
+
+    fn measure<S: Real>(e: &SpringDamper<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = measure::length(at, &e.i, &e.j);
     }
 
     fn symbols(e: &SpringDamper) -> Vec<SceneSymbol> {

@@ -4,7 +4,8 @@
 //! applied. All states are allowed.
 
 use crate::elements::{
-    element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation, Wrenches,
+    element, measure, At, BodyId, Force, Mark, Measured, Nature, Part, SceneSymbol, Situation,
+    Wrenches,
 };
 use crate::math::{Real, Wrench};
 
@@ -21,10 +22,15 @@ element! {
 }
 
 impl Force for Torque {
+    const MEASURED: &'static [Measured] = &[Measured::ANGLE];
     const PARTS: &'static [Part] = &[Part { name: "applied", nature: Nature::Applied }];
 
     fn bodies<S>(e: &Torque<S>) -> Vec<BodyId> {
         vec![e.i, e.j]
+    }
+
+    fn measure<S: Real>(_: &Torque<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = measure::turned(at);
     }
 
     fn symbols(e: &Torque) -> Vec<SceneSymbol> {

@@ -4,7 +4,8 @@
 //! V = ½ k (θ - θ₀)². All real θ are allowed.
 
 use crate::elements::{
-    element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation, Wrenches,
+    element, measure, At, BodyId, Force, Mark, Measured, Nature, Part, SceneSymbol, Situation,
+    Wrenches,
 };
 use crate::math::{Real, Wrench};
 
@@ -26,6 +27,7 @@ element! {
 }
 
 impl Force for TorsionSpring {
+    const MEASURED: &'static [Measured] = &[Measured::ANGLE];
     const PARTS: &'static [Part] = &[
         Part { name: "stiffness", nature: Nature::Conservative },
         Part { name: "damping", nature: Nature::Dissipative },
@@ -33,6 +35,10 @@ impl Force for TorsionSpring {
 
     fn bodies<S>(e: &TorsionSpring<S>) -> Vec<BodyId> {
         vec![e.i, e.j]
+    }
+
+    fn measure<S: Real>(_: &TorsionSpring<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = measure::turned(at);
     }
 
     fn symbols(e: &TorsionSpring) -> Vec<SceneSymbol> {

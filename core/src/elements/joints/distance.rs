@@ -7,7 +7,8 @@
 //! the points meet, Φ_q is zero. l > 0.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Moving, SceneSymbol,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Measured,
+    Moving, SceneSymbol,
 };
 use crate::math::{Real, Vec2};
 
@@ -20,12 +21,14 @@ element! {
         i: point,
         /// Point of body j, as `body.point`.
         j: point,
-        /// Length of the rod.
-        length: number [m],
+        /// Length of the rod; may use `t` and positions, as the length of a cylinder does.
+        length: law [m],
     }
 }
 
 impl Joint for Distance {
+    const MEASURED: &'static [Measured] = &[Measured::LENGTH];
+
     fn bodies<S>(e: &Distance<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
     }
@@ -36,6 +39,10 @@ impl Joint for Distance {
 
     fn residual<S: Real>(e: &Distance<S>, at: &At<'_, S>, phi: &mut [S]) {
         phi[0] = excess(e, at.j().point(e.j.s) - at.i().point(e.i.s));
+    }
+
+    fn measure<S: Real>(e: &Distance<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = measure::length(at, &e.i, &e.j);
     }
 
     fn symbols(e: &Distance) -> Vec<SceneSymbol> {

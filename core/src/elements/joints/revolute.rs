@@ -3,7 +3,8 @@
 //! Φ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ = 0. Two equations, no restriction of the domain.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Moving, SceneSymbol,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Measured,
+    Moving, SceneSymbol,
 };
 use crate::math::Real;
 
@@ -21,6 +22,7 @@ element! {
 }
 
 impl Joint for Revolute {
+    const MEASURED: &'static [Measured] = &[Measured::ANGLE];
     const CONSTANT_COLUMNS: bool = true;
 
     fn bodies<S>(e: &Revolute<S>) -> Vec<BodyId> {
@@ -34,6 +36,10 @@ impl Joint for Revolute {
     fn residual<S: Real>(e: &Revolute<S>, at: &At<'_, S>, phi: &mut [S]) {
         let gap = at.j().point(e.j.s) - at.i().point(e.i.s);
         phi.copy_from_slice(&[gap.x, gap.y]);
+    }
+
+    fn measure<S: Real>(_: &Revolute<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = measure::turned(at);
     }
 
     fn symbols(e: &Revolute) -> Vec<SceneSymbol> {

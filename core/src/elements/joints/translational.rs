@@ -8,8 +8,8 @@
 //! positions that differ by whole turns of φⱼ - φᵢ.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Moving, SceneSymbol,
-    SymbolEnd,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Measured,
+    Moving, SceneSymbol, SymbolEnd,
 };
 use crate::math::{Local, Pose, Real, Rotation, Vec2};
 
@@ -36,6 +36,8 @@ fn directions<S: Real>(e: &Translational<S>, i: &Pose<S>) -> (Vec2<S>, Vec2<S>) 
 }
 
 impl Joint for Translational {
+    const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT];
+
     fn bodies<S>(e: &Translational<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
     }
@@ -48,6 +50,10 @@ impl Joint for Translational {
         let (_, n) = directions(e, at.i());
         let apart = at.j().point(e.j.s) - at.i().point(e.i.s);
         phi.copy_from_slice(&[n.dot(apart), turned(e, at.i(), at.j())]);
+    }
+
+    fn measure<S: Real>(e: &Translational<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = measure::along(at, e.axes[0], &e.i, &e.j);
     }
 
     fn symbols(e: &Translational) -> Vec<SceneSymbol> {

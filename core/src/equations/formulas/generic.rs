@@ -4,7 +4,8 @@ use super::names::{function, internal, point, BodyName, Coordinates};
 use super::scalars::{scalars, Scalar};
 use super::{print, residual, Formulas};
 use crate::elements::{
-    BodyId, Constraint, Coordinate, CoordinateOf, Field, Group, JointId, PointOn, Source,
+    BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Followed, Group, JointId,
+    PointOn, Source,
 };
 use crate::expression::Tape;
 use crate::math::{Local, Pose};
@@ -21,7 +22,7 @@ pub fn of_type(group: Group, kind: &str, form: Form) -> Option<Formulas> {
 pub fn of_element<T>(element: &Constraint<T>, form: Form) -> Formulas {
     record(|record| {
         let t = record.time();
-        let mut fields = symbols(record, element.kind()).into_iter();
+        let mut fields = symbols(record, element).into_iter();
         let element = element.map(&mut |_| fields.next().unwrap_or(t));
         let bodies: Vec<(BodyId, Coordinates)> = element
             .bodies()
@@ -42,9 +43,9 @@ pub fn of_element<T>(element: &Constraint<T>, form: Form) -> Formulas {
 }
 
 /// A symbol for each scalar of an element.
-fn symbols(record: &Record, kind: &str) -> Vec<Symbolic> {
+fn symbols<T>(record: &Record, element: &Constraint<T>) -> Vec<Symbolic> {
     let mut all = Vec::new();
-    for (owner, field) in scalars(kind).into_iter().enumerate() {
+    for (owner, field) in scalars(element).into_iter().enumerate() {
         match field {
             Scalar::Point(field) => {
                 let s = point(record, &field, None, owner, [false; 2]);
@@ -53,6 +54,9 @@ fn symbols(record: &Record, kind: &str) -> Vec<Symbolic> {
             Scalar::Pair(field) => all.extend([0, 1].map(|k| side(record, &field, k))),
             Scalar::Number(field) => all.push(record.symbol(Name::field(&field))),
             Scalar::Law(field) => all.push(function(record, &field)),
+            Scalar::Laws(field, count) => {
+                all.extend((1..=count).map(|k| function(record, &format!("{field}_{k}"))));
+            }
         }
     }
     all
@@ -83,6 +87,9 @@ impl Sample {
 }
 
 impl Source for Sample {
+    fn given(&mut self, _: &Field) -> bool {
+        true
+    }
     fn body(&mut self, _: &Field) -> Option<BodyId> {
         Some(self.next_body())
     }
@@ -90,8 +97,9 @@ impl Source for Sample {
         let s = Local { x: Tape::from(0.0), y: Tape::from(0.0) };
         Some(PointOn { body: self.next_body(), s })
     }
-    fn coordinate(&mut self, _: &Field) -> Option<CoordinateOf> {
-        Some(CoordinateOf { body: self.next_body(), coordinate: Coordinate::Angle })
+    fn coordinate(&mut self, _: &Field) -> Option<Followed<Tape>> {
+        let of = CoordinateOf { body: self.next_body(), coordinate: Coordinate::Angle };
+        Some(of.into())
     }
     fn joint(&mut self, _: &Field) -> Option<JointId> {
         Some(JointId(0))
@@ -104,5 +112,17 @@ impl Source for Sample {
     }
     fn pair(&mut self, _: &Field) -> Option<[Tape; 2]> {
         Some([0.0, 0.0].map(Tape::from))
+    }
+    fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
+        self.pair(field)
+    }
+    fn laws(&mut self, field: &Field) -> Option<Vec<Tape>> {
+        self.law(field).map(|law| vec![law])
+    }
+    fn flag(&mut self, field: &Field) -> Option<bool> {
+        Some(field.default == Some(Default::Flag(true)))
+    }
+    fn word(&mut self, _: &Field, _: &[&str]) -> Option<usize> {
+        Some(0)
     }
 }

@@ -80,7 +80,7 @@ fn points(
     let mut values = Vec::new();
     element.map(&mut |tape| values.push(tape.evaluate(&reference)));
     let mut all = Vec::new();
-    for scalar in scalars(element.kind()) {
+    for scalar in scalars(element) {
         match scalar {
             Scalar::Point(field) => {
                 let label = written(&field).unwrap_or_else(|| field.clone());
@@ -91,6 +91,7 @@ fn points(
             }
             Scalar::Pair(_) => all.extend([None, None]),
             Scalar::Number(_) | Scalar::Law(_) => all.push(None),
+            Scalar::Laws(_, count) => all.extend((0..count).map(|_| None)),
         }
     }
     all

@@ -1,6 +1,6 @@
 //! The fields of an element in the order in which its scalars are visited.
 
-use crate::elements::{catalogue, Shape};
+use crate::elements::{catalogue, Constraint, Shape};
 
 /// A field that holds scalars: two for a point or a pair.
 pub(super) enum Scalar {
@@ -8,21 +8,25 @@ pub(super) enum Scalar {
     Pair(String),
     Number(String),
     Law(String),
+    /// Laws by their numbers within the field.
+    Laws(String, usize),
 }
 
-/// The fields of a type of element that hold scalars.
-pub(super) fn scalars(kind: &str) -> Vec<Scalar> {
+/// The fields of an element that hold scalars; a field that is left out holds none.
+pub(super) fn scalars<T>(element: &Constraint<T>) -> Vec<Scalar> {
     let tables = catalogue().into_iter().map(|(_, table)| table);
-    let fields = tables.filter(|table| table.name == kind).flat_map(|table| table.fields);
-    let scalar = |field: crate::elements::Field| {
+    let fields = tables.filter(|table| table.name == element.kind()).flat_map(|table| table.fields);
+    let scalar = |(field, count): (crate::elements::Field, usize)| {
         let name = field.name.to_string();
         match field.shape {
+            _ if count == 0 => None,
             Shape::Point => Some(Scalar::Point(name)),
             Shape::Pair => Some(Scalar::Pair(name)),
             Shape::Number => Some(Scalar::Number(name)),
             Shape::Law => Some(Scalar::Law(name)),
+            Shape::LawPair | Shape::Laws | Shape::Coordinate => Some(Scalar::Laws(name, count)),
             _ => None,
         }
     };
-    fields.filter_map(scalar).collect()
+    fields.zip(element.scalars()).filter_map(scalar).collect()
 }

@@ -1,0 +1,13 @@
+//! The frame of a joint on one of its bodies.
+
+use crate::math::Local;
+
+/// The joint frame on one body: its origin s′ and the angle of its x″ axis in the body frame; C of
+/// (6.6.8) is the rotation by that angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attachment<S = f64> {
+    /// Origin, m.
+    pub s: Local<S>,
+    /// Angle of x″ from the body's x axis, rad.
+    pub axis: S,
+}

@@ -1,0 +1,69 @@
+//! Position quantities of elements at a state, with their rates and accelerations.
+
+use super::kinematics::Motions;
+use crate::elements::{At, BodyId, Measured};
+use crate::math::{Jet, Lift, Pose, Real, Vec2};
+use crate::model::Model;
+
+/// An element of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementId {
+    /// A joint or driver, by its place.
+    Constraint(usize),
+    /// A force, by its place.
+    Force(usize),
+}
+
+/// The position quantities that an element offers.
+pub fn offered<S>(model: &Model<S>, id: ElementId) -> &'static [Measured] {
+    match id {
+        ElementId::Constraint(k) => model.constraints[k].element.measured(),
+        ElementId::Force(k) => model.forces[k].element.measured(),
+    }
+}
+
+/// The quantities of an element with their first and second derivatives in time, in the order of [`offered`].
+///
+/// `motions` contains positions and velocities, `a` the accelerations, shape (n_q).
+pub fn measured<S: Real>(
+    model: &Model<S>,
+    id: ElementId,
+    motions: &Motions<S>,
+    a: &[S],
+) -> Vec<Jet<S>> {
+    let mut values = vec![Jet::zero(); offered(model, id).len()];
+    let pose = |body: &BodyId| moving(model, *body, motions, a);
+    match id {
+        ElementId::Constraint(k) => {
+            let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
+            let bodies: Vec<_> = item.bodies.iter().map(pose).collect();
+            let (own, rates) = motions.own(slots.own);
+            let columns = slots.own.range();
+            let own: Vec<_> = columns
+                .zip(own.iter().zip(rates))
+                .map(|(c, (u, rate))| Jet::new(*u, *rate, a[c]))
+                .collect();
+            let at = At { bodies: &bodies, own: &own, t: Jet::zero() };
+            item.element.map(&mut |s| Jet::lift(*s)).measure(&at, &mut values);
+        }
+        ElementId::Force(k) => {
+            let item = &model.forces[k];
+            let bodies: Vec<_> = item.bodies.iter().map(pose).collect();
+            let at = At { bodies: &bodies, own: &[], t: Jet::zero() };
+            item.element.map(&mut |s| Jet::lift(*s)).measure(&at, &mut values);
+        }
+    }
+    values
+}
+
+/// The pose of a body as a function of time to second order.
+fn moving<S: Real>(model: &Model<S>, body: BodyId, motions: &Motions<S>, a: &[S]) -> Pose<Jet<S>> {
+    let motion = &motions[body.0];
+    let (pose, twist) = (motion.pose, motion.twist);
+    let [ax, ay, alpha] = model.layout.bodies[body.0].of(a);
+    let r = Vec2::new(
+        Jet::new(pose.r.x, twist.velocity.x, ax),
+        Jet::new(pose.r.y, twist.velocity.y, ay),
+    );
+    Pose::new(r.x, r.y, Jet::new(pose.angle, twist.omega, alpha))
+}
