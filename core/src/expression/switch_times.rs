@@ -55,7 +55,7 @@ pub fn switch_times(
             return Err(TooManySwitches);
         }
     }
-    // a boundary that is only touched is no switch
+    // a boundary that is only touched is not a switch
     let ends: Vec<f64> = [&span[..1], &times, &span[1..]].concat();
     let between = ends.windows(2).map(|w| natural(tape, &switches, parameters, middle(w[0], w[1])));
     let between: Vec<Vec<f64>> = between.collect();

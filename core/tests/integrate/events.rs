@@ -93,7 +93,7 @@ fn roots_at_the_ends_belong_to_one_step() {
 fn several_functions_are_scanned_for_all_their_first_changes() {
     let band = |t: f64, middle: f64, half: f64| half - (t - middle).abs();
     let mut evaluate = |t: f64, y: &[f64], out: &mut [f64]| {
-        assert_eq!((t, y.len(), out.len()), (y[0], 1, 8));
+        assert!((t - y[0]).abs() < 1e-15 && out.len() == 8);
         out.copy_from_slice(&[
             t - 0.25,                         // one change
             band(t, -0.3, 0.15),              // two in a step

@@ -2,6 +2,7 @@
 
 use super::mechanisms::{self, close, column};
 use super::{methods, options, run};
+use kempe::analyses::dynamics::Scheme;
 use kempe::analyses::State;
 use kempe::model::Model;
 
@@ -30,17 +31,20 @@ fn a_spring_with_play_swings_with_its_period() {
         for method in methods(1e-9, 1e-3) {
             let what = format!("preload {preload}, speed {speed}, {method:?}");
             let rough = method.control().rtol > 1e-4;
+            let second_order = matches!(method, Scheme::GeneralizedAlpha(_));
             let found = run(&what, &model, &state, &options(method, 3.0 * period));
             let last = |table: &[f64]| table[table.len() - 1];
             let [angle, omega] = [last(&found.trajectory.q), last(&found.trajectory.v)];
-            let tolerance = if rough { 1e-2 } else { 3e-6 };
+            // of order 2: (w h)²/12 of the phase w t = 30 for a step of 1e-3
+            let tolerance =
+                [[3e-6, 1e-4], [1e-2, 1e-2]][usize::from(rough)][usize::from(second_order)];
             close(&what, angle, 0.0, tolerance);
             close(&what, omega, speed, tolerance);
             // twelve contacts begin and end
             let contact = |t: f64| (t - gap / speed).rem_euclid(0.5 * period);
             let times = found.trajectory.t.iter().map(|t| contact(*t));
             let begins = times.filter(|t| *t < 1e-6 || 0.5 * period - *t < 1e-6).count();
-            assert!(rough || begins >= 6, "{what}: {begins}");
+            assert!(second_order || begins >= 6, "{what}: {begins}");
         }
     }
 }
@@ -63,6 +67,7 @@ fn a_switch_on_a_reaction_is_located() {
     let (rod, wheel) = (column(&model, "rod", 2), column(&model, "wheel", 2));
     for method in methods(1e-9, 2e-3) {
         let what = format!("{method:?}");
+        let second_order = matches!(method, Scheme::GeneralizedAlpha(_));
         let rough = method.control().rtol > 1e-4;
         let found = run(&what, &model, &state, &options(method, 0.5));
         let trajectory = &found.trajectory;
@@ -71,6 +76,17 @@ fn a_switch_on_a_reaction_is_located() {
         let switched = 0.5 - omega / 3.0;
         let row = trajectory.t.iter().position(|t| (t - switched).abs() < 1e-9);
         let row = row.unwrap_or_else(|| panic!("{what}: no step ends at {switched}"));
-        close(&what, trajectory.q[row * n + rod], -angle, if rough { 1e-2 } else { 1e-5 });
+        close(
+            &what,
+            trajectory.q[row * n + rod],
+            -angle,
+            if rough {
+                1e-2
+            } else if second_order {
+                1e-4
+            } else {
+                1e-6
+            },
+        );
     }
 }

@@ -223,7 +223,7 @@ fn a_motion_that_slides_along_a_switch_is_refused_by_name() {
     }
 }
 
-/// |ω| ω and max(0, x) are continuous: rest at their switch is no failure.
+/// |ω| ω and max(0, x) are continuous: a run does not fail where it rests at their switch.
 #[test]
 fn continuous_laws_come_to_rest_at_their_switch() {
     for law in [
