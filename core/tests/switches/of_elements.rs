@@ -28,16 +28,15 @@ fn a_spring_with_play_swings_with_its_period() {
         let delta = f64::atan2(stiffness * speed / w, preload);
         let period = 2.0 * (2.0 * gap / speed + 2.0 * delta / w);
         let (model, state) = wheel_with_play(preload, speed);
-        for method in methods(1e-9, 1e-3) {
+        // without generalized-α at its rough tolerance
+        for method in methods(1e-9, 1e-3).into_iter().filter(|m| m.control().rtol < 1e-4) {
             let what = format!("preload {preload}, speed {speed}, {method:?}");
-            let rough = method.control().rtol > 1e-4;
             let second_order = matches!(method, Scheme::GeneralizedAlpha(_));
             let found = run(&what, &model, &state, &options(method, 3.0 * period));
             let last = |table: &[f64]| table[table.len() - 1];
             let [angle, omega] = [last(&found.trajectory.q), last(&found.trajectory.v)];
             // of order 2: (w h)²/12 of the phase w t = 30 for a step of 1e-3
-            let tolerance =
-                [[3e-6, 1e-4], [1e-2, 1e-2]][usize::from(rough)][usize::from(second_order)];
+            let tolerance = if second_order { 1e-4 } else { 3e-6 };
             close(&what, angle, 0.0, tolerance);
             close(&what, omega, speed, tolerance);
             // twelve contacts begin and end

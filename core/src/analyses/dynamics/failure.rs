@@ -1,8 +1,8 @@
 //! Failures of forward dynamics, in terms of the mechanism.
 
 use super::law_fault::undefined_law;
+use super::law_jump::{owner_name, Jump, SMOOTH};
 use super::run_results::Run;
-use super::switch_schedule::{owner_name, Jump, SMOOTH};
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
 use crate::integrate::Cause;
@@ -128,11 +128,9 @@ impl Failure {
                             must meet the constraints; check the size of the forces";
                 return Reason::Integration { t, message, hint }.into();
             }
-            Breakdown::Jump { constraint, position, values } => {
-                let message = Jump { constraint, position, values }.describe(model, t);
-                return Reason::Integration { t, message, hint: SMOOTH }.into();
+            Breakdown::Jump { .. } | Breakdown::Sliding(_) => {
+                return at_switch(model, t, breakdown)
             }
-            Breakdown::Sliding(switch) => return sliding(model, t, switch),
             Breakdown::NotFinite => {
                 let rest = vec![0.0; q.len()];
                 let (message, hint) = not_finite(t, undefined_law(model, (t, t), [q, &rest, &[]]));
@@ -205,8 +203,16 @@ impl Failure {
     }
 }
 
-/// The motion slides along a switch.
-fn sliding(model: &Model, t: f64, switch: usize) -> Box<Failure> {
+/// A law jumps, or the motion slides along a switch.
+fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
+    let switch = match breakdown {
+        Breakdown::Sliding(switch) => switch,
+        Breakdown::Jump { constraint, position, values } => {
+            let message = Jump { constraint, position, values }.describe(model, t);
+            return Reason::Integration { t, message, hint: SMOOTH }.into();
+        }
+        other => unreachable!("{other:?} is not at a switch"),
+    };
     let Switch { owner, law, .. } = model.switches[switch];
     let message = format!(
         "{}{} switches back and forth at t = {t:.6} s: on both sides of its condition the motion returns to it",

@@ -19,6 +19,7 @@
 //! | `constraint_violation` | joints that open too far |
 //! | `accelerations`, `energies` | quantities that follow from reported states |
 //! | `prepared`, `model_cache` | a model for many runs |
+//! | `law_jump` | laws of joints and drivers that jump |
 //! | `failure`, `clock` | errors in terms of the mechanism; wall time |
 
 mod absolute_tolerance;
@@ -32,6 +33,7 @@ mod initial_stiffness;
 mod interpolated_states;
 mod lane_batch;
 mod law_fault;
+mod law_jump;
 mod method_options;
 mod method_switching;
 mod methods;

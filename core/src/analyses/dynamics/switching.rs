@@ -8,8 +8,9 @@
 //! is released: its law then decides by itself, until it has kept one piece for [`CALM`] steps. Otherwise the motion
 //! slides along the switch, which laws cannot describe, and the run ends.
 
+use super::law_jump::Jump;
 use super::motion_ode::MotionOde;
-use super::switch_schedule::{changed_constraints, Jump, Schedule};
+use super::switch_schedule::{changed_constraints, Schedule};
 use crate::equations::forces::Acting;
 use crate::equations::kinematics::Motions;
 use crate::equations::{switches, Gains, Workspace};
