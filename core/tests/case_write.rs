@@ -99,12 +99,20 @@ impl Dice {
             Shape::Number | Shape::Law => self.formula(),
             Shape::Pair | Shape::LawPair => self.pair(),
             Shape::Laws => Value::List(vec![self.formula(), self.formula()]),
+            Shape::Terms => Value::Table(
+                (0..1 + self.roll(3)).map(|_| (self.name(used), self.formula())).collect(),
+            ),
+            Shape::Units => Value::List(vec![Value::from(self.pick(&["m", "rad"]))]),
             Shape::Points => {
                 Value::Table((0..self.roll(4)).map(|_| (self.name(used), self.pair())).collect())
             }
             Shape::Names => {
                 Value::List(vec![Value::Text(self.name(used)), Value::Text(self.name(used))])
             }
+            Shape::Numbers => {
+                Value::List((0..self.roll(5)).map(|_| Value::Number(self.number())).collect())
+            }
+            Shape::Columns => Value::List(vec![Value::from("t / s"), Value::Text(self.name(used))]),
             Shape::Flag => Value::Flag(self.roll(2) == 0),
             Shape::Count => Value::Number(1.0 + self.roll(1 << 40) as f64),
             Shape::Tolerance if self.roll(2) == 0 => self.formula(),
@@ -150,6 +158,24 @@ impl Dice {
         (0..self.roll(4)).map(|_| entry(self)).collect()
     }
 
+    /// Tables with points, or with a file.
+    fn tables(&mut self, used: &mut usize) -> Vec<Entry> {
+        let declared = kempe::model::table_fields();
+        let mut table = |k: u64| {
+            let mut fields = self.fields(&declared, false, used);
+            let file = fields.iter().any(|(key, _)| key == "file");
+            let kept = |key: &str| if file { key != "x" && key != "y" } else { key != "columns" };
+            fields.retain(|(key, _)| kept(key));
+            for key in ["x", "y"] {
+                if !file && fields.iter().all(|(known, _)| known != key) {
+                    fields.push((key.to_string(), self.value(Shape::Numbers, used)));
+                }
+            }
+            Entry { name: format!("table_{k}"), fields }
+        };
+        (0..3).map(&mut table).collect()
+    }
+
     fn case(&mut self) -> Case {
         let used = &mut 0;
         let elements = |group: Group| -> Vec<Table> {
@@ -161,6 +187,7 @@ impl Dice {
             gravity: (self.roll(2) == 0).then(|| self.pair()),
             redundancy: (self.roll(2) == 0).then(|| "allow".to_string()),
             parameters: (0..self.roll(5)).map(|_| (self.name(used), self.formula())).collect(),
+            tables: self.tables(used),
             bodies: self.entries(&bodies, used),
             joints: self.entries(&elements(Group::Joints), used),
             drivers: self.entries(&elements(Group::Drivers), used),

@@ -17,7 +17,7 @@ def version() -> str:
 def catalogue() -> str:
     """All types of a case with their fields, as JSON.
 
-    ``{"bodies": [table], "joints": …, "drivers": …, "forces": …, "methods": …,
+    ``{"bodies": [table], "tables": [table], "joints": …, "drivers": …, "forces": …, "methods": …,
     "stabilizations": …, "analyses": …}`` with ``table = {"name", "doc", "fields": [{"name",
     "shape", "unit", "default", "doc"}]}``; joints and drivers have
     ``"formulas"`` as ``formulas`` gives them, in Unicode. Shapes are body, point,
@@ -30,7 +30,7 @@ def schema() -> str:
     """JSON Schema of a case."""
 
 def is_reserved(name: str) -> bool:
-    """Whether a name is reserved, such as ``t``, ``pi``, ``deg``, ``ground`` and functions."""
+    """Whether no element may have a name: ``t``, ``pi``, ``deg`` and ``ground``."""
 
 class Case:
     """A parsed case with a valid structure."""
@@ -53,6 +53,13 @@ class Case:
 
     def write(self, format: str) -> str:  # noqa: A002
         """The case as "toml" or "json" text."""
+
+    def supply(self, table: str, x: _F, y: _F) -> Case:
+        """The same case with the points that the file of a table contains.
+
+        Raises:
+            ModelError: there is no such table.
+        """
 
     def model(self, overrides: str) -> Model:
         """Compile the model with other parameters, ``{"k": 2e6, "c": "k/100"}``.
@@ -86,9 +93,19 @@ class Model:
         "columns": [start, stop], "coordinates": [{"name", "unit"}]}],
         "forces": [{"name", "type", "i", "j", "bodies": [name], "parts": ["stiffness", "damping"],
         "points": null | [[x, y], [x, y]], "places": [start, stop], "states": [{"name", "unit"}],
-        "reaction": null | joint}]}``; the first body is ground. ``columns`` of a body are its
-        coordinates in q, those of a constraint its internal coordinates; ``places`` of a force are
-        its states in z.
+        "reaction": null | joint}],
+        "tables": [{"name", "interpolation", "range": [first, last], "period": null | x}]}``; the
+        first body is ground. ``columns`` of a body are its coordinates in q, those of a constraint
+        its internal coordinates; ``places`` of a force are its states in z.
+        """
+
+    def table(self, name: str, derivative: int, x: _F) -> _F:
+        """Values of a table or of one of its derivatives up to the fifth, in SI units.
+
+        NaN where it has none.
+
+        Raises:
+            ModelError: there is no such table, or the derivative is too high.
         """
 
     def symbols(self) -> str:

@@ -28,9 +28,14 @@ The values of fields:
 | number | a number, a number with a unit (`"250 mm"`), or a formula in the parameters |
 | law | the same, and the formula may use `t` and the coordinates of bodies |
 | pair | two numbers, `[x, y]` |
+| terms | factors of position quantities: `{ "A.angle" = 2, "B.angle" = -1 }` |
+| units | units of equations: `["m", "rad"]` |
 | law_pair, laws | two laws, any number of laws: `["t", "2*t"]` |
 | points | a table of points, `{ P = [x, y] }` |
 | names | two names, `["A", "B"]` |
+| numbers | a list of numbers, without units and formulas |
+| columns | two names of columns, `["angle", "lift"]` |
+| name | a name, such as that of a joint, of a file or of a unit |
 | body, point, coordinate | `"crank"`, `"crank.B"`, `"crank.angle"` |
 | count | a whole number from 1 |
 | flag | `true` or `false` |
@@ -42,6 +47,11 @@ SECTIONS = {
         "Bodies",
         'Entries of `[bodies]`; `type = "body"` may be left out, and ground is the body of that '
         "name. In Python `m.body(…)`, `m.bar(…)` and `m.ground.points(…)`.",
+    ),
+    "tables": (
+        "Tables",
+        "Entries of `[tables]`, without a `type`. In Python `m.table(…)`. [laws.md](laws.md) has "
+        "an example.",
     ),
     "joints": ("Joints", "Entries of `[joints]`. In Python the method of the same name."),
     "drivers": ("Drivers", "Entries of `[drivers]`. In Python the method of the same name."),

@@ -106,10 +106,10 @@ class Case:
         self._core().check(model.compile().core)
 
     @classmethod
-    def _loaded(cls, core: _core.Case) -> Case:
+    def _loaded(cls, core: _core.Case, folder: Path) -> Case:
         tree = json.loads(core.tree())
         case = cls.__new__(cls)
-        case.model = Model.from_tree(tree, core)
+        case.model = Model.from_tree(tree, core, folder)
         case._start = _start(tree.get("start"))
         case._entries = dict(tree.get("analyses", {}))
         return case
@@ -169,7 +169,8 @@ class Case:
             start: the assembled mechanism; assembled here when None.
         """
         compiled = self.model.compile()
-        model = CompiledModel(compiled.core, json.dumps(self.tree()), self.model)
+        contained = json.dumps(self.model.with_points(self.tree()))
+        model = CompiledModel(compiled.core, contained, self.model)
         state = start or self.start()
         ends = {"start": state}
         for analysis in json.loads(self._core().analyses()):
@@ -228,10 +229,15 @@ class Case:
     def save(self, path: Path | str) -> None:
         """Write the case as TOML or JSON, by the suffix of the name; nothing is lost.
 
+        Files of tables stay where they are; the case refers to them relative to its own folder.
+
         Raises:
             FileError: the file cannot be written; an old one is then left as it was.
         """
-        files.write_text(path, self._core().write(_format(path, "write")))
+        form = _format(path, "write")
+        tree = self.model.beside(self.tree(), Path(path).parent)
+        core = _core.Case(json.dumps(tree, allow_nan=False), "json", None)
+        files.write_text(path, core.write(form))
 
     def _core(self) -> _core.Case:
         return _core.Case(json.dumps(self.tree(), allow_nan=False), "json", None)
@@ -256,11 +262,15 @@ def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) ->
         ModelError: the model is wrong; with all ``problems``, each with line and column.
     """
     form = _format(path, "read")
-    return parsed(files.read_text(path), form, str(path), parameters)
+    return parsed(files.read_text(path), form, str(path), parameters, Path(path).parent)
 
 
 def parsed(
-    text: str, form: str, origin: str, parameters: Mapping[str, Number] | None = None
+    text: str,
+    form: str,
+    origin: str,
+    parameters: Mapping[str, Number] | None = None,
+    folder: Path | None = None,
 ) -> Case:
     """The case in a text.
 
@@ -269,12 +279,13 @@ def parsed(
         form: "toml" or "json".
         origin: name of the file, for messages.
         parameters: other values for some of its parameters.
+        folder: the folder of the files of tables; the current one if absent.
 
     Raises:
         FileError, ModelError: as ``load``.
     """
     core = _core.Case(text, form, origin)
-    case = Case._loaded(core)
+    case = Case._loaded(core, folder or Path())
     given = numbers(parameters, "parameters")
     if given:
         case.model = case.model.with_parameters(given)

@@ -22,6 +22,7 @@ from kempe.infos import (
     force,
     vector,
 )
+from kempe.lookup_tables import TableInfo
 from kempe.names import entry
 
 if TYPE_CHECKING:
@@ -115,6 +116,12 @@ class CompiledModel:
     def parameters(self) -> Mapping[str, float]:
         """Values of the parameters."""
         return MappingProxyType(self._about["parameters"])
+
+    @cached_property
+    def tables(self) -> Mapping[str, TableInfo]:
+        """The tables, each a function in SI units."""
+        infos = (TableInfo(self.core, entry) for entry in self._about["tables"])
+        return MappingProxyType({info.name: info for info in infos})
 
     @property
     def n_q(self) -> int:

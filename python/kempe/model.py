@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from kempe import _core
@@ -13,7 +14,9 @@ from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
 from kempe.errors import ModelError
+from kempe.lookup_tables import TableInfo
 from kempe.names import few, unknown
+from kempe.table_methods import TableMethods
 from kempe.values import Number, Pair, Points, data, mapping, numbers, pair, points, refuse
 
 #: Version of the case format.
@@ -42,7 +45,7 @@ class Ground:
         return f"<ground of {self._model.title!r}: points {', '.join(points) or 'none'}>"
 
 
-class Model(ElementMethods):
+class Model(ElementMethods, TableMethods):
     """A planar mechanism that is built step by step.
 
     ::
@@ -87,10 +90,12 @@ class Model(ElementMethods):
             "gravity": pair(gravity, "gravity"),
             **({"redundancy": redundancy} if redundancy else {}),
             "parameters": numbers(parameters, "parameters"),
+            "tables": {},
             **{section: {} for section in SECTIONS},
         }
         self._source: tuple[_core.Case, dict[str, float | str]] | None = None
         self._compiled: CompiledModel | None = None
+        self._files = {}
 
     # --- writing ----------------------------------------------------------------------------------
 
@@ -189,18 +194,34 @@ class Model(ElementMethods):
     # --- reading ----------------------------------------------------------------------------------
 
     @classmethod
-    def from_tree(cls, tree: Mapping[str, Any], source: _core.Case | None = None) -> Model:
+    def from_tree(
+        cls,
+        tree: Mapping[str, Any],
+        source: _core.Case | None = None,
+        folder: Path | None = None,
+    ) -> Model:
         """A model from the tree of a case.
 
         Args:
             tree: the case as nested mappings, structured as the file.
             source: the case in the core with the same tree; its errors contain line numbers.
+            folder: the folder of the files of tables; the current one if absent.
+
+        Raises:
+            FileError: the file of a table cannot be read.
         """
+        model = cls._of(tree)
+        model._read_files(folder or Path())
+        model._source = None if source is None else (model._supplied(source), {})
+        return model
+
+    @classmethod
+    def _of(cls, tree: Mapping[str, Any]) -> Model:
+        """A model with a copy of a tree."""
         model = cls()
         tree = mapping(tree, "tree", "{'bodies': {…}}")
         kept = {key: tree[key] for key in model._tree if key in tree}
         model._tree.update(copy.deepcopy(kept))
-        model._source = None if source is None else (source, {})
         return model
 
     @classmethod
@@ -227,7 +248,8 @@ class Model(ElementMethods):
                 if self._source is not None:  # the error gives the line of the file
                     self._source[0].model(json.dumps(changed, allow_nan=False))
                 raise unknown("parameter", name, self._tree["parameters"])
-        model = Model.from_tree(self._tree)
+        model = Model._of(self._tree)
+        model._files = dict(self._files)
         source, overrides = self._source or (_core.Case(self.json(), "json", None), {})
         model._source = (source, {**overrides, **changed})
         model._tree["parameters"].update(changed)
@@ -251,8 +273,8 @@ class Model(ElementMethods):
         return self._compiled
 
     def json(self) -> str:
-        """The tree as JSON."""
-        return json.dumps(self.tree(), allow_nan=False)
+        """The tree as JSON, with the points of tables in place of their files."""
+        return json.dumps(self.with_points(self.tree()), allow_nan=False)
 
     @property
     def title(self) -> str:
@@ -283,6 +305,11 @@ class Model(ElementMethods):
     def parameters(self) -> Mapping[str, float]:
         """Values of the parameters."""
         return self.compile().parameters
+
+    @property
+    def tables(self) -> Mapping[str, TableInfo]:
+        """The tables, each a function in SI units: ``m.tables["lift"](x, derivative=1)``."""
+        return self.compile().tables
 
     @property
     def bodies(self) -> Mapping[str, BodyInfo]:

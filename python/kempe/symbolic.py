@@ -135,7 +135,7 @@ def _of(compiled: CompiledModel, info: ConstraintInfo, entry: Mapping[str, Any])
         rows=tuple(f"{info.name}.{name}" for name, _ in info.equations),
         expressions=_texts(expressions),
         symbols=_texts(printed("latex")),
-        points={name: at for name, at in points.items() if name in used},
+        points={name: at for name, at in points.items() if name and name in used},
     )
 
 

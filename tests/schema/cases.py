@@ -20,6 +20,18 @@ gravity = [0, "-g"]
 redundancy = "allow"
 [parameters]
 g = "9.81 m/s^2"
+[tables.lift]
+x = [0, 90, 180]
+y = [0, 10, 0]
+x_unit = "deg"
+y_unit = "mm"
+interpolation = "quintic"
+periodic = false
+outside = "hold"
+[tables.measured]
+file = "measured.csv"
+columns = ["t / s", "lift.y"]
+interpolation = "monotone"
 [bodies.ground]
 points = { O = [0, 0], P = [1, 0] }
 [bodies.a]
@@ -154,7 +166,7 @@ def typo(word: str, chance: random.Random) -> str:
     k = chance.randrange(len(word))
     return chance.choice(
         [
-            word[:k] + "q" + word[k + 1 :],
+            word[:k] + ("x" if word[k : k + 1] == "q" else "q") + word[k + 1 :],
             word[:k] + word[k + 1 :],
             word[:k] + word[k : k + 1] + word[k:],
         ]

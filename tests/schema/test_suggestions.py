@@ -7,6 +7,7 @@ import re
 from typing import Any
 
 import kempe as kp
+import numpy as np
 import pytest
 from kempe import _core
 from schema.cases import cases, places, typo
@@ -19,6 +20,9 @@ def faults(case: dict[str, Any]) -> list[str]:
     """The faults that are known without a run."""
     try:
         core = _core.Case(json.dumps(case), "json", None)
+        for name, entry in case.get("tables", {}).items():
+            if "file" in entry:
+                core = core.supply(name, np.arange(3.0), np.ones(3))
         core.check(core.model("{}"))
     except kp.KempeError as error:
         return [problem.message for problem in error.problems] or [str(error)]

@@ -1,7 +1,7 @@
 //! A case as Python sees it: text in, text out, and the compiled model.
 
 use crate::attended::attended;
-use crate::convert::tree;
+use crate::convert::{refuse, tree, Row};
 use crate::errors::{raise, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 #[pyclass(name = "Case", module = "kempe._core", frozen)]
 pub struct PyCase {
     case: Arc<Case>,
-    document: Document,
+    document: Arc<Document>,
     origin: Option<String>,
 }
 
@@ -53,7 +53,7 @@ impl PyCase {
             let text = text.to_string();
             let (case, document) = attended(py, move |_| case::read(&text, format))?
                 .map_err(|found| raise(py, kind, &found, origin.as_deref()))?;
-            Ok(Self { case: Arc::new(case), document, origin })
+            Ok(Self { case: Arc::new(case), document: Arc::new(document), origin })
         })
     }
 
@@ -65,6 +65,18 @@ impl PyCase {
     /// The case as "toml" or "json" text.
     fn write(&self, py: Python<'_>, format: &str) -> PyResult<String> {
         guard("Case.write", || Ok(case::write(&self.case, format_named(py, format)?)))
+    }
+
+    /// The same case with the points that the file of a table contains.
+    fn supply(&self, py: Python<'_>, table: &str, x: Row<'_>, y: Row<'_>) -> PyResult<Self> {
+        guard("Case.supply", || {
+            let mut case = (*self.case).clone();
+            if !case.supply(table, &x.as_array().to_vec(), &y.as_array().to_vec()) {
+                return Err(refuse(py, "table", format!("there is no table '{table}'")));
+            }
+            let (document, origin) = (Arc::clone(&self.document), self.origin.clone());
+            Ok(Self { case: Arc::new(case), document, origin })
+        })
     }
 
     /// Compiles the model with other parameters.

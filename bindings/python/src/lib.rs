@@ -51,7 +51,7 @@ fn schema() -> PyResult<String> {
 /// Whether a name belongs to the language of expressions.
 #[pyfunction]
 fn is_reserved(name: &str) -> PyResult<bool> {
-    guard("is_reserved", || Ok(kempe::expression::is_reserved(name)))
+    guard("is_reserved", || Ok(kempe::case::RESERVED.contains(&name)))
 }
 
 /// Test hook: the next call of the named entry point panics; `None` takes that back.

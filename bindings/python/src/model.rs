@@ -1,11 +1,14 @@
 //! A compiled model, and what it holds as JSON.
 
+use crate::convert::{refuse, Row};
 use crate::guard::guard;
 use crate::recent_options::RecentOptions;
 use kempe::analyses::dynamics::Prepared;
-use kempe::elements::{BodyId, Measured, OwnState, SceneSymbol, SymbolEnd};
+use kempe::elements::{BodyId, Measured, OwnState, ResultOf, SceneSymbol, SymbolEnd};
+use kempe::expression::Table;
 use kempe::math::Local;
 use kempe::model::{Body, Columns, Model};
+use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use serde_json::{json, Map, Value};
 use std::ops::Range;
@@ -46,6 +49,29 @@ impl PyModel {
         guard("Model.symbols", || Ok(symbols(&self.model).to_string()))
     }
 
+    /// Values of a table or of one of its derivatives, in SI units; NaN where it has none.
+    fn table<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+        derivative: usize,
+        x: Row<'py>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        guard("Model.table", || {
+            let tables = &self.model.blueprint.tables;
+            let Some(table) = tables.iter().find(|table| table.name() == name) else {
+                return Err(refuse(py, "name", format!("there is no table '{name}'")));
+            };
+            if derivative > 5 {
+                let message = format!("{derivative}; must be at most 5");
+                return Err(refuse(py, "derivative", message));
+            }
+            let x = x.as_array();
+            let values: Vec<f64> = x.iter().map(|x| table.derivative(derivative, *x)).collect();
+            Ok(values.into_pyarray(py))
+        })
+    }
+
     /// The same model with redundant constraints accepted.
     fn allowing_redundancy(&self) -> PyResult<Self> {
         guard("Model.allowing_redundancy", || Ok(Self::new(self.model.allowing_redundancy())))
@@ -64,7 +90,7 @@ fn symbols(model: &Model) -> Value {
             "mark": symbol.mark.name(),
             "i": end(&symbol.i),
             "j": end(&symbol.j),
-            "radius": symbol.mark.radius(),
+            "radii": symbol.mark.radii(),
         })
     };
     let all = model.symbols();
@@ -82,6 +108,7 @@ fn describe(model: &Model) -> Value {
         "gravity": [model.gravity.x, model.gravity.y],
         "parameters": parameters,
         "redundancy": if model.allow_redundancy { "allow" } else { "refuse" },
+        "tables": model.blueprint.tables.iter().map(|t| table(t)).collect::<Vec<_>>(),
         "n_q": layout.n_q,
         "n_z": layout.n_z,
         "n_rows": layout.n_rows,
@@ -102,6 +129,15 @@ fn body(body: &Body, columns: Columns) -> Value {
         "center": pair(&body.center),
         "points": points,
         "columns": span(&columns.range()),
+    })
+}
+
+fn table(table: &Table) -> Value {
+    json!({
+        "name": table.name(),
+        "interpolation": table.interpolation().name(),
+        "range": table.range(),
+        "period": table.period(),
     })
 }
 
@@ -135,6 +171,8 @@ fn constraint(model: &Model, k: usize) -> Value {
     let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
     let (i, j, bodies) = connected(model, &item.bodies);
     let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.unit });
+    let result =
+        |r: &ResultOf| json!({ "name": r.name, "unit": r.unit, "row": r.row, "factor": r.factor });
     json!({
         "name": item.name,
         "group": item.group.section(),
@@ -149,6 +187,7 @@ fn constraint(model: &Model, k: usize) -> Value {
         "columns": span(&slots.own.range()),
         "coordinates": internal(slots.own),
         "rows": span(&slots.rows),
+        "results": item.element.results().iter().map(result).collect::<Vec<_>>(),
         "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
         "measured": measured(item.element.measured()),
     })

@@ -160,6 +160,7 @@ fn given_twice(definition: &Definition) -> Vec<Problem> {
     };
     report(&["parameters"], definition.parameters.iter().map(|(name, _)| name.as_str()).collect());
     for (section, entries) in [
+        ("tables", &definition.tables),
         ("bodies", &definition.bodies),
         ("joints", &definition.joints),
         ("drivers", &definition.drivers),

@@ -5,21 +5,22 @@ use super::names::{self, Namespace};
 use super::report::Report;
 use super::tree::{Data, Node, Table};
 use super::values::{number, pair, word, wrong};
-use super::{fields, start, Case, Format, FORMAT_VERSION};
+use super::{fields, start, tables, Case, Format, FORMAT_VERSION};
 use crate::analyses;
 use crate::elements::{catalogue, Group, Table as Declaration};
 use crate::expression::suggest::{closest, did_you_mean};
-use crate::model::{Entry, Problem, Value};
+use crate::model::{table_fields, Entry, Problem, Value};
 
 /// Words for the key `redundancy`.
 pub(super) const REDUNDANCY: [&str; 2] = ["refuse", "allow"];
 
-const SECTIONS: [&str; 11] = [
+const SECTIONS: [&str; 12] = [
     "kempe",
     "title",
     "gravity",
     "redundancy",
     "parameters",
+    "tables",
     "bodies",
     "joints",
     "drivers",
@@ -72,6 +73,12 @@ fn section(
             }
         }
         "parameters" => model.parameters = parameters(report, node),
+        "tables" => {
+            let declared = table_fields();
+            model.tables = entries(report, node, |report, name, table| {
+                tables::check(report, name, (table, &declared), root);
+            });
+        }
         "bodies" => {
             let bodies = Bodies::declared();
             model.bodies = entries(report, node, |report, name, table| {

@@ -10,7 +10,7 @@
 //! | `json`, `toml`, `toml_tables` | text → tree |
 //! | `diagnostic`, `document` | places → line, column, excerpt |
 //! | `report` | problems by path |
-//! | `names`, `values`, `fields`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
+//! | `names`, `values`, `fields`, `tables`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
 //! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
 //! | `faults` | faults of start and analyses that only the model shows |
 //! | `schema` | the JSON Schema |
@@ -31,6 +31,7 @@ mod report;
 mod schema;
 mod start;
 mod start_builder;
+mod tables;
 mod toml;
 mod toml_tables;
 mod tree;
@@ -46,6 +47,7 @@ pub use contents::{Case, Format, Start, FORMAT_VERSION, MOST_BYTES, MOST_REPORTE
 use diagnostic::shown;
 pub use diagnostic::Diagnostic;
 pub use document::Document;
+pub use names::RESERVED;
 pub use schema::schema;
 pub use tree::{MOST_DEPTH, MOST_VALUES};
 pub use write::write;

@@ -6,7 +6,7 @@ use super::diagnostic::is_hidden;
 use super::report::Report;
 
 /// Words that mean something else in formulas and references.
-pub(super) const RESERVED: [&str; 4] = ["t", "pi", "deg", "ground"];
+pub const RESERVED: [&str; 4] = ["t", "pi", "deg", "ground"];
 /// Most characters of a name.
 pub(super) const MOST_CHARACTERS: usize = 200;
 /// Characters that names must not contain, as in a set of a regular expression: controls, controls of direction,

@@ -7,8 +7,11 @@ use super::names::{HIDDEN, MOST_CHARACTERS, RESERVED};
 use super::FORMAT_VERSION;
 use crate::analyses::options::Declaration;
 use crate::analyses::{declarations, option_families};
-use crate::elements::{catalogue, Default, Field, Group, Shape, Table, TOLERANCES};
-use crate::model::body_tables;
+use crate::elements::{
+    catalogue, Default, Field, Group, Shape, Table, TOLERANCES, UNITS_OF_EQUATIONS,
+};
+use crate::expression::FUNCTIONS;
+use crate::model::{body_tables, table_fields};
 
 /// The JSON Schema (draft 2020-12) of a case, for editors: sections, types, fields, descriptions and
 /// units.
@@ -68,6 +71,7 @@ fn sections() -> Map<String, Value> {
         "gravity": described(reference("pair"), "Acceleration of free fall (m/s^2); none means zero."),
         "redundancy": { "enum": REDUNDANCY },
         "parameters": by_name(reference("number"), &RESERVED),
+        "tables": tables(),
         "bodies": bodies,
     });
     for group in [Group::Joints, Group::Drivers, Group::Forces] {
@@ -80,6 +84,24 @@ fn sections() -> Map<String, Value> {
     analyses["propertyNames"] = folders();
     sections["analyses"] = analyses;
     object(sections)
+}
+
+/// Tables by name; formulas call them, so their names are identifiers.
+fn tables() -> Value {
+    let table = table_fields();
+    let properties = table.fields.iter().map(|f| (f.name.to_string(), property(f))).collect();
+    let either = json!({
+        "if": { "required": ["file"] },
+        "then": { "properties": { "x": false, "y": false } },
+        "else": { "required": ["x", "y"], "properties": { "columns": false } },
+    });
+    let reserved = FUNCTIONS.iter().map(|f| f.name).chain(RESERVED).collect::<Vec<_>>().join("|");
+    let pattern = format!("^(?!(?:{reserved})(?![\\s\\S]))[A-Za-z_][A-Za-z0-9_]*(?![\\s\\S])");
+    json!({
+        "type": "object",
+        "propertyNames": { "pattern": pattern, "maxLength": MOST_CHARACTERS },
+        "additionalProperties": described(closed(properties, either), &table.doc),
+    })
 }
 
 fn object(value: Value) -> Map<String, Value> {
@@ -189,8 +211,18 @@ fn property(f: &Field) -> Value {
         Shape::Number | Shape::Law => reference("number"),
         Shape::Pair | Shape::LawPair => reference("pair"),
         Shape::Laws => reference("laws"),
+        Shape::Terms => reference("terms"),
+        Shape::Units => json!({ "type": "array", "items": { "enum": UNITS_OF_EQUATIONS } }),
         Shape::Points => reference("points"),
         Shape::Names => reference("names"),
+        Shape::Numbers => json!({ "type": "array", "items": { "type": "number" } }),
+        Shape::Columns => json!({
+            "type": "array",
+            "items": { "type": "string" },
+            "minItems": 2,
+            "maxItems": 2,
+            "uniqueItems": true,
+        }),
         Shape::Count => reference("count"),
         Shape::Tolerance => reference("tolerance"),
         Shape::Options(family) => reference(family),
@@ -222,6 +254,7 @@ fn definitions() -> Value {
         "pair": two_of(reference("number")),
         "points": by_name(reference("pair"), &[]),
         "laws": { "type": "array", "items": reference("number"), "minItems": 1 },
+        "terms": { "type": "object", "additionalProperties": reference("number"), "minProperties": 1 },
         "names": two_different(names(&[])),
         "count": { "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string" }] },
     });

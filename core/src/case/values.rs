@@ -3,7 +3,7 @@
 use super::names;
 use super::report::{among, Report};
 use super::tree::{Data, Node};
-use crate::elements::TOLERANCES;
+use crate::elements::{TOLERANCES, UNITS_OF_EQUATIONS};
 use crate::expression::suggest::did_you_mean;
 
 /// Reports a value of the wrong shape.
@@ -48,6 +48,33 @@ pub(super) fn numbers(report: &mut Report, node: &Node) {
     }
 }
 
+/// Position quantities with numbers or formulas, at least one.
+pub(super) fn terms(report: &mut Report, node: &Node) {
+    let form = report
+        .example("{ \"A.angle\" = 2, \"B.angle\" = -1 }", "{ \"A.angle\": 2, \"B.angle\": -1 }");
+    match &node.data {
+        Data::Table(table) if !table.entries.is_empty() => {
+            for (name, node) in &table.entries {
+                report.within(name, |report| number(report, node));
+            }
+        }
+        Data::Table(_) => report.say(format!("an empty table; must be a table such as {form}")),
+        _ => wrong(report, node, &format!("a table such as {form}")),
+    }
+}
+
+/// Units of equations.
+pub(super) fn units(report: &mut Report, node: &Node) {
+    match &node.data {
+        Data::List(items) => {
+            for (k, item) in items.iter().enumerate() {
+                report.within(&k.to_string(), |report| word(report, item, UNITS_OF_EQUATIONS));
+            }
+        }
+        _ => wrong(report, node, "a list of units [\"m\"]"),
+    }
+}
+
 /// Named points.
 pub(super) fn points(report: &mut Report, node: &Node) {
     let Data::Table(table) = &node.data else {
@@ -80,6 +107,36 @@ pub(super) fn two_names(report: &mut Report, node: &Node) {
         if a == b {
             report.say(format!("both are '{}'; must be two different names", super::shown(a)));
         }
+    }
+}
+
+/// Numbers, not formulas.
+pub(super) fn plain_numbers(report: &mut Report, node: &Node) {
+    let Data::List(items) = &node.data else { return wrong(report, node, "a list of numbers") };
+    for (k, item) in items.iter().enumerate() {
+        report.within(&k.to_string(), |report| match &item.data {
+            Data::Number(_) => {}
+            Data::Text(_) => {
+                let hint = "units are given by x_unit and y_unit; a parameter multiplies the function, as in h*lift(x)";
+                report.add(report.here("a text; must be a number").hint(hint));
+            }
+            _ => wrong(report, item, "a number"),
+        });
+    }
+}
+
+/// Two different names of columns, of any characters.
+pub(super) fn two_columns(report: &mut Report, node: &Node) {
+    let texts = match &node.data {
+        Data::List(items) => items.iter().map(|item| match &item.data {
+            Data::Text(text) => Some(text),
+            _ => None,
+        }),
+        _ => return wrong(report, node, "a list of two columns [\"angle\", \"lift\"]"),
+    };
+    match texts.collect::<Vec<_>>()[..] {
+        [Some(x), Some(y)] if x != y => {}
+        _ => report.say("must be a list of two different names of columns [\"angle\", \"lift\"]"),
     }
 }
 

@@ -35,6 +35,7 @@ fn tree(case: &Case) -> Vec<(String, Value)> {
         ("gravity", model.gravity.clone()),
         ("redundancy", text(&model.redundancy)),
         ("parameters", table(&model.parameters)),
+        ("tables", entries(&model.tables)),
         ("bodies", entries(&model.bodies)),
         ("joints", entries(&model.joints)),
         ("drivers", entries(&model.drivers)),

@@ -4,7 +4,7 @@ use super::write_value::{one_line, quoted};
 use crate::model::Value;
 
 /// Sections that hold named entries; the others hold values.
-const OF_ENTRIES: [&str; 5] = ["bodies", "joints", "drivers", "forces", "analyses"];
+const OF_ENTRIES: [&str; 6] = ["tables", "bodies", "joints", "drivers", "forces", "analyses"];
 
 pub(super) fn text(tree: &[(String, Value)]) -> String {
     let mut out = String::new();

@@ -10,6 +10,7 @@ mod declare;
 pub(crate) mod derive;
 mod dispatch;
 mod field;
+mod followed;
 mod force_trait;
 mod group;
 mod joint_trait;
@@ -18,17 +19,32 @@ mod measure;
 mod measured;
 mod symbols;
 mod value;
+mod wheels;
 mod written;
 
 /// Joints: holonomic constraints between bodies, without time.
 pub mod joints {
+    mod belt;
+    mod coupling;
     mod distance;
+    mod gear;
+    mod given_constraint;
+    mod pin_in_slot;
+    mod rack;
     mod revolute;
+    mod rolling;
     mod translational;
     mod weld;
 
+    pub use belt::Belt;
+    pub use coupling::Coupling;
     pub use distance::Distance;
+    pub use gear::Gear;
+    pub use given_constraint::GivenConstraint;
+    pub use pin_in_slot::PinInSlot;
+    pub use rack::Rack;
     pub use revolute::Revolute;
+    pub use rolling::Rolling;
     pub use translational::Translational;
     pub use weld::Weld;
 }
@@ -65,22 +81,23 @@ pub use declare::{Element, Table};
 use dispatch::{constraints, declared, forces};
 pub use dispatch::{Place, Pooled, VisitForces, VisitJoints};
 use drivers::*;
-pub use field::{Default, Field, Shape, TOLERANCES};
+pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
+pub use followed::{BodyId, Coordinate, CoordinateOf, Followed, QuantityOf};
 pub use force_trait::{Force, Held, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
 pub use group::Group;
-pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving};
+pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, Required, ResultOf};
 use joints::*;
 pub use kinds::{
-    body, coordinate, flag, joint, law, law_pair, laws, number, optional_law, optional_number,
-    optional_pair, pair, point, side, BodyId, Coordinate, CoordinateOf, Followed, JointId, Kind,
-    Optional, PointOn, QuantityOf, Side, Source,
+    body, coordinate, equation_unit, flag, joint, law, law_pair, laws, number, optional_law,
+    optional_number, optional_pair, optional_unit, pair, point, side, terms, units, EquationUnit,
+    JointId, Kind, Optional, PointOn, Side, Source,
 };
 pub use measured::Measured;
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
 use test_elements::*;
-pub use value::{Number, Numbers, Pair, Value};
+pub use value::{Number, Numbers, Pair, Terms, Value, Words};
 pub use written::Written;
 pub(crate) use written::{argument, declare as element};
 
@@ -90,6 +107,13 @@ constraints! {
         Translational,
         Distance,
         Weld,
+        PinInSlot,
+        Gear,
+        Belt,
+        Rack,
+        Rolling,
+        Coupling,
+        GivenConstraint,
         #[cfg(feature = "test-elements")] TurnedPin,
         #[cfg(feature = "test-elements")] Bead,
         #[cfg(feature = "test-elements")] Levels,

@@ -1,14 +1,18 @@
 //! Syntax tree → tape: names become symbols, constant parts become numbers.
 
 use super::names::constant;
-use super::operation::Relation;
+use super::operation::{Relation, FUNCTIONS};
+use super::parser::wrong_count;
+use super::points::TABLE_ENDS;
 use super::suggest::did_you_mean;
 use super::switch::Piecewise;
+use super::table::Table;
 use super::tape::{Instruction, Scope};
 use super::tree::{Kind, Node};
 use super::{ExpressionError, Names, Symbol, Tape, MAX_OPERANDS};
 use crate::math::Real;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Compiles a tree that was read from `text`.
 pub(super) fn compile<N: Names + ?Sized>(
@@ -66,6 +70,8 @@ impl Compiler<'_> {
                 Some(relation) => Instruction::Piecewise(Piecewise::Choose(relation)),
                 None => unreachable!("the parser lets no `if` pass without a condition"),
             },
+            Kind::Step5 => Instruction::Step5,
+            Kind::Call(name, count) => self.table(name, *count, node.span.clone(), names)?,
         };
         self.emit(instruction, &node.span)
     }
@@ -104,9 +110,49 @@ impl Compiler<'_> {
             return Err(too_many_operands(span));
         }
         formula.symbols.iter().for_each(|symbol| self.add_symbol(*symbol));
-        self.tape.code.extend(&formula.code);
+        for instruction in &formula.code {
+            let own = match *instruction {
+                Instruction::Table(k) => Instruction::Table(self.place(&formula.tables[k])),
+                other => other,
+            };
+            self.tape.code.push(own);
+        }
         self.depth += 1;
         Ok(())
+    }
+
+    /// A call of a table.
+    fn table<N: Names + ?Sized>(
+        &mut self,
+        name: &str,
+        count: usize,
+        span: Range<usize>,
+        names: &N,
+    ) -> Result<Instruction, ExpressionError> {
+        let known = names.tables();
+        let Some(table) = known.iter().find(|table| table.name() == name) else {
+            let length = self.text[span.clone()].find('(').unwrap_or(0);
+            let written = self.text[span.start..span.start + length].trim_end();
+            return Err(unknown_function(name, span.start..span.start + written.len(), names));
+        };
+        if count != 1 {
+            return Err(wrong_count(name, &["x"], count, span));
+        }
+        if let Some(&Instruction::Constant(x)) = self.tape.code.last() {
+            if let Some(refusal) = table.refusal(x) {
+                return Err(ExpressionError::new(span, refusal).hint(TABLE_ENDS.to_string()));
+            }
+        }
+        Ok(Instruction::Table(self.place(table)))
+    }
+
+    /// The place of a table among those of the tape.
+    fn place(&mut self, table: &Arc<Table>) -> usize {
+        let tables = &mut self.tape.tables;
+        tables.iter().position(|used| used.name() == table.name()).unwrap_or_else(|| {
+            tables.push(Arc::clone(table));
+            tables.len() - 1
+        })
     }
 
     /// x^p: a constant exponent is taken from the tape into the instruction, which then is
@@ -139,7 +185,7 @@ impl Compiler<'_> {
         let first = code.len() - 1 - instruction.operands();
         let operands = &code[first..code.len() - 1];
         if !operands.is_empty() && operands.iter().all(|i| matches!(i, Instruction::Constant(_))) {
-            let value = fold(&code[first..]);
+            let value = fold(&code[first..], &self.tape.tables);
             self.require_finite(value, span)?;
             self.tape.code.truncate(first);
             self.tape.code.push(Instruction::Constant(value));
@@ -163,8 +209,13 @@ impl Compiler<'_> {
 }
 
 /// The value of a piece of tape without symbols, by the evaluation that it replaces.
-fn fold(code: &[Instruction]) -> f64 {
-    let tape = Tape { code: code.to_vec(), operands: code.len(), ..Tape::default() };
+fn fold(code: &[Instruction], tables: &[Arc<Table>]) -> f64 {
+    let tape = Tape {
+        code: code.to_vec(),
+        operands: code.len(),
+        tables: tables.to_vec(),
+        ..Tape::default()
+    };
     tape.evaluate(&Scope { parameters: &[], time: f64::NAN, variables: &[] })
 }
 
@@ -190,7 +241,23 @@ fn unknown<N: Names + ?Sized>(name: &str, span: Range<usize>, names: &N) -> Expr
     ExpressionError::new(span, format!("unknown name '{name}'")).hint(hint)
 }
 
-/// The constant value of `body`, if it is constant.
+fn unknown_function<N: Names + ?Sized>(
+    name: &str,
+    span: Range<usize>,
+    names: &N,
+) -> ExpressionError {
+    let tables = names.tables().iter().map(|table| table.name());
+    let hint = match name {
+        "log" => Some("write ln for the natural logarithm, log10 for the decimal".to_string()),
+        "arcsin" | "arccos" | "arctan" | "arctan2" => Some(format!("write a{}", &name[3..])),
+        "pow" => Some("write x^y".to_string()),
+        _ => did_you_mean(name, FUNCTIONS.iter().map(|f| f.name).chain(tables))
+            .or_else(|| Some(format!("to multiply, write {name}*(...)"))),
+    };
+    ExpressionError::new(span, format!("unknown function '{name}'")).hint(hint)
+}
+
+/// The coordinates of `body` among the known names.
 fn coordinates(body: &str, known: &[String]) -> Option<String> {
     let prefix = format!("{body}.");
     let owned: Vec<_> =

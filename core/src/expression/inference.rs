@@ -5,6 +5,7 @@
 
 use super::names::constant;
 use super::operation::{Binary, Unary};
+use super::table::Table;
 use super::tree::{Kind, Node};
 use super::unit::Dimension;
 use super::{ExpressionError, Names, Symbol};
@@ -56,7 +57,7 @@ pub(super) fn infer<N: Names + ?Sized>(
 ) -> Result<Inferred, ExpressionError> {
     let mut stack: Vec<Part> = Vec::new();
     for node in nodes {
-        let first = stack.len() - operands(&node.kind);
+        let first = stack.len() - node.kind.operands();
         let parts = stack.split_off(first);
         let inference = Inference { text, parts: &parts };
         let (inferred, value) = match &node.kind {
@@ -67,19 +68,20 @@ pub(super) fn infer<N: Names + ?Sized>(
             Kind::Binary(operation) => inference.binary(*operation)?,
             Kind::Compare(_) => (inference.alike(0, 1)?, None),
             Kind::If => (inference.alike(1, 2)?, None),
+            Kind::Step5 => {
+                inference.alike(0, 1)?;
+                inference.alike(1, 3)?;
+                inference.alike(0, 3)?;
+                (inference.alike(2, 4)?, None)
+            }
+            Kind::Call(name, _) => match names.tables().iter().find(|table| table.name() == name) {
+                Some(table) => (inference.read(table)?, None),
+                None => (Inferred::Open, None),
+            },
         };
         stack.push(Part { of: inferred, value, span: node.span.clone() });
     }
     Ok(stack.pop().map_or(Inferred::Open, |part| part.of))
-}
-
-fn operands(kind: &Kind) -> usize {
-    match kind {
-        Kind::Number(_) | Kind::Name(_) => 0,
-        Kind::Unary(_) => 1,
-        Kind::Binary(_) | Kind::Compare(_) => 2,
-        Kind::If => 3,
-    }
 }
 
 /// One operation on parts.
@@ -144,6 +146,21 @@ impl Inference<'_> {
             (Inferred::Of(d), _) | (_, Inferred::Of(d)) => Ok(Inferred::Of(d)),
             (Inferred::Number, Inferred::Number) => Ok(Inferred::Number),
             _ => Ok(Inferred::Open),
+        }
+    }
+
+    /// The dimension of a table that is read at a part.
+    fn read(&self, table: &Table) -> Result<Inferred, ExpressionError> {
+        match (self.parts[0].of, table.x_dimension()) {
+            (Inferred::Of(one), Some(other)) if one != other => {
+                let (at, name) = (self.written(0), table.name());
+                let own = Inferred::Of(other);
+                let message =
+                    format!("'{at}' is in {}, but {name}(x) needs {own}", Inferred::Of(one));
+                let hint = format!("x_unit of table '{name}' must fit");
+                Err(ExpressionError::new(self.parts[0].span.clone(), message).hint(hint))
+            }
+            _ => Ok(table.y_dimension().map_or(Inferred::Open, Inferred::Of)),
         }
     }
 

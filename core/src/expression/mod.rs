@@ -8,6 +8,7 @@
 //! unary      = ("-" | "+") unary | power
 //! power      = primary ["^" unary]      so -2^2 = -4, 2^-1 = 0.5, 2^3^2 = 2^9
 //! primary    = number | name | function "(" arguments ")" | "(" comparison ")"
+//! function   = one of FUNCTIONS, or the name of a table with one argument
 //! name       = part {"." part}          L1, t, pi, crank.omega, `my body`.omega
 //! ```
 //!
@@ -32,10 +33,12 @@ mod error;
 mod inference;
 mod lexer;
 mod limits;
+mod motion_law;
 mod names;
 mod operation;
 pub mod parameters;
 mod parser;
+mod points;
 mod postfix;
 mod print;
 mod quantity;
@@ -43,6 +46,7 @@ pub mod suggest;
 mod switch;
 mod switch_times;
 mod symbol;
+mod table;
 mod tape;
 mod text;
 mod tree;
@@ -51,11 +55,14 @@ pub mod unit;
 pub use error::ExpressionError;
 pub use inference::Inferred;
 pub use limits::{MAX_DEPTH, MAX_LENGTH, MAX_OPERANDS};
+pub use motion_law::MotionLaw;
 pub use names::{is_identifier, is_reserved, Names};
 pub use operation::{Function, FUNCTIONS};
+pub use points::{Outside, Points, TableError, TABLE_ENDS};
 pub(crate) use postfix::Postfix;
 pub use switch::Boundaries;
 pub use switch_times::{pieces_at, switch_times, TooManySwitches};
 pub use symbol::Symbol;
+pub use table::{Kink, Table};
 pub use tape::{Scope, Switch, Tape, Values};
 pub use text::Expression;

@@ -2,7 +2,9 @@
 
 use super::operation::FUNCTIONS;
 use super::symbol::Symbol;
+use super::table::Table;
 use super::Tape;
+use std::sync::Arc;
 
 /// The names that an expression at a place may use.
 pub trait Names {
@@ -19,6 +21,11 @@ pub trait Names {
 
     /// Every name that [`resolve`](Names::resolve) or [`formula`](Names::formula) accepts, for suggestions.
     fn known(&self) -> Vec<String>;
+
+    /// The tables that it may call.
+    fn tables(&self) -> &[Arc<Table>] {
+        &[]
+    }
 }
 
 /// A list of names is a list of parameters.

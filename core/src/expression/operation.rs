@@ -3,6 +3,7 @@
 //! NaN is never lost: a decision on NaN gives NaN. [`Real::select`] would take the last branch, so decisions use
 //! [`by_sign`].
 
+use super::motion_law::MotionLaw;
 use crate::math::Real;
 
 /// An operation on one number.
@@ -26,6 +27,7 @@ pub(super) enum Unary {
     Sign,
     Step,
     Floor,
+    Motion(MotionLaw),
 }
 
 /// An operation on two numbers.
@@ -57,6 +59,7 @@ pub(super) enum Call {
     Unary(Unary),
     Binary(Binary),
     If,
+    Step5,
 }
 
 /// A function of the language, for reference pages and completion.
@@ -73,6 +76,10 @@ pub struct Function {
 
 const fn one(name: &'static str, operation: Unary, doc: &'static str) -> Function {
     Function { name, arguments: &["x"], doc, call: Call::Unary(operation) }
+}
+
+const fn rise(name: &'static str, law: MotionLaw, doc: &'static str) -> Function {
+    Function { name, arguments: &["s"], doc, call: Call::Unary(Unary::Motion(law)) }
 }
 
 const fn two(
@@ -113,12 +120,53 @@ pub const FUNCTIONS: &[Function] = &[
         doc: "a where the condition (<, <=, > or >=) holds, else b",
         call: Call::If,
     },
+    rise(
+        "cycloidal",
+        MotionLaw::Cycloidal,
+        "0 → 1 for s in [0, 1], constant outside: s - sin(2πs)/(2π)",
+    ),
+    rise(
+        "harmonic",
+        MotionLaw::Harmonic,
+        "0 → 1 for s in [0, 1], constant outside: (1 - cos πs)/2",
+    ),
+    rise(
+        "poly345",
+        MotionLaw::Poly345,
+        "0 → 1 for s in [0, 1], constant outside: 10 s³ - 15 s⁴ + 6 s⁵",
+    ),
+    rise(
+        "poly4567",
+        MotionLaw::Poly4567,
+        "0 → 1 for s in [0, 1], constant outside: 35 s⁴ - 84 s⁵ + 70 s⁶ - 20 s⁷",
+    ),
+    rise(
+        "modified_sine",
+        MotionLaw::ModifiedSine,
+        "0 → 1 for s in [0, 1], constant outside: modified sine",
+    ),
+    rise(
+        "modified_trapezoid",
+        MotionLaw::ModifiedTrapezoid,
+        "0 → 1 for s in [0, 1], constant outside: modified trapezoidal acceleration",
+    ),
+    Function {
+        name: "step5",
+        arguments: &["t", "t0", "y0", "t1", "y1"],
+        doc: "y0 before t0, y1 after t1, between them y0 + (y1 - y0) poly345((t - t0)/(t1 - t0))",
+        call: Call::Step5,
+    },
 ];
 
 /// One of three values by the sign of `d`, lane by lane; NaN where `d` is NaN.
 fn by_sign<S: Real>(d: S, positive: S, negative: S, zero: S) -> S {
     // floor(d) is 0 or NaN where it counts, and carries no derivative
     S::select(d, positive, S::select(-d, negative, zero + d.floor()))
+}
+
+/// y0 + (y1 - y0) poly345((t - t0)/(t1 - t0)).
+pub(super) fn step5<S: Real>([t, t0, y0, t1, y1]: [S; 5]) -> S {
+    y0 + (y1 - y0) * MotionLaw::Poly345.apply((t - t0) / (t1 - t0))
 }
 
 fn larger<S: Real>(a: S, b: S) -> S {
@@ -149,6 +197,7 @@ impl Unary {
             Self::Sign => by_sign(x, S::one(), -S::one(), S::zero()),
             Self::Step => by_sign(x, S::one(), S::zero(), S::one()),
             Self::Floor => x.floor(),
+            Self::Motion(law) => law.apply(x),
         }
     }
 }

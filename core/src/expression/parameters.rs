@@ -1,11 +1,13 @@
 //! Parameters that refer to other parameters: the order in which they can be evaluated.
 
 use super::{
-    is_identifier, is_reserved, Expression, ExpressionError, Inferred, Names, Scope, Symbol, Tape,
+    is_identifier, is_reserved, Expression, ExpressionError, Inferred, Names, Scope, Symbol, Table,
+    Tape, FUNCTIONS,
 };
 use crate::math::Real;
 use std::collections::HashMap;
 use std::fmt;
+use std::sync::Arc;
 
 /// A fault of the definition of a parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,7 +45,18 @@ impl Parameters {
     /// compile (the time and the state have no meaning here); definitions in a circle; a sum of different
     /// dimensions.
     pub fn compile<N: AsRef<str>>(definitions: &[(N, Expression)]) -> Result<Self, ParameterError> {
-        let names = index(definitions)?;
+        Self::with_tables(definitions, &[])
+    }
+
+    /// The same with tables that the expressions may call.
+    ///
+    /// # Errors
+    /// As [`compile`](Self::compile); a table with the name of a parameter.
+    pub fn with_tables<N: AsRef<str>>(
+        definitions: &[(N, Expression)],
+        tables: &[Arc<Table>],
+    ) -> Result<Self, ParameterError> {
+        let names = index(definitions, tables)?;
         let mut tapes = Vec::with_capacity(definitions.len());
         for (k, (_, expression)) in definitions.iter().enumerate() {
             let tape = expression.compile(&names).map_err(|error| at(definitions, k, error))?;
@@ -100,7 +113,7 @@ pub fn resolve<N: AsRef<str>>(
 }
 
 /// The names of the definitions.
-struct Index<'a>(HashMap<&'a str, usize>);
+struct Index<'a>(HashMap<&'a str, usize>, &'a [Arc<Table>]);
 
 impl Names for Index<'_> {
     fn resolve(&self, name: &str) -> Option<Symbol> {
@@ -110,6 +123,9 @@ impl Names for Index<'_> {
         let mut known: Vec<_> = self.0.iter().map(|(name, k)| (*k, name.to_string())).collect();
         known.sort();
         known.into_iter().map(|(_, name)| name).collect()
+    }
+    fn tables(&self) -> &[Arc<Table>] {
+        self.1
     }
 }
 
@@ -121,14 +137,21 @@ fn at<N: AsRef<str>>(
     ParameterError { parameter, name: definitions[parameter].0.as_ref().to_string(), error }
 }
 
-fn index<N: AsRef<str>>(definitions: &[(N, Expression)]) -> Result<Index<'_>, ParameterError> {
+fn index<'a, N: AsRef<str>>(
+    definitions: &'a [(N, Expression)],
+    tables: &'a [Arc<Table>],
+) -> Result<Index<'a>, ParameterError> {
     let mut names = HashMap::with_capacity(definitions.len());
     for (k, (name, expression)) in definitions.iter().enumerate() {
         let name = name.as_ref();
         let message = if !is_identifier(name) {
             "a parameter's name must be letters, digits and '_', and not begin with a digit"
+        } else if FUNCTIONS.iter().any(|function| function.name == name) {
+            "this name is reserved: it is a function of formulas; rename the parameter"
         } else if is_reserved(name) {
             "this name is reserved"
+        } else if tables.iter().any(|table| table.name() == name) {
+            "this is the name of a table; rename one of them"
         } else if names.insert(name, k).is_some() {
             "this parameter is defined twice"
         } else {
@@ -137,7 +160,7 @@ fn index<N: AsRef<str>>(definitions: &[(N, Expression)]) -> Result<Index<'_>, Pa
         let span = 0..expression.text().len();
         return Err(at(definitions, k, ExpressionError::new(span, message)));
     }
-    Ok(Index(names))
+    Ok(Index(names, tables))
 }
 
 /// Depth-first order; a circle comes back as the indices along it, the first one not repeated.

@@ -2,8 +2,7 @@
 
 use super::lexer::{Lexer, Token, TokenKind};
 use super::names::constant;
-use super::operation::{Binary, Call, Function, Unary, FUNCTIONS};
-use super::suggest::did_you_mean;
+use super::operation::{Binary, Call, Function, Unary};
 use super::tree::{Kind, Node};
 use super::unit::Unit;
 use super::{ExpressionError, MAX_DEPTH};
@@ -185,7 +184,7 @@ impl Parser<'_> {
         match Call::named(&name) {
             _ if quoted => {}
             Some(function) if self.at('(') => {
-                return self.nested(|parser| parser.call(function, span));
+                return self.nested(|parser| parser.call(&name, Some(function), span));
             }
             Some(function) => {
                 let arguments = function.arguments.join(", ");
@@ -194,13 +193,19 @@ impl Parser<'_> {
                     ExpressionError::new(span, message).hint(format!("write {name}({arguments})"))
                 );
             }
-            None if self.at('(') => return Err(unknown_function(&name, span)),
+            None if self.at('(') => return self.nested(|parser| parser.call(&name, None, span)),
             None => {}
         }
         Ok(self.push(Kind::Name(name), span))
     }
 
-    fn call(&mut self, function: &Function, name: Range<usize>) -> Parsed<Range<usize>> {
+    /// A call of a function of the language, or of a table, which the compiler looks up.
+    fn call(
+        &mut self,
+        name: &str,
+        function: Option<&Function>,
+        span: Range<usize>,
+    ) -> Parsed<Range<usize>> {
         let open = self.advance()?.span;
         let mut count = 0;
         while !(count == 0 && self.at(')')) {
@@ -211,20 +216,24 @@ impl Parser<'_> {
             }
             self.advance()?;
         }
-        let span = name.start..self.close(&open)?.end;
-        if count != function.arguments.len() {
-            return Err(wrong_count(function, count, span));
-        }
-        let kind = match function.call {
-            Call::Unary(operation) => Kind::Unary(operation),
-            Call::Binary(operation) => Kind::Binary(operation),
-            Call::If => Kind::If,
+        let span = span.start..self.close(&open)?.end;
+        let kind = match function {
+            None => Kind::Call(name.to_string(), count),
+            Some(function) if count != function.arguments.len() => {
+                return Err(wrong_count(name, function.arguments, count, span));
+            }
+            Some(function) => match function.call {
+                Call::Unary(operation) => Kind::Unary(operation),
+                Call::Binary(operation) => Kind::Binary(operation),
+                Call::If => Kind::If,
+                Call::Step5 => Kind::Step5,
+            },
         };
         Ok(self.push(kind, span))
     }
 
-    fn argument(&mut self, function: &Function, index: usize) -> Parsed<()> {
-        if (function.call, index) != (Call::If, 0) {
+    fn argument(&mut self, function: Option<&Function>, index: usize) -> Parsed<()> {
+        if (function.map(|f| f.call), index) != (Some(Call::If), 0) {
             return self.value().map(|_| ());
         }
         let span = self.comparison()?;
@@ -295,19 +304,13 @@ fn misplaced_comparison(span: Range<usize>) -> ExpressionError {
         .hint("write if(a < b, 1, 0) for its value as a number".to_string())
 }
 
-fn unknown_function(name: &str, span: Range<usize>) -> ExpressionError {
-    let hint = match name {
-        "log" => Some("write ln for the natural logarithm, log10 for the decimal".to_string()),
-        "arcsin" | "arccos" | "arctan" | "arctan2" => Some(format!("write a{}", &name[3..])),
-        "pow" => Some("write x^y".to_string()),
-        _ => did_you_mean(name, FUNCTIONS.iter().map(|f| f.name))
-            .or_else(|| Some(format!("to multiply, write {name}*(...)"))),
-    };
-    ExpressionError::new(span, format!("unknown function '{name}'")).hint(hint)
-}
-
-fn wrong_count(function: &Function, count: usize, span: Range<usize>) -> ExpressionError {
-    let (name, arguments) = (function.name, function.arguments);
+/// A call with a wrong number of arguments.
+pub(super) fn wrong_count(
+    name: &str,
+    arguments: &[&str],
+    count: usize,
+    span: Range<usize>,
+) -> ExpressionError {
     let plural = if arguments.len() == 1 { "" } else { "s" };
     let message = format!("{name} takes {} argument{plural}, got {count}", arguments.len());
     ExpressionError::new(span, message).hint(format!("write {name}({})", arguments.join(", ")))

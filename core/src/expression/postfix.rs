@@ -77,6 +77,7 @@ impl Postfix {
 
     /// The tape.
     pub fn finish(self) -> Tape {
-        Tape { code: self.code, operands: self.operands, symbols: self.symbols, ..Tape::default() }
+        let (code, operands, symbols) = (self.code, self.operands, self.symbols);
+        Tape { code, operands, symbols, ..Tape::default() }
     }
 }

@@ -41,13 +41,7 @@ impl Piece {
 pub(super) fn print(text: &str, nodes: &[Node]) -> String {
     let mut pieces: Vec<Piece> = Vec::new();
     for node in nodes {
-        let count = match node.kind {
-            Kind::Number(_) | Kind::Name(_) => 0,
-            Kind::Unary(_) => 1,
-            Kind::Binary(_) | Kind::Compare(_) => 2,
-            Kind::If => 3,
-        };
-        let operands = pieces.split_off(pieces.len() - count);
+        let operands = pieces.split_off(pieces.len() - node.kind.operands());
         pieces.push(piece(node, &text[node.span.clone()], operands));
     }
     pieces.into_iter().map(|piece| piece.text).collect()
@@ -59,18 +53,20 @@ fn piece(node: &Node, written: &str, operands: Vec<Piece>) -> Piece {
         Kind::Unary(Unary::Negate) => {
             Piece::new(join("-", operands, &[Binding::Unary]), Binding::Unary)
         }
-        Kind::Unary(operation) => call(Call::Unary(*operation), operands),
+        Kind::Unary(operation) => call(Call::Unary(*operation).name(), operands),
         Kind::Binary(operation) => match infix(*operation) {
             Some((own, left, right)) => {
                 Piece::new(join(operation.mark(), operands, &[left, right]), own)
             }
-            None => call(Call::Binary(*operation), operands),
+            None => call(Call::Binary(*operation).name(), operands),
         },
         Kind::Compare(relation) => {
             let text = join(relation.mark(), operands, &[Binding::Sum, Binding::Sum]);
             Piece::new(text, Binding::Comparison)
         }
-        Kind::If => call(Call::If, operands),
+        Kind::If => call(Call::If.name(), operands),
+        Kind::Step5 => call(Call::Step5.name(), operands),
+        Kind::Call(name, _) => call(name, operands),
     }
 }
 
@@ -95,7 +91,7 @@ fn join(mark: &str, operands: Vec<Piece>, bindings: &[Binding]) -> String {
     texts.join(mark)
 }
 
-fn call(function: Call, operands: Vec<Piece>) -> Piece {
+fn call(name: &str, operands: Vec<Piece>) -> Piece {
     let arguments: Vec<_> = operands.into_iter().map(|piece| piece.text).collect();
-    Piece::new(format!("{}({})", function.name(), arguments.join(",")), Binding::Primary)
+    Piece::new(format!("{name}({})", arguments.join(",")), Binding::Primary)
 }

@@ -6,7 +6,7 @@
 //! every switch is found, except where σ passes a boundary twice within the spacing of numbers, or where halving needs
 //! more than [`MOST_INTERVALS`] intervals; there the signs at the ends of the remaining intervals decide.
 //!
-//! σ may contain other switches. The search runs between their times, where they hold one piece.
+//! A function that contains a table is sampled at [`SAMPLES`] times instead. σ may contain other switches. The search runs between their times, where they hold one piece.
 
 use super::switch::Boundaries;
 use super::tape::Values;
@@ -17,6 +17,8 @@ use crate::math::{Dual, Interval, Lift, Real};
 const MOST_TIMES: usize = 1_000_000;
 /// Largest number of intervals for one switch between two times of others.
 const MOST_INTERVALS: usize = 100_000;
+/// Times at which a function that contains a table is sampled.
+const SAMPLES: usize = 4096;
 /// Slopes below this are the rounding of a constant.
 const CONSTANT: f64 = 1e-280;
 
@@ -142,6 +144,11 @@ impl Search<'_> {
         span: [f64; 2],
         out: &mut Vec<f64>,
     ) -> Result<(), TooManySwitches> {
+        if self.tape.has_tables() {
+            // a table has no bounds on an interval: the signs at many times decide
+            let at = |k: usize| part[0] + (part[1] - part[0]) * k as f64 / SAMPLES as f64;
+            return (0..SAMPLES).try_for_each(|k| self.pass([at(k), at(k + 1)], out));
+        }
         let spacing = 4.0 * f64::EPSILON * span[0].abs().max(span[1].abs());
         let mut budget = MOST_INTERVALS;
         let mut open = vec![part];

@@ -1,9 +1,11 @@
 //! A compiled expression: instructions for a stack of operands.
 
-use super::operation::{Binary, Relation, Unary};
+use super::operation::{step5, Binary, Relation, Unary};
 use super::switch::{Boundaries, Piecewise};
+use super::table::Table;
 use super::{Symbol, MAX_OPERANDS};
 use crate::math::Real;
+use std::sync::Arc;
 
 /// One step of an evaluation. Operands are on the stack, the last one on top.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +25,10 @@ pub(super) enum Instruction {
     Guard,
     /// Replaces the operands of an operation that has a switch.
     Piecewise(Piecewise),
+    /// Replaces (t, t0, y0, t1, y1) by the rise.
+    Step5,
+    /// Replaces x by the value of a table, by its place among those of the tape.
+    Table(usize),
 }
 
 impl Instruction {
@@ -30,10 +36,11 @@ impl Instruction {
     pub fn operands(self) -> usize {
         match self {
             Self::Constant(_) | Self::Load(_) => 0,
-            Self::Unary(_) | Self::PowerConstant(_) => 1,
+            Self::Unary(_) | Self::PowerConstant(_) | Self::Table(_) => 1,
             Self::Binary(_) => 2,
             Self::Guard => 3,
             Self::Piecewise(operation) => operation.operands(),
+            Self::Step5 => 5,
         }
     }
 }
@@ -99,10 +106,19 @@ pub struct Tape {
     /// Most operands on the stack at a time, at most [`MAX_OPERANDS`].
     pub(super) operands: usize,
     pub(super) symbols: Vec<Symbol>,
+    pub(super) tables: Vec<Arc<Table>>,
     /// Number of switches.
     pub(super) switches: usize,
     /// Index of the first switch in the held pieces.
     pub(super) first_switch: usize,
+}
+
+/// What an observer of an evaluation sees.
+enum Seen<'a, S> {
+    /// The function of the switch with this index.
+    Switch(usize, S),
+    /// A table, and the place at which it is read.
+    Table(&'a Table, S),
 }
 
 /// A switch of an expression.
@@ -123,12 +139,12 @@ impl Tape {
     /// that is held for it. Where the held pieces have no value, as √x of x > 0 just below zero, none is held.
     pub fn evaluate<S: Real>(&self, values: &impl Values<S>) -> S {
         if self.switches == 0 {
-            return self.by_depth(values, &mut |_, _| {});
+            return self.by_depth(values, &mut |_| {});
         }
-        let value = self.value_with_switches(values, &mut |_, _| {});
+        let value = self.value_with_switches(values, &mut |_| {});
         match value.is_finite() {
             true => value,
-            false => self.value_with_switches(&Free(values), &mut |_, _| {}),
+            false => self.value_with_switches(&Free(values), &mut |_| {}),
         }
     }
 
@@ -139,17 +155,21 @@ impl Tape {
         mut take: impl FnMut(usize, S),
     ) {
         if self.switches > 0 {
-            self.value_with_switches(values, &mut take);
+            self.value_with_switches(values, &mut |seen: Seen<'_, S>| {
+                if let Seen::Switch(k, sigma) = seen {
+                    take(k, sigma);
+                }
+            });
         }
     }
 
     #[inline(always)]
-    fn by_depth<S: Real>(&self, values: &impl Values<S>, take: &mut impl FnMut(usize, S)) -> S {
+    fn by_depth<S: Real>(&self, values: &impl Values<S>, look: &mut impl FnMut(Seen<'_, S>)) -> S {
         // a large stack of large scalars costs more to clear than a short expression to evaluate
         if self.operands <= 8 {
-            self.run::<S, 8>(values, take)
+            self.run::<S, 8>(values, look)
         } else {
-            self.run::<S, MAX_OPERANDS>(values, take)
+            self.run::<S, MAX_OPERANDS>(values, look)
         }
     }
 
@@ -157,16 +177,16 @@ impl Tape {
     fn value_with_switches<S: Real>(
         &self,
         values: &impl Values<S>,
-        take: &mut impl FnMut(usize, S),
+        look: &mut impl FnMut(Seen<'_, S>),
     ) -> S {
-        self.by_depth(values, take)
+        self.by_depth(values, look)
     }
 
     #[inline(always)]
     fn run<S: Real, const DEPTH: usize>(
         &self,
         values: &impl Values<S>,
-        take: &mut impl FnMut(usize, S),
+        look: &mut impl FnMut(Seen<'_, S>),
     ) -> S {
         let mut stack = [S::zero(); DEPTH];
         let mut top = 0; // first free place
@@ -186,12 +206,17 @@ impl Tape {
                 }
                 Instruction::Piecewise(operation) => {
                     let (operands, piece) = (&stack[first..top], values.piece(switch));
-                    take(switch, operation.function(operands));
+                    look(Seen::Switch(switch, operation.function(operands)));
                     switch += 1;
                     match piece.is_nan() {
                         true => operation.value(operands),
                         false => operation.value_on(piece, operands),
                     }
+                }
+                Instruction::Step5 => step5(std::array::from_fn(|k| stack[first + k])),
+                Instruction::Table(k) => {
+                    look(Seen::Table(&self.tables[k], stack[first]));
+                    self.tables[k].value(stack[first])
                 }
             };
             top = first + 1;
@@ -240,6 +265,41 @@ impl Tape {
     /// The symbols that the expression uses, each once, in order of appearance.
     pub fn symbols(&self) -> &[Symbol] {
         &self.symbols
+    }
+
+    /// The tables that are read at places which vary with time or state, in order of appearance.
+    pub fn tables(&self) -> Vec<&Arc<Table>> {
+        let mut stack: Vec<bool> = Vec::new();
+        let mut found = Vec::new();
+        for instruction in &self.code {
+            let operands = stack.split_off(stack.len() - instruction.operands());
+            let varies = operands.contains(&true);
+            stack.push(match instruction {
+                Instruction::Load(Symbol::Time | Symbol::Variable(_)) => true,
+                Instruction::Table(k) if varies => {
+                    found.push(&self.tables[*k]);
+                    true
+                }
+                _ => varies,
+            });
+        }
+        found
+    }
+
+    /// Whether a table is read.
+    pub(super) fn has_tables(&self) -> bool {
+        !self.tables.is_empty()
+    }
+
+    /// Why the expression has no value, if a table is read outside its range.
+    pub fn refusal(&self, values: &impl Values<f64>) -> Option<String> {
+        let mut reason = None;
+        self.run::<f64, MAX_OPERANDS>(values, &mut |seen: Seen<'_, f64>| {
+            if let Seen::Table(table, x) = seen {
+                reason = reason.take().or_else(|| table.refusal(x));
+            }
+        });
+        reason
     }
 
     /// The indices of the parameters that the expression uses, each once.

@@ -28,6 +28,24 @@ pub(super) enum Kind {
     Compare(Relation),
     /// The choice (condition, a, b).
     If,
+    /// The rise (t, t0, y0, t1, y1).
+    Step5,
+    /// A function that is not of the language, with its number of arguments: a table.
+    Call(String, usize),
+}
+
+impl Kind {
+    /// The number of subtrees that it takes.
+    pub fn operands(&self) -> usize {
+        match self {
+            Self::Number(_) | Self::Name(_) => 0,
+            Self::Unary(_) => 1,
+            Self::Binary(_) | Self::Compare(_) => 2,
+            Self::If => 3,
+            Self::Step5 => 5,
+            Self::Call(_, count) => *count,
+        }
+    }
 }
 
 /// Spans do not count: `a+b` and `a + (b)` are the same tree.

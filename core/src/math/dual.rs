@@ -158,6 +158,9 @@ impl<const N: usize, S: Real> Real for Dual<N, S> {
     fn largest_magnitude(self) -> f64 {
         self.value.largest_magnitude()
     }
+    fn in_lanes(self) -> [f64; 4] {
+        self.value.in_lanes()
+    }
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.slope.iter().all(|d| d.is_finite())
     }

@@ -218,6 +218,11 @@ impl Real for Interval {
         let least = if self.contains_zero() { 0.0 } else { low.min(high) };
         Self { low: least, high: low.max(high) }
     }
+    /// Its bounds and its middle.
+    fn in_lanes(self) -> [f64; 4] {
+        let middle = 0.5 * (self.low + self.high);
+        [self.low, self.high, middle, middle]
+    }
     fn least_magnitude(self) -> f64 {
         self.abs().low
     }

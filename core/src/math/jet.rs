@@ -187,6 +187,9 @@ impl<S: Real> Real for Jet<S> {
     fn largest_magnitude(self) -> f64 {
         self.value.largest_magnitude()
     }
+    fn in_lanes(self) -> [f64; 4] {
+        self.value.in_lanes()
+    }
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.rate.is_finite() && self.second.is_finite()
     }

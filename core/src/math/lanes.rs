@@ -255,6 +255,9 @@ impl Real for Lanes {
         let [a, b, c, d] = self.0.abs().to_array();
         a.min(b).min(c.min(d))
     }
+    fn in_lanes(self) -> [f64; 4] {
+        self.to_array()
+    }
     #[inline(always)]
     fn largest_magnitude(self) -> f64 {
         let [a, b, c, d] = self.0.abs().to_array();

@@ -15,6 +15,8 @@ mod lanes;
 mod plane;
 mod real;
 mod sine;
+mod spline;
+mod spline_system;
 
 pub use complex::Complex;
 pub use dual::Dual;
@@ -24,3 +26,4 @@ pub use jet::Jet;
 pub use lanes::Lanes;
 pub use plane::{Lever, Local, Motion, Pose, Rotation, Twist, Vec2, Wrench};
 pub use real::{Largest, Lift, Real};
+pub use spline::{Interpolation, Spline};

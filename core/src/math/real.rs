@@ -64,8 +64,15 @@ pub trait Real:
     fn least_magnitude(self) -> f64;
     /// Largest |x| over the lanes, NaN if one is; derivatives are ignored.
     fn largest_magnitude(self) -> f64;
+    /// The value in each lane, derivatives ignored; a scalar without lanes repeats its value.
+    fn in_lanes(self) -> [f64; 4];
     /// Whether every part, derivatives included, is finite.
     fn is_finite(self) -> bool;
+    /// The function of a name of x, for a scalar that prints formulas; numbers have none.
+    fn named_function(self, name: &str) -> Option<Self> {
+        let _ = name;
+        None
+    }
 
     /// Zero.
     fn zero() -> Self {
@@ -190,6 +197,9 @@ impl Real for f64 {
     #[inline(always)]
     fn largest_magnitude(self) -> f64 {
         f64::abs(self)
+    }
+    fn in_lanes(self) -> [f64; 4] {
+        [self; 4]
     }
     fn is_finite(self) -> bool {
         f64::is_finite(self)

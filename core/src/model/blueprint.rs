@@ -9,7 +9,8 @@ use super::variable::Variable;
 use crate::elements::{
     holding, BodyId, Constraint, CoordinateOf, Fixes, ForceElement, Group, OwnState,
 };
-use crate::expression::{Inferred, Symbol, Tape};
+use crate::expression::{Inferred, Symbol, Table, Tape};
+use std::sync::Arc;
 
 /// The linked content of a file: elements over [`Tape`].
 #[derive(Clone, Debug)]
@@ -20,6 +21,8 @@ pub struct Blueprint {
     pub parameters: Vec<String>,
     /// Their dimensions, as far as they are written with units.
     pub inferred: Vec<Inferred>,
+    /// The tables that formulas may call.
+    pub tables: Vec<Arc<Table>>,
     /// Whether redundant constraints are accepted.
     pub allow_redundancy: bool,
     /// Acceleration of free fall.
@@ -59,6 +62,7 @@ impl Blueprint {
                 let e = e.filter(|e| {
                     self.two_bodies(group, entry, &e.bodies(), problems)
                         && self.not_circular(entry, e, problems)
+                        && has_velocity(group, entry, e, problems)
                 });
                 self.constraints.extend(e.map(|e| (entry.name.clone(), group, e)));
             })
@@ -126,4 +130,34 @@ impl Blueprint {
     pub fn body(&self, name: &str) -> Option<BodyId> {
         self.bodies.iter().position(|b| b.name == name).map(BodyId)
     }
+}
+
+/// Reports a joint or driver whose law reads a table with jumps of the slope between its points.
+fn has_velocity(
+    group: Group,
+    entry: &Entry,
+    constraint: &Constraint<Tape>,
+    problems: &mut Vec<Problem>,
+) -> bool {
+    let mut broken = None;
+    constraint.map(&mut |tape| {
+        broken = broken.take().or_else(|| {
+            let found = tape.tables().into_iter().find(|table| table.is_broken());
+            found.map(|table| table.name().to_string())
+        });
+    });
+    let Some(name) = broken else { return true };
+    let call = format!("{name}(");
+    let reads = |value: &Value| matches!(value, Value::Text(text) if text.contains(&call));
+    let field = entry.fields.iter().find(|(_, value)| reads(value));
+    let place: Vec<&str> = [group.section(), entry.name.as_str()]
+        .into_iter()
+        .chain(field.map(|(field, _)| field.as_str()))
+        .collect();
+    let message = format!(
+        "the law reads table '{name}', whose linear interpolation makes the velocity jump at its points"
+    );
+    let hint = format!("write interpolation = \"cubic\" in tables.{name}");
+    problems.push(Problem::at(&place, message).hint(hint));
+    false
 }

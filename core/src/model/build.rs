@@ -6,7 +6,7 @@ use super::model::Model;
 use super::problem::Problem;
 use super::quantity::Elements;
 use super::scope::Scope;
-use super::{bodies, checks, parameters};
+use super::{bodies, checks, parameters, tables};
 use crate::elements::Group;
 use crate::expression::Tape;
 use std::sync::Arc;
@@ -19,8 +19,10 @@ pub fn build(
     overrides: &[(String, Value)],
 ) -> Result<Model, Vec<Problem>> {
     let mut problems = Vec::new();
-    let (values, inferred) = parameters::values(definition, overrides, &mut problems);
-    let scope = Scope::new(definition, inferred);
+    let tables = tables::read(definition, &mut problems);
+    let (values, inferred) = parameters::values(definition, overrides, &tables, &mut problems);
+    let mut scope = Scope::new(definition, inferred);
+    scope.tables = tables;
     let gravity = gravity(definition, &scope, &mut problems);
     let bodies = bodies::read(definition, &scope, &mut problems);
     let quantities = Elements::new(definition, &scope, &bodies);
@@ -28,6 +30,7 @@ pub fn build(
         title: definition.title.clone().unwrap_or_default(),
         parameters: scope.parameters.clone(),
         inferred: scope.inferred.clone(),
+        tables: scope.tables.clone(),
         allow_redundancy: definition.redundancy.as_deref() == Some("allow"),
         gravity,
         bodies: bodies.clone(),

@@ -29,6 +29,8 @@ pub struct Definition {
     pub redundancy: Option<String>,
     /// Named parameters: numbers or formulas in other parameters.
     pub parameters: Vec<(String, Value)>,
+    /// Tables, functions through given points.
+    pub tables: Vec<Entry>,
     /// Bodies; an entry `ground` holds the points of ground.
     pub bodies: Vec<Entry>,
     /// Joints.

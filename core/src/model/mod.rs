@@ -19,6 +19,7 @@ mod scope;
 mod size;
 mod switch;
 mod symbols;
+mod tables;
 mod variable;
 
 pub use blueprint::Blueprint;
@@ -34,4 +35,5 @@ pub use problems::{listed, more_problems, Problems, MOST_REPORTED};
 pub use scope::{Reach, Scope};
 pub use size::{column_scales, row_scales, size};
 pub use switch::{Owner, Switch};
+pub use tables::table_fields;
 pub use variable::{Dependence, Variable};

@@ -3,7 +3,8 @@
 use super::definition::{Definition, Value};
 use super::problem::Problem;
 use crate::expression::parameters::Parameters;
-use crate::expression::{Expression, Inferred};
+use crate::expression::{Expression, Inferred, Table};
+use std::sync::Arc;
 
 /// Evaluates all parameters in the order of their dependence, and infers their dimensions.
 ///
@@ -11,6 +12,7 @@ use crate::expression::{Expression, Inferred};
 pub fn values(
     definition: &Definition,
     overrides: &[(String, Value)],
+    tables: &[Arc<Table>],
     problems: &mut Vec<Problem>,
 ) -> (Vec<f64>, Vec<Inferred>) {
     let names: Vec<&str> = definition.parameters.iter().map(|(name, _)| name.as_str()).collect();
@@ -33,7 +35,7 @@ pub fn values(
     if formulas.len() < names.len() {
         return faulty(names.len());
     }
-    evaluate(&names, &formulas, problems)
+    evaluate(&names, &formulas, tables, problems)
 }
 
 fn formula(value: &Value) -> Result<Expression, Problem> {
@@ -58,9 +60,10 @@ fn formula(value: &Value) -> Result<Expression, Problem> {
 fn evaluate(
     names: &[&str],
     formulas: &[(&str, Expression)],
+    tables: &[Arc<Table>],
     problems: &mut Vec<Problem>,
 ) -> (Vec<f64>, Vec<Inferred>) {
-    let compiled = match Parameters::compile(formulas) {
+    let compiled = match Parameters::with_tables(formulas, tables) {
         Ok(compiled) => compiled,
         Err(fault) => {
             let at = Problem::at(&["parameters", fault.name.as_str()], fault.error.message);

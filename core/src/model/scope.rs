@@ -7,9 +7,10 @@ use super::problems::MOST_REPORTED;
 use super::variable::Variable;
 use crate::elements::{states_of, BodyId, Coordinate, Followed, Measured, OwnState};
 use crate::expression::unit::Unit;
-use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Tape};
+use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Table, Tape};
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// The names that formulas may use.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +19,8 @@ pub struct Scope {
     pub parameters: Vec<String>,
     /// Their dimensions.
     pub inferred: Vec<Inferred>,
+    /// Tables that formulas may call.
+    pub tables: Vec<Arc<Table>>,
     /// Bodies, each with whether it has an angle; index 0 is ground.
     pub bodies: Vec<(String, bool)>,
     /// First-order states of elements, such as `motor.current`, in the order of z.
@@ -121,6 +124,10 @@ impl Names for Visible<'_> {
         variable(Variable::Coordinate(BodyId(body), coordinate))
     }
 
+    fn tables(&self) -> &[Arc<Table>] {
+        &self.scope.tables
+    }
+
     fn formula(&self, name: &str) -> Option<Tape> {
         let quantities = self.law.filter(|_| self.reach != Reach::Parameters)?.quantities;
         let full = self.own(name);
@@ -200,7 +207,7 @@ impl Scope {
             states: places(states.iter()),
             ..Places::default()
         };
-        Self { parameters, inferred, bodies, states, places }
+        Self { parameters, inferred, bodies, states, places, ..Self::default() }
     }
 
     /// The place at which a joint or driver is written, joints first.
@@ -218,10 +225,15 @@ impl Scope {
         self.places.bodies.get(name).copied()
     }
 
-    /// Only the parameters.
-    pub fn of_parameters(parameters: &[String], inferred: &[Inferred]) -> Self {
+    /// Only the parameters and tables of a model.
+    pub fn of_parameters(
+        parameters: &[String],
+        inferred: &[Inferred],
+        tables: &[Arc<Table>],
+    ) -> Self {
         let bodies = vec![("ground".to_string(), true)];
-        Self::of(parameters.to_vec(), inferred.to_vec(), bodies, Vec::new())
+        let scope = Self::of(parameters.to_vec(), inferred.to_vec(), bodies, Vec::new());
+        Self { tables: tables.to_vec(), ..scope }
     }
 
     /// A formula from a number or a text; reports a fault at `path`.

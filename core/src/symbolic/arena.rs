@@ -33,6 +33,12 @@ pub(super) enum Node {
     Call(Function, Vec<Id>),
     /// The second where the first is positive, else the third.
     Select([Id; 3]),
+    /// A derivative of a table, by its place among the names of tables.
+    Table {
+        table: usize,
+        order: usize,
+        x: Id,
+    },
 }
 
 /// The time derivative of a symbol with zero accelerations.
@@ -78,6 +84,8 @@ pub(super) struct Arena {
     pub signs: HashSet<Id>,
     /// Expressions that have got a name, and the name.
     pub named: HashMap<Id, Id>,
+    /// Names of tables.
+    pub tables: Vec<String>,
 }
 
 impl Arena {
@@ -130,6 +138,14 @@ impl Arena {
         }
     }
 
+    /// The place of the name of a table.
+    pub fn table(&mut self, name: &str) -> usize {
+        self.tables.iter().position(|known| known == name).unwrap_or_else(|| {
+            self.tables.push(name.to_string());
+            self.tables.len() - 1
+        })
+    }
+
     /// The expressions that a node is made of.
     pub fn parts(&self, id: Id) -> Vec<Id> {
         match self.node(id) {
@@ -138,6 +154,7 @@ impl Arena {
             Node::Sum(terms) | Node::Product(terms) => terms.iter().map(|(id, _)| *id).collect(),
             Node::Call(_, arguments) => arguments.clone(),
             Node::Select(parts) => parts.to_vec(),
+            Node::Table { x, .. } => vec![*x],
         }
     }
 }

@@ -51,6 +51,11 @@ impl Derivation {
                 let (a, b) = (self.of(arena, a), self.of(arena, b));
                 arena.select(condition, a, b)
             }
+            Node::Table { table, order, x } => {
+                let outer = arena.add(Node::Table { table, order: order + 1, x });
+                let inner = self.of(arena, x);
+                arena.multiply(outer, inner)
+            }
         };
         self.known.insert(id, found);
         found

@@ -63,6 +63,7 @@ impl Arena {
             }
             Node::Call(function, _) => self.call(function, &parts),
             Node::Select(_) => self.select(parts[0], parts[1], parts[2]),
+            Node::Table { table, order, .. } => self.add(Node::Table { table, order, x: parts[0] }),
         };
         known.insert(id, made);
         made

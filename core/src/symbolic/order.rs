@@ -87,7 +87,7 @@ impl Arena {
             _ if self.is_constant(id) => 0,
             Node::Number(_) => 0,
             Node::Symbol(k) => 1 + self.symbols[*k].name.kind as u8,
-            Node::Call(..) => 8,
+            Node::Call(..) | Node::Table { .. } => 8,
             Node::Turned { .. } => 9,
             Node::Product(_) => 10,
             Node::Sum(_) => 11,

@@ -55,6 +55,10 @@ impl Arena {
                 (form.call(function, &parts), Binding::Primary)
             }
             Node::Select(parts) => (self.select_text(parts, form), Binding::Primary),
+            Node::Table { table, order, x } => {
+                let x = self.write(x, form);
+                (form.table(&self.tables[table], order, &x), Binding::Primary)
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 //! Arithmetic of the scalar.
 
-use super::arena::{ONE, ZERO};
+use super::arena::{Node, ONE, ZERO};
 use super::function::Function;
 use super::record::{constant, with, Symbolic};
 use crate::math::Real;
@@ -121,8 +121,18 @@ impl Real for Symbolic {
     fn largest_magnitude(self) -> f64 {
         self.least_magnitude()
     }
+    /// That of a constant; NaN for all other expressions.
+    fn in_lanes(self) -> [f64; 4] {
+        [constant(self).unwrap_or(f64::NAN); 4]
+    }
     /// Whether a constant is finite; true for all other expressions.
     fn is_finite(self) -> bool {
         constant(self).is_none_or(f64::is_finite)
+    }
+    fn named_function(self, name: &str) -> Option<Self> {
+        Some(with(|arena, own| {
+            let table = arena.table(name);
+            arena.add(Node::Table { table, order: 0, x: own(self) })
+        }))
     }
 }

@@ -86,6 +86,15 @@ impl Form {
             _ => format!("{name}({inside})"),
         }
     }
+
+    /// A derivative of a table, such as lift''(x).
+    pub(super) fn table(self, name: &str, order: usize, inside: &str) -> String {
+        let primes = "'".repeat(order);
+        match self {
+            Self::Latex => format!("{}{primes}\\left({inside}\\right)", super::upright(name)),
+            _ => format!("{name}{primes}({inside})"),
+        }
+    }
 }
 
 /// Whether a LaTeX text is one symbol with an index.

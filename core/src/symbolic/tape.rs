@@ -37,6 +37,8 @@ impl Arena {
                 let known = out.call(function.name());
                 debug_assert!(known, "every function of the arena is one of the language");
             }
+            // quantities are measured between bodies, without tables
+            Node::Table { .. } => out.constant(f64::NAN),
             Node::Select(parts) => {
                 parts.iter().for_each(|part| self.put(*part, symbols, out));
                 out.choose();

@@ -4,7 +4,9 @@ mod errors;
 mod functions;
 mod hostile;
 mod language;
+mod motion_laws;
 mod parameters;
+mod tables;
 mod trees;
 mod units;
 

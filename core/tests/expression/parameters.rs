@@ -45,7 +45,9 @@ fn circles_are_named() {
 fn names_must_be_fit_for_use() {
     let message = |list| failure(list).error.message;
     assert_eq!(message(&[("t", "1")]), "this name is reserved");
-    assert_eq!(message(&[("sin", "1")]), "this name is reserved");
+    let function = "this name is reserved: it is a function of formulas; rename the parameter";
+    assert_eq!(message(&[("sin", "1")]), function);
+    assert_eq!(message(&[("harmonic", "1")]), function);
     assert_eq!(message(&[("a", "1"), ("a", "2")]), "this parameter is defined twice");
     assert!(message(&[("my length", "1")]).contains("letters, digits and '_'"));
 }

@@ -122,9 +122,17 @@ impl Drawn<'_> {
             },
             Shape::Law => self.law(),
             Shape::Pair => Value::List(vec![self.number(), self.number()]),
+            Shape::Terms => {
+                let quantity = |random: &str| format!("{}.{random}", self.body_name());
+                let names = ["x", "angle"].map(quantity);
+                let terms = names.map(|name| (name, self.number()));
+                Value::Table(terms.into())
+            }
+            Shape::Units => Value::List(vec![text("m"), text("rad")]),
             Shape::LawPair | Shape::Laws => Value::List(vec![self.law(), self.law()]),
             Shape::Points => self.points(),
-            Shape::Names => Value::List(vec![text("A"), text("B")]),
+            Shape::Names | Shape::Columns => Value::List(vec![text("A"), text("B")]),
+            Shape::Numbers => Value::List((0..4).map(|k| Value::Number(f64::from(k))).collect()),
             Shape::Name => {
                 let known = self.joints.get(self.random.below(self.joints.len())).cloned();
                 text(&known.unwrap_or_default())

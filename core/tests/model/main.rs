@@ -12,3 +12,4 @@ mod refused;
 mod remedies;
 mod running;
 mod symbols;
+mod tables;

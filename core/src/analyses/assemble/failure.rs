@@ -3,10 +3,12 @@
 use super::placement::Gap;
 use super::request::{of_bodies, of_rates, CoordinateTarget, Request};
 use crate::analyses::closing::Closing;
+use crate::analyses::required::Unmet;
 use crate::analyses::Mobility;
 use crate::elements::{Attachment, BodyId, Fixes, Group};
-use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
+use crate::equations::{at, constraints};
+use crate::expression::TABLE_ENDS;
 use crate::model::{listed, ConstraintItem, Model};
 use std::collections::VecDeque;
 use std::fmt;
@@ -84,6 +86,15 @@ pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
     };
     let (item, what) = lacks(&phi, "value").or_else(|| lacks(&slope, "derivative"))?;
     let (kind, name) = (item.group.singular(), &item.name);
+    if let Some(table) = refusal(model, item, &motions, t) {
+        return Some(Failure {
+            fault: Fault::Open,
+            name: name.clone(),
+            gap: 0.0,
+            message: format!("the law of {kind} {name} has no value at t = {t} s: {table}"),
+            hint: TABLE_ENDS.to_string(),
+        });
+    }
     Some(Failure {
         fault: Fault::Open,
         name: name.clone(),
@@ -91,6 +102,14 @@ pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
         message: format!("the law of {kind} {name} has no finite {what} at t = {t} s"),
         hint: "change the law, or start at a time and position where it has one".to_string(),
     })
+}
+
+/// The table that a law reads outside its range.
+fn refusal(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> Option<String> {
+    let values = at(&model.parameters, motions, &[], t);
+    let mut found = None;
+    item.law.as_ref()?.map(&mut |tape| found = found.take().or_else(|| tape.refusal(&values)));
+    found
 }
 
 fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
@@ -259,6 +278,12 @@ pub(super) fn rates(model: &Model, request: &Request) -> Failure {
         ),
         hint: "set no more rates than there are degrees of freedom".to_string(),
     }
+}
+
+/// A quantity that the mechanism must hold has another value, or is not held.
+pub(super) fn unmet(unmet: Unmet) -> Failure {
+    let Unmet { name, gap, message, hint } = unmet;
+    Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string() }
 }
 
 /// The caller has ended the assembly.

@@ -77,7 +77,8 @@ pub fn targets(
     let mut problems = Vec::new();
     let mut found = Vec::new();
     let names = Names::of(model);
-    let scope = Scope::of_parameters(&model.blueprint.parameters, &model.blueprint.inferred);
+    let b = &model.blueprint;
+    let scope = Scope::of_parameters(&b.parameters, &b.inferred, &b.tables);
     for (key, value) in written {
         let path = ["start".to_string(), section.to_string(), key.clone()];
         let Some(named) = named(&names, key, &path, &mut problems) else { continue };

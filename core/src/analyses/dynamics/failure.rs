@@ -1,10 +1,11 @@
 //! Failures of forward dynamics, in terms of the mechanism.
 
-use super::law_fault::undefined_law;
+use super::law_fault::{undefined_law, LawFault};
 use super::law_jump::{owner_name, Jump, SMOOTH};
 use super::run_results::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
+use crate::expression::TABLE_ENDS;
 use crate::integrate::Cause;
 use crate::model::{Model, Switch};
 use crate::solve::Breakdown;
@@ -109,6 +110,7 @@ impl Failure {
                 (name(row), message)
             }
             Breakdown::Column(column) => no_inertia(model, t, column),
+            Breakdown::Open { gap, .. } if gap.is_nan() => return Self::undefined(model, t, q),
             Breakdown::Open { row, gap } => {
                 let message = format!(
                     "projection fails at t = {t:.6} s: constraint {} stays open by {gap:.1e}",
@@ -131,13 +133,16 @@ impl Failure {
             Breakdown::Jump { .. } | Breakdown::Sliding(_) => {
                 return at_switch(model, t, breakdown)
             }
-            Breakdown::NotFinite => {
-                let rest = vec![0.0; q.len()];
-                let (message, hint) = not_finite(t, undefined_law(model, (t, t), [q, &rest, &[]]));
-                return Reason::Integration { t, message, hint }.into();
-            }
+            Breakdown::NotFinite => return Self::undefined(model, t, q),
         };
         Reason::Singular { t, name, message }.into()
+    }
+
+    /// A number of the equations is not finite at a time and a position.
+    fn undefined(model: &Model, t: f64, q: &[f64]) -> Box<Self> {
+        let rest = vec![0.0; q.len()];
+        let (message, hint) = not_finite(t, undefined_law(model, (t, t), [q, &rest, &[]]));
+        Reason::Integration { t, message, hint }.into()
     }
 
     /// A row depends on the others where a run with projection continues.
@@ -159,7 +164,7 @@ impl Failure {
         let [q, v, z, _] = model.layout.split(y);
         let law = |failed| undefined_law(model, (t, failed), [q, v, z]);
         let (message, hint) = match cause {
-            Cause::Equations { t, error: Breakdown::NotFinite } => not_finite(t, law(t)),
+            Cause::Equations { t, error } if is_undefined(error) => not_finite(t, law(t)),
             Cause::Equations { t, error } => {
                 return Self::at_state(model, t, q, error)
             }
@@ -170,7 +175,7 @@ impl Failure {
             Cause::StepTooSmall { h, .. } => {
                 let step = format!("the step fell to {h:.1e} s at t = {t:.6} s");
                 match law(t) {
-                    Some(law) => (format!("{step}: {}", law_ends(&law)), LAW_ENDS),
+                    Some(law) => (format!("{step}: {}", law_ends(&law)), remedy(&law)),
                     None => (
                         format!("{step}: the tolerance cannot be met"),
                         "a singular position or a discontinuity lies here; look at the solution so far",
@@ -223,19 +228,35 @@ fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
     Reason::Integration { t, message, hint }.into()
 }
 
-fn not_finite(t: f64, law: Option<String>) -> (String, &'static str) {
+/// Whether numbers are lost, so that a law may have no value.
+fn is_undefined(breakdown: Breakdown) -> bool {
+    match breakdown {
+        Breakdown::NotFinite => true,
+        Breakdown::Open { gap, .. } => gap.is_nan(),
+        _ => false,
+    }
+}
+
+fn not_finite(t: f64, law: Option<LawFault>) -> (String, &'static str) {
     let message = format!("the motion became infinite or undefined at t = {t:.6} s");
     match law {
-        Some(law) => (format!("{message}: {}", law_ends(&law)), LAW_ENDS),
+        Some(law) => (format!("{message}: {}", law_ends(&law)), remedy(&law)),
         None => (message, "use a smaller step or tolerance; check forces and laws at this state"),
     }
 }
 
-const LAW_ENDS: &str =
-    "write a formula that has a value during the whole run, or end the run before";
+fn remedy(fault: &LawFault) -> &'static str {
+    match fault.table {
+        Some(_) => TABLE_ENDS,
+        None => "write a formula that has a value during the whole run, or end the run before",
+    }
+}
 
-fn law_ends(law: &str) -> String {
-    format!("the law {law} has no finite value there")
+fn law_ends(LawFault { law, table }: &LawFault) -> String {
+    match table {
+        Some(table) => format!("the law {law} has no value there: {table}"),
+        None => format!("the law {law} has no finite value there"),
+    }
 }
 
 /// Two unequal numbers with as many digits as show the difference.

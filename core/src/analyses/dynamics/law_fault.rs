@@ -10,12 +10,20 @@ use crate::model::{Model, Variable};
 /// shrinks before the law ends.
 const NEAR: f64 = 1e-5;
 
-/// The first law that has no value near a state at time `t`: `torque of drive`. The failure is at the time `failed`.
+/// A law without a value.
+pub(super) struct LawFault {
+    /// The law: `torque of drive`.
+    pub law: String,
+    /// The table that it reads outside its range.
+    pub table: Option<String>,
+}
+
+/// The first law that has no value near a state at time `t`. The failure is at the time `failed`.
 pub(super) fn undefined_law(
     model: &Model,
     (t, failed): (f64, f64),
     [q, v, z]: [&[f64]; 3],
-) -> Option<String> {
+) -> Option<LawFault> {
     let reach = f64::max(NEAR * (1.0 + t.abs()), 2.0 * (failed - t).abs());
     let distances = (0..40).map(|k| reach * 0.5_f64.powi(39 - k));
     let beside = std::iter::once(0.0).chain(distances.flat_map(|d| [d, -d]));
@@ -28,31 +36,34 @@ pub(super) fn undefined_law(
     })
 }
 
-fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<String> {
+fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<LawFault> {
     let motions = Motions::at(&model.layout, q, v);
     let motions: &[_] = &motions;
     let values = at(&model.parameters, motions, z, t);
-    let finite = |tape: &Tape| {
+    // None where a law has a value; else why it has none, if that is known
+    let without = |tape: &Tape| {
         // the states of elements are unknown where only the position is
         let known = |k: &usize| match Variable::at(*k) {
             Variable::State(k) => k < z.len(),
             Variable::Coordinate(..) => true,
         };
-        !tape.variables().all(|k| known(&k)) || tape.evaluate(&values).is_finite()
+        let finite = !tape.variables().all(|k| known(&k)) || tape.evaluate(&values).is_finite();
+        (!finite).then(|| tape.refusal(&values))
     };
     let constraints = model.constraints.iter().filter_map(|item| {
         let mut all = Vec::new();
-        item.law.as_ref()?.map(&mut |tape| all.push(finite(tape)));
+        item.law.as_ref()?.map(&mut |tape| all.push(without(tape)));
         Some((item.group, item.element.kind(), item.element.scalars(), &item.name, all))
     });
     let forces = model.forces.iter().filter_map(|item| {
         let mut all = Vec::new();
-        item.law.as_ref()?.map(&mut |tape| all.push(finite(tape)));
+        item.law.as_ref()?.map(&mut |tape| all.push(without(tape)));
         Some((Group::Forces, item.element.kind(), item.element.scalars(), &item.name, all))
     });
-    constraints.chain(forces).find_map(|(group, kind, scalars, name, finite)| {
-        let k = finite.iter().position(|finite| !finite)?;
-        Some(format!("{} of {name}", fields(group, kind, &scalars).get(k)?))
+    constraints.chain(forces).find_map(|(group, kind, scalars, name, all)| {
+        let (k, table) = all.into_iter().enumerate().find_map(|(k, found)| Some((k, found?)))?;
+        let law = format!("{} of {name}", fields(group, kind, &scalars).get(k)?);
+        Some(LawFault { law, table })
     })
 }
 

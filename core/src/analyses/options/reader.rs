@@ -24,7 +24,8 @@ impl<'a> Reader<'a> {
         path: &[String],
         read: impl FnOnce(&mut Reader<'_>) -> Option<T>,
     ) -> Result<T, Vec<Problem>> {
-        let scope = &Scope::of_parameters(&model.blueprint.parameters, &model.blueprint.inferred);
+        let b = &model.blueprint;
+        let scope = &Scope::of_parameters(&b.parameters, &b.inferred, &b.tables);
         let mut problems = Vec::new();
         let path = path.to_vec();
         let found = read(&mut Reader { model, scope, fields, path, problems: &mut problems });

@@ -1,0 +1,174 @@
+//! The condition of least bending for the derivatives of a spline at its knots: symmetric, positive definite, block
+//! tridiagonal, and cyclic for a periodic spline.
+
+use super::real::Real;
+
+/// The interval between two knots.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch<S> {
+    /// Difference of x.
+    pub width: S,
+    /// Difference of y.
+    pub rise: S,
+}
+
+type Block<S, const M: usize> = [[S; M]; M];
+
+/// The share of one interval in the conditions at its two ends.
+pub(super) struct Share<S, const M: usize> {
+    first: Block<S, M>,
+    /// Rows of the first end, columns of the last.
+    across: Block<S, M>,
+    last: Block<S, M>,
+    right: [[S; M]; 2],
+}
+
+impl<S: Real> Stretch<S> {
+    /// Of y′, from the least ∫ y″² dx.
+    pub fn cubic(&self) -> Share<S, 1> {
+        let c = |x: f64| S::constant(x) / self.width;
+        let right = c(6.0) * self.rise / self.width;
+        Share { first: [[c(4.0)]], across: [[c(2.0)]], last: [[c(4.0)]], right: [[right]; 2] }
+    }
+
+    /// Of (y′, y″), from the least ∫ y‴² dx.
+    pub fn quintic(&self) -> Share<S, 2> {
+        let (h, c) = (self.width, S::constant);
+        let (h1, h2, h3) = (c(1.0) / h, c(1.0) / (h * h), c(1.0) / (h * h * h));
+        let [slope, bend] = [c(360.0) * self.rise * h2 * h2, c(60.0) * self.rise * h3];
+        Share {
+            first: [[c(192.0) * h3, c(36.0) * h2], [c(36.0) * h2, c(9.0) * h1]],
+            across: [[c(168.0) * h3, c(-24.0) * h2], [c(24.0) * h2, c(-3.0) * h1]],
+            last: [[c(192.0) * h3, c(-36.0) * h2], [c(-36.0) * h2, c(9.0) * h1]],
+            right: [[slope, bend], [slope, -bend]],
+        }
+    }
+}
+
+/// The derivatives at all knots; the last knot of a periodic spline repeats the first.
+pub(super) fn solve<S: Real, const M: usize>(
+    stretches: &[Stretch<S>],
+    periodic: bool,
+    share: impl Fn(&Stretch<S>) -> Share<S, M>,
+) -> Vec<[S; M]> {
+    let n = stretches.len() + usize::from(!periodic);
+    let none = [[S::zero(); M]; M];
+    let mut system = System {
+        diagonal: vec![none; n],
+        next: vec![none; n],
+        corner: vec![none; n],
+        right: vec![[S::zero(); M]; n],
+    };
+    for (k, stretch) in stretches.iter().enumerate() {
+        let share = share(stretch);
+        let last = (k + 1) % n;
+        add(&mut system.diagonal[k], &share.first);
+        add(&mut system.diagonal[last], &share.last);
+        match last {
+            0 => system.corner[0] = transposed(&share.across),
+            _ => system.next[k] = share.across,
+        }
+        for m in 0..M {
+            system.right[k][m] += share.right[0][m];
+            system.right[last][m] += share.right[1][m];
+        }
+    }
+    let mut solution = system.solve();
+    if periodic {
+        solution.push(solution[0]);
+    }
+    solution
+}
+
+/// Blocks of a symmetric matrix by rows: the diagonal, beside it, and the last column.
+struct System<S, const M: usize> {
+    diagonal: Vec<Block<S, M>>,
+    next: Vec<Block<S, M>>,
+    corner: Vec<Block<S, M>>,
+    right: Vec<[S; M]>,
+}
+
+impl<S: Real, const M: usize> System<S, M> {
+    fn solve(mut self) -> Vec<[S; M]> {
+        let last = self.diagonal.len() - 1;
+        for k in 0..last {
+            let inverse = inverse(&self.diagonal[k]);
+            if k + 1 == last {
+                add(&mut self.corner[k], &self.next[k]);
+            } else {
+                // row k + 1 and the last column lose their shares of row k
+                let factor = times(&transposed(&self.next[k]), &inverse);
+                subtract(&mut self.diagonal[k + 1], &times(&factor, &self.next[k]));
+                let fill = times(&factor, &self.corner[k]);
+                subtract(&mut self.corner[k + 1], &fill);
+                let right = apply(&factor, &self.right[k]);
+                (0..M).for_each(|m| self.right[k + 1][m] -= right[m]);
+            }
+            let factor = times(&transposed(&self.corner[k]), &inverse);
+            subtract(&mut self.diagonal[last], &times(&factor, &self.corner[k]));
+            let right = apply(&factor, &self.right[k]);
+            (0..M).for_each(|m| self.right[last][m] -= right[m]);
+        }
+        let mut x = vec![[S::zero(); M]; last + 1];
+        x[last] = apply(&inverse(&self.diagonal[last]), &self.right[last]);
+        for k in (0..last).rev() {
+            let mut right = self.right[k];
+            let mut less = |block: &Block<S, M>, y: [S; M]| {
+                let share = apply(block, &y);
+                (0..M).for_each(|m| right[m] -= share[m]);
+            };
+            less(&self.corner[k], x[last]);
+            if k + 1 < last {
+                less(&self.next[k], x[k + 1]);
+            }
+            x[k] = apply(&inverse(&self.diagonal[k]), &right);
+        }
+        x
+    }
+}
+
+fn add<S: Real, const M: usize>(a: &mut Block<S, M>, b: &Block<S, M>) {
+    a.iter_mut().flatten().zip(b.iter().flatten()).for_each(|(a, b)| *a += *b);
+}
+
+fn subtract<S: Real, const M: usize>(a: &mut Block<S, M>, b: &Block<S, M>) {
+    a.iter_mut().flatten().zip(b.iter().flatten()).for_each(|(a, b)| *a -= *b);
+}
+
+fn transposed<S: Real, const M: usize>(a: &Block<S, M>) -> Block<S, M> {
+    std::array::from_fn(|row| std::array::from_fn(|column| a[column][row]))
+}
+
+fn apply<S: Real, const M: usize>(a: &Block<S, M>, x: &[S; M]) -> [S; M] {
+    a.map(|row| row.iter().zip(x).fold(S::zero(), |sum, (a, x)| sum + *a * *x))
+}
+
+fn times<S: Real, const M: usize>(a: &Block<S, M>, b: &Block<S, M>) -> Block<S, M> {
+    let b = transposed(b);
+    a.map(|row| {
+        b.map(|column| row.iter().zip(&column).fold(S::zero(), |sum, (a, b)| sum + *a * *b))
+    })
+}
+
+/// Of a symmetric positive definite block, by elimination without pivots.
+fn inverse<S: Real, const M: usize>(a: &Block<S, M>) -> Block<S, M> {
+    let mut a = *a;
+    let mut b: Block<S, M> = std::array::from_fn(|row| {
+        std::array::from_fn(|column| S::constant(f64::from(u8::from(row == column))))
+    });
+    for pivot in 0..M {
+        let scale = S::one() / a[pivot][pivot];
+        for row in 0..M {
+            if row == pivot {
+                continue;
+            }
+            let factor = a[row][pivot] * scale;
+            for column in 0..M {
+                let (from_a, from_b) = (a[pivot][column], b[pivot][column]);
+                a[row][column] -= factor * from_a;
+                b[row][column] -= factor * from_b;
+            }
+        }
+    }
+    std::array::from_fn(|row| b[row].map(|x| x / a[row][row]))
+}
