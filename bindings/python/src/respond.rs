@@ -45,7 +45,9 @@ pub fn energies<'py>(
 /// The error of a run that stopped.
 pub fn because(py: Python<'_>, reason: core::Reason) -> PyErr {
     let hint = match reason {
-        core::Reason::Integration { hint, .. } | core::Reason::Start { hint, .. } => hint,
+        core::Reason::Integration { hint, .. }
+        | core::Reason::Start { hint, .. }
+        | core::Reason::Law { hint, .. } => hint,
         _ => "look at the solution so far; change the start, or add what decides the motion here",
     };
     failure(reason, hint).raise(py)
@@ -66,6 +68,9 @@ fn failure(reason: core::Reason, hint: &'static str) -> Failure {
         core::Reason::Option { .. } => Failure::new(Kind::Model, message),
         core::Reason::Start { t, name, .. } => {
             Failure::new(Kind::Assembly, message).name(name).at(t).hint(hint)
+        }
+        core::Reason::Law { t, name, .. } => {
+            Failure::new(Kind::Model, message).name(name).at(t).hint(hint)
         }
         core::Reason::Singular { t, name, .. } => {
             Failure::new(Kind::Singularity, message).name(name).at(t).hint(hint)

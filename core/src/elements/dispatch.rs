@@ -2,28 +2,7 @@
 //! elements by type. The macros are called once, in `mod.rs`.
 
 use super::declare::Table;
-
-/// The section of an element in a model file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Group {
-    /// `[joints.…]`
-    Joints,
-    /// `[drivers.…]`
-    Drivers,
-    /// `[forces.…]`
-    Forces,
-}
-
-impl Group {
-    /// The section's name in the file.
-    pub fn section(self) -> &'static str {
-        ["joints", "drivers", "forces"][self as usize]
-    }
-    /// The name of one entry of the section.
-    pub fn singular(self) -> &'static str {
-        ["joint", "driver", "force"][self as usize]
-    }
-}
+use super::group::Group;
 
 /// A declaration with the section it belongs to.
 pub(super) fn declared<E: super::declare::Element>(group: Group) -> (Group, Table) {
@@ -301,6 +280,14 @@ macro_rules! forces {
             /// Powers beside those of the wrenches.
             pub fn own_powers(&self, at: &Situation<'_, S>) -> OwnPowers<S> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::own_powers(e, at),)+ }
+            }
+            /// Number of switches.
+            pub fn switch_count(&self) -> usize {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::switch_count(e),)+ }
+            }
+            /// The functions of the switches.
+            pub fn switches(&self, at: &Situation<'_, S>, out: &mut [S]) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::switches(e, at, out),)+ }
             }
             /// The relative angle at which a rotational spring is relaxed.
             pub fn free_angle(&self) -> Option<S> {

@@ -22,6 +22,31 @@ pub struct Situation<'a, S = f64> {
     pub reaction: Wrench<S>,
     /// Time, s.
     pub t: S,
+    /// The pieces that are held for the switches of the element.
+    pub held: Held<'a>,
+}
+
+/// The pieces that an integrator holds for the switches of an element during a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Held<'a> {
+    /// The pieces of all switches of the model; empty if none is held.
+    pub pieces: &'a [f64],
+    /// The first switch of the element.
+    pub first: usize,
+}
+
+impl<S: Real> Situation<'_, S> {
+    /// `positive` where the function of a switch of the element is positive, else `otherwise`. The switch is given by
+    /// its place in [`Force::switches`]. During a step of an integrator the sign is the one at the beginning of the
+    /// step, so that both values have to be defined on both sides.
+    #[inline(always)]
+    pub fn choose(&self, switch: usize, function: S, positive: S, otherwise: S) -> S {
+        match self.held.pieces.get(self.held.first + switch) {
+            Some(piece) if *piece > 0.0 => positive,
+            Some(piece) if *piece < 0.0 => otherwise,
+            _ => S::select(function, positive, otherwise),
+        }
+    }
 }
 
 impl<S> Situation<'_, S> {
@@ -145,6 +170,18 @@ pub trait Force: Element {
     fn reaction<S>(e: &Self::Over<S>) -> Option<JointId> {
         let _ = e;
         None
+    }
+
+    /// Number of switches of an element: functions of its situation at whose zeros its action is not smooth.
+    fn switch_count<S>(e: &Self::Over<S>) -> usize {
+        let _ = e;
+        0
+    }
+
+    /// The functions of the switches, into `out`. [`Situation::choose`] uses their signs in [`Force::action`]. Each
+    /// zero is located, and steps of an integrator end there.
+    fn switches<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
+        let _ = (e, at, out);
     }
 
     /// The relative angle φⱼ - φᵢ at which a rotational spring is relaxed. Assembly counts whole turns

@@ -15,6 +15,7 @@ mod dispatch;
 mod field;
 mod followed;
 mod force_trait;
+mod group;
 mod joint_trait;
 mod kinds;
 mod measure;
@@ -90,13 +91,13 @@ pub use curve_forms::{CurveForm, CURVE_FORMS};
 pub use curve_formula::Formula as CurveFormula;
 use declare::join;
 pub use declare::{Element, Table};
-pub use dispatch::Group;
 use dispatch::{constraints, declared, forces};
 use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
 pub use followed::{BodyId, Coordinate, CoordinateOf, Followed, QuantityOf};
-pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
+pub use force_trait::{Force, Held, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
+pub use group::Group;
 pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, Required, ResultQuantity};
 use joints::*;
 pub use kinds::{
@@ -145,6 +146,8 @@ forces! {
     Motor,
     #[cfg(feature = "test-elements")] Lag,
     #[cfg(feature = "test-elements")] Rubbing,
+    #[cfg(feature = "test-elements")] GapSpring,
+    #[cfg(feature = "test-elements")] Overload,
     #[cfg(feature = "test-elements")] Blower,
 }
 

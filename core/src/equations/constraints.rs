@@ -28,7 +28,7 @@ pub fn residual<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, out: &mut
                 match &item.law {
                     None => item.element.residual(&at, phi),
                     Some(law) => {
-                        let values = laws::at(&model.parameters, motions, &[], t);
+                        let values = laws::held(&model.parameters, motions, &[], t);
                         law.map(&mut |tape| tape.evaluate(&values)).residual(&at, phi);
                     }
                 }
@@ -271,7 +271,8 @@ fn law_terms<S: Real>(
     let coordinate =
         |body: BodyId, c: Coordinate| -> Jet<S> { c.of(&moving(&motions[body.0]), &Twist::zero()) };
     let residual = |at: &At<'_, Jet<S>>, phi: &mut [Jet<S>]| {
-        let values = Laws { parameters: &model.parameters, t: at.t, coordinate, z: &[] };
+        let (parameters, pieces) = (&model.parameters, &motions.pieces);
+        let values = Laws { parameters, t: at.t, coordinate, z: &[], pieces };
         law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
     };
     terms(at, residual, out);
@@ -291,7 +292,8 @@ fn law_columns<S: Real>(
         c.of(&pose, &Twist::zero())
     };
     let residual = |at: &At<'_, ByThree<S>>, phi: &mut [ByThree<S>]| {
-        let values = Laws { parameters: &model.parameters, t: at.t, coordinate, z: &[] };
+        let (parameters, pieces) = (&model.parameters, &motions.pieces);
+        let values = Laws { parameters, t: at.t, coordinate, z: &[], pieces };
         law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
     };
     let varies = |b: usize| Some(item.bodies[b]) == block.body;

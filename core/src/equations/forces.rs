@@ -6,7 +6,7 @@ use super::powers::Powers;
 use super::reactions::{self, Frame};
 use super::{laws, Compiled, Inertia};
 use crate::elements::{
-    BodyId, Force, ForceElement, Nature, Pooled, Situation, VisitForces, Wrenches,
+    BodyId, Force, ForceElement, Held, Nature, Pooled, Situation, VisitForces, Wrenches,
 };
 use crate::math::{Motion, Real, Vec2, Wrench};
 use crate::model::{ForceItem, Model};
@@ -124,7 +124,7 @@ fn at_state<S: Real>(
     match &item.law {
         None => item.element.clone(),
         Some(law) => {
-            let values = laws::at(&model.parameters, motions, z, t);
+            let values = laws::held(&model.parameters, motions, z, t);
             law.map(&mut |tape| tape.evaluate(&values))
         }
     }
@@ -144,7 +144,8 @@ fn situation<'a, S: Real>(
         _ => Wrench::zero(),
     };
     let z = &z[model.layout.states[k].clone()];
-    Situation { motions, bodies: &item.bodies, z, reaction, t }
+    let held = Held { pieces: &motions.pieces, first: item.first_switch };
+    Situation { motions, bodies: &item.bodies, z, reaction, t, held }
 }
 
 /// The reaction of a joint on its body j at its joint point, in the global frame.
@@ -198,6 +199,21 @@ pub(super) fn state_rates_of<S: Real>(
 ) {
     let element = at_state(model, &model.forces[k], motions, acting);
     element.state_rates(&situation(model, k, motions, acting), out);
+}
+
+/// The functions of the switches of force `k` itself, into the first entries of `out`.
+pub(super) fn switches<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    out: &mut [S],
+) {
+    let count = model.forces[k].element.switch_count();
+    if count > 0 {
+        let element = at_state(model, &model.forces[k], motions, acting);
+        element.switches(&situation(model, k, motions, acting), &mut out[..count]);
+    }
 }
 
 /// Potential energy of force `k`, zero where a law makes it non-conservative, and the energy stored in its

@@ -14,6 +14,8 @@ pub struct Motions<S = f64> {
     first_own: usize,
     own: Vec<S>,
     own_rates: Vec<S>,
+    /// The piece that is held for each switch of the model during a step of an integrator; empty if none is held.
+    pub pieces: Vec<f64>,
 }
 
 impl<S> Deref for Motions<S> {
@@ -34,6 +36,7 @@ impl<S: Real> Motions<S> {
             first_own,
             own: none.clone(),
             own_rates: none,
+            pieces: Vec::new(),
         }
     }
 
@@ -91,6 +94,7 @@ impl<S: Real> Motions<S> {
             first_own: self.first_own,
             own: lift(&self.own),
             own_rates: lift(&self.own_rates),
+            pieces: self.pieces.clone(),
         }
     }
 

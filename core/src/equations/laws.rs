@@ -1,6 +1,7 @@
 //! Values that the formulas of laws may use: parameters, time, the motion of the bodies, and
 //! first-order states.
 
+use super::kinematics::Motions;
 use crate::elements::{BodyId, Coordinate};
 use crate::expression::Values;
 use crate::math::{Lift, Motion, Real};
@@ -17,6 +18,8 @@ pub struct Laws<'a, S, T, F> {
     pub coordinate: F,
     /// First-order states; empty where laws may not use them.
     pub z: &'a [T],
+    /// The piece that is held for each switch of the model; empty if none is held.
+    pub pieces: &'a [f64],
 }
 
 impl<S: Real, T: Lift<S>, F: Fn(BodyId, Coordinate) -> T> Values<T> for Laws<'_, S, T, F> {
@@ -32,9 +35,12 @@ impl<S: Real, T: Lift<S>, F: Fn(BodyId, Coordinate) -> T> Values<T> for Laws<'_,
             Variable::State(k) => self.z[k],
         }
     }
+    fn piece(&self, k: usize) -> f64 {
+        self.pieces.get(k).copied().unwrap_or(f64::NAN)
+    }
 }
 
-/// Laws at a state, without derivatives.
+/// Laws at a state, without derivatives and without held pieces.
 pub fn at<'a, S: Real>(
     parameters: &'a [S],
     motions: &'a [Motion<S>],
@@ -45,5 +51,15 @@ pub fn at<'a, S: Real>(
         let m = &motions[body.0];
         c.of(&m.pose, &m.twist)
     };
-    Laws { parameters, t, coordinate, z }
+    Laws { parameters, t, coordinate, z, pieces: &[] }
+}
+
+/// Laws at a state, with the pieces that are held there.
+pub fn held<'a, S: Real>(
+    parameters: &'a [S],
+    motions: &'a Motions<S>,
+    z: &'a [S],
+    t: S,
+) -> Laws<'a, S, S, impl Fn(BodyId, Coordinate) -> S + 'a> {
+    Laws { pieces: &motions.pieces, ..at(parameters, motions, z, t) }
 }

@@ -28,6 +28,7 @@ mod reactive;
 mod refine;
 mod residuals;
 mod roles;
+pub mod switches;
 pub mod tangent;
 
 pub use compiled::Compiled;

@@ -5,6 +5,7 @@ use super::operation::{Relation, FUNCTIONS};
 use super::parser::wrong_count;
 use super::points::TABLE_ENDS;
 use super::suggest::did_you_mean;
+use super::switch::Piecewise;
 use super::table::Table;
 use super::tape::{Instruction, Scope};
 use super::tree::{Kind, Node};
@@ -24,6 +25,7 @@ pub(super) fn compile<N: Names + ?Sized>(
     for node in nodes {
         compiler.node(node, names)?;
     }
+    compiler.tape.count_switches();
     Ok(compiler.tape)
 }
 
@@ -51,15 +53,21 @@ impl Compiler<'_> {
                 Meaning::One(instruction) => instruction,
                 Meaning::Formula(tape) => return self.insert(&tape, &node.span),
             },
-            Kind::Unary(operation) => Instruction::Unary(*operation),
+            Kind::Unary(operation) => match Piecewise::unary(*operation) {
+                Some(piecewise) => Instruction::Piecewise(piecewise),
+                None => Instruction::Unary(*operation),
+            },
             Kind::Binary(Binary::Power) => self.power(),
-            Kind::Binary(operation) => Instruction::Binary(*operation),
+            Kind::Binary(operation) => match Piecewise::binary(*operation) {
+                Some(piecewise) => Instruction::Piecewise(piecewise),
+                None => Instruction::Binary(*operation),
+            },
             Kind::Compare(relation) => {
                 self.conditions.push(*relation);
                 Instruction::Binary(Binary::Subtract)
             }
             Kind::If => match self.conditions.pop() {
-                Some(relation) => Instruction::Choose(relation),
+                Some(relation) => Instruction::Piecewise(Piecewise::Choose(relation)),
                 None => unreachable!("the parser lets no `if` pass without a condition"),
             },
             Kind::Step5 => Instruction::Step5,

@@ -1,6 +1,6 @@
 //! A tape from operations in postfix order: operands first.
 
-use super::operation::{Binary, Call, Relation, Unary, FUNCTIONS};
+use super::operation::{Binary, Call, Unary, FUNCTIONS};
 use super::tape::Instruction;
 use super::{Symbol, Tape};
 
@@ -53,7 +53,7 @@ impl Postfix {
 
     /// Replaces (x, a, b) by a where x > 0, else by b.
     pub fn choose(&mut self) {
-        self.push(Instruction::Choose(Relation::Greater));
+        self.push(Instruction::Guard);
     }
 
     /// Applies a function of the language, or `^`; false if there is none of this name.

@@ -1,6 +1,7 @@
 //! A compiled expression: instructions for a stack of operands.
 
 use super::operation::{step5, Binary, Relation, Unary};
+use super::switch::{Boundaries, Piecewise};
 use super::table::Table;
 use super::{Symbol, MAX_OPERANDS};
 use crate::math::Real;
@@ -19,8 +20,11 @@ pub(super) enum Instruction {
     Binary(Binary),
     /// Replaces x by xᵖ.
     PowerConstant(f64),
-    /// Replaces (left - right, a, b) by a or b.
-    Choose(Relation),
+    /// Replaces (x, a, b) by a where x > 0, else by b, without a switch: a guard in the formula of a quantity, such as
+    /// that of a length where its points meet.
+    Guard,
+    /// Replaces the operands of an operation that has a switch.
+    Piecewise(Piecewise),
     /// Replaces (t, t0, y0, t1, y1) by the rise.
     Step5,
     /// Replaces x by the value of a table, by its place among those of the tape.
@@ -34,7 +38,8 @@ impl Instruction {
             Self::Constant(_) | Self::Load(_) => 0,
             Self::Unary(_) | Self::PowerConstant(_) | Self::Table(_) => 1,
             Self::Binary(_) => 2,
-            Self::Choose(_) => 3,
+            Self::Guard => 3,
+            Self::Piecewise(operation) => operation.operands(),
             Self::Step5 => 5,
         }
     }
@@ -48,6 +53,26 @@ pub trait Values<S> {
     fn time(&self) -> S;
     /// The state variable with index `k`.
     fn variable(&self, k: usize) -> S;
+    /// The piece that is held for the switch with index `k`; NaN if none is held.
+    fn piece(&self, k: usize) -> f64 {
+        let _ = k;
+        f64::NAN
+    }
+}
+
+/// The same values without held pieces.
+struct Free<'a, V>(&'a V);
+
+impl<S, V: Values<S>> Values<S> for Free<'_, V> {
+    fn parameter(&self, k: usize) -> S {
+        self.0.parameter(k)
+    }
+    fn time(&self) -> S {
+        self.0.time()
+    }
+    fn variable(&self, k: usize) -> S {
+        self.0.variable(k)
+    }
 }
 
 /// Values in slices: `parameters[k]` for [`Symbol::Parameter`], `variables[k]` for
@@ -82,29 +107,90 @@ pub struct Tape {
     pub(super) operands: usize,
     pub(super) symbols: Vec<Symbol>,
     pub(super) tables: Vec<Arc<Table>>,
+    /// Number of switches.
+    pub(super) switches: usize,
+    /// Index of the first switch in the held pieces.
+    pub(super) first_switch: usize,
+}
+
+/// What an observer of an evaluation sees.
+enum Seen<'a, S> {
+    /// The function of the switch with this index.
+    Switch(usize, S),
+    /// A table, and the place at which it is read.
+    Table(&'a Table, S),
+}
+
+/// A switch of an expression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Switch {
+    /// The boundaries of its pieces.
+    pub boundaries: Boundaries,
+    /// Whether its function depends on the time.
+    pub time: bool,
+    /// Whether its function depends on the state.
+    pub state: bool,
 }
 
 impl Tape {
     /// The value of the expression, with the further content of the scalar (derivatives, lanes).
     ///
-    /// Nothing is allocated. Outside the domain of a function the value is NaN, never a panic.
+    /// Nothing is allocated. Outside the domain of a function the value is NaN, never a panic. A switch has the piece
+    /// that is held for it. Where the held pieces have no value, as √x of x > 0 just below zero, none is held.
     pub fn evaluate<S: Real>(&self, values: &impl Values<S>) -> S {
-        // a large stack of large scalars costs more to clear than a short expression to evaluate
-        if self.operands <= 8 {
-            self.run::<S, 8>(values, &mut |_, _| {})
-        } else {
-            self.run::<S, MAX_OPERANDS>(values, &mut |_, _| {})
+        if self.switches == 0 {
+            return self.by_depth(values, &mut |_| {});
+        }
+        let value = self.value_with_switches(values, &mut |_| {});
+        match value.is_finite() {
+            true => value,
+            false => self.value_with_switches(&Free(values), &mut |_| {}),
         }
     }
 
-    /// Calls `read` with each table and the place at which it is read.
+    /// Calls `take` with the index and the function σ of each switch, with the held pieces of the switches before.
+    pub fn switch_functions<S: Real>(
+        &self,
+        values: &impl Values<S>,
+        mut take: impl FnMut(usize, S),
+    ) {
+        if self.switches > 0 {
+            self.value_with_switches(values, &mut |seen: Seen<'_, S>| {
+                if let Seen::Switch(k, sigma) = seen {
+                    take(k, sigma);
+                }
+            });
+        }
+    }
+
+    #[inline(always)]
+    fn by_depth<S: Real>(&self, values: &impl Values<S>, look: &mut impl FnMut(Seen<'_, S>)) -> S {
+        // a large stack of large scalars costs more to clear than a short expression to evaluate
+        if self.operands <= 8 {
+            self.run::<S, 8>(values, look)
+        } else {
+            self.run::<S, MAX_OPERANDS>(values, look)
+        }
+    }
+
+    #[inline(never)]
+    fn value_with_switches<S: Real>(
+        &self,
+        values: &impl Values<S>,
+        look: &mut impl FnMut(Seen<'_, S>),
+    ) -> S {
+        self.by_depth(values, look)
+    }
+
+    #[inline(always)]
     fn run<S: Real, const DEPTH: usize>(
         &self,
         values: &impl Values<S>,
-        read: &mut impl FnMut(&Table, S),
+        look: &mut impl FnMut(Seen<'_, S>),
     ) -> S {
         let mut stack = [S::zero(); DEPTH];
         let mut top = 0; // first free place
+        let mut switch = self.first_switch;
         for instruction in &self.code {
             let first = top - instruction.operands();
             stack[first] = match *instruction {
@@ -115,18 +201,65 @@ impl Tape {
                 Instruction::Unary(operation) => operation.apply(stack[first]),
                 Instruction::Binary(operation) => operation.apply(stack[first], stack[first + 1]),
                 Instruction::PowerConstant(exponent) => stack[first].powc(exponent),
-                Instruction::Choose(relation) => {
-                    relation.choose(stack[first], stack[first + 1], stack[first + 2])
+                Instruction::Guard => {
+                    Relation::Greater.choose(stack[first], stack[first + 1], stack[first + 2])
+                }
+                Instruction::Piecewise(operation) => {
+                    let (operands, piece) = (&stack[first..top], values.piece(switch));
+                    look(Seen::Switch(switch, operation.function(operands)));
+                    switch += 1;
+                    match piece.is_nan() {
+                        true => operation.value(operands),
+                        false => operation.value_on(piece, operands),
+                    }
                 }
                 Instruction::Step5 => step5(std::array::from_fn(|k| stack[first + k])),
                 Instruction::Table(k) => {
-                    read(&self.tables[k], stack[first]);
+                    look(Seen::Table(&self.tables[k], stack[first]));
                     self.tables[k].value(stack[first])
                 }
             };
             top = first + 1;
         }
         stack[0]
+    }
+
+    /// The number of switches is that of the code.
+    pub(super) fn count_switches(&mut self) {
+        let switches = self.code.iter().filter(|code| matches!(code, Instruction::Piecewise(_)));
+        self.switches = switches.count();
+    }
+
+    /// The switches of the expression, in the order of their indices.
+    pub fn switches(&self) -> Vec<Switch> {
+        let mut stack: Vec<(bool, bool)> = Vec::new(); // (time, state)
+        let mut switches = Vec::with_capacity(self.switches);
+        let either = |all: &[(bool, bool)]| {
+            all.iter().fold((false, false), |sum, one| (sum.0 | one.0, sum.1 | one.1))
+        };
+        for instruction in &self.code {
+            let operands = stack.split_off(stack.len() - instruction.operands());
+            if let Instruction::Piecewise(operation) = instruction {
+                let (time, state) = either(&operands[..operation.arguments()]);
+                switches.push(Switch { boundaries: operation.boundaries(), time, state });
+            }
+            stack.push(match instruction {
+                Instruction::Load(Symbol::Time) => (true, false),
+                Instruction::Load(Symbol::Variable(_)) => (false, true),
+                _ => either(&operands),
+            });
+        }
+        switches
+    }
+
+    /// The same expression with `first` as the index of its first switch.
+    pub fn with_first_switch(&self, first: usize) -> Self {
+        Self { first_switch: first, ..self.clone() }
+    }
+
+    /// The indices of the switches in the held pieces.
+    pub fn switch_range(&self) -> std::ops::Range<usize> {
+        self.first_switch..self.first_switch + self.switches
     }
 
     /// The symbols that the expression uses, each once, in order of appearance.
@@ -153,11 +286,18 @@ impl Tape {
         found
     }
 
+    /// Whether a table is read.
+    pub(super) fn has_tables(&self) -> bool {
+        !self.tables.is_empty()
+    }
+
     /// Why the expression has no value, if a table is read outside its range.
     pub fn refusal(&self, values: &impl Values<f64>) -> Option<String> {
         let mut reason = None;
-        self.run::<f64, MAX_OPERANDS>(values, &mut |table, x: f64| {
-            reason = reason.take().or_else(|| table.refusal(x));
+        self.run::<f64, MAX_OPERANDS>(values, &mut |seen: Seen<'_, f64>| {
+            if let Seen::Table(table, x) = seen {
+                reason = reason.take().or_else(|| table.refusal(x));
+            }
         });
         reason
     }

@@ -17,6 +17,20 @@ pub enum Direction {
     Any,
 }
 
+impl Direction {
+    /// Whether a change of sign from one value to a later one is rising, if there is one that counts.
+    pub(super) fn counts(self, before: f64, after: f64) -> Option<bool> {
+        let rising = before < 0.0 && after >= 0.0;
+        let falling = before > 0.0 && after <= 0.0;
+        let counts = match self {
+            Self::Rising => rising,
+            Self::Falling => falling,
+            Self::Any => rising || falling,
+        };
+        counts.then_some(rising)
+    }
+}
+
 /// Time within `step` at which g(t, y) changes sign, just past the change: g has its new sign (or is
 /// zero) there, and the change is at most `tolerance` before. `None` if g has the same sign at both ends
 /// or begins at zero (that root belongs to the step before); of several changes one is found, and an
@@ -67,14 +81,7 @@ fn signs(
     direction: Direction,
 ) -> Option<(f64, f64)> {
     let (before, after) = (g(step.t_old, step.y_old), g(step.t, step.y));
-    let rising = before < 0.0 && after >= 0.0;
-    let falling = before > 0.0 && after <= 0.0;
-    let counts = match direction {
-        Direction::Rising => rising,
-        Direction::Falling => falling,
-        Direction::Any => rising || falling,
-    };
-    counts.then_some((before, after))
+    direction.counts(before, after).map(|_| (before, after))
 }
 
 /// A time and the value there, positive on the side of the new sign.
@@ -82,14 +89,14 @@ type Point = (f64, f64);
 
 /// Times around a root: below zero at the old side, not below at the new one, which may be the earlier
 /// when integrating backward.
-struct Bracket {
-    old: Point,
-    new: Point,
+pub(super) struct Bracket {
+    pub old: Point,
+    pub new: Point,
 }
 
 impl Bracket {
     /// Closes in until the sides are `tolerance` apart; returns the new side.
-    fn close(mut self, tolerance: f64, mut g: impl FnMut(f64) -> f64) -> f64 {
+    pub fn close(mut self, tolerance: f64, mut g: impl FnMut(f64) -> f64) -> f64 {
         let mut part = 0.5;
         let (mut a, mut b) = (self.new, self.old);
         while (b.0 - a.0).abs() > tolerance {

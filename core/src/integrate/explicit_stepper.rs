@@ -163,10 +163,13 @@ impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
         &(if self.accepted.is_some() { y_new } else { y }).as_flattened()[..self.n]
     }
 
-    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Y::Stop>> {
+    fn restart_until(&mut self, t: f64, y: &[f64], t_end: f64) -> Result<(), Cause<Y::Stop>> {
         let controlled = self.work.tolerances.controlled;
-        self.grid = self.control.restart((t, self.t_end), (y, self.n), controlled)?;
-        self.control.first_step = self.size.as_ref().map(|size| size.size);
+        self.grid = self.control.restart((t, t_end), (y, self.n), controlled)?;
+        self.t_end = t_end;
+        if let Some(size) = &self.size {
+            self.control.first_step = Some(size.size);
+        }
         (self.t, self.size, self.accepted) = (t, None, None);
         self.placement = StepPlacement::default();
         self.work.y.as_flattened_mut()[..self.n].copy_from_slice(y);
@@ -285,7 +288,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
                 return Err(refusal.unwrap_or(Cause::StepTooSmall { t, h: size.size }));
             }
             let mut t_new = t + size.size * direction;
-            if direction * (t_new - self.t_end) > 0.0 {
+            let shortened = direction * (t_new - self.t_end) > 0.0;
+            if shortened {
                 t_new = self.t_end;
             }
             let h = t_new - t;
@@ -298,8 +302,9 @@ impl<P: RungeKutta> ExplicitStepper<P> {
                 _ if placed.is_some() => size.size = placed.unwrap_or(size.size),
                 Ok(norm) if norm < 1.0 || at_best => match self.settle(rhs, t_new)? {
                     Ok(projected) => {
+                        let wanted = if shortened { size.size } else { 0.0 };
                         size.accept(h.abs(), norm);
-                        size.size = self.placement.resume(size.size);
+                        size.size = self.placement.resume(size.size).max(wanted);
                         return Ok((t_new, projected));
                     }
                     Err(cause) => {

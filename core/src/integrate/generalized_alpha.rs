@@ -210,8 +210,9 @@ impl AlphaStepper {
                 let norm = self.method.step.error(dae, h, &self.scale);
                 if norm < 1.0 {
                     let current = size.size;
+                    let wanted = if t_new == t_end { size.size } else { 0.0 };
                     size.accept(h.abs(), norm);
-                    size.size = size.size.min(GROWTH * h.abs());
+                    size.size = size.size.min(GROWTH * h.abs()).max(wanted);
                     if t_new != t_end && (current..KEEP * current).contains(&size.size) {
                         size.size = current;
                     }

@@ -93,10 +93,13 @@ impl<M: ImplicitScheme, Y: Dae> Stepper<Y, Y::Stop> for ImplicitStepper<M> {
         self.steps.y()
     }
 
-    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Y::Stop>> {
+    fn restart_until(&mut self, t: f64, y: &[f64], t_end: f64) -> Result<(), Cause<Y::Stop>> {
         let (len, controlled) = (self.lengths.total(), self.lengths.controlled());
-        self.grid = self.control.restart((t, self.steps.t_end), (y, len), controlled)?;
-        self.control.first_step = self.method.forget();
+        self.grid = self.control.restart((t, t_end), (y, len), controlled)?;
+        self.steps.t_end = t_end;
+        if let Some(size) = self.method.forget() {
+            self.control.first_step = Some(size);
+        }
         self.steps.restart(t, y);
         Ok(())
     }

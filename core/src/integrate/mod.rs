@@ -23,7 +23,7 @@
 //! | `stepper`, `step` | the interface of all methods; an accepted step |
 //! | `failure`, `arguments` | causes of failure; checks of arguments before the first evaluation |
 //! | `step_control`, `step_size`, `fixed_step` | options of steps; choice of the step from the error; constant steps |
-//! | `events` | where a function of the state changes sign |
+//! | `events`, `crossings` | where a function of the state changes sign; several functions and changes |
 //! | `interpolant`, `hermite_birkhoff` | the state between the ends of a step; that of systems of second order |
 //! | `explicit_stepper`, `step_acceptance`, `step_placement` | the stepper of explicit methods; the end of a step; steps that avoid a time |
 //! | `runge_kutta`, `rk45`, `dop853`, `rk4` | the definition of an explicit method, and three of them |
@@ -37,6 +37,7 @@ mod alpha_parameters;
 mod alpha_step;
 mod arguments;
 mod component_polynomials;
+mod crossings;
 mod dae;
 mod dop853;
 mod dop853_coefficients;
@@ -73,6 +74,7 @@ mod trial;
 
 pub use alpha_parameters::AlphaParameters;
 pub(crate) use component_polynomials::HIGHEST;
+pub use crossings::{scan, Crossing, Functions, Scan};
 pub use dae::{
     ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
 };

@@ -236,9 +236,10 @@ impl RadauStepper {
             by = by.min(1.0);
         }
         self.method.before = Some((h, norm.max(LEAST_NORM)));
-        let short = self.method.size.is_some_and(|size| h < 0.99 * size); // the last step ends at t_end
+        let wanted = self.method.size.filter(|size| h < 0.99 * size); // the last step ends at t_end
+        let short = wanted.is_some();
         if short || !(self.method.keep_tangent && (1.0..KEEP).contains(&by)) {
-            self.method.size = Some(h * by);
+            self.method.size = Some((h * by).max(wanted.unwrap_or(0.0)));
         }
     }
 

@@ -45,7 +45,15 @@ pub trait Stepper<Y, E> {
     ///
     /// # Errors
     /// [`Cause::Argument`].
-    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<E>>;
+    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<E>> {
+        self.restart_until(t, y, self.t_end())
+    }
+
+    /// The same, with another end of the steps.
+    ///
+    /// # Errors
+    /// As [`restart`](Self::restart).
+    fn restart_until(&mut self, t: f64, y: &[f64], t_end: f64) -> Result<(), Cause<E>>;
 
     /// Counts of all steps so far.
     fn statistics(&self) -> Statistics;

@@ -3,11 +3,13 @@
 //! Every formula of the core is written once over [`Real`]; which scalar it runs on decides what it
 //! yields: `f64` a value, [`Dual`] first derivatives, [`Jet`] time derivatives, [`Lanes`] several
 //! states or designs at once. They nest: `Dual<3, Lanes>` is the Jacobian of four designs.
+//! [`Interval`] gives bounds of all values on an interval.
 //! Linear equations alone may also be [`Complex`]: what they need is a [`Field`].
 
 mod complex;
 mod dual;
 mod field;
+mod interval;
 mod jet;
 mod lanes;
 mod plane;
@@ -19,6 +21,7 @@ mod spline_system;
 pub use complex::Complex;
 pub use dual::Dual;
 pub use field::Field;
+pub use interval::Interval;
 pub use jet::Jet;
 pub use lanes::Lanes;
 pub use plane::{Lever, Local, Motion, Pose, Rotation, Twist, Vec2, Wrench};

@@ -94,4 +94,6 @@ pub struct ForceItem<S = f64> {
     pub element: ForceElement<S>,
     /// The element over formulas, if one of them depends on time or state.
     pub law: Option<Box<ForceElement<Tape>>>,
+    /// The first switch of the element itself, without those of its laws, in [`Model::switches`](super::Model).
+    pub first_switch: usize,
 }

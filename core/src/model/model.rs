@@ -3,6 +3,7 @@
 use super::blueprint::Blueprint;
 use super::items::{Body, ConstraintItem, ForceItem};
 use super::layout::{StateLayout, Touched};
+use super::switch::{Owner, Switch};
 use super::variable::Dependence;
 use crate::elements::{BodyId, Group};
 use crate::expression::{Tape, Values};
@@ -28,6 +29,8 @@ pub struct Model<S = f64> {
     pub layout: StateLayout,
     /// Whether a joint or driver is driven.
     pub driven: bool,
+    /// Switches of laws and forces: of the constraints, then of the forces; those of a force's laws before its own.
+    pub switches: Vec<Switch>,
     /// Whether redundant constraints are accepted; their multipliers are then the smallest that
     /// balance the loads.
     pub allow_redundancy: bool,
@@ -55,6 +58,7 @@ impl<S: Real> Model<S> {
         let value = &mut |tape: &Tape| tape.evaluate(&reference);
         let mut touched = Vec::new();
         let mut constraints = Vec::new();
+        let mut switches = Vec::new();
         for (name, group, formula) in &blueprint.constraints {
             let mut depends = Dependence::default();
             formula.map(&mut |tape| depends.add(tape));
@@ -75,24 +79,15 @@ impl<S: Real> Model<S> {
                 group: *group,
                 bodies,
                 element: formula.map(value),
-                law: depends.any().then(|| Box::new(formula.clone())),
+                law: depends.any().then(|| {
+                    let owner = Owner::Constraint(constraints.len());
+                    Box::new(formula.map(&mut |tape| Switch::number(tape, owner, &mut switches)))
+                }),
                 driven: *group == Group::Drivers || depends.time,
                 equations,
             });
         }
-        let forces = blueprint.forces.iter().map(|(name, states, formula)| {
-            let mut depends = Dependence::default();
-            formula.map(&mut |tape| depends.add(tape));
-            ForceItem {
-                name: name.clone(),
-                bodies: formula.bodies(),
-                reaction: formula.reaction(),
-                states,
-                element: formula.map(value),
-                law: depends.any().then(|| Box::new(formula.clone())),
-            }
-        });
-        let forces: Vec<ForceItem<S>> = forces.collect();
+        let forces = forces(blueprint, value, &mut switches);
         let bodies: Vec<Body<S>> = blueprint.bodies.iter().map(|body| body.map(value)).collect();
         let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
         let unknowns = bodies[1..].iter().map(|body| if body.turns { 3 } else { 2 });
@@ -107,6 +102,7 @@ impl<S: Real> Model<S> {
             layout,
             constraints,
             forces,
+            switches,
             allow_redundancy: blueprint.allow_redundancy,
         }
     }
@@ -122,6 +118,34 @@ impl<S: Real> Model<S> {
         let parameters: Vec<T> = self.parameters.iter().map(|p| T::lift(*p)).collect();
         Model::new(&self.blueprint, &parameters)
     }
+}
+
+/// The forces of a blueprint; their switches are added to the list.
+fn forces<S: Real>(
+    blueprint: &Blueprint,
+    value: &mut dyn FnMut(&Tape) -> S,
+    switches: &mut Vec<Switch>,
+) -> Vec<ForceItem<S>> {
+    let items = blueprint.forces.iter().enumerate().map(|(k, (name, states, formula))| {
+        let mut depends = Dependence::default();
+        formula.map(&mut |tape| depends.add(tape));
+        let owner = Owner::Force(k);
+        let law = depends
+            .any()
+            .then(|| Box::new(formula.map(&mut |tape| Switch::number(tape, owner, switches))));
+        let (element, first_switch) = (formula.map(value), switches.len());
+        switches.extend((0..element.switch_count()).map(|_| Switch::of_element(owner)));
+        ForceItem {
+            name: name.clone(),
+            bodies: formula.bodies(),
+            reaction: formula.reaction(),
+            states,
+            element,
+            law,
+            first_switch,
+        }
+    });
+    items.collect()
 }
 
 impl<S> Model<S> {

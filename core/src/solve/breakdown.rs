@@ -31,4 +31,15 @@ pub enum Breakdown {
     },
     /// A result is not finite.
     NotFinite,
+    /// The law of a constraint jumps.
+    Jump {
+        /// The constraint.
+        constraint: usize,
+        /// Whether its value jumps, not its rate.
+        position: bool,
+        /// The value or rate before and after.
+        values: [f64; 2],
+    },
+    /// The motion returns to this switch from both sides.
+    Sliding(usize),
 }

@@ -2,7 +2,7 @@
 
 use crate::mechanisms::{close, worst, Random};
 use crate::samples::{forces, later, motion, random};
-use kempe::elements::{BodyId, ForceElement, Nature, Situation};
+use kempe::elements::{BodyId, ForceElement, Held, Nature, Situation};
 use kempe::math::{Dual, Lanes, Lift, Motion, Real, Vec2, Wrench};
 
 fn each(mut check: impl FnMut(&ForceElement, [f64; 6], [f64; 6])) {
@@ -27,7 +27,14 @@ impl<S: Real> Two<S> {
     fn situation(&self, f: &ForceElement<S>) -> Situation<'_, S> {
         assert_eq!(f.bodies().len(), 2, "{}", f.kind());
         let (motions, bodies) = (&self.0, &[BodyId(0), BodyId(1)]);
-        Situation { motions, bodies, z: &self.1, reaction: self.2, t: S::constant(0.7) }
+        Situation {
+            motions,
+            bodies,
+            z: &self.1,
+            reaction: self.2,
+            t: S::constant(0.7),
+            held: Held::default(),
+        }
     }
 }
 

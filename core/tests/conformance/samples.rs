@@ -7,7 +7,9 @@ use kempe::elements::joints::{
     Belt, Coupling, Distance, FlatOnCurve, Gear, GivenConstraint, PinInSlot, PointOnCurve, Rack,
     Revolute, RollerOnCurve, Rolling, Translational, Weld,
 };
-use kempe::elements::test_elements::{Bead, Blower, Lag, Levels, Pulley, Rubbing, TurnedPin};
+use kempe::elements::test_elements::{
+    Bead, Blower, GapSpring, Lag, Levels, Overload, Pulley, Rubbing, TurnedPin,
+};
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveFormula, CurveOn,
     CurvePoints, ForceElement, Group, JointId, Linearized, Moving, PointOn, Side,
@@ -168,6 +170,9 @@ pub fn forces() -> Vec<ForceElement> {
     all.push(ForceElement::Lag(Lag { i: BodyId(1), j: BodyId(2), stiffness: 4.0, time: 0.3 }));
     let (joint, i, j) = (JointId(0), BodyId(1), BodyId(2));
     all.push(ForceElement::Rubbing(Rubbing { joint, i, j, arm: 0.05, speed: 0.4 }));
+    let (stiffness, gap, preload) = (3.0, 0.4, 0.7);
+    all.push(ForceElement::GapSpring(GapSpring { i, j, stiffness, gap, preload }));
+    all.push(ForceElement::Overload(Overload { joint, i, j, torque: 1.2, limit: 0.5 }));
     all.push(ForceElement::Blower(Blower {
         j,
         i,

@@ -3,7 +3,7 @@
 use crate::mechanisms::{close, every, model, run, start, tolerances};
 use crate::samples::motion;
 use kempe::elements::forces::SpringDamper;
-use kempe::elements::{BodyId, Element, Force, PointOn, Situation};
+use kempe::elements::{BodyId, Element, Force, Held, PointOn, Situation};
 use kempe::math::{Dual, Lift, Local, Motion, Real, Wrench};
 
 fn spring(free_length: f64) -> SpringDamper {
@@ -21,7 +21,14 @@ fn together<S: Lift<f64>>(x: S) -> [Motion<S>; 2] {
 
 fn at<S: Real>(bodies: &[Motion<S>; 2]) -> Situation<'_, S> {
     let (motions, bodies) = (bodies, &[BodyId(0), BodyId(1)]);
-    Situation { motions, bodies, z: &[], reaction: Wrench::zero(), t: S::zero() }
+    Situation {
+        motions,
+        bodies,
+        z: &[],
+        reaction: Wrench::zero(),
+        t: S::zero(),
+        held: Held::default(),
+    }
 }
 
 /// The wrenches of stiffness on i and j, then of damping.

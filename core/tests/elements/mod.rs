@@ -3,16 +3,20 @@
 
 mod bead;
 mod blower;
+mod gap_spring;
 mod lag;
 mod levels;
+mod overload;
 mod pulley;
 mod rubbing;
 mod turned_pin;
 
 pub use bead::Bead;
 pub use blower::Blower;
+pub use gap_spring::GapSpring;
 pub use lag::Lag;
 pub use levels::Levels;
+pub use overload::Overload;
 pub use pulley::Pulley;
 pub use rubbing::Rubbing;
 pub use turned_pin::TurnedPin;

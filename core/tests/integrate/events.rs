@@ -1,7 +1,7 @@
 //! Changes of sign within a step.
 
 use super::*;
-use kempe::integrate::{locate, Direction, Rk4, Rk45, StepControl};
+use kempe::integrate::{locate, scan, Direction, Rk4, Rk45, StepControl};
 use std::f64::consts::PI;
 
 /// All events of cos t - c on (0, 20) at the given tolerance.
@@ -86,5 +86,39 @@ fn roots_at_the_ends_belong_to_one_step() {
         assert_eq!(locate(step, &mut y, at(-1.0), Direction::Any, 1e-9), None);
         assert_eq!(locate(step, &mut y, at(0.0), Direction::Falling, 1e-9), None);
         assert_eq!(locate(step, &mut y, |_, _| f64::NAN, Direction::Any, 1e-9), None);
+    });
+}
+
+#[test]
+fn several_functions_are_scanned_for_all_their_first_changes() {
+    let band = |t: f64, middle: f64, half: f64| half - (t - middle).abs();
+    let mut evaluate = |t: f64, y: &[f64], out: &mut [f64]| {
+        assert!((t - y[0]).abs() < 1e-15 && out.len() == 8);
+        out.copy_from_slice(&[
+            t - 0.25,                         // one change
+            band(t, -0.3, 0.15),              // two in a step
+            (t - 0.26) * (t - 0.26) - 0.0001, // two between samples: the parabola finds them
+            (t - 0.26) * (t - 0.26) + 0.0001, // none
+            t + 1.0,                          // zero at the beginning: of the step before
+            -1.0 - t * t,                     // always negative
+            f64::NAN,                         // no sign
+            1.0 - t,                          // zero at the end
+        ]);
+    };
+    with_unit_step(|step| {
+        let found = scan(step, 8, &mut evaluate, Direction::Any);
+        let expected = [(1, -0.45, true), (0, 0.25, true), (2, 0.25, false), (7, 1.0, false)];
+        assert_eq!(found.crossings.len(), expected.len(), "{found:?}");
+        for (index, t, rising) in expected {
+            let crossing = found.crossings.iter().find(|c| c.index == index).expect("a crossing");
+            assert!((crossing.t - t).abs() < 1e-14, "{crossing:?}");
+            assert_eq!(crossing.rising, rising);
+        }
+        assert!(found.crossings.windows(2).all(|w| w[0].t <= w[1].t));
+        assert_eq!(found.negative, [5]);
+        let falling = scan(step, 8, &mut evaluate, Direction::Falling);
+        let which: Vec<usize> = falling.crossings.iter().map(|c| c.index).collect();
+        assert_eq!(which, [1, 2, 7]);
+        assert!((falling.crossings[0].t + 0.15).abs() < 1e-14);
     });
 }

@@ -1,12 +1,13 @@
 //! Failures of forward dynamics, in terms of the mechanism.
 
 use super::law_fault::{undefined_law, LawFault};
+use super::law_jump::{owner_name, Jump, SMOOTH};
 use super::run_results::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::{BodyId, Equation};
 use crate::expression::TABLE_ENDS;
 use crate::integrate::Cause;
-use crate::model::{Model, Slots};
+use crate::model::{Model, Slots, Switch};
 use crate::solve::Breakdown;
 use std::fmt;
 
@@ -38,6 +39,17 @@ pub enum Reason {
         /// The joint or driver that is open.
         name: String,
         /// Description, with the gap.
+        message: String,
+        /// Remedy.
+        hint: &'static str,
+    },
+    /// A law that no run can follow, found before the run.
+    Law {
+        /// The time at which it cannot, s.
+        t: f64,
+        /// The joint, driver or force.
+        name: String,
+        /// Description.
         message: String,
         /// Remedy.
         hint: &'static str,
@@ -125,6 +137,9 @@ impl Failure {
                             must meet the constraints; check the size of the forces";
                 return Reason::Integration { t, message, hint }.into();
             }
+            Breakdown::Jump { .. } | Breakdown::Sliding(_) => {
+                return at_switch(model, t, breakdown)
+            }
             Breakdown::NotFinite => return Self::undefined(model, t, q),
         };
         Reason::Singular { t, name, message }.into()
@@ -198,6 +213,26 @@ impl Failure {
         };
         Reason::Integration { t, message, hint }.into()
     }
+}
+
+/// A law jumps, or the motion slides along a switch.
+fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
+    let switch = match breakdown {
+        Breakdown::Sliding(switch) => switch,
+        Breakdown::Jump { constraint, position, values } => {
+            let message = Jump { constraint, position, values }.describe(model, t);
+            return Reason::Integration { t, message, hint: SMOOTH }.into();
+        }
+        other => unreachable!("{other:?} is not at a switch"),
+    };
+    let Switch { owner, law, .. } = model.switches[switch];
+    let message = format!(
+        "{}{} switches back and forth at t = {t:.6} s: on both sides of its condition the motion returns to it",
+        if law { "a law of " } else { "" },
+        owner_name(model, owner)
+    );
+    let hint = "replace the jump by a steep smooth function: sign(x) by tanh(x/x0), with x0 small against the usual x";
+    Reason::Integration { t, message, hint }.into()
 }
 
 /// Whether numbers are lost, so that a law may have no value.
@@ -300,6 +335,7 @@ impl fmt::Display for Reason {
         match self {
             Self::Singular { message, .. }
             | Self::Start { message, .. }
+            | Self::Law { message, .. }
             | Self::Option { message, .. }
             | Self::Integration { message, .. } => f.write_str(message),
         }

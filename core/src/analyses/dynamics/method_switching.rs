@@ -21,6 +21,8 @@ enum Piece<'a> {
 /// A stepper that changes between an explicit and an implicit method.
 pub(super) struct MethodSwitching<'a> {
     options: Options,
+    /// The end of the steps; that of the run is in the options.
+    t_end: f64,
     /// Tolerances and steps of both methods.
     control: StepControl,
     detector: StiffnessDetector<'a>,
@@ -56,6 +58,7 @@ impl<'a> MethodSwitching<'a> {
         let initial = InitialStiffness::new(ode.model, &mut detector, auto, span, y);
         let mut switching = Self {
             options: options.clone(),
+            t_end: options.t_end,
             control: auto.control.clone(),
             detector,
             initial,
@@ -70,6 +73,13 @@ impl<'a> MethodSwitching<'a> {
         };
         switching.judge_start();
         Ok(switching)
+    }
+
+    /// Holds the pieces of switches in the equations for the implicit method.
+    pub fn hold(&mut self, pieces: &[f64]) {
+        if let Some(dae) = &mut self.dae {
+            dae.hold(pieces);
+        }
     }
 
     /// Whether the model is stiff at the start.
@@ -89,7 +99,7 @@ impl<'a> MethodSwitching<'a> {
     /// Tolerances and steps of a piece that begins at `t`.
     fn control_from(&self, t: f64) -> StepControl {
         let max_steps = self.control.max_steps.map(|most| most - self.total.steps.min(most));
-        let first_step = self.step.map(|h| h.min((self.options.t_end - t).abs()));
+        let first_step = self.step.map(|h| h.min((self.t_end - t).abs()));
         StepControl { first_step, max_steps, ..self.control.clone() }
     }
 
@@ -99,12 +109,13 @@ impl<'a> MethodSwitching<'a> {
         let (t, y) = (self.t(), self.y().to_vec());
         self.total = self.statistics();
         self.explicit_evaluations = self.explicit_factorisations();
-        let (control, span) = (self.control_from(t), (t, self.options.t_end));
+        let (control, span) = (self.control_from(t), (t, self.t_end));
         self.piece = match &self.piece {
             Piece::Explicit(_) => {
                 self.tried = (t, 0, t);
                 let options = &self.options;
                 let dae = self.dae.get_or_insert_with(|| MotionDae::new(ode.model, options));
+                dae.hold(&ode.workspace.motions.pieces);
                 Piece::Implicit(Radau { control }.start(dae, span, &y)?)
             }
             Piece::Implicit(_) => {
@@ -236,7 +247,7 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
     }
 
     fn t_end(&self) -> f64 {
-        self.options.t_end
+        self.t_end
     }
 
     fn y(&self) -> &[f64] {
@@ -246,11 +257,12 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
         }
     }
 
-    fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
+    fn restart_until(&mut self, t: f64, y: &[f64], t_end: f64) -> Result<(), Cause<Breakdown>> {
         match &mut self.piece {
-            Piece::Explicit(stepper) => stepper.restart(t, y)?,
-            Piece::Implicit(stepper) => stepper.restart(t, y)?,
+            Piece::Explicit(stepper) => stepper.restart_until(t, y, t_end)?,
+            Piece::Implicit(stepper) => stepper.restart_until(t, y, t_end)?,
         }
+        self.t_end = t_end;
         self.detector.resume(t);
         self.tried.2 = t;
         Ok(())

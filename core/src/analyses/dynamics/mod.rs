@@ -12,12 +12,14 @@
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
+//! | `switch_schedule`, `switching` | switches in time, found before a run; switches during a run |
 //! | `singularity_passage`, `singularity_forecast`, `branch_averaging` | singular positions |
 //! | `recorder`, `trajectory`, `report_projection`, `lane_batch` | reported states |
 //! | `interpolated_states` | states between them |
 //! | `constraint_violation` | joints that open too far |
 //! | `accelerations`, `energies` | quantities that follow from reported states |
 //! | `prepared`, `model_cache` | a model for many runs |
+//! | `law_jump` | laws of joints and drivers that jump |
 //! | `failure`, `clock` | errors in terms of the mechanism; wall time |
 
 mod absolute_tolerance;
@@ -31,6 +33,7 @@ mod initial_stiffness;
 mod interpolated_states;
 mod lane_batch;
 mod law_fault;
+mod law_jump;
 mod method_options;
 mod method_switching;
 mod methods;
@@ -51,6 +54,8 @@ mod stabilizations;
 mod start_check;
 mod stepper;
 mod stiffness_detection;
+mod switch_schedule;
+mod switching;
 mod trajectory;
 
 pub use accelerations::Accelerations;

@@ -54,6 +54,14 @@ impl<'a> MotionDae<'a> {
         }
     }
 
+    /// Holds the pieces of switches.
+    pub fn hold(&mut self, pieces: &[f64]) {
+        for motions in [&mut self.workspace.motions, &mut self.balance.motions] {
+            motions.pieces.clear();
+            motions.pieces.extend_from_slice(pieces);
+        }
+    }
+
     /// Factorisations of the augmented matrix.
     pub fn factorisations(&self) -> usize {
         self.accelerations + self.projector.as_ref().map_or(0, |p| p.factorisations)

@@ -7,6 +7,8 @@ use super::motion_dae::MotionDae;
 use super::motion_ode::MotionOde;
 use super::options::Options;
 use super::stiffness_detection::MethodChoice;
+use super::switch_schedule::Schedule;
+use super::switching::{After, Switching};
 use crate::integrate::{
     BoxedStepper, Cause, Direction, ExplicitMethod, ImplicitMethod, Statistics, Step, Stepper,
 };
@@ -23,16 +25,21 @@ enum Kind<'a> {
 pub(super) struct MotionStepper<'a> {
     pub ode: MotionOde<'a>,
     kind: Kind<'a>,
+    /// None for a model without switches.
+    switching: Option<Box<Switching>>,
+    /// Accepted steps that were taken again.
+    taken_again: usize,
 }
 
 impl<'a> MotionStepper<'a> {
-    /// Begins with `y` at `t` and ends at `options.t_end`.
+    /// Begins with `y` at `t` and ends at `options.t_end`. The schedule contains the switches until then.
     ///
     /// # Errors
     /// [`Cause`] of invalid options.
     pub fn new(
-        ode: MotionOde<'a>,
+        mut ode: MotionOde<'a>,
         options: &Options,
+        schedule: Schedule,
         t: f64,
         y: &[f64],
     ) -> Result<Self, Cause<Breakdown>> {
@@ -54,11 +61,73 @@ impl<'a> MotionStepper<'a> {
                 Kind::Auto(Box::new(MethodSwitching::new(&ode, options, auto, t, y)?))
             }
         };
-        Ok(Self { ode, kind })
+        let switching = Switching::new(&mut ode, schedule, t, options.t_end, y).map(Box::new);
+        let mut stepper = Self { ode, kind, switching, taken_again: 0 };
+        if stepper.switching.is_some() {
+            stepper.go_on_from(t, y)?;
+        }
+        Ok(stepper)
     }
 
-    /// Takes the next accepted step.
+    /// Takes the next accepted step. Where the model has switches, steps end at them.
     pub fn step(&mut self) -> Result<(), Cause<Breakdown>> {
+        let Some(mut switching) = self.switching.take() else { return self.advance() };
+        let outcome = self.step_to_switch(&mut switching);
+        self.switching = Some(switching);
+        outcome
+    }
+
+    fn step_to_switch(&mut self, switching: &mut Switching) -> Result<(), Cause<Breakdown>> {
+        let t = self.t();
+        if switching.is_due(t) {
+            let y = self.y().to_vec();
+            switching.pass(&mut self.ode, t, &y)?;
+            self.hold(switching, t, &y)?;
+        }
+        loop {
+            self.advance()?;
+            if !switching.scans() {
+                return Ok(());
+            }
+            self.prepare_interpolant()?;
+            let step = self.last_step().expect("a step was taken");
+            let (t_old, y_old) = (step.t_old, step.y_old.to_vec());
+            match switching.look(self.ode.model, &step) {
+                After::Accept => return Ok(()),
+                After::Again => {}
+                After::Change => switching.pass(&mut self.ode, t_old, &y_old)?,
+            }
+            self.taken_again += 1;
+            self.hold(switching, t_old, &y_old)?;
+        }
+    }
+
+    /// Goes on from a state with the pieces of the switches, to the next one.
+    fn hold(&mut self, switching: &Switching, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
+        self.ode.workspace.motions.pieces.clone_from(&switching.pieces);
+        match &mut self.kind {
+            Kind::Explicit(stepper) => stepper.restart_until(t, y, switching.end()),
+            Kind::Implicit(stepper, dae) => {
+                dae.hold(&switching.pieces);
+                stepper.restart_until(t, y, switching.end())
+            }
+            Kind::Auto(stepper) => {
+                stepper.hold(&switching.pieces);
+                stepper.restart_until(t, y, switching.end())
+            }
+        }
+    }
+
+    /// The same with the switches of this stepper.
+    fn go_on_from(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
+        let Some(switching) = self.switching.take() else { return Ok(()) };
+        let outcome = self.hold(&switching, t, y);
+        self.switching = Some(switching);
+        outcome
+    }
+
+    /// Takes the next accepted step of the method.
+    fn advance(&mut self) -> Result<(), Cause<Breakdown>> {
         match &mut self.kind {
             Kind::Explicit(stepper) => stepper.step(&mut self.ode),
             Kind::Implicit(stepper, dae) => stepper.step(dae),
@@ -99,7 +168,12 @@ impl<'a> MotionStepper<'a> {
         }
     }
 
+    /// Goes on from a state `y` at a time `t` within the last step.
     pub fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
+        if let Some(switching) = &mut self.switching {
+            switching.restart(&mut self.ode, t, y);
+            return self.go_on_from(t, y);
+        }
         match &mut self.kind {
             Kind::Explicit(stepper) => stepper.restart(t, y),
             Kind::Implicit(stepper, _) => stepper.restart(t, y),
@@ -107,12 +181,34 @@ impl<'a> MotionStepper<'a> {
         }
     }
 
+    /// Takes the last step again, to end the run at a time `t_end` within it.
+    pub fn end_within_step(&mut self, t_end: f64) -> Result<(), Cause<Breakdown>> {
+        let (t, y) = match self.last_step() {
+            Some(step) => (step.t_old, step.y_old.to_vec()),
+            None => return Ok(()),
+        };
+        self.taken_again += 1;
+        if let Some(switching) = &mut self.switching {
+            switching.set_end(t_end);
+            return self.go_on_from(t, &y);
+        }
+        match &mut self.kind {
+            Kind::Explicit(stepper) => stepper.restart_until(t, &y, t_end),
+            Kind::Implicit(stepper, _) => stepper.restart_until(t, &y, t_end),
+            Kind::Auto(stepper) => stepper.restart_until(t, &y, t_end),
+        }
+    }
+
+    /// Counts of all steps so far; those that were taken again count as rejected.
     pub fn statistics(&self) -> Statistics {
-        match &self.kind {
+        let mut counts = match &self.kind {
             Kind::Explicit(stepper) => stepper.statistics(),
             Kind::Implicit(stepper, _) => stepper.statistics(),
             Kind::Auto(stepper) => stepper.statistics(),
-        }
+        };
+        counts.steps -= self.taken_again;
+        counts.rejected += self.taken_again;
+        counts
     }
 
     /// Time within the last step at which g(t, [q, v, z]) changes sign, with the state there.
@@ -140,17 +236,6 @@ impl<'a> MotionStepper<'a> {
             step.interpolate(t, &mut y);
         }
         self.ode.model.layout.split(&y)[3].to_vec()
-    }
-
-    /// A stepper from the beginning of the last step to another end.
-    pub fn again(self, options: &Options) -> Result<Self, Cause<Breakdown>> {
-        let (t, y) = match self.last_step() {
-            Some(step) => (step.t_old, step.y_old.to_vec()),
-            None => (self.t(), self.y().to_vec()),
-        };
-        let mut options = options.clone();
-        options.method.control_mut().first_step = None;
-        Self::new(self.ode, &options, t, &y)
     }
 
     /// A failure in terms of the mechanism.

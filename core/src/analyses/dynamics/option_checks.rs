@@ -4,6 +4,7 @@ use super::failure::{Failure, Reason};
 use super::methods::Scheme;
 use super::options::Options;
 use super::stabilizations::Stabilization;
+use super::switch_schedule::Schedule;
 use crate::analyses::options::{not_negative, positive, Bounded};
 use crate::analyses::State;
 use crate::equations::Gains;
@@ -26,7 +27,10 @@ impl Options {
     pub(in crate::analyses) fn fault(&self, model: &Model, t0: Option<f64>) -> Option<OptionFault> {
         let t0 = self.t_start.or(t0);
         let found = self.check_combination().and_then(|()| match t0 {
-            Some(t0) => self.check_output(t0).and_then(|()| self.check_steps(model, t0)),
+            Some(t0) => self.check_output(t0).and_then(|()| {
+                self.check_steps(model, t0)?;
+                Schedule::new(model, (t0, self.t_end)).map(|_| ())
+            }),
             None => Ok(()),
         });
         let step = if self.method.control().step.is_some() { "step" } else { "max_step" };
@@ -107,6 +111,7 @@ impl OptionFault {
             Reason::Integration { message, hint, .. } => {
                 Self { path: vec!["method", step], message, hint: Some(hint) }
             }
+            Reason::Law { message, hint, .. } => Self { path: vec![], message, hint: Some(hint) },
             other => Self { path: Vec::new(), message: other.to_string(), hint: None },
         }
     }

@@ -10,6 +10,7 @@ use super::recorder::{self, Recorder};
 use super::run_results::Run;
 use super::stabilizations::Stabilization;
 use super::start_check::StartCheck;
+use super::switch_schedule::Schedule;
 use crate::analyses::curves::Ranges;
 use crate::analyses::State;
 use crate::integrate::{Cause, Direction, Flow, Step};
@@ -116,6 +117,7 @@ fn run_phase<W: FnMut(f64) -> Flow>(
     let check = if phase.project_velocities { check.of_positions() } else { check };
     let [q, v, z, _] = model.layout.split(&at.y);
     check.check(model, at.t, [q, v, z])?;
+    let schedule = Schedule::new(model, (at.t, options.t_end))?;
     let mut ode = MotionOde::new(model, options, cache.plan(model));
     run.phases.push(run.trajectory.t.len());
     run.passing = ode.passing;
@@ -131,7 +133,7 @@ fn run_phase<W: FnMut(f64) -> Flow>(
     let outcome = match started {
         Err(breakdown) => Err(Failure::at_state(model, at.t, &q, breakdown)),
         Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(Flow::Stop),
-        Ok(()) => step_through(ode, phase, at, options, (&mut recorder, watcher), run),
+        Ok(()) => step_through(ode, phase, at, options, (&mut recorder, watcher), schedule, run),
     };
     recorder.flush();
     run.statistics.factorisations += recorder.factorisations();
@@ -153,11 +155,12 @@ fn step_through<W: FnMut(f64) -> Flow>(
     at: &mut At,
     options: &Options,
     (recorder, watcher): (&mut Recorder<'_>, &mut Watcher<'_, W>),
+    schedule: Schedule,
     run: &mut Run,
 ) -> Result<Flow, Box<Failure>> {
     let model = ode.model;
     let failed = |cause, t, y: &[f64]| Failure::of_integrator(model, cause, t, y);
-    let mut stepper = MotionStepper::new(ode, options, at.t, &at.y)
+    let mut stepper = MotionStepper::new(ode, options, schedule, at.t, &at.y)
         .map_err(|cause| failed(cause, at.t, &at.y))?;
     let ranges = Ranges::of(model);
     let mut event = phase.event;
@@ -175,10 +178,8 @@ fn step_through<W: FnMut(f64) -> Flow>(
             Ok(Next::Step(Flow::Stop)) => break Ok(Flow::Stop),
             // the step is taken again, to end at the event
             Ok(Next::Event(t)) => {
-                run.statistics.add(stepper.statistics(), stepper.factorisations());
                 recorder.t_end = t;
-                let again = stepper.again(&Options { t_end: t, ..options.clone() });
-                stepper = again.map_err(|cause| failed(cause, at.t, &at.y))?;
+                stepper.end_within_step(t).map_err(|cause| failed(cause, at.t, &at.y))?;
             }
             Err(cause) => break Err(stepper.failure(cause)),
         }

@@ -8,6 +8,7 @@ use super::option_checks::check_lengths;
 use super::options::Options;
 use super::stabilizations::Stabilization;
 use super::start_check::StartCheck;
+use super::switch_schedule::Schedule;
 use crate::analyses::State;
 use crate::integrate::{Direction, Step};
 use crate::model::Model;
@@ -45,12 +46,13 @@ impl<'a> Stepper<'a> {
         options.check(model, start)?;
         let t = options.t_start.unwrap_or(start.t);
         StartCheck::of_run(options).check(model, t, [&start.q, &start.v, &start.z])?;
+        let schedule = Schedule::new(model, (t, options.t_end))?;
         let mut ode = MotionOde::new(model, options, ModelCache::default().plan(model));
         let mut y = [&start.q[..], &start.v, &start.z].concat();
         y.resize(model.layout.n_y(), 0.0);
         let outcome = ode.begin_phase(t, &mut y, false);
         outcome.map_err(|breakdown| Failure::at_state(model, t, &start.q, breakdown))?;
-        let inner = MotionStepper::new(ode, options, t, &y)
+        let inner = MotionStepper::new(ode, options, schedule, t, &y)
             .map_err(|cause| Failure::of_integrator(model, cause, t, &y))?;
         let check = StartCheck::of_continuation(options);
         let projects = matches!(options.stabilization, Stabilization::Projection(_));

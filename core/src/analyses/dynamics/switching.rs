@@ -1,0 +1,394 @@
+//! Switches during a run: the piece of each is held during a step, and steps end where a piece ends.
+//!
+//! Switches that depend on the time alone come from a [`Schedule`]. The functions of the others are scanned on the
+//! interpolant of each step (`integrate::scan`); where one leaves its piece, the step is taken again up to that time, with
+//! the old piece, and the next step begins with the new one.
+//!
+//! A switch that changes back at once holds the motion between two pieces. Where the accelerations of both are equal it
+//! is released: its law then decides by itself, until it has kept one piece for [`CALM`] steps. Otherwise the motion
+//! slides along the switch, which laws cannot describe, and the run ends.
+
+use super::law_jump::Jump;
+use super::motion_ode::MotionOde;
+use super::switch_schedule::{changed_constraints, Schedule};
+use crate::equations::forces::Acting;
+use crate::equations::kinematics::Motions;
+use crate::equations::{switches, Gains, Workspace};
+use crate::integrate::{scan, Cause, Direction, Ode, Scan, Step};
+use crate::model::{Model, Owner};
+use crate::solve::Breakdown;
+
+/// Changes of one switch within [`SHORT`] of the run after which it counts as stuck.
+const STUCK: usize = 8;
+/// Part of a run within which changes of a switch follow each other at once.
+const SHORT: f64 = 1e-9;
+/// Steps on one piece after which a released switch is held again.
+const CALM: usize = 10;
+/// Smallest jump of the accelerations at which a motion can slide, relative to the largest ones.
+const JUMPS: f64 = 1e-6;
+/// Times a step is taken again for one switch, as its interpolant becomes more accurate.
+const AGAIN: usize = 3;
+
+/// The state of a switch in a run.
+#[derive(Clone, Copy, Debug)]
+struct History {
+    /// The time of its last change, and the number of changes that followed each other at once.
+    last: f64,
+    quick: usize,
+    /// For a released switch: the piece of the last steps, and their number.
+    calm: (f64, usize),
+}
+
+/// Changes of pieces at a time.
+#[derive(Debug)]
+struct Due {
+    t: f64,
+    changes: Vec<(usize, f64)>,
+    /// How often the step to it was taken again.
+    tries: usize,
+}
+
+/// What follows a step.
+pub(super) enum After {
+    /// The step is good.
+    Accept,
+    /// The step is taken again, to the switch that is now due.
+    Again,
+    /// The step is taken again, with the changes that are now due at its beginning.
+    Change,
+}
+
+/// The switches of a run.
+pub(super) struct Switching {
+    schedule: Schedule,
+    /// The next entry of the schedule.
+    next: usize,
+    t_end: f64,
+    /// Length of the run, and its direction.
+    length: f64,
+    sign: f64,
+    /// The held pieces.
+    pub pieces: Vec<f64>,
+    /// The switches that depend on the state.
+    on_state: Vec<usize>,
+    history: Vec<History>,
+    due: Option<Due>,
+    /// Evaluates the functions of switches.
+    workspace: Option<Box<Workspace>>,
+    motions: Motions,
+    sigma: Vec<f64>,
+    /// The largest derivative of each component so far.
+    largest: Vec<f64>,
+}
+
+impl Switching {
+    /// Of a run that begins with `y` at `t`; None without switches.
+    pub fn new(
+        ode: &mut MotionOde<'_>,
+        schedule: Schedule,
+        t: f64,
+        t_end: f64,
+        y: &[f64],
+    ) -> Option<Self> {
+        let model = ode.model;
+        let n = model.switches.len();
+        let on_state: Vec<usize> = (0..n).filter(|k| model.switches[*k].state).collect();
+        if schedule.times.is_empty() && on_state.is_empty() {
+            return None;
+        }
+        let reactive = on_state.iter().any(|k| match model.switches[*k].owner {
+            Owner::Force(f) => model.forces[f].reaction.is_some(),
+            Owner::Constraint(_) => false,
+        });
+        let calm = (f64::NAN, 0);
+        let mut switching = Self {
+            pieces: schedule.start.clone(),
+            schedule,
+            next: 0,
+            t_end,
+            length: (t_end - t).abs(),
+            sign: (t_end - t).signum(),
+            history: vec![History { last: f64::NAN, quick: 0, calm }; n],
+            on_state,
+            due: None,
+            workspace: reactive.then(|| Box::new(ode.workspace.clone())),
+            motions: Motions::new(&model.layout),
+            sigma: vec![0.0; n],
+            largest: vec![0.0; y.len()],
+        };
+        switching.begin(ode, t, y);
+        Some(switching)
+    }
+
+    /// The pieces at the start. On a boundary the motion decides.
+    fn begin(&mut self, ode: &mut MotionOde<'_>, t: f64, y: &[f64]) {
+        self.evaluate(ode.model, t, y);
+        for k in &self.on_state {
+            self.pieces[*k] = ode.model.switches[*k].boundaries.piece(self.sigma[*k]);
+        }
+        if self.on_state.iter().any(|k| self.pieces[*k].is_nan()) {
+            self.decide_by_motion(ode, t, y);
+        }
+    }
+
+    fn decide_by_motion(&mut self, ode: &mut MotionOde<'_>, t: f64, y: &[f64]) {
+        let model = ode.model;
+        let [q, v, z, _] = model.layout.split(y);
+        if ode.workspace.accelerate(model, t, [q, v, z], Gains::default()).is_err() {
+            return;
+        }
+        let mut dz = vec![0.0; z.len()];
+        ode.workspace.state_rates(model, t, &mut dz);
+        let moving = switches::functions_in_time(model, t, [q, v, z], [ode.workspace.a(), &dz]);
+        for k in &self.on_state {
+            let (boundaries, sigma) = (model.switches[*k].boundaries, moving[*k]);
+            if !self.pieces[*k].is_nan() {
+                continue;
+            }
+            let grows = if sigma.rate == 0.0 { sigma.second } else { sigma.rate };
+            if grows != 0.0 && grows.is_finite() {
+                self.pieces[*k] = boundaries.beside(sigma.value, grows * self.sign > 0.0);
+            }
+        }
+    }
+
+    /// The functions of all switches, with the held pieces of those inside them.
+    fn evaluate(&mut self, model: &Model, t: f64, y: &[f64]) {
+        let [q, v, z, _] = model.layout.split(y);
+        let Self { workspace, motions, sigma, pieces, .. } = self;
+        let mut lam = None;
+        if let Some(workspace) = workspace {
+            workspace.motions.pieces.clone_from(pieces);
+            let solved = workspace.accelerate(model, t, [q, v, z], Gains::default());
+            lam = solved.is_ok().then(|| workspace.lam());
+        }
+        motions.place(&model.layout, q, v);
+        motions.pieces.clone_from(pieces);
+        switches::functions(model, motions, Acting { z, lam, t }, sigma);
+    }
+
+    /// The end of the next steps: a switch, or the end of the run.
+    pub fn end(&self) -> f64 {
+        let due = self.due.as_ref().map(|due| due.t);
+        let next = self.schedule.times.get(self.next).map(|(t, _)| *t);
+        due.or(next).unwrap_or(self.t_end)
+    }
+
+    /// Whether a switch is at `t`.
+    pub fn is_due(&self, t: f64) -> bool {
+        t != self.t_end && t == self.end()
+    }
+
+    /// Ends the run, or the phase, at another time.
+    pub fn set_end(&mut self, t_end: f64) {
+        (self.t_end, self.due) = (t_end, None);
+        self.schedule.times.retain(|(t, _)| self.sign * (t_end - t) > 0.0);
+    }
+
+    /// Continues from another state: the pieces of the switches on the state are those at `y`.
+    pub fn restart(&mut self, ode: &mut MotionOde<'_>, t: f64, y: &[f64]) {
+        self.due = None;
+        ode.workspace.motions.pieces.clear();
+        self.begin(ode, t, y);
+    }
+
+    /// Changes the pieces of the switches at `t`, where the motion has the state `y`.
+    ///
+    /// # Errors
+    /// A joint or driver with a law that jumps; a motion that slides along a switch.
+    pub fn pass(
+        &mut self,
+        ode: &mut MotionOde<'_>,
+        t: f64,
+        y: &[f64],
+    ) -> Result<(), Cause<Breakdown>> {
+        let mut changes = Vec::new();
+        if let Some(due) = self.due.take_if(|due| due.t == t) {
+            changes = due.changes;
+        }
+        if self.schedule.times.get(self.next).is_some_and(|(at, _)| *at == t) {
+            changes.extend(self.schedule.times[self.next].1.iter().copied());
+            self.next += 1;
+        }
+        self.change(ode, t, y, &changes)
+    }
+
+    fn change(
+        &mut self,
+        ode: &mut MotionOde<'_>,
+        t: f64,
+        y: &[f64],
+        changes: &[(usize, f64)],
+    ) -> Result<(), Cause<Breakdown>> {
+        let model = ode.model;
+        let before = self.pieces.clone();
+        changes.iter().for_each(|(switch, piece)| self.pieces[*switch] = *piece);
+        let [q, v, ..] = model.layout.split(y);
+        self.motions.place(&model.layout, q, v);
+        self.motions.pieces.clone_from(&self.pieces);
+        for k in changed_constraints(model, changes) {
+            let jump = Jump::of(model, k, &mut self.motions, t, &before, &|_| true);
+            if let Some(Jump { constraint, position, values }) = jump {
+                let error = Breakdown::Jump { constraint, position, values };
+                return Err(Cause::Equations { t, error });
+            }
+        }
+        for (switch, _) in changes.iter().filter(|(switch, _)| model.switches[*switch].state) {
+            let short = SHORT * self.length;
+            let history = &mut self.history[*switch];
+            history.quick = if (t - history.last).abs() <= short { history.quick + 1 } else { 0 };
+            history.last = t;
+            if history.quick > STUCK {
+                self.release(ode, t, y, *switch)?;
+            }
+        }
+        if self.workspace.is_some() {
+            self.follow_reactions(model, t, y);
+        }
+        Ok(())
+    }
+
+    /// Reactions jump at a switch: the switches that depend on them follow.
+    fn follow_reactions(&mut self, model: &Model, t: f64, y: &[f64]) {
+        self.evaluate(model, t, y);
+        for k in &self.on_state {
+            let Owner::Force(f) = model.switches[*k].owner else { continue };
+            let piece = model.switches[*k].boundaries.piece(self.sigma[*k]);
+            if model.forces[f].reaction.is_some() && !self.pieces[*k].is_nan() && !piece.is_nan() {
+                self.pieces[*k] = piece;
+            }
+        }
+    }
+
+    /// Releases a switch that changes back at once, if the motion is continuous there.
+    fn release(
+        &mut self,
+        ode: &mut MotionOde<'_>,
+        t: f64,
+        y: &[f64],
+        switch: usize,
+    ) -> Result<(), Cause<Breakdown>> {
+        let boundaries = ode.model.switches[switch].boundaries;
+        self.evaluate(ode.model, t, y);
+        let other = boundaries.next(self.sigma[switch], self.pieces[switch]);
+        let mut rates = [vec![0.0; y.len()], vec![0.0; y.len()]];
+        let held = std::mem::take(&mut ode.workspace.motions.pieces);
+        for (piece, rates) in [self.pieces[switch], other].into_iter().zip(&mut rates) {
+            ode.workspace.motions.pieces.clone_from(&self.pieces);
+            ode.workspace.motions.pieces[switch] = piece;
+            ode.rate(t, y, rates).map_err(|error| Cause::Equations { t, error })?;
+        }
+        ode.workspace.motions.pieces = held;
+        let controlled = ode.structure().controlled();
+        let [one, other] = &rates;
+        let jumps = (0..controlled).any(|i| {
+            let scale = self.largest[i].max(one[i].abs()).max(other[i].abs());
+            (one[i] - other[i]).abs() > JUMPS * scale && scale > 0.0
+        });
+        if jumps {
+            return Err(Cause::Equations { t, error: Breakdown::Sliding(switch) });
+        }
+        self.pieces[switch] = f64::NAN;
+        self.history[switch] = History { last: t, quick: 0, calm: (f64::NAN, 0) };
+        Ok(())
+    }
+
+    /// Whether steps have to be scanned.
+    pub fn scans(&self) -> bool {
+        !self.on_state.is_empty()
+    }
+
+    /// Scans a step, with its interpolant prepared.
+    pub fn look(&mut self, model: &Model, step: &Step<'_>) -> After {
+        let sign = self.sign;
+        let scanned = self.scan(model, step);
+        let own = |k: usize| self.on_state[k];
+        let spacing = 4.0 * f64::EPSILON * step.t.abs().max(step.t_old.abs());
+        // with a more accurate interpolant the same switch may lie slightly earlier; it is approached a few times
+        let (goal, tries) = match &self.due {
+            Some(due) if due.tries >= AGAIN => {
+                (due.t - sign * (step.t - step.t_old).abs(), due.tries)
+            }
+            Some(due) => (due.t, due.tries),
+            None => (f64::NAN, 0),
+        };
+        let awaited = |k: usize| {
+            self.due.as_ref().is_some_and(|due| due.changes.iter().any(|(switch, _)| *switch == k))
+        };
+        let earlier = |t: f64, k: usize| !awaited(k) || sign * (goal - t) > 1e3 * spacing;
+        let found =
+            scanned.crossings.iter().filter(|crossing| earlier(crossing.t, own(crossing.index)));
+        let Some(first) = found.clone().map(|crossing| crossing.t).next() else {
+            return self.after_smooth_step(model, step, &scanned);
+        };
+        let together: Vec<usize> =
+            found.filter(|c| sign * (c.t - first) <= 2.0 * spacing).map(|c| own(c.index)).collect();
+        self.evaluate_at(model, step, first);
+        let next = |k: usize| (k, model.switches[k].boundaries.next(self.sigma[k], self.pieces[k]));
+        let changes: Vec<_> = together.into_iter().map(next).collect();
+        self.due = Some(Due { t: first, changes, tries: tries + 1 });
+        match first == step.t {
+            true => After::Accept,
+            false => After::Again,
+        }
+    }
+
+    /// The crossings of the margins of the held pieces.
+    fn scan(&mut self, model: &Model, step: &Step<'_>) -> Scan {
+        let on_state = std::mem::take(&mut self.on_state);
+        let mut margins = |t: f64, y: &[f64], out: &mut [f64]| {
+            self.evaluate(model, t, y);
+            for (out, k) in out.iter_mut().zip(&on_state) {
+                *out = model.switches[*k].boundaries.margin(self.sigma[*k], self.pieces[*k]);
+            }
+        };
+        let scanned = scan(step, on_state.len(), &mut margins, Direction::Falling);
+        self.on_state = on_state;
+        scanned
+    }
+
+    fn evaluate_at(&mut self, model: &Model, step: &Step<'_>, t: f64) {
+        let mut y = step.y.to_vec();
+        if t != step.t {
+            step.interpolate(t, &mut y);
+        }
+        self.evaluate(model, t, &y);
+    }
+
+    /// A step without a crossing. Switches that were never in the piece that was held change at its beginning.
+    fn after_smooth_step(&mut self, model: &Model, step: &Step<'_>, scanned: &Scan) -> After {
+        if !scanned.negative.is_empty() {
+            self.evaluate_at(model, step, step.t_old + 0.5 * (step.t - step.t_old));
+            let of = |k: usize| {
+                let k = self.on_state[k];
+                (k, model.switches[k].boundaries.piece(self.sigma[k]))
+            };
+            let changes: Vec<_> = scanned.negative.iter().map(|k| of(*k)).collect();
+            self.due = Some(Due { t: step.t_old, changes, tries: 0 });
+            return After::Change;
+        }
+        for (largest, rate) in self.largest.iter_mut().zip(step.dy) {
+            *largest = largest.max(rate.abs());
+        }
+        self.hold_calm(model, step);
+        After::Accept
+    }
+
+    /// Holds released switches again that have kept one piece.
+    fn hold_calm(&mut self, model: &Model, step: &Step<'_>) {
+        if self.on_state.iter().all(|k| !self.pieces[*k].is_nan()) {
+            return;
+        }
+        self.evaluate_at(model, step, step.t);
+        for k in &self.on_state {
+            let piece = model.switches[*k].boundaries.piece(self.sigma[*k]);
+            let History { last, calm: (before, steps), .. } = &mut self.history[*k];
+            *steps = if piece == *before { *steps + 1 } else { 0 };
+            *before = piece;
+            // a switch that was on its boundary at the start was not released
+            if self.pieces[*k].is_nan() && (last.is_nan() || *steps >= CALM) {
+                self.pieces[*k] = piece;
+            }
+        }
+    }
+}

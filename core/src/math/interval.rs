@@ -1,0 +1,282 @@
+//! Bounds of a number: an interval that contains every result for operands in their intervals.
+//!
+//! Bounds are widened by the rounding of an operation. A domain error inside the interval gives the whole line. Moore,
+//! *Interval Analysis*, 1966.
+
+#![allow(clippy::suspicious_arithmetic_impl)] // products and quotients of bounds
+
+use super::real::Real;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// All numbers from `low` to `high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// The least number.
+    pub low: f64,
+    /// The largest number.
+    pub high: f64,
+}
+
+impl Interval {
+    /// Every number.
+    pub const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
+
+    /// From `low` to `high`, without widening.
+    pub fn new(low: f64, high: f64) -> Self {
+        Self { low, high }
+    }
+
+    /// Whether zero is inside or on a bound.
+    pub fn contains_zero(self) -> bool {
+        self.low <= 0.0 && self.high >= 0.0
+    }
+
+    /// The common part of two intervals that both contain the result.
+    pub fn and(self, other: Self) -> Self {
+        Self { low: self.low.max(other.low), high: self.high.min(other.high) }
+    }
+
+    /// Bounds with their rounding; every number where one is undefined.
+    fn rounded(low: f64, high: f64) -> Self {
+        if low.is_nan() || high.is_nan() {
+            return Self::ALL;
+        }
+        let wide = |x: f64| f64::EPSILON * x.abs() + f64::MIN_POSITIVE;
+        let finite = |x: f64, by: f64| if x.is_finite() { x + by } else { x };
+        Self { low: finite(low, -wide(low)), high: finite(high, wide(high)) }
+    }
+
+    fn of(values: &[f64]) -> Self {
+        if values.iter().any(|x| x.is_nan()) {
+            return Self::ALL;
+        }
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        Self::rounded(low, values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+    }
+
+    /// Of a function that grows.
+    fn rising(self, f: impl Fn(f64) -> f64) -> Self {
+        Self::rounded(f(self.low), f(self.high))
+    }
+
+    /// Whether a number of the form `first` + k 2π is inside.
+    fn meets(self, first: f64) -> bool {
+        let k = ((self.low - first) / TAU).ceil();
+        first + k * TAU <= self.high
+    }
+
+    fn cosine(self) -> Self {
+        if self.high.is_nan() || self.low.is_nan() || self.high - self.low >= TAU {
+            return Self::new(-1.0, 1.0);
+        }
+        let ends = [self.low.cos(), self.high.cos()];
+        let found = Self::of(&ends);
+        Self {
+            low: if self.meets(PI) { -1.0 } else { found.low },
+            high: if self.meets(0.0) { 1.0 } else { found.high },
+        }
+    }
+}
+
+impl Add for Interval {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Self::rounded(self.low + o.low, self.high + o.high)
+    }
+}
+impl Sub for Interval {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        Self::rounded(self.low - o.high, self.high - o.low)
+    }
+}
+impl Mul for Interval {
+    type Output = Self;
+    fn mul(self, o: Self) -> Self {
+        // zero times infinity is zero here: an infinite bound is not a number of the interval
+        let product = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
+        let corners = |a| [product(a, o.low), product(a, o.high)];
+        Self::of([corners(self.low), corners(self.high)].as_flattened())
+    }
+}
+impl Div for Interval {
+    type Output = Self;
+    fn div(self, o: Self) -> Self {
+        if o.contains_zero() {
+            return Self::ALL;
+        }
+        let inverse = Self::rounded(1.0 / o.high, 1.0 / o.low);
+        self * inverse
+    }
+}
+impl Neg for Interval {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { low: -self.high, high: -self.low }
+    }
+}
+impl AddAssign for Interval {
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+impl SubAssign for Interval {
+    fn sub_assign(&mut self, o: Self) {
+        *self = *self - o;
+    }
+}
+
+impl Real for Interval {
+    fn constant(x: f64) -> Self {
+        Self { low: x, high: x }
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        let quarter = Self::constant(FRAC_PI_2);
+        ((self - quarter).cosine(), self.cosine())
+    }
+    fn sqrt(self) -> Self {
+        if self.high < 0.0 {
+            return Self::ALL;
+        }
+        Self { low: self.low.max(0.0), ..self }.rising(f64::sqrt)
+    }
+    fn exp(self) -> Self {
+        self.rising(f64::exp)
+    }
+    fn ln(self) -> Self {
+        if self.high <= 0.0 {
+            return Self::ALL;
+        }
+        Self { low: self.low.max(0.0), ..self }.rising(f64::ln)
+    }
+    fn asin(self) -> Self {
+        self.and(Self::new(-1.0, 1.0)).rising(f64::asin)
+    }
+    fn atan(self) -> Self {
+        self.rising(f64::atan)
+    }
+    fn atan2(self, x: Self) -> Self {
+        if x.low > 0.0 {
+            return (self / x).atan();
+        }
+        Self::rounded(-PI, PI)
+    }
+    fn sinh(self) -> Self {
+        self.rising(f64::sinh)
+    }
+    fn cosh(self) -> Self {
+        let ends = [self.low.cosh(), self.high.cosh()];
+        let found = Self::of(&ends);
+        if self.contains_zero() {
+            Self { low: 1.0, ..found }
+        } else {
+            found
+        }
+    }
+    fn tanh(self) -> Self {
+        self.rising(f64::tanh)
+    }
+    fn powc(self, exponent: f64) -> Self {
+        if exponent == 0.0 {
+            return Self::one();
+        }
+        if exponent < 0.0 {
+            return Self::one() / self.powc(-exponent);
+        }
+        let ends = [self.low.powc(exponent), self.high.powc(exponent)];
+        if exponent.fract() != 0.0 {
+            let low = self.low.max(0.0);
+            return if self.high < 0.0 {
+                Self::ALL
+            } else {
+                Self::of(&[low.powc(exponent), ends[1]])
+            };
+        }
+        let found = Self::of(&ends);
+        if exponent % 2.0 == 0.0 && self.contains_zero() {
+            Self { low: 0.0, ..found }
+        } else {
+            found
+        }
+    }
+    fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
+        if condition.low > 0.0 {
+            positive
+        } else if condition.high <= 0.0 {
+            otherwise
+        } else {
+            let (low, high) = (positive.low.min(otherwise.low), positive.high.max(otherwise.high));
+            Self { low, high }
+        }
+    }
+    fn floor(self) -> Self {
+        Self { low: self.low.floor(), high: self.high.floor() }
+    }
+    fn abs(self) -> Self {
+        let (low, high) = (self.low.abs(), self.high.abs());
+        let least = if self.contains_zero() { 0.0 } else { low.min(high) };
+        Self { low: least, high: low.max(high) }
+    }
+    /// Its bounds and its middle.
+    fn in_lanes(self) -> [f64; 4] {
+        let middle = 0.5 * (self.low + self.high);
+        [self.low, self.high, middle, middle]
+    }
+    fn least_magnitude(self) -> f64 {
+        self.abs().low
+    }
+    fn largest_magnitude(self) -> f64 {
+        self.abs().high
+    }
+    fn is_finite(self) -> bool {
+        self.low.is_finite() && self.high.is_finite()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every function is compared at points of random intervals.
+    #[test]
+    fn bounds_contain_the_values_at_all_points() {
+        type Function = (&'static str, fn(Interval) -> Interval, fn(f64) -> f64);
+        let functions: [Function; 14] = [
+            ("sin", |x| x.sin(), |x| x.sin()),
+            ("cos", |x| x.cos(), |x| x.cos()),
+            ("tan", |x| x.tan(), |x| x.tan()),
+            ("exp", |x| x.exp(), |x| x.exp()),
+            ("ln", |x| x.ln(), |x| x.ln()),
+            ("sqrt", |x| x.sqrt(), |x| x.sqrt()),
+            ("atan", |x| x.atan(), |x| x.atan()),
+            ("cosh", |x| x.cosh(), |x| x.cosh()),
+            ("tanh", |x| x.tanh(), |x| x.tanh()),
+            ("square", |x| x.powc(2.0), |x| x * x),
+            ("cube", |x| x.powc(3.0), |x| x * x * x),
+            ("inverse", |x| x.powc(-1.0), |x| 1.0 / x),
+            ("product", |x| x * (Interval::constant(1.5) - x), |x| x * (1.5 - x)),
+            ("floor", |x| x.floor(), |x| x.floor()),
+        ];
+        let mut seed = 1_u64;
+        let mut random = || {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for _ in 0..2000 {
+            let low = 20.0 * random() - 10.0;
+            let x = Interval::new(low, low + 10.0_f64.powf(3.0 * random() - 2.0));
+            for (name, bounds, f) in functions {
+                let bounds = bounds(x);
+                for part in [0.0, random(), random(), 1.0] {
+                    let at = x.low + part * (x.high - x.low);
+                    let value = f(at.min(x.high));
+                    let inside = value.is_nan() || bounds.low <= value && value <= bounds.high;
+                    assert!(inside, "{name} of {x:?} at {at}: {value} outside {bounds:?}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! The switches of a model: where laws and forces are not smooth.
+
+use crate::expression::{Boundaries, Tape};
+
+/// The element to which a switch belongs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Owner {
+    /// A joint or driver, by its place.
+    Constraint(usize),
+    /// A force, by its place.
+    Force(usize),
+}
+
+/// A switch of a law, or of a force itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Switch {
+    /// Its element.
+    pub owner: Owner,
+    /// The boundaries of its pieces.
+    pub boundaries: Boundaries,
+    /// Whether its function depends on the time.
+    pub time: bool,
+    /// Whether its function depends on the state.
+    pub state: bool,
+    /// Whether it belongs to a law, not to the element itself.
+    pub law: bool,
+}
+
+impl Switch {
+    /// Of an element itself: it may depend on everything.
+    pub(super) fn of_element(owner: Owner) -> Self {
+        Self { owner, boundaries: Boundaries::Zero, time: true, state: true, law: false }
+    }
+
+    /// Adds the switches of a law to the list; returns the law with their indices.
+    pub(super) fn number(tape: &Tape, owner: Owner, switches: &mut Vec<Self>) -> Tape {
+        let numbered = tape.with_first_switch(switches.len());
+        switches.extend(tape.switches().into_iter().map(|switch| {
+            let crate::expression::Switch { boundaries, time, state } = switch;
+            Self { owner, boundaries, time, state, law: true }
+        }));
+        numbered
+    }
+}

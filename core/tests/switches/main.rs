@@ -1,0 +1,78 @@
+//! Switches of laws and forces: runs step to them exactly, whatever the method.
+//!
+//! `KEMPE_SWITCHES=full` takes the full number of random laws instead of a part of them.
+
+#[path = "../mechanisms/mod.rs"]
+mod mechanisms;
+
+mod in_time;
+mod jumps;
+mod of_elements;
+mod on_state;
+
+use kempe::analyses::dynamics::{dynamics, Auto, Options, Run, Scheme, Stabilization};
+use kempe::analyses::State;
+use kempe::integrate::{AlphaParameters, Dop853, Flow, GeneralizedAlpha, Radau, Rk4, Rk45};
+use kempe::model::Model;
+use kempe::stabilize::Projection;
+
+/// Moment of inertia of the wheel.
+const INERTIA: f64 = 2.0;
+
+/// A wheel on a pin, with a torque.
+fn wheel(torque: &str) -> (Model, State) {
+    let text = format!(
+        "[bodies.ground]\npoints = {{ O = [0, 0] }}\n[bodies.wheel]\nmass = 1\ninertia = {INERTIA}\n\
+         points = {{ O = [0, 0] }}\n[joints.pin]\ntype = 'revolute'\ni = 'ground.O'\nj = 'wheel.O'\n\
+         [forces.drive]\ntype = 'torque'\nj = 'wheel'\ntorque = '{torque}'\n"
+    );
+    let model = mechanisms::model(&text);
+    let state = State { t: 0.0, q: vec![0.0; 3], v: vec![0.0; 3], z: Vec::new() };
+    (model, state)
+}
+
+/// Every method, at a relative tolerance or a step.
+fn methods(rtol: f64, step: f64) -> Vec<Scheme> {
+    let atol = 1e-3 * rtol;
+    let mut alpha = GeneralizedAlpha::new(AlphaParameters::chung_hulbert(0.8), rtol, atol);
+    alpha.control.step = Some(step);
+    // the errors of a method of order 2 add up over its many steps: to 6 rtol for a smooth pulse at rtol = 1e-3 and to
+    // 60 rtol at 1e-6, with switches or without
+    let rough = rtol.max(1e-3);
+    let adaptive = GeneralizedAlpha::new(AlphaParameters::chung_hulbert(0.8), rough, 1e-3 * rough);
+    let mut radau = Radau::new(rtol, atol);
+    radau.control.step = Some(step);
+    let mut auto = Auto::default();
+    (auto.control.rtol, auto.control.atol) = (rtol, kempe::integrate::Atol::Scalar(atol));
+    vec![
+        Scheme::Rk45(Rk45::new(rtol, atol)),
+        Scheme::Dop853(Dop853::new(rtol, atol)),
+        Scheme::Rk4(Rk4::new(step)),
+        Scheme::Radau(Radau::new(rtol, atol)),
+        Scheme::Radau(radau),
+        Scheme::GeneralizedAlpha(alpha),
+        Scheme::GeneralizedAlpha(adaptive),
+        Scheme::Auto(auto),
+    ]
+}
+
+/// Options of a run by a method.
+fn options(method: Scheme, t_end: f64) -> Options {
+    let stabilization = Stabilization::Projection(Projection::default());
+    Options { method, stabilization, ..Options::new(t_end) }
+}
+
+/// Runs, or panics with the law and the method.
+#[track_caller]
+fn run(what: &str, model: &Model, state: &State, options: &Options) -> Run {
+    dynamics(model, state, options, |_| Flow::Continue)
+        .unwrap_or_else(|failure| panic!("{what} by {:?}: {}", options.method, failure.reason))
+}
+
+/// The number of random laws: `part`, or all.
+fn count(part: u64, all: u64) -> u64 {
+    match std::env::var("KEMPE_SWITCHES").as_deref() {
+        Ok("full") => all,
+        _ => part,
+    }
+}
