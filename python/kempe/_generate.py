@@ -24,6 +24,8 @@ TYPES = dict.fromkeys(REFERENCES, "str") | {
     "pair": "Pair",
     "law_pair": "Pair",
     "laws": "Numbers",
+    "terms": "Terms",
+    "units": "Words",
     "count": "int",
     "flag": "bool",
     "name": "str",
@@ -85,7 +87,7 @@ def source(catalogue: str) -> str:
     tables = [(section, table) for section in SECTIONS for table in sections[section]]
     used = {element_type(field) for _, table in tables for field in table["fields"]}
     words = ", Literal" if any(kind.startswith("Literal") for kind in used) else ""
-    imports = ", ".join(sorted(used & {"Number", "Numbers", "Pair"}))
+    imports = ", ".join(sorted(used & {"Number", "Numbers", "Pair", "Terms", "Words"}))
     classes = [element_class(section, table) for section, table in tables]
     methods = [method(table) for _, table in tables]
     return "\n\n".join(

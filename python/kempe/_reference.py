@@ -28,6 +28,8 @@ The values of fields:
 | number | a number, a number with a unit (`"250 mm"`), or a formula in the parameters |
 | law | the same, and the formula may use `t` and the coordinates of bodies |
 | pair | two numbers, `[x, y]` |
+| terms | factors of position quantities: `{ "A.angle" = 2, "B.angle" = -1 }` |
+| units | units of equations: `["m", "rad"]` |
 | law_pair, laws | two laws, any number of laws: `["t", "2*t"]` |
 | points | a table of points, `{ P = [x, y] }` |
 | names | two names, `["A", "B"]` |

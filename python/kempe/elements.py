@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, TypeVar
+from typing import ClassVar, Literal, TypeVar
 
 from kempe.element import Element
-from kempe.values import Number, Pair
+from kempe.values import Number, Numbers, Pair, Terms, Words
 
 E = TypeVar("E", bound=Element)
 
@@ -117,6 +117,55 @@ class Weld(Element):
         "i": "point",
         "j": "point",
         "angle": "number",
+    }
+
+
+@dataclass(frozen=True)
+class Coupling(Element):
+    """An element of type ``coupling``.
+
+    Coupling: a linear relation of position quantities, Φ = Σ factor × quantity - value. The
+    effort on each quantity is -λ × factor: on body j of the quantity, the opposite on its body
+    i.
+
+    Attributes:
+        terms: Factors of position quantities, such as `{ "A.angle" = 2, "S.displacement" = -1
+            }`.
+        value: The value of the sum; may use `t` and positions [m or rad].
+        unit: Unit of the sum, `m` or `rad`; that of the first quantity unless given.
+    """
+
+    terms: Terms
+    value: Number = 0.0
+    unit: Literal["m", "rad"] | None = None
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "coupling"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "terms": "terms",
+        "value": "law",
+        "unit": "word",
+    }
+
+
+@dataclass(frozen=True)
+class Constraint(Element):
+    """An element of type ``constraint``.
+
+    Constraint by formulas: Φ = residual, one formula of positions and `t` for each equation.
+    The force and torque on a body are -Φ_qᵀ λ in its columns, about the origin of its frame.
+
+    Attributes:
+        residual: Formulas that must be zero; may use `t` and positions [any].
+        units: Unit of each formula, `m` or `rad`.
+    """
+
+    residual: Numbers
+    units: Words
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "constraint"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "residual": "laws",
+        "units": "units",
     }
 
 
@@ -337,6 +386,42 @@ class ElementMethods:
             angle: Angle of body j against body i [rad].
         """
         return self._add(Weld(name, i=i, j=j, angle=angle))
+
+    def coupling(
+        self,
+        name: str,
+        *,
+        terms: Terms,
+        value: Number = 0.0,
+        unit: Literal["m", "rad"] | None = None,
+    ) -> Coupling:
+        """Add an element of type ``coupling`` and return it.
+
+        Coupling: a linear relation of position quantities, Φ = Σ factor × quantity - value. The
+        effort on each quantity is -λ × factor: on body j of the quantity, the opposite on its body
+        i.
+
+        Args:
+            name: its name in the model.
+            terms: Factors of position quantities, such as `{ "A.angle" = 2, "S.displacement" = -1
+                }`.
+            value: The value of the sum; may use `t` and positions [m or rad].
+            unit: Unit of the sum, `m` or `rad`; that of the first quantity unless given.
+        """
+        return self._add(Coupling(name, terms=terms, value=value, unit=unit))
+
+    def constraint(self, name: str, *, residual: Numbers, units: Words) -> Constraint:
+        """Add an element of type ``constraint`` and return it.
+
+        Constraint by formulas: Φ = residual, one formula of positions and `t` for each equation.
+        The force and torque on a body are -Φ_qᵀ λ in its columns, about the origin of its frame.
+
+        Args:
+            name: its name in the model.
+            residual: Formulas that must be zero; may use `t` and positions [any].
+            units: Unit of each formula, `m` or `rad`.
+        """
+        return self._add(Constraint(name, residual=residual, units=units))
 
     def coordinate_driver(self, name: str, coordinate: str, *, value: Number) -> CoordinateDriver:
         """Add an element of type ``coordinate_driver`` and return it.

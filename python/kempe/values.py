@@ -18,6 +18,10 @@ Number: TypeAlias = "float | str"
 Pair: TypeAlias = "Sequence[float | str]"
 #: Numbers or formulas.
 Numbers: TypeAlias = "Sequence[float | str]"
+#: Numbers or formulas by the names of quantities.
+Terms: TypeAlias = "Mapping[str, float | str]"
+#: Words.
+Words: TypeAlias = "Sequence[str]"
 #: A number for all quantities, or one for each of ``length``, ``angle`` and ``z``.
 Tolerance: TypeAlias = "float | str | Mapping[str, float | str]"
 #: Named points of a body, in its frame, m.
@@ -164,6 +168,13 @@ def listed_numbers(value: object, path: str) -> tuple[float | str, ...]:
     return tuple(number(entry, f"{path}[{k}]") for k, entry in enumerate(found))
 
 
+def listed_words(value: object, path: str) -> tuple[str, ...]:
+    """Words from any sequence."""
+    if isinstance(value, str | bytes | Mapping) or (found := _listed(value)) is None:
+        refuse(path, f"{value!r}; must be a list of words")
+    return tuple(reference(entry, f"{path}[{k}]") for k, entry in enumerate(found))
+
+
 def flag(value: object, path: str) -> bool:
     """True or False."""
     if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
@@ -219,6 +230,8 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "pair": pair,
     "law_pair": pair,
     "laws": listed_numbers,
+    "terms": numbers,
+    "units": listed_words,
     "flag": flag,
     "word": reference,
     "names": names,

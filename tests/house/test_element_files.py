@@ -10,8 +10,8 @@ from house.places import CORE, PACKAGE, ROOT
 LIST = CORE / "elements" / "mod.rs"
 GENERATED = "@generated"
 
-#: Types whose names are also words of mechanics. These are allowed where they do not name a type.
-WORDS = {"Distance", "Force", "Torque", "Translational"}
+#: Types whose names, or whose `type`, are also words of mechanics, allowed where they name no type.
+WORDS = {"Distance", "Force", "GivenConstraint", "Torque", "Translational"}
 
 #: Code examples in doc comments and docstrings.
 _EXAMPLE = re.compile(

@@ -1,5 +1,6 @@
 """Every function returns axes with units, and draws what the solution holds."""
 
+import inspect
 from collections.abc import Callable
 from typing import Any
 
@@ -33,6 +34,21 @@ FUNCTIONS: dict[str, tuple[Draw, str]] = {
 
 def lines(axes: Axes) -> dict[str, Any]:
     return {str(line.get_label()): line for line in axes.lines}
+
+
+def test_options_of_the_functions_are_named() -> None:
+    """Where to draw, and how, is given by name; so options can be added."""
+    functions = [getattr(plot, name) for name in plot.__all__]
+    drawing = [
+        f for f in functions if inspect.isfunction(f) and "ax" in inspect.signature(f).parameters
+    ]
+    assert len(drawing) == len(FUNCTIONS)
+    for function in drawing:
+        for name, parameter in inspect.signature(function).parameters.items():
+            is_option = name in {"ax", "cut", "on", "frame", "index_base", "legend"}
+            assert (parameter.kind is inspect.Parameter.KEYWORD_ONLY) == is_option or (
+                name == "quantity"
+            ), (function, name)
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)

@@ -1,6 +1,7 @@
 """Rules of figures: left-out panels, envelopes, ticks, frames of drawings, style, gaps."""
 
 import math
+from dataclasses import FrozenInstanceError
 from typing import Any
 
 import kempe as kp
@@ -285,7 +286,9 @@ def test_a_figure_has_the_sizes_of_print() -> None:
     assert title.get_fontsize() == found.xaxis.label.get_fontsize() == 9.0
     assert found.xaxis.get_ticklabels()[0].get_fontsize() == 8.0
     assert found.yaxis.get_ticklabels()[0].get_fontsize() == 8.0
-    (line,) = found.plot([0, 1], [0, 1])
+    with style.applied():
+        (line,) = found.plot([0, 1], [0, 1], marker="o")
+    assert (line.get_linewidth(), line.get_markersize()) == (1.2, 4.0)
     assert not found.spines["top"].get_visible()
     assert not found.spines["right"].get_visible()
     assert line.figure is figure
@@ -294,6 +297,12 @@ def test_a_figure_has_the_sizes_of_print() -> None:
     assert found.yaxis.label.get_position()[0] * 100.0 == pytest.approx(-14.3)
     x, y = found.xaxis.label.get_position()
     assert (x, y * 40.0) == pytest.approx((0.5, -6.3))
+
+
+def test_a_page_cannot_change() -> None:
+    with pytest.raises(FrozenInstanceError):
+        plot.Page(1, "x", "x", style.figure).name = "y"  # type: ignore[misc]
+    assert not plot.Page(1, "x", "x", style.figure).key
 
 
 @pytest.mark.parametrize(("count", "columns"), [(4, 1), (5, 2)])

@@ -73,6 +73,10 @@ CHANGES: dict[str, tuple[Callable[[Arrays], Arrays], str]] = {
     "flat": (given(a=np.ravel), r"a is \(909,\), must be \(101, 9\)"),
     "row short": (given(lam=lambda x: x[:-1]), r"lam is \(100, 8\), must be \(101, 8\)"),
     "column short": (given(energy=lambda x: x[:, :4]), r"energy is \(101, 4\), must be \(101, 5\)"),
+    "states without elements": (
+        given(z=lambda z: np.zeros((len(z), 2))),
+        r"z is \(101, 2\), must be \(101, 0\)",
+    ),
     "no outputs": (given(t=lambda t: t[:0]), r"t is \(0,\), must be \(n,\)"),
     "steps short": (given(dense_y=lambda x: x[:-1]), "dense_y is .* must be "),
     "half an interpolant": (lambda a: {k: v for k, v in a.items() if k != "dense_c"}, "0 arrays"),

@@ -3,8 +3,8 @@
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
 use super::values::{
-    count, number, numbers, pair, plain_numbers, points, tolerance, two_columns, two_names, word,
-    wrong,
+    count, number, numbers, pair, plain_numbers, points, terms, tolerance, two_columns, two_names,
+    units, word, wrong,
 };
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
@@ -99,6 +99,8 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Number | Shape::Law, _) => number(report, node),
         (Shape::Pair | Shape::LawPair, _) => pair(report, node),
         (Shape::Laws, _) => numbers(report, node),
+        (Shape::Terms, _) => terms(report, node),
+        (Shape::Units, _) => units(report, node),
         (Shape::Points, _) => points(report, node),
         (Shape::Names, _) => two_names(report, node),
         (Shape::Numbers, _) => plain_numbers(report, node),

@@ -7,7 +7,9 @@ use super::names::{HIDDEN, MOST_CHARACTERS, RESERVED};
 use super::FORMAT_VERSION;
 use crate::analyses::options::Declaration;
 use crate::analyses::{declarations, option_families};
-use crate::elements::{catalogue, Default, Field, Group, Shape, Table, TOLERANCES};
+use crate::elements::{
+    catalogue, Default, Field, Group, Shape, Table, TOLERANCES, UNITS_OF_EQUATIONS,
+};
 use crate::expression::FUNCTIONS;
 use crate::model::{body_tables, table_fields};
 
@@ -209,6 +211,8 @@ fn property(f: &Field) -> Value {
         Shape::Number | Shape::Law => reference("number"),
         Shape::Pair | Shape::LawPair => reference("pair"),
         Shape::Laws => reference("laws"),
+        Shape::Terms => reference("terms"),
+        Shape::Units => json!({ "type": "array", "items": { "enum": UNITS_OF_EQUATIONS } }),
         Shape::Points => reference("points"),
         Shape::Names => reference("names"),
         Shape::Numbers => json!({ "type": "array", "items": { "type": "number" } }),
@@ -250,6 +254,7 @@ fn definitions() -> Value {
         "pair": two_of(reference("number")),
         "points": by_name(reference("pair"), &[]),
         "laws": { "type": "array", "items": reference("number"), "minItems": 1 },
+        "terms": { "type": "object", "additionalProperties": reference("number"), "minProperties": 1 },
         "names": two_different(names(&[])),
         "count": { "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string" }] },
     });

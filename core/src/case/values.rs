@@ -3,7 +3,7 @@
 use super::names;
 use super::report::{among, Report};
 use super::tree::{Data, Node};
-use crate::elements::TOLERANCES;
+use crate::elements::{TOLERANCES, UNITS_OF_EQUATIONS};
 use crate::expression::suggest::did_you_mean;
 
 /// Reports a value of the wrong shape.
@@ -45,6 +45,33 @@ pub(super) fn numbers(report: &mut Report, node: &Node) {
         }
         Data::List(_) => report.say("an empty list; must be a list of formulas".to_string()),
         _ => wrong(report, node, "a list of formulas [\"…\"]"),
+    }
+}
+
+/// Position quantities with numbers or formulas, at least one.
+pub(super) fn terms(report: &mut Report, node: &Node) {
+    let form = report
+        .example("{ \"A.angle\" = 2, \"B.angle\" = -1 }", "{ \"A.angle\": 2, \"B.angle\": -1 }");
+    match &node.data {
+        Data::Table(table) if !table.entries.is_empty() => {
+            for (name, node) in &table.entries {
+                report.within(name, |report| number(report, node));
+            }
+        }
+        Data::Table(_) => report.say(format!("an empty table; must be a table such as {form}")),
+        _ => wrong(report, node, &format!("a table such as {form}")),
+    }
+}
+
+/// Units of equations.
+pub(super) fn units(report: &mut Report, node: &Node) {
+    match &node.data {
+        Data::List(items) => {
+            for (k, item) in items.iter().enumerate() {
+                report.within(&k.to_string(), |report| word(report, item, UNITS_OF_EQUATIONS));
+            }
+        }
+        _ => wrong(report, node, "a list of units [\"m\"]"),
     }
 }
 

@@ -65,7 +65,7 @@ pub fn linearize<E: Joint + ?Sized, S: Real>(
         E::residual(&E::map(e, &mut |s: &S| Dual::lift(*s)), at, phi);
     };
     terms(at, residual, [out.residual, out.rate, out.gamma]);
-    let m = out.columns.len() / participants(at.bodies.len(), at.own.len());
+    let m = out.residual.len();
     for (participant, rows) in out.columns.chunks_exact_mut(m).enumerate() {
         let own = participant == at.bodies.len();
         columns_of(at, |body| body == participant, own, columns, rows);

@@ -54,7 +54,7 @@ impl Place {
     ///
     /// # Panics
     /// If a number exceeds 32 bits.
-    pub fn new(item: usize, bodies: &[super::kinds::BodyId], row: usize) -> Self {
+    pub fn new(item: usize, bodies: &[super::followed::BodyId], row: usize) -> Self {
         let index = |i: usize| u32::try_from(i).expect("fewer than 2^32 items");
         let body = |k: usize| bodies.get(k).map_or(0, |body| index(body.0));
         Self { item: index(item), bodies: [body(0), body(1)], row: index(row), slot: 0 }

@@ -19,6 +19,10 @@ pub enum Shape {
     LawPair,
     /// Any number of laws.
     Laws,
+    /// Position quantities with a number each.
+    Terms,
+    /// Any number of units of equations.
+    Units,
     /// Names of points with two numbers each.
     Points,
     /// Two names.
@@ -40,6 +44,9 @@ pub enum Shape {
     /// A table of the family of options of this name, chosen by its `type`.
     Options(&'static str),
 }
+
+/// The units that an equation may have.
+pub const UNITS_OF_EQUATIONS: &[&str] = &["m", "rad"];
 
 /// The kinds of quantities with a tolerance of their own.
 pub const TOLERANCES: [&str; 3] = ["length", "angle", "z"];

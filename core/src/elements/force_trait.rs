@@ -1,8 +1,9 @@
 //! The physics of a force, stated once.
 
 use super::declare::Element;
+use super::followed::BodyId;
 use super::joint_trait::At;
-use super::kinds::{BodyId, JointId};
+use super::kinds::JointId;
 use super::measured::Measured;
 use super::symbols::SceneSymbol;
 use crate::math::{Local, Motion, Real, Wrench};

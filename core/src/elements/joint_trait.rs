@@ -3,7 +3,7 @@
 use super::attachment::Attachment;
 use super::declare::Element;
 use super::derive;
-use super::kinds::{BodyId, CoordinateOf};
+use super::followed::{BodyId, CoordinateOf};
 use super::measured::Measured;
 use super::symbols::SceneSymbol;
 use crate::math::{Motion, Pose, Real};

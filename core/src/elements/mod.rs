@@ -10,6 +10,7 @@ mod declare;
 pub(crate) mod derive;
 mod dispatch;
 mod field;
+mod followed;
 mod force_trait;
 mod joint_trait;
 mod kinds;
@@ -21,12 +22,16 @@ mod written;
 
 /// Joints: holonomic constraints between bodies, without time.
 pub mod joints {
+    mod coupling;
     mod distance;
+    mod given_constraint;
     mod revolute;
     mod translational;
     mod weld;
 
+    pub use coupling::Coupling;
     pub use distance::Distance;
+    pub use given_constraint::GivenConstraint;
     pub use revolute::Revolute;
     pub use translational::Translational;
     pub use weld::Weld;
@@ -64,21 +69,22 @@ pub use declare::{Element, Table};
 use dispatch::{constraints, declared, forces};
 pub use dispatch::{Group, Place, Pooled, VisitForces, VisitJoints};
 use drivers::*;
-pub use field::{Default, Field, Shape, TOLERANCES};
+pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
+pub use followed::{BodyId, Coordinate, CoordinateOf, Followed, QuantityOf};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
 pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving};
 use joints::*;
 pub use kinds::{
-    body, coordinate, flag, joint, law, law_pair, laws, number, optional_law, optional_number,
-    optional_pair, pair, point, side, BodyId, Coordinate, CoordinateOf, Followed, JointId, Kind,
-    Optional, PointOn, QuantityOf, Side, Source,
+    body, coordinate, equation_unit, flag, joint, law, law_pair, laws, number, optional_law,
+    optional_number, optional_pair, optional_unit, pair, point, side, terms, units, EquationUnit,
+    JointId, Kind, Optional, PointOn, Side, Source,
 };
 pub use measured::Measured;
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
 use test_elements::*;
-pub use value::{Number, Numbers, Pair, Value};
+pub use value::{Number, Numbers, Pair, Terms, Value, Words};
 pub use written::Written;
 pub(crate) use written::{argument, declare as element};
 
@@ -88,6 +94,8 @@ constraints! {
         Translational,
         Distance,
         Weld,
+        Coupling,
+        GivenConstraint,
         #[cfg(feature = "test-elements")] TurnedPin,
         #[cfg(feature = "test-elements")] Bead,
         #[cfg(feature = "test-elements")] Levels,

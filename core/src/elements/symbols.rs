@@ -4,7 +4,8 @@
 //! of the model; a law that depends on time or state is NaN there. The test `x != 0.0` is therefore true
 //! for every law that may differ from zero.
 
-use super::kinds::{BodyId, Coordinate, CoordinateOf, Followed, PointOn};
+use super::followed::{BodyId, Coordinate, CoordinateOf, Followed};
+use super::kinds::PointOn;
 use crate::math::Local;
 
 /// The vocabulary of the scene.

@@ -58,6 +58,16 @@ impl From<Number> for Value {
         number.0
     }
 }
+impl From<Terms> for Value {
+    fn from(terms: Terms) -> Self {
+        Self::Table(terms.0.into_iter().map(|(name, factor)| (name, factor.0)).collect())
+    }
+}
+impl From<Words> for Value {
+    fn from(words: Words) -> Self {
+        Self::List(words.0.into_iter().map(Self::Text).collect())
+    }
+}
 impl From<Pair> for Value {
     fn from(pair: Pair) -> Self {
         Self::List(pair.0.map(Self::from).into())
@@ -116,5 +126,25 @@ impl<N: Into<Number>, const COUNT: usize> From<[N; COUNT]> for Numbers {
 impl<N: Into<Number>> From<Vec<N>> for Numbers {
     fn from(numbers: Vec<N>) -> Self {
         Self(numbers.into_iter().map(Into::into).collect())
+    }
+}
+
+/// Quantities with numbers or formulas: `[("A.angle", 2.0), ("B.angle", -1.0)]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Terms(Vec<(String, Number)>);
+
+impl<Q: Into<String>, N: Into<Number>, const COUNT: usize> From<[(Q, N); COUNT]> for Terms {
+    fn from(terms: [(Q, N); COUNT]) -> Self {
+        Self(terms.map(|(name, factor)| (name.into(), factor.into())).into())
+    }
+}
+
+/// Any number of words: `["m", "rad"]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Words(Vec<String>);
+
+impl<W: Into<String>, const COUNT: usize> From<[W; COUNT]> for Words {
+    fn from(words: [W; COUNT]) -> Self {
+        Self(words.map(Into::into).into())
     }
 }

@@ -67,6 +67,12 @@ macro_rules! argument {
     (laws) => {
         $crate::elements::Numbers
     };
+    (units) => {
+        $crate::elements::Words
+    };
+    (terms) => {
+        $crate::elements::Terms
+    };
     (flag) => {
         bool
     };

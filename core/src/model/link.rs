@@ -7,7 +7,7 @@ use super::problems::MOST_REPORTED;
 use super::scope::{LawOf, Quantities, Reach, Scope, ANY_UNIT};
 use crate::elements::{
     measured_of, BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Followed, Group,
-    JointId, Measured, PointOn, Source,
+    JointId, Measured, PointOn, Source, UNITS_OF_EQUATIONS,
 };
 use crate::expression::{suggest, Tape};
 
@@ -94,13 +94,7 @@ impl<'a> Linker<'a> {
         let body = name.split_once('.').map_or("", |(body, _)| body);
         if self.scope.body(body).is_some() {
             let message = format!("'{name}' is not a body, but a point of {body}");
-            let written = self.text(field)?;
-            let word = written.rsplit_once('.').map_or("", |(_, word)| word);
-            let hint = match written == name {
-                true => format!("write '{body}'"),
-                false => format!("write '{body}.{word}', of its frame"),
-            };
-            return self.report(field, message, Some(hint));
+            return self.report(field, message, Some(format!("write '{body}'")));
         }
         let hint = self.suggests().then(|| {
             let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).collect();
@@ -110,8 +104,7 @@ impl<'a> Linker<'a> {
     }
 
     /// `body.word`, with the body looked up.
-    fn split(&mut self, field: &Field, form: &str) -> Option<(BodyId, &'a str)> {
-        let text = self.text(field)?;
+    fn split<'t>(&mut self, field: &Field, text: &'t str, form: &str) -> Option<(BodyId, &'t str)> {
         match text.rsplit_once('.') {
             Some((body, word)) => Some((self.find(field, body)?, word)),
             None => {
@@ -124,10 +117,15 @@ impl<'a> Linker<'a> {
     /// The unit of a field; one of several is that of the coordinate of the element.
     fn unit(&self, field: &Field) -> String {
         let Some((first, other)) = field.unit.split_once('|') else { return field.unit.clone() };
-        let unit = match self.entry.get("coordinate") {
-            Some(Value::Text(text)) => self.unit_of(text).unwrap_or(ANY_UNIT),
-            _ => ANY_UNIT,
-        };
+        let unit =
+            match (self.entry.get("coordinate"), self.entry.get("terms"), self.entry.get("unit")) {
+                (_, _, Some(Value::Text(unit))) => unit,
+                (Some(Value::Text(text)), ..) => self.unit_of(text).unwrap_or(ANY_UNIT),
+                (_, Some(Value::Table(terms)), _) => {
+                    terms.first().and_then(|(text, _)| self.unit_of(text)).unwrap_or(ANY_UNIT)
+                }
+                _ => ANY_UNIT,
+            };
         [first, other].into_iter().find(|known| *known == unit).unwrap_or(ANY_UNIT).to_string()
     }
 
@@ -144,6 +142,33 @@ impl<'a> Linker<'a> {
         match (self.group, self.entry.get("type")) {
             (Group::Forces, Some(Value::Text(kind))) => measured_of(kind),
             _ => &[],
+        }
+    }
+
+    /// A position quantity by name.
+    fn position(&mut self, field: &Field, text: &str) -> Option<Followed<Tape>> {
+        let owner = text.rsplit_once('.').map_or("", |(owner, _)| owner);
+        if self.scope.body(owner).is_none() {
+            if let Some(offered) = self.quantities.offered(owner) {
+                return self.quantity(field, text, &offered);
+            }
+        }
+        let (body, name) = self.split(field, text, "body.x, body.y or body.angle")?;
+        match Coordinate::named(name) {
+            _ if body.is_ground() => self.report(field, "ground does not move".to_string(), None),
+            Some(Coordinate::Angle) if !self.bodies[body.0].turns => {
+                let message =
+                    format!("{} is a point mass and has no angle", self.bodies[body.0].name);
+                self.report(field, message, None)
+            }
+            Some(coordinate) if !coordinate.is_rate() => {
+                Some(CoordinateOf { body, coordinate }.into())
+            }
+            _ => {
+                let message = format!("'{name}' is not one of x, y, angle");
+                let hint = did_you_mean(name, &["x", "y", "angle"], "coordinates");
+                self.report(field, message, hint)
+            }
         }
     }
 
@@ -238,7 +263,8 @@ impl Source for Linker<'_> {
     }
 
     fn point(&mut self, field: &Field) -> Option<PointOn<Tape>> {
-        let (body, name) = self.split(field, "body.point")?;
+        let text = self.text(field)?;
+        let (body, name) = self.split(field, text, "body.point")?;
         let owner = &self.bodies[body.0];
         if let Some(s) = owner.point(name) {
             return Some(PointOn { body, s: s.clone() });
@@ -256,29 +282,7 @@ impl Source for Linker<'_> {
 
     fn coordinate(&mut self, field: &Field) -> Option<Followed<Tape>> {
         let text = self.text(field)?;
-        let owner = text.rsplit_once('.').map_or("", |(owner, _)| owner);
-        if self.scope.body(owner).is_none() {
-            if let Some(offered) = self.quantities.offered(owner) {
-                return self.quantity(field, text, &offered);
-            }
-        }
-        let (body, name) = self.split(field, "body.x, body.y or body.angle")?;
-        match Coordinate::named(name) {
-            _ if body.is_ground() => self.report(field, "ground does not move".to_string(), None),
-            Some(Coordinate::Angle) if !self.bodies[body.0].turns => {
-                let message =
-                    format!("{} is a point mass and has no angle", self.bodies[body.0].name);
-                self.report(field, message, None)
-            }
-            Some(coordinate) if !coordinate.is_rate() => {
-                Some(CoordinateOf { body, coordinate }.into())
-            }
-            _ => {
-                let message = format!("'{name}' is not one of x, y, angle");
-                let hint = did_you_mean(name, &["x", "y", "angle"], "coordinates");
-                self.report(field, message, hint)
-            }
-        }
+        self.position(field, text)
     }
 
     fn joint(&mut self, field: &Field) -> Option<JointId> {
@@ -329,6 +333,44 @@ impl Source for Linker<'_> {
         // every formula is read, so that all errors are reported at once
         let all: Vec<Option<Tape>> = items.iter().enumerate().map(read).collect();
         all.into_iter().collect()
+    }
+
+    fn terms(&mut self, field: &Field) -> Option<Vec<(Followed<Tape>, Tape)>> {
+        let items = match self.entry.get(field.name) {
+            Some(Value::Table(items)) => items,
+            Some(other) => {
+                let message = format!("must be a table of quantities, not {}", other.noun());
+                return self.report(field, message, None);
+            }
+            None => return self.missing(field),
+        };
+        let mut all = Vec::new();
+        for (name, factor) in items {
+            let path: Vec<String> = self.path(field).into_iter().chain([name.clone()]).collect();
+            let of = self.position(field, name);
+            let factor = self.read(factor, &path, ANY_UNIT, Reach::Parameters);
+            all.push(of.zip(factor));
+        }
+        all.into_iter().collect()
+    }
+
+    fn units(&mut self, field: &Field) -> Option<Vec<&'static str>> {
+        let items = match self.entry.get(field.name) {
+            Some(Value::List(items)) => items,
+            Some(other) => {
+                let message = format!("must be a list of units, not {}", other.noun());
+                return self.report(field, message, None);
+            }
+            None => return self.missing(field),
+        };
+        let known = |item: &Value| match item {
+            Value::Text(unit) => UNITS_OF_EQUATIONS.iter().find(|known| *known == unit).copied(),
+            _ => None,
+        };
+        match items.iter().map(known).collect::<Option<Vec<_>>>() {
+            Some(units) => Some(units),
+            None => self.report(field, "each must be \"m\" or \"rad\"".to_string(), None),
+        }
     }
 
     fn flag(&mut self, field: &Field) -> Option<bool> {

@@ -58,7 +58,12 @@ impl<S: Real> Model<S> {
         for (name, group, formula) in &blueprint.constraints {
             let mut depends = Dependence::default();
             formula.map(&mut |tape| depends.add(tape));
-            let (equations, bodies) = (formula.equations(), formula.bodies());
+            let (equations, mut bodies) = (formula.equations(), formula.bodies());
+            if bodies.is_empty() {
+                bodies.clone_from(&depends.bodies);
+                bodies.sort_unstable();
+                bodies.dedup();
+            }
             touched.push(Touched {
                 equations: equations.len(),
                 bodies: bodies.iter().chain(&depends.bodies).copied().collect(),

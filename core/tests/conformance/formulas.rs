@@ -2,7 +2,7 @@
 
 use crate::mechanisms::{close, Random};
 use crate::samples::{constraints, terms, Participants};
-use kempe::elements::{catalogue, Constraint, Field, Group};
+use kempe::elements::{catalogue, Constraint, Group, Shape};
 use kempe::equations::formulas::{of_element, of_type, Formulas};
 use kempe::expression::{Expression, Scope};
 use kempe::symbolic::Form;
@@ -40,8 +40,14 @@ fn table(c: &Constraint, at: &Participants, formulas: &Formulas) -> Table {
         table.put("u_rate", *rate);
     }
     let fields = catalogue().into_iter().find(|(_, t)| t.name == c.kind()).unwrap().1.fields;
-    let law = |field: &&Field| format!("{:?}", field.shape) == "Law";
-    let laws: Vec<&str> = fields.iter().filter(law).map(|field| field.name).collect();
+    let mut laws: Vec<String> = Vec::new();
+    for (field, count) in fields.iter().zip(c.scalars()) {
+        match field.shape {
+            Shape::Law => laws.push(field.name.to_string()),
+            Shape::Laws => laws.extend((1..=count).map(|k| format!("{}_{k}", field.name))),
+            _ => {}
+        }
+    }
     let mut names = fields.iter().zip(c.scalars()).flat_map(|(field, count)| {
         let name = field.name;
         match format!("{:?}", field.shape).as_str() {
@@ -49,6 +55,7 @@ fn table(c: &Constraint, at: &Participants, formulas: &Formulas) -> Table {
             "Point" => vec![format!("{name}.s.x"), format!("{name}.s.y")],
             "Pair" => vec![format!("{name}_i"), format!("{name}_j")],
             "Number" | "Law" => vec![name.to_string()],
+            "Laws" | "Terms" => (1..=count).map(|k| format!("{name}_{k}")).collect(),
             _ => vec![],
         }
     });

@@ -10,6 +10,7 @@ mod energy;
 mod equilibrium;
 mod forces;
 mod formulas;
+mod laws;
 mod mass;
 mod pins;
 mod samples;

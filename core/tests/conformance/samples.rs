@@ -3,7 +3,7 @@
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{Motor, SpringDamper, Torque, TorsionSpring};
-use kempe::elements::joints::{Distance, Revolute, Translational, Weld};
+use kempe::elements::joints::{Coupling, Distance, GivenConstraint, Revolute, Translational, Weld};
 use kempe::elements::test_elements::{Bead, Blower, Lag, Levels, Pulley, Rubbing, TurnedPin};
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, JointId,
@@ -18,6 +18,7 @@ fn on(body: usize, x: f64, y: f64) -> PointOn {
 /// Joints and drivers; drivers act from ground.
 pub fn constraints() -> Vec<Constraint> {
     let driven = |coordinate| CoordinateOf { body: BodyId(2), coordinate };
+    let of = |body, coordinate| CoordinateOf { body: BodyId(body), coordinate }.into();
     let mut all = vec![
         Constraint::Revolute(Revolute {
             i: on(1, 0.3, -0.7),
@@ -31,6 +32,15 @@ pub fn constraints() -> Vec<Constraint> {
         }),
         Constraint::Distance(Distance { i: on(1, 0.6, -0.2), j: on(2, -0.3, 0.8), length: 1.4 }),
         Constraint::Weld(Weld { i: on(1, -0.2, 0.6), j: on(2, 0.7, -0.5), angle: 0.8 }),
+        Constraint::Coupling(Coupling {
+            terms: vec![(of(1, Coordinate::Angle), 2.0), (of(2, Coordinate::Y), -0.7)],
+            value: 0.4,
+            unit: None,
+        }),
+        Constraint::GivenConstraint(GivenConstraint {
+            residual: vec![0.3, -0.2],
+            units: vec!["m", "rad"],
+        }),
         Constraint::TurnedPin(TurnedPin { i: on(1, 0.3, -0.7), j: on(2, -1.1, 0.4) }),
         Constraint::Bead(Bead { i: on(1, 0.2, 0.5), j: BodyId(2), bend: 0.8 }),
         Constraint::Levels(Levels { i: BodyId(1), j: BodyId(2), k: BodyId(3), steps: [0.3, -0.4] }),

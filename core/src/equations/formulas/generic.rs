@@ -54,6 +54,10 @@ fn symbols<T>(record: &Record, element: &Constraint<T>) -> Vec<Symbolic> {
             Scalar::Pair(field) => all.extend([0, 1].map(|k| side(record, &field, k))),
             Scalar::Number(field) => all.push(record.symbol(Name::field(&field))),
             Scalar::Law(field) => all.push(function(record, &field)),
+            Scalar::Numbers(field, count) => {
+                let name = |k| Name::field(&format!("{field}_{k}"));
+                all.extend((1..=count).map(|k| record.symbol(name(k))));
+            }
             Scalar::Laws(field, count) => {
                 all.extend((1..=count).map(|k| function(record, &format!("{field}_{k}"))));
             }
@@ -100,6 +104,13 @@ impl Source for Sample {
     fn coordinate(&mut self, _: &Field) -> Option<Followed<Tape>> {
         let of = CoordinateOf { body: self.next_body(), coordinate: Coordinate::Angle };
         Some(of.into())
+    }
+    fn terms(&mut self, field: &Field) -> Option<Vec<(Followed<Tape>, Tape)>> {
+        let mut term = || Some((self.coordinate(field)?, Tape::from(1.0)));
+        Some(vec![term()?, term()?])
+    }
+    fn units(&mut self, _: &Field) -> Option<Vec<&'static str>> {
+        Some(vec!["m"])
     }
     fn joint(&mut self, _: &Field) -> Option<JointId> {
         Some(JointId(0))

@@ -90,7 +90,9 @@ fn points(
             }
             Scalar::Pair(_) => all.extend([None, None]),
             Scalar::Number(_) | Scalar::Law(_) => all.push(None),
-            Scalar::Laws(_, count) => all.extend((0..count).map(|_| None)),
+            Scalar::Laws(_, count) | Scalar::Numbers(_, count) => {
+                all.extend((0..count).map(|_| None))
+            }
         }
     }
     all

@@ -8,6 +8,8 @@ pub(super) enum Scalar {
     Pair(String),
     Number(String),
     Law(String),
+    /// Numbers by their places within the field.
+    Numbers(String, usize),
     /// Laws by their numbers within the field.
     Laws(String, usize),
 }
@@ -24,6 +26,7 @@ pub(super) fn scalars<T>(element: &Constraint<T>) -> Vec<Scalar> {
             Shape::Pair => Some(Scalar::Pair(name)),
             Shape::Number => Some(Scalar::Number(name)),
             Shape::Law => Some(Scalar::Law(name)),
+            Shape::Terms => Some(Scalar::Numbers(name, count)),
             Shape::LawPair | Shape::Laws | Shape::Coordinate => Some(Scalar::Laws(name, count)),
             _ => None,
         }

@@ -1,0 +1,155 @@
+//! Bodies, their coordinates, and the position quantities that an element follows or acts on.
+
+use super::attachment::Attachment;
+use crate::math::{Local, Pose, Real, Twist};
+
+/// A body of a model: 0 is ground, moving bodies count from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BodyId(pub usize);
+
+impl BodyId {
+    /// The body with zero columns.
+    pub const GROUND: Self = Self(0);
+
+    /// Whether this is ground.
+    pub fn is_ground(self) -> bool {
+        self == Self::GROUND
+    }
+}
+
+/// A coordinate of a body or its rate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinate {
+    /// Position of the frame's origin, m.
+    X,
+    /// Position of the frame's origin, m.
+    Y,
+    /// Angle of the frame, rad.
+    Angle,
+    /// Velocity of the frame's origin, m/s.
+    Vx,
+    /// Velocity of the frame's origin, m/s.
+    Vy,
+    /// Angular velocity, rad/s.
+    Omega,
+}
+
+impl Coordinate {
+    /// All, in the order of their index.
+    pub const ALL: [Self; 6] = [Self::X, Self::Y, Self::Angle, Self::Vx, Self::Vy, Self::Omega];
+
+    /// The name in files, expressions and Python.
+    pub fn name(self) -> &'static str {
+        ["x", "y", "angle", "vx", "vy", "omega"][self as usize]
+    }
+    /// SI unit.
+    pub fn unit(self) -> &'static str {
+        ["m", "m", "rad", "m/s", "m/s", "rad/s"][self as usize]
+    }
+    /// From its name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|c| c.name() == name)
+    }
+    /// Whether it is a velocity.
+    pub fn is_rate(self) -> bool {
+        self as usize >= 3
+    }
+    /// Index 0 to 2 within the body's columns.
+    pub fn column(self) -> usize {
+        self as usize % 3
+    }
+    /// Its value on a body.
+    pub fn of<S: Real>(self, pose: &Pose<S>, twist: &Twist<S>) -> S {
+        match self {
+            Self::X => pose.r.x,
+            Self::Y => pose.r.y,
+            Self::Angle => pose.angle,
+            Self::Vx => twist.velocity.x,
+            Self::Vy => twist.velocity.y,
+            Self::Omega => twist.omega,
+        }
+    }
+}
+
+/// A coordinate of one body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CoordinateOf {
+    /// The body.
+    pub body: BodyId,
+    /// Which coordinate.
+    pub coordinate: Coordinate,
+}
+
+/// A position quantity of an element or of a point, as a formula of the coordinates of bodies.
+#[derive(Clone, Debug)]
+pub struct QuantityOf<S = f64> {
+    /// Its name as written, such as `slide.displacement`.
+    pub name: String,
+    /// The last part of its name.
+    pub kind: &'static str,
+    /// SI unit: `m` or `rad`.
+    pub unit: &'static str,
+    /// Bodies i and j: it is the motion of j as seen from i.
+    pub bodies: [BodyId; 2],
+    /// The frame on each of these bodies to which forces are reduced.
+    pub ends: [Attachment<S>; 2],
+    /// Its value, m or rad.
+    pub value: S,
+}
+
+/// A position quantity that an element follows or acts on.
+#[derive(Clone, Debug)]
+pub enum Followed<S = f64> {
+    /// A coordinate of a body, measured from ground.
+    Coordinate(CoordinateOf),
+    /// A quantity of an element or of a point.
+    Quantity(Box<QuantityOf<S>>),
+}
+
+impl<S> From<CoordinateOf> for Followed<S> {
+    fn from(coordinate: CoordinateOf) -> Self {
+        Self::Coordinate(coordinate)
+    }
+}
+
+impl<S> Followed<S> {
+    /// Bodies i and j: the effort acts on j, the opposite on i.
+    pub fn bodies(&self) -> [BodyId; 2] {
+        match self {
+            Self::Coordinate(of) => [BodyId::GROUND, of.body],
+            Self::Quantity(of) => of.bodies,
+        }
+    }
+
+    /// Its name in labels, and its SI unit.
+    pub fn label(&self) -> (&'static str, &'static str) {
+        match self {
+            Self::Coordinate(of) => (of.coordinate.name(), of.coordinate.unit()),
+            Self::Quantity(of) => (of.kind, of.unit),
+        }
+    }
+}
+
+impl<S: Real> Followed<S> {
+    /// Its value, m or rad, for bodies i and j at given poses.
+    pub fn value(&self, i: &Pose<S>, j: &Pose<S>) -> S {
+        let of = match self {
+            Self::Quantity(of) => return of.value,
+            Self::Coordinate(of) => of,
+        };
+        let from_ground = i.rotation.inverse(j.r - i.r);
+        match of.coordinate {
+            Coordinate::X | Coordinate::Vx => from_ground.x,
+            Coordinate::Y | Coordinate::Vy => from_ground.y,
+            Coordinate::Angle | Coordinate::Omega => j.angle - i.angle,
+        }
+    }
+
+    /// The frame on a body, by its place among [`Followed::bodies`], to which its effort is reduced.
+    pub fn attachment(&self, body: usize) -> Attachment<S> {
+        match self {
+            Self::Coordinate(_) => Attachment { s: Local::zero(), axis: S::zero() },
+            Self::Quantity(of) => of.ends[body],
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Coupling: a linear relation of position quantities.
+//!
+//! Φ = Σ factorₖ quantityₖ - value = 0. With λ its multiplier, the effort on quantity k is -λ factorₖ, on body j of the
+//! quantity, and the opposite on its body i. All positions.
+
+use crate::elements::{
+    element, At, Attachment, BodyId, Equation, EquationUnit, Joint, SceneSymbol,
+};
+use crate::math::{Local, Real};
+
+element! {
+    /// Coupling: a linear relation of position quantities, Φ = Σ factor × quantity - value. The effort on each
+    /// quantity is -λ × factor: on body j of the quantity, the opposite on its body i.
+    Coupling, "coupling" {
+        /// Factors of position quantities, such as `{ "A.angle" = 2, "S.displacement" = -1 }`.
+        terms: terms,
+        /// The value of the sum; may use `t` and positions.
+        value: law [m|rad] = 0.0,
+        /// Unit of the sum, `m` or `rad`; that of the first quantity unless given.
+        unit: optional_unit,
+    }
+}
+
+/// The bodies of all quantities, each once, in the order of the terms.
+fn bodies<S>(e: &Coupling<S>) -> Vec<BodyId> {
+    let mut all = Vec::new();
+    for body in e.terms.iter().flat_map(|(of, _)| of.bodies()) {
+        if !all.contains(&body) {
+            all.push(body);
+        }
+    }
+    all
+}
+
+impl Joint for Coupling {
+    fn bodies<S>(e: &Coupling<S>) -> Vec<BodyId> {
+        bodies(e)
+    }
+
+    fn equations<S>(e: &Coupling<S>) -> Vec<Equation> {
+        let first = e.terms.first().map_or("m", |(of, _)| of.label().1);
+        let unit = match e.unit {
+            Some(EquationUnit::Metre) => "m",
+            Some(EquationUnit::Radian) => "rad",
+            None => first,
+        };
+        vec![Equation { name: "sum", unit }]
+    }
+
+    fn residual<S: Real>(e: &Coupling<S>, at: &At<'_, S>, phi: &mut [S]) {
+        let places = bodies(e);
+        let pose = |body: BodyId| {
+            let place = places.iter().position(|known| *known == body).unwrap_or(0);
+            &at.bodies[place]
+        };
+        phi[0] = -e.value;
+        for (of, factor) in &e.terms {
+            let [i, j] = of.bodies();
+            phi[0] += *factor * of.value(pose(i), pose(j));
+        }
+    }
+
+    fn symbols(_: &Coupling) -> Vec<SceneSymbol> {
+        Vec::new()
+    }
+
+    fn attachment<S: Real>(_: &Coupling<S>, _: usize) -> Attachment<S> {
+        Attachment { s: Local::zero(), axis: S::zero() }
+    }
+}
