@@ -99,6 +99,10 @@ impl Dice {
             Shape::Number | Shape::Law => self.formula(),
             Shape::Pair | Shape::LawPair => self.pair(),
             Shape::Laws => Value::List(vec![self.formula(), self.formula()]),
+            Shape::Terms => Value::Table(
+                (0..1 + self.roll(3)).map(|_| (self.name(used), self.formula())).collect(),
+            ),
+            Shape::Units => Value::List(vec![Value::from(self.pick(&["m", "rad"]))]),
             Shape::Points => {
                 Value::Table((0..self.roll(4)).map(|_| (self.name(used), self.pair())).collect())
             }

@@ -99,6 +99,7 @@ class ConstraintInfo:
         equations: names and units of the equations.
         columns: slice of its internal coordinates in q; empty for most joints.
         coordinates: names and units of its internal coordinates.
+        results: names, units, rows and factors of results that follow from single multipliers.
         measured: its position quantities.
     """
 
@@ -116,6 +117,7 @@ class ConstraintInfo:
     bodies: tuple[str, ...]
     columns: slice
     coordinates: tuple[tuple[str, str], ...]
+    results: tuple[tuple[str, str, int, float], ...]
     measured: tuple[Measured, ...]
 
     def __repr__(self) -> str:
@@ -207,6 +209,7 @@ def constraint(entry: dict[str, Any]) -> ConstraintInfo:
         bodies=tuple(entry["bodies"]),
         columns=slice(*entry["columns"]),
         coordinates=_units(entry["coordinates"]),
+        results=tuple((r["name"], r["unit"], r["row"], r["factor"]) for r in entry["results"]),
         measured=_measured(entry["measured"]),
     )
 

@@ -44,3 +44,39 @@ def test_the_rates_of_windows_agree_with_their_energy(
     told = capsys.readouterr().out
     assert "2 windows, 15 coordinates" in told
     assert float(told.split("energy: ")[1].split()[0]) < 1e-6
+
+
+def test_the_yoke_moves_harmonically_and_its_pin_carries_the_inertia() -> None:
+    turns = kp.load(ROOT / "examples/scotch_yoke.toml").run()["turns"]
+    speed = 10 * np.pi
+    cos, sin = np.cos(speed * turns.t), np.sin(speed * turns.t)
+    np.testing.assert_allclose(turns["yoke.x"], 0.08 * cos, atol=1e-11)
+    np.testing.assert_allclose(turns["yoke.vx"], -0.08 * speed * sin, atol=1e-9)
+    force = -3 * 0.08 * speed**2 * cos
+    np.testing.assert_allclose(turns["slot"].force(on="yoke")[:, 0], force, atol=1e-7)
+    np.testing.assert_allclose(turns["motor.effort"], force * -0.08 * sin, atol=1e-7)
+
+
+def test_the_planetary_gear_reaches_the_speed_and_torque_of_its_ratio() -> None:
+    run = kp.load(ROOT / "examples/planetary_gear.toml").run()["speeding_up"]
+    np.testing.assert_allclose(run["sun.omega"], 3.6 * run["carrier.omega"], atol=1e-8)
+    arm, carrier, planet = 0.036, 1 / 3.6, 1 / 3.6 * (1 - 52 / 16)
+    equivalent = 6e-5 + (3e-4 + 0.2 * arm**2) * carrier**2 + 3e-5 * planet**2
+    rate = 0.09 * carrier**2 / equivalent
+    omega = 0.5 * 3.6**2 / 0.09 * (1 - np.exp(-rate * run.t))
+    np.testing.assert_allclose(run["sun.omega"], omega, rtol=1e-6, atol=1e-6)
+    assert run["load.torque"][-1] == pytest.approx(-3.6 * 0.5, rel=1e-3)
+    tangential = (0.5 - 6e-5 * run["sun.alpha"]) / 0.02
+    np.testing.assert_allclose(run["inner"].tangential, tangential, rtol=1e-8)
+    np.testing.assert_allclose(run["inner.tangential"], run["inner"].lam[:, 0])
+
+
+def test_the_shaper_returns_faster_than_it_cuts() -> None:
+    cuts = kp.load(ROOT / "examples/quick_return.toml").run()["cuts"]
+    pin = 0.1 * np.exp(2j * np.pi * cuts.t) + 0.25j
+    np.testing.assert_allclose(cuts["lever.angle"], np.angle(pin), atol=1e-10)
+    # the lever is at its extremes where the crank is normal to it
+    alpha = np.arcsin(0.1 / 0.25)
+    assert cuts["lever.angle"].max() == pytest.approx(np.pi / 2 + alpha, abs=1e-4)
+    fast = np.count_nonzero(cuts["ram.vx"][:-1] > 0) / (len(cuts.t) - 1)
+    assert fast == pytest.approx(0.5 - alpha / np.pi, abs=0.02)

@@ -198,7 +198,7 @@ def test_every_word_of_the_vocabulary_can_be_drawn(mark: str) -> None:
         "bodies": [0, 1],
         "points": [[0.0, 0.0], [0.5, 0.0]],
         "axes": [0.0, 0.0],
-        "radius": 0.3,
+        "radii": [0.2, 0.3],
         "reach": [0.0, 1.0],
         "turning": [0.0, 1.0],
     }

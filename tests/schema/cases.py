@@ -166,7 +166,7 @@ def typo(word: str, chance: random.Random) -> str:
     k = chance.randrange(len(word))
     return chance.choice(
         [
-            word[:k] + "q" + word[k + 1 :],
+            word[:k] + ("x" if word[k : k + 1] == "q" else "q") + word[k + 1 :],
             word[:k] + word[k + 1 :],
             word[:k] + word[k : k + 1] + word[k:],
         ]

@@ -4,7 +4,7 @@ use crate::convert::{refuse, Row};
 use crate::guard::guard;
 use crate::recent_options::RecentOptions;
 use kempe::analyses::dynamics::Prepared;
-use kempe::elements::{BodyId, Measured, OwnState, SceneSymbol, SymbolEnd};
+use kempe::elements::{BodyId, Measured, OwnState, ResultOf, SceneSymbol, SymbolEnd};
 use kempe::expression::Table;
 use kempe::math::Local;
 use kempe::model::{Body, Columns, Model};
@@ -90,7 +90,7 @@ fn symbols(model: &Model) -> Value {
             "mark": symbol.mark.name(),
             "i": end(&symbol.i),
             "j": end(&symbol.j),
-            "radius": symbol.mark.radius(),
+            "radii": symbol.mark.radii(),
         })
     };
     let all = model.symbols();
@@ -171,6 +171,8 @@ fn constraint(model: &Model, k: usize) -> Value {
     let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
     let (i, j, bodies) = connected(model, &item.bodies);
     let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.unit });
+    let result =
+        |r: &ResultOf| json!({ "name": r.name, "unit": r.unit, "row": r.row, "factor": r.factor });
     json!({
         "name": item.name,
         "group": item.group.section(),
@@ -185,6 +187,7 @@ fn constraint(model: &Model, k: usize) -> Value {
         "columns": span(&slots.own.range()),
         "coordinates": internal(slots.own),
         "rows": span(&slots.rows),
+        "results": item.element.results().iter().map(result).collect::<Vec<_>>(),
         "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
         "measured": measured(item.element.measured()),
     })

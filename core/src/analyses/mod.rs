@@ -8,6 +8,7 @@ mod errors;
 mod mobility;
 mod option_tables;
 pub mod options;
+mod required;
 mod results;
 mod sequence;
 mod state;

@@ -133,6 +133,10 @@ macro_rules! constraints {
             pub fn constant_columns(&self) -> bool {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::CONSTANT_COLUMNS,)+)+ }
             }
+            /// Results that follow from single multipliers.
+            pub fn results(&self) -> &'static [ResultOf] {
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::RESULTS,)+)+ }
+            }
             /// Names and units of the equations.
             pub fn equations(&self) -> Vec<Equation> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name>::equations(e),)+)+ }
@@ -173,6 +177,10 @@ macro_rules! constraints {
             /// Φ, Φ̇, γ and Φ_q for fields that do not vary with time or state.
             pub fn linearize(&self, at: &Moving<'_, S>, out: Linearized<'_, S>) {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::linearize(e, at, out),)+)+ }
+            }
+            /// Quantities that the other joints of the mechanism must hold.
+            pub fn requires(&self, at: &At<'_, S>) -> Vec<Required<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::requires(e, at),)+)+ }
             }
             /// The joint frame on a body, given by its place in [`bodies`](Self::bodies).
             pub fn attachment(&self, body: usize) -> Attachment<S> {

@@ -75,12 +75,44 @@ pub enum Fixes<S> {
     Points,
     /// The origin of the joint frame on body j lies on the x″ axis of the joint frame on body i.
     Line,
+    /// The origin of the joint frame on body j lies at this distance to the left of the x″ axis of the joint frame on
+    /// body i, m.
+    Beside(S),
+    /// The angle of body j, if the pose of body i and the place of body j are known: the last equation is linear in
+    /// this angle, perhaps modulo a constant.
+    Turn,
     /// The x″ axes of both joint frames point the same way.
     Direction,
     /// The distance of the origins of both joint frames, m.
     Distance(S),
     /// A coordinate of body j, measured from ground.
     Coordinate(CoordinateOf, S),
+}
+
+/// A quantity that the other joints of the mechanism must hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Required<S> {
+    /// What it is, as in "the distance of the centres is 0.31 m".
+    pub what: &'static str,
+    /// Its value, m.
+    pub is: S,
+    /// The value that it must have; None for any value that stays the same and is not zero.
+    pub must: Option<S>,
+    /// What to do if it has another value or is not held.
+    pub remedy: &'static str,
+}
+
+/// A result with a name of its own: the multiplier of a row times a factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ResultOf {
+    /// Name of the quantity.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Row among those of the element.
+    pub row: usize,
+    /// Factor of the multiplier.
+    pub factor: f64,
 }
 
 /// A joint or driver: equations Φ(q, t) = 0 between any number of bodies and internal coordinates.
@@ -91,6 +123,9 @@ pub trait Joint: Element {
 
     /// Number of internal coordinates, 0 to 3.
     const OWN: usize = 0;
+
+    /// Results that follow from single multipliers.
+    const RESULTS: &'static [ResultOf] = &[];
 
     /// The position quantities that may be measured on the joint.
     const MEASURED: &'static [Measured] = &[];
@@ -122,6 +157,12 @@ pub trait Joint: Element {
     fn own_start(e: &Self::Over<f64>, bodies: &[Pose]) -> Vec<f64> {
         let _ = (e, bodies);
         vec![0.0; Self::OWN]
+    }
+
+    /// Quantities that the other joints of the mechanism must hold, for bodies at the given poses.
+    fn requires<S: Real>(e: &Self::Over<S>, at: &At<'_, S>) -> Vec<Required<S>> {
+        let _ = (e, at);
+        Vec::new()
     }
 
     /// The symbols that a drawing shows for the element; a law that varies is NaN here.

@@ -18,21 +18,32 @@ mod measure;
 mod measured;
 mod symbols;
 mod value;
+mod wheels;
 mod written;
 
 /// Joints: holonomic constraints between bodies, without time.
 pub mod joints {
+    mod belt;
     mod coupling;
     mod distance;
+    mod gear;
     mod given_constraint;
+    mod pin_in_slot;
+    mod rack;
     mod revolute;
+    mod rolling;
     mod translational;
     mod weld;
 
+    pub use belt::Belt;
     pub use coupling::Coupling;
     pub use distance::Distance;
+    pub use gear::Gear;
     pub use given_constraint::GivenConstraint;
+    pub use pin_in_slot::PinInSlot;
+    pub use rack::Rack;
     pub use revolute::Revolute;
+    pub use rolling::Rolling;
     pub use translational::Translational;
     pub use weld::Weld;
 }
@@ -73,7 +84,7 @@ pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
 pub use followed::{BodyId, Coordinate, CoordinateOf, Followed, QuantityOf};
 pub use force_trait::{Force, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
-pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving};
+pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, Required, ResultOf};
 use joints::*;
 pub use kinds::{
     body, coordinate, equation_unit, flag, joint, law, law_pair, laws, number, optional_law,
@@ -94,6 +105,11 @@ constraints! {
         Translational,
         Distance,
         Weld,
+        PinInSlot,
+        Gear,
+        Belt,
+        Rack,
+        Rolling,
         Coupling,
         GivenConstraint,
         #[cfg(feature = "test-elements")] TurnedPin,

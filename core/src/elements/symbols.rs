@@ -35,6 +35,19 @@ pub enum Mark {
     DriveTurn,
     /// A straight arrow: a prescribed position of the point of j along the axis of i.
     DriveShift,
+    /// A slot on i along its axis, and a pin on j at its point.
+    Slot,
+    /// A rack on i along its axis for a wheel on j with this radius in m, < 0 on its right.
+    ToothedLine(f64),
+    /// A line on i along its axis for a wheel on j with this radius in m, < 0 on its right.
+    Track(f64),
+    /// The strands of a belt on wheels around the points, with these radii in m.
+    Strands {
+        /// Radius around the point of i and of j.
+        radii: [f64; 2],
+        /// Whether the strands cross.
+        crossed: bool,
+    },
     /// A pitch circle on j around its point, with this radius in m.
     Circle(f64),
 }
@@ -55,14 +68,22 @@ impl Mark {
             Self::ForceArrow => "force_arrow",
             Self::DriveTurn => "drive_turn",
             Self::DriveShift => "drive_shift",
+            Self::Slot => "slot",
+            Self::ToothedLine(_) => "toothed_line",
+            Self::Track(_) => "track",
+            Self::Strands { crossed: false, .. } => "open_strands",
+            Self::Strands { crossed: true, .. } => "crossed_strands",
             Self::Circle(_) => "circle",
         }
     }
 
-    /// Radius in m of a symbol that has the size of the mechanism.
-    pub fn radius(self) -> Option<f64> {
+    /// Radii in m, around the points of i and of j, of a symbol that has the size of the mechanism.
+    pub fn radii(self) -> Option<[f64; 2]> {
         match self {
-            Self::Circle(radius) => Some(radius),
+            Self::Circle(radius) | Self::Track(radius) | Self::ToothedLine(radius) => {
+                Some([0.0, radius])
+            }
+            Self::Strands { radii, .. } => Some(radii),
             _ => None,
         }
     }
@@ -116,6 +137,12 @@ impl SceneSymbol {
     /// A symbol between two bodies, without points.
     pub fn between_bodies(mark: Mark, i: BodyId, j: BodyId) -> Self {
         Self { mark, i: SymbolEnd::body(i), j: SymbolEnd::body(j) }
+    }
+
+    /// The pitch circles of two wheels around points.
+    pub fn wheels(radii: [f64; 2], [i, j]: [&PointOn; 2]) -> Vec<Self> {
+        let wheel = |radius, from, on| Self::between_points(Mark::Circle(radius), from, on);
+        vec![wheel(radii[0], j, i), wheel(radii[1], i, j)]
     }
 
     /// The arrow of a prescribed quantity.

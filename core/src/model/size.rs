@@ -10,7 +10,7 @@ pub fn size<S: Real>(model: &Model<S>) -> f64 {
     let points = model.bodies.iter().flat_map(|b| &b.points).map(|(_, s)| s.norm());
     let rods = model.constraints.iter().flat_map(|c| c.element.fixes());
     let rods = rods.filter_map(|fixed| match fixed {
-        Fixes::Distance(length) => Some(length),
+        Fixes::Distance(length) | Fixes::Beside(length) => Some(length),
         _ => None,
     });
     let largest = points.chain(rods).map(|length| length.largest_magnitude()).fold(0.0, f64::max);

@@ -7,6 +7,7 @@ mod andrews;
 mod angle_winding;
 mod closures;
 mod drivers;
+mod equations;
 mod failures;
 mod large;
 mod redundancy;

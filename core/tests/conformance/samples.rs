@@ -3,7 +3,10 @@
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{Motor, SpringDamper, Torque, TorsionSpring};
-use kempe::elements::joints::{Coupling, Distance, GivenConstraint, Revolute, Translational, Weld};
+use kempe::elements::joints::{
+    Belt, Coupling, Distance, Gear, GivenConstraint, PinInSlot, Rack, Revolute, Rolling,
+    Translational, Weld,
+};
 use kempe::elements::test_elements::{Bead, Blower, Lag, Levels, Pulley, Rubbing, TurnedPin};
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Group, JointId,
@@ -41,11 +44,41 @@ pub fn constraints() -> Vec<Constraint> {
             residual: vec![0.3, -0.2],
             units: vec!["m", "rad"],
         }),
+        Constraint::PinInSlot(PinInSlot { i: on(1, 0.4, -0.3), j: on(2, -0.6, 0.2), axis: 0.7 }),
+        Constraint::Rack(Rack {
+            i: on(1, 0.3, 0.1),
+            j: on(2, -0.2, 0.4),
+            radius: -0.6,
+            axis: 0.4,
+            offset: 0.3,
+        }),
+        Constraint::Rolling(Rolling {
+            i: on(1, 0.5, 0.2),
+            j: on(2, 0.1, -0.3),
+            radius: 0.8,
+            axis: -1.1,
+            offset: -0.2,
+        }),
         Constraint::TurnedPin(TurnedPin { i: on(1, 0.3, -0.7), j: on(2, -1.1, 0.4) }),
         Constraint::Bead(Bead { i: on(1, 0.2, 0.5), j: BodyId(2), bend: 0.8 }),
         Constraint::Levels(Levels { i: BodyId(1), j: BodyId(2), k: BodyId(3), steps: [0.3, -0.4] }),
         Constraint::Pulley(Pulley { i: BodyId(1), j: BodyId(2), k: BodyId(3), ratio: 0.7 }),
     ];
+    for (internal, toothed) in [(false, false), (true, false), (false, true)] {
+        all.push(Constraint::Gear(Gear {
+            i: on(1, 0.2, -0.1),
+            j: on(2, 0.3, 0.4),
+            radii: (!toothed).then_some([0.7, 0.3]),
+            teeth: toothed.then_some([24.0, 17.0]),
+            module: toothed.then_some(0.05),
+            internal,
+            offset: 0.1,
+        }));
+    }
+    for (radii, crossed) in [([0.7, 0.3], false), ([0.7, 0.3], true), ([0.4, 0.4], false)] {
+        let (i, j) = (on(1, 0.2, -0.1), on(2, 0.3, 0.4));
+        all.push(Constraint::Belt(Belt { i, j, radii, crossed, offset: -0.2 }));
+    }
     for (coordinate, value) in
         [(Coordinate::X, 0.4), (Coordinate::Y, -1.3), (Coordinate::Angle, 2.1)]
     {

@@ -122,6 +122,13 @@ impl Drawn<'_> {
             },
             Shape::Law => self.law(),
             Shape::Pair => Value::List(vec![self.number(), self.number()]),
+            Shape::Terms => {
+                let quantity = |random: &str| format!("{}.{random}", self.body_name());
+                let names = ["x", "angle"].map(quantity);
+                let terms = names.map(|name| (name, self.number()));
+                Value::Table(terms.into())
+            }
+            Shape::Units => Value::List(vec![text("m"), text("rad")]),
             Shape::LawPair | Shape::Laws => Value::List(vec![self.law(), self.law()]),
             Shape::Points => self.points(),
             Shape::Names | Shape::Columns => Value::List(vec![text("A"), text("B")]),

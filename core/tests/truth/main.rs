@@ -15,6 +15,9 @@ mod pendulum;
 mod point_mass;
 mod position;
 mod projection;
+mod slots;
+mod solved;
+mod wheels;
 
 use serde_json::Value;
 

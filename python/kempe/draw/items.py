@@ -6,8 +6,9 @@ scale. There are three frames:
 
 * ``body``: origin at the point ``at`` of ``body``, turned by the angle of the body ``turns_with``
   and by ``turn``. x and y are in m, px and py in points of print.
-* ``line``: from a point of one body to a point of another. x is the share of the distance, px is
-  along the line and py to its left. On distances below ``room`` px shrinks in proportion.
+* ``line``: from a point of one body to a point of another. x is the share of the distance, y is in
+  m to the left of the line, px is along the line and py to its left. On distances below ``room``
+  px shrinks in proportion.
 * ``twist``: around the point ``at`` of body j. x is the share of the angle from body i to body j
   plus ``turn``, px is the radius.
 

@@ -85,7 +85,8 @@ def _in_frame(
         along = end - begin
         length = float(np.hypot(*along))
         squeezed = min(1.0, length / frame["room"]) if frame["room"] else 1.0
-        local = np.column_stack([rows[:, 0] * length + rows[:, 2] * squeezed, rows[:, 3]])
+        x = rows[:, 0] * length + rows[:, 2] * squeezed
+        local = np.column_stack([x, rows[:, 1] * view.scale + rows[:, 3]])
         return begin, float(np.arctan2(along[1], along[0])), local
     turn = frame["turn"] + poses[j, 2] - poses[i, 2]
     polar = poses[i, 2] + rows[:, 0] * turn

@@ -67,7 +67,8 @@ def scene(
     motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model), span)
     bodies = [shapes.body(model, name) for name in model.all_bodies]
     joints = [shapes.joint(model, name) for name in model.joints]
-    bounds = shapes.bounds(motion, bodies, joints)
+    symbols = shapes.symbols(motion)
+    bounds = shapes.bounds(motion, bodies, joints, symbols)
     size = float(max(bounds[2:] - bounds[:2])) or 1.0
     reactions = _reactions(motion)
     return {
@@ -79,7 +80,7 @@ def scene(
         "length": _length(shapes.own_size(bodies, joints) or size),
         "bodies": bodies,
         "joints": joints,
-        "symbols": shapes.symbols(motion),
+        "symbols": symbols,
         "traces": _traces(motion, size, traces),
         "frames": {
             "t": plain(motion.t),

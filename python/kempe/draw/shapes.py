@@ -56,7 +56,7 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         "bodies": [i["body"], j["body"]],
         "points": [i["point"], j["point"] or _pivot(motion.compiled, i["body"], j["body"])],
         "axes": [i["axis"], j["axis"]],
-        "radius": told["radius"],
+        "radii": told["radii"],
         "reach": None,
         "turning": None,
     }
@@ -64,8 +64,10 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         angles = [motion.body(_name(motion, end)).angle for end in found["bodies"]]
         turn = np.atleast_1d(angles[1] - angles[0])
         found["turning"] = [float(turn[0]), float(np.abs(turn - turn[0]).max())]
-    elif told["mark"] == "slide":
+    elif told["mark"] in ("slide", "slot", "toothed_line", "track"):
         found["reach"] = _reach(motion, found)
+    elif told["mark"].endswith("_strands"):
+        found["reach"] = _distance(motion, found)
     return found
 
 
@@ -91,6 +93,16 @@ def _reach(motion: Motion, symbol: dict[str, Any]) -> list[float]:
     direction = i.angle + symbol["axes"][0]
     along = away[..., 0] * np.cos(direction) + away[..., 1] * np.sin(direction)
     return [float(along.min()), float(along.max())]
+
+
+def _distance(motion: Motion, symbol: dict[str, Any]) -> list[float]:
+    """Least and largest distance of the two points, m."""
+    ends = (
+        motion.body(_name(motion, number)).at(at).position
+        for number, at in zip(symbol["bodies"], symbol["points"], strict=True)
+    )
+    apart = np.linalg.norm(np.subtract(*ends), axis=-1)
+    return [float(apart.min()), float(apart.max())]
 
 
 def _numbers(at: Vector) -> list[float]:
@@ -158,7 +170,12 @@ def own_size(bodies: list[dict[str, Any]], joints: list[dict[str, Any]]) -> floa
     return max(sizes)
 
 
-def bounds(motion: Motion, bodies: list[dict[str, Any]], joints: list[dict[str, Any]]) -> Floats:
+def bounds(
+    motion: Motion,
+    bodies: list[dict[str, Any]],
+    joints: list[dict[str, Any]],
+    symbols: list[dict[str, Any]],
+) -> Floats:
     """The area of the drawing over all frames: least x and y, largest x and y, m."""
     low, high = np.full(2, np.inf), np.full(2, -np.inf)
     for entry in bodies:
@@ -176,6 +193,12 @@ def bounds(motion: Motion, bodies: list[dict[str, Any]], joints: list[dict[str, 
             places = view.at((corner[0], corner[1])).position
             low = np.minimum(low, places.min(axis=0))
             high = np.maximum(high, places.max(axis=0))
+    for symbol in symbols:
+        if symbol["mark"] == "circle":
+            view = motion.body(_name(motion, symbol["bodies"][1]))
+            places, radius = view.at(symbol["points"][1]).position, symbol["radii"][1]
+            low = np.minimum(low, places.min(axis=0) - radius)
+            high = np.maximum(high, places.max(axis=0) + radius)
     if not np.all(np.isfinite([*low, *high])):
         return np.array([-1.0, -1.0, 1.0, 1.0])
     return np.array([*low, *high])

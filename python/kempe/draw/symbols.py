@@ -18,6 +18,9 @@ _BLOCK = np.array([[-13.0, -7.5], [13.0, -7.5], [13.0, 7.5], [-13.0, 7.5]])
 _RAIL, _OVERHANG = 9.0, 24.0
 #: Place of the bars of a spring beside a dashpot, as a part of the distance, and their distance.
 _BAR, _ASIDE = 0.15, 6.5
+_SLOT, _BEYOND = 5.5, 14.0  # half width, length beyond the places of the pin
+_TEETH = 18.0  # of a wheel
+_TOOTH = [(-0.38, -1.0), (-0.14, 1.0), (0.14, 1.0), (0.38, -1.0)]
 _ROOM = 60.0  # of a dashpot along its line
 _SPIRAL = (4.5, 12.0)  # inner and outer radius
 _WINDINGS = 5.0 * np.pi
@@ -123,11 +126,70 @@ def _slide(symbol: Symbol) -> Iterator[Item]:
 
 
 def _circle(symbol: Symbol) -> Iterator[Item]:
-    """A pitch circle, with a radius of it that shows how the wheel turns."""
-    body, radius = symbol["bodies"][1], symbol["radius"]
+    """A pitch circle, with a radius of it that shows how the wheel turns if it can."""
+    body, radius = symbol["bodies"][1], symbol["radii"][1]
     frame, of, colour = on_body(body, symbol["points"][1]), symbol["element"], f"body {body}"
     yield line(of, frame, metres(items.circle(radius, 96)), colour, 1.2, closed=True)
-    yield line(of, frame, metres([(0.0, 0.0), (radius, 0.0)]), colour, 0.8)
+    if body:
+        yield line(of, frame, metres([(0.0, 0.0), (radius, 0.0)]), colour, 0.8)
+
+
+def _slot(symbol: Symbol) -> Iterator[Item]:
+    """A slot in body i, as long as the pin of body j moves, and the pin."""
+    of, i = symbol["element"], symbol["bodies"][0]
+    low, high = symbol["reach"]
+    frame = on_body(i, symbol["points"][0], turn=symbol["axes"][0])
+    quarter = np.pi / 2.0
+    ends = [
+        (low, items.arc(_SLOT, quarter, 3.0 * quarter)),
+        (high, items.arc(_SLOT, -quarter, quarter)),
+    ]
+    rim = [
+        [x, 0.0, float(px) + beyond, float(py)]
+        for (x, arc), beyond in zip(ends, (-_BEYOND, _BEYOND), strict=True)
+        for px, py in arc
+    ]
+    yield fill(of, frame, rim, "paper", layer=items.BODY)
+    yield line(of, frame, rim, f"body {i}", 1.2, layer=items.BODY, closed=True)
+    yield from _pin_at(symbol, 1)
+
+
+def _track(symbol: Symbol) -> Iterator[Item]:
+    """The line of body i on which a wheel rolls, hatched on ground."""
+    i, side = symbol["bodies"][0], 1 if symbol["radii"][1] > 0.0 else -1
+    low, high = symbol["reach"]
+    frame = on_body(i, symbol["points"][0], turn=symbol["axes"][0])
+    rows = [[low, 0.0, -_OVERHANG, 0.0], [high, 0.0, _OVERHANG, 0.0]]
+    hatch = 0 if i else -side
+    yield line(symbol["element"], frame, rows, f"body {i}", 1.2, layer=items.GROUND, hatch=hatch)
+
+
+def _toothed_line(symbol: Symbol) -> Iterator[Item]:
+    """The teeth of a rack on body i across its pitch line, and its back."""
+    of, i, radius = symbol["element"], symbol["bodies"][0], symbol["radii"][1]
+    pitch, side = 2.0 * np.pi * abs(radius) / _TEETH, np.sign(radius)
+    low, high = symbol["reach"]
+    tooth = np.array(_TOOTH) * (pitch, 0.25 * pitch * side)
+    first, last = np.floor(low / pitch) - 2.0, np.ceil(high / pitch) + 2.0
+    teeth = [(x + k * pitch, y) for k in np.arange(first, last + 1.0) for x, y in tooth]
+    back = -0.8 * pitch * side
+    rim = metres([(teeth[0][0], back), *teeth, (teeth[-1][0], back)])
+    frame = on_body(i, symbol["points"][0], turn=symbol["axes"][0])
+    yield fill(of, frame, rim, f"body {i}", layer=items.BODY, tint=0.72)
+    yield line(of, frame, rim, f"body {i}", 1.0, layer=items.BODY, closed=True)
+
+
+def _strands(symbol: Symbol, crossed: bool) -> Iterator[Item]:
+    """The straight parts of a belt: common tangents of two circles."""
+    (r_i, r_j), length = symbol["radii"], max(symbol["reach"][1], 1e-300)
+    sigma = 1.0 if crossed else -1.0
+    cos = float(np.clip((r_i + sigma * r_j) / length, -1.0, 1.0))
+    sin = float(np.sqrt(1.0 - cos * cos))
+    frame = between(symbol["bodies"], symbol["points"])
+    for side in (1.0, -1.0):
+        begin = [r_i * cos / length, side * r_i * sin, 0.0, 0.0]
+        end = [1.0 - sigma * r_j * cos / length, -sigma * side * r_j * sin, 0.0, 0.0]
+        yield line(symbol["element"], frame, [begin, end], "ground", 1.8)
 
 
 def _straight_arrow(symbol: Symbol, colour: str, width: float) -> Iterator[Item]:
@@ -242,6 +304,11 @@ _AT: dict[str, Callable[[Symbol], Iterator[Item]]] = {
     "pin": _pin,
     "clamp": _clamp,
     "slide": _slide,
+    "slot": _slot,
+    "track": _track,
+    "toothed_line": _toothed_line,
+    "open_strands": lambda symbol: _strands(symbol, crossed=False),
+    "crossed_strands": lambda symbol: _strands(symbol, crossed=True),
     "circle": _circle,
     "force_arrow": lambda symbol: _straight_arrow(symbol, "force", 1.6),
     "drive_shift": lambda symbol: _straight_arrow(symbol, "drive", 2.4),

@@ -13,6 +13,9 @@ FILES = {
     "slider_crank": "slider_crank.toml",
     "four_bar": "four_bar.toml",
     "six_bar": "six_bar.toml",
+    "scotch_yoke": "scotch_yoke.toml",
+    "quick_return": "quick_return.toml",
+    "planetary_gear": "planetary_gear.toml",
     "squeezer": "squeezer.toml",
     "n_four_bar": "n_four_bar.py",
 }

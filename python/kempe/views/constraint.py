@@ -5,7 +5,7 @@ F″ = -Cᵀ Aᵀ Φ_rᵀ λ (Haug 6.6.8), T″ by (6.6.9); C is fixed in the bo
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Generic, cast
+from typing import TYPE_CHECKING, Any, Generic, cast
 
 from kempe.arrays import Floats, fixed, scalar
 from kempe.compiled import ConstraintInfo
@@ -72,6 +72,18 @@ class ConstraintView(Generic[S]):
     def lam(self) -> Floats:
         """Multipliers of the joint, (n_t, m), N or N·m."""
         return fixed(self._motion.lam[..., self.info.rows])
+
+    def __getattr__(self, name: str) -> Any:
+        """A result that follows from one multiplier, such as ``tangential`` of a gear, (n_t,)."""
+        info = self.__dict__.get("info")
+        for of, _, row, factor in info.results if info is not None else ():
+            if of == name:
+                return scalar(factor * self.lam[..., row])
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+    def __dir__(self) -> list[str]:
+        """Attributes, with the results."""
+        return [*super().__dir__(), *(name for name, *_ in self.info.results)]
 
     def _reaction(self, on: str, frame: str) -> Floats:
         body, axes = checked_body(self.info, on), checked_frame(frame)

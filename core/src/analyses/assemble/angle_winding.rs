@@ -1,7 +1,7 @@
 //! Whole turns: the choice among angles that differ by multiples of 2π.
 //!
-//! A guess or `set` fixes the whole turns of its body, and of all bodies whose relative angle to it a slide fixes. For
-//! the other bodies, each torsional spring, in the order of the file, is relaxed as far as whole turns can relax it.
+//! A guess or `set` fixes the whole turns of its body, and of all bodies whose relative angle to it a slide fixes. The
+//! turns of wheels that roll on others are fixed too: a whole turn of one moves the others. For the other bodies, each torsional spring, in the order of the file, is relaxed as far as whole turns can relax it.
 
 use super::targets::{nearest_turn, Targets};
 use crate::elements::{BodyId, Fixes};
@@ -16,6 +16,8 @@ pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
     for (b, turn) in targets.turn.iter().enumerate() {
         fixed[group[b]] |= turn;
     }
+    let wheels = model.constraints.iter().filter(|c| c.element.fixes().contains(&Fixes::Turn));
+    wheels.flat_map(|c| &c.bodies).for_each(|body| fixed[group[body.0]] = true);
     let mut members = vec![Vec::new(); group.len()];
     group.iter().enumerate().skip(1).for_each(|(b, g)| members[*g].push(model.layout.bodies[b]));
     let mut warnings = Vec::new();

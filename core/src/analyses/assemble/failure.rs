@@ -3,6 +3,7 @@
 use super::placement::Gap;
 use super::request::{of_bodies, of_rates, CoordinateTarget, Request};
 use crate::analyses::closing::Closing;
+use crate::analyses::required::Unmet;
 use crate::analyses::Mobility;
 use crate::elements::{Attachment, BodyId, Fixes, Group};
 use crate::equations::kinematics::Motions;
@@ -277,6 +278,12 @@ pub(super) fn rates(model: &Model, request: &Request) -> Failure {
         ),
         hint: "set no more rates than there are degrees of freedom".to_string(),
     }
+}
+
+/// A quantity that the mechanism must hold has another value, or is not held.
+pub(super) fn unmet(unmet: Unmet) -> Failure {
+    let Unmet { name, gap, message, hint } = unmet;
+    Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string() }
 }
 
 /// The caller has ended the assembly.

@@ -8,8 +8,10 @@
 //! A consistent position is not changed.
 
 mod angle_winding;
+mod by_equation;
 mod dyad;
 mod dyad_placement;
+mod equation_placement;
 mod failure;
 mod legs;
 mod open_placement;
@@ -34,6 +36,7 @@ pub use targets::Targets;
 
 use super::closing::Stop;
 use super::mobility::mobility_until;
+use super::required;
 use super::State;
 use crate::elements::CoordinateOf;
 use crate::equations::kinematics;
@@ -87,12 +90,18 @@ fn complete(
         warnings.extend(angle_winding::relax(model, &asked, &mut q));
     }
     let mut report = Report { iterations, warnings, ..Report::default() };
+    if let Some(unmet) = required::missed(model, request.t, &q) {
+        return Err(Box::new(failure::unmet(unmet)));
+    }
     if let Some(failure) = failure::undefined(model, request.t, &q) {
         return Err(Box::new(failure));
     }
     let mobility = mobility_until(model, request.t, &q, stop);
     if !mobility.redundant.is_empty() && !model.allow_redundancy {
         return Err(Box::new(failure::redundant(model, &mobility)));
+    }
+    if let Some(unmet) = required::loose(model, request.t, &q) {
+        return Err(Box::new(failure::unmet(unmet)));
     }
     report.degrees_of_freedom = mobility.degrees_of_freedom;
     report.warnings.extend(report::singular(model, &mobility.singular));

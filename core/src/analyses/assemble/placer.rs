@@ -6,11 +6,13 @@
 //! * two pins;
 //! * a dyad with a neighbour: two bodies pinned to each other and to placed bodies. The joint between them is
 //!   an intersection of two circles, so there are two closures;
-//! * a slide on a placed body, and a pin, a coordinate or a link to a placed body.
+//! * a slide on a placed body, and a pin, a coordinate or a link to a placed body;
+//! * a pin or a slide on a placed body, and an equation to placed bodies, such as that of a gear.
 //!
 //! If no body can be placed, a coordinate is taken from the guess, or several angles are tried. Choices that
 //! no guess decides are numbered, so that a caller can go through all of them.
 
+use super::by_equation::ByEquation;
 use super::legs::{legs, Leg};
 use super::placement::Placement;
 use super::slider_placement::{slides, Rail, Slide};
@@ -31,6 +33,7 @@ pub(super) struct Placer<'a> {
     pub targets: &'a Targets,
     pub legs: Vec<Vec<Leg>>,
     slides: Vec<Vec<Slide>>,
+    pub equations: ByEquation<'a>,
     /// Whether a constraint touches each body.
     joined: Vec<bool>,
     pub poses: Vec<Option<Pose>>,
@@ -43,7 +46,7 @@ pub(super) struct Placer<'a> {
 
 /// Places all bodies; undecided choice k takes option `choices[k]`, or the first. The cost is linear in the size of the
 /// model.
-pub fn place(model: &Model, targets: &Targets, choices: &[usize]) -> Placement {
+pub fn place<'a>(model: &'a Model, targets: &'a Targets, choices: &'a [usize]) -> Placement {
     let n = model.bodies.len();
     let mut joined = vec![false; n];
     for item in &model.constraints {
@@ -54,6 +57,7 @@ pub fn place(model: &Model, targets: &Targets, choices: &[usize]) -> Placement {
         targets,
         legs: legs(model),
         slides: slides(model),
+        equations: ByEquation::new(model),
         joined,
         poses: vec![None; n],
         carried: vec![Vec::new(); n],
@@ -79,6 +83,8 @@ impl Placer<'_> {
         loop {
             if let Some(b) = self.waiting.follow.pop() {
                 self.follow(b);
+            } else if let Some(b) = self.waiting.equations.pop() {
+                self.close_equation_of(b);
             } else if let Some(b) = self.waiting.dyads.pop() {
                 self.close_dyad_of(b);
             } else if let Some(b) = self.waiting.slides.pop() {
@@ -115,10 +121,17 @@ impl Placer<'_> {
                 self.carry(other, mirror);
             }
         }
+        for k in 0..self.equations.linked(b).len() {
+            let other = self.equations.linked(b)[k];
+            if self.is_open(other) {
+                self.waiting.equations.push(other);
+            }
+        }
         for k in 0..self.slides[b].len() {
             let other = self.slides[b][k].other;
             if self.is_open(other) {
                 self.waiting.follow.push(other);
+                self.waiting.equations.push(other);
                 self.waiting.slides.push(other);
             }
         }
@@ -132,6 +145,7 @@ impl Placer<'_> {
         if carried.len() > 1 {
             return;
         }
+        self.waiting.equations.push(b);
         self.waiting.dyads.push(b);
         self.waiting.assumed[2].push(b);
         if self.targets.value(b, 2).is_some() {
@@ -209,6 +223,9 @@ impl Placer<'_> {
         let pin = self.carried(b).next();
         if let (None, Some((_, rail))) = (pin, self.rail(b)) {
             return self.put(b, rail.towards(b, self.targets));
+        }
+        if let (None, Some(pose)) = (pin, self.beside(b)) {
+            return self.put(b, pose);
         }
         let angle = match self.targets.value(b, 2) {
             Some(angle) => angle,

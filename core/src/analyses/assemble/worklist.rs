@@ -35,6 +35,8 @@ pub(super) struct Worklist {
     pub follow: Queue,
     /// As one of two bodies of a dyad: those with a pin on a placed body.
     pub dyads: Queue,
+    /// With one freedom left, by an equation.
+    pub equations: Queue,
     /// On a slide, by a link.
     pub slides: Queue,
     /// By assumption: with a pin and a known angle, with known coordinates, with a pin, any.
@@ -48,6 +50,7 @@ impl Worklist {
         let mut list = Self {
             follow: none.clone(),
             dyads: none.clone(),
+            equations: none.clone(),
             slides: none.clone(),
             assumed: std::array::from_fn(|_| none.clone()),
         };

@@ -8,6 +8,7 @@ use super::constraint_violation::{ADRIFT, APART};
 use super::failure::{Failure, Reason};
 use super::options::Options;
 use super::stabilizations::Stabilization;
+use crate::analyses::required::{self, Unmet};
 use crate::elements::Group;
 use crate::equations::augmented::NearSingular;
 use crate::equations::kinematics::Motions;
@@ -99,6 +100,9 @@ impl StartCheck {
         let closed =
             (ROUNDING * largest(model, q)).clamp(self.closed, self.closed.max(self.rounded));
         level(&phi, closed, "").check(model, t, self.hint)?;
+        if let Some(Unmet { name, message, hint, .. }) = required::missed(model, t, q) {
+            return Err(Reason::Start { t, name, message, hint }.into());
+        }
         let Some(limit) = self.rate else { return Ok(()) };
         let pace = largest(model, v).max(1.0);
         let checked = level(&rate, limit * pace, "/s").check(model, t, self.hint);

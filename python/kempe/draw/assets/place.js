@@ -18,7 +18,7 @@ function inFrame(frame, rows, poses, view, unit) {
     const [dx, dy] = [end[0] - begin[0], begin[1] - end[1]];
     const length = Math.hypot(dx, dy);
     const squeezed = frame.room ? Math.min(1, length / (frame.room * unit)) : 1;
-    const local = rows.map(([x, , px, py]) => [x * length + px * squeezed * unit, py * unit]);
+    const local = rows.map(([x, y, px, py]) => [x * length + px * squeezed * unit, y * view.scale + py * unit]);
     return { origin: begin, angle: Math.atan2(dy, dx), local };
   }
   const turn = frame.turn + poses[j][2] - poses[i][2];

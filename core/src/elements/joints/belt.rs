@@ -1,0 +1,83 @@
+//! Belt or chain: two wheels are joined by a belt that does not slip.
+//!
+//! θ is the direction from the centre of wheel i to the centre of wheel j. Seen from the arm, the belt has one speed:
+//! Φ = rᵢ (φᵢ - θ) + σ rⱼ (φⱼ - θ) - offset = 0, with σ = -1 for an open belt and σ = 1 for a crossed one. θ has
+//! a branch cut, so Φ is taken modulo 2π (rᵢ + σ rⱼ), nearest 0; where that is 0, θ cancels. λ is the difference of
+//! the forces of the two strands. The mechanism must hold the distance of the centres, which may have any value > 0.
+
+use crate::elements::wheels::{centres, nearest, radius_fault, rolled, tangential};
+use crate::elements::{
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required, ResultOf,
+    SceneSymbol,
+};
+use crate::math::Real;
+
+element! {
+    /// Belt: two wheels joined by a belt or chain without slip,
+    /// Φ = r_i (angle_i - θ) + σ r_j (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the
+    /// direction from centre i to centre j and σ = -1, for a crossed belt 1. The joints of the mechanism hold
+    /// the distance of the centres. λ is the difference of the forces of the strands; on wheel j act
+    /// -σ λ r_j about its centre and a force normal to the line of centres, λ (r_i + σ r_j)/distance.
+    Belt, "belt" {
+        /// Centre of wheel i, as `body.point`.
+        i: point,
+        /// Centre of wheel j, as `body.point`.
+        j: point,
+        /// Radii of the wheels.
+        radii: pair [m],
+        /// Whether the strands cross, so that the wheels turn in opposite senses.
+        crossed: flag = false,
+        /// Φ of the wheels without it.
+        offset: number [m] = 0.0,
+    }
+}
+
+/// Share of the radii below which their difference counts as zero, and θ as cancelled.
+const EQUAL: f64 = 1e-5;
+
+impl Joint for Belt {
+    const RESULTS: &'static [ResultOf] = &[tangential(0)];
+
+    fn bodies<S>(e: &Belt<S>) -> Vec<BodyId> {
+        vec![e.i.body, e.j.body]
+    }
+
+    fn equations<S>(_: &Belt<S>) -> Vec<Equation> {
+        vec![Equation { name: "tangential", unit: "m" }]
+    }
+
+    fn residual<S: Real>(e: &Belt<S>, at: &At<'_, S>, phi: &mut [S]) {
+        let ([r_i, r_j], d) = (e.radii, measure::apart(at, &e.i, &e.j));
+        phi[0] = match e.crossed {
+            true => nearest(rolled(d, e.radii, 1.0, at) - e.offset, r_i + r_j),
+            false => {
+                let (x, most) = (rolled(d, e.radii, -1.0, at) - e.offset, S::constant(EQUAL));
+                let differs = (r_i - r_j).abs() - most * (r_i + r_j);
+                S::select(differs, nearest(x, r_i - r_j), x)
+            }
+        };
+    }
+
+    fn requires<S: Real>(e: &Belt<S>, at: &At<'_, S>) -> Vec<Required<S>> {
+        centres(measure::apart(at, &e.i, &e.j), None)
+    }
+
+    fn symbols(e: &Belt) -> Vec<SceneSymbol> {
+        let mut all = SceneSymbol::wheels(e.radii, [&e.i, &e.j]);
+        let mark = Mark::Strands { radii: e.radii, crossed: e.crossed };
+        all.push(SceneSymbol::between_points(mark, &e.i, &e.j));
+        all
+    }
+
+    fn attachment<S: Real>(e: &Belt<S>, body: usize) -> Attachment<S> {
+        Attachment { s: [e.i.s, e.j.s][body], axis: S::zero() }
+    }
+
+    fn fixes<S: Clone>(_: &Belt<S>) -> Vec<Fixes<S>> {
+        vec![Fixes::Turn]
+    }
+
+    fn fault(e: &Belt) -> Option<(&'static str, String)> {
+        e.radii.iter().find_map(|radius| radius_fault("radii", *radius, false))
+    }
+}

@@ -1,0 +1,114 @@
+//! Gear pair: two wheels roll on each other at their pitch circles.
+//!
+//! θ is the direction from the centre of wheel i to the centre of wheel j, the arm. Seen from the arm, both wheels
+//! have the same speed at the pitch point: Φ = rᵢ (φᵢ - θ) + σ rⱼ (φⱼ - θ) - offset = 0, with σ = 1 for external and
+//! σ = -1 for internal teeth (Willis's equation, integrated). θ has a branch cut, so Φ is taken modulo
+//! 2π (rᵢ + σ rⱼ), nearest 0. λ is the tangential force of the teeth; its line of action is normal to the line of
+//! centres, so the pins carry it: ∂Φ/∂Pⱼ has length |rᵢ + σ rⱼ|/|d| = 1. The mechanism must hold the centres
+//! |rᵢ + σ rⱼ| apart.
+
+use crate::elements::wheels::{centres, nearest, radii, radius_fault, rolled, tangential};
+use crate::elements::{
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Required, ResultOf,
+    SceneSymbol,
+};
+use crate::math::Real;
+
+element! {
+    /// Gear pair: two wheels whose pitch circles roll on each other,
+    /// Φ = r_i (angle_i - θ) + σ r_j (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the
+    /// direction from centre i to centre j and σ = 1, for internal teeth -1. The joints of the mechanism hold the
+    /// centres r_i + r_j apart, for internal teeth |r_i - r_j|. λ is the tangential force of the teeth; on
+    /// wheel j act -σ λ r_j about its centre and a force of magnitude |λ| normal to the line of centres.
+    Gear, "gear" {
+        /// Centre of wheel i, as `body.point`.
+        i: point,
+        /// Centre of wheel j, as `body.point`.
+        j: point,
+        /// Radii of the pitch circles.
+        radii: optional_pair [m],
+        /// Numbers of teeth, in place of radii.
+        teeth: optional_pair,
+        /// Module, with teeth: each radius is module × teeth / 2.
+        module: optional_number [m],
+        /// Whether one wheel is inside the other.
+        internal: flag = false,
+        /// Φ of the wheels without it.
+        offset: number [m] = 0.0,
+    }
+}
+
+fn radii_of<S: Real>(e: &Gear<S>) -> [S; 2] {
+    radii(e.radii, e.teeth, e.module)
+}
+
+/// σ, and rᵢ + σ rⱼ.
+fn sum<S: Real>(e: &Gear<S>) -> (f64, S) {
+    let [r_i, r_j] = radii_of(e);
+    match e.internal {
+        true => (-1.0, r_i - r_j),
+        false => (1.0, r_i + r_j),
+    }
+}
+
+/// A field that is missing, not needed or impossible.
+fn given(e: &Gear) -> Option<(&'static str, String)> {
+    let refuse = |field, message: &str| Some((field, message.to_string()));
+    match (e.radii, e.teeth, e.module) {
+        (None, None, None) => refuse("radii", "missing; give radii, or teeth and module"),
+        (Some(_), Some(_), _) => refuse("teeth", "not together with radii; remove one of them"),
+        (Some(_), _, Some(_)) => refuse("module", "not together with radii; remove one of them"),
+        (_, Some(_), None) => refuse("module", "missing; teeth need it"),
+        (_, None, Some(_)) => refuse("teeth", "missing; module needs it"),
+        _ => None,
+    }
+}
+
+impl Joint for Gear {
+    const RESULTS: &'static [ResultOf] = &[tangential(0)];
+
+    fn bodies<S>(e: &Gear<S>) -> Vec<BodyId> {
+        vec![e.i.body, e.j.body]
+    }
+
+    fn equations<S>(_: &Gear<S>) -> Vec<Equation> {
+        vec![Equation { name: "tangential", unit: "m" }]
+    }
+
+    fn residual<S: Real>(e: &Gear<S>, at: &At<'_, S>, phi: &mut [S]) {
+        let (sigma, sum) = sum(e);
+        let d = measure::apart(at, &e.i, &e.j);
+        phi[0] = nearest(rolled(d, radii_of(e), sigma, at) - e.offset, sum);
+    }
+
+    fn requires<S: Real>(e: &Gear<S>, at: &At<'_, S>) -> Vec<Required<S>> {
+        centres(measure::apart(at, &e.i, &e.j), Some(sum(e).1.abs()))
+    }
+
+    fn symbols(e: &Gear) -> Vec<SceneSymbol> {
+        SceneSymbol::wheels(radii_of(e), [&e.i, &e.j])
+    }
+
+    fn attachment<S: Real>(e: &Gear<S>, body: usize) -> Attachment<S> {
+        Attachment { s: [e.i.s, e.j.s][body], axis: S::zero() }
+    }
+
+    fn fixes<S: Clone>(_: &Gear<S>) -> Vec<Fixes<S>> {
+        vec![Fixes::Turn]
+    }
+
+    fn fault(e: &Gear) -> Option<(&'static str, String)> {
+        let number = |z: &f64| *z >= 1.0 && z.fract() == 0.0;
+        if let Some(fault) = given(e) {
+            return Some(fault);
+        }
+        if let Some(z) = e.teeth.iter().flatten().find(|z| !number(z)) {
+            return Some(("teeth", format!("{z}; must be whole numbers from 1")));
+        }
+        let field = if e.radii.is_some() { "radii" } else { "module" };
+        let faults = radii_of(e).map(|radius| radius_fault(field, radius, false));
+        let equal = e.internal && sum(e).1 == 0.0;
+        let same = (field, "internal wheels of equal radii have no arm; must differ".to_string());
+        faults.into_iter().flatten().next().or(equal.then_some(same))
+    }
+}

@@ -1,0 +1,77 @@
+//! Rolling: wheel j rolls on a line of body i without slip and without leaving it.
+//!
+//! With u the direction of the line, n = u turned by +90° and d = Pⱼ - Pᵢ: Φ₁ = nᵀ d - r = 0, the centre stays at the
+//! distance r; Φ₂ = uᵀ d + r (φⱼ - φᵢ) - offset = 0, the speed of the wheel at the point of contact is that of the
+//! line. r > 0: the wheel is on the left of u; r < 0: on its right. The line keeps the wheel on both sides: λ₁ may
+//! have any sign.
+
+use crate::elements::wheels::{directions, radius_fault, tangential};
+use crate::elements::{
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Measured, ResultOf,
+    SceneSymbol, SymbolEnd,
+};
+use crate::math::Real;
+
+element! {
+    /// Rolling: wheel j rolls on a line of body i without slip, Φ1 = n·d - radius,
+    /// Φ2 = u·d + radius (angle_j - angle_i) - offset with u along the line, n its left normal and
+    /// d = point_j - point_i. The force on body i at the point of contact is +λ1 along n and +λ2 along u, on
+    /// body j the opposite.
+    Rolling, "rolling" {
+        /// Point of body i on the line, as `body.point`.
+        i: point,
+        /// Centre of the wheel, as `body.point`.
+        j: point,
+        /// Radius of the wheel; > 0 for a wheel on the left of the line, < 0 on its right.
+        radius: number [m],
+        /// Angle of the line in the frame of body i.
+        axis: number [rad] = 0.0,
+        /// Φ2 of the bodies without it.
+        offset: number [m] = 0.0,
+    }
+}
+
+impl Joint for Rolling {
+    const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT];
+    const RESULTS: &'static [ResultOf] = &[tangential(1)];
+
+    fn bodies<S>(e: &Rolling<S>) -> Vec<BodyId> {
+        vec![e.i.body, e.j.body]
+    }
+
+    fn equations<S>(_: &Rolling<S>) -> Vec<Equation> {
+        vec![Equation { name: "normal", unit: "m" }, Equation { name: "tangential", unit: "m" }]
+    }
+
+    fn residual<S: Real>(e: &Rolling<S>, at: &At<'_, S>, phi: &mut [S]) {
+        let ((u, n), d) = (directions(e.axis, at.i()), measure::apart(at, &e.i, &e.j));
+        let turned = at.j().angle - at.i().angle;
+        let rolled = u.dot(d) + e.radius * turned - e.offset;
+        phi.copy_from_slice(&[n.dot(d) - e.radius, rolled]);
+    }
+
+    fn measure<S: Real>(e: &Rolling<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = measure::along(at, e.axis, &e.i, &e.j);
+    }
+
+    fn symbols(e: &Rolling) -> Vec<SceneSymbol> {
+        let (i, j) = (SymbolEnd::point(&e.i).along(e.axis), SymbolEnd::point(&e.j));
+        let line = SceneSymbol { mark: Mark::Track(e.radius), i: i.clone(), j: j.clone() };
+        vec![SceneSymbol { mark: Mark::Circle(e.radius.abs()), i, j }, line]
+    }
+
+    fn attachment<S: Real>(e: &Rolling<S>, body: usize) -> Attachment<S> {
+        match body {
+            0 => Attachment { s: e.i.s, axis: e.axis },
+            _ => Attachment { s: e.j.s, axis: S::zero() },
+        }
+    }
+
+    fn fixes<S: Clone>(e: &Rolling<S>) -> Vec<Fixes<S>> {
+        vec![Fixes::Beside(e.radius.clone()), Fixes::Turn]
+    }
+
+    fn fault(e: &Rolling) -> Option<(&'static str, String)> {
+        radius_fault("radius", e.radius, true)
+    }
+}

@@ -1,0 +1,59 @@
+//! Wheels that roll on each other or on a line, for the elements that contain them.
+
+use super::joint_trait::{At, Required, ResultOf};
+use crate::math::{Local, Pose, Real, Rotation, Vec2};
+
+/// Radii, r = module z/2 where the numbers of teeth z are given; NaN if neither is.
+pub(super) fn radii<S: Real>(
+    radii: Option<[S; 2]>,
+    teeth: Option<[S; 2]>,
+    module: Option<S>,
+) -> [S; 2] {
+    match (radii, teeth, module) {
+        (Some(radii), ..) => radii,
+        (None, Some(teeth), Some(module)) => teeth.map(|z| z * module / S::constant(2.0)),
+        _ => [S::constant(f64::NAN); 2],
+    }
+}
+
+/// The distance of the centres of two wheels, and the one that it must have.
+pub(super) fn centres<S: Real>(d: Vec2<S>, must: Option<S>) -> Vec<Required<S>> {
+    let remedy =
+        "hold both centres by joints on the same body, such as an arm or ground, at that distance";
+    vec![Required { what: "distance of the centres", is: d.norm(), must, remedy }]
+}
+
+/// r_i (φ_i - θ) + σ r_j (φ_j - θ) with θ the direction of `d`.
+pub(super) fn rolled<S: Real>(d: Vec2<S>, [r_i, r_j]: [S; 2], sigma: f64, at: &At<'_, S>) -> S {
+    let theta = d.y.atan2(d.x);
+    r_i * (at.i().angle - theta) + S::constant(sigma) * r_j * (at.j().angle - theta)
+}
+
+/// `x` modulo 2π `radius`, nearest 0: a whole turn of θ changes nothing.
+pub(super) fn nearest<S: Real>(x: S, radius: S) -> S {
+    let turn = S::constant(std::f64::consts::TAU) * radius;
+    x - turn * (x / turn + S::constant(0.5)).floor()
+}
+
+/// Along a line at an angle in a body, and to its left.
+pub(super) fn directions<S: Real>(axis: S, on: &Pose<S>) -> (Vec2<S>, Vec2<S>) {
+    let axis = Rotation::new(axis);
+    let u = on.global(Local::new(axis.cos, axis.sin));
+    (u, u.perp())
+}
+
+/// The force at the place of rolling: the multiplier of a row.
+pub(super) const fn tangential(row: usize) -> ResultOf {
+    ResultOf { name: "tangential", unit: "N", row, factor: 1.0 }
+}
+
+/// A radius that is zero or, where it has no sides, negative.
+pub(super) fn radius_fault(
+    field: &'static str,
+    radius: f64,
+    signed: bool,
+) -> Option<(&'static str, String)> {
+    let refused = if signed { radius == 0.0 } else { radius <= 0.0 };
+    let must = if signed { "not be 0" } else { "be > 0" };
+    refused.then(|| (field, format!("{radius} m; must {must}")))
+}
