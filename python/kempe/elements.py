@@ -121,6 +121,175 @@ class Weld(Element):
 
 
 @dataclass(frozen=True)
+class PinInSlot(Element):
+    """An element of type ``pin_in_slot``.
+
+    Pin in a slot: point j stays on the line through point i along the slot, Φ = n·d with n the
+    left normal of the slot and d = point_j - point_i (Haug 3.3.13). The force of the slot is
+    normal to it and acts at the pin: on body i +λ along n, on body j -λ.
+
+    Attributes:
+        i: Point of body i on the line of the slot, as `body.point`.
+        j: Point of body j, the pin, as `body.point`.
+        axis: Angle of the slot in the frame of body i [rad].
+    """
+
+    i: str
+    j: str
+    axis: Number = 0.0
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "pin_in_slot"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "axis": "number",
+    }
+
+
+@dataclass(frozen=True)
+class Gear(Element):
+    """An element of type ``gear``.
+
+    Gear pair: two wheels whose pitch circles roll on each other, Φ = r_i (angle_i - θ) + σ r_j
+    (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the direction from centre
+    i to centre j and σ = 1, for internal teeth -1. The joints of the mechanism hold the centres
+    r_i + r_j apart, for internal teeth |r_i - r_j|. λ is the tangential force of the teeth; on
+    wheel j act -σ λ r_j about its centre and a force of magnitude |λ| normal to the line of
+    centres.
+
+    Attributes:
+        i: Centre of wheel i, as `body.point`.
+        j: Centre of wheel j, as `body.point`.
+        radii: Radii of the pitch circles [m].
+        teeth: Numbers of teeth, in place of radii.
+        module: Module, with teeth: each radius is module × teeth / 2 [m].
+        internal: Whether one wheel is inside the other.
+        offset: Φ of the wheels without it [m].
+    """
+
+    i: str
+    j: str
+    radii: Pair | None = None
+    teeth: Pair | None = None
+    module: Number | None = None
+    internal: bool = False
+    offset: Number = 0.0
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "gear"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "radii": "pair",
+        "teeth": "pair",
+        "module": "number",
+        "internal": "flag",
+        "offset": "number",
+    }
+
+
+@dataclass(frozen=True)
+class Belt(Element):
+    """An element of type ``belt``.
+
+    Belt: two wheels joined by a belt or chain without slip, Φ = r_i (angle_i - θ) + σ r_j
+    (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the direction from centre
+    i to centre j and σ = -1, for a crossed belt 1. The joints of the mechanism hold the
+    distance of the centres. λ is the difference of the forces of the strands; on wheel j act -σ
+    λ r_j about its centre and a force normal to the line of centres, λ (r_i + σ r_j)/distance.
+
+    Attributes:
+        i: Centre of wheel i, as `body.point`.
+        j: Centre of wheel j, as `body.point`.
+        radii: Radii of the wheels [m].
+        crossed: Whether the strands cross, so that the wheels turn in opposite senses.
+        offset: Φ of the wheels without it [m].
+    """
+
+    i: str
+    j: str
+    radii: Pair
+    crossed: bool = False
+    offset: Number = 0.0
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "belt"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "radii": "pair",
+        "crossed": "flag",
+        "offset": "number",
+    }
+
+
+@dataclass(frozen=True)
+class Rack(Element):
+    """An element of type ``rack``.
+
+    Rack and pinion: wheel j rolls on a line of body i, Φ = u·d + radius (angle_j - angle_i) -
+    offset with u along the line and d = point_j - point_i. The joints of the mechanism hold the
+    centre at the distance radius to the left of the line. λ is the tangential force of the
+    teeth: on body i +λ along u at the pitch point, on body j -λ.
+
+    Attributes:
+        i: Point of body i on the pitch line, as `body.point`.
+        j: Centre of the pinion, as `body.point`.
+        radius: Radius of the pitch circle; > 0 for a pinion on the left of the line, < 0 on its
+            right [m].
+        axis: Angle of the line in the frame of body i [rad].
+        offset: Φ of the bodies without it [m].
+    """
+
+    i: str
+    j: str
+    radius: Number
+    axis: Number = 0.0
+    offset: Number = 0.0
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "rack"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "radius": "number",
+        "axis": "number",
+        "offset": "number",
+    }
+
+
+@dataclass(frozen=True)
+class Rolling(Element):
+    """An element of type ``rolling``.
+
+    Rolling: wheel j rolls on a line of body i without slip, Φ1 = n·d - radius, Φ2 = u·d +
+    radius (angle_j - angle_i) - offset with u along the line, n its left normal and d = point_j
+    - point_i. The force on body i at the point of contact is +λ1 along n and +λ2 along u, on
+    body j the opposite.
+
+    Attributes:
+        i: Point of body i on the line, as `body.point`.
+        j: Centre of the wheel, as `body.point`.
+        radius: Radius of the wheel; > 0 for a wheel on the left of the line, < 0 on its right
+            [m].
+        axis: Angle of the line in the frame of body i [rad].
+        offset: Φ2 of the bodies without it [m].
+    """
+
+    i: str
+    j: str
+    radius: Number
+    axis: Number = 0.0
+    offset: Number = 0.0
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "rolling"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "radius": "number",
+        "axis": "number",
+        "offset": "number",
+    }
+
+
+@dataclass(frozen=True)
 class Coupling(Element):
     """An element of type ``coupling``.
 
@@ -386,6 +555,149 @@ class ElementMethods:
             angle: Angle of body j against body i [rad].
         """
         return self._add(Weld(name, i=i, j=j, angle=angle))
+
+    def pin_in_slot(self, name: str, i: str, j: str, *, axis: Number = 0.0) -> PinInSlot:
+        """Add an element of type ``pin_in_slot`` and return it.
+
+        Pin in a slot: point j stays on the line through point i along the slot, Φ = n·d with n the
+        left normal of the slot and d = point_j - point_i (Haug 3.3.13). The force of the slot is
+        normal to it and acts at the pin: on body i +λ along n, on body j -λ.
+
+        Args:
+            name: its name in the model.
+            i: Point of body i on the line of the slot, as `body.point`.
+            j: Point of body j, the pin, as `body.point`.
+            axis: Angle of the slot in the frame of body i [rad].
+        """
+        return self._add(PinInSlot(name, i=i, j=j, axis=axis))
+
+    def gear(
+        self,
+        name: str,
+        i: str,
+        j: str,
+        *,
+        radii: Pair | None = None,
+        teeth: Pair | None = None,
+        module: Number | None = None,
+        internal: bool = False,
+        offset: Number = 0.0,
+    ) -> Gear:
+        """Add an element of type ``gear`` and return it.
+
+        Gear pair: two wheels whose pitch circles roll on each other, Φ = r_i (angle_i - θ) + σ r_j
+        (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the direction from centre
+        i to centre j and σ = 1, for internal teeth -1. The joints of the mechanism hold the centres
+        r_i + r_j apart, for internal teeth |r_i - r_j|. λ is the tangential force of the teeth; on
+        wheel j act -σ λ r_j about its centre and a force of magnitude |λ| normal to the line of
+        centres.
+
+        Args:
+            name: its name in the model.
+            i: Centre of wheel i, as `body.point`.
+            j: Centre of wheel j, as `body.point`.
+            radii: Radii of the pitch circles [m].
+            teeth: Numbers of teeth, in place of radii.
+            module: Module, with teeth: each radius is module × teeth / 2 [m].
+            internal: Whether one wheel is inside the other.
+            offset: Φ of the wheels without it [m].
+        """
+        return self._add(
+            Gear(
+                name,
+                i=i,
+                j=j,
+                radii=radii,
+                teeth=teeth,
+                module=module,
+                internal=internal,
+                offset=offset,
+            )
+        )
+
+    def belt(
+        self,
+        name: str,
+        i: str,
+        j: str,
+        *,
+        radii: Pair,
+        crossed: bool = False,
+        offset: Number = 0.0,
+    ) -> Belt:
+        """Add an element of type ``belt`` and return it.
+
+        Belt: two wheels joined by a belt or chain without slip, Φ = r_i (angle_i - θ) + σ r_j
+        (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the direction from centre
+        i to centre j and σ = -1, for a crossed belt 1. The joints of the mechanism hold the
+        distance of the centres. λ is the difference of the forces of the strands; on wheel j act -σ
+        λ r_j about its centre and a force normal to the line of centres, λ (r_i + σ r_j)/distance.
+
+        Args:
+            name: its name in the model.
+            i: Centre of wheel i, as `body.point`.
+            j: Centre of wheel j, as `body.point`.
+            radii: Radii of the wheels [m].
+            crossed: Whether the strands cross, so that the wheels turn in opposite senses.
+            offset: Φ of the wheels without it [m].
+        """
+        return self._add(Belt(name, i=i, j=j, radii=radii, crossed=crossed, offset=offset))
+
+    def rack(
+        self,
+        name: str,
+        i: str,
+        j: str,
+        *,
+        radius: Number,
+        axis: Number = 0.0,
+        offset: Number = 0.0,
+    ) -> Rack:
+        """Add an element of type ``rack`` and return it.
+
+        Rack and pinion: wheel j rolls on a line of body i, Φ = u·d + radius (angle_j - angle_i) -
+        offset with u along the line and d = point_j - point_i. The joints of the mechanism hold the
+        centre at the distance radius to the left of the line. λ is the tangential force of the
+        teeth: on body i +λ along u at the pitch point, on body j -λ.
+
+        Args:
+            name: its name in the model.
+            i: Point of body i on the pitch line, as `body.point`.
+            j: Centre of the pinion, as `body.point`.
+            radius: Radius of the pitch circle; > 0 for a pinion on the left of the line, < 0 on its
+                right [m].
+            axis: Angle of the line in the frame of body i [rad].
+            offset: Φ of the bodies without it [m].
+        """
+        return self._add(Rack(name, i=i, j=j, radius=radius, axis=axis, offset=offset))
+
+    def rolling(
+        self,
+        name: str,
+        i: str,
+        j: str,
+        *,
+        radius: Number,
+        axis: Number = 0.0,
+        offset: Number = 0.0,
+    ) -> Rolling:
+        """Add an element of type ``rolling`` and return it.
+
+        Rolling: wheel j rolls on a line of body i without slip, Φ1 = n·d - radius, Φ2 = u·d +
+        radius (angle_j - angle_i) - offset with u along the line, n its left normal and d = point_j
+        - point_i. The force on body i at the point of contact is +λ1 along n and +λ2 along u, on
+        body j the opposite.
+
+        Args:
+            name: its name in the model.
+            i: Point of body i on the line, as `body.point`.
+            j: Centre of the wheel, as `body.point`.
+            radius: Radius of the wheel; > 0 for a wheel on the left of the line, < 0 on its right
+                [m].
+            axis: Angle of the line in the frame of body i [rad].
+            offset: Φ2 of the bodies without it [m].
+        """
+        return self._add(Rolling(name, i=i, j=j, radius=radius, axis=axis, offset=offset))
 
     def coupling(
         self,
