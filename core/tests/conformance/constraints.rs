@@ -334,10 +334,12 @@ fn duals_over_a_parameter_are_differences() {
                 }
             });
             let (derived, _) = terms(&dual, &at.map(Dual::<1>::lift), Dual::lift(TIME));
-            let (up, down) = (moved(h), moved(-h));
+            let [a, b, c_, d_] = [-2.0, -1.0, 1.0, 2.0].map(|k| moved(k * h));
             for part in 0..3 {
                 for (k, d) in derived[part].iter().enumerate() {
-                    let difference = (up[part][k] - down[part][k]) / (2.0 * h);
+                    let near_by = c_[part][k] - b[part][k];
+                    let far = d_[part][k] - a[part][k];
+                    let difference = (8.0 * near_by - far) / (12.0 * h);
                     near(c.kind(), d.slope[0], difference, 1e-7);
                 }
             }
