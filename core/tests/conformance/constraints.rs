@@ -307,7 +307,7 @@ fn lanes_are_scalars_side_by_side() {
 
 #[test]
 fn duals_over_a_parameter_are_differences() {
-    let h = 1e-6;
+    let h = 1e-4;
     each(|c, at| {
         let mut count = 0;
         c.map(&mut |_| count += 1);
@@ -334,11 +334,11 @@ fn duals_over_a_parameter_are_differences() {
                 }
             });
             let (derived, _) = terms(&dual, &at.map(Dual::<1>::lift), Dual::lift(TIME));
-            let [a, b, c_, d_] = [-2.0, -1.0, 1.0, 2.0].map(|k| moved(k * h));
+            let [far_down, down, up, far_up] = [-2.0, -1.0, 1.0, 2.0].map(|k| moved(k * h));
             for part in 0..3 {
                 for (k, d) in derived[part].iter().enumerate() {
-                    let near_by = c_[part][k] - b[part][k];
-                    let far = d_[part][k] - a[part][k];
+                    let near_by = up[part][k] - down[part][k];
+                    let far = far_up[part][k] - far_down[part][k];
                     let difference = (8.0 * near_by - far) / (12.0 * h);
                     near(c.kind(), d.slope[0], difference, 1e-7);
                 }
