@@ -290,6 +290,86 @@ class Rolling(Element):
 
 
 @dataclass(frozen=True)
+class PointOnCurve(Element):
+    """An element of type ``point_on_curve``.
+
+    Point on a curve: Φ = P_i - C(u), with the curve C(u) in the frame of its body j and the
+    parameter u of the contact as an unknown. The force on body j is +λ, on body i -λ, normal to
+    the curve.
+
+    Attributes:
+        i: Point of body i, as `body.point`.
+        curve: Curve of body j, as `body.curve`.
+    """
+
+    i: str
+    curve: str
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "point_on_curve"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "curve": "curve",
+    }
+
+
+@dataclass(frozen=True)
+class RollerOnCurve(Element):
+    """An element of type ``roller_on_curve``.
+
+    Roller on a curve: Φ = P_i - C(u) - radius ν(u), with the curve C(u) in the frame of its
+    body j and ν the unit normal to the right of growing u, which is the outside of a counter-
+    clockwise rim. The force on body j is +λ, on body i -λ, normal to the curve at the point of
+    contact; `normal` > 0 presses the roller onto the curve.
+
+    Attributes:
+        i: Centre of the roller on body i, as `body.point`.
+        curve: Curve of body j, as `body.curve`.
+        radius: Radius of the roller [m].
+        side: Side of the curve on which the roller is, seen along growing u.
+    """
+
+    i: str
+    curve: str
+    radius: Number
+    side: Literal["right", "left"] = "right"
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "roller_on_curve"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "curve": "curve",
+        "radius": "number",
+        "side": "word",
+    }
+
+
+@dataclass(frozen=True)
+class FlatOnCurve(Element):
+    """An element of type ``flat_on_curve``.
+
+    Flat face on a curve: the straight line of body i through P_i, at the angle `axis`, touches
+    the curve C(u) of body j. With n the normal of the line, to its left: Φ1 = n·(C(u) - P_i)
+    and Φ2 = n·C'/|C'|. The force on body j is -λ1 n, on body i +λ1 n, at the point of contact;
+    `normal` > 0 presses the face onto the curve.
+
+    Attributes:
+        i: Point of the face on body i, as `body.point`.
+        curve: Curve of body j, as `body.curve`.
+        axis: Angle of the face in the frame of body i [rad].
+    """
+
+    i: str
+    curve: str
+    axis: Number = 0.0
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "flat_on_curve"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "curve": "curve",
+        "axis": "number",
+    }
+
+
+@dataclass(frozen=True)
 class Coupling(Element):
     """An element of type ``coupling``.
 
@@ -698,6 +778,61 @@ class ElementMethods:
             offset: Φ2 of the bodies without it [m].
         """
         return self._add(Rolling(name, i=i, j=j, radius=radius, axis=axis, offset=offset))
+
+    def point_on_curve(self, name: str, i: str, curve: str) -> PointOnCurve:
+        """Add an element of type ``point_on_curve`` and return it.
+
+        Point on a curve: Φ = P_i - C(u), with the curve C(u) in the frame of its body j and the
+        parameter u of the contact as an unknown. The force on body j is +λ, on body i -λ, normal to
+        the curve.
+
+        Args:
+            name: its name in the model.
+            i: Point of body i, as `body.point`.
+            curve: Curve of body j, as `body.curve`.
+        """
+        return self._add(PointOnCurve(name, i=i, curve=curve))
+
+    def roller_on_curve(
+        self,
+        name: str,
+        i: str,
+        curve: str,
+        *,
+        radius: Number,
+        side: Literal["right", "left"] = "right",
+    ) -> RollerOnCurve:
+        """Add an element of type ``roller_on_curve`` and return it.
+
+        Roller on a curve: Φ = P_i - C(u) - radius ν(u), with the curve C(u) in the frame of its
+        body j and ν the unit normal to the right of growing u, which is the outside of a counter-
+        clockwise rim. The force on body j is +λ, on body i -λ, normal to the curve at the point of
+        contact; `normal` > 0 presses the roller onto the curve.
+
+        Args:
+            name: its name in the model.
+            i: Centre of the roller on body i, as `body.point`.
+            curve: Curve of body j, as `body.curve`.
+            radius: Radius of the roller [m].
+            side: Side of the curve on which the roller is, seen along growing u.
+        """
+        return self._add(RollerOnCurve(name, i=i, curve=curve, radius=radius, side=side))
+
+    def flat_on_curve(self, name: str, i: str, curve: str, *, axis: Number = 0.0) -> FlatOnCurve:
+        """Add an element of type ``flat_on_curve`` and return it.
+
+        Flat face on a curve: the straight line of body i through P_i, at the angle `axis`, touches
+        the curve C(u) of body j. With n the normal of the line, to its left: Φ1 = n·(C(u) - P_i)
+        and Φ2 = n·C'/|C'|. The force on body j is -λ1 n, on body i +λ1 n, at the point of contact;
+        `normal` > 0 presses the face onto the curve.
+
+        Args:
+            name: its name in the model.
+            i: Point of the face on body i, as `body.point`.
+            curve: Curve of body j, as `body.curve`.
+            axis: Angle of the face in the frame of body i [rad].
+        """
+        return self._add(FlatOnCurve(name, i=i, curve=curve, axis=axis))
 
     def coupling(
         self,
