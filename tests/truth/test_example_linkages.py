@@ -120,7 +120,7 @@ def test_the_jansen_leg() -> None:
     sol = solved("jansen_leg")
     speed = 20 * 2 * np.pi / 60
     pin = jansen(sol.t, speed)
-    for point in ("crank.M", "shoulder.T", "shoulder.L", "hip.K", "foot.N", "foot.F"):
+    for point in ("crank.M", "shoulder.T", "shoulder.L", "thigh.K", "foot.N", "foot.F"):
         same_motion(sol, point, pin[point[-1]])
 
     def plate(mass: float, inertia: float, corners: str) -> np.ndarray:
