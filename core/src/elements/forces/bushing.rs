@@ -68,10 +68,6 @@ impl Force for Bushing {
         out.copy_from_slice(&[d.x, d.y, measure::turned(at)]);
     }
 
-    fn points<S: Real>(e: &Bushing<S>) -> Option<[Local<S>; 2]> {
-        Some([e.i.s, e.j.s])
-    }
-
     fn free_angle<S: Real>(_: &Bushing<S>) -> Option<S> {
         Some(S::zero())
     }

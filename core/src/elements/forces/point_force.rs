@@ -41,10 +41,6 @@ impl Force for PointForce {
         out.copy_from_slice(&[place.x, place.y]);
     }
 
-    fn points<S: Real>(e: &PointForce<S>) -> Option<[Local<S>; 2]> {
-        Some([Local::zero(), e.j.s])
-    }
-
     fn action<S: Real>(e: &PointForce<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         let [x, y] = e.force;
         let force = match e.frame {
