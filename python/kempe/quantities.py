@@ -133,8 +133,6 @@ def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
     found["force"] = Quantity("N", lambda: _size(view.force(on=info.j)))
     for body in dict.fromkeys(info.bodies):
         found |= _reaction(motion, info.name, body)
-    for name, unit, _, _ in info.results:
-        found[name] = Quantity(unit, partial(getattr, view, name))
     for k, (name, unit) in enumerate(info.coordinates, info.columns.start):
         found[name] = Quantity(unit, partial(_column, partial(getattr, motion, "q"), k))
         rate = partial(_column, partial(getattr, motion, "v"), k)

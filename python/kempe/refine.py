@@ -1,0 +1,145 @@
+"""Local maxima on the interpolant, and the singular positions beside which values mean nothing.
+
+A run passes positions in which constraints lose their rank. Beside such a position a multiplier is
+the quotient of two small numbers: it may have a pole there, and the errors of the state, divided by
+little, exceed it. A maximum that a search finds there depends on how close to it the search comes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kempe.arrays import Floats
+from kempe.errors import KempeError
+
+#: Local maxima above this share of the largest one are refined together, so many at most.
+_SHARE, _TOGETHER = 0.9, 8
+#: A bracket is divided so often into so many intervals; each time it shrinks by half as much.
+_ROUNDS, _INTERVALS = 4, 16
+#: So many groups of maxima are examined at most.
+_GROUPS = 64
+#: A maximum of a smooth quantity is below this multiple of the values at the instants beside it, as
+#: each step of the integrator has several instants.
+STEEP = 4.0
+#: Instants on either side of a singular position at which errors of states may hide the value, and
+#: instants up to which its neighbourhood is examined.
+_NEAR, _FAR = 8, 40
+#: A pole is worth this share of the values around it, ``_NEAR`` instants beside it.
+_POLE = 0.02
+
+#: A quantity at some times, with the sign that makes the wanted extreme value a maximum.
+Read = Callable[[Floats], Floats]
+Indices = NDArray[np.intp]
+
+
+class Maxima:
+    """The largest local maxima of a quantity, without those beside singular positions.
+
+    Attributes:
+        values: the largest maxima that were found, (n,); none if all are beside such positions.
+        t: their times, s.
+        near: the indices of singular positions, those met on the way too.
+        near_t: closer times of these positions, s.
+    """
+
+    def __init__(
+        self,
+        read: Read,
+        t: Floats,
+        values: Floats,
+        known: Maxima | None = None,
+        steep: float = STEEP,
+    ) -> None:
+        self._t, self._sampled, self._steep = t, values, steep
+        self.values, self.t = np.empty(0), np.empty(0)
+        self.near: Indices = np.empty(0, dtype=np.intp) if known is None else known.near
+        self.near_t: Floats = np.empty(0) if known is None else known.near_t
+        left = _local_maxima(values)
+        for _ in range(_GROUPS):
+            left = left[self._is_clear(left)]
+            if not len(left) or len(self.values):
+                break
+            group = left[values[left] >= self._least_worth(left[0])][:_TOGETHER]
+            self._examine(group, read)
+            left = np.setdiff1d(left, group, assume_unique=True)
+            left = left[np.argsort(-values[left], kind="stable")]
+        self._add_edges()
+
+    def _least_worth(self, best: int) -> float:
+        return float(self._sampled[best]) - (1.0 - _SHARE) * abs(float(self._sampled[best]))
+
+    def _is_clear(self, k: Indices) -> NDArray[np.bool_]:
+        clear: NDArray[np.bool_] = (np.abs(k[:, None] - self.near) > _NEAR).all(axis=1)
+        return clear
+
+    def _examine(self, group: Indices, read: Read) -> None:
+        """Refine some maxima, and keep those that are none of a singular position."""
+        beside = np.clip(group[:, None] + [-1, 1], 0, len(self._t) - 1)
+        highest, at = _refined(self._t[beside], read)
+        steep = np.abs(highest) > self._steep * np.abs(self._sampled[beside]).max(axis=1)
+        self.near = np.append(self.near, group[steep])
+        self.near_t = np.append(self.near_t, at[steep])
+        kept = ~steep & self._is_clear(group)
+        self.values, self.t = highest[kept], at[kept]
+
+    def _add_edges(self) -> None:
+        """Count a quantity without a pole up to where the errors of states begin."""
+        bounded = [k for k in self.near if not self._has_pole(k)]
+        edges = np.array([e for k in bounded for e in (k - _NEAR, k + _NEAR)], dtype=np.intp)
+        edges = edges[(edges >= 0) & (edges < len(self._t))]
+        self.values = np.append(self.values, self._sampled[edges])
+        self.t = np.append(self.t, self._t[edges])
+
+    @property
+    def poles(self) -> Floats:
+        """Times of the singular positions beside which the quantity has no bound, s."""
+        has = [self._has_pole(k) for k in self.near]
+        return np.sort(self.near_t[np.array(has, dtype=bool)])
+
+    def _has_pole(self, k: int) -> bool:
+        """Whether the quantity grows like 1/x towards a singular position from either side."""
+        return any(self._grows(k + side * np.arange(_NEAR, _FAR + 1), k) for side in (-1, 1))
+
+    def _grows(self, window: Indices, k: int) -> bool:
+        window = window[(window >= 0) & (window < len(self._t))]
+        if len(window) < _FAR - _NEAR:
+            return False
+        x = (self._t[window] - self._t[k]) / (self._t[window[0]] - self._t[k])
+        terms = np.stack([1.0 / x, *(x**power for power in range(4))], axis=1)
+        values = self._sampled[window]
+        pole = np.linalg.lstsq(terms, values, rcond=None)[0][0]
+        return bool(abs(pole) > _POLE * np.abs(values).max())
+
+
+def _local_maxima(values: Floats) -> Indices:
+    """Indices of the local maxima, the largest first."""
+    padded = np.concatenate([[-np.inf], values, [-np.inf]])
+    found = np.flatnonzero((values >= padded[:-2]) & (values >= padded[2:]))
+    return found[np.argsort(-values[found], kind="stable")]
+
+
+def _refined(brackets: Floats, read: Read) -> tuple[Floats, Floats]:
+    """The largest value in each bracket and its time; ∞ where the quantity is not unique.
+
+    Each bracket shrinks to the parts beside its largest value.
+    """
+    share = np.linspace(0.0, 1.0, _INTERVALS + 1)
+    rows = np.arange(len(brackets))
+    highest, at = np.full(len(brackets), -np.inf), brackets[:, 0]
+    for _ in range(_ROUNDS):
+        times = brackets[:, :1] + share * np.diff(brackets)
+        try:
+            values = read(times.ravel()).reshape(times.shape)
+        except KempeError:
+            if len(brackets) == 1:
+                return np.array([np.inf]), at
+            each = [_refined(one[None], read) for one in brackets]
+            return np.concatenate([v for v, _ in each]), np.concatenate([t for _, t in each])
+        k = values.argmax(axis=1)
+        highest, at = values[rows, k], times[rows, k]
+        ends = np.clip(k[:, None] + [-1, 1], 0, _INTERVALS)
+        brackets = np.take_along_axis(times, ends, axis=1)
+    return highest, at
