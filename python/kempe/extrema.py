@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
@@ -13,7 +12,7 @@ import numpy as np
 from kempe.arrays import Floats
 from kempe.fine import fine
 from kempe.motion import Motion
-from kempe.refine import STEEP, Maxima
+from kempe.refine import Maxima
 from kempe.solution import Solution
 
 #: A quantity of a motion, (n_t,), such as ``lambda motion: motion.body("crank").omega``.
@@ -112,7 +111,7 @@ def _maxima(motion: Motion, quantity: Quantity, sign: float) -> Maxima | None:
     if np.ptp(values) <= _SAME * float(np.abs(values).max()):
         return None
     read = partial(_read, motion, quantity, sign)
-    return Maxima(read, dense.t, values, _singular(motion), _steep(motion))
+    return Maxima(read, dense.t, values, _singular(motion), resolved=_resolved(motion))
 
 
 def _read(solution: Solution, quantity: Quantity, sign: float, t: Floats) -> Floats:
@@ -127,15 +126,15 @@ def _singular(solution: Solution) -> Maxima | None:
         size = _multipliers(dense)
         changes = np.ptp(size) > _SAME * float(size.max())
         read = partial(_read, solution, _multipliers, 1.0)
-        found = Maxima(read, dense.t, size, steep=_steep(solution)) if changes else None
+        found = Maxima(read, dense.t, size, resolved=_resolved(solution)) if changes else None
         _passed[solution] = found
     return _passed[solution]
 
 
-def _steep(solution: Solution) -> float:
-    """How steep a maximum may be: without limit where steps have less than one instant."""
+def _resolved(solution: Solution) -> bool:
+    """Whether each step has an instant, so that only errors are steeper than between instants."""
     assert solution.dense is not None
-    return STEEP if len(fine(solution).t) >= len(solution.dense.t) else math.inf
+    return len(fine(solution).t) >= len(solution.dense.t)
 
 
 def _multipliers(motion: Motion) -> Floats:

@@ -21,12 +21,15 @@ _SHARE, _TOGETHER = 0.9, 8
 _ROUNDS, _INTERVALS = 4, 16
 #: So many groups of maxima are examined at most.
 _GROUPS = 64
-#: A maximum of a smooth quantity is below this multiple of the values at the instants beside it, as
-#: each step of the integrator has several instants.
-STEEP = 4.0
+#: A maximum between instants exceeds that at an instant by at most this multiple of the change from
+#: there to the instants beside it, as each step of the integrator has several instants: by an
+#: eighth at a smooth maximum, by the whole at a kink. A share of the value is the error of states.
+_STEEP, _ERROR = 2.0, 1e-3
 #: Instants on either side of a singular position at which errors of states may hide the value, and
 #: instants up to which its neighbourhood is examined.
 _NEAR, _FAR = 8, 40
+#: Degree of the polynomial that continues a quantity across a singular position.
+_DEGREE = 6
 #: A pole is worth this share of the values around it, ``_NEAR`` instants beside it.
 _POLE = 0.02
 
@@ -51,9 +54,10 @@ class Maxima:
         t: Floats,
         values: Floats,
         known: Maxima | None = None,
-        steep: float = STEEP,
+        *,
+        resolved: bool = True,
     ) -> None:
-        self._t, self._sampled, self._steep = t, values, steep
+        self._t, self._sampled, self._resolved = t, values, resolved
         self.values, self.t = np.empty(0), np.empty(0)
         self.near: Indices = np.empty(0, dtype=np.intp) if known is None else known.near
         self.near_t: Floats = np.empty(0) if known is None else known.near_t
@@ -66,7 +70,7 @@ class Maxima:
             self._examine(group, read)
             left = np.setdiff1d(left, group, assume_unique=True)
             left = left[np.argsort(-values[left], kind="stable")]
-        self._add_edges()
+        self._add_across()
 
     def _least_worth(self, best: int) -> float:
         return float(self._sampled[best]) - (1.0 - _SHARE) * abs(float(self._sampled[best]))
@@ -79,19 +83,33 @@ class Maxima:
         """Refine some maxima, and keep those that are none of a singular position."""
         beside = np.clip(group[:, None] + [-1, 1], 0, len(self._t) - 1)
         highest, at = _refined(self._t[beside], read)
-        steep = np.abs(highest) > self._steep * np.abs(self._sampled[beside]).max(axis=1)
+        here = self._sampled[group]
+        change = np.abs(self._sampled[beside] - here[:, None]).max(axis=1)
+        steep = highest - here > _STEEP * change + _ERROR * np.abs(here)
+        steep &= self._resolved
         self.near = np.append(self.near, group[steep])
         self.near_t = np.append(self.near_t, at[steep])
         kept = ~steep & self._is_clear(group)
         self.values, self.t = highest[kept], at[kept]
 
-    def _add_edges(self) -> None:
-        """Count a quantity without a pole up to where the errors of states begin."""
-        bounded = [k for k in self.near if not self._has_pole(k)]
-        edges = np.array([e for k in bounded for e in (k - _NEAR, k + _NEAR)], dtype=np.intp)
-        edges = edges[(edges >= 0) & (edges < len(self._t))]
-        self.values = np.append(self.values, self._sampled[edges])
-        self.t = np.append(self.t, self._t[edges])
+    def _add_across(self) -> None:
+        """Continue a quantity without a pole across singular positions, from both sides."""
+        away = np.arange(-_FAR, _FAR + 1)
+        for k in self.near:
+            window = k + away
+            if window[0] < 0 or window[-1] >= len(self._t) or self._has_pole(k):
+                continue
+            x = (self._t[window] - self._t[k]) / (self._t[window[-1]] - self._t[window[0]])
+            outside = (np.abs(window[:, None] - self.near) > _NEAR).all(axis=1)
+            if not (outside[:_FAR].any() and outside[_FAR:].any()):
+                continue
+            terms = np.polynomial.Polynomial.fit(
+                x[outside], self._sampled[window[outside]], _DEGREE
+            )
+            inside = terms(x[~outside])
+            best = int(inside.argmax())
+            self.values = np.append(self.values, inside[best])
+            self.t = np.append(self.t, self._t[window[~outside][best]])
 
     @property
     def poles(self) -> Floats:

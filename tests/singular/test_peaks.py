@@ -5,6 +5,8 @@ vertical forces, and moments about the pivots of the cranks the horizontal ones.
 by the sine of the crank angle: for more than one window they have a pole on the line.
 """
 
+from typing import Any
+
 import kempe as kp
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from kempe.extrema import largest, least, peak, unbounded
 from kempe.plot.panel import curve
 from kempe.report import summary
 
+from examples import n_four_bar
 from examples.n_four_bar import GRAVITY, rate, upright, windows
 
 
@@ -52,6 +55,19 @@ def test_peaks_are_those_away_from_singular_positions(n: int, k: int) -> None:
         less = least(sol, lambda motion, axis=axis: force(k, motion)[:, axis])
         found, true = (most.value, less.value), (exact[:, axis].max(), exact[:, axis].min())
         assert found == pytest.approx(true, rel=1e-6)
+
+
+@pytest.mark.parametrize("method", [kp.Auto(), kp.RK45(), kp.DOP853()])
+@pytest.mark.parametrize("n", [1, 2])
+def test_a_finite_peak_on_the_line(n: int, method: object, monkeypatch: Any) -> None:
+    """Without weight each coupler is carried by m ω²/2 = 0.5 N along the cranks."""
+    monkeypatch.setattr(n_four_bar, "GRAVITY", 0.0)
+    model = windows(n)
+    sol = kp.dynamics(model, upright(model, n), t_end=10, method=method)
+    for extreme, value in ((largest, 0.5), (least, -0.5)):
+        found = extreme(sol, lambda motion: force(0, motion)[:, 0])
+        assert found.value == pytest.approx(value, rel=0.02)
+    assert not len(unbounded(sol, lambda motion: force(0, motion)[:, 0]))
 
 
 def test_times_without_bound_are_those_on_the_line() -> None:
