@@ -28,7 +28,7 @@ _STEEP, _ERROR = 2.0, 1e-3
 #: Instants on either side of a singular position at which errors of states may hide the value, and
 #: instants up to which its neighbourhood is examined.
 _NEAR, _FAR = 8, 40
-#: Degree of the polynomial that continues a quantity across a singular position.
+#: Degree of polynomials for the smooth part of a quantity beside a singular position.
 _DEGREE = 6
 #: A pole is worth this share of the values around it, ``_NEAR`` instants beside it.
 _POLE = 0.02
@@ -126,7 +126,7 @@ class Maxima:
         if len(window) < _FAR - _NEAR:
             return False
         x = (self._t[window] - self._t[k]) / (self._t[window[0]] - self._t[k])
-        terms = np.stack([1.0 / x, *(x**power for power in range(4))], axis=1)
+        terms = np.stack([1.0 / x, *(x**power for power in range(_DEGREE))], axis=1)
         values = self._sampled[window]
         pole = np.linalg.lstsq(terms, values, rcond=None)[0][0]
         return bool(abs(pole) > _POLE * np.abs(values).max())
