@@ -7,6 +7,7 @@ mod mechanisms;
 
 mod in_time;
 mod jumps;
+mod kinks;
 mod of_elements;
 mod on_state;
 
@@ -21,10 +22,15 @@ const INERTIA: f64 = 2.0;
 
 /// A wheel on a pin, with a torque.
 fn wheel(torque: &str) -> (Model, State) {
+    wheel_with(torque, "")
+}
+
+/// A wheel on a pin, with a torque and further tables of the file.
+fn wheel_with(torque: &str, more: &str) -> (Model, State) {
     let text = format!(
         "[bodies.ground]\npoints = {{ O = [0, 0] }}\n[bodies.wheel]\nmass = 1\ninertia = {INERTIA}\n\
          points = {{ O = [0, 0] }}\n[joints.pin]\ntype = 'revolute'\ni = 'ground.O'\nj = 'wheel.O'\n\
-         [forces.drive]\ntype = 'torque'\nj = 'wheel'\ntorque = '{torque}'\n"
+         [forces.drive]\ntype = 'torque'\nj = 'wheel'\ntorque = '{torque}'\n{more}"
     );
     let model = mechanisms::model(&text);
     let state = State { t: 0.0, q: vec![0.0; 3], v: vec![0.0; 3], z: Vec::new() };

@@ -141,7 +141,7 @@ impl Switching {
         ode.workspace.state_rates(model, t, &mut dz);
         let moving = switches::functions_in_time(model, t, [q, v, z], [ode.workspace.a(), &dz]);
         for k in &self.on_state {
-            let (boundaries, sigma) = (model.switches[*k].boundaries, moving[*k]);
+            let (boundaries, sigma) = (&model.switches[*k].boundaries, moving[*k]);
             if !self.pieces[*k].is_nan() {
                 continue;
             }
@@ -268,7 +268,7 @@ impl Switching {
         y: &[f64],
         switch: usize,
     ) -> Result<(), Cause<Breakdown>> {
-        let boundaries = ode.model.switches[switch].boundaries;
+        let boundaries = &ode.model.switches[switch].boundaries;
         self.evaluate(ode.model, t, y);
         let other = boundaries.next(self.sigma[switch], self.pieces[switch]);
         let mut rates = [vec![0.0; y.len()], vec![0.0; y.len()]];
