@@ -1,10 +1,10 @@
 //! Knots of tables and the ends of `harmonic`: runs step to them exactly.
 
 use super::mechanisms::{self, close, Random};
-use super::{count, methods, options, order, run, wheel_with, INERTIA};
+use super::{count, methods, options, run, wheel_with, INERTIA};
 use kempe::analyses::dynamics::{dynamics, Reason, Run, Scheme};
 use kempe::analyses::State;
-use kempe::integrate::{Dop853, Flow, Rk4};
+use kempe::integrate::{Flow, Rk4};
 use kempe::model::Model;
 
 /// A table of a case.
@@ -130,23 +130,6 @@ fn harmonic_rises_end_their_steps() {
                 found.trajectory.q.chunks(3).any(|q| (q[2] - knot).abs() < accuracy(&method));
             assert!(near, "{what}: no step ends at {knot}");
         }
-    }
-}
-
-/// Stage values beyond a knot must not see the next line.
-#[test]
-fn constant_steps_keep_their_order_across_knots() {
-    for (interpolation, y) in
-        [("linear", [6.0, 6.0, -9.0, -7.0]), ("monotone", [6.0, 1.0, -9.0, -14.0])]
-    {
-        let rest = format!("interpolation = \"{interpolation}\"\noutside = \"linear\"");
-        let given = table("spring", &[-0.6, 0.0, 0.3, 0.5], &y, &rest);
-        let (model, mut state) = wheel_with("4*spring(wheel.angle)", &given);
-        state.v[2] = 2.5;
-        let at = |method: Scheme| end(&run(&given, &model, &state, &options(method, 1.5)))[0];
-        let exact = at(Scheme::Dop853(Dop853::new(1e-13, 1e-15)));
-        let order = order(|h| at(Scheme::Rk4(Rk4::new(h))) - exact);
-        assert!(order > 3.0, "{interpolation}: {order}");
     }
 }
 
