@@ -8,6 +8,8 @@
 //! is released: its law then decides by itself, until it has kept one piece for [`CALM`] steps. Otherwise the motion
 //! slides along the switch, which laws cannot describe, and the run ends.
 
+mod narrow;
+
 use super::law_jump::Jump;
 use super::motion_ode::MotionOde;
 use super::switch_schedule::{changed_constraints, Schedule};
@@ -358,12 +360,8 @@ impl Switching {
     /// A step without a crossing. Switches that were never in the piece that was held change at its beginning.
     fn after_smooth_step(&mut self, model: &Model, step: &Step<'_>, scanned: &Scan) -> After {
         if !scanned.negative.is_empty() {
-            let through = scanned.negative.iter().filter_map(|k| self.through(model, step, *k));
-            let through: Vec<(f64, usize, f64)> = through.collect();
-            let first =
-                through.iter().min_by(|a, b| (self.sign * a.0).total_cmp(&(self.sign * b.0)));
-            if let Some((t, k, piece)) = first {
-                self.due = Some(Due { t: *t, changes: vec![(*k, *piece)], tries: 0 });
+            if let Some((t, k, piece)) = self.first_through(model, step, &scanned.negative) {
+                self.due = Some(Due { t, changes: vec![(k, piece)], tries: 0 });
                 return After::Again;
             }
             self.evaluate_at(model, step, step.t_old + 0.5 * (step.t - step.t_old));
@@ -380,40 +378,6 @@ impl Switching {
         }
         self.hold_calm(model, step);
         After::Accept
-    }
-
-    /// The time at which a switch left a narrow piece that it entered at the beginning of a step, and the piece beyond.
-    fn through(
-        &mut self,
-        model: &Model,
-        step: &Step<'_>,
-        index: usize,
-    ) -> Option<(f64, usize, f64)> {
-        let k = self.on_state[index];
-        let boundaries = &model.switches[k].boundaries;
-        let [low, high] = boundaries.of(self.pieces[k]);
-        self.evaluate_at(model, step, step.t_old);
-        let above = self.sigma[k] - low < high - self.sigma[k];
-        let far = if above { high } else { low };
-        let mut is_beyond = |t: f64| {
-            self.evaluate_at(model, step, t);
-            if above {
-                self.sigma[k] > far
-            } else {
-                self.sigma[k] < far
-            }
-        };
-        let (mut a, mut b) = (step.t_old, step.t_old + 0.5 * (step.t - step.t_old));
-        if is_beyond(a) || !is_beyond(b) {
-            return None;
-        }
-        let spacing = 4.0 * f64::EPSILON * step.t.abs().max(step.t_old.abs());
-        while (b - a).abs() > spacing {
-            let middle = a + 0.5 * (b - a);
-            *(if is_beyond(middle) { &mut b } else { &mut a }) = middle;
-        }
-        // the far boundary of a half line is infinite, and never passed
-        Some((b, k, boundaries.beside(far, above)))
     }
 
     /// Holds released switches again that have kept one piece.
