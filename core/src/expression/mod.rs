@@ -31,6 +31,7 @@
 mod compile;
 mod error;
 mod inference;
+mod knots;
 mod lexer;
 mod limits;
 mod motion_law;
@@ -54,6 +55,7 @@ pub mod unit;
 
 pub use error::ExpressionError;
 pub use inference::Inferred;
+pub use knots::Knots;
 pub use limits::{MAX_DEPTH, MAX_LENGTH, MAX_OPERANDS};
 pub use motion_law::MotionLaw;
 pub use names::{is_identifier, is_reserved, Names};

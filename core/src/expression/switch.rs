@@ -1,18 +1,21 @@
-//! Operations whose value is smooth only piece by piece: conditions, |x|, steps, minima.
+//! Operations whose value is smooth only piece by piece: conditions, |x|, steps, minima, harmonic rises, tables.
 //!
 //! Each has a switch function σ and boundaries on its axis. Between two boundaries lies a *piece*, on which the operation
 //! is smooth. An integrator holds the piece of each switch during a step, so that no stage of the step sees another
 //! piece, and ends the step where σ reaches a boundary.
 
+use super::knots::Knots;
+use super::motion_law::MotionLaw;
 use super::operation::{Binary, Relation, Unary};
 use crate::math::Real;
+use std::sync::Arc;
 
 /// An operation with a switch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Piecewise {
     /// One of two values; σ = left - right.
     Choose(Relation),
-    /// |x|, the sign, the unit step or the floor of x; σ = x.
+    /// |x|, the sign, the unit step, the floor or the harmonic rise of x; σ = x.
     Unary(Unary),
     /// The smaller or larger of a and b; σ = a - b.
     Binary(Binary),
@@ -21,8 +24,10 @@ pub(super) enum Piecewise {
 impl Piecewise {
     /// The operation on one number, if it has a switch.
     pub fn unary(operation: Unary) -> Option<Self> {
-        use Unary::{Abs, Floor, Sign, Step};
-        matches!(operation, Abs | Floor | Sign | Step).then_some(Self::Unary(operation))
+        use Unary::{Abs, Floor, Motion, Sign, Step};
+        // the other motion laws are C²
+        let switches = matches!(operation, Abs | Floor | Sign | Step | Motion(MotionLaw::Harmonic));
+        switches.then_some(Self::Unary(operation))
     }
 
     /// The operation on two numbers, if it has a switch.
@@ -59,6 +64,9 @@ impl Piecewise {
     pub fn boundaries(self) -> Boundaries {
         match self {
             Self::Unary(Unary::Floor) => Boundaries::Integers,
+            Self::Unary(Unary::Motion(_)) => {
+                Boundaries::Knots(Arc::new(Knots::new(vec![0.0, 1.0], None)))
+            }
             _ => Boundaries::Zero,
         }
     }
@@ -77,6 +85,7 @@ impl Piecewise {
         match self {
             Self::Choose(relation) => relation.choose(S::constant(piece), x[1], x[2]),
             Self::Unary(Unary::Abs) => S::constant(piece) * x[0],
+            Self::Unary(Unary::Motion(law)) if piece == 0.0 => law.rise(x[0]),
             Self::Unary(operation) => operation.apply(S::constant(piece)),
             Self::Binary(operation) => {
                 let first = (operation == Binary::Max) == (piece > 0.0);
@@ -87,68 +96,91 @@ impl Piecewise {
 }
 
 /// The boundaries of the pieces of a switch, on the axis of its function σ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Boundaries {
     /// σ = 0; the pieces are -1 and +1.
     Zero,
     /// Every integer n; piece n is n < σ < n + 1.
     Integers,
+    /// Knots; piece n lies between the knots n and n + 1.
+    Knots(Arc<Knots>),
 }
 
 impl Boundaries {
     /// The piece that contains σ; NaN on a boundary, which belongs to no piece.
-    pub fn piece(self, sigma: f64) -> f64 {
+    pub fn piece(&self, sigma: f64) -> f64 {
         match self {
             Self::Zero if sigma > 0.0 => 1.0,
             Self::Zero if sigma < 0.0 => -1.0,
             Self::Integers if sigma != sigma.floor() => sigma.floor(),
+            Self::Knots(knots) if !sigma.is_nan() => {
+                let n = knots.last(sigma);
+                if knots.at(n) == sigma {
+                    f64::NAN
+                } else {
+                    n
+                }
+            }
             _ => f64::NAN,
         }
     }
 
     /// The piece on one side of a boundary: above it, or below it.
-    pub fn beside(self, boundary: f64, above: bool) -> f64 {
-        match (self, above) {
-            (Self::Zero, true) => 1.0,
-            (Self::Zero, false) => -1.0,
-            (Self::Integers, true) => boundary,
-            (Self::Integers, false) => boundary - 1.0,
+    pub fn beside(&self, boundary: f64, above: bool) -> f64 {
+        let below = if above { 0.0 } else { 1.0 };
+        match self {
+            Self::Zero => 1.0 - 2.0 * below,
+            Self::Integers => boundary - below,
+            Self::Knots(knots) => knots.nearest(boundary) - below,
         }
     }
 
     /// The boundaries below and above a piece; infinite where there is none.
-    pub fn of(self, piece: f64) -> [f64; 2] {
+    pub fn of(&self, piece: f64) -> [f64; 2] {
         match self {
             Self::Zero if piece > 0.0 => [0.0, f64::INFINITY],
             Self::Zero => [f64::NEG_INFINITY, 0.0],
             Self::Integers => [piece, piece + 1.0],
+            Self::Knots(knots) => [knots.at(piece), knots.at(piece + 1.0)],
         }
     }
 
     /// The distance of σ from the boundaries of a piece, positive within the piece. NaN if no piece is held.
-    pub fn margin(self, sigma: f64, piece: f64) -> f64 {
-        let [low, high] = self.of(piece);
-        match piece.is_nan() {
-            true => f64::NAN,
-            false => (sigma - low).min(high - sigma),
+    pub fn margin(&self, sigma: f64, piece: f64) -> f64 {
+        if piece.is_nan() {
+            return f64::NAN;
         }
+        let [low, high] = self.of(piece);
+        (sigma - low).min(high - sigma)
     }
 
     /// The piece that σ enters when it leaves a piece.
-    pub fn next(self, sigma: f64, piece: f64) -> f64 {
+    pub fn next(&self, sigma: f64, piece: f64) -> f64 {
         let [low, high] = self.of(piece);
-        if sigma - low < high - sigma {
-            self.beside(low, false)
-        } else {
-            self.beside(high, true)
-        }
+        let above = sigma - low >= high - sigma;
+        self.beside(if above { high } else { low }, above)
     }
 
-    /// The boundaries from `low` to `high`: the first one and their number.
-    pub(super) fn between(self, low: f64, high: f64) -> (f64, f64) {
+    /// The boundaries from `low` to `high`: the number of the first one, and how many there are.
+    pub(super) fn between(&self, low: f64, high: f64) -> (f64, f64) {
+        let [first, last] = match self {
+            Self::Zero if low <= 0.0 && high >= 0.0 => [0.0, 0.0],
+            Self::Zero => [0.0, -1.0],
+            Self::Integers => [low.ceil(), high.floor()],
+            Self::Knots(knots) => {
+                let n = knots.last(low);
+                [if knots.at(n) == low { n } else { n + 1.0 }, knots.last(high)]
+            }
+        };
+        (first, (last - first + 1.0).max(0.0))
+    }
+
+    /// The boundary of a number.
+    pub(super) fn at(&self, n: f64) -> f64 {
         match self {
-            Self::Zero => (0.0, if low <= 0.0 && high >= 0.0 { 1.0 } else { 0.0 }),
-            Self::Integers => (low.ceil(), (high.floor() - low.ceil() + 1.0).max(0.0)),
+            Self::Zero => 0.0,
+            Self::Integers => n,
+            Self::Knots(knots) => knots.at(n),
         }
     }
 }

@@ -6,9 +6,9 @@
 //! every switch is found, except where σ passes a boundary twice within the spacing of numbers, or where halving needs
 //! more than [`MOST_INTERVALS`] intervals; there the signs at the ends of the remaining intervals decide.
 //!
-//! A function that contains a table is sampled at [`SAMPLES`] times instead. σ may contain other switches. The search runs between their times, where they hold one piece.
+//! A function that contains a table is sampled at [`SAMPLES`] times instead. σ may contain other switches. The search
+//! runs between their times, where they hold one piece.
 
-use super::switch::Boundaries;
 use super::tape::Values;
 use super::{Switch, Tape};
 use crate::math::{Dual, Interval, Lift, Real};
@@ -46,7 +46,7 @@ pub fn switch_times(
         for cut in cuts.windows(2) {
             let mut pieces = natural(tape, &switches, parameters, middle(cut[0], cut[1]));
             pieces.truncate(k);
-            let search = Search { tape, parameters, k, pieces, boundaries: switch.boundaries };
+            let search = Search { tape, parameters, k, pieces, switch };
             search.run([cut[0], cut[1]], span, &mut found)?;
         }
         times.append(&mut found);
@@ -122,7 +122,7 @@ struct Search<'a> {
     parameters: &'a [f64],
     k: usize,
     pieces: Vec<f64>,
-    boundaries: Boundaries,
+    switch: &'a Switch,
 }
 
 impl Search<'_> {
@@ -144,7 +144,7 @@ impl Search<'_> {
         span: [f64; 2],
         out: &mut Vec<f64>,
     ) -> Result<(), TooManySwitches> {
-        if self.tape.has_tables() {
+        if self.switch.table {
             // a table has no bounds on an interval: the signs at many times decide
             let at = |k: usize| part[0] + (part[1] - part[0]) * k as f64 / SAMPLES as f64;
             return (0..SAMPLES).try_for_each(|k| self.pass([at(k), at(k + 1)], out));
@@ -156,7 +156,7 @@ impl Search<'_> {
             budget = budget.saturating_sub(1);
             let c = middle(a, b);
             let (bounds, slope) = self.bounds([a, b], c);
-            let (_, count) = self.boundaries.between(bounds.low, bounds.high);
+            let (_, count) = self.switch.boundaries.between(bounds.low, bounds.high);
             if count == 0.0 || slope.largest_magnitude() < CONSTANT {
                 continue;
             }
@@ -182,13 +182,13 @@ impl Search<'_> {
     /// Adds the times at which σ passes the boundaries between its values at a and b.
     fn pass(&self, ends: [f64; 2], out: &mut Vec<f64>) -> Result<(), TooManySwitches> {
         let [at_a, at_b] = ends.map(|t| self.sigma(t));
-        let (first, count) = self.boundaries.between(at_a.min(at_b), at_a.max(at_b));
+        let (first, count) = self.switch.boundaries.between(at_a.min(at_b), at_a.max(at_b));
         if out.len() as f64 + count > MOST_TIMES as f64 {
             return Err(TooManySwitches);
         }
         let sign = (at_b - at_a).signum();
         for k in 0..count as usize {
-            let boundary = first + k as f64;
+            let boundary = self.switch.boundaries.at(first + k as f64);
             // a boundary at a belongs to the interval before
             if sign * (at_a - boundary) < 0.0 {
                 out.push(root(ends, |t| sign * (self.sigma(t) - boundary)));

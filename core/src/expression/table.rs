@@ -1,8 +1,10 @@
 //! Tables: functions of one number that pass through given points.
 
+use super::knots::Knots;
 use super::points::{Checked, Outside, Points, TableError, SI};
 use super::unit::{Dimension, Unit};
 use crate::math::{Interpolation, Real, Spline};
+use std::sync::Arc;
 
 /// Values beyond the ends up to this part of the range count as the end: an angle of 360° in rad is not exactly the
 /// end of a table to 360°, and joints are closed to a tolerance.
@@ -28,6 +30,8 @@ pub struct Table {
     units: [Option<Dimension>; 2],
     /// First and last x, with y and slope there.
     ends: [[f64; 3]; 2],
+    /// The places of the kinks.
+    knots: Option<Arc<Knots>>,
 }
 
 impl Table {
@@ -48,7 +52,7 @@ impl Table {
         if let Some(entry) = x.iter().position(|x| !finite(*x)) {
             return Err(TableError::steep(entry));
         }
-        Ok(Self {
+        let mut table = Self {
             name: name.to_string(),
             spline,
             interpolation: points.interpolation,
@@ -56,7 +60,13 @@ impl Table {
             x_unit: (points.x_unit.unwrap_or_default().to_string(), units[0].unwrap_or(SI)),
             units: units.map(|unit| unit.map(|unit| unit.dimension)),
             ends,
-        })
+            knots: None,
+        };
+        let places: Vec<f64> = table.kinks().iter().map(|kink| kink.x).collect();
+        if !places.is_empty() {
+            table.knots = Some(Arc::new(Knots::new(places, table.period())));
+        }
+        Ok(table)
     }
 
     /// The function that is 1 everywhere.
@@ -70,6 +80,7 @@ impl Table {
             x_unit: (String::new(), SI),
             units: [None, None],
             ends: [end(0.0), end(1.0)],
+            knots: None,
         }
     }
 
@@ -82,6 +93,30 @@ impl Table {
         if self.spline.periodic() {
             return inside;
         }
+        self.with_ends(x, inside, [f64::NEG_INFINITY, f64::INFINITY])
+    }
+
+    /// The value on a piece between two kinks, which extends smoothly beyond them.
+    pub(super) fn value_on<S: Real>(&self, piece: f64, x: S) -> S {
+        let Some(knots) = &self.knots else { return self.value(x) };
+        let [low, high] = [knots.at(piece), knots.at(piece + 1.0)];
+        if let Some(period) = self.period() {
+            let (turn, k) = knots.in_period(piece);
+            return self.spline.extended(k, x - S::constant(turn * period), S::constant);
+        }
+        let inside = match self.interpolation {
+            Interpolation::Linear | Interpolation::Monotone => {
+                let points = self.spline.knots();
+                let inner = &points[1..points.len() - 1];
+                self.spline.extended(inner.partition_point(|x| *x <= low), x, S::constant)
+            }
+            Interpolation::Cubic | Interpolation::Quintic => self.spline.value(x, S::constant),
+        };
+        self.with_ends(x, inside, [low, high])
+    }
+
+    /// The value between `low` and `high`, of which only the part within the range is that `inside`.
+    fn with_ends<S: Real>(&self, x: S, inside: S, [low, high]: [f64; 2]) -> S {
         let [first, last] = self.ends;
         let margin = match self.outside {
             Outside::Refuse => ROUNDING * (last[0] - first[0]),
@@ -92,8 +127,20 @@ impl Table {
             Outside::Hold => S::constant(y),
             Outside::Linear => S::constant(y) + S::constant(slope) * (x - S::constant(end)),
         });
-        let (low, high) = (S::constant(first[0] - margin), S::constant(last[0] + margin));
-        S::select(low - x, before, S::select(x - high, after, inside))
+        if high <= first[0] {
+            return before;
+        }
+        if low >= last[0] {
+            return after;
+        }
+        let mut value = inside;
+        if high > last[0] {
+            value = S::select(x - S::constant(last[0] + margin), after, value);
+        }
+        if low < first[0] {
+            value = S::select(S::constant(first[0] - margin) - x, before, value);
+        }
+        value
     }
 
     /// The derivative of an order from 0 to 5 at x, SI.
@@ -187,6 +234,11 @@ impl Table {
         }
         kinks.sort_by(|a, b| a.x.total_cmp(&b.x));
         kinks
+    }
+
+    /// The places of the kinks, if there are any.
+    pub(super) fn knots(&self) -> Option<&Arc<Knots>> {
+        self.knots.as_ref()
     }
 
     /// The kink between the curve and its continuation.

@@ -122,7 +122,7 @@ enum Seen<'a, S> {
 }
 
 /// A switch of an expression.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Switch {
     /// The boundaries of its pieces.
     pub boundaries: Boundaries,
@@ -130,6 +130,8 @@ pub struct Switch {
     pub time: bool,
     /// Whether its function depends on the state.
     pub state: bool,
+    /// Whether its function reads a table.
+    pub table: bool,
 }
 
 impl Tape {
@@ -215,8 +217,19 @@ impl Tape {
                 }
                 Instruction::Step5 => step5(std::array::from_fn(|k| stack[first + k])),
                 Instruction::Table(k) => {
-                    look(Seen::Table(&self.tables[k], stack[first]));
-                    self.tables[k].value(stack[first])
+                    let (table, x) = (&self.tables[k], stack[first]);
+                    look(Seen::Table(table, x));
+                    if table.knots().is_some() {
+                        let piece = values.piece(switch);
+                        look(Seen::Switch(switch, x));
+                        switch += 1;
+                        match piece.is_nan() {
+                            true => table.value(x),
+                            false => table.value_on(piece, x),
+                        }
+                    } else {
+                        table.value(x)
+                    }
                 }
             };
             top = first + 1;
@@ -226,27 +239,43 @@ impl Tape {
 
     /// The number of switches is that of the code.
     pub(super) fn count_switches(&mut self) {
-        let switches = self.code.iter().filter(|code| matches!(code, Instruction::Piecewise(_)));
-        self.switches = switches.count();
+        self.switches = self.code.iter().filter(|code| self.switch_of(code).is_some()).count();
+    }
+
+    /// The boundaries of the switch of an instruction, and the number of operands on which its function depends.
+    fn switch_of(&self, instruction: &Instruction) -> Option<(Boundaries, usize)> {
+        match *instruction {
+            Instruction::Piecewise(operation) => {
+                Some((operation.boundaries(), operation.arguments()))
+            }
+            Instruction::Table(k) => {
+                self.tables[k].knots().map(|knots| (Boundaries::Knots(Arc::clone(knots)), 1))
+            }
+            _ => None,
+        }
     }
 
     /// The switches of the expression, in the order of their indices.
     pub fn switches(&self) -> Vec<Switch> {
-        let mut stack: Vec<(bool, bool)> = Vec::new(); // (time, state)
+        let mut stack: Vec<[bool; 3]> = Vec::new(); // time, state, table
         let mut switches = Vec::with_capacity(self.switches);
-        let either = |all: &[(bool, bool)]| {
-            all.iter().fold((false, false), |sum, one| (sum.0 | one.0, sum.1 | one.1))
+        let any = |all: &[[bool; 3]]| -> [bool; 3] {
+            std::array::from_fn(|k| all.iter().any(|operand| operand[k]))
         };
         for instruction in &self.code {
             let operands = stack.split_off(stack.len() - instruction.operands());
-            if let Instruction::Piecewise(operation) = instruction {
-                let (time, state) = either(&operands[..operation.arguments()]);
-                switches.push(Switch { boundaries: operation.boundaries(), time, state });
+            if let Some((boundaries, arguments)) = self.switch_of(instruction) {
+                let [time, state, table] = any(&operands[..arguments]);
+                switches.push(Switch { boundaries, time, state, table });
             }
             stack.push(match instruction {
-                Instruction::Load(Symbol::Time) => (true, false),
-                Instruction::Load(Symbol::Variable(_)) => (false, true),
-                _ => either(&operands),
+                Instruction::Load(Symbol::Time) => [true, false, false],
+                Instruction::Load(Symbol::Variable(_)) => [false, true, false],
+                Instruction::Table(_) => {
+                    let [time, state, _] = any(&operands);
+                    [time, state, true]
+                }
+                _ => any(&operands),
             });
         }
         switches
@@ -284,11 +313,6 @@ impl Tape {
             });
         }
         found
-    }
-
-    /// Whether a table is read.
-    pub(super) fn has_tables(&self) -> bool {
-        !self.tables.is_empty()
     }
 
     /// Why the expression has no value, if a table is read outside its range.

@@ -103,6 +103,12 @@ impl<S: Real> Spline<S> {
         self.derivatives::<T, 1>(x, lift)[0]
     }
 
+    /// The value of the polynomial from knot `k` on, which goes on beyond its knots.
+    pub fn extended<T: Real>(&self, k: usize, x: T, lift: impl Fn(S) -> T) -> T {
+        let [value] = self.piece(k, x, lift);
+        value
+    }
+
     /// The value and the derivatives of order 1 to N - 1 at x, as [`value`](Self::value).
     pub fn derivatives<T: Real, const N: usize>(
         &self,

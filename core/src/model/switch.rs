@@ -12,7 +12,7 @@ pub enum Owner {
 }
 
 /// A switch of a law, or of a force itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Switch {
     /// Its element.
     pub owner: Owner,
@@ -36,7 +36,7 @@ impl Switch {
     pub(super) fn number(tape: &Tape, owner: Owner, switches: &mut Vec<Self>) -> Tape {
         let numbered = tape.with_first_switch(switches.len());
         switches.extend(tape.switches().into_iter().map(|switch| {
-            let crate::expression::Switch { boundaries, time, state } = switch;
+            let crate::expression::Switch { boundaries, time, state, .. } = switch;
             Self { owner, boundaries, time, state, law: true }
         }));
         numbered

@@ -8,6 +8,8 @@
 //! is released: its law then decides by itself, until it has kept one piece for [`CALM`] steps. Otherwise the motion
 //! slides along the switch, which laws cannot describe, and the run ends.
 
+mod narrow;
+
 use super::law_jump::Jump;
 use super::motion_ode::MotionOde;
 use super::switch_schedule::{changed_constraints, Schedule};
@@ -141,7 +143,7 @@ impl Switching {
         ode.workspace.state_rates(model, t, &mut dz);
         let moving = switches::functions_in_time(model, t, [q, v, z], [ode.workspace.a(), &dz]);
         for k in &self.on_state {
-            let (boundaries, sigma) = (model.switches[*k].boundaries, moving[*k]);
+            let (boundaries, sigma) = (&model.switches[*k].boundaries, moving[*k]);
             if !self.pieces[*k].is_nan() {
                 continue;
             }
@@ -268,7 +270,7 @@ impl Switching {
         y: &[f64],
         switch: usize,
     ) -> Result<(), Cause<Breakdown>> {
-        let boundaries = ode.model.switches[switch].boundaries;
+        let boundaries = &ode.model.switches[switch].boundaries;
         self.evaluate(ode.model, t, y);
         let other = boundaries.next(self.sigma[switch], self.pieces[switch]);
         let mut rates = [vec![0.0; y.len()], vec![0.0; y.len()]];
@@ -358,6 +360,10 @@ impl Switching {
     /// A step without a crossing. Switches that were never in the piece that was held change at its beginning.
     fn after_smooth_step(&mut self, model: &Model, step: &Step<'_>, scanned: &Scan) -> After {
         if !scanned.negative.is_empty() {
+            if let Some((t, k, piece)) = self.first_through(model, step, &scanned.negative) {
+                self.due = Some(Due { t, changes: vec![(k, piece)], tries: 0 });
+                return After::Again;
+            }
             self.evaluate_at(model, step, step.t_old + 0.5 * (step.t - step.t_old));
             let of = |k: usize| {
                 let k = self.on_state[k];
