@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from kempe.values import Pair
+from kempe.values import Pair, refuse
 
 if TYPE_CHECKING:
     from kempe.model import Model
@@ -36,3 +36,32 @@ class Ground:
     def __repr__(self) -> str:
         points = self._model.tree().get("bodies", {}).get("ground", {}).get("points", {})
         return f"<ground of {self._model.title!r}: points {', '.join(points) or 'none'}>"
+
+
+def with_ground(
+    bodies: dict[str, Any],
+    what: str,
+    given: Mapping[str, Any],
+    check: Callable[[object, str], dict[str, Any]],
+) -> dict[str, Any]:
+    """Bodies as in a file, with more named points or curves on ground.
+
+    Args:
+        bodies: the bodies so far.
+        what: "point" or "curve".
+        given: the new points or curves by name.
+        check: checks them, given their path.
+
+    Raises:
+        ModelError: a name is taken, or a value is of the wrong kind.
+    """
+    ground = bodies.get("ground", {})
+    key, known = f"{what}s", ground.get(f"{what}s", {})
+    for name in given:
+        if name in known:
+            path = f"bodies.ground.{key}.{name}"
+            refuse(path, f"the name is taken by another {what}; choose another")
+    checked = check(given, f"bodies.ground.{key}")
+    return {"ground": {**ground, key: {**known, **checked}}} | {
+        name: body for name, body in bodies.items() if name != "ground"
+    }

@@ -14,7 +14,7 @@ from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
 from kempe.errors import ModelError
-from kempe.ground import Ground
+from kempe.ground import Ground, with_ground
 from kempe.lookup_tables import TableInfo
 from kempe.names import few, unknown
 from kempe.table_methods import TableMethods
@@ -187,17 +187,7 @@ class Model(ElementMethods, TableMethods):
         check: Callable[[object, str], dict[str, Any]],
     ) -> None:
         """Add named points or curves to ground."""
-        bodies: dict[str, Any] = self._tree["bodies"]
-        ground = bodies.get("ground", {})
-        key, known = f"{what}s", ground.get(f"{what}s", {})
-        for name in given:
-            if name in known:
-                path = f"bodies.ground.{key}.{name}"
-                refuse(path, f"the name is taken by another {what}; choose another")
-        checked = check(given, f"bodies.ground.{key}")
-        self._tree["bodies"] = {"ground": {**ground, key: {**known, **checked}}} | {
-            name: body for name, body in bodies.items() if name != "ground"
-        }
+        self._tree["bodies"] = with_ground(self._tree["bodies"], what, given, check)
         self._changed()
 
     def _changed(self) -> None:

@@ -7,7 +7,8 @@ use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::items::Body;
 use super::problem::Problem;
-use super::scope::{Reach, Scope, ANY_UNIT};
+use super::scope::{Reach, Scope};
+use super::unit_check::ANY_UNIT;
 use crate::expression::{Expression, Tape};
 use crate::math::Local;
 

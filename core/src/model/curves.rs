@@ -100,7 +100,13 @@ impl<'a> Reader<'a> {
         let mut part = |function: &str| {
             let text = Value::Text(format!("{r}*{function}(u)"));
             let path = self.at("polar");
-            self.scope.formula(&text, &path, super::scope::ANY_UNIT, Reach::Curve, self.problems)
+            self.scope.formula(
+                &text,
+                &path,
+                super::unit_check::ANY_UNIT,
+                Reach::Curve,
+                self.problems,
+            )
         };
         let (x, y) = (part("cos")?, part("sin")?);
         let range = [0.0, std::f64::consts::TAU].map(Tape::from);
@@ -174,7 +180,7 @@ impl<'a> Reader<'a> {
         if items.len() != N {
             return self.report(Some(key), format!("holds {} numbers; must hold {N}", items.len()));
         }
-        let unit = if key == "range" { super::scope::ANY_UNIT } else { "m" };
+        let unit = if key == "range" { super::unit_check::ANY_UNIT } else { "m" };
         let mut tapes = Vec::new();
         for (k, item) in items.iter().enumerate() {
             let path: Vec<String> = self.at(key).into_iter().chain([k.to_string()]).collect();

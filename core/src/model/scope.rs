@@ -4,9 +4,9 @@ use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
+use super::unit_check::check_unit;
 use super::variable::Variable;
 use crate::elements::{states_of, BodyId, Coordinate, Followed, Measured, OwnState};
-use crate::expression::unit::Unit;
 use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Table, Tape};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -375,31 +375,4 @@ fn ambiguity(text: &str, name: &str, law: Option<LawOf<'_>>) -> ExpressionError 
     let message = format!("'{name}' is a parameter and a quantity of '{element}'");
     let hint = format!("rename the parameter, or write '{element}.{name}' for the quantity");
     ExpressionError::new(0..text.len(), message).hint(hint)
-}
-
-/// The unit of a formula that is composed of checked formulas.
-pub(crate) const ANY_UNIT: &str = "any";
-
-/// A formula whose dimension is known must have that of its place; without a unit, the place takes a number.
-fn check_unit(e: &Expression, inferred: Inferred, unit: &str) -> Result<(), ExpressionError> {
-    let Inferred::Of(dimension) = inferred else { return Ok(()) };
-    let place = if unit.is_empty() { "rad" } else { unit };
-    let wanted = Unit::parse(place).map(|unit| unit.dimension);
-    if unit == ANY_UNIT || wanted.as_ref() == Ok(&dimension) {
-        return Ok(());
-    }
-    let must = match wanted {
-        _ if unit.is_empty() => "a number".to_string(),
-        Ok(wanted) if place != wanted.to_string() && place != "rad" => {
-            format!("in {unit} ({wanted})")
-        }
-        _ => format!("in {unit}"),
-    };
-    let text = e.text().trim();
-    let message = format!("'{text}' is in {inferred}; must be {must}");
-    let hint = e.dimension().is_none().then(|| {
-        let example = if unit.is_empty() { "2" } else { &format!("\"2 {unit}\"") };
-        format!("use parameters of that dimension, such as {example}; a plain number in a product has none")
-    });
-    Err(ExpressionError::new(0..e.text().len(), message).hint(hint))
 }

@@ -1,0 +1,212 @@
+//! The values of the fields of an element, by their kinds.
+
+use super::definition::Value;
+use super::scope::Reach;
+use super::unit_check::ANY_UNIT;
+use crate::elements::{
+    Acted, BodyId, CurveOn, Default, Field, Followed, JointId, PointOn, Source, UNITS_OF_EQUATIONS,
+};
+use crate::expression::Tape;
+
+use super::link::{did_you_mean, Linker};
+
+impl Source for Linker<'_> {
+    fn given(&mut self, field: &Field) -> bool {
+        self.entry.get(field.name).is_some()
+    }
+
+    fn body(&mut self, field: &Field) -> Option<BodyId> {
+        let name = match (self.entry.get(field.name), field.default) {
+            (None, Some(Default::Body(name))) => name,
+            _ => self.text(field)?,
+        };
+        self.find(field, name)
+    }
+
+    fn point(&mut self, field: &Field) -> Option<PointOn<Tape>> {
+        let text = self.text(field)?;
+        let (body, name) = self.split(field, text, "body.point")?;
+        let owner = &self.bodies[body.0];
+        if let Some(s) = owner.point(name) {
+            return Some(PointOn { body, s: s.clone() });
+        }
+        if owner.lacks_points() {
+            return None; // its own fault is reported
+        }
+        let hint = self.suggests().then(|| {
+            let names: Vec<&str> = owner.points.iter().map(|(n, _)| n.as_str()).collect();
+            did_you_mean(name, &names, &format!("points of {}", owner.name))
+        });
+        let message = format!("body '{}' has no point '{name}'", owner.name);
+        self.report(field, message, hint.flatten())
+    }
+
+    fn curve(&mut self, field: &Field) -> Option<CurveOn<Tape>> {
+        let text = self.text(field)?;
+        let (body, name) = self.split(field, text, "body.curve")?;
+        let owner = &self.bodies[body.0];
+        if let Some((_, found)) = owner.curves.iter().find(|(own, _)| own == name) {
+            // the fault of a faulty curve is reported at the curve
+            return found.clone().map(|curve| CurveOn { body, curve });
+        }
+        let hint = self.suggests().then(|| {
+            let names: Vec<&str> = owner.curves.iter().map(|(n, _)| n.as_str()).collect();
+            match owner.point(name) {
+                Some(_) => Some(format!("'{name}' is a point of {}", owner.name)),
+                None => did_you_mean(name, &names, &format!("curves of {}", owner.name)),
+            }
+        });
+        let message = format!("body '{}' has no curve '{name}'", owner.name);
+        self.report(field, message, hint.flatten())
+    }
+
+    fn coordinate(&mut self, field: &Field) -> Option<Followed<Tape>> {
+        let text = self.text(field)?;
+        self.position(field, text)
+    }
+
+    fn acted(&mut self, field: &Field) -> Option<Acted<Tape>> {
+        match self.coordinate(field)? {
+            Followed::Coordinate(of) => Some(of.into()),
+            Followed::Quantity(of) => {
+                let gradient = self.quantities.gradient(&of.name)?;
+                Some(Acted { of: Followed::Quantity(of), gradient })
+            }
+        }
+    }
+
+    fn joint(&mut self, field: &Field) -> Option<JointId> {
+        let name = self.text(field)?;
+        // a faulty constraint before it moves it from its written place
+        let is_named = |k: &usize| self.constraints.get(*k).is_some_and(|(own, ..)| own == name);
+        let written = self.scope.constraint(name).filter(is_named);
+        if let Some(k) = written.or_else(|| (0..self.constraints.len()).find(is_named)) {
+            return Some(JointId(k));
+        }
+        let hint = self.suggests().then(|| {
+            let names: Vec<&str> = self.constraints.iter().map(|(own, ..)| own.as_str()).collect();
+            did_you_mean(name, &names, "joints")
+        });
+        self.report(field, format!("unknown joint '{name}'"), hint.flatten())
+    }
+
+    fn number(&mut self, field: &Field) -> Option<Tape> {
+        self.formula(field, Reach::Parameters)
+    }
+
+    fn law(&mut self, field: &Field) -> Option<Tape> {
+        self.formula(field, self.reach())
+    }
+
+    fn pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
+        self.two(field, Reach::Parameters)
+    }
+
+    fn triple(&mut self, field: &Field) -> Option<[Tape; 3]> {
+        let items = match (self.entry.get(field.name), field.default) {
+            (Some(Value::List(items)), _) if items.len() == 3 => items,
+            (Some(Value::List(items)), _) => {
+                let message = format!("must hold three numbers, not {}", items.len());
+                return self.report(field, message, None);
+            }
+            (Some(other), _) => {
+                let message = format!("must be a list of three numbers, not {}", other.noun());
+                return self.report(field, message, None);
+            }
+            (None, Some(Default::Triple(x))) => return Some(x.map(Tape::from)),
+            (None, _) => return self.missing(field),
+        };
+        let units: Vec<&str> = field.unit.split(',').collect();
+        let mut read = |k: usize| {
+            let path: Vec<String> = self.path(field).into_iter().chain([k.to_string()]).collect();
+            self.read(&items[k], &path, units.get(k).unwrap_or(&ANY_UNIT), Reach::Parameters)
+        };
+        let (x, y, z) = (read(0), read(1), read(2));
+        Some([x?, y?, z?])
+    }
+
+    fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
+        self.two(field, self.reach())
+    }
+
+    fn laws(&mut self, field: &Field) -> Option<Vec<Tape>> {
+        let items = match self.entry.get(field.name) {
+            Some(Value::List(items)) => items,
+            Some(other) => {
+                let message = format!("must be a list of formulas, not {}", other.noun());
+                return self.report(field, message, None);
+            }
+            None => return self.missing(field),
+        };
+        let (path, reach) = (self.path(field), self.reach());
+        let read = |(k, item): (usize, &Value)| {
+            let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
+            self.read(item, &path, &field.unit, reach)
+        };
+        // every formula is read, so that all errors are reported at once
+        let all: Vec<Option<Tape>> = items.iter().enumerate().map(read).collect();
+        all.into_iter().collect()
+    }
+
+    fn terms(&mut self, field: &Field) -> Option<Vec<(Followed<Tape>, Tape)>> {
+        let items = match self.entry.get(field.name) {
+            Some(Value::Table(items)) => items,
+            Some(other) => {
+                let message = format!("must be a table of quantities, not {}", other.noun());
+                return self.report(field, message, None);
+            }
+            None => return self.missing(field),
+        };
+        let mut all = Vec::new();
+        for (name, factor) in items {
+            let path: Vec<String> = self.path(field).into_iter().chain([name.clone()]).collect();
+            let of = self.position(field, name);
+            let factor = self.read(factor, &path, ANY_UNIT, Reach::Parameters);
+            all.push(of.zip(factor));
+        }
+        all.into_iter().collect()
+    }
+
+    fn units(&mut self, field: &Field) -> Option<Vec<&'static str>> {
+        let items = match self.entry.get(field.name) {
+            Some(Value::List(items)) => items,
+            Some(other) => {
+                let message = format!("must be a list of units, not {}", other.noun());
+                return self.report(field, message, None);
+            }
+            None => return self.missing(field),
+        };
+        let known = |item: &Value| match item {
+            Value::Text(unit) => UNITS_OF_EQUATIONS.iter().find(|known| *known == unit).copied(),
+            _ => None,
+        };
+        match items.iter().map(known).collect::<Option<Vec<_>>>() {
+            Some(units) => Some(units),
+            None => self.report(field, "each must be \"m\" or \"rad\"".to_string(), None),
+        }
+    }
+
+    fn flag(&mut self, field: &Field) -> Option<bool> {
+        match (self.entry.get(field.name), field.default) {
+            (Some(Value::Flag(flag)), _) => Some(*flag),
+            (Some(other), _) => {
+                let message = format!("must be true or false, not {}", other.noun());
+                self.report(field, message, None)
+            }
+            (None, Some(Default::Flag(flag))) => Some(flag),
+            (None, _) => self.missing(field),
+        }
+    }
+
+    fn word(&mut self, field: &Field, words: &[&str]) -> Option<usize> {
+        let word = match (self.entry.get(field.name), field.default) {
+            (None, Some(Default::Body(word))) => word,
+            _ => self.text(field)?,
+        };
+        let found = words.iter().position(|known| *known == word);
+        found.or_else(|| {
+            let hint = did_you_mean(word, words, "words");
+            self.report(field, format!("unknown word '{word}'"), hint)
+        })
+    }
+}
