@@ -58,6 +58,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "measured": lambda: _core.measured(MODEL, "C", TIMES, ROW, ROW, ROW),
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
     "results": lambda: _core.results(MODEL, "C", TIMES, ROW, LAM),
+    "force_energy": lambda: _core.force_energy(MODEL, "spring", TIMES, ROW, ROW, STATES),
     "force": lambda: _core.force(
         MODEL, "spring", "rocker", None, "global", TIMES, ROW, ROW, STATES
     ),

@@ -95,7 +95,7 @@ class ForceView(Generic[S]):
         """Energy that it has dissipated since the start, (n_t,), J; only of a solution.
 
         Raises:
-            ModelError: the motion is no solution with an interpolant.
+            ModelError: the motion is not a solution with an interpolant.
         """
         return self._motion.dissipated(self.name)
 
