@@ -105,6 +105,7 @@ impl Dice {
             }
             Shape::Number | Shape::Law => self.formula(),
             Shape::Pair | Shape::LawPair => self.pair(),
+            Shape::Triple => Value::List(vec![self.formula(), self.formula(), self.formula()]),
             Shape::Laws => Value::List(vec![self.formula(), self.formula()]),
             Shape::Terms => Value::Table(
                 (0..1 + self.roll(3)).map(|_| (self.name(used), self.formula())).collect(),

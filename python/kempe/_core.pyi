@@ -258,6 +258,9 @@ def force(
     ``lam`` are the multipliers, (n_t, n_rows), for an element into which a reaction enters.
     """
 
+def force_energy(model: Model, name: str, t: _F, q: _F, v: _F, z: _F, lam: _F | None = None) -> _F:
+    """Energy that a force element stores, J, and power that it dissipates, W: (n_t, 2)."""
+
 def matrices(model: Model, t: float, q: _F, v: _F, z: _F, set: str) -> dict[str, _F]:  # noqa: A002
     """``M``, ``Phi``, ``Phi_q``, ``nu``, ``gamma``, ``Q`` and ``kkt`` at a state.
 

@@ -22,6 +22,7 @@ TYPES = dict.fromkeys(REFERENCES, "str") | {
     "number": "Number",
     "law": "Number",
     "pair": "Pair",
+    "triple": "Numbers",
     "law_pair": "Pair",
     "laws": "Numbers",
     "terms": "Terms",

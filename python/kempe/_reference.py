@@ -28,6 +28,7 @@ The values of fields:
 | number | a number, a number with a unit (`"250 mm"`), or a formula in the parameters |
 | law | the same, and the formula may use `t` and the coordinates of bodies |
 | pair | two numbers, `[x, y]` |
+| triple | three numbers, each with its own unit: `[kx, ky, kt]` |
 | terms | factors of position quantities: `{ "A.angle" = 2, "B.angle" = -1 }` |
 | units | units of equations: `["m", "rad"]` |
 | law_pair, laws | two laws, any number of laws: `["t", "2*t"]` |

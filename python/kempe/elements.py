@@ -446,8 +446,8 @@ class CoordinateDriver(Element):
 class TorsionSpring(Element):
     """An element of type ``torsion_spring``.
 
-    Rotational spring-damper: torque on j is -stiffness (θ - free_angle) - damping θ̇ with θ =
-    angle_j - angle_i, continuous; opposite on i (Haug 6.2.18).
+    Rotational spring-damper: torque on j is -(stiffness (θ - free_angle) + damping θ̇ +
+    preload) with θ = angle_j - angle_i, continuous; opposite on i (Haug 6.2.18).
 
     Attributes:
         i: Body i.
@@ -455,6 +455,7 @@ class TorsionSpring(Element):
         stiffness: Torque per angle [N*m/rad].
         damping: Torque per angular velocity [N*m*s/rad].
         free_angle: Relative angle at which the spring is relaxed [rad].
+        preload: Torque of the relaxed spring, > 0 clockwise on j [N*m].
     """
 
     i: str
@@ -462,6 +463,7 @@ class TorsionSpring(Element):
     stiffness: Number = 0.0
     damping: Number = 0.0
     free_angle: Number = 0.0
+    preload: Number = 0.0
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "torsion_spring"
     shapes: ClassVar[Mapping[str, str]] = {
@@ -470,6 +472,7 @@ class TorsionSpring(Element):
         "stiffness": "law",
         "damping": "law",
         "free_angle": "law",
+        "preload": "law",
     }
 
 
@@ -478,9 +481,11 @@ class SpringDamper(Element):
     """An element of type ``spring_damper``.
 
     Translational spring-damper between two points: with l their distance, the force on j is
-    -stiffness (l - free_length) - damping dl/dt along the line from i to j; opposite on i (Haug
-    6.2.10). Where the points meet the line has no direction: the stiffness force is zero there,
-    and the damping force is -damping times the relative velocity.
+    -(stiffness (l - free_length) + damping dl/dt + preload) along the line from i to j;
+    opposite on i (Haug 6.2.10). Where the points meet the line has no direction: the stiffness
+    force is zero there, and the damping force is -damping times the relative velocity. With
+    `only`, the force is 0 where the element is slack, l < free_length for tension and l >
+    free_length for compression, and it is never of the other sense.
 
     Attributes:
         i: Point of body i, as `body.point`.
@@ -488,6 +493,8 @@ class SpringDamper(Element):
         stiffness: Force per length [N/m].
         damping: Force per velocity [N*s/m].
         free_length: Distance of the points at which the spring is relaxed [m].
+        preload: Force of the relaxed spring, > 0 pulls [N].
+        only: The only sense of the force: `tension` pulls, `compression` pushes.
     """
 
     i: str
@@ -495,6 +502,8 @@ class SpringDamper(Element):
     stiffness: Number = 0.0
     damping: Number = 0.0
     free_length: Number = 0.0
+    preload: Number = 0.0
+    only: Literal["tension", "compression"] | None = None
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "spring_damper"
     shapes: ClassVar[Mapping[str, str]] = {
@@ -503,6 +512,8 @@ class SpringDamper(Element):
         "stiffness": "law",
         "damping": "law",
         "free_length": "law",
+        "preload": "law",
+        "only": "word",
     }
 
 
@@ -532,28 +543,145 @@ class Torque(Element):
 
 
 @dataclass(frozen=True)
+class Force(Element):
+    """An element of type ``force``.
+
+    Force at a point of body j; the opposite force acts on body i, which is ground unless given,
+    at the same place. Its power is force × (velocity of the point - velocity of body i at that
+    place).
+
+    Attributes:
+        j: Point of body j, as `body.point`.
+        force: Components of the force on body j; may use `t` and the state [N].
+        i: Body i, which takes the opposite force.
+        frame: Frame of the components: `global`, or that of body `i` or `j`.
+    """
+
+    j: str
+    force: Pair
+    i: str = "ground"
+    frame: Literal["global", "i", "j"] = "global"
+    section: ClassVar[str] = "forces"
+    kind: ClassVar[str] = "force"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "j": "point",
+        "force": "law_pair",
+        "i": "body",
+        "frame": "word",
+    }
+
+
+@dataclass(frozen=True)
+class Actuator(Element):
+    """An element of type ``actuator``.
+
+    Actuator: a force along the line between two points; > 0 pushes the points apart. Its power
+    is force × rate with rate that of their distance, `length`. Where the points meet, the force
+    is zero.
+
+    Attributes:
+        i: Point of body i, as `body.point`.
+        j: Point of body j, as `body.point`.
+        force: Force that pushes the points apart; may use `t` and the state [N].
+    """
+
+    i: str
+    j: str
+    force: Number
+    section: ClassVar[str] = "forces"
+    kind: ClassVar[str] = "actuator"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "force": "law",
+    }
+
+
+@dataclass(frozen=True)
+class Bushing(Element):
+    """An element of type ``bushing``.
+
+    Bushing: with x, y the components of point_j - point_i in the frame of body i and angle =
+    angle_j - angle_i, the force and torque on j at point j are -stiffness × [x, y, angle] -
+    damping × [vx, vy, omega] in the frame of body i, with vx, vy, omega the derivatives in
+    time; the opposite acts on i at the same place.
+
+    Attributes:
+        i: Point of body i, as `body.point`.
+        j: Point of body j, as `body.point`.
+        stiffness: Force per x, force per y, torque per angle [N/m,N/m,N*m/rad].
+        damping: Force per vx, force per vy, torque per omega [N*s/m,N*s/m,N*m*s/rad].
+    """
+
+    i: str
+    j: str
+    stiffness: Numbers
+    damping: Numbers = (0.0, 0.0, 0.0)
+    section: ClassVar[str] = "forces"
+    kind: ClassVar[str] = "bushing"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "stiffness": "triple",
+        "damping": "triple",
+    }
+
+
+@dataclass(frozen=True)
+class GeneralizedForce(Element):
+    """An element of type ``generalized_force``.
+
+    Generalized force: an effort on a position quantity, > 0 increases it. Its power is value ×
+    rate of the quantity. It acts on both bodies of the quantity, opposite; on ground for that
+    of a single body.
+
+    Attributes:
+        coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
+        value: The effort: a force for a length, a torque for an angle; may use `t` and the
+            state [N or N*m].
+    """
+
+    coordinate: str
+    value: Number
+    section: ClassVar[str] = "forces"
+    kind: ClassVar[str] = "generalized_force"
+    shapes: ClassVar[Mapping[str, str]] = {
+        "coordinate": "coordinate",
+        "value": "law",
+    }
+
+
+@dataclass(frozen=True)
 class Motor(Element):
     """An element of type ``motor``.
 
     Direct-current motor: torque = torque_constant × current on body j, opposite on body i,
     which is ground unless given. inductance × d current/dt = voltage - resistance × current -
     torque_constant × omega with omega = omega_j - omega_i. With an inductance, `current` is a
-    state of the motor, 0 at the start unless set.
+    state of the motor, 0 at the start unless set. In its second form, torque = stall_torque
+    (command - omega / free_speed).
 
     Attributes:
         j: Body j, the rotor.
         voltage: Voltage; may use `t` and the state [V].
-        resistance: Resistance of the winding [Ohm].
-        torque_constant: Torque over current, which is also voltage over rate [N*m/A].
+        resistance: Resistance of the winding, with voltage [Ohm].
+        torque_constant: Torque over current, which is also voltage over rate; with voltage
+            [N*m/A].
         inductance: Inductance of the winding [H].
+        stall_torque: Torque at rest, in place of voltage [N*m].
+        free_speed: Rate without torque, with stall_torque [rad/s].
+        command: Share of the full voltage, with stall_torque; may use `t` and the state.
         i: Body i, the stator.
     """
 
     j: str
-    voltage: Number
-    resistance: Number
-    torque_constant: Number
+    voltage: Number | None = None
+    resistance: Number | None = None
+    torque_constant: Number | None = None
     inductance: Number = 0.0
+    stall_torque: Number | None = None
+    free_speed: Number | None = None
+    command: Number = 1.0
     i: str = "ground"
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "motor"
@@ -563,6 +691,9 @@ class Motor(Element):
         "resistance": "number",
         "torque_constant": "number",
         "inductance": "number",
+        "stall_torque": "number",
+        "free_speed": "number",
+        "command": "law",
         "i": "body",
     }
 
@@ -894,11 +1025,12 @@ class ElementMethods:
         stiffness: Number = 0.0,
         damping: Number = 0.0,
         free_angle: Number = 0.0,
+        preload: Number = 0.0,
     ) -> TorsionSpring:
         """Add an element of type ``torsion_spring`` and return it.
 
-        Rotational spring-damper: torque on j is -stiffness (θ - free_angle) - damping θ̇ with θ =
-        angle_j - angle_i, continuous; opposite on i (Haug 6.2.18).
+        Rotational spring-damper: torque on j is -(stiffness (θ - free_angle) + damping θ̇ +
+        preload) with θ = angle_j - angle_i, continuous; opposite on i (Haug 6.2.18).
 
         Args:
             name: its name in the model.
@@ -907,6 +1039,7 @@ class ElementMethods:
             stiffness: Torque per angle [N*m/rad].
             damping: Torque per angular velocity [N*m*s/rad].
             free_angle: Relative angle at which the spring is relaxed [rad].
+            preload: Torque of the relaxed spring, > 0 clockwise on j [N*m].
         """
         return self._add(
             TorsionSpring(
@@ -916,6 +1049,7 @@ class ElementMethods:
                 stiffness=stiffness,
                 damping=damping,
                 free_angle=free_angle,
+                preload=preload,
             )
         )
 
@@ -928,13 +1062,17 @@ class ElementMethods:
         stiffness: Number = 0.0,
         damping: Number = 0.0,
         free_length: Number = 0.0,
+        preload: Number = 0.0,
+        only: Literal["tension", "compression"] | None = None,
     ) -> SpringDamper:
         """Add an element of type ``spring_damper`` and return it.
 
         Translational spring-damper between two points: with l their distance, the force on j is
-        -stiffness (l - free_length) - damping dl/dt along the line from i to j; opposite on i (Haug
-        6.2.10). Where the points meet the line has no direction: the stiffness force is zero there,
-        and the damping force is -damping times the relative velocity.
+        -(stiffness (l - free_length) + damping dl/dt + preload) along the line from i to j;
+        opposite on i (Haug 6.2.10). Where the points meet the line has no direction: the stiffness
+        force is zero there, and the damping force is -damping times the relative velocity. With
+        `only`, the force is 0 where the element is slack, l < free_length for tension and l >
+        free_length for compression, and it is never of the other sense.
 
         Args:
             name: its name in the model.
@@ -943,6 +1081,8 @@ class ElementMethods:
             stiffness: Force per length [N/m].
             damping: Force per velocity [N*s/m].
             free_length: Distance of the points at which the spring is relaxed [m].
+            preload: Force of the relaxed spring, > 0 pulls [N].
+            only: The only sense of the force: `tension` pulls, `compression` pushes.
         """
         return self._add(
             SpringDamper(
@@ -952,6 +1092,8 @@ class ElementMethods:
                 stiffness=stiffness,
                 damping=damping,
                 free_length=free_length,
+                preload=preload,
+                only=only,
             )
         )
 
@@ -969,15 +1111,97 @@ class ElementMethods:
         """
         return self._add(Torque(name, j=j, torque=torque, i=i))
 
+    def force(
+        self,
+        name: str,
+        j: str,
+        *,
+        force: Pair,
+        i: str = "ground",
+        frame: Literal["global", "i", "j"] = "global",
+    ) -> Force:
+        """Add an element of type ``force`` and return it.
+
+        Force at a point of body j; the opposite force acts on body i, which is ground unless given,
+        at the same place. Its power is force × (velocity of the point - velocity of body i at that
+        place).
+
+        Args:
+            name: its name in the model.
+            j: Point of body j, as `body.point`.
+            force: Components of the force on body j; may use `t` and the state [N].
+            i: Body i, which takes the opposite force.
+            frame: Frame of the components: `global`, or that of body `i` or `j`.
+        """
+        return self._add(Force(name, j=j, force=force, i=i, frame=frame))
+
+    def actuator(self, name: str, i: str, j: str, *, force: Number) -> Actuator:
+        """Add an element of type ``actuator`` and return it.
+
+        Actuator: a force along the line between two points; > 0 pushes the points apart. Its power
+        is force × rate with rate that of their distance, `length`. Where the points meet, the force
+        is zero.
+
+        Args:
+            name: its name in the model.
+            i: Point of body i, as `body.point`.
+            j: Point of body j, as `body.point`.
+            force: Force that pushes the points apart; may use `t` and the state [N].
+        """
+        return self._add(Actuator(name, i=i, j=j, force=force))
+
+    def bushing(
+        self,
+        name: str,
+        i: str,
+        j: str,
+        *,
+        stiffness: Numbers,
+        damping: Numbers = (0.0, 0.0, 0.0),
+    ) -> Bushing:
+        """Add an element of type ``bushing`` and return it.
+
+        Bushing: with x, y the components of point_j - point_i in the frame of body i and angle =
+        angle_j - angle_i, the force and torque on j at point j are -stiffness × [x, y, angle] -
+        damping × [vx, vy, omega] in the frame of body i, with vx, vy, omega the derivatives in
+        time; the opposite acts on i at the same place.
+
+        Args:
+            name: its name in the model.
+            i: Point of body i, as `body.point`.
+            j: Point of body j, as `body.point`.
+            stiffness: Force per x, force per y, torque per angle [N/m,N/m,N*m/rad].
+            damping: Force per vx, force per vy, torque per omega [N*s/m,N*s/m,N*m*s/rad].
+        """
+        return self._add(Bushing(name, i=i, j=j, stiffness=stiffness, damping=damping))
+
+    def generalized_force(self, name: str, coordinate: str, *, value: Number) -> GeneralizedForce:
+        """Add an element of type ``generalized_force`` and return it.
+
+        Generalized force: an effort on a position quantity, > 0 increases it. Its power is value ×
+        rate of the quantity. It acts on both bodies of the quantity, opposite; on ground for that
+        of a single body.
+
+        Args:
+            name: its name in the model.
+            coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
+            value: The effort: a force for a length, a torque for an angle; may use `t` and the
+                state [N or N*m].
+        """
+        return self._add(GeneralizedForce(name, coordinate=coordinate, value=value))
+
     def motor(
         self,
         name: str,
         j: str,
         *,
-        voltage: Number,
-        resistance: Number,
-        torque_constant: Number,
+        voltage: Number | None = None,
+        resistance: Number | None = None,
+        torque_constant: Number | None = None,
         inductance: Number = 0.0,
+        stall_torque: Number | None = None,
+        free_speed: Number | None = None,
+        command: Number = 1.0,
         i: str = "ground",
     ) -> Motor:
         """Add an element of type ``motor`` and return it.
@@ -985,15 +1209,20 @@ class ElementMethods:
         Direct-current motor: torque = torque_constant × current on body j, opposite on body i,
         which is ground unless given. inductance × d current/dt = voltage - resistance × current -
         torque_constant × omega with omega = omega_j - omega_i. With an inductance, `current` is a
-        state of the motor, 0 at the start unless set.
+        state of the motor, 0 at the start unless set. In its second form, torque = stall_torque
+        (command - omega / free_speed).
 
         Args:
             name: its name in the model.
             j: Body j, the rotor.
             voltage: Voltage; may use `t` and the state [V].
-            resistance: Resistance of the winding [Ohm].
-            torque_constant: Torque over current, which is also voltage over rate [N*m/A].
+            resistance: Resistance of the winding, with voltage [Ohm].
+            torque_constant: Torque over current, which is also voltage over rate; with voltage
+                [N*m/A].
             inductance: Inductance of the winding [H].
+            stall_torque: Torque at rest, in place of voltage [N*m].
+            free_speed: Rate without torque, with stall_torque [rad/s].
+            command: Share of the full voltage, with stall_torque; may use `t` and the state.
             i: Body i, the stator.
         """
         return self._add(
@@ -1004,6 +1233,9 @@ class ElementMethods:
                 resistance=resistance,
                 torque_constant=torque_constant,
                 inductance=inductance,
+                stall_torque=stall_torque,
+                free_speed=free_speed,
+                command=command,
                 i=i,
             )
         )

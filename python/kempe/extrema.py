@@ -3,27 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.errors import KempeError
 from kempe.fine import fine
 from kempe.motion import Motion
+from kempe.refine import Maxima
 from kempe.solution import Solution
 
 #: A quantity of a motion, (n_t,), such as ``lambda motion: motion.body("crank").omega``.
 Quantity = Callable[[Motion], Floats]
 
-#: Local extreme values above this share of the largest sample are refined, so many at most.
-_SHARE, _CANDIDATES = 0.9, 8
-#: A bracket is divided so often into so many intervals; each time it shrinks by half as much.
-_ROUNDS, _INTERVALS = 4, 16
 #: Values that differ by less than this share of the largest are the same value.
 _SAME = 1e-12
 #: Maxima that differ by less than this share are equal within the error of the interpolant.
 _EQUAL = 1e-7
+
+
+#: For each solution, the maxima of its multipliers.
+_passed: WeakKeyDictionary[Solution, Maxima | None] = WeakKeyDictionary()
 
 
 class Extreme(NamedTuple):
@@ -46,7 +48,9 @@ def largest(motion: Motion, quantity: Quantity) -> Extreme:
         quantity: a function of a motion that returns a value for each time, (n_t,).
 
     Returns:
-        The value, which is never below the largest one at the outputs, and its time.
+        The value and its time. Values beside a singular position do not count if they have no
+        bound there, or if they are errors of the state divided by little; see ``unbounded``.
+        Otherwise the value is never below the largest one at the outputs.
     """
     return _extreme(motion, quantity, 1.0)
 
@@ -62,60 +66,83 @@ def peak(motion: Motion, quantity: Quantity) -> Extreme:
     return high if abs(high.value) >= abs(low.value) else low
 
 
+def unbounded(motion: Motion, quantity: Quantity) -> Floats:
+    """Times of singular positions beside which a quantity has no bound.
+
+    Args:
+        motion: a solution; any other motion has no values between its times, and no such times.
+        quantity: as for ``largest``.
+
+    Returns:
+        The times, s, in ascending order.
+    """
+    maxima = _maxima(motion, quantity, 1.0)
+    return np.empty(0) if maxima is None else maxima.poles
+
+
 def _extreme(motion: Motion, quantity: Quantity, sign: float) -> Extreme:
     """The largest value of sign times the quantity."""
     output = _first(motion, sign * np.atleast_1d(quantity(motion)), sign)
+    maxima = _maxima(motion, quantity, sign)
+    if maxima is None:
+        return output
+    dense = fine(motion)
+    values = sign * np.atleast_1d(quantity(dense))
+    if not len(maxima.values):
+        return output
+    equal = maxima.values >= maxima.values.max() - _EQUAL * abs(float(maxima.values.max()))
+    at = maxima.t[equal]
+    first = int(np.abs(at - float(dense.t[0])).argmin())
+    found = Extreme(float(sign * maxima.values[equal][first]), float(at[first]))
+    if values[0] >= sign * found.value - _EQUAL * abs(found.value):
+        found = Extreme(found.value, float(dense.t[0]))  # it begins at its extreme value
+    room = _SAME * abs(output.value)
+    is_higher = sign * output.value > sign * found.value + room
+    return output if is_higher and not len(maxima.near) else found
+
+
+def _maxima(motion: Motion, quantity: Quantity, sign: float) -> Maxima | None:
+    """The maxima of sign times a quantity; None for a constant and without an interpolant."""
     dense = fine(motion)
     if dense is motion:
-        return output
+        return None
+    assert isinstance(motion, Solution)
     values = sign * np.atleast_1d(quantity(dense))
-    found = _first(dense, values, sign)
-    if np.ptp(values) > _SAME * float(np.abs(values).max()):
-        assert isinstance(motion, Solution)
-        closer = _refined(motion, quantity, sign, _brackets(dense.t, values))
-        room = _EQUAL * abs(found.value)
-        found = closer if sign * closer.value >= sign * found.value - room else found
-        if values[0] >= sign * found.value - _EQUAL * abs(found.value):
-            found = Extreme(found.value, float(dense.t[0]))  # it begins at its extreme value
-    room = _SAME * abs(output.value)
-    return output if sign * output.value > sign * found.value + room else found
+    if np.ptp(values) <= _SAME * float(np.abs(values).max()):
+        return None
+    read = partial(_read, motion, quantity, sign)
+    return Maxima(read, dense.t, values, _singular(motion), resolved=_resolved(motion))
+
+
+def _read(solution: Solution, quantity: Quantity, sign: float, t: Floats) -> Floats:
+    found: Floats = sign * np.asarray(quantity(solution(t)))
+    return found
+
+
+def _singular(solution: Solution) -> Maxima | None:
+    """The maxima of all multipliers together, which find the singular positions of a run."""
+    if solution not in _passed:
+        dense = fine(solution)
+        size = _multipliers(dense)
+        changes = np.ptp(size) > _SAME * float(size.max())
+        read = partial(_read, solution, _multipliers, 1.0)
+        found = Maxima(read, dense.t, size, resolved=_resolved(solution)) if changes else None
+        _passed[solution] = found
+    return _passed[solution]
+
+
+def _resolved(solution: Solution) -> bool:
+    """Whether each step has an instant, so that only errors are steeper than between instants."""
+    assert solution.dense is not None
+    return len(fine(solution).t) >= len(solution.dense.t)
+
+
+def _multipliers(motion: Motion) -> Floats:
+    found: Floats = np.linalg.norm(motion.lam, axis=-1)
+    return found
 
 
 def _first(motion: Motion, values: Floats, sign: float) -> Extreme:
     """The largest of the values at the times of a motion, and the first time at which it occurs."""
     k = int(np.argmax(values >= values.max() - _SAME * float(np.abs(values).max())))
     return Extreme(float(sign * values[k]), float(np.atleast_1d(motion.t)[k]))
-
-
-def _brackets(t: Floats, values: Floats) -> Floats:
-    """Times before and after the largest local maxima, (n, 2)."""
-    padded = np.concatenate([[-np.inf], values, [-np.inf]])
-    is_peak = (values >= padded[:-2]) & (values >= padded[2:])
-    high = values >= values.max() - (1.0 - _SHARE) * float(np.abs(values).max())
-    peaks = np.flatnonzero(is_peak & high)
-    kept = peaks[np.argsort(-values[peaks], kind="stable")[:_CANDIDATES]]
-    found: Floats = t[np.clip(kept[:, None] + [-1, 1], 0, len(t) - 1)]
-    return found
-
-
-def _refined(solution: Solution, quantity: Quantity, sign: float, brackets: Floats) -> Extreme:
-    """The largest value in some brackets, the first of equal ones.
-
-    Each bracket shrinks to the parts beside its largest value.
-    """
-    share = np.linspace(0.0, 1.0, _INTERVALS + 1)
-    rows = np.arange(len(brackets))
-    highest, at = np.full(len(brackets), -np.inf), brackets[:, 0]
-    for _ in range(_ROUNDS):
-        times = brackets[:, :1] + share * np.diff(brackets)
-        try:
-            values = sign * np.asarray(quantity(solution(times.ravel()))).reshape(times.shape)
-        except KempeError:  # no unique reactions at an instant between those that are known
-            return Extreme(-sign * np.inf, float(at[0]))
-        k = values.argmax(axis=1)
-        highest, at = values[rows, k], times[rows, k]
-        ends = np.clip(k[:, None] + [-1, 1], 0, _INTERVALS)
-        brackets = np.take_along_axis(times, ends, axis=1)
-    equal = np.flatnonzero(highest >= highest.max() - _EQUAL * abs(float(highest.max())))
-    first = equal[int(np.abs(at[equal] - float(solution.t[0])).argmin())]
-    return Extreme(float(sign * highest[first]), float(at[first]))

@@ -139,6 +139,21 @@ class Motion:
         lam = np.atleast_2d(self.lam) if seen else None
         return self._as_given(_core.force(self.compiled.core, name, on, part, frame, *rows, lam))
 
+    def force_energy(self, name: str) -> Floats:
+        """Energy that a force element stores and power that it dissipates, (…, 2), J and W."""
+        rows = *self._rows(), np.atleast_2d(self.z)
+        seen = self.compiled.forces[name].reaction is not None
+        lam = np.atleast_2d(self.lam) if seen else None
+        return self._as_given(_core.force_energy(self.compiled.core, name, *rows, lam))
+
+    def dissipated(self, name: str) -> Floats:
+        """Energy that a force element has dissipated since the start; see ``ForceView``."""
+        raise ModelError(
+            "a state or a motion at some times has no dissipated energy",
+            name=name,
+            hint="it belongs to a solution",
+        )
+
     def _rows(self) -> tuple[Floats, Floats, Floats]:
         """t, q, v with a time axis, as required by the core."""
         return np.atleast_1d(self.t), np.atleast_2d(self.q), np.atleast_2d(self.v)

@@ -133,8 +133,6 @@ def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
     found["force"] = Quantity("N", lambda: _size(view.force(on=info.j)))
     for body in dict.fromkeys(info.bodies):
         found |= _reaction(motion, info.name, body)
-    for name, unit, _, _ in info.results:
-        found[name] = Quantity(unit, partial(getattr, view, name))
     for k, (name, unit) in enumerate(info.coordinates, info.columns.start):
         found[name] = Quantity(unit, partial(_column, partial(getattr, motion, "q"), k))
         rate = partial(_column, partial(getattr, motion, "v"), k)
@@ -232,13 +230,16 @@ def _rate_name(motion: Motion, owner: str, position: str) -> str:
 
 
 def of_force(motion: Motion, info: ForceInfo) -> Family:
-    """Length or angle of a force element, its force or torque on body j, power and states."""
+    """Length or angle of a force element, its force or torque on body j, energies and states."""
     view = motion.force(info.name)
     found = _acting(partial(view.force, on=info.j), partial(view.torque, on=info.j))
     found |= _measured(motion, info)
     if info.points is not None:
         found |= _pushing(motion, info)
     found["power"] = Quantity("W", partial(getattr, view, "power"))
+    found["energy"] = Quantity("J", partial(getattr, view, "energy"))
+    if getattr(motion, "dense", None) is not None:
+        found["dissipated"] = Quantity("J", partial(getattr, view, "dissipated"))
     for name, unit in info.states:
         found[name] = Quantity(unit, partial(view.state, name))
     for body in dict.fromkeys(info.bodies):

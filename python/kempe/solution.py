@@ -158,6 +158,12 @@ class Solution(Motion):
                 error.solution = Solution(self.compiled, kept, self._method)  # type: ignore[union-attr]
             raise
 
+    def dissipated(self, name: str) -> Floats:
+        """Energy that a force element has dissipated since the start; see ``ForceView``."""
+        from kempe.dissipation import dissipated
+
+        return dissipated(self, name)
+
     @property
     def success(self) -> bool:
         """True if the end was reached."""

@@ -75,6 +75,14 @@ def pair(value: object, path: str) -> tuple[float | str, float | str]:
     return number(first, f"{path}[0]"), number(second, f"{path}[1]")
 
 
+def triple(value: object, path: str) -> tuple[float | str, ...]:
+    """Three numbers or formulas from any sequence of three."""
+    found = listed_numbers(value, path)
+    if len(found) != 3:
+        refuse(path, f"{value!r}; must be a list of three numbers or formulas")
+    return found
+
+
 def reference(value: object, path: str) -> str:
     """A name such as ``crank``, ``crank.B`` or ``crank.angle``; its existence is checked later."""
     if not isinstance(value, str):
@@ -252,6 +260,7 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "number": number,
     "law": number,
     "pair": pair,
+    "triple": triple,
     "law_pair": pair,
     "laws": listed_numbers,
     "terms": numbers,

@@ -49,7 +49,8 @@ def test_a_joint_on_a_curve_has_its_symbol_on_body_i(
     found = scene(cam(joint, **fields))
     (symbol,) = (one for one in found["symbols"] if one["element"] == "contact")
     assert (symbol["mark"], symbol["bodies"]) == (mark, [2, 1])
-    assert symbol["radius"] == fields.get("radius")
+    radius = fields.get("radius")
+    assert symbol["radii"] == (None if radius is None else [radius, 0.0])
     contact = next(one for one in found["joints"] if one["name"] == "contact")
     assert contact["bodies"] == [2, 2]
     if mark == "face":  # the contact is at x = e cos φ, to a step of the drawn curve

@@ -11,7 +11,7 @@ LIST = CORE / "elements" / "mod.rs"
 GENERATED = "@generated"
 
 #: Types whose names, or whose `type`, are also words of mechanics, allowed where they name no type.
-WORDS = {"Distance", "Force", "GivenConstraint", "Torque", "Translational"}
+WORDS = {"Distance", "PointForce", "GivenConstraint", "Torque", "Translational"}
 
 #: Code examples in doc comments and docstrings.
 _EXAMPLE = re.compile(

@@ -316,6 +316,38 @@ pub fn force<'py>(
     })
 }
 
+/// Energy that a force element stores, and power that it dissipates: (n_t, 2).
+#[pyfunction]
+#[pyo3(signature = (model, name, t, q, v, z, lam=None))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn force_energy<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    name: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+    lam: Option<Rows<'py>>,
+) -> PyResult<Table<'py>> {
+    guard("force_energy", || {
+        let model = &*model.model;
+        let k = model.force(name).ok_or_else(|| unknown(py, "force", name))?;
+        let states = Rates::read(py, model, &t, &q, &v)?;
+        let (count, n_z, m) = (states.t.len(), model.layout.n_z, model.layout.n_rows);
+        let z = rows(py, "z", &z, (count, n_z))?;
+        let lam = lam.map(|lam| rows(py, "lam", &lam, (count, m))).transpose()?;
+        let mut out = Vec::with_capacity(2 * count);
+        states.each(model, |at, t, motions| {
+            let lam = lam.as_ref().map(|lam| &lam[at * m..(at + 1) * m]);
+            let acting = Acting { z: &z[at * n_z..(at + 1) * n_z], lam, t };
+            out.push(forces::potential(model, k, motions, acting));
+            out.push(forces::dissipated(model, k, motions, acting));
+        });
+        table(py, out, (count, 2))
+    })
+}
+
 /// The matrices and right sides of the equations at a state; `set` adds driver rows as in assembly.
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, set))]

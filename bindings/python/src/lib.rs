@@ -88,6 +88,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(evaluate::reaction, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::results, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::force_energy, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::matrices, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::formulas, module)?)?;
     module.add_function(wrap_pyfunction!(_inject_panic, module)?)?;

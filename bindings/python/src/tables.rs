@@ -15,6 +15,7 @@ fn default(field: &Field) -> Value {
         Some(Default::Absent) => json!({ "absent": true }),
         Some(Default::Number(x)) => json!(x),
         Some(Default::Pair(p)) => json!(p),
+        Some(Default::Triple(x)) => json!(x),
         Some(Default::Flag(flag)) => json!(flag),
         Some(Default::Type(name) | Default::Body(name)) => json!(name),
     }

@@ -3,8 +3,8 @@
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
 use super::values::{
-    count, curves, number, numbers, pair, plain_numbers, points, terms, tolerance, two_columns,
-    two_names, units, word, wrong,
+    count, curves, number, numbers, pair, plain_numbers, points, terms, tolerance, triple,
+    two_columns, two_names, units, word, wrong,
 };
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
@@ -98,6 +98,7 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (_, Data::Refused(_)) => {}
         (Shape::Number | Shape::Law, _) => number(report, node),
         (Shape::Pair | Shape::LawPair, _) => pair(report, node),
+        (Shape::Triple, _) => triple(report, node),
         (Shape::Laws, _) => numbers(report, node),
         (Shape::Terms, _) => terms(report, node),
         (Shape::Units, _) => units(report, node),

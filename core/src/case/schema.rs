@@ -214,6 +214,7 @@ fn property(f: &Field) -> Value {
         Shape::Word(words) => json!({ "enum": words }),
         Shape::Number | Shape::Law => reference("number"),
         Shape::Pair | Shape::LawPair => reference("pair"),
+        Shape::Triple => reference("triple"),
         Shape::Laws => reference("laws"),
         Shape::Terms => reference("terms"),
         Shape::Units => json!({ "type": "array", "items": { "enum": UNITS_OF_EQUATIONS } }),
@@ -235,6 +236,7 @@ fn property(f: &Field) -> Value {
     match f.default {
         Some(Default::Number(x)) => schema["default"] = json!(x),
         Some(Default::Pair(pair)) => schema["default"] = json!(pair),
+        Some(Default::Triple(triple)) => schema["default"] = json!(triple),
         Some(Default::Body(name)) => schema["default"] = json!(name),
         Some(Default::Flag(flag)) => schema["default"] = json!(flag),
         Some(Default::Type(name)) => schema["default"] = json!({ "type": name }),
@@ -282,6 +284,7 @@ fn definitions() -> Value {
     let mut definitions = json!({
         "number": described(number, "A number or a formula."),
         "pair": two_of(reference("number")),
+        "triple": { "type": "array", "items": reference("number"), "minItems": 3, "maxItems": 3 },
         "points": by_name(reference("pair"), &[]),
         "laws": { "type": "array", "items": reference("number"), "minItems": 1 },
         "terms": { "type": "object", "additionalProperties": reference("number"), "minProperties": 1 },

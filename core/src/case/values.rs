@@ -35,6 +35,17 @@ pub(super) fn pair(report: &mut Report, node: &Node) {
     }
 }
 
+/// Three numbers or formulas.
+pub(super) fn triple(report: &mut Report, node: &Node) {
+    match &node.data {
+        Data::List(items) if items.len() == 3 => numbers(report, node),
+        Data::List(items) => {
+            report.say(format!("a list of {}; must be a list of three numbers", items.len()));
+        }
+        _ => wrong(report, node, "a list of three numbers"),
+    }
+}
+
 /// Any number of numbers or formulas, at least one.
 pub(super) fn numbers(report: &mut Report, node: &Node) {
     match &node.data {

@@ -19,6 +19,8 @@ pub enum Shape {
     Law,
     /// Two numbers.
     Pair,
+    /// Three numbers, each with a unit of its own: those of the field, with commas between them.
+    Triple,
     /// Two laws.
     LawPair,
     /// Any number of laws.
@@ -62,6 +64,8 @@ pub enum Default {
     Number(f64),
     /// Two numbers.
     Pair([f64; 2]),
+    /// Three numbers.
+    Triple([f64; 3]),
     /// true or false.
     Flag(bool),
     /// The options of this type, each with its own default.
@@ -80,6 +84,11 @@ impl From<f64> for Default {
 impl From<[f64; 2]> for Default {
     fn from(x: [f64; 2]) -> Self {
         Self::Pair(x)
+    }
+}
+impl From<[f64; 3]> for Default {
+    fn from(x: [f64; 3]) -> Self {
+        Self::Triple(x)
     }
 }
 impl From<bool> for Default {

@@ -106,6 +106,24 @@ pub enum Followed<S = f64> {
     Quantity(Box<QuantityOf<S>>),
 }
 
+/// A position quantity on which an effort acts.
+#[derive(Clone, Debug)]
+pub struct Acted<S = f64> {
+    /// The quantity.
+    pub of: Followed<S>,
+    /// Its derivatives by x, y and angle of its bodies i and j.
+    pub gradient: [[S; 3]; 2],
+}
+
+impl<S: From<f64>> From<CoordinateOf> for Acted<S> {
+    fn from(of: CoordinateOf) -> Self {
+        let along = |step: f64| {
+            [0, 1, 2].map(|k| S::from(if k == of.coordinate.column() { step } else { 0.0 }))
+        };
+        Self { of: of.into(), gradient: [along(-1.0), along(1.0)] }
+    }
+}
+
 impl<S> From<CoordinateOf> for Followed<S> {
     fn from(coordinate: CoordinateOf) -> Self {
         Self::Coordinate(coordinate)

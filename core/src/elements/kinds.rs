@@ -2,7 +2,7 @@
 
 use super::attachment::Attachment;
 use super::field::{Default, Field, Shape};
-use super::followed::{BodyId, Followed, QuantityOf};
+use super::followed::{Acted, BodyId, Followed, QuantityOf};
 use super::plane_curve::Curve;
 use crate::expression::Tape;
 use crate::math::{Local, Real};
@@ -48,6 +48,8 @@ pub trait Source {
     fn curve(&mut self, field: &Field) -> Option<CurveOn<Tape>>;
     /// A position quantity.
     fn coordinate(&mut self, field: &Field) -> Option<Followed<Tape>>;
+    /// A position quantity with its gradient.
+    fn acted(&mut self, field: &Field) -> Option<Acted<Tape>>;
     /// A joint by name.
     fn joint(&mut self, field: &Field) -> Option<JointId>;
     /// A formula in the parameters.
@@ -56,6 +58,8 @@ pub trait Source {
     fn law(&mut self, field: &Field) -> Option<Tape>;
     /// Two formulas in the parameters.
     fn pair(&mut self, field: &Field) -> Option<[Tape; 2]>;
+    /// Three formulas in the parameters, each with a unit of its own.
+    fn triple(&mut self, field: &Field) -> Option<[Tape; 3]>;
     /// Two formulas in the parameters, time and state.
     fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]>;
     /// Formulas in the parameters, time and state.
@@ -135,6 +139,13 @@ kind!(
     }
 );
 kind!(
+    /// A position quantity on which an effort acts.
+    acted, Coordinate, S => Acted<S>, |v, f| Acted {
+        of: coordinate::map(&v.of, f),
+        gradient: v.gradient.each_ref().map(|slopes| slopes.each_ref().map(&mut *f)),
+    }
+);
+kind!(
     /// A joint.
     joint, Name, S => JointId, |v, _f| *v
 );
@@ -149,6 +160,10 @@ kind!(
 kind!(
     /// Two constants.
     pair, Pair, S => [S; 2], |v, f| [f(&v[0]), f(&v[1])]
+);
+kind!(
+    /// Three constants, each with a unit of its own.
+    triple, Triple, S => [S; 3], |v, f| [f(&v[0]), f(&v[1]), f(&v[2])]
 );
 kind!(
     /// Two quantities that may depend on time and state.
@@ -211,6 +226,8 @@ optional! {
     optional_law: law,
     /// The unit of an equation that may be left out.
     optional_unit: equation_unit,
+    /// A sense of force that may be left out.
+    optional_only: only,
 }
 
 /// Declares a kind of field that holds one of some words, and the enum of its values.
@@ -259,5 +276,27 @@ words! {
         Metre = "m",
         /// Radian.
         Radian = "rad",
+    }
+}
+
+words! {
+    /// The frame of the components of a vector.
+    frame: Frame {
+        /// That of ground.
+        Global = "global",
+        /// That of body i.
+        I = "i",
+        /// That of body j.
+        J = "j",
+    }
+}
+
+words! {
+    /// The only sense of a force along a line.
+    only: Only {
+        /// It pulls.
+        Tension = "tension",
+        /// It pushes.
+        Compression = "compression",
     }
 }

@@ -18,6 +18,7 @@ mod force_trait;
 mod group;
 mod joint_trait;
 mod kinds;
+mod line;
 mod measure;
 mod measured;
 mod plane_curve;
@@ -69,12 +70,20 @@ pub mod drivers {
 
 /// Forces: what acts on bodies beside joints and gravity.
 pub mod forces {
+    mod actuator;
+    mod bushing;
+    mod generalized_force;
     mod motor;
+    mod point_force;
     mod spring_damper;
     mod torque;
     mod torsion_spring;
 
+    pub use actuator::Actuator;
+    pub use bushing::Bushing;
+    pub use generalized_force::GeneralizedForce;
     pub use motor::Motor;
+    pub use point_force::PointForce;
     pub use spring_damper::SpringDamper;
     pub use torque::Torque;
     pub use torsion_spring::TorsionSpring;
@@ -94,16 +103,17 @@ pub use declare::{Element, Table};
 use dispatch::{constraints, declared, forces};
 use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
-pub use followed::{BodyId, Coordinate, CoordinateOf, Followed, QuantityOf};
+pub use followed::{Acted, BodyId, Coordinate, CoordinateOf, Followed, QuantityOf};
 pub use force_trait::{Force, Held, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
 pub use group::Group;
 pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, Required, ResultQuantity};
 use joints::*;
 pub use kinds::{
-    body, coordinate, curve, equation_unit, flag, joint, law, law_pair, laws, number, optional_law,
-    optional_number, optional_pair, optional_unit, pair, point, side, terms, units, CurveOn,
-    EquationUnit, JointId, Kind, Optional, PointOn, Side, Source,
+    acted, body, coordinate, curve, equation_unit, flag, frame, joint, law, law_pair, laws, number,
+    optional_law, optional_number, optional_only, optional_pair, optional_unit, pair, point, side,
+    terms, triple, units, CurveOn, EquationUnit, Frame, JointId, Kind, Only, Optional, PointOn,
+    Side, Source,
 };
 pub use measured::Measured;
 pub use plane_curve::{Curve, Points as CurvePoints};
@@ -143,6 +153,10 @@ forces! {
     TorsionSpring,
     SpringDamper,
     Torque,
+    PointForce,
+    Actuator,
+    Bushing,
+    GeneralizedForce,
     Motor,
     #[cfg(feature = "test-elements")] Lag,
     #[cfg(feature = "test-elements")] Rubbing,

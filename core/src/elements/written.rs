@@ -64,6 +64,9 @@ macro_rules! argument {
     (law_pair) => {
         $crate::elements::Pair
     };
+    (triple) => {
+        $crate::elements::Numbers
+    };
     (laws) => {
         $crate::elements::Numbers
     };

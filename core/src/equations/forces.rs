@@ -232,3 +232,20 @@ pub fn potential<S: Real>(
         Some(_) => at_state(model, item, motions, acting).own_energy(at),
     }
 }
+
+/// Power that force `k` dissipates, W.
+pub fn dissipated<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> S {
+    let element = at_state(model, &model.forces[k], motions, acting);
+    let at = situation(model, k, motions, acting);
+    let mut powers = Powers::zero();
+    element.action(&at, |part: usize, body: usize, w: Wrench<S>| {
+        powers.add(element.parts()[part].nature, || w.power(at.body(body).twist));
+    });
+    powers.add_own(element.own_powers(&at));
+    powers.dissipated
+}

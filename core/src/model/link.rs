@@ -6,8 +6,8 @@ use super::problem::Problem;
 use super::problems::MOST_REPORTED;
 use super::scope::{LawOf, Quantities, Reach, Scope, ANY_UNIT};
 use crate::elements::{
-    measured_of, BodyId, Constraint, Coordinate, CoordinateOf, CurveOn, Default, Field, Followed,
-    Group, JointId, Measured, PointOn, Source, UNITS_OF_EQUATIONS,
+    measured_of, Acted, BodyId, Constraint, Coordinate, CoordinateOf, CurveOn, Default, Field,
+    Followed, Group, JointId, Measured, PointOn, Source, UNITS_OF_EQUATIONS,
 };
 use crate::expression::{suggest, Tape};
 
@@ -114,7 +114,7 @@ impl<'a> Linker<'a> {
         }
     }
 
-    /// The unit of a field; one of several is that of the coordinate of the element.
+    /// The unit of a field; of two units, the first is for a length and the second for an angle as coordinate.
     fn unit(&self, field: &Field) -> String {
         let Some((first, other)) = field.unit.split_once('|') else { return field.unit.clone() };
         let unit =
@@ -126,7 +126,11 @@ impl<'a> Linker<'a> {
                 }
                 _ => ANY_UNIT,
             };
-        [first, other].into_iter().find(|known| *known == unit).unwrap_or(ANY_UNIT).to_string()
+        match unit {
+            "m" => first.to_string(),
+            "rad" => other.to_string(),
+            _ => ANY_UNIT.to_string(),
+        }
     }
 
     fn unit_of(&self, quantity: &str) -> Option<&'static str> {
@@ -304,6 +308,16 @@ impl Source for Linker<'_> {
         self.position(field, text)
     }
 
+    fn acted(&mut self, field: &Field) -> Option<Acted<Tape>> {
+        match self.coordinate(field)? {
+            Followed::Coordinate(of) => Some(of.into()),
+            Followed::Quantity(of) => {
+                let gradient = self.quantities.gradient(&of.name)?;
+                Some(Acted { of: Followed::Quantity(of), gradient })
+            }
+        }
+    }
+
     fn joint(&mut self, field: &Field) -> Option<JointId> {
         let name = self.text(field)?;
         // a faulty constraint before it moves it from its written place
@@ -329,6 +343,29 @@ impl Source for Linker<'_> {
 
     fn pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
         self.two(field, Reach::Parameters)
+    }
+
+    fn triple(&mut self, field: &Field) -> Option<[Tape; 3]> {
+        let items = match (self.entry.get(field.name), field.default) {
+            (Some(Value::List(items)), _) if items.len() == 3 => items,
+            (Some(Value::List(items)), _) => {
+                let message = format!("must hold three numbers, not {}", items.len());
+                return self.report(field, message, None);
+            }
+            (Some(other), _) => {
+                let message = format!("must be a list of three numbers, not {}", other.noun());
+                return self.report(field, message, None);
+            }
+            (None, Some(Default::Triple(x))) => return Some(x.map(Tape::from)),
+            (None, _) => return self.missing(field),
+        };
+        let units: Vec<&str> = field.unit.split(',').collect();
+        let mut read = |k: usize| {
+            let path: Vec<String> = self.path(field).into_iter().chain([k.to_string()]).collect();
+            self.read(&items[k], &path, units.get(k).unwrap_or(&ANY_UNIT), Reach::Parameters)
+        };
+        let (x, y, z) = (read(0), read(1), read(2));
+        Some([x?, y?, z?])
     }
 
     fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]> {

@@ -8,12 +8,13 @@ use super::items::Body;
 use super::link::Linker;
 use super::scope::{Quantities, Scope};
 use super::variable::Variable;
+use crate::elements::derive::{seeded, ByThree};
 use crate::elements::{
     At, Attachment, BodyId, Constraint, Coordinate, CoordinateOf, Followed, ForceElement, Group,
     Measured, PointOn, QuantityOf,
 };
 use crate::expression::{Symbol, Tape, Values};
-use crate::math::{Jet, Lift, Local, Pose, Real};
+use crate::math::{Dual, Jet, Lift, Local, Pose, Real, Rotation, Vec2};
 use crate::symbolic::{record, Name, Record, Symbolic};
 use std::cell::Cell;
 
@@ -164,6 +165,24 @@ impl<'a> Elements<'a> {
         k: usize,
         order: usize,
     ) -> (Tape, [Attachment<Tape>; 2]) {
+        self.recorded(owner, |poses, over, tape| {
+            let lifted = over.map(&mut |x| Jet::lift(*x));
+            let values = lifted.measure(&At { bodies: poses, own: &[], t: Jet::zero() });
+            let of = if order == 0 { values[k].value } else { values[k].rate };
+            let ends = [0, 1].map(|body| {
+                let Attachment { s, axis } = over.attachment(body);
+                Attachment { s: Local { x: tape(s.x), y: tape(s.y) }, axis: tape(axis) }
+            });
+            (tape(of), ends)
+        })
+    }
+
+    /// Gives the poses of the bodies of an owner and the owner as symbols, and the way from a symbol to a formula.
+    fn recorded<R>(
+        &self,
+        owner: &Owner<Tape>,
+        f: impl FnOnce(&[Pose<Jet<Symbolic>>], &Owner<Symbolic>, &dyn Fn(Symbolic) -> Tape) -> R,
+    ) -> R {
         record(|record| {
             let mut symbols = Vec::new();
             let mut symbol = |record: &Record, rate: Option<Symbolic>, meaning: Symbol| {
@@ -181,15 +200,35 @@ impl<'a> Elements<'a> {
                 .map(|body| self.pose(body, &mut |meaning| symbol(record, None, meaning)))
                 .collect();
             let over = owner.map(&mut |tape| tape.evaluate(&Parameters(&parameters)));
-            let lifted = over.map(&mut |x| Jet::lift(*x));
-            let values = lifted.measure(&At { bodies: &poses, own: &[], t: Jet::zero() });
-            let of = if order == 0 { values[k].value } else { values[k].rate };
-            let tape = |x: Symbolic| record.tape(x, &symbols);
-            let ends = [0, 1].map(|body| {
-                let Attachment { s, axis } = over.attachment(body);
-                Attachment { s: Local { x: tape(s.x), y: tape(s.y) }, axis: tape(axis) }
-            });
-            (tape(of), ends)
+            f(&poses, &over, &|x| record.tape(x, &symbols))
+        })
+    }
+
+    /// The derivatives of the quantity of an owner at a place by x, y and angle of its bodies i and j.
+    fn gradient_of(&self, owner: &Owner<Tape>, k: usize) -> [[Tape; 3]; 2] {
+        self.recorded(owner, |poses, over, tape| {
+            let lifted = over.map(&mut |x| Dual::lift(*x));
+            [0, 1].map(|seed| {
+                let pose = |(body, pose): (usize, &Pose<Jet<Symbolic>>)| {
+                    let pose = Pose {
+                        r: Vec2::new(pose.r.x.value, pose.r.y.value),
+                        angle: pose.angle.value,
+                        rotation: Rotation {
+                            cos: pose.rotation.cos.value,
+                            sin: pose.rotation.sin.value,
+                        },
+                    };
+                    if body == seed {
+                        seeded(&pose)
+                    } else {
+                        pose.lift()
+                    }
+                };
+                let bodies: Vec<Pose<ByThree<Symbolic>>> =
+                    poses.iter().enumerate().map(pose).collect();
+                let at = At { bodies: &bodies, own: &[], t: Dual::zero() };
+                lifted.measure(&at)[k].slope.map(tape)
+            })
         })
     }
 
@@ -253,6 +292,13 @@ impl Quantities for Elements<'_> {
             ends,
             value,
         })))
+    }
+
+    fn gradient(&self, name: &str) -> Option<[[Tape; 3]; 2]> {
+        let (owner, word) = name.rsplit_once('.')?;
+        let owner = self.owner(owner)?;
+        let (k, _) = place(owner.measured(), word)?;
+        Some(self.gradient_of(&owner, k))
     }
 
     fn offered(&self, owner: &str) -> Option<Vec<&'static str>> {

@@ -73,6 +73,8 @@ pub trait Quantities {
     fn formula(&self, name: &str, rates: bool) -> Option<Tape>;
     /// A position quantity with the bodies between which it is measured.
     fn followed(&self, name: &str) -> Option<Followed<Tape>>;
+    /// The derivatives of a position quantity by x, y and angle of its bodies i and j.
+    fn gradient(&self, name: &str) -> Option<[[Tape; 3]; 2]>;
     /// The position quantities of a point or element; None if there is no such owner.
     fn offered(&self, owner: &str) -> Option<Vec<&'static str>>;
     /// Names for suggestions.

@@ -2,7 +2,9 @@
 
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
-use kempe::elements::forces::{Motor, SpringDamper, Torque, TorsionSpring};
+use kempe::elements::forces::{
+    Actuator, Bushing, GeneralizedForce, Motor, PointForce, SpringDamper, Torque, TorsionSpring,
+};
 use kempe::elements::joints::{
     Belt, Coupling, Distance, FlatOnCurve, Gear, GivenConstraint, PinInSlot, PointOnCurve, Rack,
     Revolute, RollerOnCurve, Rolling, Translational, Weld,
@@ -12,7 +14,7 @@ use kempe::elements::test_elements::{
 };
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveFormula, CurveOn,
-    CurvePoints, ForceElement, Group, JointId, Linearized, Moving, PointOn, Side,
+    CurvePoints, ForceElement, Frame, Group, JointId, Linearized, Moving, Only, PointOn, Side,
 };
 use kempe::expression::{Expression, Names, Scope, Symbol, Tape};
 use kempe::math::{Interpolation, Local, Motion, Pose, Real, Twist, Vec2};
@@ -165,6 +167,7 @@ pub fn forces() -> Vec<ForceElement> {
         stiffness: 3.5,
         damping: 0.8,
         free_angle: 0.6,
+        preload: 0.4,
     })];
     all.push(ForceElement::Torque(Torque { i: BodyId(1), j: BodyId(2), torque: 1.3 }));
     all.push(ForceElement::Lag(Lag { i: BodyId(1), j: BodyId(2), stiffness: 4.0, time: 0.3 }));
@@ -188,19 +191,47 @@ pub fn forces() -> Vec<ForceElement> {
         all.push(ForceElement::Motor(Motor {
             i: BodyId(1),
             j: BodyId(2),
-            voltage: 2.4,
-            resistance: 1.7,
-            torque_constant: 0.6,
+            voltage: Some(2.4),
+            resistance: Some(1.7),
+            torque_constant: Some(0.6),
             inductance,
+            stall_torque: None,
+            free_speed: None,
+            command: 1.0,
         }));
     }
-    for free_length in [0.0, 0.9] {
+    all.push(ForceElement::Motor(Motor {
+        i: BodyId(1),
+        j: BodyId(2),
+        voltage: None,
+        resistance: None,
+        torque_constant: None,
+        inductance: 0.0,
+        stall_torque: Some(2.1),
+        free_speed: Some(1.6),
+        command: 0.8,
+    }));
+    for frame in [Frame::Global, Frame::I, Frame::J] {
+        let (force, i) = ([1.2, -0.5], BodyId(1));
+        all.push(ForceElement::PointForce(PointForce { i, j: on(2, -1.1, 0.4), force, frame }));
+    }
+    let (from, to) = (on(1, 0.3, -0.7), on(2, -1.1, 0.4));
+    let (stiffness, damping) = ([2.5, 1.2, 0.7], [0.4, 0.9, 0.3]);
+    all.push(ForceElement::Bushing(Bushing { i: from.clone(), j: to.clone(), stiffness, damping }));
+    let coordinate = CoordinateOf { body: j, coordinate: Coordinate::Angle }.into();
+    all.push(ForceElement::GeneralizedForce(GeneralizedForce { coordinate, value: 0.9 }));
+    all.push(ForceElement::Actuator(Actuator { i: from, j: to, force: 1.4 }));
+    let ties =
+        [(0.0, None), (0.9, None), (0.9, Some(Only::Tension)), (2.5, Some(Only::Compression))];
+    for (free_length, only) in ties {
         all.push(ForceElement::SpringDamper(SpringDamper {
             i: on(1, 0.3, -0.7),
             j: on(2, -1.1, 0.4),
             stiffness: 2.5,
             damping: 0.7,
             free_length,
+            preload: 0.3,
+            only,
         }));
     }
     all

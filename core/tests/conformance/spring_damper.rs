@@ -8,7 +8,9 @@ use kempe::math::{Dual, Lift, Local, Motion, Real, Wrench};
 
 fn spring(free_length: f64) -> SpringDamper {
     let at = |body| PointOn { body: BodyId(body), s: Local::zero() };
-    SpringDamper { i: at(0), j: at(1), stiffness: 50.0, damping: 3.0, free_length }
+    let (i, j) = (at(0), at(1));
+    let (stiffness, damping) = (50.0, 3.0);
+    SpringDamper { i, j, stiffness, damping, free_length, preload: 0.0, only: None }
 }
 
 /// Both points in one place except for `x`, j moving away with (2, -1) m/s.

@@ -46,10 +46,13 @@ fn quantities_have_units_that_exist_and_references_have_none() {
                 Shape::Number
                 | Shape::Law
                 | Shape::Pair
+                | Shape::Triple
                 | Shape::LawPair
                 | Shape::Laws
                 | Shape::Points => {
-                    for unit in field.unit.split('|').filter(|u| !u.is_empty() && *u != "any") {
+                    for unit in
+                        field.unit.split(['|', ',']).filter(|u| !u.is_empty() && *u != "any")
+                    {
                         assert!(Unit::parse(unit).is_ok(), "{place}");
                     }
                 }
@@ -57,7 +60,7 @@ fn quantities_have_units_that_exist_and_references_have_none() {
             }
         }
     }
-    let counts = ["teeth"];
+    let counts = ["teeth", "command"];
     for (_, table) in catalogue() {
         for field in table.fields.iter().filter(|f| matches!(f.shape, Shape::Law | Shape::Pair)) {
             let counts = counts.contains(&field.name);

@@ -151,6 +151,7 @@ impl Drawn<'_> {
             },
             Shape::Law => self.law(),
             Shape::Pair => Value::List(vec![self.number(), self.number()]),
+            Shape::Triple => Value::List(vec![self.number(), self.number(), self.number()]),
             Shape::Terms => {
                 let quantity = |random: &str| format!("{}.{random}", self.body_name());
                 let names = ["x", "angle"].map(quantity);

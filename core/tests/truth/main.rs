@@ -8,6 +8,7 @@ mod andrews;
 mod apart;
 mod baumgarte;
 mod convergence;
+mod forces;
 mod four_bar;
 mod n_four_bar;
 mod passing;

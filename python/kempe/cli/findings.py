@@ -10,6 +10,7 @@ from rich.text import Text
 from kempe.cli.console import figure, heading, table
 from kempe.display_units import display
 from kempe.display_units import heading as units_heading
+from kempe.names import few
 
 
 def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
@@ -43,11 +44,22 @@ def _show_peaks(console: Console, peaks: dict[str, Any]) -> None:
         header, cells = _columns(reactions)
         rows = [(*name, *row) for name, row in zip(names, cells, strict=True)]
         table(console, ("joint", "on", *header), rows, left=2)
+        _show_unbounded(console, reactions)
     if forces:
         heading(console, "Largest forces")
         header, cells = _columns(forces)
         rows = [(f["name"], f["on"], *row, _parts(f)) for f, row in zip(forces, cells, strict=True)]
         table(console, ("force", "on", *header, _header("torque of parts", "N*m")), rows, left=2)
+
+
+def _show_unbounded(console: Console, reactions: list[dict[str, Any]]) -> None:
+    """The reactions that have no bound beside singular positions."""
+    names = [r["joint"] for r in reactions if r["unbounded_at"]]
+    times = sorted(t for r in reactions for t in r["unbounded_at"])
+    if names:
+        span = f"first at {_measured(times[0], 's')}, last at {_measured(times[-1], 's')}"
+        text = f"without bound at singular positions, not counted here ({span}): {few(names)}"
+        console.print(Text(f"  {text}"))
 
 
 def _show_events(console: Console, events: dict[str, list[float]]) -> None:

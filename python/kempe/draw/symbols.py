@@ -196,7 +196,7 @@ def _strands(symbol: Symbol, crossed: bool) -> Iterator[Item]:
 def _roller(symbol: Symbol) -> Iterator[Item]:
     """A roller of body i on its pin."""
     (i, _), of = symbol["bodies"], symbol["element"]
-    frame, rim = on_body(i, symbol["points"][0]), metres(items.circle(symbol["radius"], 64))
+    frame, rim = on_body(i, symbol["points"][0]), metres(items.circle(symbol["radii"][0], 64))
     yield fill(of, frame, rim, "paper", layer=items.BODY)
     yield line(of, frame, rim, f"body {i}", 1.4, layer=items.BODY, closed=True)
     yield from _pin_at(symbol, 0)

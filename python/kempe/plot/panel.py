@@ -27,7 +27,8 @@ class Curve:
         label: text of the legend.
         values: (n_t,), SI units.
         line: colour, dashes and width; chosen by its place in the panel when empty.
-        high, low: its largest and its least value, if they may be marked.
+        high, low: its largest and its least value, if they are known.
+        marked: whether these may be marked.
     """
 
     label: str
@@ -35,6 +36,15 @@ class Curve:
     line: Mapping[str, Any] = field(default_factory=dict)
     high: Extreme | None = None
     low: Extreme | None = None
+    marked: bool = True
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The least and the largest value, SI units, without those beside singular positions."""
+        least, most = float(np.min(self.values)), float(np.max(self.values))
+        if self.low is not None and self.high is not None:
+            return max(least, self.low.value), min(most, self.high.value)
+        return least, most
 
 
 @dataclass(frozen=True)
@@ -64,15 +74,13 @@ class Panel:
     @property
     def peak(self) -> float:
         """The largest magnitude, SI units."""
-        return max(
-            (float(np.abs(curve.values).max(initial=0.0)) for curve in self.curves), default=0.0
-        )
+        return max((max(map(abs, curve.span)) for curve in self.curves), default=0.0)
 
     @property
     def span(self) -> tuple[float, float]:
         """The least and the largest value, SI units."""
-        values = np.concatenate([np.atleast_1d(curve.values) for curve in self.curves])
-        return float(values.min()), float(values.max())
+        lows, highs = zip(*(curve.span for curve in self.curves), strict=True)
+        return min(lows), max(highs)
 
 
 def curve(motion: Motion, label: str, quantity: Quantity, line: Mapping[str, Any]) -> Curve:

@@ -39,6 +39,8 @@ def chosen_peaks(curves: Sequence[Curve], *, turning_points: bool) -> list[Mark]
     for k, curve in enumerate(curves):
         if curve.high is None or curve.low is None or curve.high.value == curve.low.value:
             continue
+        if not curve.marked:
+            continue
         colour = {**style.line(k), **curve.line}["color"]
         found += [(curve.high, 1, colour), (curve.low, -1, colour)]
     if not found:

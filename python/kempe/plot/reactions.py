@@ -131,6 +131,6 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
         for one in curves
     ]
     with style.on(ax) as axes:
-        shown = [Curve(one.label, one.values, one.line) for one in with_peaks]
+        shown = [replace(one, marked=False) for one in with_peaks]
         draw(axes, times(motion), replace(panel, curves=shown, legend=True), cut=cut)
         return axes

@@ -9,6 +9,7 @@ import numpy as np
 
 from kempe._version import __version__
 from kempe.arrays import Floats
+from kempe.extrema import unbounded
 from kempe.report.extremes import Sampled
 from kempe.report.settling import settling
 from kempe.solution import Solution
@@ -74,9 +75,14 @@ def mechanism(state: State) -> dict[str, Any]:
 
 
 def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
-    """Largest reaction of a joint or driver on its body j, with its time."""
+    """Largest reaction of a joint or driver on its body j, with its time.
+
+    ``unbounded_at`` are the times of singular positions beside which the force has no bound. The
+    peaks are those of the other times.
+    """
     on = sampled.solution.compiled.constraints[name].j
-    force = sampled.peak(lambda motion: _size(motion.constraint(name).force(on=on)))
+    read = partial(_force, name, on)
+    force = sampled.peak(read)
     torque = sampled.peak(lambda motion: motion.constraint(name).torque(on=on))
     return {
         "joint": name,
@@ -85,7 +91,12 @@ def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
         "force_at": force.t,
         "torque": torque.value,
         "torque_at": torque.t,
+        "unbounded_at": unbounded(sampled.solution, read).tolist(),
     }
+
+
+def _force(name: str, on: str, motion: Motion) -> Floats:
+    return _size(motion.constraint(name).force(on=on))
 
 
 def force(sampled: Sampled, name: str) -> dict[str, Any]:

@@ -5,7 +5,7 @@ F″ = -Cᵀ Aᵀ Φ_rᵀ λ (Haug 6.6.8), T″ by (6.6.9); C is fixed in the bo
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Generic, cast
+from typing import TYPE_CHECKING, Generic, cast
 
 from kempe.arrays import Floats, fixed, scalar
 from kempe.compiled import ConstraintInfo

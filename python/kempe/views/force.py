@@ -85,6 +85,20 @@ class ForceView(Generic[S]):
             total = total + fx * body.vx + fy * body.vy + torque * body.omega
         return cast(S, scalar(total))
 
+    @property
+    def energy(self) -> S:
+        """Energy that it stores, (n_t,), J; zero for a spring with a law of time or state."""
+        return cast(S, scalar(self._motion.force_energy(self.name)[..., 0]))
+
+    @property
+    def dissipated(self) -> Floats:
+        """Energy that it has dissipated since the start, (n_t,), J; only of a solution.
+
+        Raises:
+            ModelError: the motion is no solution with an interpolant.
+        """
+        return self._motion.dissipated(self.name)
+
     def _action(self, on: str, frame: str, part: str | None) -> Floats:
         if part is not None:
             one_of(f"part of {self.name}", part, self.parts)

@@ -1,4 +1,4 @@
-//! Direct-current motor: a torque on body j, opposite on body i, from a voltage.
+//! Direct-current motor: a torque on body j, opposite on body i, from a voltage or a line of torque over speed.
 //!
 //! With the current i, the relative rate ω = φ̇ⱼ - φ̇ᵢ and the torque constant k:
 //!
@@ -9,6 +9,9 @@
 //! With an inductance L the current is a first-order state; without it i = (u - k ω) / R. The voltage u is a law.
 //! Energy: the source gives u i, the resistance takes R i², the inductance stores L i²/2, and the rest, k ω i, is the
 //! power of the torque. All states.
+//!
+//! The second form is a straight line between the stall torque T₀ and the free speed ω₀, for a command c:
+//! T = T₀ (c - ω/ω₀). It has no circuit; the work T ω counts as applied.
 
 use crate::elements::{
     element, measure, At, BodyId, Force, Mark, Measured, Nature, OwnPowers, OwnState, Part,
@@ -20,32 +23,88 @@ element! {
     /// Direct-current motor: torque = torque_constant × current on body j, opposite on body i, which is ground
     /// unless given. inductance × d current/dt = voltage - resistance × current - torque_constant × omega with
     /// omega = omega_j - omega_i. With an inductance, `current` is a state of the motor, 0 at the start unless set.
+    /// In its second form, torque = stall_torque (command - omega / free_speed).
     Motor, "motor" {
         /// Body j, the rotor.
         j: body,
         /// Voltage; may use `t` and the state.
-        voltage: law [V],
-        /// Resistance of the winding.
-        resistance: number [Ohm],
-        /// Torque over current, which is also voltage over rate.
-        torque_constant: number [N*m/A],
+        voltage: optional_law [V],
+        /// Resistance of the winding, with voltage.
+        resistance: optional_number [Ohm],
+        /// Torque over current, which is also voltage over rate; with voltage.
+        torque_constant: optional_number [N*m/A],
         /// Inductance of the winding.
         inductance: number [H] = 0.0,
+        /// Torque at rest, in place of voltage.
+        stall_torque: optional_number [N*m],
+        /// Rate without torque, with stall_torque.
+        free_speed: optional_number [rad/s],
+        /// Share of the full voltage, with stall_torque; may use `t` and the state.
+        command: law = 1.0,
         /// Body i, the stator.
         i: body = "ground",
     }
 }
 
-/// The back electromotive force k ω.
-fn induced<S: Real>(e: &Motor<S>, at: &Situation<'_, S>) -> S {
-    e.torque_constant * (at.j().twist.omega - at.i().twist.omega)
+/// ω.
+fn rate<S: Real>(at: &Situation<'_, S>) -> S {
+    at.j().twist.omega - at.i().twist.omega
 }
 
-/// The current: the state, or without inductance that of the voltage.
-fn current<S: Real>(e: &Motor<S>, at: &Situation<'_, S>) -> S {
-    match at.z.first() {
-        Some(current) => *current,
-        None => (e.voltage - induced(e, at)) / e.resistance,
+/// A circuit with its voltage.
+struct Circuit<S> {
+    voltage: S,
+    resistance: S,
+    torque_constant: S,
+}
+
+impl<S: Real> Circuit<S> {
+    /// Of the first form.
+    fn of(e: &Motor<S>) -> Option<Self> {
+        let (voltage, resistance) = (e.voltage?, e.resistance?);
+        Some(Self { voltage, resistance, torque_constant: e.torque_constant? })
+    }
+
+    /// The back electromotive force k ω.
+    fn induced(&self, at: &Situation<'_, S>) -> S {
+        self.torque_constant * rate(at)
+    }
+
+    /// The current: the state, or without inductance that of the voltage.
+    fn current(&self, at: &Situation<'_, S>) -> S {
+        match at.z.first() {
+            Some(current) => *current,
+            None => (self.voltage - self.induced(at)) / self.resistance,
+        }
+    }
+}
+
+/// The torque on body j.
+fn torque<S: Real>(e: &Motor<S>, at: &Situation<'_, S>) -> S {
+    match (Circuit::of(e), e.stall_torque, e.free_speed) {
+        (Some(circuit), ..) => circuit.torque_constant * circuit.current(at),
+        (None, Some(stall), Some(free)) => stall * (e.command - rate(at) / free),
+        _ => S::zero(),
+    }
+}
+
+/// A field that is missing or does not belong to the form.
+fn form(e: &Motor) -> Option<(&'static str, String)> {
+    let refuse = |field, message: &str| Some((field, message.to_string()));
+    let other = "not together with voltage; remove one of them";
+    let circuit = "not together with stall_torque; remove one of them";
+    match (e.voltage, e.stall_torque) {
+        (None, None) => refuse("voltage", "missing; give voltage, or stall_torque and free_speed"),
+        (Some(_), Some(_)) => refuse("stall_torque", other),
+        (Some(_), None) if e.free_speed.is_some() => refuse("free_speed", other),
+        (Some(_), None) if e.command != 1.0 => refuse("command", other),
+        (Some(_), None) if e.resistance.is_none() => refuse("resistance", "missing"),
+        (Some(_), None) if e.torque_constant.is_none() => refuse("torque_constant", "missing"),
+        (None, Some(_)) if e.resistance.is_some() => refuse("resistance", circuit),
+        (None, Some(_)) if e.torque_constant.is_some() => refuse("torque_constant", circuit),
+        (None, Some(_)) if e.inductance != 0.0 => refuse("inductance", circuit),
+        (None, Some(_)) if e.free_speed.is_none() => refuse("free_speed", "missing"),
+        _ => None,
     }
 }
 
@@ -62,7 +121,7 @@ impl Force for Motor {
     }
 
     fn action<S: Real>(e: &Motor<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
-        let torque = e.torque_constant * current(e, at);
+        let torque = torque(e, at);
         out.put(0, 0, Wrench::torque(-torque));
         out.put(0, 1, Wrench::torque(torque));
     }
@@ -75,14 +134,22 @@ impl Force for Motor {
     }
 
     fn state_rates<S: Real>(e: &Motor<S>, at: &Situation<'_, S>, out: &mut [S]) {
-        if let Some(rate) = out.first_mut() {
-            *rate = (e.voltage - e.resistance * at.z[0] - induced(e, at)) / e.inductance;
+        if let (Some(rate), Some(c)) = (out.first_mut(), Circuit::of(e)) {
+            *rate = (c.voltage - c.resistance * at.z[0] - c.induced(at)) / e.inductance;
         }
     }
 
     fn own_powers<S: Real>(e: &Motor<S>, at: &Situation<'_, S>) -> OwnPowers<S> {
-        let current = current(e, at);
-        OwnPowers { dissipated: e.resistance * current * current, applied: e.voltage * current }
+        match Circuit::of(e) {
+            Some(circuit) => {
+                let current = circuit.current(at);
+                OwnPowers {
+                    dissipated: circuit.resistance * current * current,
+                    applied: circuit.voltage * current,
+                }
+            }
+            None => OwnPowers { dissipated: S::zero(), applied: torque(e, at) * rate(at) },
+        }
     }
 
     fn own_energy<S: Real>(e: &Motor<S>, at: &Situation<'_, S>) -> S {
@@ -97,9 +164,15 @@ impl Force for Motor {
     }
 
     fn fault(e: &Motor) -> Option<(&'static str, String)> {
-        if e.resistance <= 0.0 {
-            return Some(("resistance", "must be positive".to_string()));
-        }
-        (e.inductance < 0.0).then(|| ("inductance", "must not be negative".to_string()))
+        let positive = |field, x: Option<f64>| {
+            let wrong = x.is_some_and(|x| x <= 0.0);
+            wrong.then(|| (field, "must be positive".to_string()))
+        };
+        let negative = || ("inductance", "must not be negative".to_string());
+        form(e)
+            .or_else(|| positive("resistance", e.resistance))
+            .or_else(|| positive("free_speed", e.free_speed))
+            .or_else(|| positive("stall_torque", e.stall_torque))
+            .or_else(|| (e.inductance < 0.0).then(negative))
     }
 }

@@ -1,24 +1,30 @@
 //! Translational spring-damper (Haug 6.2.10): a force along the line between two points.
 //!
-//! With d = Pⱼ - Pᵢ, l = |d| and u = d/l: force on j is -k (l - l₀) u - c l̇ u with l̇ = uᵀ ḋ; opposite
-//! on i. V = ½ k (l - l₀)².
+//! With d = Pⱼ - Pᵢ, l = |d| and u = d/l: force on j is -(k (l - l₀) + c l̇ + p) u with l̇ = uᵀ ḋ; opposite
+//! on i. V = ½ k (l - l₀)² + p (l - l₀).
 //!
-//! The stiffness part is computed as -k d + k l₀ u, so that with l₀ = 0 it is -k d exactly, without a
+//! The stiffness part is computed as -k d + (k l₀ - p) u, so that with l₀ = p = 0 it is -k d exactly, without a
 //! division. Where the points meet, l = 0, the line has no direction. There k l₀ u jumps; it is taken
 //! as zero, the mean over all directions. The damping force is -c ḋ, its limit on both sides of a
 //! passage. All states are allowed, and the force is finite in all of them.
+//!
+//! An element that only pulls is slack where l < l₀; one that only pushes, where l > l₀. Slack means no force and no
+//! energy. Elsewhere damping cannot turn the sum k (l - l₀) + c l̇ + p to the other sense: the sum is zero
+//! there, and the damper takes what the spring gives. Both changes are switches.
 
+use crate::elements::line::Line;
 use crate::elements::{
-    element, measure, At, BodyId, Force, Mark, Measured, Nature, Part, SceneSymbol, Situation,
-    Wrenches,
+    element, measure, At, BodyId, Force, Mark, Measured, Nature, Only, Part, SceneSymbol,
+    Situation, Wrenches,
 };
-use crate::math::{Local, Real, Vec2, Wrench};
+use crate::math::{Local, Real, Vec2};
 
 element! {
     /// Translational spring-damper between two points: with l their distance, the force on j is
-    /// -stiffness (l - free_length) - damping dl/dt along the line from i to j; opposite on i (Haug
+    /// -(stiffness (l - free_length) + damping dl/dt + preload) along the line from i to j; opposite on i (Haug
     /// 6.2.10). Where the points meet the line has no direction: the stiffness force is zero there,
-    /// and the damping force is -damping times the relative velocity.
+    /// and the damping force is -damping times the relative velocity. With `only`, the force is 0 where the element is
+    /// slack, l < free_length for tension and l > free_length for compression, and it is never of the other sense.
     SpringDamper, "spring_damper" {
         /// Point of body i, as `body.point`.
         i: point,
@@ -30,14 +36,75 @@ element! {
         damping: law [N*s/m] = 0.0,
         /// Distance of the points at which the spring is relaxed.
         free_length: law [m] = 0.0,
+        /// Force of the relaxed spring, > 0 pulls.
+        preload: law [N] = 0.0,
+        /// The only sense of the force: `tension` pulls, `compression` pushes.
+        only: optional_only,
     }
 }
 
-/// d, l² and l, which is zero with zero slopes where the points meet.
-fn line<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>) -> (Vec2<S>, S, S) {
-    let d = at.j().pose.point(e.j.s) - at.i().pose.point(e.i.s);
-    let squared = d.dot(d);
-    (d, squared, S::select(squared, squared.sqrt(), S::zero()))
+/// The places of the switches of an element with `only`.
+const TAUT: usize = 0;
+const ACTS: usize = 1;
+
+/// The forces along the line, > 0 if they pull.
+struct Pull<S> {
+    /// The elongation, or the shortening of an element that only pushes.
+    beyond: S,
+    /// Of stiffness and preload.
+    elastic: S,
+    /// Of damping.
+    damping: S,
+    /// The sum, > 0 in the only sense.
+    sum: S,
+}
+
+fn pull<S: Real>(
+    e: &SpringDamper<S>,
+    only: Only,
+    at: &Situation<'_, S>,
+    line: &Line<S>,
+) -> Pull<S> {
+    let stretch = line.length - e.free_length;
+    let elastic = e.stiffness * stretch + e.preload;
+    let damping = e.damping * line.u.dot(apart(e, at));
+    let sum = elastic + damping;
+    match only {
+        Only::Tension => Pull { beyond: stretch, elastic, damping, sum },
+        Only::Compression => Pull { beyond: -stretch, elastic, damping, sum: -sum },
+    }
+}
+
+/// ḋ.
+fn apart<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>) -> Vec2<S> {
+    at.j().point_velocity(e.j.s) - at.i().point_velocity(e.i.s)
+}
+
+/// The forces of stiffness and of damping on body j.
+fn both_senses<S: Real>(
+    e: &SpringDamper<S>,
+    at: &Situation<'_, S>,
+    line: &Line<S>,
+) -> [Vec2<S>; 2] {
+    let (apart, u) = (apart(e, at), line.u);
+    let rate = u.dot(apart);
+    let along = |u: S, apart: S| S::select(line.squared, u * rate, apart);
+    let damped = Vec2::new(along(u.x, apart.x), along(u.y, apart.y));
+    let elastic = (line.d - u.scale(e.free_length)).scale(e.stiffness) + u.scale(e.preload);
+    [-elastic, -damped.scale(e.damping)]
+}
+
+/// The same of an element that only pulls or pushes.
+fn one_sense<S: Real>(
+    e: &SpringDamper<S>,
+    only: Only,
+    at: &Situation<'_, S>,
+    line: &Line<S>,
+) -> [Vec2<S>; 2] {
+    let Pull { beyond, elastic, damping, sum } = pull(e, only, at, line);
+    let taut = |force: S| at.choose(TAUT, beyond, force, S::zero());
+    let damping = at.choose(ACTS, sum, damping, -elastic);
+    [elastic, damping].map(|pull| -line.u.scale(taut(pull)))
 }
 
 impl Force for SpringDamper {
@@ -56,28 +123,39 @@ impl Force for SpringDamper {
     }
 
     fn symbols(e: &SpringDamper) -> Vec<SceneSymbol> {
-        [(e.stiffness, Mark::Spring), (e.damping, Mark::Dashpot)]
+        let elastic = e.stiffness != 0.0 || e.preload != 0.0;
+        [(elastic, Mark::Spring), (e.damping != 0.0, Mark::Dashpot)]
             .into_iter()
-            .filter(|(coefficient, _)| *coefficient != 0.0)
+            .filter(|(acts, _)| *acts)
             .map(|(_, mark)| SceneSymbol::between_points(mark, &e.i, &e.j))
             .collect()
     }
 
     fn action<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
-        let (d, squared, l) = line(e, at);
-        let apart = at.j().point_velocity(e.j.s) - at.i().point_velocity(e.i.s);
-        let zero = S::zero();
-        let u = Vec2::new(S::select(squared, d.x / l, zero), S::select(squared, d.y / l, zero));
-        let rate = u.dot(apart);
-        let along = |u: S, apart: S| S::select(squared, u * rate, apart);
-        let damped = Vec2::new(along(u.x, apart.x), along(u.y, apart.y));
-        let stretched = d - u.scale(e.free_length);
-        let (arm_i, arm_j) = (at.i().pose.global(e.i.s), at.j().pose.global(e.j.s));
-        let (elastic, damping) = (stretched.scale(e.stiffness), damped.scale(e.damping));
-        out.put(0, 0, Wrench::at(arm_i, elastic));
-        out.put(0, 1, Wrench::at(arm_j, -elastic));
-        out.put(1, 0, Wrench::at(arm_i, damping));
-        out.put(1, 1, Wrench::at(arm_j, -damping));
+        let line = Line::new(at, &e.i, &e.j);
+        let forces = match e.only {
+            None => both_senses(e, at, &line),
+            Some(only) => one_sense(e, only, at, &line),
+        };
+        for (part, force) in forces.into_iter().enumerate() {
+            let [on_i, on_j] = line.wrenches(force);
+            out.put(part, 0, on_i);
+            out.put(part, 1, on_j);
+        }
+    }
+
+    fn switch_count<S>(e: &SpringDamper<S>) -> usize {
+        match e.only {
+            None => 0,
+            Some(_) => 2,
+        }
+    }
+
+    fn switches<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>, out: &mut [S]) {
+        if let Some(only) = e.only {
+            let Pull { beyond, sum, .. } = pull(e, only, at, &Line::new(at, &e.i, &e.j));
+            (out[TAUT], out[ACTS]) = (beyond, sum);
+        }
     }
 
     fn points<S: Real>(e: &SpringDamper<S>) -> Option<[Local<S>; 2]> {
@@ -85,8 +163,15 @@ impl Force for SpringDamper {
     }
 
     fn potential<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>) -> S {
-        let (_, _, l) = line(e, at);
-        let stretch = l - e.free_length;
-        S::constant(0.5) * e.stiffness * stretch * stretch
+        let line = Line::new(at, &e.i, &e.j);
+        let stretch = line.length - e.free_length;
+        let energy = S::constant(0.5) * e.stiffness * stretch * stretch + e.preload * stretch;
+        match e.only {
+            None => energy,
+            Some(only) => {
+                let Pull { beyond, .. } = pull(e, only, at, &line);
+                at.choose(TAUT, beyond, energy, S::zero())
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Rotational spring-damper (Haug 6.2.18): a torque that depends on the relative angle and its rate.
 //!
-//! θ = φⱼ - φᵢ, continuous, never modulo 2π. Torque on j: -k (θ - θ₀) - c θ̇; opposite on i.
-//! V = ½ k (θ - θ₀)². All real θ are allowed.
+//! θ = φⱼ - φᵢ, continuous, never modulo 2π. Torque on j: -k (θ - θ₀) - c θ̇ - T₀; opposite on i.
+//! V = ½ k (θ - θ₀)² + T₀ (θ - θ₀). All real θ are allowed.
 
 use crate::elements::{
     element, measure, At, BodyId, Force, Mark, Measured, Nature, Part, SceneSymbol, Situation,
@@ -10,7 +10,7 @@ use crate::elements::{
 use crate::math::{Real, Wrench};
 
 element! {
-    /// Rotational spring-damper: torque on j is -stiffness (θ - free_angle) - damping θ̇ with
+    /// Rotational spring-damper: torque on j is -(stiffness (θ - free_angle) + damping θ̇ + preload) with
     /// θ = angle_j - angle_i, continuous; opposite on i (Haug 6.2.18).
     TorsionSpring, "torsion_spring" {
         /// Body i.
@@ -23,6 +23,8 @@ element! {
         damping: law [N*m*s/rad] = 0.0,
         /// Relative angle at which the spring is relaxed.
         free_angle: law [rad] = 0.0,
+        /// Torque of the relaxed spring, > 0 clockwise on j.
+        preload: law [N*m] = 0.0,
     }
 }
 
@@ -42,9 +44,10 @@ impl Force for TorsionSpring {
     }
 
     fn symbols(e: &TorsionSpring) -> Vec<SceneSymbol> {
-        [(e.stiffness, Mark::SpiralSpring), (e.damping, Mark::RotaryDashpot)]
+        let elastic = e.stiffness != 0.0 || e.preload != 0.0;
+        [(elastic, Mark::SpiralSpring), (e.damping != 0.0, Mark::RotaryDashpot)]
             .into_iter()
-            .filter(|(coefficient, _)| *coefficient != 0.0)
+            .filter(|(acts, _)| *acts)
             .map(|(_, mark)| SceneSymbol::between_bodies(mark, e.i, e.j))
             .collect()
     }
@@ -52,7 +55,7 @@ impl Force for TorsionSpring {
     fn action<S: Real>(e: &TorsionSpring<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         let stretch = at.j().pose.angle - at.i().pose.angle - e.free_angle;
         let rate = at.j().twist.omega - at.i().twist.omega;
-        let (elastic, damping) = (-(e.stiffness * stretch), -(e.damping * rate));
+        let (elastic, damping) = (-(e.stiffness * stretch + e.preload), -(e.damping * rate));
         out.put(0, 0, Wrench::torque(-elastic));
         out.put(0, 1, Wrench::torque(elastic));
         out.put(1, 0, Wrench::torque(-damping));
@@ -65,6 +68,6 @@ impl Force for TorsionSpring {
 
     fn potential<S: Real>(e: &TorsionSpring<S>, at: &Situation<'_, S>) -> S {
         let stretch = at.j().pose.angle - at.i().pose.angle - e.free_angle;
-        S::constant(0.5) * e.stiffness * stretch * stretch
+        S::constant(0.5) * e.stiffness * stretch * stretch + e.preload * stretch
     }
 }

@@ -4,8 +4,8 @@ use super::names::{curve, function, internal, point, BodyName, Coordinates};
 use super::scalars::{scalars, Scalar};
 use super::{print, residual, Formulas};
 use crate::elements::{
-    BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, Default, Field, Followed, Group,
-    JointId, PointOn, Source,
+    Acted, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, Default, Field, Followed,
+    Group, JointId, PointOn, Source,
 };
 use crate::expression::Tape;
 use crate::math::{Local, Pose};
@@ -114,6 +114,10 @@ impl Source for Sample {
         let of = CoordinateOf { body: self.next_body(), coordinate: Coordinate::Angle };
         Some(of.into())
     }
+    fn acted(&mut self, field: &Field) -> Option<Acted<Tape>> {
+        let Followed::Coordinate(of) = self.coordinate(field)? else { return None };
+        Some(of.into())
+    }
     fn terms(&mut self, field: &Field) -> Option<Vec<(Followed<Tape>, Tape)>> {
         let mut term = || Some((self.coordinate(field)?, Tape::from(1.0)));
         Some(vec![term()?, term()?])
@@ -132,6 +136,9 @@ impl Source for Sample {
     }
     fn pair(&mut self, _: &Field) -> Option<[Tape; 2]> {
         Some([0.0, 0.0].map(Tape::from))
+    }
+    fn triple(&mut self, _: &Field) -> Option<[Tape; 3]> {
+        Some([0.0, 0.0, 0.0].map(Tape::from))
     }
     fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
         self.pair(field)

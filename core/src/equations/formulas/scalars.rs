@@ -28,7 +28,7 @@ pub(super) fn scalars<T>(element: &Constraint<T>) -> Vec<Scalar> {
             Shape::Pair => Some(Scalar::Pair(name)),
             Shape::Number => Some(Scalar::Number(name)),
             Shape::Law => Some(Scalar::Law(name)),
-            Shape::Terms => Some(Scalar::Numbers(name, count)),
+            Shape::Terms | Shape::Triple => Some(Scalar::Numbers(name, count)),
             Shape::Curve => Some(Scalar::Curve(count)),
             Shape::LawPair | Shape::Laws | Shape::Coordinate => Some(Scalar::Laws(name, count)),
             _ => None,

@@ -1,0 +1,71 @@
+//! Point force: a given force at a point of body j, opposite on body i at the same place.
+//!
+//! F has two components, in the global frame or in that of body i or j. With Pⱼ the point, the wrench on body i about its
+//! origin is (-F, -(Pⱼ - rᵢ) × F). Hence its power is F times the velocity of Pⱼ relative to body i at that
+//! place; the work counts as applied. All states are allowed.
+
+use crate::elements::{
+    element, At, BodyId, Force, Frame, Mark, Measured, Nature, Part, SceneSymbol, Situation,
+    SymbolEnd, Wrenches,
+};
+use crate::math::{Local, Real, Vec2, Wrench};
+
+element! {
+    /// Force at a point of body j; the opposite force acts on body i, which is ground unless given, at the same
+    /// place. Its power is force × (velocity of the point - velocity of body i at that place).
+    PointForce, "force" {
+        /// Point of body j, as `body.point`.
+        j: point,
+        /// Components of the force on body j; may use `t` and the state.
+        force: law_pair [N],
+        /// Body i, which takes the opposite force.
+        i: body = "ground",
+        /// Frame of the components: `global`, or that of body `i` or `j`.
+        frame: frame = "global",
+    }
+}
+
+impl Force for PointForce {
+    const MEASURED: &'static [Measured] = &[
+        Measured { names: ["x", "vx", "ax"], unit: "m" },
+        Measured { names: ["y", "vy", "ay"], unit: "m" },
+    ];
+    const PARTS: &'static [Part] = &[Part { name: "applied", nature: Nature::Applied }];
+
+    fn bodies<S>(e: &PointForce<S>) -> Vec<BodyId> {
+        vec![e.i, e.j.body]
+    }
+
+    fn measure<S: Real>(e: &PointForce<S>, at: &At<'_, S>, out: &mut [S]) {
+        let place = at.j().point(e.j.s);
+        out.copy_from_slice(&[place.x, place.y]);
+    }
+
+    fn action<S: Real>(e: &PointForce<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
+        let [x, y] = e.force;
+        let force = match e.frame {
+            Frame::Global => Vec2::new(x, y),
+            Frame::I => at.i().pose.global(Local::new(x, y)),
+            Frame::J => at.j().pose.global(Local::new(x, y)),
+        };
+        let arm = at.j().pose.global(e.j.s);
+        let from_i = at.j().pose.r + arm - at.i().pose.r;
+        out.put(0, 0, Wrench::at(from_i, -force));
+        out.put(0, 1, Wrench::at(arm, force));
+    }
+
+    fn symbols(e: &PointForce) -> Vec<SceneSymbol> {
+        if e.force == [0.0, 0.0] {
+            return Vec::new();
+        }
+        // a component that varies is drawn in its positive direction
+        let [x, y] = e.force.map(|x| if x.is_nan() { 1.0 } else { x });
+        let axes = match e.frame {
+            Frame::Global => BodyId::GROUND,
+            Frame::I => e.i,
+            Frame::J => e.j.body,
+        };
+        let i = SymbolEnd::body(axes).along(y.atan2(x));
+        vec![SceneSymbol { mark: Mark::ForceArrow, i, j: SymbolEnd::point(&e.j) }]
+    }
+}
