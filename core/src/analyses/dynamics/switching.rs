@@ -144,11 +144,8 @@ impl Switching {
         let moving = switches::functions_in_time(model, t, [q, v, z], [ode.workspace.a(), &dz]);
         for k in &self.on_state {
             let (boundaries, sigma) = (&model.switches[*k].boundaries, moving[*k]);
-            if !self.pieces[*k].is_nan() {
-                continue;
-            }
             let grows = if sigma.rate == 0.0 { sigma.second } else { sigma.rate };
-            if grows != 0.0 && grows.is_finite() {
+            if self.pieces[*k].is_nan() && grows != 0.0 && grows.is_finite() {
                 self.pieces[*k] = boundaries.beside(sigma.value, grows * self.sign > 0.0);
             }
         }
