@@ -8,7 +8,7 @@ use super::scope::{LawOf, Quantities, Reach, Scope};
 use super::unit_check::ANY_UNIT;
 use crate::elements::{
     measured_of, BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Followed, Group,
-    Measured, Source,
+    Measured,
 };
 use crate::expression::{suggest, Tape};
 

@@ -67,9 +67,11 @@ impl Names for WithU<'_> {
 
 /// Joints and drivers; drivers act from ground.
 pub fn constraints() -> Vec<Constraint> {
-    let driven = |coordinate| CoordinateOf { body: BodyId(2), coordinate };
-    let of = |body, coordinate| CoordinateOf { body: BodyId(body), coordinate }.into();
-    let mut all = vec![
+    [pins_and_slides(), wheels(), on_curves(), by_formulas(), of_tests(), drivers()].concat()
+}
+
+fn pins_and_slides() -> Vec<Constraint> {
+    vec![
         Constraint::Revolute(Revolute {
             i: on(1, 0.3, -0.7),
             j: on(2, -1.1, 0.4),
@@ -82,16 +84,12 @@ pub fn constraints() -> Vec<Constraint> {
         }),
         Constraint::Distance(Distance { i: on(1, 0.6, -0.2), j: on(2, -0.3, 0.8), length: 1.4 }),
         Constraint::Weld(Weld { i: on(1, -0.2, 0.6), j: on(2, 0.7, -0.5), angle: 0.8 }),
-        Constraint::Coupling(Coupling {
-            terms: vec![(of(1, Coordinate::Angle), 2.0), (of(2, Coordinate::Y), -0.7)],
-            value: 0.4,
-            unit: None,
-        }),
-        Constraint::GivenConstraint(GivenConstraint {
-            residual: vec![0.3, -0.2],
-            units: vec!["m", "rad"],
-        }),
         Constraint::PinInSlot(PinInSlot { i: on(1, 0.4, -0.3), j: on(2, -0.6, 0.2), axis: 0.7 }),
+    ]
+}
+
+fn wheels() -> Vec<Constraint> {
+    let mut all = vec![
         Constraint::Rack(Rack {
             i: on(1, 0.3, 0.1),
             j: on(2, -0.2, 0.4),
@@ -106,6 +104,27 @@ pub fn constraints() -> Vec<Constraint> {
             axis: -1.1,
             offset: -0.2,
         }),
+    ];
+    for (internal, toothed) in [(false, false), (true, false), (false, true)] {
+        all.push(Constraint::Gear(Gear {
+            i: on(1, 0.2, -0.1),
+            j: on(2, 0.3, 0.4),
+            radii: (!toothed).then_some([0.7, 0.3]),
+            teeth: toothed.then_some([24.0, 17.0]),
+            module: toothed.then_some(0.05),
+            internal,
+            offset: 0.1,
+        }));
+    }
+    for (radii, crossed) in [([0.7, 0.3], false), ([0.7, 0.3], true), ([0.4, 0.4], false)] {
+        let (i, j) = (on(1, 0.2, -0.1), on(2, 0.3, 0.4));
+        all.push(Constraint::Belt(Belt { i, j, radii, crossed, offset: -0.2 }));
+    }
+    all
+}
+
+fn on_curves() -> Vec<Constraint> {
+    vec![
         Constraint::PointOnCurve(PointOnCurve { i: on(1, 0.2, 0.5), curve: curve("formula") }),
         Constraint::PointOnCurve(PointOnCurve { i: on(1, 0.2, 0.5), curve: curve("line") }),
         Constraint::RollerOnCurve(RollerOnCurve {
@@ -130,26 +149,37 @@ pub fn constraints() -> Vec<Constraint> {
             curve: curve("points"),
             axis: -0.7,
         }),
+    ]
+}
+
+fn by_formulas() -> Vec<Constraint> {
+    let of = |body, coordinate| CoordinateOf { body: BodyId(body), coordinate }.into();
+    vec![
+        Constraint::Coupling(Coupling {
+            terms: vec![(of(1, Coordinate::Angle), 2.0), (of(2, Coordinate::Y), -0.7)],
+            value: 0.4,
+            unit: None,
+        }),
+        Constraint::GivenConstraint(GivenConstraint {
+            residual: vec![0.3, -0.2],
+            units: vec!["m", "rad"],
+        }),
+    ]
+}
+
+/// The elements of the tests.
+fn of_tests() -> Vec<Constraint> {
+    vec![
         Constraint::TurnedPin(TurnedPin { i: on(1, 0.3, -0.7), j: on(2, -1.1, 0.4) }),
         Constraint::Bead(Bead { i: on(1, 0.2, 0.5), j: BodyId(2), bend: 0.8 }),
         Constraint::Levels(Levels { i: BodyId(1), j: BodyId(2), k: BodyId(3), steps: [0.3, -0.4] }),
         Constraint::Pulley(Pulley { i: BodyId(1), j: BodyId(2), k: BodyId(3), ratio: 0.7 }),
-    ];
-    for (internal, toothed) in [(false, false), (true, false), (false, true)] {
-        all.push(Constraint::Gear(Gear {
-            i: on(1, 0.2, -0.1),
-            j: on(2, 0.3, 0.4),
-            radii: (!toothed).then_some([0.7, 0.3]),
-            teeth: toothed.then_some([24.0, 17.0]),
-            module: toothed.then_some(0.05),
-            internal,
-            offset: 0.1,
-        }));
-    }
-    for (radii, crossed) in [([0.7, 0.3], false), ([0.7, 0.3], true), ([0.4, 0.4], false)] {
-        let (i, j) = (on(1, 0.2, -0.1), on(2, 0.3, 0.4));
-        all.push(Constraint::Belt(Belt { i, j, radii, crossed, offset: -0.2 }));
-    }
+    ]
+}
+
+fn drivers() -> Vec<Constraint> {
+    let driven = |coordinate| CoordinateOf { body: BodyId(2), coordinate };
+    let mut all = Vec::new();
     for (coordinate, value) in
         [(Coordinate::X, 0.4), (Coordinate::Y, -1.3), (Coordinate::Angle, 2.1)]
     {
@@ -187,6 +217,23 @@ pub fn forces() -> Vec<ForceElement> {
         more: None,
         less: Some(0.2),
     }));
+    all.extend(motors());
+    for frame in [Frame::Global, Frame::I, Frame::J] {
+        let (force, i) = ([1.2, -0.5], BodyId(1));
+        all.push(ForceElement::PointForce(PointForce { i, j: on(2, -1.1, 0.4), force, frame }));
+    }
+    let (from, to) = (on(1, 0.3, -0.7), on(2, -1.1, 0.4));
+    let (stiffness, damping) = ([2.5, 1.2, 0.7], [0.4, 0.9, 0.3]);
+    all.push(ForceElement::Bushing(Bushing { i: from.clone(), j: to.clone(), stiffness, damping }));
+    let coordinate = CoordinateOf { body: j, coordinate: Coordinate::Angle }.into();
+    all.push(ForceElement::GeneralizedForce(GeneralizedForce { coordinate, value: 0.9 }));
+    all.push(ForceElement::Actuator(Actuator { i: from, j: to, force: 1.4 }));
+    all.extend(springs());
+    all
+}
+
+fn motors() -> Vec<ForceElement> {
+    let mut all = Vec::new();
     for inductance in [0.0, 0.3] {
         all.push(ForceElement::Motor(Motor {
             i: BodyId(1),
@@ -211,16 +258,11 @@ pub fn forces() -> Vec<ForceElement> {
         free_speed: Some(1.6),
         command: 0.8,
     }));
-    for frame in [Frame::Global, Frame::I, Frame::J] {
-        let (force, i) = ([1.2, -0.5], BodyId(1));
-        all.push(ForceElement::PointForce(PointForce { i, j: on(2, -1.1, 0.4), force, frame }));
-    }
-    let (from, to) = (on(1, 0.3, -0.7), on(2, -1.1, 0.4));
-    let (stiffness, damping) = ([2.5, 1.2, 0.7], [0.4, 0.9, 0.3]);
-    all.push(ForceElement::Bushing(Bushing { i: from.clone(), j: to.clone(), stiffness, damping }));
-    let coordinate = CoordinateOf { body: j, coordinate: Coordinate::Angle }.into();
-    all.push(ForceElement::GeneralizedForce(GeneralizedForce { coordinate, value: 0.9 }));
-    all.push(ForceElement::Actuator(Actuator { i: from, j: to, force: 1.4 }));
+    all
+}
+
+fn springs() -> Vec<ForceElement> {
+    let mut all = Vec::new();
     let ties =
         [(0.0, None), (0.9, None), (0.9, Some(Only::Tension)), (2.5, Some(Only::Compression))];
     for (free_length, only) in ties {
