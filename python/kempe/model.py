@@ -181,12 +181,8 @@ class Model(ElementMethods, TableMethods):
         self._on_ground("curve", given, curves)
 
     def _on_ground(
-        self,
-        what: str,
-        given: Mapping[str, Any],
-        check: Callable[[object, str], dict[str, Any]],
+        self, what: str, given: Mapping[str, Any], check: Callable[[object, str], dict[str, Any]]
     ) -> None:
-        """Add named points or curves to ground."""
         self._tree["bodies"] = with_ground(self._tree["bodies"], what, given, check)
         self._changed()
 

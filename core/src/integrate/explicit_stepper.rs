@@ -25,7 +25,7 @@ use std::marker::PhantomData;
 const MANY: usize = 10_000;
 
 /// Relative error of a step beyond which projection is not trusted to remove it.
-const FAR: f64 = 1e-2;
+const FAR: f64 = 1e-1;
 
 /// Memory of a stepper.
 pub(super) struct Work {
