@@ -45,7 +45,7 @@ pub struct Points<'a> {
     pub y_unit: Option<&'a str>,
     /// The curve between the points.
     pub interpolation: Interpolation,
-    /// Whether the curve repeats itself with the period x[last] - x[0].
+    /// Whether the curve repeats itself with the period `x[last] - x[0]`.
     pub periodic: bool,
     /// The value beyond the points.
     pub outside: Outside,
