@@ -19,6 +19,7 @@ from kempe.draw.items import Frame, Item, fill, line, metres, on_body, print_poi
 from kempe.draw.labels import Taken, measured, place_labels
 from kempe.draw.palette import one_line
 from kempe.draw.pins import Symbol, dot, support
+from kempe.draw.places import Places
 from kempe.draw.placing import View, place
 from kempe.draw.scene import Scene
 
@@ -33,42 +34,13 @@ BETWEEN_NAMES = " · "
 #: More names than these do not fit on a drawing.
 MOST_NAMES, MOST_NUMBERS = 60, 40
 _LINK, _EDGE, _CURVE, _TINT = 8.0, 1.0, 1.4, 0.72
-_NUMBER = 7.0  # radius of the circle around a number
+_NUMBER, _RINGED = 7.0, 20.0  # radius of the circle around a number, and of symbols around a pin
 _MOST_OBSTACLES = 60  # corners of one item
 
 #: Role, names and frame of objects at one place.
 _Named = tuple[str, list[str], Frame]
 #: A name without a place yet: its object, words, role, and the frame of its anchor.
 _Name = tuple[str, str, str, Frame]
-
-
-class Places:
-    """Paths of points, those of one place once.
-
-    Args:
-        near: paths that are always so near are one place, m.
-    """
-
-    def __init__(self, near: float) -> None:
-        self._near = near
-        self._paths: Floats | None = None
-
-    def index(self, path: Floats) -> int:
-        """The number of the place of a path, (n_t, 2); a new one if there is none yet."""
-        if self._paths is None:
-            self._paths = path[None]
-            return 0
-        apart = np.abs(self._paths - path).max(axis=(1, 2))
-        k = int(np.argmin(apart))
-        if apart[k] < self._near:
-            return k
-        self._paths = np.concatenate([self._paths, path[None]])
-        return len(self._paths) - 1
-
-    def is_new(self, path: Floats) -> bool:
-        """Whether a path has a place of its own; it is then taken."""
-        before = 0 if self._paths is None else len(self._paths)
-        return self.index(path) == before
 
 
 class Display:
@@ -236,8 +208,11 @@ class Display:
         bodies = self.scene["bodies"][1:]
         if len(bodies) > MOST_NUMBERS:
             return
-        ends = [path for symbol in self.scene["symbols"] for path in self._ends(symbol)]
-        pins = [self.view.points(path) for path in ends]
+        pins = [
+            (self.view.points(path), _RINGED if symbol["mark"] in symbols.AROUND else _NUMBER)
+            for symbol in self.scene["symbols"]
+            for path in self._ends(symbol)
+        ]
         for body in bodies:
             number = str(body["number"] - 1 + index_base)
             at = self._free_place(body, pins)
@@ -248,21 +223,28 @@ class Display:
                 self._names.append((body["name"], words, role, upright(body["number"], at)))
                 continue
             self.add(_numbered(body, at, number))
-            pins.append(self.view.points(self._path(body["number"], at)))
+            pins.append((self.view.points(self._path(body["number"], at)), _NUMBER))
             if words:
                 self.name("body", body["name"], upright(body["number"], at))
 
-    def _free_place(self, body: dict[str, Any], pins: list[Floats]) -> items.At | None:
-        """Where a number covers no pin and no other number; None if there is no room."""
+    def _free_place(
+        self, body: dict[str, Any], pins: list[tuple[Floats, float]]
+    ) -> items.At | None:
+        """Where a number covers no pin and no other number; None if there is no room.
+
+        Args:
+            body: the body.
+            pins: places with the radius around them that is taken.
+        """
         corners = np.array(body["outline"])
         if body["curves"] and len(corners) == 1:
             corners = np.array(body["curves"][0]["points"])
-        shares = [0.5, 0.35, 0.65, 0.25, 0.75]
+        shares = [0.5, 0.35, 0.65, 0.25, 0.75, 0.15, 0.85]
         along = [corners[0] + share * (corners[len(corners) // 2] - corners[0]) for share in shares]
         for at in (corners.mean(axis=0), np.array(body["center"]), *along):
             path = self.view.points(self._path(body["number"], at))
-            gaps = [float(np.hypot(*(path - pin).T).min()) for pin in pins]
-            if min(gaps, default=np.inf) > 2.0 * _NUMBER:
+            gaps = (float(np.hypot(*(path - pin).T).min()) - wide for pin, wide in pins)
+            if min(gaps, default=np.inf) > _NUMBER:
                 return [float(x) for x in at]
         return None
 

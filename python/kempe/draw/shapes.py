@@ -17,6 +17,8 @@ from kempe.motion import Motion
 
 #: Points of a body that are closer to a line than this share of its length lie on it.
 _STRAIGHT = 1e-9
+#: Symbols along a line of body i, as long as what moves on it goes.
+_GUIDES = ("slide", "slot", "toothed_line", "track")
 
 
 def body(model: CompiledModel, name: str) -> dict[str, Any]:
@@ -90,7 +92,7 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         angles = [motion.body(_name(motion, end)).angle for end in found["bodies"]]
         turn = np.atleast_1d(angles[1] - angles[0])
         found["turning"] = [float(turn[0]), float(np.abs(turn - turn[0]).max())]
-    elif told["mark"] in ("slide", "slot", "toothed_line", "track"):
+    elif told["mark"] in _GUIDES:
         found["reach"] = _reach(motion, found)
     elif told["mark"].endswith(("_strands", "cylinder")):
         found["reach"] = _distance(motion, found)
@@ -251,6 +253,14 @@ def bounds(
             places, radius = view.at(symbol["points"][1]).position, outer_radius(symbol)
             low = np.minimum(low, places.min(axis=0) - radius)
             high = np.maximum(high, places.max(axis=0) + radius)
+        if symbol["mark"] in _GUIDES:
+            angle, (x, y) = symbol["axes"][0], symbol["points"][0]
+            view = motion.body(_name(motion, symbol["bodies"][0]))
+            for along in symbol["reach"]:
+                end = (x + along * math.cos(angle), y + along * math.sin(angle))
+                places = view.at(end).position
+                low = np.minimum(low, places.min(axis=0))
+                high = np.maximum(high, places.max(axis=0))
     if not np.all(np.isfinite([*low, *high])):
         return np.array([-1.0, -1.0, 1.0, 1.0])
     return np.array([*low, *high])

@@ -60,8 +60,8 @@ def draw(symbol: Symbol, rings: Rings, aside: float = 0.0) -> Iterator[Item]:
     mark = symbol["mark"]
     if mark in ALONG:
         yield from ALONG[mark](symbol, aside)
-    elif mark in _AROUND:
-        yield from _AROUND[mark](symbol, rings)
+    elif mark in AROUND:
+        yield from AROUND[mark](symbol, rings)
     else:
         yield from _AT[mark](symbol)
 
@@ -224,7 +224,8 @@ ALONG: dict[str, Callable[[Symbol, float], Iterator[Item]]] = {
     "cylinder": lambda symbol, _: along.cylinder(symbol, "force"),
     "drive_cylinder": lambda symbol, _: along.cylinder(symbol, "drive"),
 }
-_AROUND: dict[str, Callable[[Symbol, Rings], Iterator[Item]]] = {
+#: Symbols around a point.
+AROUND: dict[str, Callable[[Symbol, Rings], Iterator[Item]]] = {
     "spiral_spring": _spiral,
     "rotary_dashpot": _rotary_dashpot,
     "torque_arrow": lambda symbol, rings: _curved_arrow(symbol, rings, "force", 1.6),
@@ -246,4 +247,4 @@ UNMARKED_I = (
     "drive_shift",
 )
 #: The vocabulary.
-MARKS = (*_AT, *ALONG, *_AROUND)
+MARKS = (*_AT, *ALONG, *AROUND)

@@ -67,8 +67,8 @@ def toothed_line(symbol: Symbol) -> Iterator[Item]:
     back = -_BACK * pitch * side
     rim = metres([(teeth[0][0], back), *teeth, (teeth[-1][0], back)])
     frame = on_body(i, symbol["points"][0], turn=symbol["axes"][0])
-    yield fill(of, frame, rim, f"body {i}", layer=items.GROUND, tint=_TINT)
-    yield line(of, frame, rim, f"body {i}", 1.0, layer=items.GROUND, closed=True)
+    yield fill(of, frame, rim, f"body {i}", layer=items.BODY, tint=0.72)
+    yield line(of, frame, rim, f"body {i}", 1.0, layer=items.BODY, closed=True)
 
 
 def _wheel(symbol: Symbol, rim: Floats, colour: str | None = None) -> Iterator[Item]:
