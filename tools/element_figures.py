@@ -50,6 +50,7 @@ def on_a_wheel(add: Callable[[kp.Model], Any]) -> kp.State:
 
 
 def sleeve() -> kp.State:
+    """A beam on two bushings."""
     m = kp.Model("mount")
     m.ground.points(O=(0, 0), Q=(0.6, 0))
     m.bar("beam", mass=2, length=0.6, ends=("P", "R"))
@@ -59,6 +60,7 @@ def sleeve() -> kp.State:
 
 
 def wire() -> kp.State:
+    """A bead on a wire that is drawn as a curve of ground."""
     m = kp.Model("bead on a parabola", gravity=(0, -9.81))
     m.ground.curves(parabola={"x": "u", "y": "u^2/2", "range": (-1.5, 1.5)})
     m.point_mass("bead", mass=2)
@@ -67,6 +69,7 @@ def wire() -> kp.State:
 
 
 def coupled() -> kp.State:
+    """Two wheels that are seen."""
     m = kp.Model("two coupled wheels")
     m.ground.points(O=(0, 0), P=(1, 0))
     wheel(m, "first", "O", 0.2)
@@ -77,6 +80,7 @@ def coupled() -> kp.State:
 
 
 def rack() -> kp.State:
+    """A rack that moves to the left."""
     m = kp.Model("rack and pinion")
     m.ground.points(O=(0, 0), G=(0.45, 0), P=(0, 0.1))
     m.body("rack", mass=3, inertia=0.1, points={"S": (0, 0), "E": (0.45, 0)})
@@ -107,7 +111,7 @@ def of_the_page(name: str) -> kp.State:
     assert code, f"{name}.md has no example"
     names: dict[str, Any] = {}
     with contextlib.redirect_stdout(io.StringIO()):
-        exec(compile(code[1], f"{name}.md", "exec"), names)  # noqa: S102 - our own pages
+        exec(compile(code[1], f"{name}.md", "exec"), names)
     return names["start"] if "start" in names else names["sol"].initial
 
 
@@ -118,7 +122,7 @@ def elements() -> list[str]:
 
 
 def figure(name: str) -> Figure:
-    """The mechanism of an element at its start; slots and rails are as long as half a second needs."""
+    """The mechanism of an element at its start, with rails as long as half a second needs."""
     state = MODELS[name]() if name in MODELS else of_the_page(name)
     scene = kp.scene(kp.dynamics(state.model, state, t_end=0.5, output_step=0.01), frames=30)
     first = {key: rows[:1] for key, rows in scene["frames"].items()}
