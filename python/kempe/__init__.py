@@ -26,6 +26,8 @@ Build:
 Compute:
     assemble                a state in which all joints are closed
     dynamics                the motion from a state
+    kinematics              the motion that drivers determine
+    inverse_dynamics        the same with efforts and reactions
     study                   comparison of methods and stabilizations
     RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
                             methods of integration
@@ -82,6 +84,8 @@ if TYPE_CHECKING:
     from kempe.errors import SingularityError as SingularityError
     from kempe.events import Event as Event
     from kempe.events import EventWarning as EventWarning
+    from kempe.kinematics import inverse_dynamics as inverse_dynamics
+    from kempe.kinematics import kinematics as kinematics
     from kempe.matrices import Labelled as Labelled
     from kempe.matrices import Matrices as Matrices
     from kempe.matrices import show as show
@@ -95,6 +99,8 @@ if TYPE_CHECKING:
     from kempe.options import Baumgarte as Baumgarte
     from kempe.options import Dynamics as Dynamics
     from kempe.options import GeneralizedAlpha as GeneralizedAlpha
+    from kempe.options import InverseDynamics as InverseDynamics
+    from kempe.options import Kinematics as Kinematics
     from kempe.options import NoStabilization as NoStabilization
     from kempe.options import Projection as Projection
     from kempe.options import Radau as Radau
@@ -125,7 +131,9 @@ _HOME = {
     "HHT": "options",
     "IntegrationError": "errors",
     "InternalError": "errors",
+    "InverseDynamics": "options",
     "KempeError": "errors",
+    "Kinematics": "options",
     "Labelled": "matrices",
     "Matrices": "matrices",
     "Model": "model",
@@ -150,6 +158,8 @@ _HOME = {
     "dynamics": "analyses",
     "equations": "symbolic",
     "errors": "",
+    "inverse_dynamics": "kinematics",
+    "kinematics": "kinematics",
     "load": "case",
     "load_solution": "archive",
     "player": "draw.player",

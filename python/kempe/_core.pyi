@@ -211,6 +211,35 @@ def dynamics(
             as for ``KeyboardInterrupt``.
     """
 
+def kinematics_options(model: Model, text: str) -> str:
+    """The options of ``kinematics`` or ``inverse_dynamics``, checked, as JSON.
+
+    Args:
+        model: the mechanism.
+        text: JSON, an entry of ``analyses`` as in a file.
+
+    Raises:
+        ModelError: an option is invalid.
+    """
+
+def kinematics(
+    model: Model,
+    t: float,
+    q: _F,
+    v: _F,
+    z: _F,
+    times: _F,
+    progress: Callable[[float], None] | None,
+) -> Run:
+    """The motion that the drivers determine, at ``times``, (n_t,), from a state.
+
+    Raises:
+        SingularityError: a limit; ``run`` holds the motion until then, as for
+            ``KeyboardInterrupt``.
+        AssemblyError: the state does not meet the constraints.
+        ModelError: the drivers leave a freedom.
+    """
+
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F]:
     """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂.
 

@@ -70,7 +70,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from kempe.option import Analysis, Option, Shape
-from kempe.values import Number, Tolerance
+from kempe.values import Number, Pair, Tolerance
 '''
 
 METHODS = '''\

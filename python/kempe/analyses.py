@@ -67,7 +67,7 @@ def assemble(
         raise ModelError("guess: a State", hint="pass it as from_state=")
     hint = encode(numbers(guess, "guess"))
     if from_state is not None:
-        _refuse_foreign(compiled, from_state)
+        refuse_foreign(compiled, from_state)
         t = float(from_state.t) if t is None else t
         q, v, z = (np.array(part) for part in (from_state.q, from_state.v, from_state.z))
         z = z if len(z) == compiled.n_z else np.zeros(compiled.n_z)
@@ -144,7 +144,7 @@ def _simulate(
         raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
     if progress is not None and not callable(progress):
         raise ModelError(f"progress: {progress!r} is not a function")
-    _refuse_foreign(model, start)
+    refuse_foreign(model, start)
     t, text, method = start.t, wanted.text, _method(wanted.entry)
     try:
         at = start.q, start.v, start.z
@@ -182,7 +182,7 @@ def _time(t: float) -> float:
     return float(value)
 
 
-def _refuse_foreign(model: CompiledModel, state: State) -> None:
+def refuse_foreign(model: CompiledModel, state: State) -> None:
     """Refuse a state with other bodies. The core refuses one that does not meet the constraints."""
     if not isinstance(state, State):
         raise ModelError(f"from_state: {state!r} is not a State")

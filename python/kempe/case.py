@@ -14,11 +14,11 @@ from kempe import _core, files
 from kempe.analyses import AssemblyWarning, Coordinates, Progress, assemble, simulate
 from kempe.compiled import CompiledModel
 from kempe.errors import AssemblyError, FileError, ModelError
+from kempe.kinematics import follow, follow_with_forces
 from kempe.model import Model
 from kempe.names import entry as named
 from kempe.names import few, one_of, unknown
-from kempe.option import Option
-from kempe.options import Dynamics
+from kempe.option import Analysis, Option
 from kempe.solution import Solution
 from kempe.state import State
 from kempe.values import Number, data, listed, mapping, numbers, plain, reference
@@ -27,7 +27,11 @@ FORMATS = {".toml": "toml", ".json": "json"}
 
 #: The function that runs an analysis, by its ``type``.
 _Runner = Callable[[CompiledModel, State, Mapping[str, Any], "Progress | None"], Solution]
-_RUNNERS: dict[str, _Runner] = {"dynamics": simulate}
+_RUNNERS: dict[str, _Runner] = {
+    "dynamics": simulate,
+    "kinematics": follow,
+    "inverse_dynamics": follow_with_forces,
+}
 
 
 @dataclass(frozen=True)
@@ -96,7 +100,7 @@ class Case:
         self,
         model: Model,
         start: Start | Mapping[str, Coordinates] | None = None,
-        analyses: Sequence[Dynamics] | Mapping[str, Mapping[str, Any]] = (),
+        analyses: Sequence[Analysis] | Mapping[str, Mapping[str, Any]] = (),
     ) -> None:
         if not isinstance(model, Model):
             raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) makes one")
@@ -328,7 +332,7 @@ def _flat(coordinates: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _entries(
-    analyses: Sequence[Dynamics] | Mapping[str, Mapping[str, Any]],
+    analyses: Sequence[Analysis] | Mapping[str, Mapping[str, Any]],
 ) -> dict[str, dict[str, Any]]:
     form = "{'type': 'dynamics', 't_end': 1}"
     if isinstance(analyses, Mapping):
@@ -339,7 +343,7 @@ def _entries(
         return found
     entries: dict[str, dict[str, Any]] = {}
     for analysis in listed(analyses, "analyses"):
-        if not isinstance(analysis, Dynamics):
+        if not isinstance(analysis, Analysis):
             raise ModelError(f"{analysis!r} is not an analysis", hint="kp.Dynamics(…) makes one")
         if analysis.name in entries:
             raise ModelError(

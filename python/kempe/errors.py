@@ -85,7 +85,15 @@ class RedundancyError(KempeError):
 
 
 class SingularityError(KempeError):
-    """In this position the task has no unique answer, as in a dead point."""
+    """In this position the task has no unique answer, as in a dead point.
+
+    Attributes:
+        solution: the results before the position, or None.
+        value: the time or driven value at which ``kinematics`` ends, or None.
+    """
+
+    solution: Any = None
+    value: float | None = None
 
 
 class IntegrationError(KempeError):

@@ -116,7 +116,7 @@ impl PyRun {
         give(core::States { t: &t[..count], q, v, z })
     }
 
-    fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {
+    pub fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {
         let layout = &model.model.layout;
         let core::Trajectory { t, q, v, z, works } = run.trajectory;
         let count = t.len();

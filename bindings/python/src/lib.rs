@@ -14,6 +14,7 @@ mod errors;
 mod evaluate;
 mod formulas;
 mod guard;
+mod kinematics;
 mod model;
 mod options;
 mod recent_options;
@@ -80,6 +81,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(is_reserved, module)?)?;
     module.add_function(wrap_pyfunction!(assemble::assemble, module)?)?;
     module.add_function(wrap_pyfunction!(dynamics::dynamics, module)?)?;
+    module.add_function(wrap_pyfunction!(kinematics::kinematics, module)?)?;
+    module.add_function(wrap_pyfunction!(kinematics::kinematics_options, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::project, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::energies, module)?)?;

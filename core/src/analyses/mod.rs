@@ -6,6 +6,7 @@ mod curves;
 mod dependence;
 pub mod dynamics;
 mod errors;
+pub mod kinematics;
 mod mobility;
 mod option_tables;
 pub mod options;

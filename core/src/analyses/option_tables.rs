@@ -1,12 +1,18 @@
 //! All analyses and options, as data: for the reader of files, the schema, Python and docs.
 
 use super::dynamics;
+use super::kinematics;
 use super::options::{Declaration, Declared, Family, Member};
 use std::sync::LazyLock;
 
 // made once, because every simulation is checked with them
-static ANALYSES: LazyLock<Vec<Declaration>> =
-    LazyLock::new(|| vec![dynamics::Options::declaration()]);
+static ANALYSES: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
+    vec![
+        dynamics::Options::declaration(),
+        kinematics::Options::declaration(),
+        kinematics::InverseOptions::declaration(),
+    ]
+});
 static FAMILIES: LazyLock<Vec<Family>> =
     LazyLock::new(|| vec![dynamics::Scheme::family(), dynamics::Stabilization::family()]);
 

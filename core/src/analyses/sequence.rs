@@ -1,6 +1,7 @@
 //! Checks of the analyses of a case: what is known without a run.
 
 use super::dynamics;
+use super::kinematics::{InverseOptions, Options as KinematicsOptions};
 use crate::model::{Entry, Model, Problem, Value};
 
 /// Everything that is wrong with analyses that follow each other from an assembled start at t = 0.
@@ -15,23 +16,53 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
             _ => ends.last(),
         };
         let begin = begin.and_then(|(_, t)| *t);
-        let end = match dynamics::read(model, &entry.fields, &path) {
-            Err(found) => {
+        let fields = &entry.fields;
+        let end = match entry.get("type") {
+            Some(Value::Text(kind)) if kind == "kinematics" => {
+                KinematicsOptions::checked(model, fields, &path).map(|options| options.t_end)
+            }
+            Some(Value::Text(kind)) if kind == "inverse_dynamics" => {
+                InverseOptions::checked(model, fields, &path).map(|options| options.t_end)
+            }
+            _ => dynamics_end(model, fields, &path, begin),
+        };
+        ends.push((
+            &entry.name,
+            end.unwrap_or_else(|found| {
                 problems.extend(found);
                 None
-            }
-            Ok(options) => {
-                problems.extend(options.fault(model, begin).map(|fault| {
-                    let keys = path.iter().map(String::as_str).chain(fault.path);
-                    let keys: Vec<&str> = keys.collect();
-                    Problem::at(&keys, fault.message).maybe_hint(fault.hint.map(str::to_string))
-                }));
-                let path = ["analyses", &entry.name, "t_end"];
-                problems.extend(begin.and_then(|begin| options.backward(begin, &path)));
-                Some(options.t_end)
-            }
-        };
-        ends.push((&entry.name, end));
+            }),
+        ));
     }
     problems
+}
+
+/// The end of an analysis of type `dynamics` that begins at a known time.
+fn dynamics_end(
+    model: &Model,
+    fields: &[(String, Value)],
+    path: &[String],
+    begin: Option<f64>,
+) -> Result<Option<f64>, Vec<Problem>> {
+    let options = dynamics::read(model, fields, path)?;
+    let keys = |more: &[&str]| -> Vec<String> {
+        path.iter().cloned().chain(more.iter().map(ToString::to_string)).collect()
+    };
+    let at = |more: &[&str], message: String| {
+        let keys = keys(more);
+        Problem::at(&keys.iter().map(String::as_str).collect::<Vec<_>>(), message)
+    };
+    let mut problems = Vec::new();
+    problems.extend(
+        options
+            .fault(model, begin)
+            .map(|fault| at(&fault.path, fault.message).maybe_hint(fault.hint.map(str::to_string))),
+    );
+    let path = keys(&["t_end"]);
+    let path: Vec<&str> = path.iter().map(String::as_str).collect();
+    problems.extend(begin.and_then(|begin| options.backward(begin, &path)));
+    match problems.is_empty() {
+        true => Ok(Some(options.t_end)),
+        false => Err(problems),
+    }
 }

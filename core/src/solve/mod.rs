@@ -53,6 +53,7 @@
 //! |---|---|
 //! | `lu_symbolic` | order and fill of an unsymmetric block matrix |
 //! | `block_lu` | its factors, real or complex, without allocation |
+//! | `dense` | small dense systems |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
 //! | `breakdown` | why a system has no usable solution |
 //! | `rank` | numerical rank, dependent rows and left null vectors |
@@ -61,6 +62,7 @@ mod block;
 mod block_lu;
 mod breakdown;
 mod condensed;
+mod dense;
 mod lu_symbolic;
 mod mass_block;
 pub mod newton;
@@ -81,6 +83,7 @@ mod symbolic;
 pub use block_lu::{BlockLu, LOST};
 pub use breakdown::Breakdown;
 pub use condensed::{Condensation, CondensedGroup};
+pub use dense::solve_dense;
 pub use lu_symbolic::LuPlan;
 pub use mass_block::{InverseMass, PIVOT_TOLERANCE};
 pub use newton::Newton;

@@ -49,7 +49,7 @@ impl Trajectory {
     }
 
     /// Adds y = (q, v, z, works).
-    pub(super) fn add(&mut self, layout: &StateLayout, t: f64, y: &[f64]) {
+    pub(in crate::analyses) fn add(&mut self, layout: &StateLayout, t: f64, y: &[f64]) {
         let [q, v, z, works] = layout.split(y);
         self.t.push(t);
         self.q.extend_from_slice(q);

@@ -192,6 +192,29 @@ impl<W: Words> Kind for W {
     }
 }
 
+/// Two numbers of any unit.
+#[allow(non_camel_case_types)] // a type in `options!`, written like a word
+pub enum interval {}
+impl Kind for interval {
+    type Value = [f64; 2];
+
+    fn shape() -> Shape {
+        Shape::Pair
+    }
+    fn data(_: &[f64; 2]) -> Default {
+        Default::Absent
+    }
+    fn read(reader: &mut Reader<'_>, key: &'static str, _: &'static str) -> Option<[f64; 2]> {
+        match reader.get(key)? {
+            Written::List(ends) if ends.len() == 2 => {
+                let [first, last] = [&ends[0], &ends[1]].map(|end| reader.value(key, end));
+                Some([first?, last?])
+            }
+            _ => reader.refuse(key, "must be two numbers, [first, last]"),
+        }
+    }
+}
+
 /// Declares the words for the values of an enum.
 macro_rules! words {
     ($Value:ident { $($word:literal => $value:expr),+ $(,)? }) => {

@@ -1,7 +1,7 @@
 //! Options from a file or from Python. Their structure has been checked by the tables; here values are computed.
 
 use crate::equations::at;
-use crate::model::{Model, Problem, Reach, Scope, Value};
+use crate::model::{Model, Problem, Reach, Scope, Value, ANY_UNIT};
 
 /// Reads the fields of one table of options and keeps the reports of their faults.
 pub struct Reader<'a> {
@@ -64,6 +64,18 @@ impl<'a> Reader<'a> {
             return self.refuse(key, format!("{x}{unit}; must be {must}"));
         }
         Some(x)
+    }
+
+    /// A finite number of any unit that is a part of the value of `key`.
+    pub fn value(&mut self, key: &str, value: &Value) -> Option<f64> {
+        let path = self.path_of(key);
+        let reach = Reach::Parameters;
+        let tape = self.scope.formula(value, &path, ANY_UNIT, reach, self.problems)?;
+        let x = tape.evaluate(&at(&self.model.parameters, &[], &[], 0.0));
+        match x.is_finite() {
+            true => Some(x),
+            false => self.refuse(key, format!("becomes {x}; must be finite")),
+        }
     }
 
     /// The model.

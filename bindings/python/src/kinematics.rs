@@ -1,0 +1,106 @@
+//! Kinematics as Python sees it: without the interpreter's lock, interruptible, with progress.
+
+use crate::convert::{row, state, Row};
+use crate::dynamics::PyRun;
+use crate::errors::{raise_plain, Failure, Kind};
+use crate::guard::guard;
+use crate::model::PyModel;
+use crate::options;
+use crate::watch::Watch;
+use kempe::analyses::dynamics::{Run, Statistics};
+use kempe::analyses::kinematics as core;
+use kempe::stabilize::Projection;
+use pyo3::prelude::*;
+use serde_json::json;
+
+/// The options of `kinematics` or `inverse_dynamics`, checked, as JSON with numbers in place of formulas.
+#[pyfunction]
+pub fn kinematics_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<String> {
+    guard("kinematics_options", || {
+        let fields = options::fields(py, text)?;
+        let core::Options { t_end, output_step, over, range, n, .. } =
+            core::Options::checked(&model.model, &fields, &[])
+                .map_err(|found| raise_plain(py, Kind::Model, &found))?;
+        let json = json!({
+            "t_end": t_end, "output_step": output_step, "over": over, "range": range, "n": n
+        });
+        Ok(json.to_string())
+    })
+}
+
+/// The motion that the drivers determine, at the given times.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, z, times, progress))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn kinematics(
+    py: Python<'_>,
+    model: &PyModel,
+    t: f64,
+    q: Row<'_>,
+    v: Row<'_>,
+    z: Row<'_>,
+    times: Row<'_>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<PyRun> {
+    guard("kinematics", || {
+        let start = state(py, &model.model, t, [&q, &v, &z])?;
+        let times = row(py, "times", &times, times.as_array().len())?;
+        let mut watch = Watch::new(progress.as_ref());
+        let began = std::time::Instant::now();
+        let outcome =
+            py.detach(|| core::kinematics(&model.model, &start, &times, |t| watch.look(t)));
+        let made = |motion: core::Motion, message: &str| {
+            PyRun::new(py, model, run(motion, began.elapsed().as_secs_f64()), message)
+        };
+        match (outcome, watch.raised) {
+            (Ok(motion), None) => made(motion, "the last value was reached"),
+            (Ok(motion), Some(error)) => {
+                error.value(py).setattr("run", made(motion, "interrupted")?)?;
+                Err(error)
+            }
+            (Err(failure), _) => {
+                let core::Failure { reason, motion } = *failure;
+                let run = Py::new(py, made(motion, &reason.to_string())?)?;
+                let error = because(&reason).raise(py);
+                error.value(py).setattr("run", run)?;
+                Err(error)
+            }
+        }
+    })
+}
+
+fn run(motion: core::Motion, seconds: f64) -> Run {
+    let core::Motion { trajectory, dense, steps, rejected, reached } = motion;
+    Run {
+        trajectory,
+        phases: vec![0],
+        dense: (!dense.t.is_empty()).then_some(dense),
+        statistics: Statistics { steps, rejected, seconds, ..Statistics::default() },
+        reached,
+        passing: true,
+        projection: Some(Projection::default()),
+        ..Run::default()
+    }
+}
+
+fn because(reason: &core::Reason) -> Failure {
+    let message = reason.to_string();
+    match reason {
+        core::Reason::Free { .. } => {
+            let hint = "add a coordinate_driver for each, or use dynamics";
+            Failure::new(Kind::Model, message).hint(hint)
+        }
+        core::Reason::Open { t, name, .. } => Failure::new(Kind::Assembly, message)
+            .name(name)
+            .at(*t)
+            .hint("kp.assemble(model, from_state=state) assembles the mechanism anew"),
+        core::Reason::Singular { t, name, .. } => Failure::new(Kind::Singularity, message)
+            .name(name)
+            .at(*t)
+            .hint("start at another position, or drive another coordinate"),
+        core::Reason::Limit(limit) => Failure::new(Kind::Singularity, message)
+            .name(&limit.driver)
+            .at(limit.t)
+            .hint("end the motion before, or drive another coordinate"),
+    }
+}

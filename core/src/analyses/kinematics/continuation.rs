@@ -1,0 +1,132 @@
+//! Steps along a branch of the motion.
+//!
+//! A step predicts q + h v + h²/2 a and closes the mechanism by Newton's method. It is accepted if the correction and
+//! the change of the velocity that the prediction leaves out are small against the motion over the step. Another branch
+//! would be farther away, or have another velocity. Otherwise half the step is tried.
+
+use super::failure::{Failure, Reason};
+use super::path;
+use super::quintic::Quintic;
+use super::solution::{Point, Solver};
+use crate::analyses::mobility::mobility;
+use crate::analyses::State;
+use crate::model::Model;
+
+/// Largest motion over a step: the root mean square over the coordinates, lengths relative to the size of the mechanism.
+const LONGEST: f64 = 0.05;
+/// Largest correction, as a part of the motion over the step.
+const CORRECTION: f64 = 0.05;
+/// Correction that is accepted however short the motion is.
+const SMALL: f64 = 1e-4;
+/// Largest change of the velocity that the prediction leaves out, as a part of the larger velocity.
+const TURN: f64 = 0.3;
+/// Shortest step, relative to the time to the next output: then the branch is followed by its length.
+const SHORTEST: f64 = 1e-5;
+/// Longest step, as a part of the longest one, over half of a singular position.
+const SHORT: f64 = 0.2;
+/// Gap of a start, or of an interpolated position, that counts as closed.
+const START: f64 = 1e-9;
+
+/// Follows a motion.
+pub(super) struct Continuation<'a> {
+    solver: Solver<'a>,
+    point: Point,
+    /// The next step, if the last one limits it.
+    length: f64,
+    steps: usize,
+    rejected: usize,
+}
+
+impl<'a> Continuation<'a> {
+    /// From a state, whose velocities are replaced by those of the drivers.
+    pub fn begin(model: &'a Model, start: &State) -> Result<Self, Box<Failure>> {
+        let mut solver = Solver::new(model);
+        let State { t, q, .. } = start;
+        let gaps = solver.phi(*t, q);
+        if let Some(row) = (0..gaps.len()).find(|row| !(gaps[*row].abs() <= START)) {
+            return Err(Reason::open(model, *t, row, gaps[row] * solver.rows[row]).into());
+        }
+        let freedom = mobility(model, *t, q);
+        if freedom.degrees_of_freedom > 0 && freedom.singular.is_empty() {
+            return Err(Reason::Free { degrees_of_freedom: freedom.degrees_of_freedom }.into());
+        }
+        match solver.point(*t, q.clone()) {
+            Some(point) => Ok(Self { solver, point, length: f64::INFINITY, steps: 0, rejected: 0 }),
+            None => Err(Reason::singular_start(model, *t, q, &freedom).into()),
+        }
+    }
+
+    /// The motion now.
+    pub fn point(&self) -> &Point {
+        &self.point
+    }
+
+    /// Steps, and steps that were taken again.
+    pub fn counts(&self) -> (usize, usize) {
+        (self.steps, self.rejected)
+    }
+
+    /// Takes a step, at most to `goal`.
+    pub fn step(&mut self, goal: f64) -> Result<(), Reason> {
+        let left = goal - self.point.t;
+        let pace = self.solver.norm(&self.point.v);
+        let most = if pace > 0.0 { LONGEST / pace } else { f64::INFINITY };
+        let mut h = left.signum() * self.length.min(most).min(left.abs());
+        let shortest = SHORTEST * most.min(left.abs());
+        while h.abs() >= shortest {
+            // the last step ends at the goal exactly
+            let t = if h == left { goal } else { self.point.t + h };
+            let predicted = self.point.predicted(h);
+            if let Some(next) = self.solver.point(t, predicted.clone()) {
+                if self.is_near(&next, &predicted, h) {
+                    self.length = 2.0 * h.abs();
+                    self.steps += 1;
+                    self.point = next;
+                    return Ok(());
+                }
+            }
+            self.rejected += 1;
+            if h == left && h.abs() <= SHORT * most {
+                if let Some(next) = self.across(goal) {
+                    self.steps += 1;
+                    self.point = next;
+                    return Ok(());
+                }
+            }
+            h *= 0.5;
+        }
+        self.length = f64::INFINITY;
+        self.steps += 1;
+        self.point = path::around(&mut self.solver, &self.point, goal)?;
+        Ok(())
+    }
+
+    /// The motion at a singular position, by the polynomials between this point and one as far behind the goal. None if
+    /// the motion does not pass it.
+    fn across(&mut self, goal: f64) -> Option<Point> {
+        let h = 2.0 * (goal - self.point.t);
+        let predicted = self.point.predicted(h);
+        let beyond = self.solver.point(self.point.t + h, predicted.clone())?;
+        if !self.is_near(&beyond, &predicted, h) {
+            return None;
+        }
+        let middle = Point { t: goal, ..Quintic::new(&self.point, &beyond).at(0.5) };
+        let gaps = self.solver.phi(goal, &middle.q);
+        gaps.iter().all(|gap| gap.abs() <= START).then_some(middle)
+    }
+
+    /// Whether a point lies where the last one leads.
+    fn is_near(&self, next: &Point, predicted: &[f64], h: f64) -> bool {
+        let norm = |x: Vec<f64>| self.solver.norm(&x);
+        let apart = |a: &[f64], b: &[f64]| norm(a.iter().zip(b).map(|(a, b)| a - b).collect());
+        let moved = apart(&next.q, &self.point.q);
+        let corrected = apart(&next.q, predicted);
+        let expected: Vec<f64> =
+            self.point.v.iter().zip(&self.point.a).map(|(v, a)| v + h * a).collect();
+        let turned = apart(&next.v, &expected);
+        let fastest = self.solver.norm(&next.v).max(self.solver.norm(&self.point.v));
+        moved <= 2.0 * LONGEST
+            && corrected <= SMALL.max(CORRECTION * moved)
+            && (turned <= TURN * fastest || turned * h.abs() <= SMALL)
+    }
+}

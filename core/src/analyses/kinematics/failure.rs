@@ -1,0 +1,179 @@
+//! Reasons for the end of a motion, in terms of the mechanism.
+
+use super::Motion;
+use crate::analyses::mobility::Mobility;
+use crate::elements::{BodyId, Group};
+use crate::equations::kinematics::Motions;
+use crate::math::Vec2;
+use crate::model::Model;
+use std::fmt;
+
+/// Sine of the angle between two bodies that count as in line.
+const IN_LINE: f64 = 1e-3;
+
+/// A motion that could not be followed to its end, with its part before.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// The reason.
+    pub reason: Reason,
+    /// The motion before.
+    pub motion: Motion,
+}
+
+/// The reason for which a motion ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reason {
+    /// The drivers do not determine the motion.
+    Free {
+        /// The freedoms that are left.
+        degrees_of_freedom: usize,
+    },
+    /// The start does not meet the constraints.
+    Open {
+        /// The time, s.
+        t: f64,
+        /// The joint or driver.
+        name: String,
+        /// The gap, m or rad.
+        gap: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// The start, or a position on the way, does not determine the velocities.
+    Singular {
+        /// The time, s.
+        t: f64,
+        /// A joint that takes part.
+        name: String,
+        /// Description.
+        message: String,
+    },
+    /// The driven value has reached an extreme.
+    Limit(Limit),
+}
+
+/// An extreme of the driven value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// The time, or the value in its place.
+    pub t: f64,
+    /// The position, shape (n_q).
+    pub q: Vec<f64>,
+    /// The driver that cannot go on.
+    pub driver: String,
+    /// Two bodies that are in line there, if there are such.
+    pub in_line: Option<[String; 2]>,
+}
+
+impl From<Reason> for Box<Failure> {
+    fn from(reason: Reason) -> Self {
+        Self::new(Failure { reason, motion: Motion::default() })
+    }
+}
+
+impl Reason {
+    pub(super) fn open(model: &Model, t: f64, row: usize, gap: f64) -> Self {
+        let (k, equation) = model.layout.owner(row);
+        let item = &model.constraints[k];
+        Self::Open { t, name: item.name.clone(), gap, unit: item.equations[equation].unit }
+    }
+
+    pub(super) fn singular_start(model: &Model, t: f64, q: &[f64], freedom: &Mobility) -> Self {
+        let group = freedom.singular.iter().chain(&freedom.redundant).next();
+        let group = group.cloned().unwrap_or_default();
+        let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+        let line =
+            in_line(model, q).map(|[a, b]| format!(": {a} and {b} in line")).unwrap_or_default();
+        let message = match names.is_empty() {
+            true => format!("the position at the start is singular{line}: it does not determine the velocities"),
+            false => format!(
+                "the position at the start is singular{line}: {} depend on each other, so that the velocities are not \
+                 determined",
+                names.join(", ")
+            ),
+        };
+        let name = names.first().map_or_else(String::new, |name| (*name).to_string());
+        Self::Singular { t, name, message }
+    }
+}
+
+/// The limit at a position.
+pub(super) fn limit(model: &Model, t: f64, q: Vec<f64>) -> Limit {
+    let drivers = model.constraints.iter().filter(|item| item.driven);
+    let driver = drivers.map(|item| item.name.clone()).next().unwrap_or_default();
+    Limit { t, driver, in_line: in_line(model, &q), q }
+}
+
+/// A position from which the motion cannot be followed.
+pub(super) fn lost(model: &Model, t: f64, q: &[f64]) -> Reason {
+    let line =
+        in_line(model, q).map(|[a, b]| format!(", near a position with {a} and {b} in line"));
+    let message = format!(
+        "the motion cannot be followed beyond t = {t:.6}{}: the drivers do not determine it there, or a law jumps",
+        line.unwrap_or_default()
+    );
+    Reason::Singular { t, name: String::new(), message }
+}
+
+/// Two moving bodies, joined to each other, that are in line: the joints of each lie on one straight line.
+fn in_line(model: &Model, q: &[f64]) -> Option<[String; 2]> {
+    let motions = Motions::at_rest(&model.layout, q);
+    let joints: Vec<(usize, [BodyId; 2])> = model
+        .constraints
+        .iter()
+        .enumerate()
+        .filter(|(_, item)| item.group == Group::Joints && item.bodies.len() == 2)
+        .map(|(k, item)| (k, [item.bodies[0], item.bodies[1]]))
+        .collect();
+    let place = |k: usize, body: BodyId, side: usize| -> Vec2 {
+        motions[body.0].pose.point(model.constraints[k].element.attachment(side).s)
+    };
+    // the direction of a body with two joints, from the given joint to the other one
+    let direction = |body: BodyId, from: usize| -> Option<Vec2> {
+        let own: Vec<_> = joints.iter().filter(|(_, bodies)| bodies.contains(&body)).collect();
+        if own.len() != 2 || body == BodyId::GROUND {
+            return None;
+        }
+        let ends: Vec<Vec2> =
+            own.iter().map(|(k, bodies)| place(*k, body, usize::from(bodies[1] == body))).collect();
+        let d = ends[1] - ends[0];
+        Some(if own[0].0 == from { d } else { -d })
+    };
+    joints.iter().find_map(|(k, [i, j])| {
+        let (a, b) = (direction(*i, *k)?, direction(*j, *k)?);
+        let sine = (a.x * b.y - a.y * b.x).abs() / (a.norm() * b.norm());
+        let driven = |body: &BodyId| {
+            model
+                .constraints
+                .iter()
+                .any(|item| item.group == Group::Drivers && item.bodies.contains(body))
+        };
+        let line = sine < IN_LINE && !driven(i) && !driven(j);
+        line.then(|| [i, j].map(|body| model.bodies[body.0].name.clone()))
+    })
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Free { degrees_of_freedom: n } => write!(
+                f,
+                "the drivers leave {n} degree{} of freedom; kinematics needs a driver for each",
+                if *n == 1 { "" } else { "s" }
+            ),
+            Self::Open { t, name, gap, unit } => write!(
+                f,
+                "the start does not meet the constraints at t = {t:.6}: {name} is open by {:.3e} {unit}",
+                gap.abs()
+            ),
+            Self::Singular { message, .. } => f.write_str(message),
+            Self::Limit(Limit { t, driver, in_line, .. }) => {
+                write!(f, "{driver} cannot pass {t:.9}: dead point")?;
+                match in_line {
+                    Some([a, b]) => write!(f, ", {a} and {b} in line"),
+                    None => Ok(()),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! The extreme value of t on the path: the limit of the motion.
+
+use super::failure::{self, Reason};
+use super::path::{Path, Place};
+use super::solution::Point;
+use crate::model::Model;
+
+/// Length of the path, scaled, to which a limit is located; the error of t is about its square.
+const LOCATED: f64 = 1e-9;
+/// Largest number of bisections.
+const MOST: usize = 60;
+
+/// The limit between a place and the one `ds` further on, where t goes back.
+pub(super) fn locate(path: &mut Path<'_, '_>, from: &Place, ds: f64, sign: f64) -> Reason {
+    let n = from.q.len();
+    let forward = |place: &Place| sign * place.tangent[n];
+    let (mut low, mut high) = (0.0, ds);
+    let mut best = from.clone();
+    let mut values = [forward(from), -1.0];
+    for k in 0..MOST {
+        if high - low < LOCATED {
+            break;
+        }
+        // regula falsi, and bisection in every third trial
+        let share = if k % 3 == 2 { 0.5 } else { values[0] / (values[0] - values[1]) };
+        let middle = low + share.clamp(0.01, 0.99) * (high - low);
+        let Some(place) = path.advance(from, middle) else { break };
+        let value = forward(&place);
+        if sign * (place.t - best.t) > 0.0 {
+            best = place;
+        }
+        if value > 0.0 {
+            (low, values[0]) = (middle, value);
+        } else {
+            (high, values[1]) = (middle, value);
+        }
+    }
+    Reason::Limit(failure::limit(path.solver.model, best.t, best.q))
+}
+
+/// The motion cannot be followed further, though no limit was found.
+pub(super) fn lost(model: &Model, from: &Point) -> Reason {
+    failure::lost(model, from.t, &from.q)
+}

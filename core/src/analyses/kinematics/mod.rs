@@ -1,0 +1,89 @@
+//! Kinematics: the motion of a mechanism whose drivers determine it, without integration.
+//!
+//! At each time the positions solve Φ(q, t) = 0, the velocities Φ_q v = ν and the accelerations Φ_q a = γ (Haug 3.6).
+//! The motion is followed from the start by short steps, so that it stays on its branch ([`Continuation`]). Where it
+//! cannot go on because the driven value has reached an extreme, this limit is found exactly ([`limit`](mod@limit)).
+//!
+//! | file | concept |
+//! |---|---|
+//! | `solution` | positions, velocities and accelerations at a time |
+//! | `continuation` | steps along a branch |
+//! | `path`, `limit` | the branch by its length, and the extreme of t on it |
+//! | `quintic` | polynomials between two points |
+//! | `works` | works over a step, by quadrature |
+//! | `options` | options of kinematics and of inverse dynamics |
+//! | `failure` | reasons for the end of a motion, in terms of the mechanism |
+
+mod continuation;
+mod failure;
+mod limit;
+mod options;
+mod path;
+mod quintic;
+mod solution;
+mod works;
+
+pub use failure::{Failure, Limit, Reason};
+pub use options::{InverseOptions, Options};
+pub use solution::Point;
+
+use super::dynamics::{PiecewiseInterpolant, Trajectory};
+use super::State;
+use crate::integrate::Flow;
+use crate::model::Model;
+use continuation::Continuation;
+use works::Works;
+
+/// A motion at chosen times.
+#[derive(Clone, Debug, Default)]
+pub struct Motion {
+    /// States, and works since the start. Without forces, as at a singular position, works are NaN.
+    pub trajectory: Trajectory,
+    /// Polynomials between the steps of the continuation.
+    pub dense: PiecewiseInterpolant,
+    /// Steps of the continuation.
+    pub steps: usize,
+    /// Steps that were taken again, shorter.
+    pub rejected: usize,
+    /// Whether the last time was reached; otherwise the observer stopped.
+    pub reached: bool,
+}
+
+/// The motion from `start` through the `times`, which ascend or descend; the first one may be that of the start.
+///
+/// `watch` is called with the time after each step and may stop the work.
+///
+/// # Errors
+/// [`Failure`]: the drivers leave or contradict a freedom, the start does not meet the constraints, or a limit of the
+/// motion comes before the last time. It contains the motion until then.
+pub fn kinematics(
+    model: &Model,
+    start: &State,
+    times: &[f64],
+    mut watch: impl FnMut(f64) -> Flow,
+) -> Result<Motion, Box<Failure>> {
+    let mut continuation = Continuation::begin(model, start)?;
+    let mut works = Works::new(model, start);
+    let mut motion = Motion::default();
+    motion.dense =
+        PiecewiseInterpolant { t: vec![start.t], degree: quintic::DEGREE, ..Default::default() };
+    for &t in times {
+        while continuation.point().t != t {
+            let before = continuation.point().clone();
+            let outcome = continuation.step(t);
+            (motion.steps, motion.rejected) = continuation.counts();
+            if let Err(reason) = outcome {
+                return Err(Box::new(Failure { reason, motion }));
+            }
+            works.add_step(&before, continuation.point(), &mut motion.dense);
+            if watch(continuation.point().t) == Flow::Stop {
+                return Ok(motion);
+            }
+        }
+        let Point { q, v, .. } = continuation.point();
+        let y = [&q[..], v, &start.z, &works.total].concat();
+        motion.trajectory.add(&model.layout, t, &y);
+    }
+    motion.reached = true;
+    Ok(motion)
+}

@@ -1,0 +1,155 @@
+//! The branch by its length s in the space of (q, t): a regular curve even where q is not a function of t.
+//!
+//! With y = (q, t), scaled, a point of the curve solves Φ(y) = 0 and τᵀ(y - y₀) = s with the tangent τ at y₀
+//! (Keller's pseudo-arclength continuation, in *Applications of Bifurcation Theory*, 1977).
+
+use super::failure::Reason;
+use super::limit;
+use super::solution::{Point, Solver};
+use crate::solve::solve_dense;
+
+/// Longest step of the path, scaled.
+const LONGEST: f64 = 1e-2;
+/// Shortest step.
+const SHORTEST: f64 = 1e-9;
+/// Largest number of steps around a position where Φ_q is nearly singular.
+const MOST: usize = 2000;
+/// Least cosine between the tangents of two neighbours.
+const ALONG: f64 = 0.95;
+/// Scaled residual of a closed position, and largest number of iterations.
+const CLOSED: f64 = 1e-13;
+const ITERATIONS: usize = 8;
+
+/// A point of the path.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    pub t: f64,
+    pub q: Vec<f64>,
+    /// The unit tangent (q′, t′), scaled.
+    pub tangent: Vec<f64>,
+}
+
+/// The path from a regular point.
+pub(super) struct Path<'s, 'a> {
+    pub solver: &'s mut Solver<'a>,
+    /// Scale of t.
+    pub unit: f64,
+}
+
+/// Passes a position near which the steps in t are too short: a change point, where the motion goes on, or a limit, where
+/// it ends.
+pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result<Point, Reason> {
+    let sign = (goal - from.t).signum();
+    let pace = solver.norm(&from.v);
+    let unit = if pace > 0.0 { 1.0 / pace } else { (goal - from.t).abs() };
+    let mut path = Path { solver, unit };
+    let Some(mut place) = path.begin(from, sign) else {
+        return Err(limit::lost(path.solver.model, from));
+    };
+    let mut ds = SHORTEST.sqrt();
+    for _ in 0..MOST {
+        let Some(next) = path.advance(&place, ds) else {
+            ds *= 0.5;
+            if ds < SHORTEST {
+                return Err(limit::lost(path.solver.model, from));
+            }
+            continue;
+        };
+        let forward = sign * next.tangent[next.q.len()];
+        if forward <= 0.0 {
+            return Err(limit::locate(&mut path, &place, ds, sign));
+        }
+        if sign * (next.t - goal) >= 0.0 {
+            // the path passes the goal: only this last part is too steep
+            let Place { t, q, .. } = &place;
+            let share = (goal - t) / (next.t - t);
+            let guess = q.iter().zip(&next.q).map(|(a, b)| a + share * (b - a)).collect();
+            return path
+                .solver
+                .point(goal, guess)
+                .ok_or_else(|| limit::lost(path.solver.model, from));
+        }
+        let regular = forward > 0.1 && next.t != from.t;
+        if let Some(point) = regular.then(|| path.solver.point(next.t, next.q.clone())).flatten() {
+            return Ok(point);
+        }
+        place = next;
+        ds = (1.5 * ds).min(LONGEST);
+    }
+    Err(limit::lost(path.solver.model, from))
+}
+
+impl Path<'_, '_> {
+    /// The place of a regular point, with its tangent in the direction of t.
+    fn begin(&mut self, from: &Point, sign: f64) -> Option<Place> {
+        let columns = &self.solver.columns;
+        let mut tangent: Vec<f64> =
+            from.v.iter().zip(columns).map(|(v, scale)| sign * v * self.unit / scale).collect();
+        tangent.push(sign);
+        normalize(&mut tangent);
+        Some(Place { t: from.t, q: from.q.clone(), tangent })
+    }
+
+    /// The place at the distance `ds` along the tangent, if Newton's method finds it.
+    pub fn advance(&mut self, from: &Place, ds: f64) -> Option<Place> {
+        let n = from.q.len();
+        let columns = self.solver.columns.clone();
+        let (mut q, mut t) = (from.q.clone(), from.t);
+        let shift = |q: &mut [f64], t: &mut f64, step: &[f64], unit: f64| {
+            for ((q, scale), dq) in q.iter_mut().zip(&columns).zip(step) {
+                *q += scale * dq;
+            }
+            *t += unit * step[n];
+        };
+        let first: Vec<f64> = from.tangent.iter().map(|x| ds * x).collect();
+        shift(&mut q, &mut t, &first, self.unit);
+        let mut last = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            let phi = self.solver.phi(t, &q);
+            let gap = phi.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            if gap.is_nan() {
+                return None;
+            }
+            let done = gap <= CLOSED;
+            // the right side of the last row is 0: corrections are normal to the tangent
+            let mut right: Vec<f64> = phi.iter().map(|x| -x).collect();
+            right.push(0.0);
+            if done {
+                right.fill(0.0);
+                right[n] = 1.0;
+            }
+            let step = self.solved(t, &q, &from.tangent, right)?;
+            if done {
+                let mut tangent = step;
+                normalize(&mut tangent);
+                let cosine: f64 = tangent.iter().zip(&from.tangent).map(|(a, b)| a * b).sum();
+                return (cosine >= ALONG).then_some(Place { t, q, tangent });
+            }
+            let size = step.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if size >= 0.5 * last && size > 1e-14 {
+                return None;
+            }
+            shift(&mut q, &mut t, &step, self.unit);
+            last = size;
+        }
+        None
+    }
+
+    /// Solves with the rows of Φ and the row of a tangent.
+    fn solved(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        tangent: &[f64],
+        mut right: Vec<f64>,
+    ) -> Option<Vec<f64>> {
+        let mut matrix = self.solver.extended(t, q, self.unit);
+        matrix.extend_from_slice(tangent);
+        solve_dense(&mut matrix, &mut right).then_some(right)
+    }
+}
+
+fn normalize(x: &mut [f64]) {
+    let length = x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    x.iter_mut().for_each(|x| *x /= length);
+}

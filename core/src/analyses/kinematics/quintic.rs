@@ -1,0 +1,61 @@
+//! Polynomials between two points of a motion.
+
+use super::solution::Point;
+
+/// Their degree.
+pub(super) const DEGREE: usize = 5;
+
+/// The polynomials of degree 5 with position, rate and acceleration of two points at its ends.
+pub(super) struct Quintic<'p> {
+    from: &'p Point,
+    to: &'p Point,
+    pub h: f64,
+}
+
+impl<'p> Quintic<'p> {
+    pub fn new(from: &'p Point, to: &'p Point) -> Self {
+        Self { from, to, h: to.t - from.t }
+    }
+
+    /// Coefficients of θ … θ⁵ of coordinate k less its first value.
+    pub fn position(&self, k: usize) -> [f64; DEGREE] {
+        let Self { from, to, h } = *self;
+        let [v0, v1] = [from.v[k], to.v[k]].map(|v| v * h);
+        let [a0, a1] = [from.a[k], to.a[k]].map(|a| a * h * h);
+        // the differences that the first three terms leave at the end
+        let d = to.q[k] - from.q[k] - v0 - 0.5 * a0;
+        let e = v1 - v0 - a0;
+        let f = a1 - a0;
+        [
+            v0,
+            0.5 * a0,
+            10.0 * d - 4.0 * e + 0.5 * f,
+            -15.0 * d + 7.0 * e - f,
+            6.0 * d - 3.0 * e + 0.5 * f,
+        ]
+    }
+
+    /// The same of its rate.
+    pub fn rate(&self, k: usize) -> [f64; DEGREE] {
+        let [_, c2, c3, c4, c5] = self.position(k);
+        [2.0 * c2, 3.0 * c3, 4.0 * c4, 5.0 * c5, 0.0].map(|c| c / self.h)
+    }
+
+    /// The same of its acceleration.
+    fn acceleration(&self, k: usize) -> [f64; DEGREE] {
+        let [_, c2, c3, c4, c5] = self.rate(k).map(|c| c / self.h);
+        [2.0 * c2, 3.0 * c3, 4.0 * c4, 5.0 * c5, 0.0]
+    }
+
+    /// The motion at θ.
+    pub fn at(&self, theta: f64) -> Point {
+        let value = |c: [f64; DEGREE]| c.iter().rev().fold(0.0, |sum, c| (sum + c) * theta);
+        let n = self.from.q.len();
+        Point {
+            t: self.from.t + theta * self.h,
+            q: (0..n).map(|k| self.from.q[k] + value(self.position(k))).collect(),
+            v: (0..n).map(|k| self.from.v[k] + value(self.rate(k))).collect(),
+            a: (0..n).map(|k| self.from.a[k] + value(self.acceleration(k))).collect(),
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Works over the steps of a motion, by adaptive quadrature of the powers.
+
+use super::quintic::{Quintic, DEGREE};
+use super::solution::Point;
+use crate::analyses::dynamics::PiecewiseInterpolant;
+use crate::analyses::State;
+use crate::equations::{Gains, Workspace};
+use crate::model::{Model, WORKS};
+
+/// Nodes of Lobatto's rule with 5 points on [0, 1], and its weights: exact for polynomials of degree 7.
+const NODES: [f64; 3] = [0.172_673_164_646_011_43, 0.5, 0.827_326_835_353_988_6];
+const WEIGHTS: [f64; 5] = [0.05, 49.0 / 180.0, 16.0 / 45.0, 49.0 / 180.0, 0.05];
+/// Error of a work relative to the largest work and power × time so far.
+const TOLERANCE: f64 = 1e-11;
+/// Largest number of halvings of a step.
+const DEPTH: usize = 12;
+
+/// Works since the start: dissipated energy, work of drivers, work of applied forces, J.
+pub(super) struct Works<'a> {
+    model: &'a Model,
+    workspace: Workspace,
+    z: Vec<f64>,
+    pub total: Vec<f64>,
+    /// The largest magnitude of a work so far.
+    scale: f64,
+}
+
+type Three = [f64; WORKS];
+
+impl<'a> Works<'a> {
+    pub fn new(model: &'a Model, start: &State) -> Self {
+        let (workspace, z) = (Workspace::new(model), start.z.clone());
+        Self { model, workspace, z, total: vec![0.0; WORKS], scale: 0.0 }
+    }
+
+    /// Adds the works of a step, and its polynomials.
+    pub fn add_step(&mut self, from: &Point, to: &Point, dense: &mut PiecewiseInterpolant) {
+        let h = to.t - from.t;
+        let ends = [self.powers(from), self.powers(to)];
+        let works = self.over(&Quintic::new(from, to), [0.0, 1.0], ends, DEPTH);
+        dense.t.push(to.t);
+        dense.y.extend([&from.q[..], &from.v, &self.z, &self.total].concat());
+        let quintic = Quintic::new(from, to);
+        for k in 0..from.q.len() {
+            dense.c.extend(quintic.position(k).map(|c| c / h));
+        }
+        for k in 0..from.q.len() {
+            dense.c.extend(quintic.rate(k).map(|c| c / h));
+        }
+        dense.c.extend(std::iter::repeat_n(0.0, DEGREE * self.z.len()));
+        for (k, work) in works.iter().enumerate() {
+            // the cubic with these ends
+            let [p0, p1, mean] = [ends[0][k], ends[1][k], work / h];
+            dense.c.extend([p0, 3.0 * mean - 2.0 * p0 - p1, p0 + p1 - 2.0 * mean, 0.0, 0.0]);
+            self.total[k] += work;
+            self.scale = self.scale.max(self.total[k].abs());
+        }
+    }
+
+    /// The powers at a point.
+    fn powers(&mut self, Point { t, q, v, .. }: &Point) -> Three {
+        let state = [&q[..], v, &self.z];
+        match self.workspace.accelerate(self.model, *t, state, Gains::default()) {
+            Ok(()) => {
+                let powers = self.workspace.powers(self.model, v);
+                [powers.dissipated, powers.drivers, powers.applied]
+            }
+            Err(_) => [f64::NAN; WORKS],
+        }
+    }
+
+    /// The works over a part of a step, given the powers at its ends.
+    fn over(
+        &mut self,
+        step: &Quintic<'_>,
+        [a, b]: [f64; 2],
+        ends: [Three; 2],
+        depth: usize,
+    ) -> Three {
+        let middle = 0.5 * (a + b);
+        let inside = NODES.map(|x| self.powers(&step.at(a + x * (b - a))));
+        let h = (b - a) * step.h;
+        let whole = lobatto(h, ends, inside);
+        let halves = [[ends[0], inside[1]], [inside[1], ends[1]]];
+        let parts = [[a, middle], [middle, b]];
+        let fine: [Three; 2] = std::array::from_fn(|k| {
+            let [from, to] = parts[k];
+            let inside = NODES.map(|x| self.powers(&step.at(from + x * (to - from))));
+            lobatto(0.5 * h, halves[k], inside)
+        });
+        let sum: Three = std::array::from_fn(|k| fine[0][k] + fine[1][k]);
+        let size = sum.iter().fold(self.scale, |most, w| most.max(w.abs()));
+        let error = (0..WORKS).fold(0.0, |most: f64, k| most.max((sum[k] - whole[k]).abs()));
+        if depth == 0 || !(error > TOLERANCE * size) {
+            return sum;
+        }
+        let both: [Three; 2] =
+            std::array::from_fn(|k| self.over(step, parts[k], halves[k], depth - 1));
+        std::array::from_fn(|k| both[0][k] + both[1][k])
+    }
+}
+
+fn lobatto(h: f64, ends: [Three; 2], inside: [Three; 3]) -> Three {
+    let [first, last] = ends;
+    let [a, b, c] = inside;
+    let rule = |k: usize| {
+        [first[k], a[k], b[k], c[k], last[k]].iter().zip(WEIGHTS).map(|(p, w)| p * w).sum::<f64>()
+    };
+    std::array::from_fn(|k| h * rule(k))
+}

@@ -1,0 +1,55 @@
+//! Small dense systems.
+
+/// Solves A x = b by elimination with partial pivoting; `a` row by row, shape (n, n), is overwritten, and `b` becomes x.
+/// Returns false if a pivot is zero or not a number.
+pub fn solve_dense(a: &mut [f64], b: &mut [f64]) -> bool {
+    let n = b.len();
+    assert_eq!(a.len(), n * n, "a square matrix");
+    for k in 0..n {
+        let best = (k..n).max_by(|i, j| a[i * n + k].abs().total_cmp(&a[j * n + k].abs()));
+        let best = best.unwrap_or(k);
+        let pivot = a[best * n + k];
+        if pivot == 0.0 || !pivot.is_finite() {
+            return false;
+        }
+        if best != k {
+            for column in k..n {
+                a.swap(k * n + column, best * n + column);
+            }
+            b.swap(k, best);
+        }
+        for row in k + 1..n {
+            let factor = a[row * n + k] / pivot;
+            if factor != 0.0 {
+                for column in k + 1..n {
+                    a[row * n + column] -= factor * a[k * n + column];
+                }
+                b[row] -= factor * b[k];
+            }
+        }
+    }
+    for k in (0..n).rev() {
+        let sum: f64 = (k + 1..n).map(|column| a[k * n + column] * b[column]).sum();
+        b[k] = (b[k] - sum) / a[k * n + k];
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_system_that_needs_an_exchange_of_rows_is_solved() {
+        // x = (1, 2, 3)
+        let mut a = vec![0.0, 2.0, 1.0, 1.0, 1.0, 1.0, 2.0, 0.0, -1.0];
+        let mut b = vec![7.0, 6.0, -1.0];
+        assert!(solve_dense(&mut a, &mut b));
+        assert!(b.iter().zip([1.0, 2.0, 3.0]).all(|(x, y): (&f64, f64)| (x - y).abs() < 1e-15));
+    }
+
+    #[test]
+    fn a_singular_system_is_refused() {
+        assert!(!solve_dense(&mut [1.0, 2.0, 2.0, 4.0], &mut [1.0, 2.0]));
+    }
+}

@@ -1,0 +1,234 @@
+"""Kinematics and inverse dynamics: the motion that drivers determine, and what it requires."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from kempe import _core
+from kempe.analyses import Progress, refuse_foreign
+from kempe.arrays import Floats
+from kempe.compiled import CompiledModel
+from kempe.errors import KempeError, ModelError, SingularityError
+from kempe.model import Model, compiled_model
+from kempe.option import core_options
+from kempe.options import InverseDynamics, Kinematics
+from kempe.request_cache import encode
+from kempe.solution import Solution
+from kempe.state import State
+from kempe.values import Number
+
+#: Number of outputs over a range or over time, both ends included.
+POINTS = 361
+#: The method of a solution.
+METHOD = "continuation"
+#: The time in a formula; no parameter has this name.
+_TIME = re.compile(r"(?<![\w.])t(?![\w.(])")
+
+
+def kinematics(
+    model: Model | CompiledModel,
+    start: State,
+    *,
+    t_end: Number | None = None,
+    output_step: Number | None = None,
+    over: str | None = None,
+    range: tuple[Number, Number] | None = None,  # noqa: A002 - as in a file
+    n: int = POINTS,
+    progress: Progress | None = None,
+) -> Solution:
+    """Positions, velocities and accelerations of a mechanism whose drivers determine its motion.
+
+    Over time (``t_end``), or over the value of a driver or position quantity (``over`` and
+    ``range``). Then ``sol.t`` contains the values, so that rates are derivatives by the value; the
+    law of the driver is not used, and laws of other drivers keep their value at the start.
+
+    The motion is followed by short steps, so that it stays on its branch. At each output the
+    constraints Φ(q, t) = 0, Φ_q v = ν and Φ_q a = γ hold to rounding (Haug 3.6).
+
+    Args:
+        model: the mechanism.
+        start: an assembled state.
+        t_end: end time, s.
+        output_step: time between outputs, s; 1/360 of the interval when None.
+        over: name of a driver, or a position quantity such as ``"crank.angle"``.
+        range: first and last value, in SI units and rad.
+        n: number of values in the range, both ends included.
+        progress: function that is called repeatedly with the time reached.
+
+    Raises:
+        SingularityError: the motion ends at a limit, such as a dead point. ``value`` is the time or
+            value of the limit, ``solution`` the motion until then.
+        AssemblyError: the start does not meet the constraints.
+        ModelError: the drivers leave a freedom, or an argument is invalid.
+    """
+    entry = Kinematics(t_end, output_step, over, range, n).tree()
+    return follow(compiled_model(model), start, entry, progress)
+
+
+def inverse_dynamics(
+    model: Model | CompiledModel,
+    start: State,
+    *,
+    t_end: Number | None = None,
+    output_step: Number | None = None,
+    over: str | None = None,
+    range: tuple[Number, Number] | None = None,  # noqa: A002 - as in a file
+    n: int = POINTS,
+    progress: Progress | None = None,
+) -> Solution:
+    """Efforts of the drivers and reactions of the joints for the motion that the drivers prescribe.
+
+    The motion is that of ``kinematics``, with the same arguments and errors. The multipliers follow
+    from M a + Φ_qᵀ λ = Q at each output, and works from the powers by adaptive quadrature. Over a
+    value instead of time, masses are moved with unit rate of this value.
+
+    Raises:
+        ModelError: a force has states of its own, such as the current of a motor: they do not
+            follow from the motion.
+    """
+    entry = InverseDynamics(t_end, output_step, over, range, n).tree()
+    return follow_with_forces(compiled_model(model), start, entry, progress)
+
+
+def follow(
+    model: CompiledModel, start: State, entry: Mapping[str, Any], progress: Progress | None
+) -> Solution:
+    """The motion with the options of an entry of a case; see ``kinematics``."""
+    if not isinstance(start, State):
+        raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
+    if progress is not None and not callable(progress):
+        raise ModelError(f"progress: {progress!r} is not a function")
+    refuse_foreign(model, start)
+    kept = model.with_analyses({str(entry["type"]): dict(entry)})
+    options = json.loads(_core.kinematics_options(model.core, encode(core_options(entry))))
+    over = options["over"]
+    if over is None:
+        return _through(kept, start, _times(start.t, options), progress)
+    first, last = options["range"]
+    driven, value = _driven_by(kept, over, start)
+    at = State(driven, value, start.q, start.v, z=start.z)
+    if first != value:
+        at = _through(driven, at, np.array([first]), progress).final
+    return _through(driven, at, np.linspace(first, last, options["n"]), progress)
+
+
+def follow_with_forces(
+    model: CompiledModel, start: State, entry: Mapping[str, Any], progress: Progress | None
+) -> Solution:
+    """The same with reactions; see ``inverse_dynamics``."""
+    names = [info.name for info in model.forces.values() if info.states]
+    if names:
+        raise ModelError(
+            f"{', '.join(names)}: its states do not follow from the motion",
+            hint="use dynamics, or leave out the inductance",
+        )
+    solution = follow(model, start, entry, progress)
+    _ = solution.lam  # reactions that are not unique are an error here
+    return solution
+
+
+def _through(
+    model: CompiledModel, start: State, times: Floats, progress: Progress | None
+) -> Solution:
+    """The motion through given times."""
+    try:
+        run = _core.kinematics(model.core, start.t, start.q, start.v, start.z, times, progress)
+    except BaseException as error:  # including interruptions and exceptions of progress
+        partial = vars(error).pop("run", None)
+        if isinstance(error, SingularityError):
+            error.value = error.t
+        if partial is not None and len(partial.t):
+            error.solution = Solution(model, partial, METHOD)  # type: ignore[attr-defined]
+        raise
+    return Solution(model, run, METHOD)
+
+
+def _times(t: float, options: Mapping[str, Any]) -> Floats:
+    """The times of the outputs, both ends included."""
+    end, step = options["t_end"], options["output_step"]
+    if end < t:
+        raise ModelError(
+            f"t_end: {end:g} s lies before {t:g} s, where the motion starts",
+            hint="t_end is a time, not a duration",
+        )
+    if step is None:
+        return np.linspace(t, end, POINTS)
+    whole = t + step * np.arange(int((end - t) / step * (1 + 1e-12)) + 1)
+    return whole if np.isclose(whole[-1], end, rtol=1e-12, atol=0) else np.append(whole, end)
+
+
+def _driven_by(model: CompiledModel, over: str, start: State) -> tuple[CompiledModel, float]:
+    """The model with ``over`` driven by t, and the value of ``over`` at the start.
+
+    Raises:
+        ModelError: there is no such driver or position quantity, or several drivers determine the
+            motion already.
+    """
+    tree: dict[str, Any] = model.model.tree()
+    drivers: dict[str, Any] = tree.setdefault("drivers", {})
+    if over in drivers:
+        coordinate = drivers[over]["coordinate"]
+    else:
+        coordinate = over
+    for name, entry in drivers.items():
+        if entry.get("coordinate") == coordinate:
+            over = name
+    _hold_others(tree, over, start.t)
+    if over not in drivers and model.n_rows >= model.n_q and drivers:
+        if len(drivers) > 1:
+            raise ModelError(
+                f"over: the drivers {', '.join(drivers)} determine the motion already",
+                hint=f"name one of them, or remove the one that {over} replaces",
+            )
+        drivers.clear()  # the quantity drives in place of the only driver
+    element, _, quantity = coordinate.rpartition(".")
+    joint = tree.get("joints", {}).get(element)
+    if over in drivers:
+        drivers[over] = {"type": "coordinate_driver", "coordinate": coordinate, "value": "t"}
+    elif joint is not None and joint["type"] == "distance" and quantity == "length":
+        joint["length"] = "t"
+    else:
+        name = next(name for name in _names() if not _taken(tree, name))
+        drivers[name] = {"type": "coordinate_driver", "coordinate": coordinate, "value": "t"}
+    try:
+        value = float(start[coordinate])
+    except KempeError as error:
+        raise ModelError(f"over: {error}") from error
+    changed = Model.from_tree(model.model.with_points(tree))
+    return changed.compile(), value
+
+
+def _names() -> Any:
+    yield "over"
+    yield from (f"over_{k}" for k in iter(int, 1))
+
+
+def _taken(tree: Mapping[str, Any], name: str) -> bool:
+    return any(name in tree.get(part, {}) for part in ("bodies", "joints", "drivers", "forces"))
+
+
+def _hold_others(tree: dict[str, Any], over: str, t: float) -> None:
+    """Replace the time in all other laws of joints and drivers by that of the start."""
+
+    def held(value: Any) -> Any:
+        if isinstance(value, str):
+            return _TIME.sub(f"({t!r})", value)
+        if isinstance(value, list):
+            return [held(one) for one in value]
+        return value
+
+    for section in ("joints", "drivers"):
+        for name, entry in tree.get(section, {}).items():
+            if name != over:
+                for key, value in entry.items():
+                    if key in _LAWS:
+                        entry[key] = held(value)
+
+
+#: Fields of joints and drivers that take laws of time.
+_LAWS = ("value", "length", "residual")

@@ -1,0 +1,169 @@
+"""Driven motions without integration: closed forms, limits, and the refusals."""
+
+from pathlib import Path
+
+import kempe as kp
+import numpy as np
+import pytest
+
+R, L = 0.1, 0.3
+
+
+def slider_crank(speed: float = 3.0) -> kp.Model:
+    """A crank of 0.1 m, a rod of 0.3 m and a piston on a line through the shaft."""
+    m = kp.Model("slider-crank", gravity=(0.0, -9.81), parameters={"speed": speed})
+    m.ground.points(O=(0, 0))
+    m.bar("crank", mass=0.5, length=R, ends=("O", "A"))
+    m.bar("rod", mass=0.8, length=L, ends=("A", "B"))
+    m.body("piston", mass=1.2, inertia=0.01, points={"B": (0, 0)})
+    m.revolute("O", "ground.O", "crank.O")
+    m.revolute("A", "crank.A", "rod.A")
+    m.revolute("B", "rod.B", "piston.B")
+    m.translational("S", "ground.O", "piston.B", axes=(0, 0))
+    m.coordinate_driver("motor", "crank.angle", value="0.2 + speed*t")
+    return m
+
+
+def piston(angle: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Position of the piston and its derivatives by the angle of the crank."""
+    sin, cos = np.sin(angle), np.cos(angle)
+    root = np.sqrt(L**2 - (R * sin) ** 2)
+    x = R * cos + root
+    first = -R * sin - R**2 * sin * cos / root
+    second = -R * cos - R**2 * (cos**2 - sin**2) / root - R**4 * (sin * cos) ** 2 / root**3
+    return x, first, second
+
+
+def started(m: kp.Model) -> kp.State:
+    return kp.assemble(m, guess={"piston.x": 0.4})
+
+
+def test_positions_velocities_and_accelerations_over_time() -> None:
+    m = slider_crank()
+    sol = kp.kinematics(m, started(m), t_end=4.0, output_step=0.1)
+    assert sol.t == pytest.approx(np.arange(41) * 0.1, abs=1e-15)
+    x, first, second = piston(0.2 + 3 * sol.t)
+    assert sol["piston.x"] == pytest.approx(x, abs=1e-13)
+    assert sol["piston.vx"] == pytest.approx(3 * first, abs=1e-12)
+    assert sol["piston.ax"] == pytest.approx(9 * second, abs=1e-11)
+    between = sol(0.1234)
+    assert between["piston.x"] == pytest.approx(piston(0.2 + 3 * np.array(0.1234))[0], abs=1e-12)
+
+
+def test_over_a_driver_the_value_takes_the_place_of_the_time() -> None:
+    m = slider_crank()
+    values = np.linspace(1.0, -5.0, 7)
+    for over in ("motor", "crank.angle"):
+        sol = kp.kinematics(m, started(m), over=over, range=(1.0, -5.0), n=7)
+        assert sol.t == pytest.approx(values, abs=1e-15)
+        assert sol["crank.angle"] == pytest.approx(values, abs=1e-13)
+        assert sol["crank.omega"] == pytest.approx(np.ones(7), abs=1e-13)
+        x, first, second = piston(values)
+        assert sol["piston.x"] == pytest.approx(x, abs=1e-13)
+        assert sol["piston.vx"] == pytest.approx(first, abs=1e-12)
+        assert sol["piston.ax"] == pytest.approx(second, abs=1e-11)
+
+
+def test_over_a_quantity_without_a_driver() -> None:
+    m = kp.Model("cylinder")
+    m.ground.points(O=(0, 0), Q=(0.6, -0.8))
+    m.bar("boom", mass=10, length=2, ends=("O", "T"), points={"C": (-0.2, 0)})
+    m.revolute("O", "ground.O", "boom.O")
+    m.spring_damper("cylinder", "ground.Q", "boom.C", stiffness=0)
+    start = kp.assemble(m, guess={"boom.angle": 0.3})
+    sol = kp.kinematics(m, start, over="cylinder.length", range=(0.9, 1.2), n=4)
+    assert sol["cylinder.length"] == pytest.approx(np.linspace(0.9, 1.2, 4), abs=1e-12)
+    # the law of cosines at O: sides 1 m and 0.8 m
+    inner = np.arccos((1 + 0.64 - sol.t**2) / 1.6)
+    assert sol["boom.angle"] == pytest.approx(inner - np.arctan2(0.8, 0.6), abs=1e-12)
+
+
+def test_the_length_of_a_distance_joint_is_driven_by_its_law() -> None:
+    m = kp.Model("boom", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0), Q=(0.6, -0.8))
+    m.bar("boom", mass=10, length=2, ends=("O", "T"), points={"C": (-0.2, 0)})
+    m.revolute("O", "ground.O", "boom.O")
+    m.distance("cylinder", "ground.Q", "boom.C", length="1 + 0.1*t")
+    start = kp.assemble(m, guess={"boom.angle": 0.3})
+    sol = kp.inverse_dynamics(m, start, over="cylinder.length", range=(1.0, 1.1), n=3)
+    assert sol["cylinder.length"] == pytest.approx([1.0, 1.05, 1.1], abs=1e-12)
+
+
+def test_efforts_are_those_of_forward_dynamics() -> None:
+    m = slider_crank(speed=20.0)
+    start = started(m)
+    inverse = kp.inverse_dynamics(m, start, t_end=0.5, output_step=0.01)
+    forward = kp.dynamics(m, start, t_end=0.5, output_step=0.01, method=kp.DOP853(rtol=1e-11))
+    for name in ("motor.effort", "motor.power", "A.force", "B.fx", "S.torque", "O.fy"):
+        scale = np.abs(forward[name]).max()
+        assert inverse[name] == pytest.approx(forward[name], abs=1e-8 * scale), name
+    work = forward.energy.work
+    assert inverse.energy.work == pytest.approx(work, abs=1e-8 * np.abs(work).max())
+    assert np.abs(inverse.energy.balance).max() < 1e-10 * inverse.energy.kinetic.max()
+
+
+def test_a_limit_has_its_value_and_the_motion_before() -> None:
+    m = slider_crank()
+    with pytest.raises(kp.SingularityError, match="dead point, crank and rod in line") as caught:
+        kp.kinematics(m, started(m), over="S.displacement", range=(0.38, 0.5), n=13)
+    assert caught.value.value == pytest.approx(R + L, abs=1e-12)
+    assert caught.value.solution.t[-1] == pytest.approx(0.40, abs=0.011)
+    with pytest.raises(kp.SingularityError, match="in line") as caught:
+        kp.kinematics(m, started(m), over="S.displacement", range=(0.38, 0.1), n=13)
+    assert caught.value.value == pytest.approx(L - R, abs=1e-12)
+
+
+def test_in_a_case(tmp_path: Path) -> None:
+    m = slider_crank()
+    case = kp.Case(
+        m,
+        {"guess": {"piston.x": 0.4}},
+        [
+            kp.Kinematics(over="motor", range=(0.2, 2.2), n=3, name="sweep"),
+            kp.InverseDynamics(t_end=1, output_step=0.5, after="start", name="turn"),
+        ],
+    )
+    case.save(tmp_path / "case.toml")
+    results = kp.load(tmp_path / "case.toml").run()
+    assert results["sweep"]["crank.angle"] == pytest.approx([0.2, 1.2, 2.2], abs=1e-13)
+    assert results["turn"]["crank.angle"] == pytest.approx([0.2, 1.7, 3.2], abs=1e-13)
+    results["turn"].save(tmp_path / "turn.npz")
+    again = kp.load_solution(tmp_path / "turn.npz")
+    assert again["motor.effort"] == pytest.approx(results["turn"]["motor.effort"], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({}, "t_end: missing"),
+        ({"over": "motor"}, "range: missing"),
+        ({"range": (0, 1)}, "over: missing"),
+        ({"over": "motor", "range": (0, 1), "t_end": 3}, "not together|excludes"),
+        ({"over": "motor", "range": (0, 1), "n": 1}, "whole number from 2"),
+        ({"t_end": -1}, "lies before"),
+        ({"t_end": 1, "output_step": 0}, "output_step"),
+        ({"over": "crank.mass", "range": (0, 1)}, "unknown quantity of crank .mass."),
+    ],
+)
+def test_impossible_options_are_refused(options: dict[str, object], message: str) -> None:
+    m = slider_crank()
+    with pytest.raises(kp.ModelError, match=message):
+        kp.kinematics(m, started(m), **options)  # type: ignore[arg-type]
+
+
+def test_a_mechanism_with_a_freedom_is_refused_with_the_remedy() -> None:
+    m = kp.Model("pendulum")
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass=1, length=1, ends=("O", "P"))
+    m.revolute("O", "ground.O", "rod.O")
+    with pytest.raises(kp.ModelError, match="leave 1 degree of freedom.*coordinate_driver"):
+        kp.kinematics(m, kp.assemble(m), t_end=1)
+    m.coordinate_driver("motor", "rod.angle", value="t")
+    assert kp.kinematics(m, kp.assemble(m), t_end=1)["rod.angle"][-1] == pytest.approx(1)
+
+
+def test_states_of_forces_do_not_follow_from_the_motion() -> None:
+    m = slider_crank()
+    m.motor("dc", "crank", voltage=12, resistance=1, inductance=0.1, torque_constant=0.5)
+    with pytest.raises(kp.ModelError, match="dc: its states do not follow"):
+        kp.inverse_dynamics(m, started(m), t_end=1)
