@@ -4,16 +4,16 @@ use super::quintic::{Quintic, DEGREE};
 use super::solution::Point;
 use crate::analyses::dynamics::PiecewiseInterpolant;
 use crate::analyses::State;
-use crate::equations::{Gains, Workspace};
+use crate::equations::{energy, Gains, Workspace};
 use crate::model::{Model, WORKS};
 
 /// Nodes of Lobatto's rule with 5 points on [0, 1], and its weights: exact for polynomials of degree 7.
 const NODES: [f64; 3] = [0.172_673_164_646_011_43, 0.5, 0.827_326_835_353_988_6];
 const WEIGHTS: [f64; 5] = [0.05, 49.0 / 180.0, 16.0 / 45.0, 49.0 / 180.0, 0.05];
-/// Error of a work relative to the largest work and power × time so far.
+/// Error of a work relative to the largest work or kinetic energy so far.
 const TOLERANCE: f64 = 1e-11;
 /// Largest number of halvings of a step.
-const DEPTH: usize = 12;
+const DEPTH: usize = 8;
 
 /// Works since the start: dissipated energy, work of drivers, work of applied forces, J.
 pub(super) struct Works<'a> {
@@ -21,7 +21,7 @@ pub(super) struct Works<'a> {
     workspace: Workspace,
     z: Vec<f64>,
     pub total: Vec<f64>,
-    /// The largest magnitude of a work so far.
+    /// The largest work or kinetic energy so far.
     scale: f64,
 }
 
@@ -37,6 +37,8 @@ impl<'a> Works<'a> {
     pub fn add_step(&mut self, from: &Point, to: &Point, dense: &mut PiecewiseInterpolant) {
         let h = to.t - from.t;
         let ends = [self.powers(from), self.powers(to)];
+        let kinetic = energy::kinetic(self.model, &self.workspace.motions);
+        self.scale = self.scale.max(kinetic);
         let works = self.over(&Quintic::new(from, to), [0.0, 1.0], ends, DEPTH);
         dense.t.push(to.t);
         dense.y.extend([&from.q[..], &from.v, &self.z, &self.total].concat());
