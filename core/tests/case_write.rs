@@ -110,6 +110,24 @@ impl Dice {
             Shape::Terms => Value::Table(
                 (0..1 + self.roll(3)).map(|_| (self.name(used), self.formula())).collect(),
             ),
+            Shape::Condition => Value::Text(self.text()),
+            Shape::NameList => {
+                Value::List((0..self.roll(3)).map(|_| Value::Text(self.name(used))).collect())
+            }
+            Shape::Events => {
+                let event = |own: &mut Self| match own.roll(2) {
+                    0 => Value::Text(own.text()),
+                    _ => Value::Table(vec![
+                        ("condition".to_string(), Value::Text(own.text())),
+                        ("direction".to_string(), Value::from(own.pick(&["both", "rising"]))),
+                        ("stop".to_string(), Value::Flag(own.roll(2) == 0)),
+                    ]),
+                };
+                Value::Table((0..self.roll(3)).map(|_| (self.name(used), event(self))).collect())
+            }
+            Shape::Values => Value::Table(
+                (0..1 + self.roll(3)).map(|_| (self.name(used), self.formula())).collect(),
+            ),
             Shape::Units => Value::List(vec![Value::from(self.pick(&["m", "rad"]))]),
             Shape::Points => {
                 Value::Table((0..self.roll(4)).map(|_| (self.name(used), self.pair())).collect())

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
+from kempe.event import Events
 from kempe.option import Analysis, Option, Shape
-from kempe.values import Number, Tolerance
+from kempe.values import Number, Terms, Tolerance, Words
 
 
 @dataclass(frozen=True, repr=False)
@@ -327,6 +328,12 @@ class Dynamics(Analysis):
         output: "steps" reports the steps of the solver, as without this option.
         after: State at which it starts: "start", or the name of an earlier analysis for the end
             of that analysis. If absent, the end of the analysis before it.
+        events: Events by name, each with its condition: a comparison (an event where it becomes
+            true) or an expression (an event at each zero). A table has more: `{ condition =
+            "C.force - 900", direction = "rising", stop = true }`.
+        stop: Condition at which the run ends.
+        release: Drivers that no longer act, here and in analyses that start from this one.
+        parameters: Other values of parameters for this analysis.
         name: its name in the case.
     """
 
@@ -340,6 +347,10 @@ class Dynamics(Analysis):
     singularity: Literal["stop", "pass"] = "stop"
     output: Literal["steps"] | None = None
     after: str | None = None
+    events: Events | None = None
+    stop: str | None = None
+    release: Words | None = None
+    parameters: Terms | None = None
     name: str = "dynamics"
     kind: ClassVar[str] = "dynamics"
     shapes: ClassVar[Mapping[str, Shape]] = {
@@ -353,4 +364,8 @@ class Dynamics(Analysis):
         "singularity": ("stop", "pass"),
         "output": ("steps",),
         "after": "name",
+        "events": "events",
+        "stop": "condition",
+        "release": "name_list",
+        "parameters": "values",
     }

@@ -2,6 +2,7 @@
 
 use super::compile::compile;
 use super::limits::MAX_LENGTH;
+use super::operation::Relation;
 use super::unit::Dimension;
 use super::{inference, parser, print, quantity, tree::Node};
 use super::{ExpressionError, Inferred, Names, Symbol, Tape};
@@ -26,17 +27,28 @@ impl Expression {
     /// The first thing in the text that is not of the language, or a text beyond [`MAX_LENGTH`] or
     /// [`MAX_DEPTH`].
     pub fn parse(text: &str) -> Result<Self, ExpressionError> {
-        if text.len() > MAX_LENGTH {
-            let message =
-                format!("the expression has {} bytes; at most {MAX_LENGTH} are read", text.len());
-            return Err(ExpressionError::new(0..text.len(), message)
-                .hint("give its parts names of their own as parameters".to_string()));
-        }
+        check_length(text)?;
         let (nodes, dimension) = match quantity::read(text)? {
             Some((node, unit)) => (vec![node], Some(unit.dimension)),
             None => (parser::parse(text)?, None),
         };
         Ok(Self { text: text.to_string(), nodes, dimension })
+    }
+
+    /// Reads a condition: an expression, or the difference a - b of the sides of a comparison. The second value is +1 if
+    /// the comparison holds where the difference is positive (`>`, `>=`), -1 if it holds where it is negative, None for
+    /// an expression.
+    ///
+    /// # Errors
+    /// As [`parse`](Self::parse).
+    pub fn parse_condition(text: &str) -> Result<(Self, Option<f64>), ExpressionError> {
+        check_length(text)?;
+        let (nodes, relation) = parser::parse_condition(text)?;
+        let sign = relation.map(|relation| match relation {
+            Relation::Greater | Relation::GreaterOrEqual => 1.0,
+            Relation::Less | Relation::LessOrEqual => -1.0,
+        });
+        Ok((Self { text: text.to_string(), nodes, dimension: None }, sign))
     }
 
     /// A number as an expression; its text reads back as the same number.
@@ -84,6 +96,15 @@ impl Expression {
     pub fn compile<N: Names + ?Sized>(&self, names: &N) -> Result<Tape, ExpressionError> {
         compile(&self.text, &self.nodes, names)
     }
+}
+
+fn check_length(text: &str) -> Result<(), ExpressionError> {
+    if text.len() <= MAX_LENGTH {
+        return Ok(());
+    }
+    let message = format!("the expression has {} bytes; at most {MAX_LENGTH} are read", text.len());
+    Err(ExpressionError::new(0..text.len(), message)
+        .hint("give its parts names of their own as parameters".to_string()))
 }
 
 impl PartialEq for Expression {

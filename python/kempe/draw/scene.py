@@ -34,6 +34,8 @@ _DIGITS_OF_POSES = 12
 _LONGEST_ARROW = 0.3
 #: Points no farther apart than this share of the drawing are seen as one.
 _SAME_PLACE = 1e-3
+#: Events that are marked, at most.
+_MOST_EVENTS = 200
 #: Shortest and longest motion that is shown in real time, s.
 _SHORTEST, _LONGEST = 2.0, 60.0
 
@@ -91,10 +93,25 @@ def scene(
         },
         "interpolation": sampling.interpolation(solution_or_state, motion, size),
         "accuracy": _short(sampling.accuracy(solution_or_state, motion)),
+        "events": _events(solution_or_state, motion),
         "playback": {"rate": playback_rate(float(motion.t[-1] - motion.t[0]))},
         "reaction_scale": _reaction_scale(reactions, size),
         "channels": channels.channels(motion, sampling.energy(solution_or_state, motion)),
     }
+
+
+def _events(drawn: Solution | State, motion: Motion) -> list[dict[str, Any]]:
+    """The events within the frames, in the order of time."""
+    if isinstance(drawn, State):
+        return []
+    first, last = float(motion.t[0]), float(motion.t[-1])
+    found = [
+        {"name": event.name, "t": rounded(float(t))}
+        for event in drawn.events.values()
+        for t in event.t
+        if first <= t <= last
+    ]
+    return sorted(found, key=lambda event: event["t"])[:_MOST_EVENTS]
 
 
 def _short(share: float | None) -> float | None:
