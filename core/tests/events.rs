@@ -43,8 +43,7 @@ fn events_are_listed_and_in_order() {
 #[test]
 fn a_run_stops_at_an_event() {
     let (m, start) = four_bar();
-    let options =
-        Options { stop: Some("rocker.angle > 270*deg".to_string()), ..Options::new(0.6) };
+    let options = Options { stop: Some("rocker.angle > 270*deg".to_string()), ..Options::new(0.6) };
     let found = run(&m, &start, &options);
     assert_eq!((found.reached, found.stopped_by.as_deref()), (false, Some("stop")));
     let (n, rocker) = (m.layout.n_q, column(&m, "rocker", 2));

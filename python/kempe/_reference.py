@@ -43,7 +43,7 @@ The values of fields:
 | flag | `true` or `false` |
 | condition | a [condition](events.md) on quantities: `"crank.angle > 270*deg"` |
 | events | a table of [events](events.md), `{ hit = "rocker.angle > 270*deg" }` |
-| name_list | a list of names, `["motor"]` |
+| name_list | a list of names, `["crank_drive"]` |
 | values | values of parameters, `{ k = 2e6 }` |
 """
 

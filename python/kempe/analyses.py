@@ -10,8 +10,8 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from kempe import _core
-from kempe.compiled import CompiledModel
 from kempe.arrays import Floats
+from kempe.compiled import CompiledModel
 from kempe.errors import ModelError
 from kempe.event import Action, Events, with_actions
 from kempe.model import Model, Redundancy, compiled_model
@@ -123,8 +123,7 @@ def dynamics(
             with a direction, a stop or an action; see ``Solution.events``.
         stop: condition at which the run ends, the event ``stop``.
         release: drivers that no longer act, in this run and in those that start from its states.
-        parameters: other values of parameters in this run. The start must meet the constraints
-            with them.
+        parameters: other values of parameters in this run; the start must meet the constraints.
         progress: function that is called repeatedly with the time reached, s; an exception in it
             ends the simulation.
 
@@ -204,15 +203,14 @@ class Acting:
         actions: the actions by the name of their event.
     """
 
-    def __init__(
-        self, model: CompiledModel, start: State, actions: Mapping[str, Action]
-    ) -> None:
+    def __init__(self, model: CompiledModel, start: State, actions: Mapping[str, Action]) -> None:
         self._model, self._passing, self._actions = model, start._passing, actions
 
     def __call__(
-        self, name: str, t: float, setting: Setting, q: Floats, v: Floats, z: Floats
+        self, name: str, setting: Setting, t: float, *at: Floats
     ) -> tuple[list[tuple[str, float]], tuple[Floats, Floats, Floats] | None]:
         """The parameters and the state that an action changes."""
+        q, v, z = at
         state = State(self._model.variant(setting), t, q, v, z=z)
         state._passing = self._passing
         answer = self._actions[name](state)

@@ -266,7 +266,7 @@ def _restored(
     model: Model,
     case: str,
     analyses: Mapping[str, Any] | None,
-    setting: Setting = ([], []),  # noqa: B006 - never changed
+    setting: Setting = ([], []),
 ) -> CompiledModel:
     """A compiled model from its text; that of the user's model if the text is the same."""
     made = model.compile() if model.json() == case else CompiledModel.from_case(case)

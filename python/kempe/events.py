@@ -1,8 +1,8 @@
-"""Events of a run: those that it looked for, and times at which a result of a joint becomes negative.
+"""Events of a run: those that it looked for, and those that its joints declare.
 
-The core locates the first kind. An element declares the second kind in its own source file: a
-normal force of a roller that becomes negative is the event ``lift_off``, since the curve would have
-to pull from there on. The run goes on.
+The core locates the first kind. An element declares results that become negative in its own source
+file: a normal force of a roller that becomes negative is the event ``lift_off``, since the curve
+would have to pull from there on. The run goes on.
 """
 
 from __future__ import annotations
@@ -100,10 +100,7 @@ def _states(solution: Solution, times: list[float]) -> tuple[State, ...]:
     if solution.dense is not None:
         return tuple(solution(t) for t in times)  # type: ignore[misc]  # one time gives a State
     rows = [int(np.flatnonzero(solution.t == t)[0]) for t in times]
-    return tuple(
-        solution._state_of(k)
-        for k in rows
-    )
+    return tuple(solution._state_of(k) for k in rows)
 
 
 def _times(solution: Solution, read: Read) -> list[float]:

@@ -92,7 +92,13 @@ class Motion:
     @cached_property
     def _dynamics(self) -> tuple[Floats, Floats]:
         rows = *self._rows(), np.atleast_2d(self.z)
-        a, lam = self._by_phase(lambda core, *of: _core.evaluate(core, *of, self._passing), *rows)
+        passing = self._passing
+
+        def evaluate(core: _core.Model, *of: Floats) -> tuple[Floats, ...]:
+            t, q, v, z = of
+            return _core.evaluate(core, t, q, v, z, passing)
+
+        a, lam = self._by_phase(evaluate, *rows)
         return self._as_given(a), self._as_given(lam)
 
     @cached_property

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from kempe.runs import Run
     from kempe.views.frames import Frame
 
-#: Values of ``status``, as in scipy's ``solve_ivp``: the end was reached, an event stopped the run, or
-#: it did not end.
+#: Values of ``status``, as in scipy's ``solve_ivp``: the end was reached, an event stopped the run,
+#: or it failed.
 REACHED, EVENT, STOPPED = 0, 1, -1
 STATUS = {"reached": REACHED, "event": EVENT, "stopped": STOPPED}
 

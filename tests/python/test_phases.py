@@ -76,7 +76,8 @@ def test_a_driver_is_released_where_its_condition_becomes_true(method: kp.Option
     np.testing.assert_allclose(sol.v[after], sol.v[before], rtol=0, atol=1e-12)
     effort = sol["motor.effort"]
     assert effort[: before + 1].all() and not effort[after:].any()
-    assert abs(sol["crank.alpha"][before]) < 1e-9 < 1 < abs(sol["crank.alpha"][after])
+    assert abs(sol["crank.alpha"][before]) < 1e-9
+    assert abs(sol["crank.alpha"][after]) > 1
     # sol(t) is after
     assert sol(t)["motor.effort"] == 0.0
     assert abs(sol(t)["crank.alpha"] - sol["crank.alpha"][after]) < 1e-6
@@ -84,7 +85,7 @@ def test_a_driver_is_released_where_its_condition_becomes_true(method: kp.Option
     np.testing.assert_allclose(
         sol(np.array([0.1, t, 1.2]))["motor.effort"] == 0, [False, True, True]
     )
-    # the constraint of the driver no longer holds, and is no violation
+    # the constraint of the driver no longer holds and does not count as open
     assert sol.drift.position.max() < 1e-8
     assert np.abs(sol.energy.balance).max() < (1e-4 if method.kind == "generalized_alpha" else 1e-6)
     # the run goes on from its state without the driver
@@ -115,10 +116,10 @@ def test_a_release_that_is_true_at_the_start_waits() -> None:
 
 def test_a_faulty_release_is_refused() -> None:
     m = driven("crank.angel > 1")
-    with pytest.raises(kp.ModelError, match="crank.angel"):
+    with pytest.raises(kp.ModelError, match=r"crank\.angel"):
         kp.Case(m, analyses=[kp.Dynamics(1)])
     start = started(m)
-    with pytest.raises(kp.ModelError, match="crank.angel"):
+    with pytest.raises(kp.ModelError, match=r"crank\.angel"):
         kp.dynamics(m, start, t_end=1)
     with pytest.raises(kp.ModelError, match="there is no driver 'moter'; did you mean 'motor'"):
         kp.dynamics(driven(), started(driven()), t_end=1, release=["moter"])
@@ -152,7 +153,9 @@ def test_parameters_of_one_analysis() -> None:
     )
     soft, hard, again = case.run().values()
     assert abs(soft["slider.x"][-1] + 0.2) < 1e-8
-    np.testing.assert_allclose(hard["slider.x"], -0.2 * np.cos(10 * (hard.t - hard.t[0])), atol=1e-8)
+    np.testing.assert_allclose(
+        hard["slider.x"], -0.2 * np.cos(10 * (hard.t - hard.t[0])), atol=1e-8
+    )
     assert hard.compiled.parameters["k"] == 400
     np.testing.assert_allclose(hard["spring.force"], -400 * hard["slider.x"], atol=1e-9)
     assert again.compiled.parameters["k"] == 100
@@ -238,7 +241,9 @@ def test_an_action_returns_a_state(method: kp.Option) -> None:
         assert sol["ball.vy"][before] == -sol["ball.vy"][after] < 0
         assert sol(t)["ball.vy"] > 0
     assert sol["ball.y"].min() > -1e-9
-    np.testing.assert_array_equal(sol.events["hit"].states[0].q, sol.q[sol.t == sol.events["hit"].t[0]][0])
+    np.testing.assert_array_equal(
+        sol.events["hit"].states[0].q, sol.q[sol.t == sol.events["hit"].t[0]][0]
+    )
 
 
 def test_answers_of_actions_are_checked() -> None:
@@ -254,16 +259,16 @@ def test_answers_of_actions_are_checked() -> None:
     with pytest.raises(kp.AssemblyError, match=r"joint [AB] opens at .*/s") as caught:
         run(with_velocity)
     assert caught.value.solution.t[-1] == pytest.approx(0.0778417)
-    with pytest.raises(kp.ModelError, match="must be at 0.07784"):
+    with pytest.raises(kp.ModelError, match=r"must be at 0\.07784"):
         run(lambda state: kp.State(case.model, 0.0, state.q, state.v))
-    with pytest.raises(kp.ModelError, match="did you mean 'k'|'kk'"):
-        run(lambda state: {"kk": 2.0})
+    with pytest.raises(kp.ModelError, match=r"did you mean|'kk'"):
+        run(lambda _: {"kk": 2.0})
     with pytest.raises(kp.ModelError, match="must return None"):
-        run(lambda state: 5)
+        run(lambda _: 5)
     with pytest.raises(kp.AssemblyError, match="does not meet the constraints"):
-        run(lambda state: {"L2": 26.5})
+        run(lambda _: {"L2": 26.5})
     with pytest.raises(ZeroDivisionError) as broken:
-        run(lambda state: 1 / 0)
+        run(lambda _: 1 / 0)
     assert broken.value.solution.t[-1] == pytest.approx(0.0778417)
     # all velocities reversed meet the constraints
     sol = run(lambda state: kp.State(case.model, state.t, state.q, -state.v))
@@ -272,7 +277,7 @@ def test_answers_of_actions_are_checked() -> None:
 
 def test_an_action_that_changes_nothing_leaves_the_motion_as_it_is() -> None:
     m = spring()
-    events = {"relaxed": kp.Event("slider.x", action=lambda state: None)}
+    events = {"relaxed": kp.Event("slider.x", action=lambda _: None)}
     sol = kp.dynamics(m, pulled(m), t_end=2, events=events)
     assert len(sol.events["relaxed"].t) == 3
     np.testing.assert_allclose(sol["slider.x"], 0.2 * np.cos(5 * sol.t), atol=1e-8)

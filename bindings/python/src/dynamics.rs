@@ -98,7 +98,8 @@ impl PyRun {
     #[getter]
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Vec<EventRows<'py>>> {
         let layout = &self.parts[0].1.get().model.layout;
-        let rows = |values: &[f64], width: usize, count: usize| table(py, values.to_vec(), (count, width));
+        let rows =
+            |values: &[f64], width: usize, count: usize| table(py, values.to_vec(), (count, width));
         let one = |event: &core::EventStates| {
             let core::Trajectory { t, q, v, z, .. } = &event.states;
             let (n_q, n_z) = (layout.n_q, layout.n_z);
@@ -282,12 +283,12 @@ pub fn dynamics(
         let mut watch = Watch::new(progress.as_ref());
         let mut raised = None;
         let mut act = |name: &str, state: &State, setting: &core::Setting| {
-            let changed = Python::attach(|py| called(py, &call, &core.model, name, (state, setting)));
+            let changed =
+                Python::attach(|py| called(py, &call, &core.model, name, (state, setting)));
             changed.map_err(|error| raised = Some(error)).ok()
         };
-        let outcome = py.detach(|| {
-            core.prepared.dynamics_with(&start, &options, |t| watch.look(t), &mut act)
-        });
+        let outcome = py
+            .detach(|| core.prepared.dynamics_with(&start, &options, |t| watch.look(t), &mut act));
         match (outcome, watch.raised.or(raised)) {
             (Ok(run), None) => {
                 let message = ended(&run);
@@ -320,7 +321,7 @@ fn called(
     (state, setting): (&State, &core::Setting),
 ) -> PyResult<core::Change> {
     let [q, v, z] = [&state.q, &state.v, &state.z].map(|x| x.clone().into_pyarray(py));
-    let answer = call.call1(py, (name, state.t, written(setting), q, v, z))?;
+    let answer = call.call1(py, (name, written(setting), state.t, q, v, z))?;
     type Answer<'py> = (Vec<(String, f64)>, Option<(Row<'py>, Row<'py>, Row<'py>)>);
     let (parameters, given): Answer<'_> = answer.extract(py)?;
     let given = given.map(|(q, v, z)| self::state(py, model, state.t, [&q, &v, &z]));

@@ -4,7 +4,9 @@ use super::signal_names::{names, signal};
 use super::signals::{Seen, Signal};
 use crate::equations::kinematics::Motions;
 use crate::equations::{Gains, Workspace};
-use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Table, Tape, Values};
+use crate::expression::{
+    Expression, ExpressionError, Inferred, Names, Symbol, Table, Tape, Values,
+};
 use crate::integrate::Direction;
 use crate::model::{Model, Problem};
 use std::cell::RefCell;

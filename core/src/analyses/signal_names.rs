@@ -8,7 +8,8 @@ use crate::model::{Columns, Model};
 /// The quantities of one owner with their names.
 type Family = Vec<(String, Signal)>;
 
-const COORDINATES: [[&str; 3]; 3] = [["x", "y", "angle"], ["vx", "vy", "omega"], ["ax", "ay", "alpha"]];
+const COORDINATES: [[&str; 3]; 3] =
+    [["x", "y", "angle"], ["vx", "vy", "omega"], ["ax", "ay", "alpha"]];
 
 /// The quantity with this name.
 pub(super) fn signal(model: &Model, name: &str) -> Option<Signal> {

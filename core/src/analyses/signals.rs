@@ -92,9 +92,9 @@ impl Signal {
     /// Whether it needs accelerations or multipliers.
     pub fn needs_solution(&self, model: &Model) -> bool {
         match self {
-            Self::Column { order, .. } | Self::Point { order, .. } | Self::Measured { order, .. } => {
-                *order == 2
-            }
+            Self::Column { order, .. }
+            | Self::Point { order, .. }
+            | Self::Measured { order, .. } => *order == 2,
             Self::Reaction { .. } | Self::Result { .. } | Self::Effort(_) | Self::Power(..) => true,
             Self::Line { id: ElementId::Constraint(_) } => true,
             Self::Line { id: ElementId::Force(k) } | Self::Force { k, .. } => {

@@ -1,8 +1,8 @@
 //! The fields of an element, body, analysis or set of options against its declaration.
 
+use super::events::events;
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
-use super::events::events;
 use super::values::{
     count, curves, names, number, numbers, pair, plain_numbers, points, terms, tolerance, triple,
     two_columns, two_names, units, word, wrong, TERMS,

@@ -150,7 +150,7 @@ pub(super) fn two_names(report: &mut Report, node: &Node) {
 /// Any number of names.
 pub(super) fn names(report: &mut Report, node: &Node) {
     let Data::List(items) = &node.data else {
-        return wrong(report, node, "a list of names [\"motor\"]");
+        return wrong(report, node, "a list of names [\"crank_drive\"]");
     };
     for (k, item) in items.iter().enumerate() {
         report.within(&k.to_string(), |report| match &item.data {

@@ -106,12 +106,12 @@ def _events(drawn: Solution | State, motion: Motion) -> list[dict[str, Any]]:
         return []
     first, last = float(motion.t[0]), float(motion.t[-1])
     found = [
-        {"name": event.name, "t": rounded(float(t))}
+        (float(t), event.name)
         for event in drawn.events.values()
         for t in event.t
         if first <= t <= last
     ]
-    return sorted(found, key=lambda event: event["t"])[:_MOST_EVENTS]
+    return [{"name": name, "t": rounded(t)} for t, name in sorted(found)[:_MOST_EVENTS]]
 
 
 def _short(share: float | None) -> float | None:

@@ -7,25 +7,17 @@ use super::clock::Clock;
 use super::event_list::{Function, Watched};
 use super::failure::{Failure, Reason};
 use super::model_cache::ModelCache;
+use super::option_checks::check_lengths;
 use super::options::Options;
 use super::run::{run_phase, At, Phase, PhaseEnd, Watcher};
 use super::run_results::{EventStates, Run};
+use super::setting::Setting;
 use super::start_check::StartCheck;
-use super::option_checks::check_lengths;
 use crate::analyses::conditions::Condition;
 use crate::analyses::event_options::STOP;
 use crate::analyses::State;
 use crate::integrate::{Direction, Flow};
 use crate::model::{Model, Problem};
-
-/// Parameters that differ from those of the model, and drivers that no longer act.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Setting {
-    /// Values of parameters by name.
-    pub parameters: Vec<(String, f64)>,
-    /// Names of drivers.
-    pub released: Vec<String>,
-}
 
 /// The changes that a caller makes at an event.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -38,25 +30,6 @@ pub struct Change {
 
 /// Called with the name of an event, the state there, and the setting until then; None ends the run.
 pub type Act<'a> = &'a mut dyn FnMut(&str, &State, &Setting) -> Option<Change>;
-
-impl Setting {
-    /// Whether the model of a phase is the given one.
-    pub fn is_plain(&self) -> bool {
-        *self == Self::default()
-    }
-
-    /// The model with these parameters and without these drivers.
-    ///
-    /// # Errors
-    /// Every number that cannot be right.
-    pub fn model(&self, model: &Model) -> Result<Model, Vec<Problem>> {
-        let changed = match self.parameters.is_empty() {
-            true => model.clone(),
-            false => model.with_values(&self.parameters)?,
-        };
-        Ok(if self.released.is_empty() { changed } else { changed.without(&self.released) })
-    }
-}
 
 /// What follows from an event.
 #[derive(Clone, PartialEq)]
@@ -170,7 +143,14 @@ pub(super) fn run<W: FnMut(f64) -> Flow>(
             PhaseEnd::Stopped => Ok(None),
             PhaseEnd::Event => {
                 let before = setting.clone();
-                let flow = take_effect(&events, &mut at, (base.0, &mut setting), options, &mut act, &mut run)?;
+                let flow = take_effect(
+                    &events,
+                    &mut at,
+                    (base.0, &mut setting),
+                    options,
+                    &mut act,
+                    &mut run,
+                )?;
                 Ok((flow == Flow::Continue).then_some(before))
             }
         });

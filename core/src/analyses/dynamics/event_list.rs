@@ -22,7 +22,8 @@ const PARTS: [usize; 2] = [6, 20_000];
 /// Parts of a step in which no body turns by more than a radian, so that functions of angles are resolved.
 fn parts(model: &Model, step: &Step<'_>) -> usize {
     let turned = model.layout.bodies[1..].iter().filter(|columns| columns.count == 3);
-    let turned = turned.map(|columns| (step.y[columns.first + 2] - step.y_old[columns.first + 2]).abs());
+    let turned =
+        turned.map(|columns| (step.y[columns.first + 2] - step.y_old[columns.first + 2]).abs());
     (turned.fold(0.0, f64::max).ceil() as usize).clamp(PARTS[0], PARTS[1])
 }
 
@@ -120,7 +121,7 @@ impl<'a> EventList<'a> {
         }
         // events at the end have its time, in their order
         for crossing in &mut found {
-            if crossing.index == index && crossing.t >= t || together(crossing.t, step.t) {
+            if crossing.index == index && crossing.t == t || together(crossing.t, step.t) {
                 crossing.t = step.t;
             }
         }
@@ -156,6 +157,10 @@ impl<'a> EventList<'a> {
         // only a small correction: the function crosses zero here
         let by = if by.is_finite() && by * h > 0.0 && by.abs() < h.abs() { by } else { 0.0 };
         let t = step.t + by;
-        if (t - t_end) * h > 0.0 { t_end } else { t }
+        if (t - t_end) * h > 0.0 {
+            t_end
+        } else {
+            t
+        }
     }
 }

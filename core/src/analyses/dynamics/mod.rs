@@ -9,7 +9,7 @@
 //! | `absolute_tolerance` | absolute tolerances of lengths, angles and first-order states |
 //! | `start_check` | states from which a run may start |
 //! | `run`, `run_results`, `stepper` | a run through its phases, and its outcome; a stepper for callers |
-//! | `course`, `event_list` | phases that follow from events, and the events of a phase |
+//! | `course`, `setting`, `event_list` | phases that follow from events, their models, and the events of a phase |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
@@ -51,6 +51,7 @@ mod recorder;
 mod report_projection;
 mod run;
 mod run_results;
+mod setting;
 mod singularity_forecast;
 mod singularity_passage;
 mod stabilizations;
@@ -63,7 +64,7 @@ mod trajectory;
 
 pub use accelerations::Accelerations;
 pub use clock::{system_clock, Clock};
-pub use course::{Act, Change, Setting};
+pub use course::{Act, Change};
 pub use energies::ENERGIES;
 pub use failure::{Failure, Reason};
 pub use methods::{Auto, Scheme};
@@ -71,6 +72,7 @@ pub use options::{most_steps, read, Options, Output, Singularity};
 pub use prepared::Prepared;
 pub use run::{Event, Phase};
 pub use run_results::{EventStates, Run, Statistics};
+pub use setting::Setting;
 pub use stabilizations::Stabilization;
 pub use stepper::Stepper;
 pub use stiffness_detection::MethodChoice;

@@ -1,6 +1,6 @@
 //! The outcome of a run.
 
-use super::course::Setting;
+use super::setting::Setting;
 use super::stiffness_detection::MethodChoice;
 use super::trajectory::{PiecewiseInterpolant, States, Trajectory};
 use crate::integrate;
