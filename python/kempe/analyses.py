@@ -51,6 +51,7 @@ def assemble(
         t: time, s; None means that of ``from_state``, or 0.
         from_state: a state of the same bodies, from which the mechanism moves as little as it can:
             of another set of parameters, or one that drifted. ``set`` and ``guess`` come before it.
+            Drivers that were released in it remain released.
         redundancy: "allow" accepts redundant constraints in the assembly and in simulations that
             start from the state; None uses the setting of the model.
         from_guess: start the Newton iteration from the guess with open loops, without closing
@@ -72,6 +73,7 @@ def assemble(
     hint = encode(numbers(guess, "guess"))
     if from_state is not None:
         _refuse_foreign(compiled, from_state)
+        compiled = compiled.variant(([], released(compiled, from_state)))
         t = float(from_state.t) if t is None else t
         q, v, z = (np.array(part) for part in (from_state.q, from_state.v, from_state.z))
         z = z if len(z) == compiled.n_z else np.zeros(compiled.n_z)
@@ -187,11 +189,16 @@ def _simulate(
 
 def _with_released(model: CompiledModel, start: State, wanted: Request) -> str:
     """The options for the core: drivers that were released before the start remain released."""
-    before = [name for name in start.compiled.released if name in model.drivers]
+    before = released(model, start)
     if not before:
         return wanted.text
     release = list(dict.fromkeys([*before, *wanted.entry.get("release", ())]))
     return encode({**core_options(wanted.entry), "release": release})
+
+
+def released(model: CompiledModel, state: State) -> list[str]:
+    """The drivers of a model that were released before a state."""
+    return [name for name in state.compiled.released if name in model.drivers]
 
 
 class Acting:

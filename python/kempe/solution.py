@@ -79,12 +79,12 @@ class Solution(Motion):
 
     def __init__(self, model: Model | CompiledModel, run: Run, method: str = "unknown") -> None:
         base = compiled_model(model)
-        of_rows = phases(base, run.settings, len(run.t))
-        super().__init__(of_rows.models[0], run.t, run.q, run.v, run.z)
+        settings = run.settings
+        super().__init__(base.variant(settings[0][1]), run.t, run.q, run.v, run.z)
         self._base = base
         self._run = run
-        if len(of_rows.models) > 1:
-            self._phases = of_rows
+        if len(settings) > 1:
+            self._phases = phases(base, settings, len(run.t))
         self._passing = run.projection is not None and self.compiled.redundancy != "allow"
         self._method = method
         self.status = STATUS[run.status]

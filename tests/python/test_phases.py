@@ -282,3 +282,22 @@ def test_an_action_that_changes_nothing_leaves_the_motion_as_it_is() -> None:
     assert len(sol.events["relaxed"].t) == 3
     np.testing.assert_allclose(sol["slider.x"], 0.2 * np.cos(5 * sol.t), atol=1e-8)
     assert np.abs(sol.energy.balance).max() < 1e-8
+
+
+def test_a_release_is_kept_where_a_drifted_start_is_assembled_anew() -> None:
+    """The joints drift with Baumgarte's stabilization; the next analysis closes them."""
+    loose = kp.RK45(rtol=1e-4, atol=1e-6)
+    drifting: dict[str, Any] = {"method": loose, "stabilization": kp.Baumgarte(alpha=10, beta=50)}
+    analyses = [
+        kp.Dynamics(0.5, name="driven", **drifting),
+        kp.Dynamics(1.0, name="free", release=["motor"], **drifting),
+        kp.Dynamics(1.2, name="later", **drifting),
+    ]
+    guess = {"coupler.angle": "14*deg", "rocker.angle": "240*deg"}
+    with pytest.warns(kp.AssemblyWarning, match="it starts from the nearest state"):
+        results = kp.Case(driven(), {"guess": guess}, analyses).run()
+    assert results["driven"]["motor.effort"].all()
+    for name in ("free", "later"):
+        assert not results[name]["motor.effort"].any()
+    far = results["later"]["crank.angle"][-1] - math.radians(70) - 1.2
+    assert abs(far) > 0.01

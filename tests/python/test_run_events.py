@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import json
 import math
 import pickle
 from pathlib import Path
@@ -156,6 +155,21 @@ def test_what_is_true_at_the_start_is_no_event() -> None:
     np.testing.assert_allclose(times["early"], [0.25], rtol=0, atol=1e-15)
 
 
+def test_conditions_may_jump() -> None:
+    """The whole metres below the ball: 4 from the start on, 3 below 4 m and so on."""
+    sol = dropped(
+        t_end=1.0,
+        events={
+            "below_2": "floor(ball.y) < 2",
+            "at_most_2": "floor(ball.y) <= 2",
+            "sign": "sign(ball.y - 3)",
+        },
+    )
+    for name, height in (("below_2", 2), ("at_most_2", 3), ("sign", 3)):
+        expected = math.sqrt(2 * (5 - height) / G)
+        np.testing.assert_allclose(sol.events[name].t, [expected], rtol=0, atol=1e-12)
+
+
 def test_all_zeros_within_one_step_are_found() -> None:
     """Free fall is one long step of DOP853."""
     sol = dropped(
@@ -296,75 +310,6 @@ def test_faulty_requests_are_refused() -> None:
         dropped(events={"a": kp.Event("t > 1", stop=True, action=lambda _: None)})
     with pytest.raises(kp.ModelError, match="a case cannot contain it"):
         kp.Dynamics(1, events={"a": kp.Event("t > 1", action=lambda _: None)}).tree()
-
-
-def text(case: str) -> str:
-    return f"""
-kempe = 1
-gravity = [0, -9.81]
-[bodies.ball]
-type = "point_mass"
-mass = 2
-[start]
-set = {{ "ball.x" = 0, "ball.y" = 5 }}
-{case}
-"""
-
-
-def test_events_of_a_file(tmp_path: Path) -> None:
-    file = tmp_path / "drop.toml"
-    file.write_text(
-        text("""
-[analyses.fall]
-type = "dynamics"
-t_end = 2
-stop = "ball.y < 0"
-events = { low = "ball.y < 1", half = { condition = "ball.y - 2.5", direction = "falling" } }
-[analyses.on]
-type = "dynamics"
-t_end = 2
-[analyses.on.events.fast]
-condition = "ball.vy < -12"
-stop = true
-""")
-    )
-    case = kp.load(file)
-    results = case.run()
-    fall, on = results["fall"], results["on"]
-    assert fall.t[-1] == on.t[0]
-    assert abs(fall.t[-1] - math.sqrt(10 / G)) < 1e-12
-    assert abs(fall.events["half"].t[0] - math.sqrt(5 / G)) < 1e-12
-    assert abs(on.t[-1] - 12 / G) < 1e-12
-    written = tmp_path / "again.json"
-    case.save(written)
-    assert kp.load(written).run()["on"].t[-1] == on.t[-1]
-    assert json.loads(written.read_text())["analyses"] == case.analyses
-    summary = kp.report.summary(fall)
-    assert summary["events"] == {name: event.t.tolist() for name, event in fall.events.items()}
-
-
-@pytest.mark.parametrize(
-    ("field", "message"),
-    [
-        ('events = "ball.y"', "a table of events"),
-        ("events = { low = 5 }", "a condition, or a table"),
-        ('events = { low = { condition = "ball.y", when = 1 } }', "unknown field 'when'"),
-        ('events = { low = { direction = "rising" } }', "an event needs a condition"),
-        ('events = { low = { condition = "ball.y", direction = "up" } }', "unknown word 'up'"),
-        ('events = { low = "ball.q" }', "ball.q"),
-        ("stop = 3", "a condition"),
-        ('release = ["motor"]', "there is no driver 'motor'"),
-        ('release = "motor"', "a list of names"),
-        ("parameters = { k = 3 }", "there is no parameter 'k'"),
-    ],
-)
-def test_faults_of_a_file_are_found_without_a_run(field: str, message: str, tmp_path: Path) -> None:
-    file = tmp_path / "drop.toml"
-    file.write_text(text(f'[analyses.fall]\ntype = "dynamics"\nt_end = 2\n{field}\n'))
-    with pytest.raises((kp.FileError, kp.ModelError)) as caught:
-        kp.load(file)
-    assert message in str(caught.value)
-    assert "line" in str(caught.value)
 
 
 def test_events_are_kept_in_files_and_copies(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ use super::signals::{Seen, Signal};
 use crate::equations::kinematics::Motions;
 use crate::equations::{Gains, Workspace};
 use crate::expression::{
-    Expression, ExpressionError, Inferred, Names, Symbol, Table, Tape, Values,
+    Expression, ExpressionError, Inferred, Names, Sense, Symbol, Table, Tape, Values,
 };
 use crate::integrate::Direction;
 use crate::model::{Model, Problem};
@@ -17,8 +17,8 @@ use std::sync::Arc;
 pub(super) struct Condition {
     tape: Tape,
     signals: Vec<Signal>,
-    /// 1 for a comparison that holds where the function is positive, -1 for one that holds where it is negative.
-    comparison: Option<f64>,
+    /// None for an expression.
+    comparison: Option<Sense>,
     /// Whether a quantity needs accelerations or multipliers.
     pub needs_solution: bool,
 }
@@ -111,12 +111,17 @@ impl Condition {
         self.comparison.is_some()
     }
 
+    /// Of a comparison: whether it holds at zero.
+    pub fn holds_at_zero(&self) -> Option<bool> {
+        self.comparison.map(|sense| !sense.strict)
+    }
+
     /// Its value at a state; the event is where it changes sign. A comparison holds where it is positive.
     pub fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
         let of = |signal: &Signal| signal.value(model, seen);
         let variables: Vec<f64> = self.signals.iter().map(of).collect();
         let at = At { model, t: seen.t, variables };
-        self.comparison.unwrap_or(1.0) * self.tape.evaluate(&at)
+        self.comparison.map_or(1.0, |sense| sense.sign) * self.tape.evaluate(&at)
     }
 
     /// The changes of sign that are events.

@@ -8,6 +8,15 @@ use super::{inference, parser, print, quantity, tree::Node};
 use super::{ExpressionError, Inferred, Names, Symbol, Tape};
 use std::fmt;
 
+/// The sense of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sense {
+    /// 1 if it holds where the difference of its sides is positive, -1 where it is negative.
+    pub sign: f64,
+    /// Whether it does not hold where the difference is zero.
+    pub strict: bool,
+}
+
 /// An expression: its text, and the syntax tree read from it.
 ///
 /// Equal expressions have equal trees and equal [`dimension`](Expression::dimension); spaces and
@@ -35,20 +44,23 @@ impl Expression {
         Ok(Self { text: text.to_string(), nodes, dimension })
     }
 
-    /// Reads a condition: an expression, or the difference a - b of the sides of a comparison. The second value is +1 if
-    /// the comparison holds where the difference is positive (`>`, `>=`), -1 if it holds where it is negative, None for
-    /// an expression.
+    /// Reads a condition: an expression, or the difference of the sides of a comparison with its sense.
     ///
     /// # Errors
     /// As [`parse`](Self::parse).
-    pub fn parse_condition(text: &str) -> Result<(Self, Option<f64>), ExpressionError> {
+    pub fn parse_condition(text: &str) -> Result<(Self, Option<Sense>), ExpressionError> {
         check_length(text)?;
         let (nodes, relation) = parser::parse_condition(text)?;
-        let sign = relation.map(|relation| match relation {
-            Relation::Greater | Relation::GreaterOrEqual => 1.0,
-            Relation::Less | Relation::LessOrEqual => -1.0,
+        let sense = relation.map(|relation| {
+            let (sign, strict) = match relation {
+                Relation::Greater => (1.0, true),
+                Relation::GreaterOrEqual => (1.0, false),
+                Relation::Less => (-1.0, true),
+                Relation::LessOrEqual => (-1.0, false),
+            };
+            Sense { sign, strict }
         });
-        Ok((Self { text: text.to_string(), nodes, dimension: None }, sign))
+        Ok((Self { text: text.to_string(), nodes, dimension: None }, sense))
     }
 
     /// A number as an expression; its text reads back as the same number.

@@ -43,6 +43,15 @@ impl Function<'_> {
             Self::Given(g) => g(seen.t, seen.state),
         }
     }
+
+    /// The value that counts in place of zero: a quantity may rest where both sides of a comparison are equal.
+    fn at_zero(&self) -> f64 {
+        let holds = match self {
+            Self::Condition(condition) => condition.holds_at_zero(),
+            Self::Given(_) => None,
+        };
+        holds.map_or(0.0, |holds| if holds { f64::MIN_POSITIVE } else { -f64::MIN_POSITIVE })
+    }
 }
 
 /// An event of a phase.
@@ -140,6 +149,10 @@ impl<'a> EventList<'a> {
             });
             if t == began.0 {
                 began.1.iter().for_each(|index| out[*index] = 0.0);
+                return;
+            }
+            for (event, out) in watched.iter().zip(out) {
+                *out = if *out == 0.0 { event.function.at_zero() } else { *out };
             }
         };
         crossings(step, parts(model, step), &directions, &mut functions)
