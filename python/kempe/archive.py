@@ -78,8 +78,8 @@ def _about(solution: Solution) -> dict[str, Any]:
 
 
 def _event_arrays(solution: Solution) -> dict[str, Floats]:
-    """The states of all events, one event after the other."""
-    if not solution._run.events:
+    """The states of all events, one event after the other; absent without any."""
+    if not any(len(t) for _, t, *_ in solution._run.events):
         return {}
     columns = list(zip(*solution._run.events, strict=True))[1:]
     return {name: np.concatenate(part) for name, part in zip(_EVENTS, columns, strict=True)}
@@ -275,9 +275,11 @@ def _events(about: Mapping[str, Any], arrays: Mapping[str, Floats]) -> list[Even
     if sum(n for _, n in counts) != len(arrays.get("event_t", ())):
         _refuse("its events are damaged")
     ends = np.cumsum([n for _, n in counts])
+    widths = (arrays[name].shape[1] for name in ("q", "v", "z"))
+    empty = dict(zip(_EVENTS, [np.zeros(0), *(np.zeros((0, n)) for n in widths)], strict=True))
     found: list[EventRows] = []
     for (name, n), end in zip(counts, ends, strict=True):
-        t, q, v, z = (arrays[part][end - n : end] for part in _EVENTS)
+        t, q, v, z = (arrays.get(part, none)[end - n : end] for part, none in empty.items())
         found.append((str(name), t, q, v, z))
     return found
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import kempe as kp
 import pytest
+from kempe.cli import main
 
 G = 9.81
 
@@ -81,3 +82,86 @@ def test_faults_of_a_file_are_found_without_a_run(field: str, message: str, tmp_
     assert "line" in str(caught.value)
 
 
+def test_the_command_line_lists_events_and_says_what_stopped_the_run(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    analysis = """
+[analyses.fall]
+type = "dynamics"
+t_end = 2
+stop = "ball.y < 0"
+events = { low = "ball.y < 1", never = "t > 9" }
+"""
+    Path("drop.toml").write_text(text(analysis))
+    assert main(["run", "drop.toml", "--figures", "none", "-o", "out"]) == 0
+    printed = capsys.readouterr().out
+    assert "the event stop stopped the run at t = 1.009638 s" in printed
+    assert "low" in printed and "0.903047" in printed and "never" not in printed
+    summary = json.loads(Path("out/summary.json").read_text())
+    assert summary["events"]["low"] == [pytest.approx(math.sqrt(8 / G), abs=1e-12)]
+    assert summary["success"] is True
+    kept = kp.load_solution("out/solution.npz")
+    assert (kept.status, kept.events["stop"].t[0]) == (1, kept.t[-1])
+
+
+def test_phases_of_a_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A bar that a driver holds swings after its release, as a bar without the driver does."""
+    monkeypatch.chdir(tmp_path)
+    Path("bar.toml").write_text("""
+kempe = 1
+gravity = [0, -9.81]
+[parameters]
+c = 0
+[bodies.ground]
+points = { O = [0, 0] }
+[bodies.bar]
+type = "bar"
+mass = 1
+length = 1
+ends = ["O", "P"]
+[joints.pin]
+type = "revolute"
+i = "ground.O"
+j = "bar.O"
+[forces.brake]
+type = "torsion_spring"
+i = "ground"
+j = "bar"
+damping = "c"
+[drivers.turn]
+type = "coordinate_driver"
+coordinate = "bar.angle"
+value = "2*t"
+release = "bar.angle > 1"
+[analyses.whole]
+type = "dynamics"
+t_end = 1
+[analyses.braked]
+type = "dynamics"
+t_end = 1.5
+parameters = { c = 1 }
+[analyses.again]
+type = "dynamics"
+from = "start"
+t_end = 0.3
+release = ["turn"]
+""")
+    assert main(["check", "bar.toml"]) == 0
+    assert main(["run", "bar.toml", "--figures", "none", "-o", "out"]) == 0
+    assert "turn.release" in capsys.readouterr().out
+    whole, braked, again = (
+        kp.load_solution(f"out/{name}/solution.npz") for name in ("whole", "braked", "again")
+    )
+    assert abs(whole.events["turn.release"].t[0] - 0.5) < 1e-12
+    # ω² = 4 - 3 g (sin φ - sin 1) after the release
+    state = whole.final
+    omega = 4 - 3 * G * (math.sin(state["bar.angle"]) - math.sin(1))
+    assert abs(state["bar.omega"] ** 2 - omega) < 1e-6
+    assert not whole["brake.torque"].any()
+    assert abs(braked["brake.torque"] + braked["bar.omega"]).max() < 1e-9
+    assert not braked["turn.effort"].any() and not again["turn.effort"].any()
+    assert abs(again["bar.alpha"][0] + 1.5 * G) < 1e-9
+    assert again["bar.omega"][0] == 2.0
