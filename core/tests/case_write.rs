@@ -91,6 +91,18 @@ impl Dice {
         Value::List(vec![self.formula(), self.formula()])
     }
 
+    fn events(&mut self, used: &mut usize) -> Value {
+        let event = |own: &mut Self| match own.roll(2) {
+            0 => Value::Text(own.text()),
+            _ => Value::Table(vec![
+                ("condition".to_string(), Value::Text(own.text())),
+                ("direction".to_string(), Value::from(own.pick(&["both", "rising"]))),
+                ("stop".to_string(), Value::Flag(own.roll(2) == 0)),
+            ]),
+        };
+        Value::Table((0..self.roll(3)).map(|_| (self.name(used), event(self))).collect())
+    }
+
     fn value(&mut self, shape: Shape, used: &mut usize) -> Value {
         match shape {
             Shape::Curves => {
@@ -108,6 +120,14 @@ impl Dice {
             Shape::Triple => Value::List(vec![self.formula(), self.formula(), self.formula()]),
             Shape::Laws => Value::List(vec![self.formula(), self.formula()]),
             Shape::Terms => Value::Table(
+                (0..1 + self.roll(3)).map(|_| (self.name(used), self.formula())).collect(),
+            ),
+            Shape::Condition => Value::Text(self.text()),
+            Shape::NameList => {
+                Value::List((0..self.roll(3)).map(|_| Value::Text(self.name(used))).collect())
+            }
+            Shape::Events => self.events(used),
+            Shape::Values => Value::Table(
                 (0..1 + self.roll(3)).map(|_| (self.name(used), self.formula())).collect(),
             ),
             Shape::Units => Value::List(vec![Value::from(self.pick(&["m", "rad"]))]),

@@ -82,7 +82,7 @@ if TYPE_CHECKING:
     from kempe.errors import ModelError as ModelError
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
-    from kempe.events import Event as Event
+    from kempe.event import Event as Event
     from kempe.events import EventWarning as EventWarning
     from kempe.kinematics import inverse_dynamics as inverse_dynamics
     from kempe.kinematics import kinematics as kinematics
@@ -124,7 +124,7 @@ _HOME = {
     "DOP853": "options",
     "Dynamics": "options",
     "Energy": "energy",
-    "Event": "events",
+    "Event": "event",
     "EventWarning": "events",
     "FileError": "errors",
     "GeneralizedAlpha": "options",

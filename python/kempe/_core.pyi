@@ -116,6 +116,18 @@ class Model:
         is ``{"body": number, "point": null | [x, y], "axis": angle}``.
         """
 
+    setting: tuple[list[tuple[str, float]], list[str]]
+    """Values of parameters and released drivers by which it differs from the model of the case."""
+
+    def variant(self, parameters: list[tuple[str, float]], released: list[str]) -> Model:
+        """The same model with other values of parameters and with released drivers.
+
+        Released drivers keep their rows; their multipliers and residuals are zero.
+
+        Raises:
+            ModelError: a number is impossible.
+        """
+
     def allowing_redundancy(self) -> Model:
         """The same model with redundant constraints accepted."""
 
@@ -139,11 +151,16 @@ class Run:
     projection: float | None
     """Tolerance of the projection of its states; None with another stabilization."""
     status: str
-    """"reached" or "stopped"."""
+    """"reached", "event" or "stopped"."""
     message: str
     statistics: str
     """JSON: ``{"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations",
     "seconds"}``, with ``"method"`` and ``"why"`` for the automatic choice."""
+
+    settings: list[tuple[int, tuple[list[tuple[str, float]], list[str]]]]
+    """The first row of each phase, with the parameters and released drivers in it."""
+    events: list[tuple[str, _F, _F, _F, _F]]
+    """Name, times (n,) and rows of q, v and z of each event."""
 
     def responses(self, rows: int | None = None) -> tuple[_F, _F]:
         """Accelerations (n_t, n_q) and multipliers (n_t, n_rows), at all or the first times."""
@@ -192,6 +209,7 @@ def dynamics(
     options: str,
     progress: Callable[[float], None] | None,
     t_end: float | None = None,
+    actions: tuple[list[str], Callable[..., object]] | None = None,
 ) -> Run:
     """Simulate the motion from a state.
 

@@ -31,6 +31,10 @@ TYPES = dict.fromkeys(REFERENCES, "str") | {
     "flag": "bool",
     "name": "str",
     "tolerance": "Tolerance",
+    "condition": "str",
+    "events": "Events",
+    "name_list": "Words",
+    "values": "Terms",
 }
 #: Sections of options, each with the first line of the docstrings of its classes.
 OPTIONS = {
@@ -69,8 +73,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
+from kempe.event import Events
 from kempe.option import Analysis, Option, Shape
-from kempe.values import Number, Pair, Tolerance
+from kempe.values import Number, Pair, Terms, Tolerance, Words
 '''
 
 METHODS = '''\

@@ -41,6 +41,10 @@ The values of fields:
 | body, point, curve, coordinate | `"crank"`, `"crank.B"`, `"cam.rim"`, `"crank.angle"` |
 | count | a whole number from 1 |
 | flag | `true` or `false` |
+| condition | a [condition](events.md) on quantities: `"crank.angle > 270*deg"` |
+| events | a table of [events](events.md), `{ hit = "rocker.angle > 270*deg" }` |
+| name_list | a list of names, `["crank_drive"]` |
+| values | values of parameters, `{ k = 2e6 }` |
 """
 
 #: Section of the catalogue → title, text below it, and the form in Python.

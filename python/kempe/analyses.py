@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from kempe import _core
+from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
 from kempe.errors import ModelError
+from kempe.event import Action, Events, with_actions
 from kempe.model import Model, Redundancy, compiled_model
-from kempe.names import one_of
+from kempe.names import one_of, unknown
 from kempe.option import Option, core_options
 from kempe.options import Auto, Dynamics, Projection
+from kempe.phases import Setting
 from kempe.request_cache import Request, encode, request
 from kempe.solution import Solution
 from kempe.state import AssemblyReport, State
@@ -47,6 +51,7 @@ def assemble(
         t: time, s; None means that of ``from_state``, or 0.
         from_state: a state of the same bodies, from which the mechanism moves as little as it can:
             of another set of parameters, or one that drifted. ``set`` and ``guess`` come before it.
+            Drivers that were released in it remain released.
         redundancy: "allow" accepts redundant constraints in the assembly and in simulations that
             start from the state; None uses the setting of the model.
         from_guess: start the Newton iteration from the guess with open loops, without closing
@@ -68,6 +73,7 @@ def assemble(
     hint = encode(numbers(guess, "guess"))
     if from_state is not None:
         refuse_foreign(compiled, from_state)
+        compiled = compiled.variant(([], released(compiled, from_state)))
         t = float(from_state.t) if t is None else t
         q, v, z = (np.array(part) for part in (from_state.q, from_state.v, from_state.z))
         z = z if len(z) == compiled.n_z else np.zeros(compiled.n_z)
@@ -92,6 +98,10 @@ def dynamics(
     dense_output: bool = True,
     redundancy: Redundancy | None = None,
     singularity: Literal["stop", "pass"] = "stop",
+    events: Events | None = None,
+    stop: str | None = None,
+    release: Sequence[str] = (),
+    parameters: Mapping[str, Number] | None = None,
     progress: Progress | None = None,
 ) -> Solution:
     """Simulate the motion from a state.
@@ -111,6 +121,11 @@ def dynamics(
         redundancy: "allow" accepts redundant constraints; None uses the setting of ``start``.
         singularity: behaviour at a singular position where the velocity does not determine the
             branch of the motion: "stop" with a SingularityError, or "pass".
+        events: events by name: conditions such as ``"rocker.angle > 270*deg"``, or ``kp.Event``
+            with a direction, a stop or an action; see ``Solution.events``.
+        stop: condition at which the run ends, the event ``stop``.
+        release: drivers that no longer act, in this run and in those that start from its states.
+        parameters: other values of parameters in this run; the start must meet the constraints.
         progress: function that is called repeatedly with the time reached, s; an exception in it
             ends the simulation.
 
@@ -125,8 +140,12 @@ def dynamics(
     inherited = start.compiled.redundancy if isinstance(start, State) else None
     compiled = _allowing(compiled_model(model), redundancy if redundancy is not None else inherited)
     fields = (t_end, output_step, method, stabilization, max_steps)
-    wanted = request(fields, dense_output, singularity)
-    return _simulate(compiled.with_analyses({Dynamics.name: wanted.entry}), start, wanted, progress)
+    plain, actions = with_actions(events)
+    given = {"events": plain, "stop": stop, "release": release, "parameters": parameters}
+    more = {name: value for name, value in given.items() if value}
+    wanted = request(fields, dense_output, singularity, more)
+    model = compiled.with_analyses({Dynamics.name: wanted.entry})
+    return _simulate(model, start, wanted, progress, actions)
 
 
 def simulate(
@@ -138,17 +157,22 @@ def simulate(
 
 
 def _simulate(
-    model: CompiledModel, start: State, wanted: Request, progress: Progress | None
+    model: CompiledModel,
+    start: State,
+    wanted: Request,
+    progress: Progress | None,
+    actions: Mapping[str, Action] = MappingProxyType({}),
 ) -> Solution:
     if not isinstance(start, State):
         raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
     if progress is not None and not callable(progress):
         raise ModelError(f"progress: {progress!r} is not a function")
     refuse_foreign(model, start)
-    t, text, method = start.t, wanted.text, _method(wanted.entry)
+    t, text, method = start.t, _with_released(model, start, wanted), _method(wanted.entry)
+    acting = (list(actions), Acting(model, start, actions)) if actions else None
     try:
         at = start.q, start.v, start.z
-        run = _core.dynamics(model.core, t, *at, text, progress, wanted.t_end)
+        run = _core.dynamics(model.core, t, *at, text, progress, wanted.t_end, acting)
     except BaseException as error:  # including interruptions and exceptions of progress
         partial = vars(error).pop("run", None)  # which cannot be pickled with the error
         if partial is not None and len(partial.t):
@@ -161,6 +185,69 @@ def _simulate(
         for warning in warnings_of(solution):
             warnings.warn(warning, EventWarning, stacklevel=3)
     return solution
+
+
+def _with_released(model: CompiledModel, start: State, wanted: Request) -> str:
+    """The options for the core: drivers that were released before the start remain released."""
+    before = released(model, start)
+    if not before:
+        return wanted.text
+    release = list(dict.fromkeys([*before, *wanted.entry.get("release", ())]))
+    return encode({**core_options(wanted.entry), "release": release})
+
+
+def released(model: CompiledModel, state: State) -> list[str]:
+    """The drivers of a model that were released before a state."""
+    return [name for name in state.compiled.released if name in model.drivers]
+
+
+class Acting:
+    """Calls the actions of events.
+
+    Args:
+        model: the model of the run.
+        start: its first state.
+        actions: the actions by the name of their event.
+    """
+
+    def __init__(self, model: CompiledModel, start: State, actions: Mapping[str, Action]) -> None:
+        self._model, self._passing, self._actions = model, start._passing, actions
+
+    def __call__(
+        self, name: str, setting: Setting, t: float, *at: Floats
+    ) -> tuple[list[tuple[str, float]], tuple[Floats, Floats, Floats] | None]:
+        """The parameters and the state that an action changes."""
+        q, v, z = at
+        state = State(self._model.variant(setting), t, q, v, z=z)
+        state._passing = self._passing
+        answer = self._actions[name](state)
+        if answer is None:
+            return [], None
+        if isinstance(answer, State):
+            return [], _state_after(name, t, answer)
+        if not isinstance(answer, Mapping):
+            raise ModelError(
+                f"the action of {name} returned {answer!r}",
+                name=name,
+                hint="it must return None, a mapping of parameters to values, or a State",
+            )
+        known = self._model.parameters
+        for parameter in answer:
+            if parameter not in known:
+                raise unknown(f"parameter in the action of {name}", parameter, known)
+        found = numbers(answer, f"events.{name}.action")
+        if texts := [text for text in found.values() if isinstance(text, str)]:
+            raise ModelError(f"the action of {name} returned {texts[0]!r}; must be a number")
+        return [(parameter, float(value)) for parameter, value in found.items()], None
+
+
+def _state_after(name: str, t: float, state: State) -> tuple[Floats, Floats, Floats]:
+    if float(state.t) != t:
+        raise ModelError(
+            f"the action of {name} returned a state at t = {state.t:g} s; must be at {t:g} s",
+            name=name,
+        )
+    return state.q, state.v, state.z
 
 
 def _method(entry: Mapping[str, Any]) -> str:

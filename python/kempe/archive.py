@@ -11,6 +11,7 @@ import math
 import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
 from typing import IO, Any, NoReturn
 
@@ -23,8 +24,9 @@ from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
 from kempe.dense import WORKS
 from kempe.errors import FileError, KempeError
-from kempe.runs import StoredRun
-from kempe.solution import REACHED, Solution
+from kempe.phases import Settings
+from kempe.runs import EventRows, StoredRun
+from kempe.solution import STATUS, Solution
 
 KIND = "kempe solution"
 #: Version of the file layout.
@@ -38,6 +40,7 @@ _SAMPLES = 9
 #: Statistics that are counts.
 _COUNTS = {"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations"}
 _DENSE = ("dense_t", "dense_y", "dense_c")
+_EVENTS = ("event_t", "event_q", "event_v", "event_z")
 
 #: Letters for the sizes of an array, such as n for the number of times, or the size itself.
 _Shape = tuple["int | str", ...]
@@ -50,24 +53,36 @@ def save(solution: Solution, path: Path | str) -> None:
     if solution.dense is not None:
         dense = solution.dense
         arrays |= {"dense_t": dense.t, "dense_y": dense.y, "dense_c": dense.c}
+    arrays |= _event_arrays(solution)
     about = json.dumps(_about(solution), allow_nan=False)
     with files.writing(path) as file:
         np.savez(file, about=np.array(about), **arrays)
 
 
 def _about(solution: Solution) -> dict[str, Any]:
+    settings = solution._run.settings
     return {
         "kind": KIND,
         "layout": LAYOUT,
         "kempe": __version__,
         "core": _core.version(),
         "numpy": np.__version__,
-        "case": json.loads(solution.compiled.case),
-        "status": "reached" if solution.status == REACHED else "stopped",
+        "case": json.loads(solution._base.case),
+        "status": next(name for name, status in STATUS.items() if status == solution.status),
         "message": solution.message,
         "statistics": dict(solution.statistics),
         "projection": solution._run.projection,
+        "settings": [[row, list(map(list, p)), released] for row, (p, released) in settings],
+        "events": [[name, len(t)] for name, t, *_ in solution._run.events],
     }
+
+
+def _event_arrays(solution: Solution) -> dict[str, Floats]:
+    """The states of all events, one event after the other; absent without any."""
+    if not any(len(t) for _, t, *_ in solution._run.events):
+        return {}
+    columns = list(zip(*solution._run.events, strict=True))[1:]
+    return {name: np.concatenate(part) for name, part in zip(_EVENTS, columns, strict=True)}
 
 
 def load_solution(path: Path | str) -> Solution:
@@ -182,6 +197,10 @@ def _shapes(stored: zipfile.ZipFile, model: CompiledModel) -> dict[str, _Shape]:
     if present & {f"{name}.npy" for name in _DENSE}:
         n_y = 2 * model.n_q + model.n_z + WORKS
         shapes |= {"dense_t": ("k + 1",), "dense_y": ("k", n_y), "dense_c": ("k", n_y, "degree")}
+    if present & {f"{name}.npy" for name in _EVENTS}:
+        widths = {"event_q": model.n_q, "event_v": model.n_q, "event_z": model.n_z}
+        shapes |= {"event_t": ("events",)}
+        shapes |= {name: ("events", width) for name, width in widths.items()}
     return shapes
 
 
@@ -212,7 +231,7 @@ def _floats(stored: zipfile.ZipFile, name: str) -> Floats:
 
 def _run(about: Mapping[str, Any], arrays: Mapping[str, Floats]) -> StoredRun:
     status, statistics = _entry(about, "status", str), dict(_entry(about, "statistics", dict))
-    if status not in ("reached", "stopped"):
+    if status not in STATUS:
         _refuse(f"its status is {status!r}")
     for name in {"steps", *statistics} & _COUNTS:
         count = statistics.get(name)
@@ -229,7 +248,40 @@ def _run(about: Mapping[str, Any], arrays: Mapping[str, Floats]) -> StoredRun:
         message=_entry(about, "message", str),
         statistics=json.dumps(statistics),
         projection=_projection(about),
+        settings=_settings(about, len(arrays["t"])),
+        events=_events(about, arrays),
     )
+
+
+def _settings(about: Mapping[str, Any], count: int) -> Settings:
+    """The phases; files of version 0.1 have one."""
+    found = []
+    for row, parameters, released in about.get("settings", [[0, [], []]]):
+        numbers = all(isinstance(x, int | float) for _, x in parameters)
+        if not isinstance(row, int) or not 0 <= row <= count or not numbers:
+            _refuse("its phases are damaged")
+        given = [(str(name), float(x)) for name, x in parameters]
+        found.append((row, (given, list(map(str, released)))))
+    if not found or found[0][0] != 0 or any(a >= b for (a, _), (b, _) in pairwise(found)):
+        _refuse("its phases are damaged")
+    return found
+
+
+def _events(about: Mapping[str, Any], arrays: Mapping[str, Floats]) -> list[EventRows]:
+    """The events with their states."""
+    counts = about.get("events", [])
+    if any(type(n) is not int or n < 0 for _, n in counts):
+        _refuse("its events are damaged")
+    if sum(n for _, n in counts) != len(arrays.get("event_t", ())):
+        _refuse("its events are damaged")
+    ends = np.cumsum([n for _, n in counts])
+    widths = (arrays[name].shape[1] for name in ("q", "v", "z"))
+    empty = dict(zip(_EVENTS, [np.zeros(0), *(np.zeros((0, n)) for n in widths)], strict=True))
+    found: list[EventRows] = []
+    for (name, n), end in zip(counts, ends, strict=True):
+        t, q, v, z = (arrays.get(part, none)[end - n : end] for part, none in empty.items())
+        found.append((str(name), t, q, v, z))
+    return found
 
 
 def _projection(about: Mapping[str, Any]) -> float | None:
@@ -262,7 +314,8 @@ def _check_agreement(solution: Solution) -> None:
             values[k : k + 1] for values in (solution.t, solution.q, solution.v, solution.z)
         )
         try:
-            a, _ = _core.evaluate(solution.compiled.core, t, q, v, z, solution._passing)
+            model = solution._state_of(int(k)).compiled
+            a, _ = _core.evaluate(model.core, t, q, v, z, solution._passing)
         except KempeError:  # a run may end in a position without unique accelerations
             continue
         largest = max(

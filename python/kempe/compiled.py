@@ -27,6 +27,7 @@ from kempe.names import entry
 
 if TYPE_CHECKING:
     from kempe.model import Model
+    from kempe.phases import Setting
 
 __all__ = [
     "ACCELERATIONS",
@@ -61,7 +62,7 @@ class CompiledModel:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickled as text; compiled again when it is read."""
-        return _restored, (self.model, self._case, self._analyses)
+        return _restored, (self.model, self._case, self._analyses, self.core.setting)
 
     @property
     def model(self) -> Model:
@@ -96,6 +97,20 @@ class CompiledModel:
         """The same model with redundant constraints accepted."""
         case = json.dumps({**json.loads(self.case), "redundancy": "allow"})
         return CompiledModel(self.core.allowing_redundancy(), case, self._model)
+
+    def variant(self, setting: Setting) -> CompiledModel:
+        """The same model with other parameters and released drivers; see ``kempe.phases``."""
+        parameters, released = setting
+        if not parameters and not released:
+            return self
+        other = CompiledModel(self.core.variant(parameters, released), self._case, self._model)
+        other._analyses = self._analyses
+        return other
+
+    @property
+    def released(self) -> tuple[str, ...]:
+        """The drivers that no longer act."""
+        return tuple(self.core.setting[1])
 
     @property
     def redundancy(self) -> str:
@@ -247,8 +262,14 @@ class CompiledModel:
         return MappingProxyType({k: c for k, c in self.constraints.items() if c.group == group})
 
 
-def _restored(model: Model, case: str, analyses: Mapping[str, Any] | None) -> CompiledModel:
+def _restored(
+    model: Model,
+    case: str,
+    analyses: Mapping[str, Any] | None,
+    setting: Setting = ([], []),
+) -> CompiledModel:
     """A compiled model from its text; that of the user's model if the text is the same."""
     made = model.compile() if model.json() == case else CompiledModel.from_case(case)
     made._model = model
-    return made if analyses is None else made.with_analyses(analyses)
+    made = made if analyses is None else made.with_analyses(analyses)
+    return made.variant(setting)

@@ -434,15 +434,18 @@ class CoordinateDriver(Element):
         coordinate: Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`,
             `joint.angle`, `joint.displacement` and so on.
         value: Its value, m or rad; may use `t` and the positions of other bodies [m or rad].
+        release: Condition on any quantities; once it became true, the driver no longer acts.
     """
 
     coordinate: str
     value: Number
+    release: str | None = None
     section: ClassVar[str] = "drivers"
     kind: ClassVar[str] = "coordinate_driver"
     shapes: ClassVar[Mapping[str, str]] = {
         "coordinate": "coordinate",
         "value": "law",
+        "release": "condition",
     }
 
 
@@ -1009,7 +1012,14 @@ class ElementMethods:
         """
         return self._add(Constraint(name, residual=residual, units=units))
 
-    def coordinate_driver(self, name: str, coordinate: str, *, value: Number) -> CoordinateDriver:
+    def coordinate_driver(
+        self,
+        name: str,
+        coordinate: str,
+        *,
+        value: Number,
+        release: str | None = None,
+    ) -> CoordinateDriver:
         """Add an element of type ``coordinate_driver`` and return it.
 
         Coordinate driver: a position quantity is a given function of time, Φ = coordinate - value
@@ -1021,8 +1031,11 @@ class ElementMethods:
             coordinate: Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`,
                 `joint.angle`, `joint.displacement` and so on.
             value: Its value, m or rad; may use `t` and the positions of other bodies [m or rad].
+            release: Condition on any quantities; once it became true, the driver no longer acts.
         """
-        return self._add(CoordinateDriver(name, coordinate=coordinate, value=value))
+        return self._add(
+            CoordinateDriver(name, coordinate=coordinate, value=value, release=release)
+        )
 
     def torsion_spring(
         self,

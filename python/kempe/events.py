@@ -1,8 +1,8 @@
-"""Events of a run: the times at which a result of a joint becomes negative.
+"""Events of a run: those that it looked for, and those that its joints declare.
 
-An element declares such results in its own source file: a normal force of a roller that becomes
-negative is the event ``lift_off``, since the curve would have to pull from there on. The run goes
-on.
+The core locates the first kind. An element declares results that become negative in its own source
+file: a normal force of a roller that becomes negative is the event ``lift_off``, since the curve
+would have to pull from there on. The run goes on.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ class EventWarning(UserWarning):
 
 
 @dataclass(frozen=True, repr=False)
-class Event:
-    """An event of a run.
+class EventTimes:
+    """The times of an event of a run.
 
     Attributes:
-        name: joint and event, such as ``cam.lift_off``.
+        name: its name, such as ``hit``, or joint and event, such as ``cam.lift_off``.
         t: its times, (n_events,), s.
         states: the state at each of them.
     """
@@ -56,27 +56,32 @@ class Event:
         return f"<Event {self.name!r}: {f't = {times}{more} s' if len(self.t) else 'never'}>"
 
 
-def events(solution: Solution) -> Mapping[str, Event]:
-    """All events that the joints of a model declare, by name; an event that did not occur is empty.
+def events(solution: Solution) -> Mapping[str, EventTimes]:
+    """All events of a run by name; an event that did not occur is empty.
 
-    Times are found on the interpolant of the integrator. Without one, they are the outputs at which
-    the value is negative for the first time.
+    Times of results that become negative are found on the interpolant of the integrator. Without
+    one, they are the outputs at which the value is negative for the first time.
     """
     found = {}
+    for name, t, q, v, z in solution._run.events:
+        at = zip(t, q, v, z, strict=True)
+        states = tuple(solution._state_before(float(t), *of) for t, *of in at)
+        found[name] = EventTimes(name, fixed(t), states)
     for joint, info in solution.compiled.constraints.items():
         for (quantity, _), event in zip(info.results, info.events, strict=True):
             if event is not None:
                 name = f"{joint}.{event}"
                 times = _times(solution, partial(_result, joint, quantity))
-                found[name] = Event(name, fixed(np.array(times)), _states(solution, times))
+                found[name] = EventTimes(name, fixed(np.array(times)), _states(solution, times))
     return MappingProxyType(found)
 
 
 def warnings_of(solution: Solution) -> list[str]:
-    """A warning for each event that occurred."""
+    """A warning for each event that a joint declares and that occurred."""
     found = []
+    sought = {name for name, *_ in solution._run.events}
     for event in solution.events.values():
-        if len(event.t):
+        if len(event.t) and event.name not in sought:
             count = "once" if len(event.t) == 1 else f"{len(event.t)} times"
             joint, _, kind = event.name.rpartition(".")
             found.append(
@@ -95,10 +100,7 @@ def _states(solution: Solution, times: list[float]) -> tuple[State, ...]:
     if solution.dense is not None:
         return tuple(solution(t) for t in times)  # type: ignore[misc]  # one time gives a State
     rows = [int(np.flatnonzero(solution.t == t)[0]) for t in times]
-    return tuple(
-        solution._state(float(solution.t[k]), solution.q[k], solution.v[k], solution.z[k])
-        for k in rows
-    )
+    return tuple(solution._state_of(k) for k in rows)
 
 
 def _times(solution: Solution, read: Read) -> list[float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
@@ -13,6 +14,7 @@ from kempe.compiled import CompiledModel, ConstraintInfo
 from kempe.errors import ModelError
 from kempe.model import Model, compiled_model
 from kempe.names import entry, unknown
+from kempe.phases import Phases
 from kempe.views import BodyView, ConstraintView, ForceView
 
 
@@ -33,6 +35,8 @@ class Motion:
             motor; see ``model.state_names()``. Empty for most models.
     """
 
+    #: The phases of its rows; None if all have the compiled model.
+    _phases: Phases | None = None
     #: Whether accelerations are computed near singular positions too, as in runs that pass them.
     _passing = False
     #: The reaction that was computed last, with its joint, body and frame.
@@ -88,13 +92,19 @@ class Motion:
     @cached_property
     def _dynamics(self) -> tuple[Floats, Floats]:
         rows = *self._rows(), np.atleast_2d(self.z)
-        a, lam = _core.evaluate(self.compiled.core, *rows, self._passing)
+        passing = self._passing
+
+        def evaluate(core: _core.Model, *of: Floats) -> tuple[Floats, ...]:
+            t, q, v, z = of
+            return _core.evaluate(core, t, q, v, z, passing)
+
+        a, lam = self._by_phase(evaluate, *rows)
         return self._as_given(a), self._as_given(lam)
 
     @cached_property
     def residuals(self) -> tuple[Floats, Floats]:
         """Φ and Φ_q q̇ + Φ_t, (n_t, n_rows) or (n_rows,), m or rad and per s."""
-        position, velocity = _core.residual(self.compiled.core, *self._rows())
+        position, velocity = self._by_phase(_core.residual, *self._rows())
         return self._as_given(position), self._as_given(velocity)
 
     def measured(self, name: str, k: int, order: int) -> Floats:
@@ -105,7 +115,8 @@ class Motion:
         """
         if (name, order == 2) not in self._measured:
             a = np.atleast_2d(self.a) if order == 2 else None
-            values = _core.measured(self.compiled.core, name, *self._rows(), a)
+            rows = *self._rows(), a
+            (values,) = self._by_phase(lambda core, *of: (_core.measured(core, name, *of),), *rows)
             self._measured[name, order == 2] = values
         return self._as_given(self._measured[name, order == 2][:, 3 * k + order])
 
@@ -119,32 +130,40 @@ class Motion:
         kept, values = self._last_reaction
         if kept != (joint, on, frame):  # its components are often read one after the other
             t, q, _ = self._rows()
-            lam = np.atleast_2d(self.lam)
-            core = self.compiled.core
-            values = self._as_given(_core.reaction(core, joint, on, frame, t, q, lam))
+            rows = t, q, np.atleast_2d(self.lam)
+            (found,) = self._by_phase(
+                lambda core, *of: (_core.reaction(core, joint, on, frame, *of),), *rows
+            )
+            values = self._as_given(found)
             self._last_reaction = (joint, on, frame), values
         return values
 
     def results(self, joint: str) -> Floats:
         """Results of a joint beside its reaction, (…, n); see ``ConstraintInfo.results``."""
         t, q, _ = self._rows()
-        return self._as_given(
-            _core.results(self.compiled.core, joint, t, q, np.atleast_2d(self.lam))
-        )
+        rows = t, q, np.atleast_2d(self.lam)
+        (found,) = self._by_phase(lambda core, *of: (_core.results(core, joint, *of),), *rows)
+        return self._as_given(found)
 
     def action(self, name: str, on: str, part: str | None, frame: str) -> Floats:
         """Force and torque of a force element on a body, (…, 3); see ``ForceView``."""
         rows = *self._rows(), np.atleast_2d(self.z)
         seen = self.compiled.forces[name].reaction is not None
         lam = np.atleast_2d(self.lam) if seen else None
-        return self._as_given(_core.force(self.compiled.core, name, on, part, frame, *rows, lam))
+        (found,) = self._by_phase(
+            lambda core, *of: (_core.force(core, name, on, part, frame, *of),), *rows, lam
+        )
+        return self._as_given(found)
 
     def force_energy(self, name: str) -> Floats:
         """Energy that a force element stores and power that it dissipates, (…, 2), J and W."""
         rows = *self._rows(), np.atleast_2d(self.z)
         seen = self.compiled.forces[name].reaction is not None
         lam = np.atleast_2d(self.lam) if seen else None
-        return self._as_given(_core.force_energy(self.compiled.core, name, *rows, lam))
+        (found,) = self._by_phase(
+            lambda core, *of: (_core.force_energy(core, name, *of),), *rows, lam
+        )
+        return self._as_given(found)
 
     def dissipated(self, name: str) -> Floats:
         """Energy that a force element has dissipated since the start; see ``ForceView``."""
@@ -153,6 +172,14 @@ class Motion:
             name=name,
             hint="it belongs to a solution",
         )
+
+    def _by_phase(
+        self, evaluate: Callable[..., tuple[Floats, ...]], *rows: Floats | None
+    ) -> tuple[Floats, ...]:
+        """Values of the core at rows, each with the parameters and drivers of its phase."""
+        if self._phases is None:
+            return evaluate(self.compiled.core, *rows)
+        return self._phases.evaluate(evaluate, *rows)
 
     def _rows(self) -> tuple[Floats, Floats, Floats]:
         """t, q, v with a time axis, as required by the core."""

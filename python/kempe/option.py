@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 from typing import Any, ClassVar, TypeAlias
 
 from kempe.errors import ModelError
+from kempe.event import events
 from kempe.names import one_of
 from kempe.values import CHECKS, number, reference, tolerance
 
@@ -21,6 +22,7 @@ _FAMILIES = {"method": "kp.RK45(rtol=1e-6)", "stabilization": "kp.Projection()"}
 _CHECKS = {
     **CHECKS,
     "count": number,
+    "events": events,
     "name": reference,
     "tolerance": tolerance,
 }

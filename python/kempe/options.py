@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
+from kempe.event import Events
 from kempe.option import Analysis, Option, Shape
-from kempe.values import Number, Pair, Tolerance
+from kempe.values import Number, Terms, Tolerance, Words
 
 
 @dataclass(frozen=True, repr=False)
@@ -327,6 +328,12 @@ class Dynamics(Analysis):
         output: "steps" reports the steps of the solver, as without this option.
         after: State at which it starts: "start", or the name of an earlier analysis for the end
             of that analysis. If absent, the end of the analysis before it.
+        events: Events by name, each with its condition: a comparison (an event where it becomes
+            true) or an expression (an event at each zero). A table has more: `{ condition =
+            "C.force - 900", direction = "rising", stop = true }`.
+        stop: Condition at which the run ends.
+        release: Drivers that no longer act, here and in analyses that start from this one.
+        parameters: Other values of parameters for this analysis.
         name: its name in the case.
     """
 
@@ -340,6 +347,10 @@ class Dynamics(Analysis):
     singularity: Literal["stop", "pass"] = "stop"
     output: Literal["steps"] | None = None
     after: str | None = None
+    events: Events | None = None
+    stop: str | None = None
+    release: Words | None = None
+    parameters: Terms | None = None
     name: str = "dynamics"
     kind: ClassVar[str] = "dynamics"
     shapes: ClassVar[Mapping[str, Shape]] = {
@@ -353,78 +364,8 @@ class Dynamics(Analysis):
         "singularity": ("stop", "pass"),
         "output": ("steps",),
         "after": "name",
-    }
-
-
-@dataclass(frozen=True, repr=False)
-class Kinematics(Analysis):
-    """Analysis of type ``kinematics``, an entry of ``[analyses]``.
-
-    Positions, velocities and accelerations of a mechanism whose drivers determine its motion,
-    without integration: over time, or over the value of a driver or position quantity.
-
-    Attributes:
-        t_end: Time at which the motion ends [s].
-        output_step: Time between the reported states; if absent, 1/360 of the interval [s].
-        over: A driver, or a position quantity such as `crank.angle`, whose value takes the
-            place of the time. Not together with t_end and output_step.
-        range: First and last value of `over`, in SI units and rad.
-        n: Number of values in the range, both ends included.
-        after: State at which it starts: "start", or the name of an earlier analysis for the end
-            of that analysis. If absent, the end of the analysis before it.
-        name: its name in the case.
-    """
-
-    t_end: Number | None = None
-    output_step: Number | None = None
-    over: str | None = None
-    range: Pair | None = None
-    n: int = 361.0
-    after: str | None = None
-    name: str = "kinematics"
-    kind: ClassVar[str] = "kinematics"
-    shapes: ClassVar[Mapping[str, Shape]] = {
-        "t_end": "number",
-        "output_step": "number",
-        "over": "name",
-        "range": "pair",
-        "n": "count",
-        "after": "name",
-    }
-
-
-@dataclass(frozen=True, repr=False)
-class InverseDynamics(Analysis):
-    """Analysis of type ``inverse_dynamics``, an entry of ``[analyses]``.
-
-    Efforts of drivers and reactions of joints for the motion that the drivers prescribe, which
-    is that of `kinematics`.
-
-    Attributes:
-        t_end: Time at which the motion ends [s].
-        output_step: Time between the reported states; if absent, 1/360 of the interval [s].
-        over: A driver, or a position quantity such as `crank.angle`, whose value takes the
-            place of the time. Not together with t_end and output_step.
-        range: First and last value of `over`, in SI units and rad.
-        n: Number of values in the range, both ends included.
-        after: State at which it starts: "start", or the name of an earlier analysis for the end
-            of that analysis. If absent, the end of the analysis before it.
-        name: its name in the case.
-    """
-
-    t_end: Number | None = None
-    output_step: Number | None = None
-    over: str | None = None
-    range: Pair | None = None
-    n: int = 361.0
-    after: str | None = None
-    name: str = "inverse_dynamics"
-    kind: ClassVar[str] = "inverse_dynamics"
-    shapes: ClassVar[Mapping[str, Shape]] = {
-        "t_end": "number",
-        "output_step": "number",
-        "over": "name",
-        "range": "pair",
-        "n": "count",
-        "after": "name",
+        "events": "events",
+        "stop": "condition",
+        "release": "name_list",
+        "parameters": "values",
     }

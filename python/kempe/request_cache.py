@@ -48,23 +48,29 @@ _Key: TypeAlias = tuple[bool, tuple[type, ...], tuple[type, ...], tuple[object, 
 _kept: dict[_Key, Request] = {}
 
 
-def request(asked: Asked, dense_output: bool, singularity: Literal["stop", "pass"]) -> Request:
+def request(
+    asked: Asked,
+    dense_output: bool,
+    singularity: Literal["stop", "pass"],
+    more: Mapping[str, Any],
+) -> Request:
     """The entry for a simulation, checked.
 
     Args:
         asked: the first fields of ``Dynamics``, in their order.
         dense_output: as in ``Dynamics``.
         singularity: as in ``Dynamics``.
+        more: other fields of ``Dynamics``; requests with them are not kept.
 
     Raises:
         ModelError: a value is not allowed in its field.
     """
-    key = _key(asked, dense_output, singularity)
+    key = None if more else _key(asked, dense_output, singularity)
     known = None if key is None else _kept.get(key)
     t_end = number(asked[0], f"analyses.{Dynamics.name}.t_end")
     if known is not None and not isinstance(t_end, str):
         return Request({**known.entry, "t_end": t_end}, known.text, float(t_end))
-    entry = Dynamics(*asked, dense_output, singularity=singularity).tree()
+    entry = Dynamics(*asked, dense_output, singularity=singularity, **more).tree()
     made = Request(entry, encode(core_options(entry)))
     if key is not None and not isinstance(entry["t_end"], str):
         _keep(key, made)

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from kempe.arrays import Floats
 from kempe.errors import KempeError
+from kempe.phases import Settings
 
 if TYPE_CHECKING:
     from kempe import _core
 
     Run: TypeAlias = "_core.Run | StoredRun | PartialRun"
+
+
+#: Name of an event, its times, and rows of q, v and z there.
+EventRows: TypeAlias = "tuple[str, Floats, Floats, Floats, Floats]"
 
 
 @dataclass(frozen=True)
@@ -27,6 +33,8 @@ class StoredRun:
         message: reason for the end of the run.
         statistics: steps, evaluations and times, as JSON.
         projection: tolerance of the projection of the states; None without projection.
+        settings: the first row of each phase, with its parameters and released drivers.
+        events: name, times and rows of q, v and z of each event.
     """
 
     t: Floats
@@ -42,6 +50,8 @@ class StoredRun:
     message: str
     statistics: str
     projection: float | None
+    settings: Settings = ((0, ([], [])),)
+    events: Sequence[EventRows] = ()
 
     def responses(self, rows: int | None = None) -> tuple[Floats, Floats]:
         """Accelerations and multipliers, at all or the first times."""
@@ -99,6 +109,21 @@ class PartialRun:
     def projection(self) -> float | None:
         """Tolerance of the projection of its states."""
         return self.run.projection
+
+    @property
+    def settings(self) -> Settings:
+        """The first row of each phase, with its parameters and released drivers."""
+        return [entry for entry in self.run.settings if entry[0] < max(self.rows, 1)]
+
+    @property
+    def events(self) -> Sequence[EventRows]:
+        """Name, times and rows of q, v and z of each event, up to the last row."""
+        found = []
+        for name, t, *rows in self.run.events:
+            before = t <= self.run.t[self.rows - 1]
+            q, v, z = (values[before] for values in rows)
+            found.append((name, t[before], q, v, z))
+        return found
 
     @property
     def statistics(self) -> str:

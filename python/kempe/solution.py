@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -19,20 +19,24 @@ from kempe.compiled import CompiledModel
 from kempe.dense import WORKS, DenseOutput
 from kempe.energy import Energy
 from kempe.errors import IntegrationError, KempeError, ModelError, SingularityError
+from kempe.model import compiled_model
 from kempe.motion import Motion
+from kempe.phases import Phases, phases
 from kempe.runs import PartialRun, StoredRun
 from kempe.state import State
 
 if TYPE_CHECKING:
     import pandas
 
-    from kempe.events import Event
+    from kempe.events import EventTimes
     from kempe.model import Model
     from kempe.runs import Run
     from kempe.views.frames import Frame
 
-#: Values of ``status``, as in scipy's ``solve_ivp``.
-REACHED, STOPPED = 0, -1
+#: Values of ``status``, as in scipy's ``solve_ivp``: the end was reached, an event stopped the run,
+#: or it failed.
+REACHED, EVENT, STOPPED = 0, 1, -1
+STATUS = {"reached": REACHED, "event": EVENT, "stopped": STOPPED}
 
 
 @dataclass(frozen=True)
@@ -52,6 +56,10 @@ class Drift:
         return f"<Drift: position up to {largest[0]:.3g}, velocity up to {largest[1]:.3g}>"
 
 
+def _project(tolerance: float, core: _core.Model, *rows: Floats) -> tuple[Floats, Floats]:
+    return _core.project(core, tolerance, *rows)
+
+
 class Solution(Motion):
     """The solution of a simulation: arrays with time first, read-only, SI units.
 
@@ -65,20 +73,25 @@ class Solution(Motion):
         t: (n_t,), s.
         q, v: (n_t, n_q), m, rad and per s.
         z: (n_t, n_z): first-order states of force elements; empty for most models.
-        status: 0 if the end was reached, -1 otherwise.
+        status: 0 if the end was reached, 1 if an event stopped the run, -1 otherwise.
         message: reason for the end of the run.
     """
 
     def __init__(self, model: Model | CompiledModel, run: Run, method: str = "unknown") -> None:
-        super().__init__(model, run.t, run.q, run.v, run.z)
+        base = compiled_model(model)
+        settings = run.settings
+        super().__init__(base.variant(settings[0][1]), run.t, run.q, run.v, run.z)
+        self._base = base
         self._run = run
+        if len(settings) > 1:
+            self._phases = phases(base, settings, len(run.t))
         self._passing = run.projection is not None and self.compiled.redundancy != "allow"
         self._method = method
-        self.status = REACHED if run.status == "reached" else STOPPED
+        self.status = STATUS[run.status]
         self.message = run.message
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Solution, (self.compiled, self.stored())
+        return Solution, (self._base, self.stored(), self._method)
 
     def stored(self) -> StoredRun:
         """The run with all its results, for a copy or a file."""
@@ -104,6 +117,8 @@ class Solution(Motion):
             message=run.message,
             statistics=json.dumps(dict(self.statistics)),
             projection=run.projection,
+            settings=tuple(run.settings),
+            events=tuple(run.events),
         )
 
     @cached_property
@@ -155,7 +170,7 @@ class Solution(Motion):
             rows = int(np.count_nonzero(np.cumsum(self.t == error.t) == 0))
             if rows:
                 kept = PartialRun(self._run, rows, str(error))
-                error.solution = Solution(self.compiled, kept, self._method)  # type: ignore[union-attr]
+                error.solution = Solution(self._base, kept, self._method)  # type: ignore[union-attr]
             raise
 
     def dissipated(self, name: str) -> Floats:
@@ -166,7 +181,7 @@ class Solution(Motion):
 
     @property
     def success(self) -> bool:
-        """True if the end was reached."""
+        """True if the end was reached or an event stopped the run."""
         return self.status >= REACHED
 
     @property
@@ -191,10 +206,10 @@ class Solution(Motion):
         return Drift(fixed(position), fixed(velocity))
 
     @cached_property
-    def events(self) -> Mapping[str, Event]:
-        """Events of the run by name, such as ``cam.lift_off``; see ``kempe.events``.
+    def events(self) -> Mapping[str, EventTimes]:
+        """Events of the run by name, such as ``hit`` or ``cam.lift_off``; see ``kempe.events``.
 
-        An event that a joint of the model may have and that did not occur has no times.
+        An event that did not occur has no times.
         """
         from kempe.events import events
 
@@ -203,15 +218,29 @@ class Solution(Motion):
     @property
     def initial(self) -> State:
         """The state at the first time."""
-        return self._state(float(self.t[0]), self.q[0], self.v[0], self.z[0])
+        return self._state_of(0)
 
     @property
     def final(self) -> State:
         """The state at the last time."""
-        return self._state(float(self.t[-1]), self.q[-1], self.v[-1], self.z[-1])
+        return self._state_of(-1)
 
-    def _state(self, t: float, q: Floats, v: Floats, z: Floats) -> State:
-        state = State(self.compiled, t, q, v, z=z)
+    def _state_of(self, row: int) -> State:
+        model = self.compiled
+        if self._phases is not None:
+            model = self._phases.models[self._phases.of_row[row]]
+        return self._state(model, float(self.t[row]), self.q[row], self.v[row], self.z[row])
+
+    def _state_before(self, t: float, q: Floats, v: Floats, z: Floats) -> State:
+        """The state of an event, with the parameters and drivers before it."""
+        model = self.compiled
+        if self._phases is not None:
+            begins = [self.t[first] for first, _ in self._run.settings]
+            model = self._phases.models[max(int(np.searchsorted(begins, t)) - 1, 0)]
+        return self._state(model, t, q, v, z)
+
+    def _state(self, model: CompiledModel, t: float, q: Floats, v: Floats, z: Floats) -> State:
+        state = State(model, t, q, v, z=z)
         state._passing = self._passing
         return state
 
@@ -238,13 +267,23 @@ class Solution(Motion):
             raise ModelError(f"t has {at.ndim} dimensions; must be one time or an array of times")
         times = np.atleast_1d(at)
         q, v, z = self.dense.parts(times, self.compiled.n_q, self.compiled.n_z)
+        motion = Motion(self.compiled, times, q, v, z)
+        motion._passing, motion._phases = self._passing, self._phases_at(times)
         if (tolerance := self._run.projection) is not None:
-            q, v = _core.project(self.compiled.core, tolerance, times, q, v, z)
-        if at.ndim == 0:
-            return self._state(float(at), q[0], v[0], z[0])
-        motion = Motion(self.compiled, at, q, v, z)
-        motion._passing = self._passing
-        return motion
+            q, v = motion._by_phase(partial(_project, tolerance), times, q, v, z)
+            motion.q, motion.v = fixed(q), fixed(v)
+        if at.ndim:
+            return motion
+        own = motion._phases
+        model = self.compiled if own is None else own.models[own.of_row[0]]
+        return self._state(model, float(at), q[0], v[0], z[0])
+
+    def _phases_at(self, t: Floats) -> Phases | None:
+        """The phases at times: at the time of a change the one after."""
+        if self._phases is None:
+            return None
+        begins = np.array([self.t[first] for first, _ in self._run.settings])
+        return self._phases.at(np.maximum(np.searchsorted(begins, t, side="right") - 1, 0))
 
     def energy_at(self, t: Floats) -> Energy:
         """Energies at any times within the solution, from the interpolant of the integrator.
@@ -260,7 +299,10 @@ class Solution(Motion):
         assert self.dense is not None  # otherwise the line before raises the error
         works = self.dense(motion.t)[..., 2 * self.compiled.n_q + self.compiled.n_z :]
         rows = (np.atleast_2d(values) for values in (motion.q, motion.v, motion.z, works))
-        return Energy(_core.energies(self.compiled.core, np.atleast_1d(motion.t), *rows))
+        (found,) = motion._by_phase(
+            lambda core, *of: (_core.energies(core, *of),), np.atleast_1d(motion.t), *rows
+        )
+        return Energy(found)
 
     def to_dataframe(
         self, *, frames: Sequence[Frame] = ("global",), points: Sequence[str] | bool = ()

@@ -271,4 +271,7 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "points": points,
     "curves": curves,
     "curve": reference,
+    "condition": reference,
+    "name_list": listed_words,
+    "values": numbers,
 }

@@ -44,6 +44,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "Case.check": lambda: CASE.check(MODEL),
     "Case.analyses": CASE.analyses,
     "Model.describe": MODEL.describe,
+    "Model.variant": lambda: MODEL.variant([], []),
     "Model.symbols": MODEL.symbols,
     "Model.table": lambda: MODEL.table("lift", 0, ROW[0]),
     "Model.allowing_redundancy": MODEL.allowing_redundancy,

@@ -57,7 +57,7 @@ pub fn assemble<'py>(
             t: number(py, "t", t)?,
             from_guess,
         };
-        let core_model = std::sync::Arc::clone(&model.model);
+        let core_model = std::sync::Arc::clone(model.active.prepared.model());
         let outcome = attended(py, move |stop| core::assemble_until(&core_model, &request, stop))?;
         let (state, report) = outcome.map_err(|failure| raise(py, &failure))?;
         let [q, v, z] = [state.q, state.v, state.z].map(|row| row.into_pyarray(py));

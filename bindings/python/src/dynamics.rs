@@ -3,18 +3,17 @@
 use crate::convert::{frozen, state, table, Row};
 use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
-use crate::model::PyModel;
+use crate::model::{written, PyModel, Written};
 use crate::options;
 use crate::respond::{because, energies, responses, Table};
 use crate::watch::Watch;
 use kempe::analyses::dynamics as core;
-use kempe::analyses::dynamics::Prepared;
+use kempe::analyses::State;
 use kempe::model::Model;
 use numpy::ndarray::{Array3, Dimension};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray};
 use pyo3::prelude::*;
 use serde_json::json;
-use std::sync::Arc;
 
 /// What an integration gave.
 #[pyclass(name = "Run", module = "kempe._core", frozen)]
@@ -29,7 +28,9 @@ pub struct PyRun {
     z: Py<PyArray2<f64>>,
     /// Dissipated energy and works, rows of n_works.
     works: Vec<f64>,
-    model: Arc<Prepared<Arc<Model>>>,
+    /// The model of each phase, with its first row.
+    parts: Vec<(usize, Py<PyModel>)>,
+    events: Vec<core::EventStates>,
     passing: bool,
     /// Tolerance of the projection of its states.
     #[pyo3(get)]
@@ -58,7 +59,16 @@ impl PyRun {
         rows: Option<usize>,
     ) -> PyResult<(Table<'py>, Table<'py>)> {
         guard("Run.responses", || {
-            self.with_states(py, rows, |states| responses(py, &self.model, states, self.passing))
+            let (mut a, mut lam) = (Vec::new(), Vec::new());
+            self.by_phase(py, rows, |model, _, states| {
+                let found = responses(py, &model.active, states, self.passing)?;
+                a.extend_from_slice(&found[0]);
+                lam.extend_from_slice(&found[1]);
+                Ok(())
+            })?;
+            let layout = &self.parts[0].1.get().model.layout;
+            let count = a.len() / layout.n_q.max(1);
+            Ok((table(py, a, (count, layout.n_q))?, table(py, lam, (count, layout.n_rows))?))
         })
     }
 
@@ -66,12 +76,38 @@ impl PyRun {
     #[pyo3(signature = (rows=None))]
     fn energies<'py>(&self, py: Python<'py>, rows: Option<usize>) -> PyResult<Table<'py>> {
         guard("Run.energies", || {
-            self.with_states(py, rows, |states| {
-                let width = self.model.model().layout.n_works;
-                let works = &self.works[..self.works.len().min(width * states.t.len())];
-                energies(py, &self.model, states, works)
-            })
+            let mut found = Vec::new();
+            self.by_phase(py, rows, |model, first, states| {
+                let width = model.model.layout.n_works;
+                let works = &self.works[width * first..width * (first + states.t.len())];
+                found.extend(energies(py, &model.active, states, works)?);
+                Ok(())
+            })?;
+            let count = found.len() / core::ENERGIES;
+            table(py, found, (count, core::ENERGIES))
         })
+    }
+
+    /// The first row of each phase, with the parameters and released drivers in it.
+    #[getter]
+    fn settings(&self) -> Vec<(usize, Written)> {
+        self.parts.iter().map(|(first, model)| (*first, written(model.get().setting()))).collect()
+    }
+
+    /// The events: name, times, and rows of q, v and z there.
+    #[getter]
+    fn events<'py>(&self, py: Python<'py>) -> PyResult<Vec<EventRows<'py>>> {
+        let layout = &self.parts[0].1.get().model.layout;
+        let rows =
+            |values: &[f64], width: usize, count: usize| table(py, values.to_vec(), (count, width));
+        let one = |event: &core::EventStates| {
+            let core::Trajectory { t, q, v, z, .. } = &event.states;
+            let (n_q, n_z) = (layout.n_q, layout.n_z);
+            let count = t.len();
+            let (q, v, z) = (rows(q, n_q, count)?, rows(v, n_q, count)?, rows(z, n_z, count)?);
+            Ok((event.name.clone(), t.clone().into_pyarray(py), q, v, z))
+        };
+        self.events.iter().map(one).collect()
     }
 
     /// What it took, as JSON.
@@ -96,28 +132,41 @@ impl PyRun {
 }
 
 impl PyRun {
-    /// What the reported states give, or the first of them.
-    fn with_states<T>(
+    /// Gives the reported states of each phase, or the first of them, with the model and the first row.
+    fn by_phase(
         &self,
         py: Python<'_>,
         rows: Option<usize>,
-        give: impl FnOnce(core::States<'_>) -> PyResult<T>,
-    ) -> PyResult<T> {
+        mut give: impl FnMut(&PyModel, usize, core::States<'_>) -> PyResult<()>,
+    ) -> PyResult<()> {
         fn numbers<'a, D: Dimension>(rows: &'a PyReadonlyArray<'_, f64, D>) -> PyResult<&'a [f64]> {
             Ok(rows.as_slice()?)
         }
         let t = self.t.bind(py).try_readonly()?;
         let [q, v, z] = [&self.q, &self.v, &self.z].map(|table| table.bind(py).try_readonly());
         let (q, v, z) = (q?, v?, z?);
-        let (t, layout) = (numbers(&t)?, &self.model.model().layout);
+        let (t, q, v, z) = (numbers(&t)?, numbers(&q)?, numbers(&v)?, numbers(&z)?);
         let count = rows.map_or(t.len(), |rows| rows.min(t.len()));
-        let (n_q, n_z) = (layout.n_q * count, layout.n_z * count);
-        let (q, v, z) = (&numbers(&q)?[..n_q], &numbers(&v)?[..n_q], &numbers(&z)?[..n_z]);
-        give(core::States { t: &t[..count], q, v, z })
+        for (k, (first, model)) in self.parts.iter().enumerate() {
+            let model = model.get();
+            let end = self.parts.get(k + 1).map_or(count, |(next, _)| count.min(*next));
+            let (first, layout) = (*first.min(&end), &model.model.layout);
+            let (n_q, n_z) = (layout.n_q, layout.n_z);
+            let (q, v) = (&q[n_q * first..n_q * end], &v[n_q * first..n_q * end]);
+            let z = &z[n_z * first..n_z * end];
+            give(model, first, core::States { t: &t[first..end], q, v, z })?;
+        }
+        Ok(())
     }
 
-    pub fn new(py: Python<'_>, model: &PyModel, run: core::Run, message: &str) -> PyResult<Self> {
-        let layout = &model.model.layout;
+    pub fn new(
+        py: Python<'_>,
+        model: &Bound<'_, PyModel>,
+        run: core::Run,
+        message: &str,
+    ) -> PyResult<Self> {
+        let parts = phases(py, model, &run)?;
+        let layout = &model.get().model.layout;
         let core::Trajectory { t, q, v, z, works } = run.trajectory;
         let count = t.len();
         let rows = |values, width| table(py, values, (count, width)).map(|t| frozen(t).unbind());
@@ -131,19 +180,58 @@ impl PyRun {
             v: rows(v, layout.n_q)?,
             z: rows(z, layout.n_z)?,
             works,
-            model: Arc::clone(&model.prepared),
+            parts,
+            events: run.events,
             passing: run.passing,
             projection: run.projection.map(|projection| projection.tolerance),
             dense_t,
             dense_y,
             dense_c,
-            status: if run.reached { "reached" } else { "stopped" },
+            status: match (run.reached, &run.stopped_by) {
+                (true, _) => "reached",
+                (_, Some(_)) => "event",
+                _ => "stopped",
+            },
             message: message.to_string(),
             statistics: run.statistics,
             choice: run.choice,
         })
     }
 }
+
+/// The model of each phase that differs from the one before, with its first row.
+fn phases(
+    py: Python<'_>,
+    model: &Bound<'_, PyModel>,
+    run: &core::Run,
+) -> PyResult<Vec<(usize, Py<PyModel>)>> {
+    let mut parts: Vec<(usize, Py<PyModel>)> = Vec::new();
+    let mut before = None;
+    for (first, setting) in run.phases.iter().zip(&run.settings) {
+        if before == Some(setting) {
+            continue;
+        }
+        before = Some(setting);
+        let own = match setting.is_plain() {
+            true => model.clone().unbind(),
+            false => Py::new(py, model.get().in_phase(py, setting)?)?,
+        };
+        parts.push((*first, own));
+    }
+    if parts.is_empty() {
+        parts.push((0, model.clone().unbind()));
+    }
+    Ok(parts)
+}
+
+/// The name of an event, its times, and rows of q, v and z.
+type EventRows<'py> = (
+    String,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+);
 
 type DenseArrays =
     (Option<Py<PyArray1<f64>>>, Option<Py<PyArray2<f64>>>, Option<Py<PyArray3<f64>>>);
@@ -165,13 +253,13 @@ fn dense_arrays(
     ))
 }
 
-/// Simulates the motion from a state.
+/// Simulates the motion from a state. `actions` are names of events and the function that is called at them.
 #[pyfunction]
-#[pyo3(signature = (model, t, q, v, z, options, progress, t_end=None))]
+#[pyo3(signature = (model, t, q, v, z, options, progress, t_end=None, actions=None))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn dynamics(
     py: Python<'_>,
-    model: &PyModel,
+    model: &Bound<'_, PyModel>,
     t: f64,
     q: Row<'_>,
     v: Row<'_>,
@@ -179,17 +267,33 @@ pub fn dynamics(
     options: &str,
     progress: Option<Py<PyAny>>,
     t_end: Option<f64>,
+    actions: Option<(Vec<String>, Py<PyAny>)>,
 ) -> PyResult<PyRun> {
     guard("dynamics", || {
-        let start = state(py, &model.model, t, [&q, &v, &z])?;
-        let options = options::read(py, model, options, t_end)?;
+        let core = model.get();
+        let start = state(py, &core.model, t, [&q, &v, &z])?;
+        let mut options = options::read(py, core, options, t_end)?;
         if let Some(problem) = options.backward(t, &["t_end"]) {
             return Err(raise_plain(py, Kind::Model, &[problem]));
         }
+        let (names, call) = actions.unwrap_or_else(|| (Vec::new(), py.None()));
+        for event in &mut options.events {
+            event.acts = names.contains(&event.name);
+        }
         let mut watch = Watch::new(progress.as_ref());
-        let outcome = py.detach(|| model.prepared.dynamics(&start, &options, |t| watch.look(t)));
-        match (outcome, watch.raised) {
-            (Ok(run), None) => PyRun::new(py, model, run, "t_end was reached"),
+        let mut raised = None;
+        let mut act = |name: &str, state: &State, setting: &core::Setting| {
+            let changed =
+                Python::attach(|py| called(py, &call, &core.model, name, (state, setting)));
+            changed.map_err(|error| raised = Some(error)).ok()
+        };
+        let outcome = py
+            .detach(|| core.prepared.dynamics_with(&start, &options, |t| watch.look(t), &mut act));
+        match (outcome, watch.raised.or(raised)) {
+            (Ok(run), None) => {
+                let message = ended(&run);
+                PyRun::new(py, model, run, &message)
+            }
             (Ok(run), Some(error)) => {
                 let run = PyRun::new(py, model, run, "interrupted")?;
                 error.value(py).setattr("run", run)?;
@@ -200,7 +304,31 @@ pub fn dynamics(
     })
 }
 
-fn raise(py: Python<'_>, model: &PyModel, failure: core::Failure) -> PyResult<PyErr> {
+/// The reason for the end of a run.
+fn ended(run: &core::Run) -> String {
+    match (&run.stopped_by, run.trajectory.t.last()) {
+        (Some(name), Some(t)) => format!("the event {name} stopped the run at t = {t:.6} s"),
+        _ => "t_end was reached".to_string(),
+    }
+}
+
+/// Calls the function of an event.
+fn called(
+    py: Python<'_>,
+    call: &Py<PyAny>,
+    model: &Model,
+    name: &str,
+    (state, setting): (&State, &core::Setting),
+) -> PyResult<core::Change> {
+    let [q, v, z] = [&state.q, &state.v, &state.z].map(|x| x.clone().into_pyarray(py));
+    let answer = call.call1(py, (name, written(setting), state.t, q, v, z))?;
+    type Answer<'py> = (Vec<(String, f64)>, Option<(Row<'py>, Row<'py>, Row<'py>)>);
+    let (parameters, given): Answer<'_> = answer.extract(py)?;
+    let given = given.map(|(q, v, z)| self::state(py, model, state.t, [&q, &v, &z]));
+    Ok(core::Change { parameters, state: given.transpose()? })
+}
+
+fn raise(py: Python<'_>, model: &Bound<'_, PyModel>, failure: core::Failure) -> PyResult<PyErr> {
     let message = failure.reason.to_string();
     let run = Py::new(py, PyRun::new(py, model, failure.run, &message)?)?;
     let error = because(py, failure.reason);

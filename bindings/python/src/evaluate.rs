@@ -67,7 +67,9 @@ pub fn evaluate<'py>(
     guard("evaluate", || {
         let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
         let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
-        responses(py, &model.prepared, core::States { t, q, v, z }, passing)
+        let [a, lam] = responses(py, &model.active, core::States { t, q, v, z }, passing)?;
+        let (n, m, count) = (model.model.layout.n_q, model.model.layout.n_rows, t.len());
+        Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?))
     })
 }
 
@@ -87,7 +89,7 @@ pub fn project<'py>(
         let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
         let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
         let (states, projection) = (core::States { t, q, v, z }, Projection { tolerance });
-        let found = py.detach(|| model.prepared.project(states, projection));
+        let found = py.detach(|| model.active.prepared.project(states, projection));
         let [q, v] = found.map_err(|failure| missing(py, failure.reason))?;
         let shape = (t.len(), model.model.layout.n_q);
         Ok((table(py, q, shape)?, table(py, v, shape)?))
@@ -111,7 +113,8 @@ pub fn energies<'py>(
         let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
         let z = &rows(py, "z", &z, (t.len(), layout.n_z))?;
         let works = rows(py, "works", &works, (t.len(), layout.n_works))?;
-        respond::energies(py, &model.prepared, core::States { t, q, v, z }, &works)
+        let found = respond::energies(py, &model.active, core::States { t, q, v, z }, &works)?;
+        table(py, found, (t.len(), core::ENERGIES))
     })
 }
 
@@ -157,16 +160,19 @@ pub fn residual<'py>(
     v: Rows<'py>,
 ) -> PyResult<(Table<'py>, Table<'py>)> {
     guard("residual", || {
-        let model = &*model.model;
+        let active = &model.active;
+        let model = &**active.prepared.model();
         let states = Rates::read(py, model, &t, &q, &v)?;
-        let shape = (states.t.len(), model.layout.n_rows);
-        let (mut phi, mut rate) = (vec![0.0; shape.0 * shape.1], vec![0.0; shape.0 * shape.1]);
-        let mut gamma = vec![0.0; shape.1];
+        let (count, m) = (states.t.len(), model.layout.n_rows);
+        let (mut phi, mut rate) = (vec![0.0; count * m], vec![0.0; count * m]);
+        let mut gamma = vec![0.0; m];
         states.each(model, |k, t, motions| {
-            let row = k * shape.1..(k + 1) * shape.1;
+            let row = k * m..(k + 1) * m;
             let (phi, rate) = (&mut phi[row.clone()], &mut rate[row]);
             constraints::velocity_terms(model, motions, t, phi, rate, &mut gamma);
         });
+        let shape = (count, active.n_rows());
+        let (phi, rate) = (active.expand(phi, count), active.expand(rate, count));
         Ok((table(py, phi, shape)?, table(py, rate, shape)?))
     })
 }

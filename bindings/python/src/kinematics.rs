@@ -8,7 +8,7 @@ use crate::model::PyModel;
 use crate::options;
 use crate::watch::Watch;
 use kempe::analyses::dynamics::{Run, Statistics};
-use kempe::analyses::kinematics as core;
+use kempe::analyses::kinematics as driven;
 use kempe::stabilize::Projection;
 use pyo3::prelude::*;
 use serde_json::json;
@@ -18,8 +18,8 @@ use serde_json::json;
 pub fn kinematics_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<String> {
     guard("kinematics_options", || {
         let fields = options::fields(py, text)?;
-        let core::Options { t_end, output_step, over, range, n, .. } =
-            core::Options::checked(&model.model, &fields, &[])
+        let driven::Options { t_end, output_step, over, range, n, .. } =
+            driven::Options::checked(&model.model, &fields, &[])
                 .map_err(|found| raise_plain(py, Kind::Model, &found))?;
         let json = json!({
             "t_end": t_end, "output_step": output_step, "over": over, "range": range, "n": n
@@ -34,7 +34,7 @@ pub fn kinematics_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResu
 #[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn kinematics(
     py: Python<'_>,
-    model: &PyModel,
+    model: &Bound<'_, PyModel>,
     t: f64,
     q: Row<'_>,
     v: Row<'_>,
@@ -43,13 +43,14 @@ pub fn kinematics(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<PyRun> {
     guard("kinematics", || {
-        let start = state(py, &model.model, t, [&q, &v, &z])?;
+        let core = &model.get().model;
+        let start = state(py, core, t, [&q, &v, &z])?;
         let times = row(py, "times", &times, times.as_array().len())?;
         let mut watch = Watch::new(progress.as_ref());
         let began = std::time::Instant::now();
         let outcome =
-            py.detach(|| core::kinematics(&model.model, &start, &times, |t| watch.look(t)));
-        let made = |motion: core::Motion, message: &str| {
+            py.detach(|| driven::kinematics(core, &start, &times, |t| watch.look(t)));
+        let made = |motion: driven::Motion, message: &str| {
             PyRun::new(py, model, run(motion, began.elapsed().as_secs_f64()), message)
         };
         match (outcome, watch.raised) {
@@ -59,7 +60,7 @@ pub fn kinematics(
                 Err(error)
             }
             (Err(failure), _) => {
-                let core::Failure { reason, motion } = *failure;
+                let driven::Failure { reason, motion } = *failure;
                 let run = Py::new(py, made(motion, &reason.to_string())?)?;
                 let error = because(&reason).raise(py);
                 error.value(py).setattr("run", run)?;
@@ -69,8 +70,8 @@ pub fn kinematics(
     })
 }
 
-fn run(motion: core::Motion, seconds: f64) -> Run {
-    let core::Motion { trajectory, dense, steps, rejected, reached } = motion;
+fn run(motion: driven::Motion, seconds: f64) -> Run {
+    let driven::Motion { trajectory, dense, steps, rejected, reached } = motion;
     Run {
         trajectory,
         phases: vec![0],
@@ -83,22 +84,22 @@ fn run(motion: core::Motion, seconds: f64) -> Run {
     }
 }
 
-fn because(reason: &core::Reason) -> Failure {
+fn because(reason: &driven::Reason) -> Failure {
     let message = reason.to_string();
     match reason {
-        core::Reason::Free { .. } => {
+        driven::Reason::Free { .. } => {
             let hint = "add a coordinate_driver for each, or use dynamics";
             Failure::new(Kind::Model, message).hint(hint)
         }
-        core::Reason::Open { t, name, .. } => Failure::new(Kind::Assembly, message)
+        driven::Reason::Open { t, name, .. } => Failure::new(Kind::Assembly, message)
             .name(name)
             .at(*t)
             .hint("kp.assemble(model, from_state=state) assembles the mechanism anew"),
-        core::Reason::Singular { t, name, .. } => Failure::new(Kind::Singularity, message)
+        driven::Reason::Singular { t, name, .. } => Failure::new(Kind::Singularity, message)
             .name(name)
             .at(*t)
             .hint("start at another position, or drive another coordinate"),
-        core::Reason::Limit(limit) => Failure::new(Kind::Singularity, message)
+        driven::Reason::Limit(limit) => Failure::new(Kind::Singularity, message)
             .name(&limit.driver)
             .at(limit.t)
             .hint("end the motion before, or drive another coordinate"),

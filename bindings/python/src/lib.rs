@@ -5,6 +5,7 @@
 //! `kempe.errors` and never a Rust panic.
 #![forbid(unsafe_code)]
 
+mod active;
 mod assemble;
 mod attended;
 mod case;

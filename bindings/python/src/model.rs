@@ -1,9 +1,11 @@
 //! A compiled model, and what it holds as JSON.
 
+use crate::active::Active;
 use crate::convert::{refuse, Row};
+use crate::errors::{raise_plain, Kind};
 use crate::guard::guard;
 use crate::recent_options::RecentOptions;
-use kempe::analyses::dynamics::Prepared;
+use kempe::analyses::dynamics::{Prepared, Setting};
 use kempe::elements::{BodyId, Curve, Measured, OwnState, ResultQuantity, SceneSymbol, SymbolEnd};
 use kempe::expression::Table;
 use kempe::math::Local;
@@ -17,10 +19,14 @@ use std::sync::Arc;
 /// A compiled model: immutable.
 #[pyclass(name = "Model", module = "kempe._core", frozen)]
 pub struct PyModel {
-    /// The model.
+    /// The model, with all drivers.
     pub model: Arc<Model>,
     /// What its simulations have in common.
     pub prepared: Arc<Prepared<Arc<Model>>>,
+    /// The same without released drivers, which solves the equations.
+    pub active: Active,
+    /// By which it differs from the model of the case.
+    setting: Setting,
     /// The options that were read for it last.
     pub options: RecentOptions,
 }
@@ -33,7 +39,26 @@ impl PyModel {
     pub fn new(model: Model) -> Self {
         let model = Arc::new(model);
         let prepared = Arc::new(Prepared::new(Arc::clone(&model)));
-        Self { model, prepared, options: RecentOptions::default() }
+        let active = Active::whole(&prepared);
+        let (setting, options) = (Setting::default(), RecentOptions::default());
+        Self { model, prepared, active, setting, options }
+    }
+
+    /// By which it differs from the model of the case.
+    pub fn setting(&self) -> &Setting {
+        &self.setting
+    }
+
+    /// Of a model of the core in a phase of a run.
+    pub fn in_phase(&self, py: Python<'_>, setting: &Setting) -> PyResult<Self> {
+        let with_drivers = Setting { released: Vec::new(), ..setting.clone() };
+        let model = with_drivers
+            .model(&self.model)
+            .map_err(|problems| raise_plain(py, Kind::Model, &problems))?;
+        let mut varied = Self::new(model);
+        varied.active = Active::without(&varied.prepared, &setting.released);
+        varied.setting = setting.clone();
+        Ok(varied)
     }
 }
 
@@ -42,6 +67,23 @@ impl PyModel {
     /// What the model holds, in numbers, as JSON.
     fn describe(&self) -> PyResult<String> {
         guard("Model.describe", || Ok(describe(&self.model).to_string()))
+    }
+
+    /// The same model with other values of parameters and with released drivers.
+    fn variant(
+        &self,
+        py: Python<'_>,
+        parameters: Vec<(String, f64)>,
+        released: Vec<String>,
+    ) -> PyResult<Self> {
+        guard("Model.variant", || self.in_phase(py, &Setting { parameters, released }))
+    }
+
+    /// The values of parameters and the released drivers by which it differs from the model of the case.
+    #[getter]
+    #[pyo3(name = "setting")]
+    fn written_setting(&self) -> Written {
+        written(&self.setting)
     }
 
     /// The symbols of all elements, in the order of the model, as JSON.
@@ -76,6 +118,14 @@ impl PyModel {
     fn allowing_redundancy(&self) -> PyResult<Self> {
         guard("Model.allowing_redundancy", || Ok(Self::new(self.model.allowing_redundancy())))
     }
+}
+
+/// Values of parameters, and released drivers.
+pub type Written = (Vec<(String, f64)>, Vec<String>);
+
+/// A setting for Python.
+pub fn written(setting: &Setting) -> Written {
+    (setting.parameters.clone(), setting.released.clone())
 }
 
 fn pair(s: &Local) -> Value {

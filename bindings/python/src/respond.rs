@@ -1,45 +1,40 @@
 //! What states answer to forces, as Python sees it: without the interpreter's lock, interruptible.
 
-use crate::convert::table;
+use crate::active::Active;
 use crate::errors::{Failure, Kind};
 use crate::watch::Watch;
 use kempe::analyses::dynamics as core;
-use kempe::model::Model;
 use numpy::PyArray2;
 use pyo3::prelude::*;
-use std::sync::Arc;
 
 /// Rows of numbers, time first.
 pub type Table<'py> = Bound<'py, PyArray2<f64>>;
 
-/// Accelerations and multipliers at states, with γ, not γ̂; near singular positions as well if they are passed.
-pub fn responses<'py>(
-    py: Python<'py>,
-    model: &core::Prepared<Arc<Model>>,
+/// Accelerations and multipliers at states in rows, with γ, not γ̂; near singular positions as well if they are passed.
+pub fn responses(
+    py: Python<'_>,
+    model: &Active,
     states: core::States<'_>,
     passing: bool,
-) -> PyResult<(Table<'py>, Table<'py>)> {
+) -> PyResult<[Vec<f64>; 2]> {
     let mut watch = Watch::new(None);
-    let found = py.detach(|| model.accelerations(states, passing, |t| watch.look(t)));
+    let found = py.detach(|| model.prepared.accelerations(states, passing, |t| watch.look(t)));
     if let Some(error) = watch.raised {
         return Err(error);
     }
     let core::Accelerations { a, lam } = found.map_err(|failure| missing(py, failure.reason))?;
-    let model = model.model();
-    let (n, m, count) = (model.layout.n_q, model.layout.n_rows, states.t.len());
-    Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?))
+    Ok([a, model.expand(lam, states.t.len())])
 }
 
-/// Energies at states, with the works up to them.
-pub fn energies<'py>(
-    py: Python<'py>,
-    model: &core::Prepared<Arc<Model>>,
+/// Energies at states in rows, with the works up to them.
+pub fn energies(
+    py: Python<'_>,
+    model: &Active,
     states: core::States<'_>,
     works: &[f64],
-) -> PyResult<Table<'py>> {
-    let found = py.detach(|| model.energies(states, works));
-    let found = found.map_err(|failure| missing(py, failure.reason))?;
-    table(py, found, (states.t.len(), core::ENERGIES))
+) -> PyResult<Vec<f64>> {
+    let found = py.detach(|| model.prepared.energies(states, works));
+    found.map_err(|failure| missing(py, failure.reason))
 }
 
 /// The error of a run that stopped.

@@ -2,10 +2,12 @@
 
 pub mod assemble;
 mod closing;
+mod conditions;
 mod curves;
 mod dependence;
 pub mod dynamics;
 mod errors;
+mod event_options;
 pub mod kinematics;
 mod mobility;
 mod option_tables;
@@ -13,8 +15,11 @@ pub mod options;
 mod required;
 mod results;
 mod sequence;
+mod signal_names;
+mod signals;
 mod state;
 
+pub use event_options::{EventOption, DIRECTIONS};
 pub use mobility::{mobility, Mobility};
 pub use option_tables::{declarations, option_families};
 pub use results::NoResult;

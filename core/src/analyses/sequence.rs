@@ -1,12 +1,13 @@
 //! Checks of the analyses of a case: what is known without a run.
 
+use super::conditions::Condition;
 use super::dynamics;
 use super::kinematics::{InverseOptions, Options as KinematicsOptions};
 use crate::model::{Entry, Model, Problem, Value};
 
 /// Everything that is wrong with analyses that follow each other from an assembled start at t = 0.
 pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
-    let mut problems = Vec::new();
+    let mut problems = releases(model);
     // the time at which each analysis ends, if it is known
     let mut ends = vec![("start", Some(0.0))];
     for entry in analyses {
@@ -65,4 +66,14 @@ fn dynamics_end(
         true => Ok(Some(options.t_end)),
         false => Err(problems),
     }
+}
+
+/// Conditions of drivers that are wrong.
+fn releases(model: &Model) -> Vec<Problem> {
+    let wrong = model.constraints.iter().filter_map(|driver| {
+        let problem = Condition::read(model, &[], driver.element.release()?).err()?;
+        let path = ["drivers", &driver.name, "release"].map(str::to_string).to_vec();
+        Some(Problem { path, ..problem })
+    });
+    wrong.collect()
 }

@@ -1,10 +1,11 @@
 //! The fields of an element, body, analysis or set of options against its declaration.
 
+use super::events::events;
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
 use super::values::{
-    count, curves, number, numbers, pair, plain_numbers, points, terms, tolerance, triple,
-    two_columns, two_names, units, word, wrong,
+    count, curves, names, number, numbers, pair, plain_numbers, points, terms, tolerance, triple,
+    two_columns, two_names, units, word, wrong, TERMS,
 };
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
@@ -100,7 +101,7 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Pair | Shape::LawPair, _) => pair(report, node),
         (Shape::Triple, _) => triple(report, node),
         (Shape::Laws, _) => numbers(report, node),
-        (Shape::Terms, _) => terms(report, node),
+        (Shape::Terms, _) => terms(report, node, TERMS),
         (Shape::Units, _) => units(report, node),
         (Shape::Points, _) => points(report, node),
         (Shape::Curves, _) => curves(report, node),
@@ -120,6 +121,11 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Point, _) => wrong(report, node, "a point as \"body.point\""),
         (Shape::Coordinate, _) => wrong(report, node, "a coordinate as \"body.angle\""),
         (Shape::Name, _) => wrong(report, node, "a name"),
+        (Shape::NameList, _) => names(report, node),
+        (Shape::Condition, Data::Text(_)) => {}
+        (Shape::Condition, _) => wrong(report, node, "a condition \"crank.angle > 270*deg\""),
+        (Shape::Events, _) => events(report, node),
+        (Shape::Values, _) => terms(report, node, ["{ k = 2e6 }", "{ \"k\": 2e6 }"]),
     }
 }
 

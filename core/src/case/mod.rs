@@ -22,6 +22,7 @@ mod check;
 mod contents;
 mod diagnostic;
 mod document;
+mod events;
 mod fault;
 mod faults;
 mod fields;

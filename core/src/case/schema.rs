@@ -6,7 +6,7 @@ use super::check::REDUNDANCY;
 use super::names::{HIDDEN, MOST_CHARACTERS, RESERVED};
 use super::FORMAT_VERSION;
 use crate::analyses::options::Declaration;
-use crate::analyses::{declarations, option_families};
+use crate::analyses::{declarations, option_families, DIRECTIONS};
 use crate::elements::{
     catalogue, CurveForm, Default, Field, Group, Shape, Table, CURVE_FORMS, TOLERANCES,
     UNITS_OF_EQUATIONS,
@@ -210,6 +210,10 @@ fn property(f: &Field) -> Value {
         Shape::Curve => json!({ "type": "string" }),
         Shape::Curves => reference("curves"),
         Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name => json!({ "type": "string" }),
+        Shape::Condition => json!({ "type": "string" }),
+        Shape::NameList => json!({ "type": "array", "items": { "type": "string" } }),
+        Shape::Events => reference("events"),
+        Shape::Values => reference("terms"),
         Shape::Flag => json!({ "type": "boolean" }),
         Shape::Word(words) => json!({ "enum": words }),
         Shape::Number | Shape::Law => reference("number"),
@@ -271,6 +275,17 @@ fn curve() -> Value {
     closed(object(properties), json!({ "oneOf": forms }))
 }
 
+/// An event: a condition, or a table with one.
+fn event() -> Value {
+    let properties = json!({
+        "condition": { "type": "string", "description": "A comparison, or an expression that becomes zero." },
+        "direction": { "enum": DIRECTIONS.map(|(word, _)| word), "description": "Zeros of an expression that count." },
+        "stop": { "type": "boolean", "description": "Whether the run ends there." },
+    });
+    let table = closed(object(properties), json!({ "required": ["condition"] }));
+    json!({ "anyOf": [{ "type": "string" }, table] })
+}
+
 fn definitions() -> Value {
     let two_of =
         |item: Value| json!({ "type": "array", "items": item, "minItems": 2, "maxItems": 2 });
@@ -292,6 +307,7 @@ fn definitions() -> Value {
         "count": { "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string" }] },
     });
     definitions["curves"] = by_name(curve(), &[]);
+    definitions["events"] = by_name(event(), &[]);
     let kinds = TOLERANCES.iter().map(|kind| (kind.to_string(), reference("number")));
     let by_kind = closed(kinds.collect(), json!({}));
     definitions["tolerance"] = json!({ "anyOf": [reference("number"), by_kind] });

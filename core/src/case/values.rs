@@ -59,10 +59,13 @@ pub(super) fn numbers(report: &mut Report, node: &Node) {
     }
 }
 
-/// Position quantities with numbers or formulas, at least one.
-pub(super) fn terms(report: &mut Report, node: &Node) {
-    let form = report
-        .example("{ \"A.angle\" = 2, \"B.angle\" = -1 }", "{ \"A.angle\": 2, \"B.angle\": -1 }");
+/// A table of position quantities in TOML and in JSON.
+pub(super) const TERMS: [&str; 2] =
+    ["{ \"A.angle\" = 2, \"B.angle\" = -1 }", "{ \"A.angle\": 2, \"B.angle\": -1 }"];
+
+/// Names with numbers or formulas, at least one; an example of the table in TOML and in JSON.
+pub(super) fn terms(report: &mut Report, node: &Node, [toml, json]: [&str; 2]) {
+    let form = report.example(toml, json);
     match &node.data {
         Data::Table(table) if !table.entries.is_empty() => {
             for (name, node) in &table.entries {
@@ -141,6 +144,19 @@ pub(super) fn two_names(report: &mut Report, node: &Node) {
         if a == b {
             report.say(format!("both are '{}'; must be two different names", super::shown(a)));
         }
+    }
+}
+
+/// Any number of names.
+pub(super) fn names(report: &mut Report, node: &Node) {
+    let Data::List(items) = &node.data else {
+        return wrong(report, node, "a list of names [\"crank_drive\"]");
+    };
+    for (k, item) in items.iter().enumerate() {
+        report.within(&k.to_string(), |report| match &item.data {
+            Data::Text(name) => names::value(report, name),
+            _ => wrong(report, item, "a name"),
+        });
     }
 }
 

@@ -71,6 +71,14 @@ macro_rules! constraints {
             pub fn constant_columns(&self) -> bool {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::CONSTANT_COLUMNS,)+)+ }
             }
+            /// The position quantity that a driver moves.
+            pub fn drives(&self) -> Option<&Followed<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::drives(e),)+)+ }
+            }
+            /// The condition at which a driver is released.
+            pub fn release(&self) -> Option<&str> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::release(e),)+)+ }
+            }
             /// Names and units of the equations.
             pub fn equations(&self) -> Vec<Equation> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name>::equations(e),)+)+ }

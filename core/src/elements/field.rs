@@ -35,6 +35,14 @@ pub enum Shape {
     Names,
     /// One name.
     Name,
+    /// Any number of names.
+    NameList,
+    /// A condition on quantities: a comparison, or an expression that becomes zero.
+    Condition,
+    /// Conditions by name, each alone or in a table with a direction.
+    Events,
+    /// Parameters with a value each.
+    Values,
     /// Numbers, without formulas.
     Numbers,
     /// Names of two columns of a file.

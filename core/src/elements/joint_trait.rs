@@ -3,7 +3,7 @@
 use super::attachment::Attachment;
 use super::declare::Element;
 use super::derive;
-use super::followed::{BodyId, CoordinateOf};
+use super::followed::{BodyId, CoordinateOf, Followed};
 use super::kinds::CurveOn;
 use super::measured::Measured;
 use super::symbols::SceneSymbol;
@@ -131,6 +131,18 @@ pub trait Joint: Element {
 
     /// The bodies whose poses enter Φ: i and j first.
     fn bodies<S>(e: &Self::Over<S>) -> Vec<BodyId>;
+
+    /// The position quantity that a driver moves.
+    fn drives<S>(e: &Self::Over<S>) -> Option<&Followed<S>> {
+        let _ = e;
+        None
+    }
+
+    /// The condition at which a driver is released.
+    fn release<S>(e: &Self::Over<S>) -> Option<&str> {
+        let _ = e;
+        None
+    }
 
     /// Names and units of the equations.
     fn equations<S>(e: &Self::Over<S>) -> Vec<Equation>;

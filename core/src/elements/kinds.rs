@@ -68,6 +68,8 @@ pub trait Source {
     fn terms(&mut self, field: &Field) -> Option<Vec<(Followed<Tape>, Tape)>>;
     /// The units of equations.
     fn units(&mut self, field: &Field) -> Option<Vec<&'static str>>;
+    /// A condition, as it is written.
+    fn condition(&mut self, field: &Field) -> Option<String>;
     /// true or false.
     fn flag(&mut self, field: &Field) -> Option<bool>;
     /// The place of a word among those that the field may hold.
@@ -184,6 +186,10 @@ kind!(
     units, Units, S => Vec<&'static str>, |v, _f| v.clone()
 );
 kind!(
+    /// A condition on quantities.
+    condition, Condition, S => String, |v, _f| v.clone()
+);
+kind!(
     /// true or false.
     flag, Flag, S => bool, |v, _f| *v
 );
@@ -228,6 +234,8 @@ optional! {
     optional_unit: equation_unit,
     /// A sense of force that may be left out.
     optional_only: only,
+    /// A condition that may be left out.
+    optional_condition: condition,
 }
 
 /// Declares a kind of field that holds one of some words, and the enum of its values.

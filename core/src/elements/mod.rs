@@ -110,10 +110,10 @@ pub use group::Group;
 pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, Required, ResultQuantity};
 use joints::*;
 pub use kinds::{
-    acted, body, coordinate, curve, equation_unit, flag, frame, joint, law, law_pair, laws, number,
-    optional_law, optional_number, optional_only, optional_pair, optional_unit, pair, point, side,
-    terms, triple, units, CurveOn, EquationUnit, Frame, JointId, Kind, Only, Optional, PointOn,
-    Side, Source,
+    acted, body, condition, coordinate, curve, equation_unit, flag, frame, joint, law, law_pair,
+    laws, number, optional_condition, optional_law, optional_number, optional_only, optional_pair,
+    optional_unit, pair, point, side, terms, triple, units, CurveOn, EquationUnit, Frame, JointId,
+    Kind, Only, Optional, PointOn, Side, Source,
 };
 pub use measured::Measured;
 pub use plane_curve::{Curve, Points as CurvePoints};
@@ -174,5 +174,6 @@ pub fn catalogue() -> Vec<(Group, Table)> {
 
 /// The driver that holds a coordinate at a value: assembly holds by it what is `set`.
 pub fn holding(coordinate: CoordinateOf, value: Tape) -> Constraint<Tape> {
-    Constraint::CoordinateDriver(CoordinateDriver { coordinate: coordinate.into(), value })
+    let coordinate = coordinate.into();
+    Constraint::CoordinateDriver(CoordinateDriver { coordinate, value, release: None })
 }

@@ -2,7 +2,7 @@
 
 use super::kinematics::Motions;
 use crate::elements::{At, BodyId, Measured};
-use crate::math::{Jet, Lift, Pose, Real, Vec2};
+use crate::math::{Jet, Lift, Local, Pose, Real, Vec2};
 use crate::model::Model;
 
 /// An element of a model.
@@ -54,6 +54,18 @@ pub fn measured<S: Real>(
         }
     }
     values
+}
+
+/// The place of a point fixed in a body, with velocity and acceleration.
+pub fn point<S: Real>(
+    model: &Model<S>,
+    body: BodyId,
+    s: Local<S>,
+    motions: &Motions<S>,
+    a: &[S],
+) -> [Jet<S>; 2] {
+    let p = moving(model, body, motions, a).point(Local { x: Jet::lift(s.x), y: Jet::lift(s.y) });
+    [p.x, p.y]
 }
 
 /// The pose of a body as a function of time to second order.

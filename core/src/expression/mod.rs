@@ -67,4 +67,4 @@ pub use switch_times::{pieces_at, switch_times, TooManySwitches};
 pub use symbol::Symbol;
 pub use table::{Kink, Table};
 pub use tape::{Scope, Switch, Tape, Values};
-pub use text::Expression;
+pub use text::{Expression, Sense};

@@ -2,7 +2,7 @@
 
 use super::lexer::{Lexer, Token, TokenKind};
 use super::names::constant;
-use super::operation::{Binary, Call, Function, Unary};
+use super::operation::{Binary, Call, Function, Relation, Unary};
 use super::tree::{Kind, Node};
 use super::unit::Unit;
 use super::{ExpressionError, MAX_DEPTH};
@@ -12,13 +12,29 @@ type Parsed<T> = Result<T, ExpressionError>;
 
 /// Reads a whole text as one expression.
 pub(super) fn parse(text: &str) -> Parsed<Vec<Node>> {
+    read(text, |parser| parser.value())
+}
+
+/// Reads a whole text as one expression or as one comparison: the difference of its sides, with their relation.
+pub(super) fn parse_condition(text: &str) -> Parsed<(Vec<Node>, Option<Relation>)> {
+    let mut nodes = read(text, |parser| parser.comparison())?;
+    let Some(Node { kind, .. }) = nodes.last_mut() else { return Ok((nodes, None)) };
+    let Kind::Compare(relation) = *kind else { return Ok((nodes, None)) };
+    *kind = Kind::Binary(Binary::Subtract);
+    Ok((nodes, Some(relation)))
+}
+
+fn read(
+    text: &str,
+    whole: impl FnOnce(&mut Parser<'_>) -> Parsed<Range<usize>>,
+) -> Parsed<Vec<Node>> {
     let mut lexer = Lexer::new(text);
     let token = lexer.next()?;
     if token.kind == TokenKind::End {
         return Err(ExpressionError::new(token.span, "the expression is empty"));
     }
     let mut parser = Parser { text, lexer, token, nodes: Vec::new(), depth: 0 };
-    parser.value()?;
+    whole(&mut parser)?;
     match parser.token.kind {
         TokenKind::End => Ok(parser.nodes),
         _ => Err(parser.misplaced()),

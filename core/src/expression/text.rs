@@ -2,10 +2,20 @@
 
 use super::compile::compile;
 use super::limits::MAX_LENGTH;
+use super::operation::Relation;
 use super::unit::Dimension;
 use super::{inference, parser, print, quantity, tree::Node};
 use super::{ExpressionError, Inferred, Names, Symbol, Tape};
 use std::fmt;
+
+/// The sense of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sense {
+    /// 1 if it holds where the difference of its sides is positive, -1 where it is negative.
+    pub sign: f64,
+    /// Whether it does not hold where the difference is zero.
+    pub strict: bool,
+}
 
 /// An expression: its text, and the syntax tree read from it.
 ///
@@ -26,17 +36,31 @@ impl Expression {
     /// The first thing in the text that is not of the language, or a text beyond [`MAX_LENGTH`] or
     /// [`MAX_DEPTH`].
     pub fn parse(text: &str) -> Result<Self, ExpressionError> {
-        if text.len() > MAX_LENGTH {
-            let message =
-                format!("the expression has {} bytes; at most {MAX_LENGTH} are read", text.len());
-            return Err(ExpressionError::new(0..text.len(), message)
-                .hint("give its parts names of their own as parameters".to_string()));
-        }
+        check_length(text)?;
         let (nodes, dimension) = match quantity::read(text)? {
             Some((node, unit)) => (vec![node], Some(unit.dimension)),
             None => (parser::parse(text)?, None),
         };
         Ok(Self { text: text.to_string(), nodes, dimension })
+    }
+
+    /// Reads a condition: an expression, or the difference of the sides of a comparison with its sense.
+    ///
+    /// # Errors
+    /// As [`parse`](Self::parse).
+    pub fn parse_condition(text: &str) -> Result<(Self, Option<Sense>), ExpressionError> {
+        check_length(text)?;
+        let (nodes, relation) = parser::parse_condition(text)?;
+        let sense = relation.map(|relation| {
+            let (sign, strict) = match relation {
+                Relation::Greater => (1.0, true),
+                Relation::GreaterOrEqual => (1.0, false),
+                Relation::Less => (-1.0, true),
+                Relation::LessOrEqual => (-1.0, false),
+            };
+            Sense { sign, strict }
+        });
+        Ok((Self { text: text.to_string(), nodes, dimension: None }, sense))
     }
 
     /// A number as an expression; its text reads back as the same number.
@@ -84,6 +108,15 @@ impl Expression {
     pub fn compile<N: Names + ?Sized>(&self, names: &N) -> Result<Tape, ExpressionError> {
         compile(&self.text, &self.nodes, names)
     }
+}
+
+fn check_length(text: &str) -> Result<(), ExpressionError> {
+    if text.len() <= MAX_LENGTH {
+        return Ok(());
+    }
+    let message = format!("the expression has {} bytes; at most {MAX_LENGTH} are read", text.len());
+    Err(ExpressionError::new(0..text.len(), message)
+        .hint("give its parts names of their own as parameters".to_string()))
 }
 
 impl PartialEq for Expression {

@@ -10,6 +10,8 @@ use super::step::Step;
 
 /// Parts of a step between samples.
 const PARTS: usize = 12;
+/// Spacings of numbers within which changes of sign count as one time.
+const TOGETHER: f64 = 8.0;
 /// Parabolas that are tried to find a zero between samples of one sign.
 const PARABOLAS: usize = 4;
 
@@ -39,24 +41,70 @@ pub type Functions<'a> = &'a mut dyn FnMut(f64, &[f64], &mut [f64]);
 /// Samples `count` functions over a step and locates their first changes of sign, to four spacings of numbers. A change
 /// at the very beginning belongs to the step before.
 pub fn scan(step: &Step<'_>, count: usize, functions: Functions<'_>, direction: Direction) -> Scan {
-    let mut sampled = Sampled { step, functions, y: step.y.to_vec(), values: vec![0.0; count] };
-    let times: Vec<f64> = (0..=PARTS).map(|k| sampled.time(k as f64 / PARTS as f64)).collect();
-    let rows: Vec<Vec<f64>> = times.iter().map(|t| sampled.at(*t).to_vec()).collect();
     let mut scan = Scan::default();
-    for index in 0..count {
-        let points: Vec<Point> = times.iter().zip(&rows).map(|(t, row)| (*t, row[index])).collect();
-        scan.crossings.extend(sampled.first(index, &points, direction));
+    let mut sampled = Sampled::new(step, count, functions);
+    for (index, points) in sampled.points().into_iter().enumerate() {
+        scan.crossings.extend(sampled.changes(index, &points, direction, 1));
         if points[1..].iter().all(|(_, value)| *value < 0.0) {
             scan.negative.push(index);
         }
     }
-    let sign = (step.t - step.t_old).signum();
-    scan.crossings.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)));
+    sort(step, &mut scan.crossings);
     scan
+}
+
+/// All changes of sign, each function with its own direction: in order of time, and at one time in the order of the
+/// functions. The step is divided into `parts`, and further where a parabola through three samples reaches zero or the
+/// samples do not follow a parabola, so that functions which oscillate within a step are resolved.
+pub fn crossings(
+    step: &Step<'_>,
+    parts: usize,
+    directions: &[Direction],
+    functions: Functions<'_>,
+) -> Vec<Crossing> {
+    let mut sampled = Sampled::new(step, directions.len(), functions);
+    let rows = sampled.resolved(parts);
+    let mut all = Vec::new();
+    for (index, direction) in directions.iter().enumerate() {
+        let points: Vec<Point> = rows.iter().map(|(t, row)| (*t, row[index])).collect();
+        all.extend(sampled.changes(index, &points, *direction, usize::MAX));
+    }
+    sort(step, &mut all);
+    all.dedup_by(|b, a| a.index == b.index && (b.t - a.t).abs() <= together(step));
+    all
+}
+
+/// Changes of sign within this time count as one time.
+fn together(step: &Step<'_>) -> f64 {
+    TOGETHER * f64::EPSILON * step.t.abs().max(step.t_old.abs())
+}
+
+/// By time, and at one time by function.
+fn sort(step: &Step<'_>, crossings: &mut [Crossing]) {
+    let sign = (step.t - step.t_old).signum();
+    crossings.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)));
+    for group in crossings.chunk_by_mut(|a, b| (b.t - a.t).abs() <= together(step)) {
+        group.sort_by_key(|crossing| crossing.index);
+    }
 }
 
 /// A time and the value there.
 type Point = (f64, f64);
+/// A time and the values of all functions there.
+type Sample = (f64, Vec<f64>);
+
+/// The place of a further sample between two; not their middle, which functions of a period may hit again.
+const BETWEEN: f64 = 0.45;
+/// Divisions of one part.
+const DEEPEST: usize = 10;
+
+/// Whether a function may have further changes of sign among three samples: a parabola through values a and b with the
+/// bend of the samples can be zero twice.
+fn may_turn([a, m, b]: [f64; 3]) -> bool {
+    let line = a + BETWEEN * (b - a);
+    let bend = (m - line).abs() / (BETWEEN * (1.0 - BETWEEN));
+    bend > a.abs() + b.abs()
+}
 
 struct Sampled<'a, 'b> {
     step: &'a Step<'a>,
@@ -65,7 +113,45 @@ struct Sampled<'a, 'b> {
     values: Vec<f64>,
 }
 
-impl Sampled<'_, '_> {
+impl<'a, 'b> Sampled<'a, 'b> {
+    fn new(step: &'a Step<'a>, count: usize, functions: Functions<'b>) -> Self {
+        Self { step, functions, y: step.y.to_vec(), values: vec![0.0; count] }
+    }
+
+    /// The samples of each function.
+    fn points(&mut self) -> Vec<Vec<Point>> {
+        let times: Vec<f64> = (0..=PARTS).map(|k| self.time(k as f64 / PARTS as f64)).collect();
+        let rows: Vec<Vec<f64>> = times.iter().map(|t| self.at(*t).to_vec()).collect();
+        let of = |index: usize| times.iter().zip(&rows).map(move |(t, row)| (*t, row[index]));
+        (0..self.values.len()).map(|index| of(index).collect()).collect()
+    }
+
+    /// Samples that resolve all functions.
+    fn resolved(&mut self, parts: usize) -> Vec<Sample> {
+        let times: Vec<f64> = (0..=parts).map(|k| self.time(k as f64 / parts as f64)).collect();
+        let mut coarse = times.into_iter().map(|t| (t, self.at(t).to_vec())).collect::<Vec<_>>();
+        let mut found = vec![coarse.remove(0)];
+        // the next sample is on top, with the number of divisions before it
+        let mut ahead: Vec<(Sample, usize)> = coarse.into_iter().rev().map(|s| (s, 0)).collect();
+        while let Some((next, depth)) = ahead.pop() {
+            let last = found.last().expect("the first sample");
+            let t = last.0 + BETWEEN * (next.0 - last.0);
+            if depth == DEEPEST || t == last.0 || t == next.0 {
+                found.push(next);
+                continue;
+            }
+            let between = (t, self.at(t).to_vec());
+            let last = found.last().expect("the first sample");
+            if (0..between.1.len()).any(|k| may_turn([last, &between, &next].map(|s| s.1[k]))) {
+                ahead.push((next, depth + 1));
+                ahead.push((between, depth + 1));
+            } else {
+                found.extend([between, next]);
+            }
+        }
+        found
+    }
+
     fn time(&self, part: f64) -> f64 {
         match part {
             1.0 => self.step.t,
@@ -86,25 +172,34 @@ impl Sampled<'_, '_> {
         &self.values
     }
 
-    /// The first change of sign of a function with the given samples.
-    fn first(&mut self, index: usize, points: &[Point], direction: Direction) -> Option<Crossing> {
+    /// The first `most` changes of sign of a function with the given samples.
+    fn changes(
+        &mut self,
+        index: usize,
+        points: &[Point],
+        direction: Direction,
+        most: usize,
+    ) -> Vec<Crossing> {
+        let mut found = Vec::new();
         for k in 1..points.len() {
-            if let Some(found) = self.between(index, points[k - 1], points[k], direction) {
-                return Some(found);
+            if found.len() >= most {
+                break;
+            }
+            if let Some(crossing) = self.between(index, points[k - 1], points[k], direction) {
+                found.push(crossing);
+                continue;
             }
             // the samples approach zero and turn back
             let Some(next) = points.get(k + 1) else { continue };
             if let Some([before, beyond, after]) =
                 self.turn(index, [points[k - 1], points[k], *next])
             {
-                let found = self.between(index, before, beyond, direction);
-                if let Some(found) = found.or_else(|| self.between(index, beyond, after, direction))
-                {
-                    return Some(found);
-                }
+                found.extend(self.between(index, before, beyond, direction));
+                found.extend(self.between(index, beyond, after, direction));
             }
         }
-        None
+        found.truncate(most);
+        found
     }
 
     /// The change of sign between two times.

@@ -74,7 +74,7 @@ mod trial;
 
 pub use alpha_parameters::AlphaParameters;
 pub(crate) use component_polynomials::HIGHEST;
-pub use crossings::{scan, Crossing, Functions, Scan};
+pub use crossings::{crossings, scan, Crossing, Functions, Scan};
 pub use dae::{
     ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
 };

@@ -9,7 +9,7 @@ use super::variable::Variable;
 use crate::elements::{
     holding, BodyId, Constraint, CoordinateOf, Fixes, ForceElement, Group, OwnState,
 };
-use crate::expression::{Inferred, Symbol, Table, Tape};
+use crate::expression::{Expression, Inferred, Symbol, Table, Tape};
 use std::sync::Arc;
 
 /// The linked content of a file: elements over [`Tape`].
@@ -19,6 +19,8 @@ pub struct Blueprint {
     pub title: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
+    /// Their formulas.
+    pub formulas: Vec<(String, Expression)>,
     /// Their dimensions, as far as they are written with units.
     pub inferred: Vec<Inferred>,
     /// The tables that formulas may call.

@@ -3,10 +3,11 @@
 use super::blueprint::Blueprint;
 use super::definition::{Definition, Value};
 use super::model::Model;
+use super::parameters::{self, Evaluated};
 use super::problem::Problem;
 use super::quantity::Elements;
 use super::scope::Scope;
-use super::{bodies, checks, parameters, tables};
+use super::{bodies, checks, tables};
 use crate::elements::Group;
 use crate::expression::Tape;
 use std::sync::Arc;
@@ -20,7 +21,8 @@ pub fn build(
 ) -> Result<Model, Vec<Problem>> {
     let mut problems = Vec::new();
     let tables = tables::read(definition, &mut problems);
-    let (values, inferred) = parameters::values(definition, overrides, &tables, &mut problems);
+    let Evaluated { values, inferred, formulas } =
+        parameters::values(definition, overrides, &tables, &mut problems);
     let mut scope = Scope::new(definition, inferred);
     scope.tables = tables;
     let gravity = gravity(definition, &scope, &mut problems);
@@ -29,6 +31,7 @@ pub fn build(
     let mut blueprint = Blueprint {
         title: definition.title.clone().unwrap_or_default(),
         parameters: scope.parameters.clone(),
+        formulas,
         inferred: scope.inferred.clone(),
         tables: scope.tables.clone(),
         allow_redundancy: definition.redundancy.as_deref() == Some("allow"),

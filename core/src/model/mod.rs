@@ -24,6 +24,7 @@ mod symbols;
 mod tables;
 mod unit_check;
 mod variable;
+mod variant;
 
 pub use blueprint::Blueprint;
 pub use body_fields::body_tables;

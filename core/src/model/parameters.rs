@@ -6,15 +6,25 @@ use crate::expression::parameters::Parameters;
 use crate::expression::{Expression, Inferred, Table};
 use std::sync::Arc;
 
+/// The parameters of a model.
+pub struct Evaluated {
+    /// Their values; a faulty one is NaN.
+    pub values: Vec<f64>,
+    /// Their dimensions.
+    pub inferred: Vec<Inferred>,
+    /// Their formulas by name; empty if one is faulty.
+    pub formulas: Vec<(String, Expression)>,
+}
+
 /// Evaluates all parameters in the order of their dependence, and infers their dimensions.
 ///
-/// `overrides` replace parameters by name. Faults are reported; a faulty parameter is NaN.
+/// `overrides` replace parameters by name. Faults are reported.
 pub fn values(
     definition: &Definition,
     overrides: &[(String, Value)],
     tables: &[Arc<Table>],
     problems: &mut Vec<Problem>,
-) -> (Vec<f64>, Vec<Inferred>) {
+) -> Evaluated {
     let names: Vec<&str> = definition.parameters.iter().map(|(name, _)| name.as_str()).collect();
     for (name, _) in overrides {
         if !names.contains(&name.as_str()) {
@@ -27,7 +37,7 @@ pub fn values(
     for (name, written) in &definition.parameters {
         let given = overrides.iter().rev().find(|(n, _)| n == name).map_or(written, |(_, v)| v);
         match formula(given) {
-            Ok(e) => formulas.push((name.as_str(), e)),
+            Ok(e) => formulas.push((name.clone(), e)),
             Err(problem) => problems
                 .push(Problem { path: vec!["parameters".to_string(), name.clone()], ..problem }),
         }
@@ -35,7 +45,7 @@ pub fn values(
     if formulas.len() < names.len() {
         return faulty(names.len());
     }
-    evaluate(&names, &formulas, tables, problems)
+    evaluate(formulas, tables, problems)
 }
 
 fn formula(value: &Value) -> Result<Expression, Problem> {
@@ -57,27 +67,30 @@ fn formula(value: &Value) -> Result<Expression, Problem> {
     }
 }
 
-fn evaluate(
-    names: &[&str],
-    formulas: &[(&str, Expression)],
+/// The values of formulas in each other. Faults are reported.
+pub fn evaluate(
+    formulas: Vec<(String, Expression)>,
     tables: &[Arc<Table>],
     problems: &mut Vec<Problem>,
-) -> (Vec<f64>, Vec<Inferred>) {
-    let compiled = match Parameters::with_tables(formulas, tables) {
+) -> Evaluated {
+    let written: Vec<(&str, Expression)> =
+        formulas.iter().map(|(name, e)| (name.as_str(), e.clone())).collect();
+    let compiled = match Parameters::with_tables(&written, tables) {
         Ok(compiled) => compiled,
         Err(fault) => {
             let at = Problem::at(&["parameters", fault.name.as_str()], fault.error.message);
             problems.push(at.within(fault.error.span).maybe_hint(fault.error.hint));
-            return faulty(names.len());
+            return faulty(formulas.len());
         }
     };
     let values = compiled.evaluate(|_| None);
-    for (name, x) in names.iter().zip(&values).filter(|(_, x)| !f64::is_finite(**x)) {
+    for ((name, _), x) in formulas.iter().zip(&values).filter(|(_, x)| !f64::is_finite(**x)) {
         problems.push(Problem::at(&["parameters", name], format!("becomes {x}; must be finite")));
     }
-    (values, compiled.inferred().to_vec())
+    Evaluated { values, inferred: compiled.inferred().to_vec(), formulas }
 }
 
-fn faulty(count: usize) -> (Vec<f64>, Vec<Inferred>) {
-    (vec![f64::NAN; count], vec![Inferred::Open; count])
+fn faulty(count: usize) -> Evaluated {
+    let (values, inferred) = (vec![f64::NAN; count], vec![Inferred::Open; count]);
+    Evaluated { values, inferred, formulas: Vec::new() }
 }

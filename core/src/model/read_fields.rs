@@ -186,6 +186,10 @@ impl Source for Linker<'_> {
         }
     }
 
+    fn condition(&mut self, field: &Field) -> Option<String> {
+        self.text(field).map(str::to_string)
+    }
+
     fn flag(&mut self, field: &Field) -> Option<bool> {
         match (self.entry.get(field.name), field.default) {
             (Some(Value::Flag(flag)), _) => Some(*flag),

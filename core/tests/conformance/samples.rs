@@ -184,7 +184,8 @@ fn drivers() -> Vec<Constraint> {
     for (coordinate, value) in
         [(Coordinate::X, 0.4), (Coordinate::Y, -1.3), (Coordinate::Angle, 2.1)]
     {
-        let driver = CoordinateDriver { coordinate: driven(coordinate).into(), value };
+        let coordinate = driven(coordinate).into();
+        let driver = CoordinateDriver { coordinate, value, release: None };
         all.push(Constraint::CoordinateDriver(driver));
     }
     all

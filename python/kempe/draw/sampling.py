@@ -86,6 +86,8 @@ class _Outputs(Motion):
         rows = (values[kept] for values in (solution.t, solution.q, solution.v, solution.z))
         super().__init__(solution.compiled, *rows)
         self.kept = kept
+        if solution._phases is not None:
+            self._phases = solution._phases.at(solution._phases.of_row[kept])
         self._computed = fixed(solution.a[kept]), fixed(solution.lam[kept])
 
     @property

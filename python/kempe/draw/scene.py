@@ -34,6 +34,8 @@ _DIGITS_OF_POSES = 12
 _LONGEST_ARROW = 0.3
 #: Points no farther apart than this share of the drawing are seen as one.
 _SAME_PLACE = 1e-3
+#: Events that are marked, at most.
+_MOST_EVENTS = 200
 #: Shortest and longest motion that is shown in real time, s.
 _SHORTEST, _LONGEST = 2.0, 60.0
 
@@ -92,11 +94,26 @@ def scene(
         },
         "interpolation": sampling.interpolation(solution_or_state, motion, size),
         "accuracy": _short(sampling.accuracy(solution_or_state, motion)),
+        "events": _events(solution_or_state, motion),
         "playback": {"rate": playback_rate(float(motion.t[-1] - motion.t[0]))},
         "reaction_scale": _reaction_scale(peaks["reaction"], size),
         "largest": {kind: peaks[kind] for kind in ("velocity", "acceleration")},
         "channels": channels.channels(motion, sampling.energy(solution_or_state, motion)),
     }
+
+
+def _events(drawn: Solution | State, motion: Motion) -> list[dict[str, Any]]:
+    """The events within the frames, in the order of time."""
+    if isinstance(drawn, State):
+        return []
+    first, last = float(motion.t[0]), float(motion.t[-1])
+    found = [
+        (float(t), event.name)
+        for event in drawn.events.values()
+        for t in event.t
+        if first <= t <= last
+    ]
+    return [{"name": name, "t": rounded(t)} for t, name in sorted(found)[:_MOST_EVENTS]]
 
 
 def _short(share: float | None) -> float | None:

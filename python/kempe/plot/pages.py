@@ -4,15 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from kempe.compiled import COORDINATES
 from kempe.plot import drawing_pages
+from kempe.plot.marks import mark_events
 from kempe.plot.page import Page, file_names
 from kempe.plot.time_axis import transient
 from kempe.plot.time_pages import TimePages, only_turns
 from kempe.solution import Solution
 from kempe.values import instance
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: The figures that are not over time.
+DRAWINGS = ("mechanism", "initial", "final")
 #: The figures that show a run at a glance, which ``kempe run`` draws by default.
 KEY = ("mechanism", "residual", "energy", "reactions", "motion")
 
@@ -38,7 +45,20 @@ def pages(
     for family in _families(solution, index_base, most, cut):
         number = found[-1].number + 1 if found else 1
         found += [replace(page, number=number, key=page.name in KEY) for page in family]
-    return found
+    return [_with_marks(page, solution) for page in found]
+
+
+def _with_marks(page: Page, solution: Solution) -> Page:
+    """The page with the events of the solution, if it is over time."""
+    if page.name in DRAWINGS:
+        return page
+
+    def draw() -> Figure:
+        figure = page.draw()
+        mark_events(figure, solution)
+        return figure
+
+    return replace(page, draw=draw)
 
 
 def _families(

@@ -9,6 +9,7 @@
 //! | `absolute_tolerance` | absolute tolerances of lengths, angles and first-order states |
 //! | `start_check` | states from which a run may start |
 //! | `run`, `run_results`, `stepper` | a run through its phases, and its outcome; a stepper for callers |
+//! | `course`, `setting`, `event_list` | phases that follow from events, their models, and the events of a phase |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
@@ -27,7 +28,9 @@ mod accelerations;
 mod branch_averaging;
 mod clock;
 mod constraint_violation;
+mod course;
 mod energies;
+mod event_list;
 mod failure;
 mod initial_stiffness;
 mod interpolated_states;
@@ -48,6 +51,7 @@ mod recorder;
 mod report_projection;
 mod run;
 mod run_results;
+mod setting;
 mod singularity_forecast;
 mod singularity_passage;
 mod stabilizations;
@@ -60,13 +64,15 @@ mod trajectory;
 
 pub use accelerations::Accelerations;
 pub use clock::{system_clock, Clock};
+pub use course::{Act, Change};
 pub use energies::ENERGIES;
 pub use failure::{Failure, Reason};
 pub use methods::{Auto, Scheme};
 pub use options::{most_steps, read, Options, Output, Singularity};
 pub use prepared::Prepared;
 pub use run::{Event, Phase};
-pub use run_results::{Run, Statistics};
+pub use run_results::{EventStates, Run, Statistics};
+pub use setting::Setting;
 pub use stabilizations::Stabilization;
 pub use stepper::Stepper;
 pub use stiffness_detection::MethodChoice;
@@ -106,7 +112,7 @@ pub fn dynamics_by_steps(
     mut look: impl FnMut(&Step<'_>) -> Flow,
 ) -> Result<Run, Box<Failure>> {
     let watcher = Watcher { watch: |_| Flow::Continue, look: Some(&mut look) };
-    simulate(&[(Phase::new(model), &ModelCache::default())], start, options, system_clock, watcher)
+    course::run((model, &ModelCache::default()), start, options, system_clock, watcher, None)
 }
 
 /// Integrates through a sequence of phases. Each phase begins with the state at the end of the phase before and has

@@ -3,6 +3,7 @@
 use super::absolute_tolerance;
 use super::methods::Scheme;
 use super::stabilizations::Stabilization;
+use crate::analyses::event_options::{condition, drivers, events, values};
 use crate::analyses::options::{
     count, flag, name, number, options, positive, words, Declared, Reader,
 };
@@ -61,6 +62,15 @@ options! {
         /// State at which it starts: "start", or the name of an earlier analysis for the end of that analysis. If
         /// absent, the end of the analysis before it.
         from: Option<name> = None,
+        /// Events by name, each with its condition: a comparison (an event where it becomes true) or an expression (an
+        /// event at each zero). A table has more: `{ condition = "C.force - 900", direction = "rising", stop = true }`.
+        events: events = Vec::new(),
+        /// Condition at which the run ends.
+        stop: Option<condition> = None,
+        /// Drivers that no longer act, here and in analyses that start from this one.
+        release: drivers = Vec::new(),
+        /// Other values of parameters for this analysis.
+        parameters: values = Vec::new(),
     }
     excludes { output_step: output; }
 }

@@ -3,12 +3,13 @@
 use super::accelerations::accelerations;
 use super::accelerations::Accelerations;
 use super::clock::{system_clock, Clock};
+use super::course::{self, Act};
 use super::energies::energies;
 use super::failure::Failure;
 use super::interpolated_states;
 use super::model_cache::ModelCache;
 use super::options::Options;
-use super::run::{simulate, Phase, Watcher};
+use super::run::Watcher;
 use super::run_results::Run;
 use super::trajectory::States;
 use crate::analyses::State;
@@ -65,8 +66,23 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         options: &Options,
         watch: impl FnMut(f64) -> Flow,
     ) -> Result<Run, Box<Failure>> {
-        let phases = [(Phase::new(&self.model), &self.cache)];
-        simulate(&phases, start, options, self.clock, Watcher { watch, look: None })
+        let watcher = Watcher { watch, look: None };
+        course::run((&self.model, &self.cache), start, options, self.clock, watcher, None)
+    }
+
+    /// The same; `act` is called at each event that [acts](crate::analyses::EventOption::acts).
+    ///
+    /// # Errors
+    /// As [`dynamics`](Self::dynamics), and for a change that does not meet the constraints.
+    pub fn dynamics_with(
+        &self,
+        start: &State,
+        options: &Options,
+        watch: impl FnMut(f64) -> Flow,
+        act: Act<'_>,
+    ) -> Result<Run, Box<Failure>> {
+        let watcher = Watcher { watch, look: None };
+        course::run((&self.model, &self.cache), start, options, self.clock, watcher, Some(act))
     }
 
     /// Solves the equations of motion at states. With `passing`, also near singular positions, as runs with projection

@@ -217,6 +217,19 @@ impl<'a> Recorder<'a> {
         flow
     }
 
+    /// The state of a step at a time, as it would be reported.
+    pub fn state_in(&mut self, step: &Step<'_>, t: f64) -> Vec<f64> {
+        let mut y = step.y.to_vec();
+        if t != step.t {
+            step.interpolate(t, &mut y);
+            let given = y.clone();
+            if self.one.place_on_branch(t, &mut y).is_err() {
+                return given;
+            }
+        }
+        y
+    }
+
     /// Checks the joints at the end of a step, after so many steps without reported states.
     fn check_joints(&mut self, step: &Step<'_>) -> Flow {
         let due = self.due(step.t).is_some();

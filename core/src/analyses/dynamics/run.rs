@@ -1,6 +1,7 @@
 //! A run: a sequence of phases, each with its own active constraints.
 
 use super::clock::Clock;
+use super::event_list::{EventList, Found, Function, Watched};
 use super::failure::Failure;
 use super::model_cache::ModelCache;
 use super::motion_ode::MotionOde;
@@ -70,23 +71,25 @@ pub(super) fn simulate<W: FnMut(f64) -> Flow>(
     for (phase, _) in phases {
         options.check(phase.model, start)?;
     }
-    let t0 = options.t_start.unwrap_or(start.t);
     let mut run = Run::default();
-    let mut at = At { t0, t: t0, y: Vec::new() };
+    let mut at = At { t0: start.t, t: start.t, y: Vec::new(), fired: Vec::new() };
     for (k, (phase, cache)) in phases.iter().enumerate() {
         if k == 0 {
-            let layout = &phase.model.layout;
-            at.y = [&start.q[..], &start.v, &start.z].concat();
-            at.y.resize(layout.n_y(), 0.0);
-            (run.trajectory, run.dense) = recorder::tables(phase.model, options, t0);
+            at = At::begin(phase.model, start, options, &mut run);
         }
         let t_end = phase.t_end.unwrap_or(options.t_end);
         let options = Options { t_end, ..options.clone() };
-        let outcome = run_phase((phase, cache), &mut at, &options, &mut run, &mut watcher);
+        let given = phase.event.iter().map(|event| Watched {
+            function: Function::Given(event.g),
+            direction: event.direction,
+            ends: true,
+        });
+        let watched = given.collect();
+        let outcome = run_phase((phase, cache), watched, &mut at, &options, &mut run, &mut watcher);
         run.statistics.seconds = clock() - began;
         match outcome {
-            Ok(Flow::Continue) => {}
-            Ok(Flow::Stop) => return Ok(run),
+            Ok(PhaseEnd::Reached | PhaseEnd::Event) => {}
+            Ok(PhaseEnd::Stopped) => return Ok(run),
             Err(failure) => return Err(Box::new(Failure { run, ..*failure })),
         }
     }
@@ -95,21 +98,45 @@ pub(super) fn simulate<W: FnMut(f64) -> Flow>(
 }
 
 /// The place of a run in its phases.
-struct At {
+pub(super) struct At {
     /// The start of the run.
     t0: f64,
-    t: f64,
-    y: Vec<f64>,
+    pub t: f64,
+    pub y: Vec<f64>,
+    /// The events that ended the last phase.
+    pub fired: Vec<usize>,
 }
 
-/// Integrates one phase; updates `at` and `run`. Returns whether the next phase follows.
-fn run_phase<W: FnMut(f64) -> Flow>(
+impl At {
+    /// At the start of a run; makes its tables.
+    pub fn begin(model: &Model, start: &State, options: &Options, run: &mut Run) -> Self {
+        let t0 = options.t_start.unwrap_or(start.t);
+        let mut y = [&start.q[..], &start.v, &start.z].concat();
+        y.resize(model.layout.n_y(), 0.0);
+        (run.trajectory, run.dense) = recorder::tables(model, options, t0);
+        Self { t0, t: t0, y, fired: Vec::new() }
+    }
+}
+
+/// How a phase ended.
+pub(super) enum PhaseEnd {
+    /// At its end time.
+    Reached,
+    /// By the caller.
+    Stopped,
+    /// At events, which are in [`At::fired`].
+    Event,
+}
+
+/// Integrates one phase; updates `at` and `run`.
+pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
     (phase, cache): (&Phase<'_>, &ModelCache),
+    watched: Vec<Watched<'_>>,
     at: &mut At,
     options: &Options,
     run: &mut Run,
     watcher: &mut Watcher<'_, W>,
-) -> Result<Flow, Box<Failure>> {
+) -> Result<PhaseEnd, Box<Failure>> {
     let model = phase.model;
     let first = run.phases.is_empty();
     let check =
@@ -132,8 +159,11 @@ fn run_phase<W: FnMut(f64) -> Flow>(
     let started = ode.begin_phase(at.t, &mut at.y, phase.project_velocities);
     let outcome = match started {
         Err(breakdown) => Err(Failure::at_state(model, at.t, &q, breakdown)),
-        Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(Flow::Stop),
-        Ok(()) => step_through(ode, phase, at, options, (&mut recorder, watcher), schedule, run),
+        Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(PhaseEnd::Stopped),
+        Ok(()) => {
+            let events = EventList::new(&ode, watched, at.t, &at.fired);
+            step_through(ode, events, at, options, (&mut recorder, watcher), schedule, run)
+        }
     };
     recorder.flush();
     run.statistics.factorisations += recorder.factorisations();
@@ -151,34 +181,33 @@ fn run_phase<W: FnMut(f64) -> Flow>(
 /// Takes the steps of a phase.
 fn step_through<W: FnMut(f64) -> Flow>(
     ode: MotionOde<'_>,
-    phase: &Phase<'_>,
+    mut events: Option<EventList<'_>>,
     at: &mut At,
     options: &Options,
     (recorder, watcher): (&mut Recorder<'_>, &mut Watcher<'_, W>),
     schedule: Schedule,
     run: &mut Run,
-) -> Result<Flow, Box<Failure>> {
+) -> Result<PhaseEnd, Box<Failure>> {
     let model = ode.model;
     let failed = |cause, t, y: &[f64]| Failure::of_integrator(model, cause, t, y);
     let mut stepper = MotionStepper::new(ode, options, schedule, at.t, &at.y)
         .map_err(|cause| failed(cause, at.t, &at.y))?;
     let ranges = Ranges::of(model);
-    let mut event = phase.event;
+    at.fired.clear();
     let outcome = loop {
         if stepper.t() == recorder.t_end {
-            break Ok(Flow::Continue);
+            break Ok(if at.fired.is_empty() { PhaseEnd::Reached } else { PhaseEnd::Event });
         }
-        match next_step(&mut stepper, &mut event, recorder, watcher) {
+        match next_step(&mut stepper, &mut events, (recorder, watcher), run, &mut at.fired) {
             Ok(Next::Step(Flow::Continue)) => {
                 let q = model.layout.split(stepper.y())[0];
                 if let Some((_, message)) = ranges.beyond(model, q) {
                     break Err(Failure::off_the_curve(stepper.t(), &message));
                 }
             }
-            Ok(Next::Step(Flow::Stop)) => break Ok(Flow::Stop),
+            Ok(Next::Step(Flow::Stop)) => break Ok(PhaseEnd::Stopped),
             // the step is taken again, to end at the event
             Ok(Next::Event(t)) => {
-                recorder.t_end = t;
                 stepper.end_within_step(t).map_err(|cause| failed(cause, at.t, &at.y))?;
             }
             Err(cause) => break Err(stepper.failure(cause)),
@@ -194,33 +223,43 @@ fn step_through<W: FnMut(f64) -> Flow>(
 /// The outcome of a step.
 enum Next {
     Step(Flow),
-    /// An event at this time.
+    /// The phase ends at an event near this time.
     Event(f64),
 }
 
-/// Takes a step and passes it to the recorder and to the caller.
+/// Takes a step and passes it to the recorder and to the caller. Events in it are added to the run; those that end the
+/// phase are also put into `fired`.
 fn next_step<W: FnMut(f64) -> Flow>(
     stepper: &mut MotionStepper<'_>,
-    event: &mut Option<Event<'_>>,
-    recorder: &mut Recorder<'_>,
-    watcher: &mut Watcher<'_, W>,
+    events: &mut Option<EventList<'_>>,
+    (recorder, watcher): (&mut Recorder<'_>, &mut Watcher<'_, W>),
+    run: &mut Run,
+    fired: &mut Vec<usize>,
 ) -> Result<Next, Cause<Breakdown>> {
     stepper.step()?;
-    if let Some(Event { g, direction }) = *event {
-        if let Some((t, _)) = stepper.locate(g, direction)? {
-            *event = None;
-            if t != stepper.t() {
-                return Ok(Next::Event(t));
-            }
-            recorder.t_end = t;
-        }
-    }
+    let model = stepper.ode.model;
     let Watcher { watch, look } = watcher;
-    if look.is_some() || recorder.looks_inside(stepper.t()) {
+    if events.is_some() || look.is_some() || recorder.looks_inside(stepper.t()) {
         stepper.prepare_interpolant()?;
     }
     let step = stepper.last_step().expect("a step was taken");
+    let found = events.as_mut().map(|events| events.look(model, &step, recorder.t_end));
+    let happened = match found {
+        Some(Found::Again(t)) => return Ok(Next::Event(t)),
+        Some(Found::End(happened)) => {
+            recorder.t_end = step.t;
+            let ending = happened.iter().filter(|event| event.t == step.t);
+            fired.extend(ending.map(|event| event.index));
+            happened
+        }
+        Some(Found::Events(happened)) => happened,
+        None => Vec::new(),
+    };
     let mut flow = recorder.step(&step, watch);
+    for event in &happened {
+        let y = recorder.state_in(&step, event.t);
+        run.add_event(&model.layout, event.index, event.t, &y);
+    }
     if flow == Flow::Continue {
         flow = watch(step.t);
     }

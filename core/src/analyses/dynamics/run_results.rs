@@ -1,8 +1,10 @@
 //! The outcome of a run.
 
+use super::setting::Setting;
 use super::stiffness_detection::MethodChoice;
 use super::trajectory::{PiecewiseInterpolant, States, Trajectory};
 use crate::integrate;
+use crate::model::StateLayout;
 use crate::stabilize::Projection;
 
 /// Counts of an integration.
@@ -37,6 +39,15 @@ impl Statistics {
     }
 }
 
+/// The times of an event, and the states there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EventStates {
+    /// The name of the event.
+    pub name: String,
+    /// A row for each time.
+    pub states: Trajectory,
+}
+
 /// The outcome of forward dynamics.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run {
@@ -45,13 +56,19 @@ pub struct Run {
     /// The first row of each phase. The state at the end of a phase and the state at the start of the next have a
     /// row each, at one time.
     pub phases: Vec<usize>,
+    /// The parameters and drivers of each phase that differ from those of the model; empty without events.
+    pub settings: Vec<Setting>,
+    /// The states at which events happened, those of each event in order.
+    pub events: Vec<EventStates>,
+    /// The event at which the run stopped, by its name.
+    pub stopped_by: Option<String>,
     /// Interpolants of all steps, if the options request them.
     pub dense: Option<PiecewiseInterpolant>,
     /// Counts.
     pub statistics: Statistics,
     /// The method of the automatic choice.
     pub choice: Option<MethodChoice>,
-    /// Whether t_end was reached; otherwise the observer stopped the run.
+    /// Whether t_end was reached; otherwise an event or the observer stopped the run.
     pub reached: bool,
     /// Whether it passes singular positions, as runs with projection do.
     pub passing: bool,
@@ -60,6 +77,13 @@ pub struct Run {
 }
 
 impl Run {
+    /// Adds a time of an event.
+    pub(super) fn add_event(&mut self, layout: &StateLayout, index: usize, t: f64, y: &[f64]) {
+        if let Some(event) = self.events.get_mut(index) {
+            event.states.add(layout, t, y);
+        }
+    }
+
     /// The phase of a row of the trajectory.
     pub fn phase_of(&self, row: usize) -> usize {
         self.phases.partition_point(|first| *first <= row).saturating_sub(1)

@@ -77,6 +77,17 @@ impl StartCheck {
         }
     }
 
+    /// Of a state or a mechanism that an event changes: the state is that of the run, with its errors.
+    pub fn of_change(options: &Options) -> Self {
+        let base = match options.stabilization {
+            Stabilization::Projection(_) => Self::of_run(options),
+            _ => Self::of_continuation(options),
+        };
+        let hint = "after an event, positions and velocities must meet the constraints; kp.assemble(model, \
+                    from_state=state) finds the nearest state that does";
+        Self { hint, ..base }
+    }
+
     /// The same without a limit of the velocities.
     pub fn of_positions(self) -> Self {
         Self { rate: None, ..self }

@@ -40,6 +40,17 @@ impl<'a> Reader<'a> {
         self.fields.iter().find(|(k, _)| k == key).map(|(_, value)| value)
     }
 
+    /// The keys that are given.
+    pub fn keys(&self) -> impl Iterator<Item = &'a str> {
+        self.fields.iter().map(|(key, _)| key.as_str())
+    }
+
+    /// Reports a fault within a value.
+    pub fn report<T>(&mut self, key: &str, problem: Problem) -> Option<T> {
+        self.problems.push(Problem { path: self.path_of(key), ..problem });
+        None
+    }
+
     /// Reports the fault of a value.
     pub fn refuse<T>(&mut self, key: &str, message: impl Into<String>) -> Option<T> {
         self.problems.push(Problem::at(&self.path_of(key), message));

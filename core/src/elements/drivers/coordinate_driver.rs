@@ -18,12 +18,22 @@ element! {
         coordinate: coordinate,
         /// Its value, m or rad; may use `t` and the positions of other bodies.
         value: law [m|rad],
+        /// Condition on any quantities; once it became true, the driver no longer acts.
+        release: optional_condition,
     }
 }
 
 impl Joint for CoordinateDriver {
     fn bodies<S>(e: &CoordinateDriver<S>) -> Vec<BodyId> {
         e.coordinate.bodies().into()
+    }
+
+    fn drives<S>(e: &CoordinateDriver<S>) -> Option<&Followed<S>> {
+        Some(&e.coordinate)
+    }
+
+    fn release<S>(e: &CoordinateDriver<S>) -> Option<&str> {
+        e.release.as_deref()
     }
 
     fn equations<S>(e: &CoordinateDriver<S>) -> Vec<Equation> {

@@ -146,6 +146,9 @@ impl Source for Sample {
     fn laws(&mut self, field: &Field) -> Option<Vec<Tape>> {
         self.law(field).map(|law| vec![law])
     }
+    fn condition(&mut self, _: &Field) -> Option<String> {
+        Some("t > 0".to_string())
+    }
     fn flag(&mut self, field: &Field) -> Option<bool> {
         Some(field.default == Some(Default::Flag(true)))
     }

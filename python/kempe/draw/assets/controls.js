@@ -4,9 +4,10 @@ const SPEEDS = [0.1, 0.2, 0.5, 1, 2, 5, 10];
 
 /** Buttons, slider and speed of a clock. */
 export class Controls {
-  constructor(find, clock, motion, decimals) {
+  constructor(find, clock, motion, decimals, events) {
     Object.assign(this, { find, clock, motion, decimals });
     this.connectSlider();
+    for (const event of events) this.mark(event);
     this.connectSpeed(clock.rate);
     if (motion.t.length > 1) return;
     for (const id of ["play", "first", "last", "back", "forward", "loop", "scrub", "speed"]) find(id).disabled = true;
@@ -17,6 +18,19 @@ export class Controls {
     scrub.min = String(this.motion.begin);
     scrub.max = String(this.motion.end);
     scrub.addEventListener("input", () => this.clock.seek(Number(scrub.value)));
+  }
+
+  /** A tick of an event below the slider, which has half a thumb of margin. */
+  mark({ name, t }) {
+    const tick = document.createElement("button");
+    const share = (t - this.motion.begin) / (this.motion.end - this.motion.begin || 1);
+    tick.type = "button";
+    tick.className = "event";
+    tick.title = `${name}: ${t.toFixed(this.decimals)} s`;
+    tick.setAttribute("aria-label", tick.title);
+    tick.style.left = `calc(8px + ${share} * (100% - 16px))`;
+    tick.addEventListener("click", () => this.clock.seek(t));
+    this.find("timeline").append(tick);
   }
 
   connectSpeed(rate) {

@@ -27,7 +27,7 @@ const plots = new Plots(byId("plots"), templates, scene, motion, {
     byId("add-plot").disabled = !more;
   },
 });
-const controls = new Controls(byId, clock, motion, decimals);
+const controls = new Controls(byId, clock, motion, decimals, scene.events);
 let colours = palette();
 let waiting = false;
 

@@ -1,0 +1,188 @@
+//! Conditions on quantities of a motion: a comparison, or an expression that becomes zero.
+
+use super::signal_names::{names, signal};
+use super::signals::{Seen, Signal};
+use crate::equations::kinematics::Motions;
+use crate::equations::{Gains, Workspace};
+use crate::expression::{
+    Expression, ExpressionError, Inferred, Names, Sense, Symbol, Table, Tape, Values,
+};
+use crate::integrate::Direction;
+use crate::model::{Model, Problem};
+use std::cell::RefCell;
+use std::sync::Arc;
+
+/// A condition over the quantities of a model. Its event is a change of sign of its function.
+#[derive(Clone, Debug)]
+pub(super) struct Condition {
+    tape: Tape,
+    signals: Vec<Signal>,
+    /// None for an expression.
+    comparison: Option<Sense>,
+    /// Whether a quantity needs accelerations or multipliers.
+    pub needs_solution: bool,
+}
+
+/// The names that a condition may use; each quantity becomes a variable.
+struct Quantities<'a> {
+    model: &'a Model,
+    released: &'a [String],
+    signals: RefCell<Vec<Signal>>,
+    /// The latest name that is unknown.
+    missed: RefCell<String>,
+}
+
+impl Names for Quantities<'_> {
+    fn resolve(&self, name: &str) -> Option<Symbol> {
+        let blueprint = &self.model.blueprint;
+        if let Some(k) = blueprint.parameters.iter().position(|known| known == name) {
+            return Some(Symbol::Parameter(k));
+        }
+        if name == "t" {
+            return Some(Symbol::Time);
+        }
+        let found = signal(self.model, name).or_else(|| self.of_released(name));
+        let Some(found) = found else {
+            self.missed.replace(name.to_string());
+            return None;
+        };
+        let mut signals = self.signals.borrow_mut();
+        let known = signals.iter().position(|known| *known == found);
+        Some(Symbol::Variable(known.unwrap_or_else(|| {
+            signals.push(found);
+            signals.len() - 1
+        })))
+    }
+
+    fn known(&self) -> Vec<String> {
+        let own = self.model.blueprint.parameters.iter().cloned().chain(["t".to_string()]);
+        own.chain(names(self.model, &self.missed.borrow())).collect()
+    }
+
+    fn tables(&self) -> &[Arc<Table>] {
+        &self.model.blueprint.tables
+    }
+}
+
+impl Quantities<'_> {
+    /// A released driver acts no more.
+    fn of_released(&self, name: &str) -> Option<Signal> {
+        let (owner, _) = name.rsplit_once('.')?;
+        self.released.iter().any(|known| known == owner).then_some(Signal::Constant(0.0))
+    }
+}
+
+impl Condition {
+    /// Reads a condition over a model, from which the drivers `released` were removed.
+    ///
+    /// # Errors
+    /// A fault of the text, an unknown name, different dimensions, or a condition that never changes.
+    pub fn read(model: &Model, released: &[String], text: &str) -> Result<Self, Problem> {
+        let nowhere: [&str; 0] = [];
+        Self::compile(model, released, text).map_err(|fault| {
+            Problem::at(&nowhere, fault.message).within(fault.span).maybe_hint(fault.hint)
+        })
+    }
+
+    fn compile(model: &Model, released: &[String], text: &str) -> Result<Self, ExpressionError> {
+        let (expression, comparison) = Expression::parse_condition(text)?;
+        let quantities =
+            Quantities { model, released, signals: RefCell::default(), missed: RefCell::default() };
+        let tape = expression.compile(&quantities)?;
+        let inferred = &model.blueprint.inferred;
+        expression.infer(&quantities, &|symbol| match symbol {
+            Symbol::Parameter(k) => inferred[k],
+            Symbol::Time | Symbol::Variable(_) => Inferred::Open,
+        })?;
+        let varies = |symbol: &Symbol| !matches!(symbol, Symbol::Parameter(_));
+        if !tape.symbols().iter().any(varies) {
+            let message = format!("'{text}' never changes during a run");
+            let hint = "a condition compares a quantity, such as crank.angle > 270*deg";
+            let fault = ExpressionError::new(0..text.len(), message);
+            return Err(fault.hint(hint.to_string()));
+        }
+        let signals = quantities.signals.into_inner();
+        let needs_solution = signals.iter().any(|signal| signal.needs_solution(model));
+        Ok(Self { tape, signals, comparison, needs_solution })
+    }
+
+    /// Whether it is a comparison.
+    pub fn is_comparison(&self) -> bool {
+        self.comparison.is_some()
+    }
+
+    /// Of a comparison: whether it holds at zero.
+    pub fn holds_at_zero(&self) -> Option<bool> {
+        self.comparison.map(|sense| !sense.strict)
+    }
+
+    /// Its value at a state; the event is where it changes sign. A comparison holds where it is positive.
+    pub fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
+        let of = |signal: &Signal| signal.value(model, seen);
+        let variables: Vec<f64> = self.signals.iter().map(of).collect();
+        let at = At { model, t: seen.t, variables };
+        self.comparison.map_or(1.0, |sense| sense.sign) * self.tape.evaluate(&at)
+    }
+
+    /// The changes of sign that are events.
+    pub fn direction(&self, wanted: Direction) -> Direction {
+        self.comparison.map_or(wanted, |_| Direction::Rising)
+    }
+}
+
+/// The values of the names of a condition.
+struct At<'a> {
+    model: &'a Model,
+    t: f64,
+    variables: Vec<f64>,
+}
+
+impl Values<f64> for At<'_> {
+    fn parameter(&self, k: usize) -> f64 {
+        self.model.parameters[k]
+    }
+    fn time(&self) -> f64 {
+        self.t
+    }
+    fn variable(&self, k: usize) -> f64 {
+        self.variables[k]
+    }
+}
+
+/// Gives states to conditions; it solves the equations of motion where one of them needs it.
+pub(super) struct Evaluator {
+    motions: Motions,
+    workspace: Option<Box<Workspace>>,
+    unsolved: [Vec<f64>; 2],
+}
+
+impl Evaluator {
+    /// With a copy of a workspace of the equations of motion if they have to be solved.
+    pub fn new(model: &Model, solves: bool, workspace: &Workspace) -> Self {
+        Self {
+            motions: Motions::new(&model.layout),
+            workspace: solves.then(|| Box::new(workspace.clone())),
+            unsolved: [model.layout.n_q, model.layout.n_rows].map(|n| vec![f64::NAN; n]),
+        }
+    }
+
+    /// Gives the state y = (q, v, z, works).
+    pub fn see<R>(
+        &mut self,
+        model: &Model,
+        t: f64,
+        y: &[f64],
+        give: impl FnOnce(&Seen<'_>) -> R,
+    ) -> R {
+        let [q, v, z, works] = model.layout.split(y);
+        self.motions.place(&model.layout, q, v);
+        let mut solved = self.unsolved.each_ref().map(Vec::as_slice);
+        if let Some(workspace) = &mut self.workspace {
+            workspace.motions.pieces.clear();
+            if workspace.accelerate(model, t, [q, v, z], Gains::default()).is_ok() {
+                solved = [workspace.a(), workspace.lam()];
+            }
+        }
+        give(&Seen { t, state: [q, v, z], works, motions: &self.motions, solved })
+    }
+}

@@ -1,0 +1,179 @@
+//! The events of a phase: functions of the state whose changes of sign are located on the interpolant of each step.
+//!
+//! An event that ends its phase is located where the solution itself has it: the step is taken again up to the event,
+//! and the time is corrected until the function is zero at the end of a step.
+
+use super::motion_ode::MotionOde;
+use crate::analyses::conditions::{Condition, Evaluator};
+use crate::analyses::signals::Seen;
+use crate::integrate::{crossings, Crossing, Direction, Step};
+use crate::model::Model;
+
+/// Times a step is taken again to end at an event.
+const AGAIN: usize = 6;
+/// Spacings of numbers to which the end of a phase agrees with the event.
+const CLOSE: f64 = 32.0;
+/// Part of a step over which the slope of a function is taken.
+const SLOPE: f64 = 1e-3;
+
+/// Parts into which a step is divided at least, and at most.
+const PARTS: [usize; 2] = [6, 20_000];
+
+/// Parts of a step in which no body turns by more than a radian, so that functions of angles are resolved.
+fn parts(model: &Model, step: &Step<'_>) -> usize {
+    let turned = model.layout.bodies[1..].iter().filter(|columns| columns.count == 3);
+    let turned =
+        turned.map(|columns| (step.y[columns.first + 2] - step.y_old[columns.first + 2]).abs());
+    (turned.fold(0.0, f64::max).ceil() as usize).clamp(PARTS[0], PARTS[1])
+}
+
+/// A function of the state.
+#[derive(Clone, Copy)]
+pub(super) enum Function<'a> {
+    /// Of a condition in a case.
+    Condition(&'a Condition),
+    /// g(t, q, v, z) of a caller.
+    Given(&'a dyn Fn(f64, [&[f64]; 3]) -> f64),
+}
+
+impl Function<'_> {
+    fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
+        match self {
+            Self::Condition(condition) => condition.value(model, seen),
+            Self::Given(g) => g(seen.t, seen.state),
+        }
+    }
+
+    /// The value that counts in place of zero: a quantity may rest where both sides of a comparison are equal.
+    fn at_zero(&self) -> f64 {
+        let holds = match self {
+            Self::Condition(condition) => condition.holds_at_zero(),
+            Self::Given(_) => None,
+        };
+        holds.map_or(0.0, |holds| if holds { f64::MIN_POSITIVE } else { -f64::MIN_POSITIVE })
+    }
+}
+
+/// An event of a phase.
+#[derive(Clone, Copy)]
+pub(super) struct Watched<'a> {
+    pub function: Function<'a>,
+    pub direction: Direction,
+    /// Whether the phase ends at it.
+    pub ends: bool,
+}
+
+/// What follows a step.
+pub(super) enum Found {
+    /// These events are in it.
+    Events(Vec<Crossing>),
+    /// The same, and the phase ends with the step.
+    End(Vec<Crossing>),
+    /// The step is taken again, to end at this time.
+    Again(f64),
+}
+
+/// The events of a phase.
+pub(super) struct EventList<'a> {
+    watched: Vec<Watched<'a>>,
+    evaluator: Evaluator,
+    /// The events at which the phase began, and this time: they do not happen again there.
+    began: (f64, Vec<usize>),
+    /// The event at which a step is to end: its time and place.
+    awaited: Option<(f64, usize)>,
+    tries: usize,
+}
+
+impl<'a> EventList<'a> {
+    /// Of a phase that begins at `t`, with the events that ended the one before.
+    pub fn new(
+        ode: &MotionOde<'_>,
+        watched: Vec<Watched<'a>>,
+        t: f64,
+        fired: &[usize],
+    ) -> Option<Self> {
+        if watched.is_empty() {
+            return None;
+        }
+        let solves = watched.iter().any(|event| match event.function {
+            Function::Condition(condition) => condition.needs_solution,
+            Function::Given(_) => false,
+        });
+        let evaluator = Evaluator::new(ode.model, solves, &ode.workspace);
+        Some(Self { watched, evaluator, began: (t, fired.to_vec()), awaited: None, tries: 0 })
+    }
+
+    /// The events in a step of a phase that ends at `t_end` at the latest. The interpolant is prepared.
+    pub fn look(&mut self, model: &Model, step: &Step<'_>, t_end: f64) -> Found {
+        let found = self.scan(model, step);
+        let spacing = CLOSE * f64::EPSILON * step.t.abs().max(step.t_old.abs());
+        let together = |a: f64, b: f64| (a - b).abs() <= spacing;
+        let ending = found.iter().find(|crossing| self.watched[crossing.index].ends).copied();
+        let arrived = self.awaited.filter(|(t, _)| *t == step.t);
+        let end = match (ending, arrived) {
+            (Some(event), _) => Some((event.t, event.index)),
+            (None, Some((_, index))) => Some((self.later(model, step, index, t_end), index)),
+            (None, None) => None,
+        };
+        let Some((t, index)) = end else { return Found::Events(found) };
+        let done = together(t, step.t) || self.tries >= AGAIN && arrived.is_some();
+        if !done {
+            self.tries += 1;
+            self.awaited = Some((t, index));
+            return Found::Again(t);
+        }
+        (self.awaited, self.tries) = (None, 0);
+        let mut found: Vec<Crossing> = found;
+        if found.iter().all(|crossing| crossing.index != index) {
+            let rising = self.watched[index].direction != Direction::Falling;
+            found.push(Crossing { index, t: step.t, rising });
+        }
+        // events at the end have its time, in their order
+        for crossing in &mut found {
+            if crossing.index == index && crossing.t == t || together(crossing.t, step.t) {
+                crossing.t = step.t;
+            }
+        }
+        let sign = (step.t - step.t_old).signum();
+        found.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)).then(a.index.cmp(&b.index)));
+        Found::End(found)
+    }
+
+    fn scan(&mut self, model: &Model, step: &Step<'_>) -> Vec<Crossing> {
+        let Self { watched, evaluator, began, .. } = self;
+        let directions: Vec<Direction> = watched.iter().map(|event| event.direction).collect();
+        let mut functions = |t: f64, y: &[f64], out: &mut [f64]| {
+            evaluator.see(model, t, y, |seen| {
+                let values = watched.iter().map(|event| event.function.value(model, seen));
+                out.iter_mut().zip(values).for_each(|(out, value)| *out = value);
+            });
+            if t == began.0 {
+                began.1.iter().for_each(|index| out[*index] = 0.0);
+                return;
+            }
+            for (event, out) in watched.iter().zip(out) {
+                *out = if *out == 0.0 { event.function.at_zero() } else { *out };
+            }
+        };
+        crossings(step, parts(model, step), &directions, &mut functions)
+    }
+
+    /// The time of an event that is expected at the end of a step and lies slightly later.
+    fn later(&mut self, model: &Model, step: &Step<'_>, index: usize, t_end: f64) -> f64 {
+        let function = self.watched[index].function;
+        let h = SLOPE * (step.t - step.t_old);
+        let mut y = step.y.to_vec();
+        let at = self.evaluator.see(model, step.t, &y, |seen| function.value(model, seen));
+        step.interpolate(step.t - h, &mut y);
+        let before = self.evaluator.see(model, step.t - h, &y, |seen| function.value(model, seen));
+        let by = -at * h / (at - before);
+        // only a small correction: the function crosses zero here
+        let by = if by.is_finite() && by * h > 0.0 && by.abs() < h.abs() { by } else { 0.0 };
+        let t = step.t + by;
+        if (t - t_end) * h > 0.0 {
+            t_end
+        } else {
+            t
+        }
+    }
+}

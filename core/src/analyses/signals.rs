@@ -1,0 +1,225 @@
+//! Quantities of a motion by name as numbers at one state: positions, rates, accelerations and results.
+
+use crate::elements::BodyId;
+use crate::equations::forces::{self, Acting};
+use crate::equations::kinematics::Motions;
+use crate::equations::measured::{self, ElementId};
+use crate::equations::reactions::{self, Frame};
+use crate::equations::{constraints, energy};
+use crate::math::{Local, Vec2, Wrench};
+use crate::model::Model;
+
+/// A state at which signals are read.
+pub(super) struct Seen<'a> {
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates, rates and first-order states.
+    pub state: [&'a [f64]; 3],
+    /// Works up to the state, J.
+    pub works: &'a [f64],
+    /// The same positions and rates.
+    pub motions: &'a Motions,
+    /// Accelerations and multipliers; NaN where they are not unique.
+    pub solved: [&'a [f64]; 2],
+}
+
+/// Energies and works.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Energy {
+    Kinetic,
+    Potential,
+    Dissipated,
+    Work,
+    Total,
+}
+
+/// A part of a force or of a reaction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Part {
+    X,
+    Y,
+    Size,
+    Torque,
+}
+
+impl Part {
+    fn of(self, w: &Wrench) -> f64 {
+        match self {
+            Self::X => w.force.x,
+            Self::Y => w.force.y,
+            Self::Size => w.force.x.hypot(w.force.y),
+            Self::Torque => w.torque,
+        }
+    }
+}
+
+/// A quantity of a motion; orders count derivatives in time.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Signal {
+    /// A quantity that never changes.
+    Constant(f64),
+    /// A coordinate by its column.
+    Column { order: usize, column: usize },
+    /// A first-order state by its place.
+    State(usize),
+    /// A coordinate of a point, 0 or 1.
+    Point { body: BodyId, s: Local, axis: usize, order: usize },
+    /// A position quantity of an element.
+    Measured { id: ElementId, k: usize, order: usize },
+    /// The reaction of a joint on its body j.
+    Reaction { k: usize, part: Part },
+    /// A result of a joint beside its reaction.
+    Result { k: usize, place: usize },
+    /// The effort of a driver.
+    Effort(usize),
+    /// The effort of a driver times the rate of its coordinate.
+    Power(usize, Box<Signal>),
+    /// A force element's force or torque on its body j.
+    Force { k: usize, part: Part },
+    /// A force along the line of two points, > 0 pushes: of a force element on j, or of a joint with opposite sign.
+    Line { id: ElementId },
+    /// Power of a force element on its bodies.
+    ForcePower(usize),
+    /// Energy that a force element stores.
+    ForceEnergy(usize),
+    /// An energy of the whole mechanism.
+    Energy(Energy),
+    /// Largest violation of the constraints, or of their rates.
+    Drift { order: usize },
+}
+
+impl Signal {
+    /// Whether it needs accelerations or multipliers.
+    pub fn needs_solution(&self, model: &Model) -> bool {
+        match self {
+            Self::Column { order, .. }
+            | Self::Point { order, .. }
+            | Self::Measured { order, .. } => *order == 2,
+            Self::Reaction { .. } | Self::Result { .. } | Self::Effort(_) | Self::Power(..) => true,
+            Self::Line { id: ElementId::Constraint(_) } => true,
+            Self::Line { id: ElementId::Force(k) } | Self::Force { k, .. } => {
+                model.forces[*k].reaction.is_some()
+            }
+            Self::ForcePower(k) | Self::ForceEnergy(k) => model.forces[*k].reaction.is_some(),
+            Self::Constant(_) | Self::State(_) | Self::Energy(_) | Self::Drift { .. } => false,
+        }
+    }
+
+    /// Its value.
+    pub fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
+        let [a, lam] = seen.solved;
+        match self {
+            Self::Constant(x) => *x,
+            Self::Column { order: 2, column } => a[*column],
+            Self::Column { order, column } => seen.state[*order][*column],
+            Self::State(k) => seen.state[2][*k],
+            Self::Point { body, s, axis, order } => {
+                let jet = measured::point(model, *body, *s, seen.motions, a)[*axis];
+                [jet.value, jet.rate, jet.second][*order]
+            }
+            Self::Measured { id, k, order } => {
+                let jet = measured::measured(model, *id, seen.motions, a)[*k];
+                [jet.value, jet.rate, jet.second][*order]
+            }
+            Self::Reaction { k, part } => part.of(&reaction(model, *k, lam, seen)),
+            Self::Result { k, place } => {
+                let mut out = vec![0.0; model.constraints[*k].element.result_quantities().len()];
+                reactions::results(model, *k, seen.motions, seen.t, own(model, *k, lam), &mut out);
+                out[*place]
+            }
+            Self::Effort(k) => -own(model, *k, lam)[0],
+            Self::Power(k, rate) => -own(model, *k, lam)[0] * rate.value(model, seen),
+            Self::Force { k, part } => part.of(&force_on_j(model, *k, seen)),
+            Self::Line { id } => line(model, *id, seen),
+            Self::ForcePower(k) => power(model, *k, seen),
+            Self::ForceEnergy(k) => forces::potential(model, *k, seen.motions, acting(seen)),
+            Self::Energy(of) => energy_of(model, *of, seen),
+            Self::Drift { order } => drift(model, *order, seen),
+        }
+    }
+}
+
+fn own<'l>(model: &Model, k: usize, lam: &'l [f64]) -> &'l [f64] {
+    &lam[model.layout.constraints[k].rows.clone()]
+}
+
+fn acting<'s>(seen: &Seen<'s>) -> Acting<'s, f64> {
+    Acting { z: seen.state[2], lam: Some(seen.solved[1]), t: seen.t }
+}
+
+/// Body j of an element; an element of one body has it alone.
+fn body_j(bodies: &[BodyId]) -> BodyId {
+    bodies[bodies.len().min(2) - 1]
+}
+
+fn reaction(model: &Model, k: usize, lam: &[f64], seen: &Seen<'_>) -> Wrench {
+    let (on, own) = (body_j(&model.constraints[k].bodies), own(model, k, lam));
+    let found = reactions::reaction(model, k, on, Frame::Global, seen.motions, seen.t, own);
+    found.unwrap_or_else(Wrench::zero)
+}
+
+fn force_on_j(model: &Model, k: usize, seen: &Seen<'_>) -> Wrench {
+    let (on, mut sum) = (body_j(&model.forces[k].bodies), Wrench::zero());
+    forces::each_wrench(model, k, seen.motions, acting(seen), |_, body, wrench| {
+        if body == on {
+            sum = sum + wrench;
+        }
+    });
+    sum
+}
+
+fn power(model: &Model, k: usize, seen: &Seen<'_>) -> f64 {
+    let mut sum = 0.0;
+    forces::each_wrench(model, k, seen.motions, acting(seen), |_, body, wrench| {
+        sum += wrench.power(seen.motions[body.0].twist);
+    });
+    sum
+}
+
+/// The force along the line from point i to point j; zero where they coincide.
+fn line(model: &Model, id: ElementId, seen: &Seen<'_>) -> f64 {
+    let (bodies, points, force) = match id {
+        ElementId::Constraint(k) => {
+            let item = &model.constraints[k];
+            let points = [0, 1].map(|end| item.element.attachment(end).s);
+            // a tension on i points to j
+            let force = reaction(model, k, seen.solved[1], seen).force;
+            (&item.bodies, points, Vec2::new(-force.x, -force.y))
+        }
+        ElementId::Force(k) => {
+            let item = &model.forces[k];
+            let points = item.element.points().unwrap_or([Local::zero(); 2]);
+            (&item.bodies, points, force_on_j(model, k, seen).force)
+        }
+    };
+    let at = |end: usize| seen.motions[bodies[end.min(bodies.len() - 1)].0].pose.point(points[end]);
+    let d = at(1) - at(0);
+    let length = d.x.hypot(d.y);
+    if length > 0.0 {
+        d.dot(force) / length
+    } else {
+        0.0
+    }
+}
+
+fn energy_of(model: &Model, of: Energy, seen: &Seen<'_>) -> f64 {
+    let works = |k: usize| seen.works.get(k).copied().unwrap_or(0.0);
+    match of {
+        Energy::Kinetic => energy::kinetic(model, seen.motions),
+        Energy::Potential => energy::potential(model, seen.motions, seen.state[2], seen.t),
+        Energy::Dissipated => works(0),
+        Energy::Work => works(1) + works(2),
+        Energy::Total => {
+            let all = [Energy::Kinetic, Energy::Potential, Energy::Dissipated];
+            let sum: f64 = all.into_iter().map(|of| energy_of(model, of, seen)).sum();
+            sum - energy_of(model, Energy::Work, seen)
+        }
+    }
+}
+
+fn drift(model: &Model, order: usize, seen: &Seen<'_>) -> f64 {
+    let m = model.layout.n_rows;
+    let [mut phi, mut rate, mut gamma] = [0, 1, 2].map(|_| vec![0.0; m]);
+    constraints::velocity_terms(model, seen.motions, seen.t, &mut phi, &mut rate, &mut gamma);
+    [phi, rate][order].iter().fold(0.0, |most, x| f64::max(most, x.abs()))
+}

@@ -1,0 +1,47 @@
+//! Checks of the events of an analysis.
+
+use super::names;
+use super::report::Report;
+use super::tree::{Data, Node, Table};
+use super::values::{word, wrong};
+use crate::analyses::DIRECTIONS;
+
+/// The fields of an event.
+pub(super) const FIELDS: [&str; 3] = ["condition", "direction", "stop"];
+
+/// Events by name: conditions, or tables with one.
+pub(super) fn events(report: &mut Report, node: &Node) {
+    let form = report
+        .example("{ hit = \"rocker.angle > 270*deg\" }", "{ \"hit\": \"rocker.angle > 270*deg\" }");
+    let Data::Table(table) = &node.data else {
+        return wrong(report, node, &format!("a table of events such as {form}"));
+    };
+    for (name, node) in &table.entries {
+        report.within(name, |report| {
+            names::key(report, name);
+            match &node.data {
+                Data::Text(_) => {}
+                Data::Table(fields) => event(report, fields),
+                _ => wrong(report, node, "a condition, or a table with one"),
+            }
+        });
+    }
+}
+
+fn event(report: &mut Report, table: &Table) {
+    if table.get("condition").is_none() {
+        report.within("condition", |report| report.say("missing; an event needs a condition"));
+    }
+    for (key, node) in &table.entries {
+        report.within(key, |report| match (key.as_str(), &node.data) {
+            ("condition", Data::Text(_)) | ("stop", Data::Flag(_)) => {}
+            ("condition", _) => wrong(report, node, "a condition \"crank.angle > 270*deg\""),
+            ("stop", _) => wrong(report, node, "true or false"),
+            ("direction", _) => word(report, node, &DIRECTIONS.map(|(word, _)| word)),
+            _ => {
+                let message = format!("unknown field '{}' of an event", super::shown(key));
+                report.unknown_key(message, key, &FIELDS);
+            }
+        });
+    }
+}
