@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal, TypeVar
 
 from kempe.element import Element
-from kempe.values import Number, Numbers, Pair, Terms, Words
+from kempe.values import Law, LawPair, Number, Numbers, Pair, Terms, Words
 
 E = TypeVar("E", bound=Element)
 
@@ -464,10 +464,10 @@ class TorsionSpring(Element):
 
     i: str
     j: str
-    stiffness: Number = 0.0
-    damping: Number = 0.0
-    free_angle: Number = 0.0
-    preload: Number = 0.0
+    stiffness: Law = 0.0
+    damping: Law = 0.0
+    free_angle: Law = 0.0
+    preload: Law = 0.0
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "torsion_spring"
     shapes: ClassVar[Mapping[str, str]] = {
@@ -503,10 +503,10 @@ class SpringDamper(Element):
 
     i: str
     j: str
-    stiffness: Number = 0.0
-    damping: Number = 0.0
-    free_length: Number = 0.0
-    preload: Number = 0.0
+    stiffness: Law = 0.0
+    damping: Law = 0.0
+    free_length: Law = 0.0
+    preload: Law = 0.0
     only: Literal["tension", "compression"] | None = None
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "spring_damper"
@@ -535,7 +535,7 @@ class Torque(Element):
     """
 
     j: str
-    torque: Number
+    torque: Law
     i: str = "ground"
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "torque"
@@ -562,7 +562,7 @@ class Force(Element):
     """
 
     j: str
-    force: Pair
+    force: LawPair
     i: str = "ground"
     frame: Literal["global", "i", "j"] = "global"
     section: ClassVar[str] = "forces"
@@ -591,7 +591,7 @@ class Actuator(Element):
 
     i: str
     j: str
-    force: Number
+    force: Law
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "actuator"
     shapes: ClassVar[Mapping[str, str]] = {
@@ -646,7 +646,7 @@ class GeneralizedForce(Element):
     """
 
     coordinate: str
-    value: Number
+    value: Law
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "generalized_force"
     shapes: ClassVar[Mapping[str, str]] = {
@@ -679,13 +679,13 @@ class Motor(Element):
     """
 
     j: str
-    voltage: Number | None = None
+    voltage: Law | None = None
     resistance: Number | None = None
     torque_constant: Number | None = None
     inductance: Number = 0.0
     stall_torque: Number | None = None
     free_speed: Number | None = None
-    command: Number = 1.0
+    command: Law = 1.0
     i: str = "ground"
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "motor"
@@ -1030,10 +1030,10 @@ class ElementMethods:
         i: str,
         j: str,
         *,
-        stiffness: Number = 0.0,
-        damping: Number = 0.0,
-        free_angle: Number = 0.0,
-        preload: Number = 0.0,
+        stiffness: Law = 0.0,
+        damping: Law = 0.0,
+        free_angle: Law = 0.0,
+        preload: Law = 0.0,
     ) -> TorsionSpring:
         """Add an element of type ``torsion_spring`` and return it.
 
@@ -1067,10 +1067,10 @@ class ElementMethods:
         i: str,
         j: str,
         *,
-        stiffness: Number = 0.0,
-        damping: Number = 0.0,
-        free_length: Number = 0.0,
-        preload: Number = 0.0,
+        stiffness: Law = 0.0,
+        damping: Law = 0.0,
+        free_length: Law = 0.0,
+        preload: Law = 0.0,
         only: Literal["tension", "compression"] | None = None,
     ) -> SpringDamper:
         """Add an element of type ``spring_damper`` and return it.
@@ -1105,7 +1105,7 @@ class ElementMethods:
             )
         )
 
-    def torque(self, name: str, j: str, *, torque: Number, i: str = "ground") -> Torque:
+    def torque(self, name: str, j: str, *, torque: Law, i: str = "ground") -> Torque:
         """Add an element of type ``torque`` and return it.
 
         Applied torque on body j, counter-clockwise; opposite on body i, which is ground unless
@@ -1124,7 +1124,7 @@ class ElementMethods:
         name: str,
         j: str,
         *,
-        force: Pair,
+        force: LawPair,
         i: str = "ground",
         frame: Literal["global", "i", "j"] = "global",
     ) -> Force:
@@ -1143,7 +1143,7 @@ class ElementMethods:
         """
         return self._add(Force(name, j=j, force=force, i=i, frame=frame))
 
-    def actuator(self, name: str, i: str, j: str, *, force: Number) -> Actuator:
+    def actuator(self, name: str, i: str, j: str, *, force: Law) -> Actuator:
         """Add an element of type ``actuator`` and return it.
 
         Actuator: a force along the line between two points; > 0 pushes the points apart. Its power
@@ -1183,7 +1183,7 @@ class ElementMethods:
         """
         return self._add(Bushing(name, i=i, j=j, stiffness=stiffness, damping=damping))
 
-    def generalized_force(self, name: str, coordinate: str, *, value: Number) -> GeneralizedForce:
+    def generalized_force(self, name: str, coordinate: str, *, value: Law) -> GeneralizedForce:
         """Add an element of type ``generalized_force`` and return it.
 
         Generalized force: an effort on a position quantity, > 0 increases it. Its power is value ×
@@ -1203,13 +1203,13 @@ class ElementMethods:
         name: str,
         j: str,
         *,
-        voltage: Number | None = None,
+        voltage: Law | None = None,
         resistance: Number | None = None,
         torque_constant: Number | None = None,
         inductance: Number = 0.0,
         stall_torque: Number | None = None,
         free_speed: Number | None = None,
-        command: Number = 1.0,
+        command: Law = 1.0,
         i: str = "ground",
     ) -> Motor:
         """Add an element of type ``motor`` and return it.

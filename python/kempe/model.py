@@ -14,6 +14,7 @@ from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
 from kempe.errors import ModelError
+from kempe.functions import Functions, refuse_saving, without
 from kempe.ground import Ground, with_ground
 from kempe.lookup_tables import TableInfo
 from kempe.names import few, unknown
@@ -249,15 +250,24 @@ class Model(ElementMethods, TableMethods):
                 raise unknown("parameter", name, self._tree["parameters"])
         model = Model._of(self._tree)
         model._files = dict(self._files)
-        source, overrides = self._source or (_core.Case(self.json(), "json", None), {})
+        source, overrides = self._source or (_core.Case(self.text(), "json", None), {})
         model._source = (source, {**overrides, **changed})
         model._tree["parameters"].update(changed)
         return model
 
     def tree(self) -> dict[str, Any]:
-        """A copy of the model as nested mappings with the structure of a case file."""
+        """A copy of the model as nested mappings with the structure of a case file.
+
+        Raises:
+            ModelError: a law is a Python function, which no file contains.
+        """
+        functions = Functions(self._tree).listed()
+        return refuse_saving(functions) if functions else self.shown()
+
+    def shown(self) -> dict[str, Any]:
+        """The same with a text in the place of each Python function."""
         kept = {key: value for key, value in self._tree.items() if value not in ({}, "")}
-        return {key: data(value) for key, value in kept.items()}
+        return {key: without(data(value)) for key, value in kept.items()}
 
     def compile(self) -> CompiledModel:
         """The compiled model; it is kept until the model changes.
@@ -266,14 +276,24 @@ class Model(ElementMethods, TableMethods):
             ModelError: the model is invalid; ``problems`` lists all problems.
         """
         if self._compiled is None:
-            source, overrides = self._source or (_core.Case(self.json(), "json", None), {})
-            core = source.model(json.dumps(overrides, allow_nan=False))
-            self._compiled = CompiledModel(core, self.json(), self)
+            source, overrides = self._source or (_core.Case(self.text(), "json", None), {})
+            functions = Functions(self._tree)
+            given = (functions.described(), functions.state) if functions.laws else ()
+            core = source.model(json.dumps(overrides, allow_nan=False), *given)
+            self._compiled = CompiledModel(core, self.text(), self, functions)
         return self._compiled
 
     def json(self) -> str:
-        """The tree as JSON, with the points of tables in place of their files."""
+        """The tree as JSON, with the points of tables in place of their files.
+
+        Raises:
+            ModelError: a law is a Python function, which no file contains.
+        """
         return json.dumps(self.with_points(self.tree()), allow_nan=False)
+
+    def text(self) -> str:
+        """The same with a text in the place of each Python function."""
+        return json.dumps(self.with_points(self.shown()), allow_nan=False)
 
     @property
     def title(self) -> str:

@@ -2,7 +2,7 @@
 
 use crate::convert::{frozen, state, table, Row};
 use crate::errors::{raise_plain, Failure, Kind};
-use crate::guard::guard;
+use crate::guard::{guard, raised};
 use crate::model::PyModel;
 use crate::options;
 use crate::respond::{because, energies, responses, Table};
@@ -188,14 +188,19 @@ pub fn dynamics(
         }
         let mut watch = Watch::new(progress.as_ref());
         let outcome = py.detach(|| model.prepared.dynamics(&start, &options, |t| watch.look(t)));
-        match (outcome, watch.raised) {
+        match (outcome, watch.raised.or_else(raised::take)) {
             (Ok(run), None) => PyRun::new(py, model, run, "t_end was reached"),
             (Ok(run), Some(error)) => {
                 let run = PyRun::new(py, model, run, "interrupted")?;
                 error.value(py).setattr("run", run)?;
                 Err(error)
             }
-            (Err(failure), _) => Err(raise(py, model, *failure)?),
+            (Err(failure), Some(error)) => {
+                let run = Py::new(py, PyRun::new(py, model, failure.run, "interrupted")?)?;
+                error.value(py).setattr("run", run)?;
+                Err(error)
+            }
+            (Err(failure), None) => Err(raise(py, model, *failure)?),
         }
     })
 }

@@ -13,6 +13,7 @@ mod dynamics;
 mod errors;
 mod evaluate;
 mod formulas;
+mod functions;
 mod guard;
 mod model;
 mod options;

@@ -48,6 +48,7 @@ mod recorder;
 mod report_projection;
 mod run;
 mod run_results;
+mod sampling;
 mod singularity_forecast;
 mod singularity_passage;
 mod stabilizations;

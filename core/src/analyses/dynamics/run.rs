@@ -219,6 +219,7 @@ fn next_step<W: FnMut(f64) -> Flow>(
     if look.is_some() || recorder.looks_inside(stepper.t()) {
         stepper.prepare_interpolant()?;
     }
+    recorder.sample = stepper.sample().cloned();
     let step = stepper.last_step().expect("a step was taken");
     let mut flow = recorder.step(&step, watch);
     if flow == Flow::Continue {

@@ -173,6 +173,11 @@ impl Switching {
         due.or(next).unwrap_or(self.t_end)
     }
 
+    /// Whether sampled laws are computed at `t`.
+    pub fn samples_at(&self, t: f64) -> bool {
+        t != self.t_end && self.schedule.samples_at(t)
+    }
+
     /// Whether a switch is at `t`.
     pub fn is_due(&self, t: f64) -> bool {
         t != self.t_end && t == self.end()
