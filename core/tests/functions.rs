@@ -9,6 +9,7 @@ use kempe::analyses::State;
 use kempe::case::{read, Format};
 use kempe::equations::tangent::Tangent;
 use kempe::integrate::{Direction, Dop853, Flow, GeneralizedAlpha, Radau, Rk4, Rk45};
+use kempe::math::{Jet, Lanes, Real};
 use kempe::model::{build, FunctionLaw, Functions, Host, Model, Sampling, Value};
 use mechanisms::{close, model, run, start};
 use std::sync::{Arc, Mutex};
@@ -216,4 +217,27 @@ fn the_next_sample_of_a_time() {
     close("at a sample, up to rounding", next(0.1 + 0.2 + 3.0 * 0.1), 0.6, 1e-15);
     close("between", next(0.61), 0.7, 1e-15);
     assert!(sampling.is_at(0.6) && !sampling.is_at(0.601) && !sampling.is_at(0.2));
+}
+
+#[test]
+fn time_derivatives_of_a_function_are_differences() {
+    // along x = 0.3 + 2 τ + τ², y = 1 - τ
+    let of = |f: &dyn Fn(&[f64]) -> f64| {
+        Jet::of_values(f, &[Jet::new(0.3, 2.0, 2.0), Jet::new(1.0, -1.0, 0.0)])
+    };
+    let found = of(&|x| x[0] * x[0] * x[1]);
+    let (x, y) = (Jet::new(0.3, 2.0, 2.0), Jet::new(1.0, -1.0, 0.0));
+    let exact: Jet = x * x * y;
+    close("value", found.value, exact.value, 0.0);
+    close("rate", found.rate, exact.rate, 1e-6);
+    close("second", found.second, exact.second, 1e-5);
+}
+
+#[test]
+fn lanes_of_a_function_are_its_values() {
+    let lanes = |a: [f64; 4]| Lanes::new(a);
+    let (x, y) = (lanes([1.0, 2.0, 3.0, 4.0]), lanes([0.1, 0.2, 0.3, 0.4]));
+    let found = Lanes::of_values(&|x| x[0].sin() + x[1], &[x, y]).to_array();
+    let expected = [1.0_f64, 2.0, 3.0, 4.0].map(|x| x.sin() + 0.1 * x);
+    found.iter().zip(expected).for_each(|(is, x)| close("lane", *is, x, 1e-15));
 }

@@ -14,18 +14,17 @@ from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
 from kempe.errors import ModelError
-from kempe.functions import Functions, refuse_saving, without
+from kempe.functions import Functions
 from kempe.ground import Ground, with_ground
 from kempe.lookup_tables import TableInfo
 from kempe.names import few, unknown
-from kempe.table_methods import TableMethods
+from kempe.tree_methods import TreeMethods
 from kempe.values import (
     Curves,
     Number,
     Pair,
     Points,
     curves,
-    data,
     mapping,
     numbers,
     pair,
@@ -40,7 +39,7 @@ Redundancy: TypeAlias = Literal["refuse", "allow"]
 SECTIONS = ("bodies", "joints", "drivers", "forces")
 
 
-class Model(ElementMethods, TableMethods):
+class Model(ElementMethods, TreeMethods):
     """A planar mechanism that is built step by step.
 
     ::
@@ -255,20 +254,6 @@ class Model(ElementMethods, TableMethods):
         model._tree["parameters"].update(changed)
         return model
 
-    def tree(self) -> dict[str, Any]:
-        """A copy of the model as nested mappings with the structure of a case file.
-
-        Raises:
-            ModelError: a law is a Python function, which no file contains.
-        """
-        functions = Functions(self._tree).listed()
-        return refuse_saving(functions) if functions else self.shown()
-
-    def shown(self) -> dict[str, Any]:
-        """The same with a text in the place of each Python function."""
-        kept = {key: value for key, value in self._tree.items() if value not in ({}, "")}
-        return {key: without(data(value)) for key, value in kept.items()}
-
     def compile(self) -> CompiledModel:
         """The compiled model; it is kept until the model changes.
 
@@ -282,18 +267,6 @@ class Model(ElementMethods, TableMethods):
             core = source.model(json.dumps(overrides, allow_nan=False), *given)
             self._compiled = CompiledModel(core, self.text(), self, functions)
         return self._compiled
-
-    def json(self) -> str:
-        """The tree as JSON, with the points of tables in place of their files.
-
-        Raises:
-            ModelError: a law is a Python function, which no file contains.
-        """
-        return json.dumps(self.with_points(self.tree()), allow_nan=False)
-
-    def text(self) -> str:
-        """The same with a text in the place of each Python function."""
-        return json.dumps(self.with_points(self.shown()), allow_nan=False)
 
     @property
     def title(self) -> str:

@@ -323,7 +323,7 @@ impl Scope {
             Some(_) => Variable::State(*self.places.states.get(&law.held())?),
             None => Variable::Function(k),
         };
-        Some(Tape::variable(variable.index()))
+        Some(Tape::of(Symbol::Variable(variable.index())))
     }
 
     fn dimension(&self, symbol: Symbol) -> Inferred {

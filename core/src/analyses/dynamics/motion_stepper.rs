@@ -121,7 +121,7 @@ impl<'a> MotionStepper<'a> {
     /// Computes the sampled laws, once, where the last step ended at a sample.
     fn take_sample(&mut self, switching: &Switching) {
         let t = self.t();
-        if switching.samples_at(t) && self.sample.is_none() {
+        if switching.schedule.samples_at(t) && self.sample.is_none() {
             self.sample = Sample::take(self.ode.model, t, self.y());
         }
     }

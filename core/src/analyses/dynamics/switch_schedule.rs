@@ -95,6 +95,12 @@ impl Schedule {
         schedule
     }
 
+    /// Keeps only some times.
+    pub fn keep(&mut self, keeps: impl Fn(f64) -> bool) {
+        self.times.retain(|(t, _)| keeps(*t));
+        self.samples.retain(|t| keeps(*t));
+    }
+
     /// Whether sampled laws are computed at `t`.
     pub fn samples_at(&self, t: f64) -> bool {
         self.samples.binary_search_by(|sample| sample.total_cmp(&t)).is_ok()
