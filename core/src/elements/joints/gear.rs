@@ -14,8 +14,8 @@
 
 use crate::elements::wheels::{centres, nearest, radii, radius_fault, rolled, TANGENTIAL};
 use crate::elements::{
-    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Required, ResultQuantity,
-    SceneSymbol,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required,
+    ResultQuantity, SceneSymbol,
 };
 use crate::math::{Real, Wrench};
 use std::f64::consts::FRAC_PI_2;
@@ -94,7 +94,14 @@ impl Joint for Gear {
     }
 
     fn symbols(e: &Gear) -> Vec<SceneSymbol> {
-        SceneSymbol::wheels(radii_of(e), [&e.i, &e.j])
+        let radii = radii_of(e);
+        let larger = radii[0].max(radii[1]);
+        let wheel = |radius| Mark::Toothed {
+            radius,
+            module: e.module,
+            ring: e.internal && radius == larger,
+        };
+        SceneSymbol::wheels(radii.map(wheel), [&e.i, &e.j])
     }
 
     fn results<S: Real>(_: &Gear<S>, _: &At<'_, S>, lam: &[S], out: &mut [S]) {
