@@ -8,7 +8,7 @@ use kempe::analyses::dynamics::{
 use kempe::analyses::State;
 use kempe::case::{read, Format};
 use kempe::equations::tangent::Tangent;
-use kempe::integrate::{Direction, Dop853, Flow, GeneralizedAlpha, Radau, Rk4, Rk45};
+use kempe::integrate::{AlphaParameters, Direction, Dop853, Flow, GeneralizedAlpha, Radau, Rk4, Rk45};
 use kempe::math::{Jet, Lanes, Real};
 use kempe::model::{build, FunctionLaw, Functions, Host, Model, Sampling, Value};
 use mechanisms::{close, model, run, start};
@@ -76,7 +76,12 @@ fn methods() -> Vec<Scheme> {
         Scheme::Dop853(Dop853::new(1e-10, 1e-12)),
         Scheme::Rk4(Rk4::new(1e-3)),
         Scheme::Radau(Radau::new(1e-10, 1e-12)),
-        Scheme::GeneralizedAlpha(GeneralizedAlpha::new(1e-3)),
+        Scheme::GeneralizedAlpha(GeneralizedAlpha::constant(
+            AlphaParameters::chung_hulbert(0.8),
+            1e-3,
+            1e-10,
+            1e-12,
+        )),
         Scheme::Auto(Auto::default()),
     ]
 }

@@ -253,6 +253,18 @@ class CompiledModel:
         arrays = {"q": self.column_names(), "v": self.rate_names(), "z": self.state_names()}
         return {name: (of, k) for of, names in arrays.items() for k, name in enumerate(names)}
 
+    @cached_property
+    def measured(self) -> Mapping[str, tuple[str, int, int]]:
+        """The element, number and order of each position quantity of an element by name."""
+        elements = (*self.constraints.values(), *self.forces.values())
+        return {
+            f"{info.name}.{name}": (info.name, k, order)
+            for info in elements
+            for k, of in enumerate(info.measured)
+            for order, name in enumerate(of.names)
+            if name
+        }
+
     def row_names(self) -> list[str]:
         """Names of the constraint equations in the order of Φ, such as ``A.x``."""
         return [f"{c.name}.{name}" for c in self.constraints.values() for name, _ in c.equations]

@@ -225,6 +225,8 @@ class Motion:
         place = compiled.places.get(name)
         if place is not None:  # controllers read these many times
             return scalar(getattr(self, place[0])[..., place[1]])
+        if name in compiled.measured:
+            return scalar(self.measured(*compiled.measured[name]))
         if name in compiled.all_bodies:
             return self.body(name)
         if name in compiled.constraints:
