@@ -8,7 +8,9 @@ use kempe::analyses::dynamics::{
 use kempe::analyses::State;
 use kempe::case::{read, Format};
 use kempe::equations::tangent::Tangent;
-use kempe::integrate::{AlphaParameters, Direction, Dop853, Flow, GeneralizedAlpha, Radau, Rk4, Rk45};
+use kempe::integrate::{
+    AlphaParameters, Direction, Dop853, Flow, GeneralizedAlpha, Radau, Rk4, Rk45,
+};
 use kempe::math::{Jet, Lanes, Real};
 use kempe::model::{build, FunctionLaw, Functions, Host, Model, Sampling, Value};
 use mechanisms::{close, model, run, start};

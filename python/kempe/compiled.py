@@ -256,7 +256,10 @@ class CompiledModel:
     @cached_property
     def measured(self) -> Mapping[str, tuple[str, int, int]]:
         """The element, number and order of each position quantity of an element by name."""
-        elements = (*self.constraints.values(), *self.forces.values())
+        elements: list[ConstraintInfo | ForceInfo] = [
+            *self.constraints.values(),
+            *self.forces.values(),
+        ]
         return {
             f"{info.name}.{name}": (info.name, k, order)
             for info in elements
