@@ -220,6 +220,7 @@ impl Dice {
             joints: self.entries(&elements(Group::Joints), used),
             drivers: self.entries(&elements(Group::Drivers), used),
             forces: self.entries(&elements(Group::Forces), used),
+            functions: None,
         };
         let analyses: Vec<Table> =
             kempe::analyses::declarations().iter().map(|d| d.table.clone()).collect();

@@ -21,6 +21,7 @@ Numbers are in SI units and angles in rad. A text is a formula, such as "2*L" or
 
 Build:
     Model                   bodies, joints, drivers and forces
+    Sampled                 a controller that is computed with a period
     load, Case              files with a model, a start and analyses
 
 Compute:
@@ -84,6 +85,7 @@ if TYPE_CHECKING:
     from kempe.errors import SingularityError as SingularityError
     from kempe.event import Event as Event
     from kempe.events import EventWarning as EventWarning
+    from kempe.functions import Sampled as Sampled
     from kempe.kinematics import inverse_dynamics as inverse_dynamics
     from kempe.kinematics import kinematics as kinematics
     from kempe.matrices import Labelled as Labelled
@@ -146,6 +148,7 @@ _HOME = {
     "Radau": "options",
     "RedundancyError": "errors",
     "Results": "case",
+    "Sampled": "functions",
     "SingularityError": "errors",
     "Solution": "solution",
     "Start": "case",

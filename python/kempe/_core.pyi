@@ -5,6 +5,7 @@ texts. Ground has the number 0 and no columns of q; ``describe`` gives the colum
 """
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,8 +62,19 @@ class Case:
             ModelError: there is no such table.
         """
 
-    def model(self, overrides: str) -> Model:
+    def model(
+        self,
+        overrides: str,
+        functions: list[tuple[Any, ...]] | None = None,
+        state: Callable[[_F], object] | None = None,
+    ) -> Model:
         """Compile the model with other parameters, ``{"k": 2e6, "c": "k/100"}``.
+
+        Args:
+            overrides: values of parameters, as JSON.
+            functions: Python functions as laws of forces: element, field, number of the entry in a
+                list, function ``f(t, state)``, period and start or None.
+            state: makes a state of an array (t, q, v, z).
 
         Raises:
             ModelError: the model is invalid; ``problems`` lists all problems.

@@ -36,6 +36,8 @@ TYPES = dict.fromkeys(REFERENCES, "str") | {
     "name_list": "Words",
     "values": "Terms",
 }
+#: Laws of forces may be Python functions.
+FORCE_LAWS = {"law": "Law", "law_pair": "LawPair"}
 #: Sections of options, each with the first line of the docstrings of its classes.
 OPTIONS = {
     "methods": "Method of integration ``{}``.",
@@ -91,9 +93,14 @@ def source(catalogue: str) -> str:
     """The text of ``elements.py`` for a catalogue (JSON, as ``_core.catalogue()`` gives it)."""
     sections = json.loads(catalogue)
     tables = [(section, table) for section in SECTIONS for table in sections[section]]
+    for section, table in tables:
+        for field in table["fields"]:
+            field["of_force"] = section == "forces"
     used = {element_type(field) for _, table in tables for field in table["fields"]}
     words = ", Literal" if any(kind.startswith("Literal") for kind in used) else ""
-    imports = ", ".join(sorted(used & {"Number", "Numbers", "Pair", "Terms", "Words"}))
+    imports = ", ".join(
+        sorted(used & {"Law", "LawPair", "Number", "Numbers", "Pair", "Terms", "Words"})
+    )
     classes = [element_class(section, table) for section, table in tables]
     methods = [method(table) for _, table in tables]
     return "\n\n".join(
@@ -120,6 +127,8 @@ def element_class(section: str, table: dict[str, Any]) -> str:
 def element_type(field: dict[str, Any]) -> str:
     """The type of a field of an element."""
     shape = field["shape"]
+    if field["of_force"] and isinstance(shape, str) and shape in FORCE_LAWS:
+        return FORCE_LAWS[shape]
     return literal(shape["words"]) if isinstance(shape, dict) else TYPES[shape]
 
 

@@ -128,9 +128,16 @@ class Case:
         return {name: dict(entry) for name, entry in self._entries.items()}
 
     def tree(self) -> dict[str, Any]:
-        """The case as nested mappings, structured as a file; a copy."""
+        """The case as nested mappings, structured as a file; a copy.
+
+        Raises:
+            ModelError: a law is a Python function, which no file contains.
+        """
+        return self._with_rest(self.model.tree())
+
+    def _with_rest(self, tree: dict[str, Any]) -> dict[str, Any]:
+        """The tree of a model with start and analyses."""
         start = self._start.tree()
-        tree = self.model.tree()
         tree |= {"start": start} if start else {}
         tree |= {"analyses": data(self._entries)} if self._entries else {}
         return tree
@@ -173,8 +180,8 @@ class Case:
             start: the assembled mechanism; assembled here when None.
         """
         compiled = self.model.compile()
-        contained = json.dumps(self.model.with_points(self.tree()))
-        model = CompiledModel(compiled.core, contained, self.model)
+        contained = json.dumps(self.model.with_points(self._with_rest(self.model.shown())))
+        model = compiled.in_case(contained)
         state = start or self.start()
         ends = {"start": state}
         for analysis in json.loads(self._core().analyses()):
@@ -244,7 +251,8 @@ class Case:
         files.write_text(path, core.write(form))
 
     def _core(self) -> _core.Case:
-        return _core.Case(json.dumps(self.tree(), allow_nan=False), "json", None)
+        tree = self._with_rest(self.model.shown())
+        return _core.Case(json.dumps(tree, allow_nan=False), "json", None)
 
     def _repr_html_(self) -> str:
         return self.model._repr_html_()

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from kempe import _core
+from kempe.functions import Functions, refuse_saving
 from kempe.infos import (
     ACCELERATIONS,
     COORDINATES,
@@ -48,8 +49,18 @@ class CompiledModel:
         core: the compiled model of the core.
     """
 
-    def __init__(self, core: _core.Model, case: str, model: Model | None = None) -> None:
+    def __init__(
+        self,
+        core: _core.Model,
+        case: str,
+        model: Model | None = None,
+        functions: Functions | None = None,
+    ) -> None:
         self.core = core
+        self._functions = functions
+        self._origin: CompiledModel | None = None
+        if functions is not None:
+            functions.belong_to(self)
         self._model = model
         self._case = case
         self._analyses: Mapping[str, Any] | None = None
@@ -62,6 +73,7 @@ class CompiledModel:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickled as text; compiled again when it is read."""
+        self._refuse_functions()
         return _restored, (self.model, self._case, self._analyses, self.core.setting)
 
     @property
@@ -75,14 +87,23 @@ class CompiledModel:
 
     @property
     def case(self) -> str:
-        """JSON of a case from which the model can be compiled again."""
+        """JSON of a case from which the model can be compiled again.
+
+        Raises:
+            ModelError: a law is a Python function, which no case contains.
+        """
+        self._refuse_functions()
         if self._analyses is None:
             return self._case
         return json.dumps({**json.loads(self._case), "analyses": self._analyses})
 
+    def _refuse_functions(self) -> None:
+        if self._functions is not None and self._functions.laws:
+            refuse_saving(self._functions.listed())
+
     @cached_property
     def tree(self) -> Mapping[str, Any]:
-        """The case as nested mappings, structured as a file."""
+        """The case as nested mappings, with a text in the place of each Python function."""
         tree: dict[str, Any] = json.loads(self._case)
         return MappingProxyType(tree)
 
@@ -91,12 +112,22 @@ class CompiledModel:
         other = CompiledModel.__new__(CompiledModel)
         other.__dict__.update(self.__dict__)  # five times faster than copy.copy
         other._analyses = analyses
+        other._origin = self  # whose functions are called
+        return other
+
+    def in_case(self, case: str) -> CompiledModel:
+        """The same model as part of a case, given as JSON."""
+        other = CompiledModel(self.core, case, self._model)
+        other._functions, other._origin = self._functions, self
         return other
 
     def allowing_redundancy(self) -> CompiledModel:
         """The same model with redundant constraints accepted."""
-        case = json.dumps({**json.loads(self.case), "redundancy": "allow"})
-        return CompiledModel(self.core.allowing_redundancy(), case, self._model)
+        tree = {**json.loads(self._case), "redundancy": "allow"}
+        tree |= {} if self._analyses is None else {"analyses": self._analyses}
+        other = CompiledModel(self.core.allowing_redundancy(), json.dumps(tree), self._model)
+        other._functions, other._origin = self._functions, self
+        return other
 
     def variant(self, setting: Setting) -> CompiledModel:
         """The same model with other parameters and released drivers; see ``kempe.phases``."""
@@ -105,6 +136,7 @@ class CompiledModel:
             return self
         other = CompiledModel(self.core.variant(parameters, released), self._case, self._model)
         other._analyses = self._analyses
+        other._functions, other._origin = self._functions, self
         return other
 
     @property
@@ -230,6 +262,27 @@ class CompiledModel:
     def state_units(self) -> list[str]:
         """Units of the first-order states in the order of z."""
         return [unit for f in self.forces.values() for _, unit in f.states]
+
+    @cached_property
+    def places(self) -> Mapping[str, tuple[str, int]]:
+        """The array, q, v or z, and the place in it of each coordinate, rate and state by name."""
+        arrays = {"q": self.column_names(), "v": self.rate_names(), "z": self.state_names()}
+        return {name: (of, k) for of, names in arrays.items() for k, name in enumerate(names)}
+
+    @cached_property
+    def measured(self) -> Mapping[str, tuple[str, int, int]]:
+        """The element, number and order of each position quantity of an element by name."""
+        elements: list[ConstraintInfo | ForceInfo] = [
+            *self.constraints.values(),
+            *self.forces.values(),
+        ]
+        return {
+            f"{info.name}.{name}": (info.name, k, order)
+            for info in elements
+            for k, of in enumerate(info.measured)
+            for order, name in enumerate(of.names)
+            if name
+        }
 
     def row_names(self) -> list[str]:
         """Names of the constraint equations in the order of Φ, such as ``A.x``."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal, TypeVar
 
 from kempe.element import Element
-from kempe.values import Number, Numbers, Pair, Terms, Words
+from kempe.values import Law, LawPair, Number, Numbers, Pair, Terms, Words
 
 E = TypeVar("E", bound=Element)
 
@@ -467,10 +467,10 @@ class TorsionSpring(Element):
 
     i: str
     j: str
-    stiffness: Number = 0.0
-    damping: Number = 0.0
-    free_angle: Number = 0.0
-    preload: Number = 0.0
+    stiffness: Law = 0.0
+    damping: Law = 0.0
+    free_angle: Law = 0.0
+    preload: Law = 0.0
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "torsion_spring"
     shapes: ClassVar[Mapping[str, str]] = {
@@ -506,10 +506,10 @@ class SpringDamper(Element):
 
     i: str
     j: str
-    stiffness: Number = 0.0
-    damping: Number = 0.0
-    free_length: Number = 0.0
-    preload: Number = 0.0
+    stiffness: Law = 0.0
+    damping: Law = 0.0
+    free_length: Law = 0.0
+    preload: Law = 0.0
     only: Literal["tension", "compression"] | None = None
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "spring_damper"
@@ -538,7 +538,7 @@ class Torque(Element):
     """
 
     j: str
-    torque: Number
+    torque: Law
     i: str = "ground"
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "torque"
@@ -565,7 +565,7 @@ class Force(Element):
     """
 
     j: str
-    force: Pair
+    force: LawPair
     i: str = "ground"
     frame: Literal["global", "i", "j"] = "global"
     section: ClassVar[str] = "forces"
@@ -594,7 +594,7 @@ class Actuator(Element):
 
     i: str
     j: str
-    force: Number
+    force: Law
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "actuator"
     shapes: ClassVar[Mapping[str, str]] = {
@@ -649,7 +649,7 @@ class GeneralizedForce(Element):
     """
 
     coordinate: str
-    value: Number
+    value: Law
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "generalized_force"
     shapes: ClassVar[Mapping[str, str]] = {
@@ -682,13 +682,13 @@ class Motor(Element):
     """
 
     j: str
-    voltage: Number | None = None
+    voltage: Law | None = None
     resistance: Number | None = None
     torque_constant: Number | None = None
     inductance: Number = 0.0
     stall_torque: Number | None = None
     free_speed: Number | None = None
-    command: Number = 1.0
+    command: Law = 1.0
     i: str = "ground"
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "motor"
@@ -1043,10 +1043,10 @@ class ElementMethods:
         i: str,
         j: str,
         *,
-        stiffness: Number = 0.0,
-        damping: Number = 0.0,
-        free_angle: Number = 0.0,
-        preload: Number = 0.0,
+        stiffness: Law = 0.0,
+        damping: Law = 0.0,
+        free_angle: Law = 0.0,
+        preload: Law = 0.0,
     ) -> TorsionSpring:
         """Add an element of type ``torsion_spring`` and return it.
 
@@ -1080,10 +1080,10 @@ class ElementMethods:
         i: str,
         j: str,
         *,
-        stiffness: Number = 0.0,
-        damping: Number = 0.0,
-        free_length: Number = 0.0,
-        preload: Number = 0.0,
+        stiffness: Law = 0.0,
+        damping: Law = 0.0,
+        free_length: Law = 0.0,
+        preload: Law = 0.0,
         only: Literal["tension", "compression"] | None = None,
     ) -> SpringDamper:
         """Add an element of type ``spring_damper`` and return it.
@@ -1118,7 +1118,7 @@ class ElementMethods:
             )
         )
 
-    def torque(self, name: str, j: str, *, torque: Number, i: str = "ground") -> Torque:
+    def torque(self, name: str, j: str, *, torque: Law, i: str = "ground") -> Torque:
         """Add an element of type ``torque`` and return it.
 
         Applied torque on body j, counter-clockwise; opposite on body i, which is ground unless
@@ -1137,7 +1137,7 @@ class ElementMethods:
         name: str,
         j: str,
         *,
-        force: Pair,
+        force: LawPair,
         i: str = "ground",
         frame: Literal["global", "i", "j"] = "global",
     ) -> Force:
@@ -1156,7 +1156,7 @@ class ElementMethods:
         """
         return self._add(Force(name, j=j, force=force, i=i, frame=frame))
 
-    def actuator(self, name: str, i: str, j: str, *, force: Number) -> Actuator:
+    def actuator(self, name: str, i: str, j: str, *, force: Law) -> Actuator:
         """Add an element of type ``actuator`` and return it.
 
         Actuator: a force along the line between two points; > 0 pushes the points apart. Its power
@@ -1196,7 +1196,7 @@ class ElementMethods:
         """
         return self._add(Bushing(name, i=i, j=j, stiffness=stiffness, damping=damping))
 
-    def generalized_force(self, name: str, coordinate: str, *, value: Number) -> GeneralizedForce:
+    def generalized_force(self, name: str, coordinate: str, *, value: Law) -> GeneralizedForce:
         """Add an element of type ``generalized_force`` and return it.
 
         Generalized force: an effort on a position quantity, > 0 increases it. Its power is value ×
@@ -1216,13 +1216,13 @@ class ElementMethods:
         name: str,
         j: str,
         *,
-        voltage: Number | None = None,
+        voltage: Law | None = None,
         resistance: Number | None = None,
         torque_constant: Number | None = None,
         inductance: Number = 0.0,
         stall_torque: Number | None = None,
         free_speed: Number | None = None,
-        command: Number = 1.0,
+        command: Law = 1.0,
         i: str = "ground",
     ) -> Motor:
         """Add an element of type ``motor`` and return it.

@@ -34,7 +34,7 @@ class Ground:
         self._model._ground_curves(curves)
 
     def __repr__(self) -> str:
-        points = self._model.tree().get("bodies", {}).get("ground", {}).get("points", {})
+        points = self._model.shown().get("bodies", {}).get("ground", {}).get("points", {})
         return f"<ground of {self._model.title!r}: points {', '.join(points) or 'none'}>"
 
 

@@ -67,7 +67,7 @@ def iterations(case: Case) -> Iterations:
     Raises:
         AssemblyError: the iteration does not converge from this guess.
     """
-    start = case.tree().get("start", {})
+    start = case._with_rest({}).get("start", {})
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AssemblyWarning)
         state = assemble(case.model, start.get("set"), start.get("guess"), from_guess=True)

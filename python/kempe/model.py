@@ -14,17 +14,17 @@ from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.element import Element
 from kempe.elements import E, ElementMethods
 from kempe.errors import ModelError
+from kempe.functions import Functions
 from kempe.ground import Ground, with_ground
 from kempe.lookup_tables import TableInfo
 from kempe.names import few, unknown
-from kempe.table_methods import TableMethods
+from kempe.tree_methods import TreeMethods
 from kempe.values import (
     Curves,
     Number,
     Pair,
     Points,
     curves,
-    data,
     mapping,
     numbers,
     pair,
@@ -39,7 +39,7 @@ Redundancy: TypeAlias = Literal["refuse", "allow"]
 SECTIONS = ("bodies", "joints", "drivers", "forces")
 
 
-class Model(ElementMethods, TableMethods):
+class Model(ElementMethods, TreeMethods):
     """A planar mechanism that is built step by step.
 
     ::
@@ -249,15 +249,10 @@ class Model(ElementMethods, TableMethods):
                 raise unknown("parameter", name, self._tree["parameters"])
         model = Model._of(self._tree)
         model._files = dict(self._files)
-        source, overrides = self._source or (_core.Case(self.json(), "json", None), {})
+        source, overrides = self._source or (_core.Case(self.text(), "json", None), {})
         model._source = (source, {**overrides, **changed})
         model._tree["parameters"].update(changed)
         return model
-
-    def tree(self) -> dict[str, Any]:
-        """A copy of the model as nested mappings with the structure of a case file."""
-        kept = {key: value for key, value in self._tree.items() if value not in ({}, "")}
-        return {key: data(value) for key, value in kept.items()}
 
     def compile(self) -> CompiledModel:
         """The compiled model; it is kept until the model changes.
@@ -266,14 +261,12 @@ class Model(ElementMethods, TableMethods):
             ModelError: the model is invalid; ``problems`` lists all problems.
         """
         if self._compiled is None:
-            source, overrides = self._source or (_core.Case(self.json(), "json", None), {})
-            core = source.model(json.dumps(overrides, allow_nan=False))
-            self._compiled = CompiledModel(core, self.json(), self)
+            source, overrides = self._source or (_core.Case(self.text(), "json", None), {})
+            functions = Functions(self._tree)
+            given = (functions.described(), functions.state) if functions.laws else ()
+            core = source.model(json.dumps(overrides, allow_nan=False), *given)
+            self._compiled = CompiledModel(core, self.text(), self, functions)
         return self._compiled
-
-    def json(self) -> str:
-        """The tree as JSON, with the points of tables in place of their files."""
-        return json.dumps(self.with_points(self.tree()), allow_nan=False)
 
     @property
     def title(self) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from kempe import _core, quantities
-from kempe.arrays import Floats, fixed
+from kempe.arrays import Floats, fixed, scalar
 from kempe.compiled import CompiledModel, ConstraintInfo
 from kempe.errors import ModelError
 from kempe.model import Model, compiled_model
@@ -249,6 +249,11 @@ class Motion:
         compiled = self.compiled
         if not isinstance(name, str):
             raise unknown("body, joint, driver or force", name, compiled.names())
+        place = compiled.places.get(name)
+        if place is not None:  # controllers read these many times
+            return scalar(getattr(self, place[0])[..., place[1]])
+        if name in compiled.measured:
+            return scalar(self.measured(*compiled.measured[name]))
         if name in compiled.all_bodies:
             return self.body(name)
         if name in compiled.constraints:

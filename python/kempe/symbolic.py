@@ -114,7 +114,7 @@ def equations(model: Model | CompiledModel) -> list[Equations]:
     from kempe.model import compiled_model
 
     compiled = compiled_model(model)
-    tree = json.loads(compiled.case)
+    tree = compiled.tree
     infos = compiled.constraints.values()
     return [_of(compiled, info, tree[info.group][info.name]) for info in infos]
 

@@ -11,11 +11,16 @@ from numbers import Integral, Real
 from typing import Any, NoReturn, TypeAlias
 
 from kempe.errors import ModelError, Problem
+from kempe.functions import Function, FunctionLaw, Sampled
 
 #: A number in SI units, or a formula in the parameters of the model as text.
 Number: TypeAlias = "float | str"
 #: Two numbers or formulas, such as a point or a vector.
 Pair: TypeAlias = "Sequence[float | str]"
+#: A number, a formula, or a Python function ``f(t, state)``.
+Law: TypeAlias = "float | str | Function | Sampled"
+#: Two of them.
+LawPair: TypeAlias = "Sequence[float | str | Function | Sampled]"
 #: Numbers or formulas.
 Numbers: TypeAlias = "Sequence[float | str]"
 #: Numbers or formulas by the names of quantities.
@@ -59,6 +64,29 @@ def number(value: object, path: str) -> float | str:
     if isinstance(value, Integral) and abs(int(value)) <= _LARGEST_EXACT_INTEGER:
         return int(value)
     return _finite(value, path)
+
+
+#: The sections whose laws may be Python functions.
+_WITH_FUNCTIONS = "forces."
+
+
+def law(value: object, path: str) -> float | str | FunctionLaw:
+    """A number, a formula, or for a force a Python function."""
+    if not callable(value) and not isinstance(value, Sampled):
+        return value if isinstance(value, FunctionLaw) else number(value, path)
+    if not path.startswith(_WITH_FUNCTIONS):
+        refuse(
+            path,
+            "a Python function can only be a law of a force: derivatives of the laws of joints and "
+            "drivers are needed; write a formula or a table",
+        )
+    return FunctionLaw(path, value)
+
+
+def law_pair(value: object, path: str) -> tuple[float | str | FunctionLaw, ...]:
+    """Two numbers, formulas or Python functions."""
+    first, second = _two(value, path, "two numbers or formulas")
+    return law(first, f"{path}[0]"), law(second, f"{path}[1]")
 
 
 def _finite(value: Real, path: str) -> float:
@@ -184,7 +212,7 @@ def tolerance(value: object, path: str) -> float | str | dict[str, float | str]:
 
 def _two(value: object, path: str, what: str) -> tuple[object, object]:
     if callable(value):
-        refuse(path, "a Python function is not allowed; write the formulas as text")
+        refuse(path, "one Python function; write two, or formulas as text")
     entries = None if isinstance(value, str | bytes | Mapping) else _listed(value)
     if entries is None:
         refuse(path, f"{value!r}; must be {what}")
@@ -258,10 +286,10 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "point": reference,
     "coordinate": reference,
     "number": number,
-    "law": number,
+    "law": law,
     "pair": pair,
     "triple": triple,
-    "law_pair": pair,
+    "law_pair": law_pair,
     "laws": listed_numbers,
     "terms": numbers,
     "units": listed_words,

@@ -3,6 +3,7 @@
 use crate::attended::attended;
 use crate::convert::{refuse, tree, Row};
 use crate::errors::{raise, Failure, Kind};
+use crate::functions;
 use crate::guard::guard;
 use crate::model::PyModel;
 use kempe::case::{self, Case, Diagnostic, Document, Format, MOST_REPORTED};
@@ -79,11 +80,22 @@ impl PyCase {
         })
     }
 
-    /// Compiles the model with other parameters.
-    fn model(&self, py: Python<'_>, overrides: &str) -> PyResult<PyModel> {
+    /// Compiles the model with other parameters, and with Python functions as laws of forces. `state` makes a state
+    /// of an array (t, q, v, z).
+    #[pyo3(signature = (overrides, functions=None, state=None))]
+    fn model(
+        &self,
+        py: Python<'_>,
+        overrides: &str,
+        functions: Option<Vec<functions::Described>>,
+        state: Option<Py<PyAny>>,
+    ) -> PyResult<PyModel> {
         guard("Case.model", || {
             let overrides = tree(py, overrides)?;
-            let case = Arc::clone(&self.case);
+            let mut case = Arc::clone(&self.case);
+            if let (Some(functions), Some(state)) = (functions, state) {
+                functions::place(py, &mut Arc::make_mut(&mut case).definition, state, functions);
+            }
             let built = attended(py, move |_| {
                 model::build(&case.definition, &overrides).map(PyModel::new)
             })?;

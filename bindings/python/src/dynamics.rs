@@ -2,7 +2,7 @@
 
 use crate::convert::{frozen, state, table, Row};
 use crate::errors::{raise_plain, Failure, Kind};
-use crate::guard::guard;
+use crate::guard::{guard, raised};
 use crate::model::{written, PyModel, Written};
 use crate::options;
 use crate::respond::{because, energies, responses, Table};
@@ -281,15 +281,15 @@ pub fn dynamics(
             event.acts = names.contains(&event.name);
         }
         let mut watch = Watch::new(progress.as_ref());
-        let mut raised = None;
+        let mut stopped = None;
         let mut act = |name: &str, state: &State, setting: &core::Setting| {
             let changed =
                 Python::attach(|py| called(py, &call, &core.model, name, (state, setting)));
-            changed.map_err(|error| raised = Some(error)).ok()
+            changed.map_err(|error| stopped = Some(error)).ok()
         };
         let outcome = py
             .detach(|| core.prepared.dynamics_with(&start, &options, |t| watch.look(t), &mut act));
-        match (outcome, watch.raised.or(raised)) {
+        match (outcome, watch.raised.or(stopped).or_else(raised::take)) {
             (Ok(run), None) => {
                 let message = ended(&run);
                 PyRun::new(py, model, run, &message)
@@ -299,7 +299,12 @@ pub fn dynamics(
                 error.value(py).setattr("run", run)?;
                 Err(error)
             }
-            (Err(failure), _) => Err(raise(py, model, *failure)?),
+            (Err(failure), Some(error)) => {
+                let run = Py::new(py, PyRun::new(py, model, failure.run, "interrupted")?)?;
+                error.value(py).setattr("run", run)?;
+                Err(error)
+            }
+            (Err(failure), None) => Err(raise(py, model, *failure)?),
         }
     })
 }

@@ -42,7 +42,40 @@ pub fn guard<T>(entry: &'static str, body: impl FnOnce() -> PyResult<T>) -> PyRe
         body()
     }));
     DEPTH.set(DEPTH.get() - 1);
-    outcome.unwrap_or_else(|payload| Err(internal_error(entry, payload.as_ref())))
+    match raised::take() {
+        Some(error) => Err(error),
+        None => outcome.unwrap_or_else(|payload| Err(internal_error(entry, payload.as_ref()))),
+    }
+}
+
+/// The exception of a Python function that the core called on this thread.
+pub mod raised {
+    use pyo3::PyErr;
+    use std::cell::{Cell, RefCell};
+
+    thread_local! {
+        static RAISED: RefCell<Option<PyErr>> = const { RefCell::new(None) };
+        static WAITS: Cell<bool> = const { Cell::new(false) };
+    }
+
+    /// Keeps an exception until the entry point raises it.
+    pub fn keep(error: PyErr) {
+        WAITS.set(true);
+        RAISED.set(Some(error));
+    }
+
+    /// Whether an exception waits.
+    pub fn waits() -> bool {
+        WAITS.get()
+    }
+
+    /// The exception that waits.
+    pub fn take() -> Option<PyErr> {
+        match WAITS.replace(false) {
+            true => RAISED.take(),
+            false => None,
+        }
+    }
 }
 
 /// A panic on another thread, with its place.

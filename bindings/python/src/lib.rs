@@ -14,6 +14,7 @@ mod dynamics;
 mod errors;
 mod evaluate;
 mod formulas;
+mod functions;
 mod guard;
 mod kinematics;
 mod model;

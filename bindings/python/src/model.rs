@@ -9,7 +9,7 @@ use kempe::analyses::dynamics::{Prepared, Setting};
 use kempe::elements::{BodyId, Curve, Measured, OwnState, ResultQuantity, SceneSymbol, SymbolEnd};
 use kempe::expression::Table;
 use kempe::math::Local;
-use kempe::model::{Body, Columns, Model};
+use kempe::model::{Body, Columns, Functions, Model};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use serde_json::{json, Map, Value};
@@ -255,6 +255,11 @@ fn constraint(model: &Model, k: usize) -> Value {
 
 fn force(model: &Model, k: usize) -> Value {
     let (item, places) = (&model.forces[k], &model.layout.states[k]);
+    let sampled = model.blueprint.functions.iter().flat_map(Functions::sampled);
+    let held: Vec<Value> = sampled
+        .filter(|(_, law, _)| law.element == item.name)
+        .map(|(_, law, _)| json!({ "name": format!("{}_held", law.field), "unit": law.unit }))
+        .collect();
     let (i, j, bodies) = connected(model, &item.bodies);
     let state = |state: &OwnState| json!({ "name": state.name, "unit": state.unit });
     let parts: Vec<&str> = item.element.parts().iter().map(|p| p.name).collect();
@@ -266,8 +271,8 @@ fn force(model: &Model, k: usize) -> Value {
         "j": j,
         "bodies": bodies,
         "parts": parts,
-        "places": span(places),
-        "states": item.states.iter().map(state).collect::<Vec<_>>(),
+        "places": span(&(places.start..places.end + held.len())),
+        "states": item.states.iter().map(state).chain(held).collect::<Vec<_>>(),
         "reaction": item.reaction.map(|joint| model.constraints[joint.0].name.as_str()),
         "points": points.map(|ends| ends.each_ref().map(pair)),
         "measured": measured(item.element.measured()),

@@ -9,6 +9,7 @@ pub(super) fn one_line(value: &Value, key: fn(&str) -> String) -> String {
         Value::Number(x) => digits(*x),
         Value::Text(text) => quoted(text),
         Value::Flag(flag) => flag.to_string(),
+        Value::Function(_) => quoted("a function"),
         Value::List(items) => {
             format!("[{}]", join(items.iter().map(|item| one_line(item, key)).collect()))
         }

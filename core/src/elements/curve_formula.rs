@@ -1,6 +1,6 @@
 //! A curve whose components are formulas in u and the parameters.
 
-use crate::expression::{Tape, Values};
+use crate::expression::{Symbol, Tape, Values};
 use crate::math::{Dual, Jet, Lift, Local, Real};
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ impl Formula<Tape> {
         let mut parameters: Vec<usize> = x.parameters().chain(y.parameters()).collect();
         parameters.sort_unstable();
         parameters.dedup();
-        let values = parameters.iter().map(|k| Tape::parameter(*k)).collect();
+        let values = parameters.iter().map(|k| Tape::of(Symbol::Parameter(*k))).collect();
         Self { written: Arc::new(Written { x, y, parameters }), values, range, periodic }
     }
 }

@@ -13,6 +13,8 @@ pub enum Value {
     List(Vec<Value>),
     /// Keys with values, in order.
     Table(Vec<(String, Value)>),
+    /// A law that a host computes, by its number; files have none.
+    Function(usize),
 }
 
 impl Value {
@@ -24,6 +26,7 @@ impl Value {
             Self::Flag(_) => "true or false",
             Self::List(_) => "a list",
             Self::Table(_) => "a table",
+            Self::Function(_) => "a function",
         }
     }
 }

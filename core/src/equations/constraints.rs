@@ -272,7 +272,7 @@ fn law_terms<S: Real>(
         |body: BodyId, c: Coordinate| -> Jet<S> { c.of(&moving(&motions[body.0]), &Twist::zero()) };
     let residual = |at: &At<'_, Jet<S>>, phi: &mut [Jet<S>]| {
         let (parameters, pieces) = (&model.parameters, &motions.pieces);
-        let values = Laws { parameters, t: at.t, coordinate, z: &[], pieces };
+        let values = Laws { parameters, t: at.t, coordinate, z: &[], pieces, function: None };
         law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
     };
     terms(at, residual, out);
@@ -293,7 +293,7 @@ fn law_columns<S: Real>(
     };
     let residual = |at: &At<'_, ByThree<S>>, phi: &mut [ByThree<S>]| {
         let (parameters, pieces) = (&model.parameters, &motions.pieces);
-        let values = Laws { parameters, t: at.t, coordinate, z: &[], pieces };
+        let values = Laws { parameters, t: at.t, coordinate, z: &[], pieces, function: None };
         law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
     };
     let varies = |b: usize| Some(item.bodies[b]) == block.body;

@@ -69,6 +69,10 @@ pub(super) fn by_force(model: &Model, pairs: &mut Pairs) -> Vec<Participants> {
         if let Some(law) = &item.law {
             law.map(&mut |tape| depends.add(tape));
         }
+        if depends.whole {
+            depends.bodies.extend((1..model.bodies.len()).map(BodyId));
+            depends.states.extend(0..model.layout.n_z);
+        }
         let joint = item.reaction.map(|joint| joint.0);
         let of_joint = joint.map_or(&[][..], |k| &model.constraints[k].bodies);
         let mut bodies: Vec<BodyId> =

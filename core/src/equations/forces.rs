@@ -2,9 +2,10 @@
 //! the rates of the first-order states of elements.
 
 use super::kinematics::Motions;
+use super::laws::{self, Laws};
 use super::powers::Powers;
 use super::reactions::{self, Frame};
-use super::{laws, Compiled, Inertia};
+use super::{Compiled, Inertia};
 use crate::elements::{
     BodyId, Force, ForceElement, Held, Nature, Pooled, Situation, VisitForces, Wrenches,
 };
@@ -124,10 +125,21 @@ fn at_state<S: Real>(
     match &item.law {
         None => item.element.clone(),
         Some(law) => {
+            let function = |k| of_host(model, k, motions, z, t);
             let values = laws::held(&model.parameters, motions, z, t);
+            let values = Laws { function: Some(&function), ..values };
             law.map(&mut |tape| tape.evaluate(&values))
         }
     }
+}
+
+/// The value of a law that a host computes.
+#[cold]
+fn of_host<S: Real>(model: &Model<S>, k: usize, motions: &Motions<S>, z: &[S], t: S) -> S {
+    let Some(functions) = &model.blueprint.functions else { return S::constant(f64::NAN) };
+    let mut x = Vec::with_capacity(1 + 2 * model.layout.n_q + z.len());
+    motions.collect(&model.layout, t, z, &mut x);
+    functions.value(k, &x)
 }
 
 /// The situation of force `k`.
@@ -187,6 +199,7 @@ pub fn state_rates<S: Real>(
     for (k, states) in model.layout.states.iter().enumerate().filter(|(_, own)| !own.is_empty()) {
         state_rates_of(model, k, motions, acting, &mut out[states.clone()]);
     }
+    model.layout.held.iter().for_each(|place| out[*place] = S::zero());
 }
 
 /// ż of force `k` alone.

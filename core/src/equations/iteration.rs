@@ -102,11 +102,14 @@ impl Places {
     }
 }
 
-/// Sizes of the blocks of the states: one block for up to three states of an element.
+/// Sizes of the blocks of the states: one block for up to three states of an element, and one for the value of each
+/// sampled law.
 fn state_blocks(layout: &StateLayout) -> Vec<usize> {
-    let of =
-        |own: &Range<usize>| (0..own.len()).step_by(3).map(|k| (own.len() - k).min(3)).collect();
-    layout.states.iter().flat_map(|own| -> Vec<usize> { of(own) }).collect()
+    let of = |own: Range<usize>| own.clone().step_by(3).map(move |k| (k, (own.end - k).min(3)));
+    let held = layout.held.iter().map(|place| (*place, 1));
+    let mut all: Vec<_> = layout.states.iter().cloned().flat_map(of).chain(held).collect();
+    all.sort_unstable();
+    all.into_iter().map(|(_, size)| size).collect()
 }
 
 /// The block of each unknown and its place in it, for blocks of these sizes from `first` on.

@@ -77,6 +77,21 @@ impl<S: Real> Motions<S> {
         self.own_rates.copy_from_slice(&v[self.first_own..]);
     }
 
+    /// Adds t, q, v and z to `x`, as functions of the whole state take them.
+    pub(super) fn collect(&self, layout: &StateLayout, t: S, z: &[S], x: &mut Vec<S>) {
+        let moving = || self.bodies[1..].iter().zip(&layout.bodies[1..]);
+        x.push(t);
+        for (Motion { pose, .. }, columns) in moving() {
+            x.extend(&[pose.r.x, pose.r.y, pose.angle][..columns.count]);
+        }
+        x.extend(&self.own);
+        for (Motion { twist, .. }, columns) in moving() {
+            x.extend(&[twist.velocity.x, twist.velocity.y, twist.omega][..columns.count]);
+        }
+        x.extend(&self.own_rates);
+        x.extend(z);
+    }
+
     /// Internal coordinates of an element and their rates.
     pub fn own(&self, columns: Columns) -> (&[S], &[S]) {
         let range = match columns.count {

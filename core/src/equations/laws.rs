@@ -8,7 +8,6 @@ use crate::math::{Lift, Motion, Real};
 use crate::model::Variable;
 
 /// Parameters over `S`; time, coordinates and states over a scalar `T` that contains it.
-#[derive(Debug)]
 pub struct Laws<'a, S, T, F> {
     /// Values of the parameters.
     pub parameters: &'a [S],
@@ -20,6 +19,8 @@ pub struct Laws<'a, S, T, F> {
     pub z: &'a [T],
     /// The piece that is held for each switch of the model; empty if none is held.
     pub pieces: &'a [f64],
+    /// The value of a law that a host computes; None where laws may not use it.
+    pub function: Option<&'a dyn Fn(usize) -> T>,
 }
 
 impl<S: Real, T: Lift<S>, F: Fn(BodyId, Coordinate) -> T> Values<T> for Laws<'_, S, T, F> {
@@ -33,6 +34,7 @@ impl<S: Real, T: Lift<S>, F: Fn(BodyId, Coordinate) -> T> Values<T> for Laws<'_,
         match Variable::at(k) {
             Variable::Coordinate(body, coordinate) => (self.coordinate)(body, coordinate),
             Variable::State(k) => self.z[k],
+            Variable::Function(k) => self.function.map_or(T::constant(f64::NAN), |f| f(k)),
         }
     }
     fn piece(&self, k: usize) -> f64 {
@@ -51,7 +53,7 @@ pub fn at<'a, S: Real>(
         let m = &motions[body.0];
         c.of(&m.pose, &m.twist)
     };
-    Laws { parameters, t, coordinate, z, pieces: &[] }
+    Laws { parameters, t, coordinate, z, pieces: &[], function: None }
 }
 
 /// Laws at a state, with the pieces that are held there.

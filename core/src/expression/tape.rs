@@ -369,9 +369,8 @@ impl From<f64> for Tape {
 }
 
 impl Tape {
-    /// A tape that is the parameter with index `k`.
-    pub fn parameter(k: usize) -> Self {
-        let symbol = Symbol::Parameter(k);
+    /// A tape that is one symbol.
+    pub fn of(symbol: Symbol) -> Self {
         Self {
             code: vec![Instruction::Load(symbol)],
             operands: 1,

@@ -2,7 +2,7 @@
 
 #![allow(clippy::suspicious_arithmetic_impl)] // product and quotient rule
 
-use super::real::{Lift, Real};
+use super::real::{difference, Lift, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A value with its derivatives by `N` seeds.
@@ -160,6 +160,13 @@ impl<const N: usize, S: Real> Real for Dual<N, S> {
     }
     fn in_lanes(self) -> [f64; 4] {
         self.value.in_lanes()
+    }
+    fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
+        let at: Vec<S> = x.iter().map(|x| x.value).collect();
+        let value = S::of_values(f, &at);
+        let direction = |k: usize| x.iter().map(|x| x.slope[k]).collect::<Vec<S>>();
+        let slope = std::array::from_fn(|k| difference(f, &at, value, &direction(k)));
+        Self { value, slope }
     }
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.slope.iter().all(|d| d.is_finite())

@@ -190,6 +190,18 @@ impl<S: Real> Real for Jet<S> {
     fn in_lanes(self) -> [f64; 4] {
         self.value.in_lanes()
     }
+    fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
+        // along x + ẋ τ + ẍ τ²/2
+        let at = |tau: f64| -> S {
+            let (first, second) = (S::constant(tau), S::constant(0.5 * tau * tau));
+            let moved = |x: &Self| x.value + first * x.rate + second * x.second;
+            S::of_values(f, &x.iter().map(moved).collect::<Vec<S>>())
+        };
+        let tau = 1e-4;
+        let (value, before, after) = (at(0.0), at(-tau), at(tau));
+        let rate = (after - before) / S::constant(2.0 * tau);
+        Self::new(value, rate, (after - value - value + before) / S::constant(tau * tau))
+    }
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.rate.is_finite() && self.second.is_finite()
     }

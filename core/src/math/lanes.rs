@@ -258,6 +258,11 @@ impl Real for Lanes {
     fn in_lanes(self) -> [f64; 4] {
         self.to_array()
     }
+    fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
+        Self::new(std::array::from_fn(|lane| {
+            f(&x.iter().map(|x| x.to_array()[lane]).collect::<Vec<f64>>())
+        }))
+    }
     #[inline(always)]
     fn largest_magnitude(self) -> f64 {
         let [a, b, c, d] = self.0.abs().to_array();

@@ -68,6 +68,11 @@ pub trait Real:
     fn in_lanes(self) -> [f64; 4];
     /// Whether every part, derivatives included, is finite.
     fn is_finite(self) -> bool;
+    /// A function that is known by its values alone; derivatives are differences. NaN for a scalar that has no values.
+    fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
+        let _ = (f, x);
+        Self::constant(f64::NAN)
+    }
     /// The function of a name of x, for a scalar that prints formulas; numbers have none.
     fn named_function(self, name: &str) -> Option<Self> {
         let _ = name;
@@ -204,6 +209,26 @@ impl Real for f64 {
     fn is_finite(self) -> bool {
         f64::is_finite(self)
     }
+    fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
+        f(x)
+    }
+}
+
+/// The derivative of a function that is known by its values alone, along `direction`: a difference; `value` is f(x).
+pub(super) fn difference<S: Real>(
+    f: &dyn Fn(&[f64]) -> f64,
+    x: &[S],
+    value: S,
+    direction: &[S],
+) -> S {
+    let moved = || x.iter().zip(direction).filter(|(_, d)| d.largest_magnitude() != 0.0);
+    let Some(rate) = moved().map(|(_, d)| d.largest_magnitude()).reduce(f64::max) else {
+        return S::zero();
+    };
+    let size = moved().fold(1.0, |size, (x, _)| x.largest_magnitude().max(size));
+    let h = S::constant(f64::EPSILON.sqrt() * size / rate);
+    let beside: Vec<S> = x.iter().zip(direction).map(|(x, d)| *x + h * *d).collect();
+    (S::of_values(f, &beside) - value) / h
 }
 
 /// A scalar that contains `S`: a quantity over `S` can be used where `Self` is computed.

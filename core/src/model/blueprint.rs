@@ -1,6 +1,7 @@
 //! A model over formulas: the definition with all names linked, before numbers are put in.
 
 use super::definition::{Entry, Value};
+use super::functions::Functions;
 use super::items::Body;
 use super::link::Linker;
 use super::problem::Problem;
@@ -35,6 +36,8 @@ pub struct Blueprint {
     pub constraints: Vec<(String, Group, Constraint<Tape>)>,
     /// Forces, with their first-order states.
     pub forces: Vec<(String, &'static [OwnState], ForceElement<Tape>)>,
+    /// Laws that a host computes.
+    pub functions: Option<Functions>,
 }
 
 impl Blueprint {

@@ -39,6 +39,7 @@ pub fn build(
         bodies: bodies.clone(),
         constraints: Vec::new(),
         forces: Vec::new(),
+        functions: definition.functions.clone(),
     };
     for (group, entries) in [
         (Group::Joints, &definition.joints),
@@ -48,6 +49,10 @@ pub fn build(
         for entry in entries {
             blueprint.link(group, entry, &scope, &quantities, &mut problems);
         }
+    }
+    for (k, unit) in scope.units.take() {
+        let functions = blueprint.functions.iter_mut();
+        functions.for_each(|functions| functions.laws[k].unit.clone_from(&unit));
     }
     let model = Model::new(&Arc::new(blueprint), &values);
     // consequences of a faulty parameter are not reported; all other faults are reported at once

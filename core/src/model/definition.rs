@@ -1,5 +1,6 @@
 //! A model as written: names, numbers and formulas as text, in the order of the file.
 
+use super::functions::Functions;
 pub use crate::elements::Value;
 
 /// A named thing with its fields: a body, a joint, a force, an analysis.
@@ -39,4 +40,6 @@ pub struct Definition {
     pub drivers: Vec<Entry>,
     /// Forces.
     pub forces: Vec<Entry>,
+    /// Laws that a host computes; [`Value::Function`] contains the number of one.
+    pub functions: Option<Functions>,
 }

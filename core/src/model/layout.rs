@@ -108,15 +108,18 @@ pub struct StateLayout {
     pub constraints: Vec<Slots>,
     /// Places in z of the states of each force.
     pub states: Vec<Range<usize>>,
+    /// Places in z of the values of sampled laws, in the order of [`Functions::sampled`](super::Functions::sampled);
+    /// those of a force follow its states.
+    pub held: Vec<usize>,
 }
 
 impl StateLayout {
-    /// For the number of coordinates of each moving body, what the constraints touch, and the number of
-    /// states of each force.
+    /// For the number of coordinates of each moving body, what the constraints touch, and the number of states of each
+    /// force with its sampled laws.
     pub(super) fn new(
         bodies: impl Iterator<Item = usize>,
         constraints: &[Touched],
-        states: impl Iterator<Item = usize>,
+        states: impl Iterator<Item = (usize, Vec<usize>)>,
     ) -> Self {
         let mut layout =
             Self { n_works: WORKS, bodies: vec![Columns::default()], ..Self::default() };
@@ -128,10 +131,17 @@ impl StateLayout {
             let slots = layout.slots(touched);
             layout.constraints.push(slots);
         }
-        for count in states {
+        let mut held = Vec::new();
+        for (count, sampled) in states {
             layout.states.push(layout.n_z..layout.n_z + count);
             layout.n_z += count;
+            for law in sampled {
+                held.push((law, layout.n_z));
+                layout.n_z += 1;
+            }
         }
+        held.sort_unstable();
+        layout.held = held.into_iter().map(|(_, place)| place).collect();
         layout
     }
 

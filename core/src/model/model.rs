@@ -1,6 +1,7 @@
 //! A model as numbers: immutable, over any scalar.
 
 use super::blueprint::Blueprint;
+use super::functions::Functions;
 use super::items::{Body, ConstraintItem, ForceItem};
 use super::layout::{StateLayout, Touched};
 use super::switch::{Owner, Switch};
@@ -91,7 +92,11 @@ impl<S: Real> Model<S> {
         let bodies: Vec<Body<S>> = blueprint.bodies.iter().map(|body| body.map(value)).collect();
         let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
         let unknowns = bodies[1..].iter().map(|body| if body.turns { 3 } else { 2 });
-        let states = forces.iter().map(|item| item.states.len());
+        let states = forces.iter().map(|item| {
+            let sampled = blueprint.functions.iter().flat_map(Functions::sampled).enumerate();
+            let own = sampled.filter(|(_, (_, law, _))| law.element == item.name);
+            (item.states.len(), own.map(|(at, _)| at).collect())
+        });
         let layout = StateLayout::new(unknowns, &touched, states);
         Self {
             blueprint: Arc::clone(blueprint),

@@ -2,6 +2,7 @@
 
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
+use super::functions::Functions;
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
 use super::unit_check::check_unit;
@@ -23,8 +24,13 @@ pub struct Scope {
     pub tables: Vec<Arc<Table>>,
     /// Bodies, each with whether it has an angle; index 0 is ground.
     pub bodies: Vec<(String, bool)>,
-    /// First-order states of elements, such as `motor.current`, in the order of z.
+    /// First-order states, such as `motor.current`, in the order of z: those of each force, then the values of its
+    /// sampled laws.
     pub states: Vec<String>,
+    /// Laws that a host computes.
+    pub functions: Option<Functions>,
+    /// Units of the laws that were read so far, with their numbers.
+    pub units: RefCell<Vec<(usize, String)>>,
     places: Places,
 }
 
@@ -194,13 +200,17 @@ impl Scope {
         let moving = definition.bodies.iter().filter(|b| b.name != "ground");
         let states = definition.forces.iter().flat_map(|entry| {
             let names = states(entry).iter();
-            names.map(move |state| format!("{}.{}", entry.name, state.name))
+            let own = names.map(move |state| format!("{}.{}", entry.name, state.name));
+            let sampled = definition.functions.iter().flat_map(Functions::sampled);
+            let held = sampled.filter(|(_, law, _)| law.element == entry.name);
+            own.chain(held.map(|(_, law, _)| law.held()))
         });
         let bodies = std::iter::once(("ground".to_string(), true))
             .chain(moving.map(|b| (b.name.clone(), turns(b))))
             .collect();
         let parameters = definition.parameters.iter().map(|(name, _)| name.clone()).collect();
         let mut scope = Self::of(parameters, inferred, bodies, states.collect());
+        scope.functions.clone_from(&definition.functions);
         let constraints = definition.joints.iter().chain(&definition.drivers);
         scope.places.constraints = places(constraints.map(|entry| &entry.name));
         scope.places.forces = places(definition.forces.iter().map(|entry| &entry.name));
@@ -276,6 +286,7 @@ impl Scope {
                 return None;
             }
             Value::Text(text) => text,
+            Value::Function(k) if reach == Reach::State => return self.function(*k, unit),
             other => {
                 let message = format!("must be a number or a formula, not {}", other.noun());
                 problems.push(Problem::at(path, message));
@@ -302,6 +313,17 @@ impl Scope {
                 problems.push(at.maybe_hint(fault.hint));
             })
             .ok()
+    }
+
+    /// A law that a host computes: the value of a sampled one is a first-order state.
+    fn function(&self, k: usize, unit: &str) -> Option<Tape> {
+        let law = self.functions.as_ref()?.laws.get(k)?;
+        self.units.borrow_mut().push((k, unit.to_string()));
+        let variable = match law.sampling {
+            Some(_) => Variable::State(*self.places.states.get(&law.held())?),
+            None => Variable::Function(k),
+        };
+        Some(Tape::of(Symbol::Variable(variable.index())))
     }
 
     fn dimension(&self, symbol: Symbol) -> Inferred {

@@ -10,14 +10,17 @@ pub enum Variable {
     Coordinate(BodyId, Coordinate),
     /// A first-order state of an element, by its place in z.
     State(usize),
+    /// A law that a host computes, by its number.
+    Function(usize),
 }
 
 impl Variable {
-    /// The index in a formula: even for coordinates, six to a body; odd for states.
+    /// The index in a formula: even for coordinates, six to a body; odd for states and functions.
     pub fn index(self) -> usize {
         match self {
             Self::Coordinate(body, coordinate) => 2 * (6 * body.0 + coordinate as usize),
-            Self::State(k) => 2 * k + 1,
+            Self::State(k) => 4 * k + 1,
+            Self::Function(k) => 4 * k + 3,
         }
     }
 
@@ -25,7 +28,8 @@ impl Variable {
     pub fn at(index: usize) -> Self {
         match index % 2 {
             0 => Self::Coordinate(BodyId(index / 12), Coordinate::ALL[index / 2 % 6]),
-            _ => Self::State(index / 2),
+            _ if index % 4 == 1 => Self::State(index / 4),
+            _ => Self::Function(index / 4),
         }
     }
 }
@@ -39,6 +43,8 @@ pub struct Dependence {
     pub bodies: Vec<BodyId>,
     /// On these first-order states, by their places in z.
     pub states: Vec<usize>,
+    /// On the whole state, by a function of a host.
+    pub whole: bool,
 }
 
 impl Dependence {
@@ -51,6 +57,7 @@ impl Dependence {
                 Symbol::Variable(k) => match Variable::at(*k) {
                     Variable::Coordinate(body, _) => self.bodies.push(body),
                     Variable::State(k) => self.states.push(k),
+                    Variable::Function(_) => self.whole = true,
                 },
             }
         }
@@ -58,7 +65,7 @@ impl Dependence {
 
     /// Whether anything varies.
     pub fn any(&self) -> bool {
-        self.time || !self.bodies.is_empty() || !self.states.is_empty()
+        self.time || self.whole || !self.bodies.is_empty() || !self.states.is_empty()
     }
 }
 
@@ -71,7 +78,9 @@ mod tests {
         let mut seen = std::collections::BTreeSet::new();
         for k in 0..20 {
             let coordinates = Coordinate::ALL.map(|c| Variable::Coordinate(BodyId(k), c));
-            for variable in coordinates.into_iter().chain([Variable::State(k)]) {
+            for variable in
+                coordinates.into_iter().chain([Variable::State(k), Variable::Function(k)])
+            {
                 assert_eq!(Variable::at(variable.index()), variable);
                 assert!(seen.insert(variable.index()), "{variable:?}");
             }

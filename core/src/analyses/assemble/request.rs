@@ -3,7 +3,9 @@
 use crate::analyses::State;
 use crate::elements::{BodyId, Coordinate};
 use crate::equations::at;
-use crate::model::{did_you_mean, Model, Problem, Reach, Scope, Value, ANY_UNIT, MOST_REPORTED};
+use crate::model::{
+    did_you_mean, Functions, Model, Problem, Reach, Scope, Value, ANY_UNIT, MOST_REPORTED,
+};
 use std::collections::HashMap;
 
 /// A value given for a coordinate or a rate of a body.
@@ -157,6 +159,10 @@ impl<'a> Names<'a> {
 fn state(names: &Names<'_>, key: &str) -> Option<Named> {
     let (element, name) = key.rsplit_once('.')?;
     let (model, k) = (names.model, *names.forces.get(element)?);
+    let sampled = model.blueprint.functions.iter().flat_map(Functions::sampled);
+    if let Some(place) = sampled.into_iter().position(|(_, law, _)| law.held() == key) {
+        return Some(Named { of: Quantity::State(model.layout.held[place]), unit: ANY_UNIT });
+    }
     let at = model.forces[k].states.iter().position(|state| state.name == name)?;
     let place = model.layout.states[k].start + at;
     Some(Named { of: Quantity::State(place), unit: model.forces[k].states[at].unit })

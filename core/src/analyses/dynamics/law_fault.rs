@@ -46,6 +46,7 @@ fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<LawFaul
         let known = |k: &usize| match Variable::at(*k) {
             Variable::State(k) => k < z.len(),
             Variable::Coordinate(..) => true,
+            Variable::Function(_) => false,
         };
         let finite = !tape.variables().all(|k| known(&k)) || tape.evaluate(&values).is_finite();
         (!finite).then(|| tape.refusal(&values))

@@ -51,6 +51,7 @@ mod recorder;
 mod report_projection;
 mod run;
 mod run_results;
+mod sampling;
 mod setting;
 mod singularity_forecast;
 mod singularity_passage;

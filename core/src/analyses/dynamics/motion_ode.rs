@@ -1,6 +1,7 @@
 //! The equations of motion as a first-order system y = (q, v, z, works).
 
 use super::options::Options;
+use super::sampling::Sample;
 use super::singularity_passage::{would_pass, SingularityPassage};
 use super::stabilizations::Stabilization;
 use crate::analyses::mobility;
@@ -52,7 +53,7 @@ impl<'a> MotionOde<'a> {
     }
 
     /// Projects the state at the start of a run or of a phase, if projection is an option of the run; with
-    /// `velocities`, the velocities in any case. Fails if the constraints are redundant.
+    /// `velocities`, the velocities in any case. Then computes the laws with a sample there. Fails if the constraints are redundant.
     ///
     /// # Errors
     /// [`Breakdown`].
@@ -68,6 +69,9 @@ impl<'a> MotionOde<'a> {
             projector.project_velocities(&mut self.workspace, t, (q, v))?;
         }
         self.project_state(t, y, false)?;
+        if let Some(sample) = Sample::take(self.model, t, y) {
+            sample.put(self.model, y);
+        }
         self.begin(t, y)
     }
 

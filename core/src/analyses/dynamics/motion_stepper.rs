@@ -6,6 +6,7 @@ use super::methods::Scheme;
 use super::motion_dae::MotionDae;
 use super::motion_ode::MotionOde;
 use super::options::Options;
+use super::sampling::Sample;
 use super::stiffness_detection::MethodChoice;
 use super::switch_schedule::Schedule;
 use super::switching::{After, Switching};
@@ -27,6 +28,8 @@ pub(super) struct MotionStepper<'a> {
     kind: Kind<'a>,
     /// None for a model without switches.
     switching: Option<Box<Switching>>,
+    /// The last sample of sampled laws.
+    sample: Option<Sample>,
     /// Accepted steps that were taken again.
     taken_again: usize,
 }
@@ -62,7 +65,7 @@ impl<'a> MotionStepper<'a> {
             }
         };
         let switching = Switching::new(&mut ode, schedule, t, options.t_end, y).map(Box::new);
-        let mut stepper = Self { ode, kind, switching, taken_again: 0 };
+        let mut stepper = Self { ode, kind, switching, sample: None, taken_again: 0 };
         if stepper.switching.is_some() {
             stepper.go_on_from(t, y)?;
         }
@@ -80,10 +83,15 @@ impl<'a> MotionStepper<'a> {
     fn step_to_switch(&mut self, switching: &mut Switching) -> Result<(), Cause<Breakdown>> {
         let t = self.t();
         if switching.is_due(t) {
-            let y = self.y().to_vec();
+            let mut y = self.y().to_vec();
+            self.take_sample(switching);
+            if let Some(sample) = &self.sample {
+                sample.put(self.ode.model, &mut y);
+            }
             switching.pass(&mut self.ode, t, &y)?;
             self.hold(switching, t, &y)?;
         }
+        self.sample = None;
         loop {
             self.advance()?;
             if !switching.scans() {
@@ -99,6 +107,22 @@ impl<'a> MotionStepper<'a> {
             }
             self.taken_again += 1;
             self.hold(switching, t_old, &y_old)?;
+        }
+    }
+
+    /// The sample at the end of the last step, from which the next step begins.
+    pub fn sample(&mut self) -> Option<&Sample> {
+        let switching = self.switching.take()?;
+        self.take_sample(&switching);
+        self.switching = Some(switching);
+        self.sample.as_ref()
+    }
+
+    /// Computes the sampled laws, once, where the last step ended at a sample.
+    fn take_sample(&mut self, switching: &Switching) {
+        let t = self.t();
+        if switching.schedule.samples_at(t) && self.sample.is_none() {
+            self.sample = Sample::take(self.ode.model, t, self.y());
         }
     }
 
@@ -170,6 +194,7 @@ impl<'a> MotionStepper<'a> {
 
     /// Goes on from a state `y` at a time `t` within the last step.
     pub fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
+        self.sample = None;
         if let Some(switching) = &mut self.switching {
             switching.restart(&mut self.ode, t, y);
             return self.go_on_from(t, y);

@@ -6,6 +6,7 @@ use super::methods::Scheme;
 use super::motion_ode::MotionOde;
 use super::options::Options;
 use super::report_projection::ReportProjection;
+use super::sampling::Sample;
 use super::trajectory::{PiecewiseInterpolant, Trajectory};
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
@@ -77,6 +78,8 @@ pub(super) struct Recorder<'a> {
     one: ReportProjection<'a>,
     /// The same for the states of a grid, if they are many.
     many: Option<LaneBatch<'a>>,
+    /// The sample at the end of the last step; states reported there have its values.
+    pub sample: Option<Sample>,
     /// The breakdown that stops it, and its time.
     pub breakdown: Option<(f64, Breakdown)>,
 }
@@ -107,6 +110,7 @@ impl<'a> Recorder<'a> {
             coefficients: Vec::new(),
             one: ReportProjection::new(model, options, system.workspace.clone()),
             many: wide.map(|wide| LaneBatch::new(wide, options, &system.workspace)),
+            sample: None,
             breakdown: None,
         };
         recorder.go_on_beyond(t);
@@ -136,6 +140,11 @@ impl<'a> Recorder<'a> {
 
     /// Reports the state of a step at a time between its ends; a failure may appear later, when it is projected.
     fn report_between(&mut self, step: &Step<'_>, t: f64) -> Flow {
+        if self.sample.as_ref().is_some_and(|sample| sample.reaches(t)) {
+            let flow = self.flush();
+            step.interpolate(t, &mut self.y);
+            return if flow == Flow::Continue { self.report_alone(t) } else { flow };
+        }
         let Some(batch) = &mut self.many else {
             step.interpolate(t, &mut self.y);
             return self.report_alone(t);
@@ -185,7 +194,15 @@ impl<'a> Recorder<'a> {
         if !all_finite(y) {
             return self.stop(t, Breakdown::NotFinite);
         }
-        self.trajectory.add(&self.one.model.layout, t, y);
+        let layout = &self.one.model.layout;
+        match self.sample.as_ref().filter(|sample| sample.reaches(t)) {
+            Some(sample) => {
+                let mut after = y.to_vec();
+                sample.put(self.one.model, &mut after);
+                self.trajectory.add(layout, t, &after);
+            }
+            None => self.trajectory.add(layout, t, y),
+        }
         Flow::Continue
     }
 

@@ -242,6 +242,7 @@ fn next_step<W: FnMut(f64) -> Flow>(
     if events.is_some() || look.is_some() || recorder.looks_inside(stepper.t()) {
         stepper.prepare_interpolant()?;
     }
+    recorder.sample = stepper.sample().cloned();
     let step = stepper.last_step().expect("a step was taken");
     let found = events.as_mut().map(|events| events.look(model, &step, recorder.t_end));
     let happened = match found {

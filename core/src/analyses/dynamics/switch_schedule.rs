@@ -2,6 +2,7 @@
 
 use super::failure::{Failure, Reason};
 use super::law_jump::{owner_name, Jump, SMOOTH};
+use super::sampling;
 use crate::equations::kinematics::Motions;
 use crate::expression::{pieces_at, switch_times, Tape};
 use crate::model::{Model, Owner};
@@ -15,6 +16,8 @@ pub(super) struct Schedule {
     pub start: Vec<f64>,
     /// The times in the order of the run, each with the switches that change and their new pieces.
     pub times: Vec<(f64, Vec<(usize, f64)>)>,
+    /// Those at which sampled laws are computed.
+    pub samples: Vec<f64>,
 }
 
 impl Schedule {
@@ -23,8 +26,10 @@ impl Schedule {
     /// # Errors
     /// More switches than a run can step to; a joint or driver with a law that jumps at one.
     pub fn new(model: &Model, (t0, t_end): (f64, f64)) -> Result<Self, Box<Failure>> {
+        let samples = sampling::times(model, (t0, t_end))?;
         if model.switches.is_empty() {
-            return Ok(Self::default());
+            let times = samples.iter().map(|t| (*t, Vec::new())).collect();
+            return Ok(Self { times, samples, ..Self::default() });
         }
         let mut tapes: Vec<Tape> = Vec::new();
         let mut keep = |tape: &Tape| {
@@ -44,20 +49,28 @@ impl Schedule {
             let found = switch_times(tape, &model.parameters, ends, &mut times);
             found.map_err(|_| too_many(model, tape, t0))?;
         }
-        times.sort_by(f64::total_cmp);
         let apart = TOGETHER * ends[0].abs().max(ends[1].abs());
+        times.retain(|t| samples.iter().all(|sample| (t - sample).abs() > apart));
+        times.sort_by(f64::total_cmp);
         times.dedup_by(|b, a| *b - *a <= apart);
         times.retain(|t| t - ends[0] > apart && ends[1] - t > apart);
+        times.extend(&samples);
+        times.sort_by(f64::total_cmp);
         if t_end < t0 {
             times.reverse();
         }
-        let schedule = Self::of(model, &tapes, &times, [t0, t_end]);
+        let schedule = Self::of(model, &tapes, (&times, samples), [t0, t_end]);
         schedule.check(model)?;
         Ok(schedule)
     }
 
     /// The changes of pieces at the times.
-    fn of(model: &Model, tapes: &[Tape], times: &[f64], [t0, t_end]: [f64; 2]) -> Self {
+    fn of(
+        model: &Model,
+        tapes: &[Tape],
+        (times, samples): (&[f64], Vec<f64>),
+        [t0, t_end]: [f64; 2],
+    ) -> Self {
         let pieces_between = |a: f64, b: f64| {
             let mut pieces = vec![f64::NAN; model.switches.len()];
             for tape in tapes {
@@ -68,18 +81,29 @@ impl Schedule {
         };
         let end_of = |k: usize| times.get(k).copied().unwrap_or(t_end);
         let start = pieces_between(t0, end_of(0));
-        let mut schedule = Self { start: start.clone(), times: Vec::new() };
+        let mut schedule = Self { start: start.clone(), times: Vec::new(), samples };
         let mut now = start;
         for (k, t) in times.iter().enumerate() {
             let next = pieces_between(*t, end_of(k + 1));
             let changes = (0..now.len()).filter(|s| now[*s].to_bits() != next[*s].to_bits());
             let changes: Vec<_> = changes.map(|s| (s, next[s])).collect();
-            if !changes.is_empty() {
+            if !changes.is_empty() || schedule.samples_at(*t) {
                 schedule.times.push((*t, changes));
             }
             now = next;
         }
         schedule
+    }
+
+    /// Keeps only some times.
+    pub fn keep(&mut self, keeps: impl Fn(f64) -> bool) {
+        self.times.retain(|(t, _)| keeps(*t));
+        self.samples.retain(|t| keeps(*t));
+    }
+
+    /// Whether sampled laws are computed at `t`.
+    pub fn samples_at(&self, t: f64) -> bool {
+        self.samples.binary_search_by(|sample| sample.total_cmp(&t)).is_ok()
     }
 
     /// Refuses a law of a joint or driver that jumps; a law that depends on the state too is checked in the run.

@@ -62,7 +62,7 @@ pub(super) enum After {
 
 /// The switches of a run.
 pub(super) struct Switching {
-    schedule: Schedule,
+    pub schedule: Schedule,
     /// The next entry of the schedule.
     next: usize,
     t_end: f64,
@@ -181,7 +181,7 @@ impl Switching {
     /// Ends the run, or the phase, at another time.
     pub fn set_end(&mut self, t_end: f64) {
         (self.t_end, self.due) = (t_end, None);
-        self.schedule.times.retain(|(t, _)| self.sign * (t_end - t) > 0.0);
+        self.schedule.keep(|t| self.sign * (t_end - t) > 0.0);
     }
 
     /// Continues from another state: the pieces of the switches on the state are those at `y`.

@@ -1,0 +1,146 @@
+"""Python functions as laws of forces, in models that are not saved."""
+
+from __future__ import annotations
+
+import weakref
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
+
+from kempe.arrays import Floats
+from kempe.errors import ModelError, Problem
+
+if TYPE_CHECKING:
+    from kempe.compiled import CompiledModel
+    from kempe.state import State
+
+#: A law ``f(t, state)``.
+Function: TypeAlias = "Callable[[float, State], float]"
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A law that is computed at ``start + k * period``, k = 0, 1, 2, …, and held between.
+
+    Steps of every method end at these times. The value that is held is a first-order state of the
+    force, such as ``controller.torque_held``; it is 0 before the first sample.
+
+    Args:
+        f: the function ``f(t, state)``, called once at each sample with the state there.
+        period: time between two samples, s.
+        start: time of the first sample, s.
+
+    Raises:
+        ModelError: ``f`` is not a function, or a number is invalid.
+    """
+
+    f: Function
+    period: float
+    start: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check the fields."""
+        from kempe.values import number, refuse
+
+        if not callable(self.f):
+            refuse("Sampled.f", f"{self.f!r} is not a function f(t, state)")
+        for field in ("period", "start"):
+            value = number(getattr(self, field), f"Sampled.{field}")
+            if isinstance(value, str):
+                refuse(f"Sampled.{field}", f"{value!r} is not a number")
+            object.__setattr__(self, field, float(value))
+        if self.period <= 0.0:
+            refuse("Sampled.period", f"{self.period:g} s; must be > 0")
+
+
+class FunctionLaw:
+    """A Python function in the place of a law in the tree of a model.
+
+    Attributes:
+        path: such as ``forces.controller.torque``.
+        f: the function.
+        sampling: period and start; None if it is called at each evaluation.
+    """
+
+    def __init__(self, path: str, given: Function | Sampled) -> None:
+        self.path = path
+        sampled = isinstance(given, Sampled)
+        self.f = given.f if sampled else given  # type: ignore[union-attr]
+        self.sampling = (given.period, given.start) if sampled else None  # type: ignore[union-attr]
+
+    def __deepcopy__(self, memo: object) -> FunctionLaw:
+        return self  # a copied model calls the same function
+
+    def __reduce__(self) -> NoReturn:
+        refuse_saving([self])
+
+    def __repr__(self) -> str:
+        name = getattr(self.f, "__name__", type(self.f).__name__)
+        return f"<Python function {name!r}>"
+
+
+def refuse_saving(laws: list[FunctionLaw]) -> NoReturn:
+    """Raise the ``ModelError`` for a model with Python functions that should be written."""
+    named = ", ".join(law.path for law in laws)
+    is_one = len(laws) == 1
+    what = f"is a Python function, {laws[0]!r}" if is_one else "are Python functions"
+    raise ModelError(
+        f"{named} {what}, which cannot be saved or pickled",
+        hint=f"write {'a formula or a table in its' if is_one else 'formulas or tables in their'} "
+        "place, or save the arrays of the solution",
+        problems=tuple(Problem(f"{law!r} cannot be saved", law.path) for law in laws),
+    )
+
+
+def without(value: Any) -> Any:
+    """A tree with a text in the place of each function."""
+    if isinstance(value, Mapping):
+        return {key: without(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [without(entry) for entry in value]
+    return repr(value) if isinstance(value, FunctionLaw) else value
+
+
+class Functions:
+    """The functions of a model, as the core calls them.
+
+    Attributes:
+        laws: the functions with their places: element, field, number of the entry in a list.
+    """
+
+    def __init__(self, tree: Mapping[str, Any]) -> None:
+        self.laws = list(_found(tree))
+        self._compiled: Callable[[], CompiledModel | None] = lambda: None
+
+    def listed(self) -> list[FunctionLaw]:
+        """The functions."""
+        return [law for _, _, _, law in self.laws]
+
+    def described(self) -> list[tuple[Any, ...]]:
+        """For the core: element, field, number of the entry, function, period and start."""
+        return [(*place, law.f, law.sampling) for *place, law in self.laws]
+
+    def belong_to(self, compiled: CompiledModel) -> None:
+        """States are those of this model; it is not kept alive by its own functions."""
+        self._compiled = weakref.ref(compiled)
+
+    def state(self, x: Floats) -> State:
+        """The state with t, q, v and z."""
+        from kempe.state import State
+
+        compiled = self._compiled()
+        if compiled is None:
+            raise ModelError("the model of this function no longer exists")
+        n = 1 + compiled.n_q
+        v, z = x[n : n + compiled.n_q], x[n + compiled.n_q :]
+        return State(compiled, x[0], x[1:n], v, z=z)
+
+
+def _found(tree: Mapping[str, Any]) -> Iterator[tuple[str, str, int | None, FunctionLaw]]:
+    for name, entry in tree["forces"].items():
+        for field, value in entry.items() if isinstance(entry, Mapping) else ():
+            if isinstance(value, FunctionLaw):
+                yield name, field, None, value
+            for k, part in enumerate(value) if isinstance(value, list | tuple) else ():
+                if isinstance(part, FunctionLaw):
+                    yield name, field, k, part
