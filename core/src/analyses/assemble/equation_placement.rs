@@ -4,8 +4,9 @@
 use super::legs::Leg;
 use super::placer::Placer;
 use super::slider_placement::Rail;
-use crate::elements::{At, Fixes};
-use crate::math::{Local, Pose, Rotation, Vec2};
+use crate::elements::{At, BodyId, Coordinate, Fixes};
+use crate::equations::Laws;
+use crate::math::{Local, Pose, Rotation, Twist, Vec2};
 
 /// Angles at which an equation is evaluated to find the signs of its solutions.
 const SAMPLES: usize = 72;
@@ -40,7 +41,16 @@ impl Placer<'_> {
         let place = |body: usize| if body == b { Some(*pose) } else { self.poses[body] };
         let bodies: Option<Vec<Pose>> = item.bodies.iter().map(|body| place(body.0)).collect();
         let mut phi = vec![0.0; item.equations.len()];
-        item.element.residual(&At { bodies: &bodies?, own: &[], t: 0.0 }, &mut phi);
+        let (bodies, t) = (bodies?, self.targets.t);
+        let coordinate = |body: BodyId, coordinate: Coordinate| {
+            let end = item.bodies.iter().position(|known| *known == body);
+            end.map_or(f64::NAN, |end| coordinate.of(&bodies[end], &Twist::zero()))
+        };
+        let parameters = &self.equations.model.parameters;
+        let laws = Laws { parameters, t, coordinate, z: &[], pieces: &[] };
+        let varying = item.law.as_ref().map(|law| law.map(&mut |tape| tape.evaluate(&laws)));
+        let element = varying.as_ref().unwrap_or(&item.element);
+        element.residual(&At { bodies: &bodies, own: &[], t }, &mut phi);
         Some(phi)
     }
 
