@@ -1,8 +1,8 @@
 //! A curve whose components are formulas in u and the parameters.
 
-use crate::expression::{Tape, Values};
+use crate::expression::{switch_places, Knots, Tape, Values};
 use crate::math::{Dual, Jet, Lift, Local, Real};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// x(u) and y(u).
 #[derive(Clone, Debug)]
@@ -14,6 +14,8 @@ pub struct Formula<S = f64> {
     pub range: [S; 2],
     /// Whether it repeats itself beyond them.
     pub periodic: bool,
+    /// SI unit of u.
+    pub unit: &'static str,
 }
 
 /// The formulas, and the indices of the parameters that they use.
@@ -22,16 +24,29 @@ struct Written {
     x: Tape,
     y: Tape,
     parameters: Vec<usize>,
+    /// The latest breaks, for the range and the parameters.
+    breaks: Mutex<Option<(Vec<f64>, Option<Arc<Knots>>)>>,
 }
 
 impl Formula<Tape> {
-    /// From formulas in u, the only variable, and in parameters of a model.
+    /// From formulas in u, the only variable, which has no unit, and in parameters of a model.
     pub fn new(x: Tape, y: Tape, range: [Tape; 2], periodic: bool) -> Self {
         let mut parameters: Vec<usize> = x.parameters().chain(y.parameters()).collect();
         parameters.sort_unstable();
         parameters.dedup();
         let values = parameters.iter().map(|k| Tape::parameter(*k)).collect();
-        Self { written: Arc::new(Written { x, y, parameters }), values, range, periodic }
+        Self {
+            written: Arc::new(Written { x, y, parameters, breaks: Mutex::default() }),
+            values,
+            range,
+            periodic,
+            unit: "1",
+        }
+    }
+
+    /// The same with u as the polar angle.
+    pub fn polar(self) -> Self {
+        Self { unit: "rad", ..self }
     }
 }
 
@@ -43,6 +58,7 @@ impl<S> Formula<S> {
             values: self.values.iter().map(&mut *f).collect(),
             range: self.range.each_ref().map(f),
             periodic: self.periodic,
+            unit: self.unit,
         }
     }
 }
@@ -87,5 +103,42 @@ impl<S: Real> Formula<S> {
         };
         let (x, y) = (part(&self.written.x), part(&self.written.y));
         std::array::from_fn(|n| Local::new(x[n], y[n]))
+    }
+}
+
+impl<S: Real> Formula<S> {
+    /// The places of u at which a condition of a formula changes, and the seam of a periodic curve with conditions; of
+    /// the first lane of the scalar.
+    pub(super) fn breaks(&self) -> Option<Arc<Knots>> {
+        let written = &self.written;
+        if written.x.switches().is_empty() && written.y.switches().is_empty() {
+            return None;
+        }
+        let numbers = self.range.iter().chain(&self.values).map(|x| x.in_lanes()[0]);
+        let numbers: Vec<f64> = numbers.collect();
+        let mut known = written.breaks.lock().unwrap_or_else(PoisonError::into_inner);
+        if known.as_ref().is_none_or(|(of, _)| *of != numbers) {
+            *known = Some((numbers.clone(), self.search(&numbers)));
+        }
+        known.as_ref().and_then(|(_, knots)| knots.clone())
+    }
+
+    fn search(&self, numbers: &[f64]) -> Option<Arc<Knots>> {
+        let (range, values) = numbers.split_at(2);
+        let [a, b] = [range[0], range[1]];
+        let count = self.written.parameters.last().map_or(0, |last| last + 1);
+        let mut parameters = vec![f64::NAN; count];
+        let places = self.written.parameters.iter().zip(values);
+        places.for_each(|(place, value)| parameters[*place] = *value);
+        let mut all = Vec::new();
+        for tape in [&self.written.x, &self.written.y] {
+            switch_places(tape, &parameters, [a, b], &mut all).ok()?;
+        }
+        all.extend((self.periodic && !all.is_empty()).then_some(a));
+        all.sort_by(f64::total_cmp);
+        let together = 1e-12 * (b - a);
+        all.dedup_by(|later, earlier| *later - *earlier <= together);
+        let period = self.periodic.then_some(b - a);
+        (!all.is_empty()).then(|| Arc::new(Knots::new(all, period)))
     }
 }

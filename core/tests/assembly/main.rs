@@ -10,6 +10,7 @@ mod contradictions;
 mod drivers;
 mod equations;
 mod failures;
+mod followers;
 mod large;
 mod quantities;
 mod redundancy;

@@ -21,7 +21,8 @@ impl<'a> ByEquation<'a> {
             let has = |wanted: fn(&Fixes<f64>) -> bool| fixes.iter().any(wanted);
             let otherwise = has(|f| matches!(f, Fixes::Points | Fixes::Coordinate(..)))
                 || has(|f| *f == Fixes::Line) && has(|f| *f == Fixes::Direction);
-            if !otherwise && is_of_its_bodies(item) && item.element.own() == 0 {
+            let placed = item.element.own() == 0 || has(|f| *f == Fixes::Contact);
+            if !otherwise && is_of_its_bodies(item) && placed {
                 item.bodies.iter().filter(|b| !b.is_ground()).for_each(|b| of[b.0].push(k));
                 for (a, b) in
                     item.bodies.iter().flat_map(|a| item.bodies.iter().map(move |b| (a, b)))

@@ -9,20 +9,20 @@ use crate::equations::Laws;
 use crate::math::{Local, Pose, Rotation, Twist, Vec2};
 
 /// Angles at which an equation is evaluated to find the signs of its solutions.
-const SAMPLES: usize = 72;
+pub(super) const SAMPLES: usize = 72;
 /// Largest change of an equation, over the size, that counts as none.
-const NOTHING: f64 = 1e-9;
+pub(super) const NOTHING: f64 = 1e-9;
 /// Smallest component of a line along a coordinate with which the coordinate decides the place.
 const ACROSS: f64 = 1e-9;
 
 /// The freedom that a body has left.
-enum Freedom {
+pub(super) enum Freedom {
     Turn(Leg, Vec2),
     Slide(Rail),
 }
 
 impl Freedom {
-    fn pose(&self, x: f64) -> Pose {
+    pub fn pose(&self, x: f64) -> Pose {
         match self {
             Self::Slide(rail) => rail.at(x),
             Self::Turn(leg, target) => {
@@ -76,6 +76,9 @@ impl Placer<'_> {
     /// The poses at which an equation of constraint `k` holds, the preferred first.
     fn solutions(&self, k: usize, b: usize, freedom: &Freedom) -> Vec<Pose> {
         let fixes = self.equations.model.constraints[k].element.fixes();
+        if fixes.contains(&Fixes::Contact) {
+            return self.contacts(k, b, freedom);
+        }
         let Some(m) = self.phi(k, b, &freedom.pose(0.0)).map(|phi| phi.len()) else {
             return Vec::new();
         };
@@ -229,6 +232,16 @@ fn newton(f: impl Fn(f64) -> f64, start: f64, scale: f64) -> Option<f64> {
 fn around(f: impl Fn(f64) -> f64, nothing: f64) -> Vec<f64> {
     // no round angle is a sample: solutions are often round
     let at = |k: usize| std::f64::consts::TAU * ((k as f64 + 0.377) / SAMPLES as f64 - 0.5);
+    zeros(f, at, (nothing, 60))
+}
+
+/// The zeros of `f` between samples of opposite sign at the places `at` of 0 to [`SAMPLES`], which are halved until they
+/// meet. None of a constant.
+pub(super) fn zeros(
+    f: impl Fn(f64) -> f64,
+    at: impl Fn(usize) -> f64,
+    (nothing, halvings): (f64, usize),
+) -> Vec<f64> {
     let values: Vec<f64> = (0..=SAMPLES).map(|k| f(at(k))).collect();
     let spread = values.iter().fold(0.0, |most: f64, v| most.max((v - values[0]).abs()));
     if spread.is_nan() || spread <= nothing {
@@ -237,7 +250,7 @@ fn around(f: impl Fn(f64) -> f64, nothing: f64) -> Vec<f64> {
     let crossing = (0..SAMPLES).filter(|k| (values[*k] <= 0.0) != (values[k + 1] <= 0.0));
     let halved = crossing.filter_map(|k| {
         let [mut low, mut high] = [at(k), at(k + 1)];
-        for _ in 0..60 {
+        for _ in 0..halvings {
             let middle = 0.5 * (low + high);
             match (f(middle) <= 0.0) == (values[k] <= 0.0) {
                 true => low = middle,

@@ -10,6 +10,7 @@
 mod angle_winding;
 mod attempt;
 mod by_equation;
+mod contact_placement;
 mod contradiction;
 mod dyad;
 mod dyad_placement;
