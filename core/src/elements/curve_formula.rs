@@ -66,42 +66,61 @@ impl<S> Formula<S> {
 /// u with its derivatives to third order by a variable.
 type Third<S> = Jet<Dual<1, S>>;
 
-/// The names of the formulas.
-struct Named<'a, S> {
+/// The names of the formulas, over a scalar `T` that contains `S`.
+struct Named<'a, S, T> {
     parameters: &'a [usize],
     values: &'a [S],
-    u: Third<S>,
+    u: T,
+    lift: fn(S) -> T,
 }
 
-impl<S: Real> Values<Third<S>> for Named<'_, S> {
-    fn parameter(&self, k: usize) -> Third<S> {
+impl<S: Real, T: Real> Values<T> for Named<'_, S, T> {
+    fn parameter(&self, k: usize) -> T {
         let place = self.parameters.binary_search(&k).expect("a parameter of the formula");
-        Jet::lift(Dual::lift(self.values[place]))
+        (self.lift)(self.values[place])
     }
-    fn time(&self) -> Third<S> {
-        Jet::constant(f64::NAN)
+    fn time(&self) -> T {
+        T::constant(f64::NAN)
     }
-    fn variable(&self, _: usize) -> Third<S> {
+    fn variable(&self, _: usize) -> T {
         self.u
     }
 }
 
 impl<S: Real> Formula<S> {
-    /// C, C′, C″ and C‴ at u.
-    pub(super) fn derivatives(&self, u: S) -> [Local<S>; 4] {
+    /// u within the range, to which the formulas of a periodic curve belong.
+    fn within(&self, u: S) -> S {
         let [a, b] = self.range;
-        let u = match self.periodic {
-            // the formulas are those of the range
+        match self.periodic {
             true => u - ((u - a) / (b - a)).floor() * (b - a),
             false => u,
-        };
-        let u = Jet::new(Dual::variable(u, 0), Dual::one(), Dual::zero());
-        let named = Named { parameters: &self.written.parameters, values: &self.values, u };
-        let part = |tape: &Tape| {
-            let jet = tape.evaluate(&named);
-            [jet.value.value, jet.rate.value, jet.second.value, jet.second.slope[0]]
-        };
-        let (x, y) = (part(&self.written.x), part(&self.written.y));
+        }
+    }
+
+    /// x and y over a scalar that contains `S`.
+    fn both<T: Real>(&self, u: T, lift: fn(S) -> T) -> [T; 2] {
+        let named = Named { parameters: &self.written.parameters, values: &self.values, u, lift };
+        [&self.written.x, &self.written.y].map(|tape| tape.evaluate(&named))
+    }
+
+    /// C at u.
+    pub(super) fn point(&self, u: S) -> Local<S> {
+        let [x, y] = self.both(self.within(u), |x| x);
+        Local::new(x, y)
+    }
+
+    /// C and C′ at u.
+    pub(super) fn tangent(&self, u: S) -> [Local<S>; 2] {
+        let [x, y] = self.both(Dual::<1, S>::variable(self.within(u), 0), Dual::lift);
+        [Local::new(x.value, y.value), Local::new(x.slope[0], y.slope[0])]
+    }
+
+    /// C, C′, C″ and C‴ at u.
+    pub(super) fn derivatives(&self, u: S) -> [Local<S>; 4] {
+        let u: Third<S> = Jet::new(Dual::variable(self.within(u), 0), Dual::one(), Dual::zero());
+        let [x, y] = self
+            .both(u, |x| Jet::lift(Dual::lift(x)))
+            .map(|jet| [jet.value.value, jet.rate.value, jet.second.value, jet.second.slope[0]]);
         std::array::from_fn(|n| Local::new(x[n], y[n]))
     }
 }

@@ -189,7 +189,21 @@ impl<S: Real> Curve<S> {
 
     /// C at u.
     pub fn point(&self, u: S) -> Local<S> {
-        self.derivatives(u)[0]
+        match self {
+            Self::Formula(formula) => formula.point(u),
+            other => other.derivatives(u)[0],
+        }
+    }
+
+    /// C and C′ at u.
+    pub fn tangent(&self, u: S) -> [Local<S>; 2] {
+        match self {
+            Self::Formula(formula) => formula.tangent(u),
+            other => {
+                let [point, first, ..] = other.derivatives(u);
+                [point, first]
+            }
+        }
     }
 
     /// The cubic with the derivatives of the curve at u. Derivatives of order 0 to 3 of both agree there.

@@ -3,7 +3,7 @@
 //! For a pose of the body, the internal coordinate u takes its nearest value. The part of Φ across ∂Φ/∂u then is the
 //! distance of the bodies, with a sign. It is sampled along the freedom; its zeros are the places of contact.
 
-use super::equation_placement::{zeros, Freedom, NOTHING, SAMPLES};
+use super::equation_placement::{zeros, Freedom, NOTHING};
 use super::placer::Placer;
 use crate::elements::At;
 use crate::math::{Pose, Vec2};
@@ -13,7 +13,9 @@ use std::f64::consts::PI;
 /// remains.
 const TOUCHES: f64 = 1e-3;
 /// Halvings of an interval with a contact; each searches the nearest u.
-const HALVINGS: usize = 24;
+const HALVINGS: i32 = 12;
+/// Places along the freedom.
+const PLACES: usize = 48;
 /// Half of the length along a slide in which contacts are looked for, as a multiple of the reach of the curve.
 const FAR: f64 = 3.0;
 
@@ -36,9 +38,9 @@ impl Placer<'_> {
             Freedom::Turn(..) => self.targets.value(b, 2).unwrap_or(0.0),
         };
         let half = if matches!(freedom, Freedom::Turn(..)) { PI } else { FAR * reach };
-        let at = |k: usize| from + 2.0 * half * ((k as f64 + 0.377) / SAMPLES as f64 - 0.5);
+        let at = |k: usize| from + 2.0 * half * ((k as f64 + 0.377) / PLACES as f64 - 0.5);
         let gap = |x: f64| self.distance(k, b, &freedom.pose(x)).map_or(f64::NAN, |[gap, _]| gap);
-        let mut found = zeros(gap, at, (NOTHING * reach, HALVINGS));
+        let mut found = zeros(gap, (PLACES, at), NOTHING * reach, HALVINGS);
         found.retain(|x| {
             let left = self.distance(k, b, &freedom.pose(*x));
             left.is_some_and(|[_, left]| left <= TOUCHES * reach)

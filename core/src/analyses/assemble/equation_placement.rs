@@ -9,7 +9,7 @@ use crate::equations::Laws;
 use crate::math::{Local, Pose, Rotation, Twist, Vec2};
 
 /// Angles at which an equation is evaluated to find the signs of its solutions.
-pub(super) const SAMPLES: usize = 72;
+const SAMPLES: usize = 72;
 /// Largest change of an equation, over the size, that counts as none.
 pub(super) const NOTHING: f64 = 1e-9;
 /// Smallest component of a line along a coordinate with which the coordinate decides the place.
@@ -232,22 +232,23 @@ fn newton(f: impl Fn(f64) -> f64, start: f64, scale: f64) -> Option<f64> {
 fn around(f: impl Fn(f64) -> f64, nothing: f64) -> Vec<f64> {
     // no round angle is a sample: solutions are often round
     let at = |k: usize| std::f64::consts::TAU * ((k as f64 + 0.377) / SAMPLES as f64 - 0.5);
-    zeros(f, at, (nothing, 60))
+    zeros(f, (SAMPLES, at), nothing, 60)
 }
 
-/// The zeros of `f` between samples of opposite sign at the places `at` of 0 to [`SAMPLES`], which are halved until they
-/// meet. None of a constant.
+/// The zeros of `f` between samples of opposite sign, at the places of 0 to a number, which are halved so many times.
+/// None of a constant.
 pub(super) fn zeros(
     f: impl Fn(f64) -> f64,
-    at: impl Fn(usize) -> f64,
-    (nothing, halvings): (f64, usize),
+    (samples, at): (usize, impl Fn(usize) -> f64),
+    nothing: f64,
+    halvings: i32,
 ) -> Vec<f64> {
-    let values: Vec<f64> = (0..=SAMPLES).map(|k| f(at(k))).collect();
+    let values: Vec<f64> = (0..=samples).map(|k| f(at(k))).collect();
     let spread = values.iter().fold(0.0, |most: f64, v| most.max((v - values[0]).abs()));
     if spread.is_nan() || spread <= nothing {
         return Vec::new();
     }
-    let crossing = (0..SAMPLES).filter(|k| (values[*k] <= 0.0) != (values[k + 1] <= 0.0));
+    let crossing = (0..samples).filter(|k| (values[*k] <= 0.0) != (values[k + 1] <= 0.0));
     let halved = crossing.filter_map(|k| {
         let [mut low, mut high] = [at(k), at(k + 1)];
         for _ in 0..halvings {
@@ -258,7 +259,8 @@ pub(super) fn zeros(
             }
         }
         // a jump is not a zero
-        (f(low).abs() <= 1e-6 * spread).then_some(low)
+        let small = 0.5_f64.powi(halvings).max(1e-6);
+        (f(low).abs() <= small * spread).then_some(low)
     });
     halved.collect()
 }

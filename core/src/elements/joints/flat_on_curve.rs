@@ -47,7 +47,7 @@ impl Joint for FlatOnCurve {
 
     fn residual<S: Real>(e: &FlatOnCurve<S>, at: &At<'_, S>, phi: &mut [S]) {
         let n = normal(e, at.i());
-        let [c, first, ..] = e.curve.curve.derivatives(at.own[0]);
+        let [c, first] = e.curve.curve.tangent(at.own[0]);
         let apart = at.j().point(c) - at.i().point(e.i.s);
         let tangent = at.j().global(first.scale(S::one() / first.norm()));
         phi.copy_from_slice(&[n.dot(apart), n.dot(tangent)]);

@@ -39,7 +39,7 @@ fn offset<S: Real>(e: &RollerOnCurve<S>, first: Local<S>) -> Local<S> {
 
 /// The centre of the roller in the frame of body j.
 fn centre<S: Real>(e: &RollerOnCurve<S>, u: S) -> Local<S> {
-    let [c, first, ..] = e.curve.curve.derivatives(u);
+    let [c, first] = e.curve.curve.tangent(u);
     let offset = offset(e, first);
     Local::new(c.x + offset.x, c.y + offset.y)
 }
