@@ -55,6 +55,9 @@ class Case:
     def write(self, format: str) -> str:  # noqa: A002
         """The case as "toml" or "json" text."""
 
+    def place(self, path: str) -> tuple[str, int, int] | None:
+        """File, line and column of the entry at a path; None without a file or an entry."""
+
     def supply(self, table: str, x: _F, y: _F) -> Case:
         """The same case with the points that the file of a table contains.
 

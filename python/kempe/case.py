@@ -6,14 +6,14 @@ import copy
 import json
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from kempe import _core, files
 from kempe.analyses import AssemblyWarning, Coordinates, Progress, assemble, simulate
 from kempe.compiled import CompiledModel
-from kempe.errors import AssemblyError, FileError, ModelError
+from kempe.errors import AssemblyError, FileError, KempeError, ModelError
 from kempe.kinematics import follow, follow_with_forces
 from kempe.model import Model
 from kempe.names import entry as named
@@ -146,9 +146,29 @@ class Case:
         """The assembled mechanism.
 
         Raises:
-            AssemblyError: it does not close.
+            AssemblyError: it does not close. If drivers contradict each other, ``problems`` gives
+                their lines in the file.
         """
-        return assemble(self.model, self._start.set, self._start.guess)
+        try:
+            return assemble(self.model, self._start.set, self._start.guess)
+        except KempeError as error:
+            self._locate(error)
+            raise
+
+    def _locate(self, error: KempeError) -> None:
+        """Add file and lines to the problems of an error of assembly."""
+        source = self.model._source
+        if source is None:
+            return
+        places = [source[0].place(problem.path) for problem in error.problems]
+        located = zip(error.problems, places, strict=True)
+        error.problems = tuple(
+            replace(problem, line=place[1], column=place[2]) if place else problem
+            for problem, place in located
+        )
+        file = next((place[0] for place in places if place), None)
+        if file is not None:
+            error.args = (f"{file}: {error.args[0]}", *error.args[1:])
 
     @property
     def held(self) -> Mapping[str, Number]:

@@ -40,6 +40,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "Case.tree": CASE.tree,
     "Case.write": lambda: CASE.write("json"),
     "Case.model": lambda: CASE.model("{}"),
+    "Case.place": lambda: CASE.place("joints.A"),
     "Case.supply": lambda: CASE.supply("lift", ROW[0], ROW[0]),
     "Case.check": lambda: CASE.check(MODEL),
     "Case.analyses": CASE.analyses,

@@ -2,7 +2,7 @@
 
 use crate::attended::attended;
 use crate::convert::{number, state, tree, Row};
-use crate::errors::{raise_plain, Failure, Kind};
+use crate::errors::{raise_plain, Failure, Kind, Problem};
 use crate::guard::guard;
 use crate::model::PyModel;
 use kempe::analyses::assemble::{self as core, Fault, Report, Request, Target};
@@ -70,7 +70,14 @@ fn raise(py: Python<'_>, failure: &core::Failure) -> PyErr {
         Fault::Redundant => Kind::Redundancy,
         Fault::Open | Fault::Rates | Fault::Stopped => Kind::Assembly,
     };
-    let error = Failure::new(kind, failure.message.clone()).hint(failure.hint.clone());
+    let contradicts = |place: &Vec<String>| Problem {
+        message: "contradicts the others".to_string(),
+        path: place.join("."),
+        position: None,
+    };
+    let error = Failure::new(kind, failure.message.clone())
+        .hint(failure.hint.clone())
+        .problems(failure.places.iter().map(contradicts).collect());
     let named = if failure.name.is_empty() { error } else { error.name(failure.name.clone()) };
     named.raise(py)
 }

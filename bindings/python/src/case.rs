@@ -114,6 +114,15 @@ impl PyCase {
         })
     }
 
+    /// File, line and column of the entry at a path; None if the case has no file, or does not contain it.
+    fn place(&self, path: &str) -> PyResult<Option<(String, usize, usize)>> {
+        guard("Case.place", || {
+            let path: Vec<&str> = path.split('.').collect();
+            let found = self.document.position(&path);
+            Ok(self.origin.clone().zip(found).map(|(file, (line, column))| (file, line, column)))
+        })
+    }
+
     /// Names, types and starts of the analyses, as JSON.
     fn analyses(&self) -> PyResult<String> {
         guard("Case.analyses", || {

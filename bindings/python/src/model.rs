@@ -6,7 +6,9 @@ use crate::errors::{raise_plain, Kind};
 use crate::guard::guard;
 use crate::recent_options::RecentOptions;
 use kempe::analyses::dynamics::{Prepared, Setting};
-use kempe::elements::{BodyId, Curve, Measured, OwnState, ResultQuantity, SceneSymbol, SymbolEnd};
+use kempe::elements::{
+    BodyId, Curve, CurveOn, Measured, OwnState, ResultQuantity, SceneSymbol, SymbolEnd,
+};
 use kempe::expression::Table;
 use kempe::math::Local;
 use kempe::model::{Body, Columns, Functions, Model};
@@ -212,14 +214,15 @@ fn connected<'a>(model: &'a Model, bodies: &[BodyId]) -> (Value, Value, Vec<&'a 
     (at(0), at(1), names)
 }
 
-/// Names and units of the internal coordinates of an element: u, or u1, u2 and u3. The assembly
-/// treats them as lengths.
-fn internal(columns: Columns) -> Vec<Value> {
+/// Names and units of the internal coordinates of an element: u of its curve, or lengths u, or u1, u2 and u3. The
+/// assembly treats them as lengths.
+fn internal(columns: Columns, curve: Option<&CurveOn>) -> Vec<Value> {
+    let unit = curve.map_or("m", |on| on.curve.unit());
     let name = |k: usize| match columns.count {
         1 => "u".to_string(),
         _ => format!("u{}", k + 1),
     };
-    (0..columns.count).map(|k| json!({ "name": name(k), "unit": "m" })).collect()
+    (0..columns.count).map(|k| json!({ "name": name(k), "unit": unit })).collect()
 }
 
 /// Position quantities: the names of position, rate and acceleration, and the unit of the position.
@@ -245,7 +248,7 @@ fn constraint(model: &Model, k: usize) -> Value {
         "axis_j": item.element.attachment(1).axis,
         "bodies": bodies,
         "columns": span(&slots.own.range()),
-        "coordinates": internal(slots.own),
+        "coordinates": internal(slots.own, item.element.curve()),
         "rows": span(&slots.rows),
         "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
         "results": item.element.result_quantities().iter().map(result).collect::<Vec<_>>(),

@@ -67,6 +67,16 @@ impl<'a> Closing<'a> {
         self
     }
 
+    /// The time of the closing, s.
+    pub fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// The function that ends the work.
+    pub fn stop(&self) -> Stop<'a> {
+        self.stop
+    }
+
     /// Whether the work shall end.
     pub fn stopped(&self) -> bool {
         (self.stop)()

@@ -179,7 +179,7 @@ fn neighbour(model: &Model, t: f64, q: &[f64], held: usize, stop: Stop<'_>) -> O
 
 /// `q` with the excursion of this number of each coordinate: fixed arbitrary numbers, which have no symmetry of the
 /// mechanism.
-fn moved(model: &Model, q: &[f64], size: f64, number: usize) -> Vec<f64> {
+pub(super) fn moved(model: &Model, q: &[f64], size: f64, number: usize) -> Vec<f64> {
     let first = 1.0 + 0.618 * number as f64;
     let part = |k: usize| ((12.9898 * (k as f64 + first)).sin() * 43758.5453).fract();
     let unit = column_scales(model);
@@ -188,6 +188,7 @@ fn moved(model: &Model, q: &[f64], size: f64, number: usize) -> Vec<f64> {
 
 fn holding(model: &Model, body: BodyId, angle: f64) -> Model {
     let held = CoordinateOf { body, coordinate: Coordinate::Angle };
-    let blueprint = model.blueprint.holding(&[("neighbour".to_string(), held, angle.into())]);
+    let blueprint =
+        model.blueprint.holding(&[("neighbour".to_string(), held.into(), angle.into())]);
     Model::new(&Arc::new(blueprint), &model.parameters)
 }

@@ -67,6 +67,14 @@ impl Document {
         found
     }
 
+    /// Line and column, from 1, of the key of a path, whose names may be whole or split at their dots; None if the
+    /// text does not contain it.
+    pub fn position(&self, path: &[&str]) -> Option<(usize, usize)> {
+        let node = below(&self.root, path)?;
+        let found = Diagnostic::new(&self.text, node.key.clone(), String::new());
+        Some((found.line, found.column))
+    }
+
     /// The bytes of a problem.
     pub(super) fn place(&self, problem: &Problem) -> Range<usize> {
         let mut node = &self.root;
@@ -97,10 +105,19 @@ impl Document {
     }
 }
 
-/// A key with a dot that the file has as a table within a table.
+/// The node at a path; a key of the text may contain several names, joined by dots.
+fn below<'n>(node: &'n Node, path: &[&str]) -> Option<&'n Node> {
+    if path.is_empty() {
+        return Some(node);
+    }
+    (1..=path.len()).find_map(|n| below(node.child(&path[..n].join("."))?, &path[n..]))
+}
+
+/// A key with dots that the file has as tables within tables.
 fn dotted<'n>(node: &'n Node, key: &str) -> Option<&'n Node> {
     let (outer, inner) = key.split_once('.')?;
-    node.child(outer)?.child(inner)
+    let node = node.child(outer)?;
+    node.child(inner).or_else(|| dotted(node, inner))
 }
 
 fn of_fault(text: &str, fault: Fault) -> Diagnostic {

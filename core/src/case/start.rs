@@ -27,7 +27,8 @@ pub(super) fn read(report: &mut Report, node: &Node, root: &Table) -> Start {
     start
 }
 
-/// `{ "crank.angle" = 1 }` or `{ crank = { angle = 1 } }`, the meaning of a dotted key.
+/// `{ "crank.angle" = 1 }` or `{ crank = { angle = 1 } }`, the meaning of a dotted key; `{ crank = { B = { x = 1 } } }`
+/// for a point.
 fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, Value)> {
     let mut found: Vec<(String, Value)> = Vec::new();
     let Data::Table(table) = &node.data else {
@@ -43,29 +44,41 @@ fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, V
             false => report.say_of_key(format!("{} is given twice", super::shown(&key))),
         }
     };
-    for (key, node) in &table.entries {
-        report.within(key, |report| match &node.data {
-            Data::Table(of_body) if !key.contains('.') => {
-                for (name, node) in &of_body.entries {
-                    report.within(name, |report| {
-                        coordinate(report, root, (key, name));
-                        take(report, format!("{key}.{name}"), node);
-                    });
+    each(report, &table.entries, root, "", &mut take);
+    found
+}
+
+/// Takes the coordinates of a table, whose keys continue the name `owner`.
+fn each(
+    report: &mut Report,
+    entries: &[(String, Node)],
+    root: &Table,
+    owner: &str,
+    take: &mut dyn FnMut(&mut Report, String, &Node),
+) {
+    for (key, node) in entries {
+        report.within(key, |report| {
+            let name = if owner.is_empty() { key.clone() } else { format!("{owner}.{key}") };
+            match (&node.data, name.rsplit_once('.')) {
+                (Data::Table(inner), _) if goes_on(owner, key) => {
+                    each(report, &inner.entries, root, &name, take);
+                    return;
                 }
+                (_, Some(of)) => coordinate(report, root, of),
+                (_, None) => report.say_of_key(format!(
+                    "'{}' is not a coordinate; must be \"body.coordinate\", such as \"crank.angle\"",
+                    super::shown(key)
+                )),
             }
-            _ => {
-                match key.rsplit_once('.') {
-                    Some(of) => coordinate(report, root, of),
-                    None => report.say_of_key(format!(
-                        "'{}' is not a coordinate; must be \"body.coordinate\", such as \"crank.angle\"",
-                        super::shown(key)
-                    )),
-                }
-                take(report, key.clone(), node);
-            }
+            take(report, name, node);
         });
     }
-    found
+}
+
+/// Whether a table may follow: of a body, or of a point of it.
+fn goes_on(owner: &str, key: &str) -> bool {
+    let of_point = !owner.contains('.') && Coordinate::named(key).is_none();
+    !key.contains('.') && (owner.is_empty() || of_point)
 }
 
 /// Checks the name of a coordinate. The states of elements are in the model only.

@@ -20,22 +20,27 @@ pub(super) fn places(curve: &Curve) -> impl Iterator<Item = f64> {
 pub(super) fn least(curve: &Curve, f: impl Fn(f64) -> f64) -> f64 {
     let finite = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
     let all: Vec<f64> = places(curve).collect();
-    let best = (0..all.len()).min_by(|a, b| finite(f(all[*a])).total_cmp(&finite(f(all[*b]))));
-    let best = best.unwrap_or(0);
+    let values: Vec<f64> = all.iter().map(|u| finite(f(*u))).collect();
+    let best = (0..all.len()).min_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
     let step = all[1] - all[0];
     let [low, high] = curve.range();
     let (mut a, mut b) = (all[best] - step, all[best] + step);
     if !curve.periodic() {
         (a, b) = (a.max(low), b.min(high));
     }
-    // golden section
+    // golden section: one of the two inner places stays
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let (mut left, mut right) = (b - ratio * (b - a), a + ratio * (b - a));
+    let (mut at_left, mut at_right) = (finite(f(left)), finite(f(right)));
     for _ in 0..60 {
-        let (left, right) = (b - ratio * (b - a), a + ratio * (b - a));
-        if finite(f(left)) < finite(f(right)) {
-            b = right;
+        if at_left < at_right {
+            (b, right, at_right) = (right, left, at_left);
+            left = b - ratio * (b - a);
+            at_left = finite(f(left));
         } else {
-            a = left;
+            (a, left, at_left) = (left, right, at_right);
+            right = a + ratio * (b - a);
+            at_right = finite(f(right));
         }
     }
     0.5 * (a + b)

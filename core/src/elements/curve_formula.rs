@@ -1,8 +1,8 @@
 //! A curve whose components are formulas in u and the parameters.
 
-use crate::expression::{Symbol, Tape, Values};
+use crate::expression::{switch_places, Knots, Symbol, Tape, Values};
 use crate::math::{Dual, Jet, Lift, Local, Real};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// x(u) and y(u).
 #[derive(Clone, Debug)]
@@ -14,6 +14,8 @@ pub struct Formula<S = f64> {
     pub range: [S; 2],
     /// Whether it repeats itself beyond them.
     pub periodic: bool,
+    /// SI unit of u.
+    pub unit: &'static str,
 }
 
 /// The formulas, and the indices of the parameters that they use.
@@ -22,16 +24,29 @@ struct Written {
     x: Tape,
     y: Tape,
     parameters: Vec<usize>,
+    /// The latest breaks, for the range and the parameters.
+    breaks: Mutex<Option<(Vec<f64>, Option<Arc<Knots>>)>>,
 }
 
 impl Formula<Tape> {
-    /// From formulas in u, the only variable, and in parameters of a model.
+    /// From formulas in u, the only variable, which has no unit, and in parameters of a model.
     pub fn new(x: Tape, y: Tape, range: [Tape; 2], periodic: bool) -> Self {
         let mut parameters: Vec<usize> = x.parameters().chain(y.parameters()).collect();
         parameters.sort_unstable();
         parameters.dedup();
         let values = parameters.iter().map(|k| Tape::of(Symbol::Parameter(*k))).collect();
-        Self { written: Arc::new(Written { x, y, parameters }), values, range, periodic }
+        Self {
+            written: Arc::new(Written { x, y, parameters, breaks: Mutex::default() }),
+            values,
+            range,
+            periodic,
+            unit: "1",
+        }
+    }
+
+    /// The same with u as the polar angle.
+    pub fn polar(self) -> Self {
+        Self { unit: "rad", ..self }
     }
 }
 
@@ -43,6 +58,7 @@ impl<S> Formula<S> {
             values: self.values.iter().map(&mut *f).collect(),
             range: self.range.each_ref().map(f),
             periodic: self.periodic,
+            unit: self.unit,
         }
     }
 }
@@ -50,42 +66,98 @@ impl<S> Formula<S> {
 /// u with its derivatives to third order by a variable.
 type Third<S> = Jet<Dual<1, S>>;
 
-/// The names of the formulas.
-struct Named<'a, S> {
+/// The names of the formulas, over a scalar `T` that contains `S`.
+struct Named<'a, S, T> {
     parameters: &'a [usize],
     values: &'a [S],
-    u: Third<S>,
+    u: T,
+    lift: fn(S) -> T,
 }
 
-impl<S: Real> Values<Third<S>> for Named<'_, S> {
-    fn parameter(&self, k: usize) -> Third<S> {
+impl<S: Real, T: Real> Values<T> for Named<'_, S, T> {
+    fn parameter(&self, k: usize) -> T {
         let place = self.parameters.binary_search(&k).expect("a parameter of the formula");
-        Jet::lift(Dual::lift(self.values[place]))
+        (self.lift)(self.values[place])
     }
-    fn time(&self) -> Third<S> {
-        Jet::constant(f64::NAN)
+    fn time(&self) -> T {
+        T::constant(f64::NAN)
     }
-    fn variable(&self, _: usize) -> Third<S> {
+    fn variable(&self, _: usize) -> T {
         self.u
     }
 }
 
 impl<S: Real> Formula<S> {
-    /// C, C′, C″ and C‴ at u.
-    pub(super) fn derivatives(&self, u: S) -> [Local<S>; 4] {
+    /// u within the range, to which the formulas of a periodic curve belong.
+    fn within(&self, u: S) -> S {
         let [a, b] = self.range;
-        let u = match self.periodic {
-            // the formulas are those of the range
+        match self.periodic {
             true => u - ((u - a) / (b - a)).floor() * (b - a),
             false => u,
-        };
-        let u = Jet::new(Dual::variable(u, 0), Dual::one(), Dual::zero());
-        let named = Named { parameters: &self.written.parameters, values: &self.values, u };
-        let part = |tape: &Tape| {
-            let jet = tape.evaluate(&named);
-            [jet.value.value, jet.rate.value, jet.second.value, jet.second.slope[0]]
-        };
-        let (x, y) = (part(&self.written.x), part(&self.written.y));
+        }
+    }
+
+    /// x and y over a scalar that contains `S`.
+    fn both<T: Real>(&self, u: T, lift: fn(S) -> T) -> [T; 2] {
+        let named = Named { parameters: &self.written.parameters, values: &self.values, u, lift };
+        [&self.written.x, &self.written.y].map(|tape| tape.evaluate(&named))
+    }
+
+    /// C at u.
+    pub(super) fn point(&self, u: S) -> Local<S> {
+        let [x, y] = self.both(self.within(u), |x| x);
+        Local::new(x, y)
+    }
+
+    /// C and C′ at u.
+    pub(super) fn tangent(&self, u: S) -> [Local<S>; 2] {
+        let [x, y] = self.both(Dual::<1, S>::variable(self.within(u), 0), Dual::lift);
+        [Local::new(x.value, y.value), Local::new(x.slope[0], y.slope[0])]
+    }
+
+    /// C, C′, C″ and C‴ at u.
+    pub(super) fn derivatives(&self, u: S) -> [Local<S>; 4] {
+        let u: Third<S> = Jet::new(Dual::variable(self.within(u), 0), Dual::one(), Dual::zero());
+        let [x, y] = self
+            .both(u, |x| Jet::lift(Dual::lift(x)))
+            .map(|jet| [jet.value.value, jet.rate.value, jet.second.value, jet.second.slope[0]]);
         std::array::from_fn(|n| Local::new(x[n], y[n]))
+    }
+}
+
+impl<S: Real> Formula<S> {
+    /// The places of u at which a condition of a formula changes, and the seam of a periodic curve with conditions; of
+    /// the first lane of the scalar.
+    pub(super) fn breaks(&self) -> Option<Arc<Knots>> {
+        let written = &self.written;
+        if written.x.switches().is_empty() && written.y.switches().is_empty() {
+            return None;
+        }
+        let numbers = self.range.iter().chain(&self.values).map(|x| x.in_lanes()[0]);
+        let numbers: Vec<f64> = numbers.collect();
+        let mut known = written.breaks.lock().unwrap_or_else(PoisonError::into_inner);
+        if known.as_ref().is_none_or(|(of, _)| *of != numbers) {
+            *known = Some((numbers.clone(), self.search(&numbers)));
+        }
+        known.as_ref().and_then(|(_, knots)| knots.clone())
+    }
+
+    fn search(&self, numbers: &[f64]) -> Option<Arc<Knots>> {
+        let (range, values) = numbers.split_at(2);
+        let [a, b] = [range[0], range[1]];
+        let count = self.written.parameters.last().map_or(0, |last| last + 1);
+        let mut parameters = vec![f64::NAN; count];
+        let places = self.written.parameters.iter().zip(values);
+        places.for_each(|(place, value)| parameters[*place] = *value);
+        let mut all = Vec::new();
+        for tape in [&self.written.x, &self.written.y] {
+            switch_places(tape, &parameters, [a, b], &mut all).ok()?;
+        }
+        all.extend((self.periodic && !all.is_empty()).then_some(a));
+        all.sort_by(f64::total_cmp);
+        let together = 1e-12 * (b - a);
+        all.dedup_by(|later, earlier| *later - *earlier <= together);
+        let period = self.periodic.then_some(b - a);
+        (!all.is_empty()).then(|| Arc::new(Knots::new(all, period)))
     }
 }

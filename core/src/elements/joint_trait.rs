@@ -82,6 +82,9 @@ pub enum Fixes<S> {
     /// The angle of body j, if the pose of body i and the place of body j are known: the last equation is linear in
     /// this angle, perhaps modulo a constant.
     Turn,
+    /// The distance of the two bodies: they touch at the nearest value of the internal coordinate. The equations are
+    /// two, and the derivative of both by this coordinate is along the contact.
+    Contact,
     /// The x″ axes of both joint frames point the same way.
     Direction,
     /// The distance of the origins of both joint frames, m.

@@ -172,8 +172,7 @@ pub fn catalogue() -> Vec<(Group, Table)> {
     tables
 }
 
-/// The driver that holds a coordinate at a value: assembly holds by it what is `set`.
-pub fn holding(coordinate: CoordinateOf, value: Tape) -> Constraint<Tape> {
-    let coordinate = coordinate.into();
+/// The driver that holds a position quantity at a value: assembly holds by it what is `set`.
+pub fn holding(coordinate: Followed<Tape>, value: Tape) -> Constraint<Tape> {
     Constraint::CoordinateDriver(CoordinateDriver { coordinate, value, release: None })
 }

@@ -5,8 +5,9 @@
 //! contain C′, so that γ needs C‴. They take these four from one evaluation: [`Curve::near`].
 
 use super::curve_formula::Formula;
+use crate::expression::Knots;
 use crate::math::{Interpolation, Local, Real, Spline};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// A curve.
 #[derive(Clone, Debug)]
@@ -88,6 +89,15 @@ impl<S> Curve<S> {
         }
     }
 
+    /// SI unit of u: rad of an angle, m of a length, 1 of a number.
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::Formula(formula) => formula.unit,
+            Self::Circle { .. } => "rad",
+            Self::Points(_) | Self::Line { .. } | Self::Near { .. } => "m",
+        }
+    }
+
     /// The same curve over another scalar.
     pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Curve<T> {
         let mut local = |s: &Local<S>| Local { x: f(&s.x), y: f(&s.y) };
@@ -153,6 +163,22 @@ impl<S: Real> Curve<S> {
         }
     }
 
+    /// The places of u at which the curve is not smooth: where a condition of a formula changes, and the points of a
+    /// spline whose curvature jumps.
+    pub fn breaks(&self) -> Option<Arc<Knots>> {
+        match self {
+            Self::Formula(formula) => formula.breaks(),
+            Self::Points(own) if own.kind == Interpolation::Monotone => {
+                let knots = own.splines()[0].knots().iter().map(|u| u.in_lanes()[0]);
+                let mut knots: Vec<f64> = knots.collect();
+                let last = if own.periodic { knots.pop() } else { None };
+                let period = last.map(|last| last - knots[0]);
+                Some(Arc::new(Knots::new(knots, period)))
+            }
+            _ => None,
+        }
+    }
+
     /// About the largest distance from the origin, m.
     pub fn reach(&self) -> S {
         let [a, b] = self.range();
@@ -163,7 +189,21 @@ impl<S: Real> Curve<S> {
 
     /// C at u.
     pub fn point(&self, u: S) -> Local<S> {
-        self.derivatives(u)[0]
+        match self {
+            Self::Formula(formula) => formula.point(u),
+            other => other.derivatives(u)[0],
+        }
+    }
+
+    /// C and C′ at u.
+    pub fn tangent(&self, u: S) -> [Local<S>; 2] {
+        match self {
+            Self::Formula(formula) => formula.tangent(u),
+            other => {
+                let [point, first, ..] = other.derivatives(u);
+                [point, first]
+            }
+        }
     }
 
     /// The cubic with the derivatives of the curve at u. Derivatives of order 0 to 3 of both agree there.

@@ -23,6 +23,11 @@ pub fn functions<S: Real>(
         let values = laws::held(parameters, motions, &[], acting.t);
         law.map(&mut |tape: &Tape| tape.switch_functions(&values, |k, sigma| out[k] = sigma));
     }
+    for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
+        if let Some(k) = item.curve_switch {
+            out[k] = motions.own(slots.own).0[0];
+        }
+    }
     for (k, item) in model.forces.iter().enumerate() {
         if let Some(law) = &item.law {
             let values = laws::held(parameters, motions, acting.z, acting.t);

@@ -9,7 +9,7 @@ pub struct Knots {
 
 impl Knots {
     /// Ascending places, at least one; the first period of them if they repeat themselves.
-    pub(super) fn new(places: Vec<f64>, period: Option<f64>) -> Self {
+    pub fn new(places: Vec<f64>, period: Option<f64>) -> Self {
         debug_assert!(!places.is_empty(), "knots without a place");
         Self { places, period }
     }
@@ -33,6 +33,11 @@ impl Knots {
         let count = self.places.len() as f64;
         let turn = (n / count).floor();
         (turn, ((n - turn * count) as usize).min(self.places.len() - 1))
+    }
+
+    /// The places in ascending order, of one period.
+    pub fn places(&self) -> &[f64] {
+        &self.places
     }
 
     /// The number of the last place that is not above x; -1 if there is none. Infinite or NaN where x is and the

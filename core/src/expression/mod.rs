@@ -63,7 +63,7 @@ pub use operation::{Function, FUNCTIONS};
 pub use points::{Outside, Points, TableError, TABLE_ENDS};
 pub(crate) use postfix::Postfix;
 pub use switch::Boundaries;
-pub use switch_times::{pieces_at, switch_times, TooManySwitches};
+pub use switch_times::{pieces_at, switch_places, switch_times, TooManySwitches};
 pub use symbol::Symbol;
 pub use table::{Kink, Table};
 pub use tape::{Scope, Switch, Tape, Values};

@@ -37,14 +37,38 @@ pub fn switch_times(
     span: [f64; 2],
     out: &mut Vec<f64>,
 ) -> Result<(), TooManySwitches> {
-    let switches = tape.switches();
+    search(tape, &tape.switches(), parameters, span, out)
+}
+
+/// The same for an expression of one variable, such as a curve, over this variable in place of the time.
+///
+/// # Errors
+/// As [`switch_times`].
+pub fn switch_places(
+    tape: &Tape,
+    parameters: &[f64],
+    span: [f64; 2],
+    out: &mut Vec<f64>,
+) -> Result<(), TooManySwitches> {
+    let varies = |s: Switch| Switch { time: s.time || s.state, state: false, ..s };
+    let switches: Vec<Switch> = tape.switches().into_iter().map(varies).collect();
+    search(tape, &switches, parameters, span, out)
+}
+
+fn search(
+    tape: &Tape,
+    switches: &[Switch],
+    parameters: &[f64],
+    span: [f64; 2],
+    out: &mut Vec<f64>,
+) -> Result<(), TooManySwitches> {
     let mut times: Vec<f64> = Vec::new();
     let timed = switches.iter().enumerate().filter(|(_, switch)| switch.time && !switch.state);
     for (k, switch) in timed {
         let mut found = Vec::new();
         let cuts: Vec<f64> = [&span[..1], &times, &span[1..]].concat();
         for cut in cuts.windows(2) {
-            let mut pieces = natural(tape, &switches, parameters, middle(cut[0], cut[1]));
+            let mut pieces = natural(tape, switches, parameters, middle(cut[0], cut[1]));
             pieces.truncate(k);
             let search = Search { tape, parameters, k, pieces, switch };
             search.run([cut[0], cut[1]], span, &mut found)?;
@@ -59,7 +83,7 @@ pub fn switch_times(
     }
     // a boundary that is only touched is not a switch
     let ends: Vec<f64> = [&span[..1], &times, &span[1..]].concat();
-    let between = ends.windows(2).map(|w| natural(tape, &switches, parameters, middle(w[0], w[1])));
+    let between = ends.windows(2).map(|w| natural(tape, switches, parameters, middle(w[0], w[1])));
     let between: Vec<Vec<f64>> = between.collect();
     let changes = between.windows(2).map(|w| w[0].iter().zip(&w[1]).any(|(a, b)| differ(*a, *b)));
     out.extend(times.iter().zip(changes).filter(|(_, changes)| *changes).map(|(t, _)| *t));
@@ -91,7 +115,8 @@ fn middle(a: f64, b: f64) -> f64 {
     a + 0.5 * (b - a)
 }
 
-/// Values at a time, or at all times of an interval. A switch that depends on the time alone uses no variable.
+/// Values at a time, or at all times of an interval. A switch that depends on the time alone uses no variable, and an
+/// expression of one variable has it as its time.
 struct At<'a, T> {
     tape: &'a Tape,
     parameters: &'a [f64],
@@ -108,7 +133,7 @@ impl<T: Real> Values<T> for At<'_, T> {
         self.t
     }
     fn variable(&self, _: usize) -> T {
-        T::zero()
+        self.t
     }
     fn piece(&self, k: usize) -> f64 {
         let k = k - self.tape.switch_range().start;

@@ -8,7 +8,7 @@ use super::problem::Problem;
 use super::scope::{states, Quantities, Scope};
 use super::variable::Variable;
 use crate::elements::{
-    holding, BodyId, Constraint, CoordinateOf, Fixes, ForceElement, Group, OwnState,
+    holding, BodyId, Constraint, CoordinateOf, Fixes, Followed, ForceElement, Group, OwnState,
 };
 use crate::expression::{Expression, Inferred, Symbol, Table, Tape};
 use std::sync::Arc;
@@ -122,13 +122,19 @@ impl Blueprint {
 
     /// The same mechanism with further drivers that make coordinates follow given laws: what
     /// assembly solves.
-    pub fn holding(&self, held: &[(String, CoordinateOf, Tape)]) -> Self {
+    pub fn holding(&self, held: &[(String, Followed<Tape>, Tape)]) -> Self {
         let mut extended = self.clone();
         for (name, coordinate, value) in held {
-            let driver = holding(*coordinate, value.clone());
+            let driver = holding(coordinate.clone(), value.clone());
             extended.constraints.push((name.clone(), Group::Drivers, driver));
         }
         extended
+    }
+
+    /// The same mechanism with some of its constraints only, and without forces.
+    pub fn keeping(&self, kept: &[usize]) -> Self {
+        let constraints = kept.iter().map(|k| self.constraints[*k].clone()).collect();
+        Self { constraints, forces: Vec::new(), ..self.clone() }
     }
 
     /// A body by name.

@@ -110,7 +110,7 @@ impl<'a> Reader<'a> {
         };
         let (x, y) = (part("cos")?, part("sin")?);
         let range = [0.0, std::f64::consts::TAU].map(Tape::from);
-        Some(Curve::Formula(CurveFormula::new(x, y, range, true)))
+        Some(Curve::Formula(CurveFormula::new(x, y, range, true).polar()))
     }
 
     fn points(&mut self) -> Option<Curve<Tape>> {

@@ -77,6 +77,8 @@ pub struct ConstraintItem<S = f64> {
     pub driven: bool,
     /// Equations, in the order of the rows.
     pub equations: Vec<Equation>,
+    /// The switch of its curve, whose function is the first internal coordinate.
+    pub curve_switch: Option<usize>,
 }
 
 /// A force in a model.

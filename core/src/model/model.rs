@@ -30,7 +30,8 @@ pub struct Model<S = f64> {
     pub layout: StateLayout,
     /// Whether a joint or driver is driven.
     pub driven: bool,
-    /// Switches of laws and forces: of the constraints, then of the forces; those of a force's laws before its own.
+    /// Switches of laws, forces and curves: of the laws of constraints, then of the forces, those of a force's laws
+    /// before its own, then of the curves of joints.
     pub switches: Vec<Switch>,
     /// Whether redundant constraints are accepted; their multipliers are then the smallest that
     /// balance the loads.
@@ -58,7 +59,7 @@ impl<S: Real> Model<S> {
         let reference = Reference(parameters);
         let value = &mut |tape: &Tape| tape.evaluate(&reference);
         let mut touched = Vec::new();
-        let mut constraints = Vec::new();
+        let mut constraints: Vec<ConstraintItem<S>> = Vec::new();
         let mut switches = Vec::new();
         for (name, group, formula) in &blueprint.constraints {
             let mut depends = Dependence::default();
@@ -86,9 +87,17 @@ impl<S: Real> Model<S> {
                 }),
                 driven: *group == Group::Drivers || depends.time,
                 equations,
+                curve_switch: None,
             });
         }
         let forces = forces(blueprint, value, &mut switches);
+        for (k, item) in constraints.iter_mut().enumerate() {
+            let breaks = item.element.curve().and_then(|on| on.curve.breaks());
+            item.curve_switch = breaks.map(|breaks| {
+                switches.push(Switch::of_curve(Owner::Constraint(k), breaks));
+                switches.len() - 1
+            });
+        }
         let bodies: Vec<Body<S>> = blueprint.bodies.iter().map(|body| body.map(value)).collect();
         let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
         let unknowns = bodies[1..].iter().map(|body| if body.turns { 3 } else { 2 });

@@ -1,6 +1,7 @@
 //! The switches of a model: where laws and forces are not smooth.
 
-use crate::expression::{Boundaries, Tape};
+use crate::expression::{Boundaries, Knots, Tape};
+use std::sync::Arc;
 
 /// The element to which a switch belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +31,12 @@ impl Switch {
     /// Of an element itself: it may depend on everything.
     pub(super) fn of_element(owner: Owner) -> Self {
         Self { owner, boundaries: Boundaries::Zero, time: true, state: true, law: false }
+    }
+
+    /// Of the curve of a joint, at its breaks.
+    pub(super) fn of_curve(owner: Owner, breaks: Arc<Knots>) -> Self {
+        let boundaries = Boundaries::Knots(breaks);
+        Self { owner, boundaries, time: false, state: true, law: false }
     }
 
     /// Adds the switches of a law to the list; returns the law with their indices.

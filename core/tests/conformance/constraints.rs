@@ -248,6 +248,7 @@ fn joints_fix_what_they_declare() {
                     rows.push(residual[residual.len() - 1].abs());
                     assert!(turned_to_zero(c, at).abs() < 1e-12, "{}", c.kind());
                 }
+                Fixes::Contact => rows.push(residual[0].hypot(residual[1])),
                 Fixes::Direction => rows.push((axis_j - axis_i).abs()),
                 Fixes::Distance(length) => {
                     let excess = (gap.dot(gap) - length * length) / (2.0 * length);
@@ -267,7 +268,7 @@ fn joints_fix_what_they_declare() {
                 .fixes()
                 .iter()
                 .map(|fixed| match fixed {
-                    Fixes::Points => next().hypot(next()),
+                    Fixes::Points | Fixes::Contact => next().hypot(next()),
                     _ => next().abs(),
                 })
                 .collect();

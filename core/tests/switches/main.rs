@@ -5,6 +5,7 @@
 #[path = "../mechanisms/mod.rs"]
 mod mechanisms;
 
+mod curves;
 mod in_time;
 mod jumps;
 mod kinks;

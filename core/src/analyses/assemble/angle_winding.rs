@@ -4,9 +4,11 @@
 //! turns of wheels that roll on others are fixed too: a whole turn of one moves the others. For the other bodies, each torsional spring, in the order of the file, is relaxed as far as whole turns can relax it.
 
 use super::targets::{nearest_turn, Targets};
-use crate::elements::{BodyId, Fixes};
+use crate::elements::{BodyId, Fixes, Group};
+use crate::equations::constraints;
+use crate::equations::kinematics::Motions;
 use crate::model::{ConstraintItem, Model};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Shifts free angles of `q` by whole turns; returns a warning for each spring still beyond half a turn.
 pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
@@ -67,4 +69,27 @@ fn root(group: &mut [usize], mut b: usize) -> usize {
         b = group[b];
     }
     b
+}
+
+/// Turns bodies by whole turns, so that driven relative angles have their values and not others of the same pose.
+pub(super) fn wind(model: &Model, t: f64, q: &mut [f64]) {
+    for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
+        let ([i, j], [equation]) = (&item.bodies[..], &item.equations[..]) else { continue };
+        if item.group != Group::Drivers || equation.unit != "rad" {
+            continue;
+        }
+        let mut phi = vec![0.0; model.layout.n_rows];
+        constraints::residual(model, &Motions::at_rest(&model.layout, q), t, &mut phi);
+        let turns = TAU * (phi[slots.rows.start] / TAU).round();
+        let angle = |body: &BodyId| {
+            let columns = model.layout.bodies[body.0];
+            (columns.count == 3).then_some(columns.first + 2)
+        };
+        match (angle(i), angle(j)) {
+            _ if !turns.is_finite() || turns == 0.0 => {}
+            (_, Some(column)) => q[column] -= turns,
+            (Some(column), None) => q[column] += turns,
+            (None, None) => {}
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! The constraints by which a body with one freedom left may be placed.
 
 use crate::elements::Fixes;
-use crate::model::{size, Model};
+use crate::model::{size, ConstraintItem, Dependence, Model};
 
 /// The constraints of each body that may place it, and the size of the mechanism.
 pub(super) struct ByEquation<'a> {
@@ -21,7 +21,8 @@ impl<'a> ByEquation<'a> {
             let has = |wanted: fn(&Fixes<f64>) -> bool| fixes.iter().any(wanted);
             let otherwise = has(|f| matches!(f, Fixes::Points | Fixes::Coordinate(..)))
                 || has(|f| *f == Fixes::Line) && has(|f| *f == Fixes::Direction);
-            if !otherwise && item.law.is_none() && item.element.own() == 0 {
+            let placed = item.element.own() == 0 || has(|f| *f == Fixes::Contact);
+            if !otherwise && is_of_its_bodies(item) && placed {
                 item.bodies.iter().filter(|b| !b.is_ground()).for_each(|b| of[b.0].push(k));
                 for (a, b) in
                     item.bodies.iter().flat_map(|a| item.bodies.iter().map(move |b| (a, b)))
@@ -37,4 +38,13 @@ impl<'a> ByEquation<'a> {
     pub fn linked(&self, b: usize) -> &[usize] {
         &self.linked[b]
     }
+}
+
+/// Whether the laws of a constraint use nothing but time and the positions of its own bodies.
+fn is_of_its_bodies(item: &ConstraintItem) -> bool {
+    let mut depends = Dependence::default();
+    if let Some(law) = &item.law {
+        law.map(&mut |tape| depends.add(tape));
+    }
+    depends.bodies.iter().all(|body| item.bodies.contains(body))
 }

@@ -4,24 +4,25 @@
 use super::legs::Leg;
 use super::placer::Placer;
 use super::slider_placement::Rail;
-use crate::elements::{At, Fixes};
-use crate::math::{Local, Pose, Rotation, Vec2};
+use crate::elements::{At, BodyId, Coordinate, Fixes};
+use crate::equations::Laws;
+use crate::math::{Local, Pose, Rotation, Twist, Vec2};
 
 /// Angles at which an equation is evaluated to find the signs of its solutions.
 const SAMPLES: usize = 72;
 /// Largest change of an equation, over the size, that counts as none.
-const NOTHING: f64 = 1e-9;
+pub(super) const NOTHING: f64 = 1e-9;
 /// Smallest component of a line along a coordinate with which the coordinate decides the place.
 const ACROSS: f64 = 1e-9;
 
 /// The freedom that a body has left.
-enum Freedom {
+pub(super) enum Freedom {
     Turn(Leg, Vec2),
     Slide(Rail),
 }
 
 impl Freedom {
-    fn pose(&self, x: f64) -> Pose {
+    pub fn pose(&self, x: f64) -> Pose {
         match self {
             Self::Slide(rail) => rail.at(x),
             Self::Turn(leg, target) => {
@@ -40,7 +41,16 @@ impl Placer<'_> {
         let place = |body: usize| if body == b { Some(*pose) } else { self.poses[body] };
         let bodies: Option<Vec<Pose>> = item.bodies.iter().map(|body| place(body.0)).collect();
         let mut phi = vec![0.0; item.equations.len()];
-        item.element.residual(&At { bodies: &bodies?, own: &[], t: 0.0 }, &mut phi);
+        let (bodies, t) = (bodies?, self.targets.t);
+        let coordinate = |body: BodyId, coordinate: Coordinate| {
+            let end = item.bodies.iter().position(|known| *known == body);
+            end.map_or(f64::NAN, |end| coordinate.of(&bodies[end], &Twist::zero()))
+        };
+        let parameters = &self.equations.model.parameters;
+        let laws = Laws { parameters, t, coordinate, z: &[], pieces: &[], function: None };
+        let varying = item.law.as_ref().map(|law| law.map(&mut |tape| tape.evaluate(&laws)));
+        let element = varying.as_ref().unwrap_or(&item.element);
+        element.residual(&At { bodies: &bodies, own: &[], t }, &mut phi);
         Some(phi)
     }
 
@@ -66,6 +76,9 @@ impl Placer<'_> {
     /// The poses at which an equation of constraint `k` holds, the preferred first.
     fn solutions(&self, k: usize, b: usize, freedom: &Freedom) -> Vec<Pose> {
         let fixes = self.equations.model.constraints[k].element.fixes();
+        if fixes.contains(&Fixes::Contact) {
+            return self.contacts(k, b, freedom);
+        }
         let Some(m) = self.phi(k, b, &freedom.pose(0.0)).map(|phi| phi.len()) else {
             return Vec::new();
         };
@@ -219,15 +232,26 @@ fn newton(f: impl Fn(f64) -> f64, start: f64, scale: f64) -> Option<f64> {
 fn around(f: impl Fn(f64) -> f64, nothing: f64) -> Vec<f64> {
     // no round angle is a sample: solutions are often round
     let at = |k: usize| std::f64::consts::TAU * ((k as f64 + 0.377) / SAMPLES as f64 - 0.5);
-    let values: Vec<f64> = (0..=SAMPLES).map(|k| f(at(k))).collect();
+    zeros(f, (SAMPLES, at), nothing, 60)
+}
+
+/// The zeros of `f` between samples of opposite sign, at the places of 0 to a number, which are halved so many times.
+/// None of a constant.
+pub(super) fn zeros(
+    f: impl Fn(f64) -> f64,
+    (samples, at): (usize, impl Fn(usize) -> f64),
+    nothing: f64,
+    halvings: i32,
+) -> Vec<f64> {
+    let values: Vec<f64> = (0..=samples).map(|k| f(at(k))).collect();
     let spread = values.iter().fold(0.0, |most: f64, v| most.max((v - values[0]).abs()));
     if spread.is_nan() || spread <= nothing {
         return Vec::new();
     }
-    let crossing = (0..SAMPLES).filter(|k| (values[*k] <= 0.0) != (values[k + 1] <= 0.0));
+    let crossing = (0..samples).filter(|k| (values[*k] <= 0.0) != (values[k + 1] <= 0.0));
     let halved = crossing.filter_map(|k| {
         let [mut low, mut high] = [at(k), at(k + 1)];
-        for _ in 0..60 {
+        for _ in 0..halvings {
             let middle = 0.5 * (low + high);
             match (f(middle) <= 0.0) == (values[k] <= 0.0) {
                 true => low = middle,
@@ -235,7 +259,8 @@ fn around(f: impl Fn(f64) -> f64, nothing: f64) -> Vec<f64> {
             }
         }
         // a jump is not a zero
-        (f(low).abs() <= 1e-6 * spread).then_some(low)
+        let small = 0.5_f64.powi(halvings).max(1e-6);
+        (f(low).abs() <= small * spread).then_some(low)
     });
     halved.collect()
 }

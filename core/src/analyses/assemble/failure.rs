@@ -1,7 +1,8 @@
 //! Failures of assembly, in terms of the mechanism.
 
 use super::placement::Gap;
-use super::request::{of_bodies, of_rates, CoordinateTarget, Request};
+use super::request::Request;
+use super::target::{of_motion, of_rates, trimmed, Target};
 use crate::analyses::closing::Closing;
 use crate::analyses::required::Unmet;
 use crate::analyses::Mobility;
@@ -39,6 +40,8 @@ pub struct Failure {
     pub message: String,
     /// Remedy.
     pub hint: String,
+    /// The places in a file of the drivers and values that contradict each other.
+    pub places: Vec<Vec<String>>,
 }
 
 impl fmt::Display for Failure {
@@ -55,9 +58,6 @@ pub(super) fn open(
     q: &[f64],
     gap: Option<&Gap>,
 ) -> Failure {
-    if let Some(failure) = undefined(model, request.t, q) {
-        return failure;
-    }
     match gap {
         Some(gap) => dyad_open(model, request, gap),
         None => stays_open(model, request, &closing.phi(q)),
@@ -93,6 +93,7 @@ pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
             gap: 0.0,
             message: format!("the law of {kind} {name} has no value at t = {t} s: {table}"),
             hint: TABLE_ENDS.to_string(),
+            places: Vec::new(),
         });
     }
     Some(Failure {
@@ -101,6 +102,7 @@ pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
         gap: 0.0,
         message: format!("the law of {kind} {name} has no finite {what} at t = {t} s"),
         hint: "change the law, or start at a time and position where it has one".to_string(),
+        places: Vec::new(),
     })
 }
 
@@ -115,7 +117,7 @@ fn refusal(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> O
 /// A contact beyond the end of its curve.
 pub(super) fn off_the_curve((name, message): (String, String)) -> Failure {
     let hint = "extend the range of the curve, or give a guess of the contact on it".to_string();
-    Failure { fault: Fault::Open, name, gap: 0.0, message, hint }
+    Failure { fault: Fault::Open, name, gap: 0.0, message, hint, places: Vec::new() }
 }
 
 fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
@@ -137,7 +139,7 @@ fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
         )
     };
     let loop_ = loop_through(model, gap.joint).unwrap_or_else(|| format!("{a}-{b}"));
-    let set = asked(model, of_bodies(&request.set));
+    let set = asked(model, of_motion(&request.set));
     let change = if set.is_empty() { String::new() } else { ", or change what is set".to_string() };
     Failure {
         fault: Fault::Open,
@@ -145,6 +147,7 @@ fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
         gap: missing,
         message: format!("the loop {loop_} cannot close: {set}{fault}"),
         hint: format!("{hint}{change}"),
+        places: Vec::new(),
     }
 }
 
@@ -167,7 +170,7 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
         Some(loop_) => format!("the loop {loop_}"),
         None => "the mechanism".to_string(),
     };
-    let set = asked(model, of_bodies(&request.set));
+    let set = asked(model, of_motion(&request.set));
     let gap = if total > 0.0 { total } else { worst.1 };
     let unit = model.constraints[worst.0].equations[0].unit;
     let message = if unit == "m" {
@@ -178,32 +181,15 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
         format!("{around} cannot close: {set}{name} is missed by {missed} {unit}")
     };
     let hint = "give a guess nearer to the position meant, change what is set, or change lengths";
-    Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string() }
+    Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string(), places: Vec::new() }
 }
 
 /// "with crank.angle = 70° ", or nothing.
-fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a CoordinateTarget>) -> String {
-    let one = |target: &CoordinateTarget| {
-        let name = format!("{}.{}", model.bodies[target.body.0].name, target.coordinate.name());
-        match target.coordinate.unit() {
-            "rad" => format!("{name} = {}°", trimmed(target.value.to_degrees(), 7)),
-            unit => format!("{name} = {} {unit}", trimmed(target.value, 7)),
-        }
-    };
-    let all: Vec<String> = set.map(one).collect();
+fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a Target>) -> String {
+    let all: Vec<String> = set.map(|target| target.written(model)).collect();
     match all.is_empty() {
         true => String::new(),
         false => format!("with {} ", listed(&all.iter().map(String::as_str).collect::<Vec<_>>())),
-    }
-}
-
-/// Some significant digits without trailing zeros.
-fn trimmed(x: f64, digits: usize) -> String {
-    let rounded = format!("{x:.*e}", digits - 1).parse::<f64>().unwrap_or(x);
-    match rounded.abs() {
-        1e-5..1e16 => format!("{rounded}"),
-        0.0 => "0".to_string(),
-        _ => format!("{rounded:e}"),
     }
 }
 
@@ -270,10 +256,10 @@ fn ends(item: &ConstraintItem) -> [usize; 2] {
     [item.bodies[0].0, item.bodies[last].0]
 }
 
-/// The rates that are set cannot be reached.
+/// The rates that are set or driven cannot be reached.
 pub(super) fn rates(model: &Model, request: &Request) -> Failure {
     let mut set = of_rates(&request.set);
-    let name = set.clone().next().map_or(String::new(), |w| model.bodies[w.body.0].name.clone());
+    let name = set.clone().next().map_or(String::new(), |target| target.name(model));
     Failure {
         fault: Fault::Rates,
         name,
@@ -282,14 +268,15 @@ pub(super) fn rates(model: &Model, request: &Request) -> Failure {
             "{}the velocities contradict the constraints or each other",
             asked(model, &mut set)
         ),
-        hint: "set no more rates than there are degrees of freedom".to_string(),
+        hint: "remove a rate that is set, or start at a position that is not singular".to_string(),
+        places: Vec::new(),
     }
 }
 
 /// A quantity that the mechanism must hold has another value, or is not held.
 pub(super) fn unmet(unmet: Unmet) -> Failure {
     let Unmet { name, gap, message, hint } = unmet;
-    Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string() }
+    Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string(), places: Vec::new() }
 }
 
 /// The caller has ended the assembly.
@@ -300,6 +287,7 @@ pub(super) fn stopped() -> Failure {
         gap: 0.0,
         message: "the assembly was stopped".to_string(),
         hint: "assemble again".to_string(),
+        places: Vec::new(),
     }
 }
 
@@ -323,6 +311,7 @@ pub(super) fn redundant(model: &Model, mobility: &Mobility) -> Failure {
         gap: 0.0,
         message,
         hint: format!("remove {which}, or pass redundancy='allow'"),
+        places: Vec::new(),
     }
 }
 

@@ -8,30 +8,40 @@
 //! A consistent position is not changed.
 
 mod angle_winding;
+mod attempt;
 mod by_equation;
+mod contact_placement;
+mod contradiction;
 mod dyad;
 mod dyad_placement;
 mod equation_placement;
 mod failure;
+mod guided;
+mod holding;
 mod legs;
+mod named;
 mod open_placement;
 mod placement;
 mod placements;
 mod placer;
+mod rates;
 mod report;
 mod request;
 mod slider_placement;
+mod target;
 mod targets;
 mod velocities;
 mod worklist;
 
 pub use super::closing::Closing;
 pub use failure::{Failure, Fault};
+pub use holding::holding;
 pub use open_placement::open_placement;
 pub use placement::{Dyad, Gap, Placement};
 pub use placer::place;
 pub use report::{Mode, Report};
-pub use request::{targets, CoordinateTarget, Request, Target};
+pub use request::{targets, Request};
+pub use target::{CoordinateTarget, QuantityTarget, Target};
 pub use targets::Targets;
 
 use super::closing::Stop;
@@ -39,19 +49,10 @@ use super::curves;
 use super::mobility::mobility_until;
 use super::required;
 use super::State;
-use crate::elements::CoordinateOf;
-use crate::equations::kinematics;
-use crate::math::Pose;
 use crate::model::Model;
-use crate::solve::newton::Record;
+use attempt::{close_from, given, internal, Closed, MOST_TRIES};
 use placements::Placements;
-use request::{of_positions, of_rates};
-use std::sync::Arc;
-
-/// Largest number of placements from which Newton's method is tried.
-const MOST_TRIES: usize = 16;
-/// Largest difference of a given pose from `set` with which bodies are not placed anew, rad.
-const NEAR: f64 = 0.35;
+use target::{of_bodies, of_quantities};
 
 /// Assembles a mechanism.
 ///
@@ -102,14 +103,16 @@ fn complete(
     }
     let mobility = mobility_until(model, request.t, &q, stop);
     if !mobility.redundant.is_empty() && !model.allow_redundancy {
-        return Err(Box::new(failure::redundant(model, &mobility)));
+        // drivers that agree on the position may have different rates
+        let rates = rates::contradiction(model, request, &q, stop);
+        return Err(Box::new(rates.unwrap_or_else(|| failure::redundant(model, &mobility))));
     }
     if let Some(unmet) = required::loose(model, request.t, &q) {
         return Err(Box::new(failure::unmet(unmet)));
     }
     report.degrees_of_freedom = mobility.degrees_of_freedom;
     report.warnings.extend(report::singular(model, &mobility.singular));
-    let v = velocities(model, request, &q)?;
+    let v = rates::consistent(model, request, &q, stop)?;
     describe(model, &asked, &q, &mut report);
     Ok((State { t: request.t, q, v, z: states(model, request) }, report))
 }
@@ -134,47 +137,22 @@ fn asked(model: &Model, request: &Request) -> Targets {
         asked.approach(model, &state.q);
         asked.turn[1..].fill(true);
     }
-    for target in of_positions(&request.guess) {
+    for target in of_bodies(&request.guess) {
         asked.soft[target.body.0][target.coordinate.column()] = Some(target.value);
         asked.turn[target.body.0] |= target.coordinate.column() == 2;
     }
-    for target in of_positions(&request.set) {
+    for target in of_bodies(&request.set) {
         asked.hard[target.body.0][target.coordinate.column()] = Some(target.value);
         asked.turn[target.body.0] |= target.coordinate.column() == 2;
+    }
+    for target in of_quantities(&request.set).chain(of_quantities(&request.guess)) {
+        let turned = target.of.label().1 == "rad";
+        target.of.bodies().iter().for_each(|body| asked.turn[body.0] |= turned);
     }
     for (hard, turn) in asked.hard.iter().zip(&mut asked.turn) {
         *turn |= hard[2].is_some();
     }
     asked
-}
-
-/// The model with a driver for each coordinate that is set.
-pub fn holding(model: &Model, request: &Request) -> Model {
-    let held: Vec<_> = of_positions(&request.set).map(|w| held(model, w, w.value.into())).collect();
-    let blueprint = model.blueprint.holding(&held);
-    Model::new(&Arc::new(blueprint), &model.parameters)
-}
-
-fn held(
-    model: &Model,
-    target: &CoordinateTarget,
-    value: crate::expression::Tape,
-) -> (String, CoordinateOf, crate::expression::Tape) {
-    let position = crate::elements::Coordinate::ALL[target.coordinate.column()];
-    let name = format!("set {}", model.bodies[target.body.0].name);
-    (name, CoordinateOf { body: target.body, coordinate: position }, value)
-}
-
-/// The column of a coordinate or of its rate.
-fn column(model: &Model, target: &CoordinateTarget) -> usize {
-    model.layout.bodies[target.body.0].first + target.coordinate.column()
-}
-
-/// A position in which the mechanism closes.
-struct Closed {
-    q: Vec<f64>,
-    iterations: Vec<Record>,
-    warnings: Vec<String>,
 }
 
 /// The first position, in the order of preference, from which the mechanism closes.
@@ -188,8 +166,10 @@ fn close(
     if request.from_guess {
         let q = given(model, asked).unwrap_or_else(|| open_placement(model, asked));
         let outcome = close_from(closing, &internal, q, Vec::new());
-        return outcome
-            .map_err(|q| Box::new(failure::open(closing.model(), request, closing, &q, None)));
+        return outcome.map_err(|q| Box::new(unclosed(request, closing, &q, None)));
+    }
+    if let Some(found) = guided::close(model, request, asked, &internal, closing) {
+        return Ok(found);
     }
     if let Some(found) =
         given(model, asked).and_then(|q| close_from(closing, &internal, q, Vec::new()).ok())
@@ -198,7 +178,7 @@ fn close(
     }
     // the first placement, and the position that Newton's method reached from it
     let mut first: Option<(Placement, Vec<f64>)> = None;
-    for placement in Placements::new(model, asked).take(MOST_TRIES) {
+    for placement in Placements::new(closing.model(), asked).take(MOST_TRIES) {
         let warnings = report::folded(model, &placement.dyads);
         match close_from(closing, &internal, placement.q.clone(), warnings) {
             Ok(found) => return Ok(found),
@@ -209,73 +189,16 @@ fn close(
         }
     }
     let (gap, q) = first.map_or((None, Vec::new()), |(p, q)| (p.gaps.into_iter().next(), q));
-    Err(Box::new(failure::open(closing.model(), request, closing, &q, gap.as_ref())))
+    Err(Box::new(unclosed(request, closing, &q, gap.as_ref())))
 }
 
-/// The internal coordinates that the state or the guess gives, by their columns. All others are those of the nearest
-/// contact.
-fn internal(model: &Model, request: &Request) -> Vec<(usize, f64)> {
-    let state = request.state.iter().flat_map(|state| {
-        let columns = model.layout.constraints.iter().flat_map(|slots| slots.own.range());
-        columns.filter_map(|column| Some((column, *state.q.get(column)?)))
-    });
-    let guess = request.guess.iter().filter_map(|target| match target {
-        Target::Internal { column, value } => Some((*column, *value)),
-        _ => None,
-    });
-    state.chain(guess).collect()
-}
-
-/// Newton's method from a position; the error is the position that it reached.
-fn close_from(
-    closing: &mut Closing<'_>,
-    internal: &[(usize, f64)],
-    mut q: Vec<f64>,
-    warnings: Vec<String>,
-) -> Result<Closed, Vec<f64>> {
-    for (column, value) in internal {
-        q[*column] = *value;
-    }
-    match closing.close(&mut q) {
-        (iterations, true) => Ok(Closed { q, iterations, warnings }),
-        (_, false) => Err(q),
-    }
-}
-
-/// The whole position, if every coordinate has a target and hard targets lie near soft ones.
-fn given(model: &Model, asked: &Targets) -> Option<Vec<f64>> {
-    let near = |b: usize| match (asked.hard[b][2], asked.soft[b][2]) {
-        (Some(hard), Some(soft)) => (hard - soft).abs() < NEAR,
-        _ => true,
-    };
-    let pose =
-        |b: usize| asked.pose(b).filter(|_| near(b)).map(|[x, y, angle]| Pose::new(x, y, angle));
-    let moving: Option<Vec<Pose>> = (1..asked.soft.len()).map(pose).collect();
-    let poses: Vec<Pose> = std::iter::once(Pose::identity()).chain(moving?).collect();
-    Some(kinematics::coordinates(model, &poses))
-}
-
-/// Velocities from the guess, made consistent; drivers hold the rates of `set`.
-fn velocities(model: &Model, request: &Request, q: &[f64]) -> Result<Vec<f64>, Box<Failure>> {
-    let mut v = match &request.state {
-        Some(state) => state.v.clone(),
-        None => vec![0.0; q.len()],
-    };
-    let mut drivers = Vec::new();
-    for target in of_rates(&request.guess).chain(of_rates(&request.set)) {
-        v[column(model, target)] = target.value;
-    }
-    for target in of_rates(&request.set) {
-        let position = q[column(model, target)];
-        let law = crate::expression::Tape::line(position, target.value, request.t);
-        drivers.push(held(model, target, law));
-    }
-    let extended = Model::new(&Arc::new(model.blueprint.holding(&drivers)), &model.parameters);
-    let left = velocities::project(&extended, request.t, q, &mut v);
-    if !(left <= 1e-8 && v.iter().all(|v| v.is_finite())) {
-        return Err(Box::new(failure::rates(model, request)));
-    }
-    Ok(v)
+/// Why the mechanism does not close; `q` is the position with the smallest gap that was found.
+fn unclosed(request: &Request, closing: &Closing<'_>, q: &[f64], gap: Option<&Gap>) -> Failure {
+    let model = closing.model();
+    let undefined = failure::undefined(model, request.t, q);
+    undefined
+        .or_else(|| contradiction::of_positions(model, request, q, closing.stop()))
+        .unwrap_or_else(|| failure::open(model, request, closing, q, gap))
 }
 
 /// Writes the assembly mode into the report.

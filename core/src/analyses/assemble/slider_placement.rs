@@ -26,6 +26,8 @@ pub(super) struct Rail {
     pub pose: Pose,
     /// Along the slide, of length 1.
     pub direction: Vec2,
+    /// The joint point of the other body.
+    pub guide: Vec2,
 }
 
 /// Smallest component of a direction along a coordinate with which the coordinate decides the place.
@@ -60,9 +62,10 @@ impl Slide {
     pub fn rail(&self, other: &Pose) -> Option<Rail> {
         let axis = other.angle + self.other_axis;
         let mut pose = Pose::new(0.0, 0.0, axis - self.own_axis);
-        pose.r = other.point(self.at_other) - pose.global(self.own);
+        let guide = other.point(self.at_other);
+        pose.r = guide - pose.global(self.own);
         let Rotation { cos, sin } = Rotation::new(axis);
-        axis.is_finite().then_some(Rail { pose, direction: Vec2::new(cos, sin) })
+        axis.is_finite().then_some(Rail { pose, direction: Vec2::new(cos, sin), guide })
     }
 }
 

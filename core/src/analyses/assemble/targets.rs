@@ -6,6 +6,8 @@ use crate::model::{Dependence, Model};
 /// Target values, by body (ground first) and coordinate x, y, angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Targets {
+    /// Time of the assembly, s.
+    pub t: f64,
     /// Targets held exactly: by `set` or by a driver.
     pub hard: Vec<[Option<f64>; 3]>,
     /// Targets approached: from `guess`, a given state, or the drawn position of the body.
@@ -19,7 +21,7 @@ impl Targets {
     pub fn of(model: &Model, t: f64) -> Self {
         let n = model.bodies.len();
         let mut targets =
-            Self { hard: vec![[None; 3]; n], soft: vec![[None; 3]; n], turn: vec![false; n] };
+            Self { t, hard: vec![[None; 3]; n], soft: vec![[None; 3]; n], turn: vec![false; n] };
         for (k, body) in model.bodies.iter().enumerate() {
             if let Some(drawn) = body.drawn {
                 targets.soft[k] = drawn.map(Some);

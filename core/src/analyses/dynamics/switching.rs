@@ -8,6 +8,7 @@
 //! is released: its law then decides by itself, until it has kept one piece for [`CALM`] steps. Otherwise the motion
 //! slides along the switch, which laws cannot describe, and the run ends.
 
+mod curve_break;
 mod narrow;
 
 use super::law_jump::Jump;
@@ -299,6 +300,9 @@ impl Switching {
 
     /// Scans a step, with its interpolant prepared.
     pub fn look(&mut self, model: &Model, step: &Step<'_>) -> After {
+        if let Some(after) = self.approach(model, step) {
+            return after;
+        }
         let sign = self.sign;
         let scanned = self.scan(model, step);
         let own = |k: usize| self.on_state[k];
@@ -344,14 +348,6 @@ impl Switching {
         let scanned = scan(step, on_state.len(), &mut margins, Direction::Falling);
         self.on_state = on_state;
         scanned
-    }
-
-    fn evaluate_at(&mut self, model: &Model, step: &Step<'_>, t: f64) {
-        let mut y = step.y.to_vec();
-        if t != step.t {
-            step.interpolate(t, &mut y);
-        }
-        self.evaluate(model, t, &y);
     }
 
     /// A step without a crossing. Switches that were never in the piece that was held change at its beginning.

@@ -56,6 +56,7 @@ impl Joint for CoordinateDriver {
     fn fixes<S: Clone>(e: &CoordinateDriver<S>) -> Vec<Fixes<S>> {
         match &e.coordinate {
             Followed::Coordinate(of) => vec![Fixes::Coordinate(*of, e.value.clone())],
+            Followed::Quantity(of) if of.unit == "rad" => vec![Fixes::Turn],
             Followed::Quantity(_) => Vec::new(),
         }
     }

@@ -6,8 +6,8 @@
 //! and acts at the point of contact C(u). The curve must be strictly convex, or Φ₂ does not determine u.
 
 use crate::elements::{
-    contact, derive, element, At, Attachment, BodyId, CurveOn, Equation, Joint, Linearized, Mark,
-    Moving, ResultQuantity, SceneSymbol, SymbolEnd,
+    contact, derive, element, At, Attachment, BodyId, CurveOn, Equation, Fixes, Joint, Linearized,
+    Mark, Moving, ResultQuantity, SceneSymbol, SymbolEnd,
 };
 use crate::math::{Local, Pose, Real, Rotation, Vec2};
 
@@ -47,7 +47,7 @@ impl Joint for FlatOnCurve {
 
     fn residual<S: Real>(e: &FlatOnCurve<S>, at: &At<'_, S>, phi: &mut [S]) {
         let n = normal(e, at.i());
-        let [c, first, ..] = e.curve.curve.derivatives(at.own[0]);
+        let [c, first] = e.curve.curve.tangent(at.own[0]);
         let apart = at.j().point(c) - at.i().point(e.i.s);
         let tangent = at.j().global(first.scale(S::one() / first.norm()));
         phi.copy_from_slice(&[n.dot(apart), n.dot(tangent)]);
@@ -84,6 +84,10 @@ impl Joint for FlatOnCurve {
 
     fn curve_mut<S>(e: &mut FlatOnCurve<S>) -> Option<&mut CurveOn<S>> {
         Some(&mut e.curve)
+    }
+
+    fn fixes<S: Clone>(_: &FlatOnCurve<S>) -> Vec<Fixes<S>> {
+        vec![Fixes::Contact]
     }
 
     /// Of the places where the curve is parallel to the face, the one nearest to it.

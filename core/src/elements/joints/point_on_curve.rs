@@ -4,8 +4,8 @@
 //! at the point of contact. |C′| > 0; an open curve ends at its range.
 
 use crate::elements::{
-    contact, derive, element, At, Attachment, BodyId, CurveOn, Equation, Joint, Linearized, Mark,
-    Moving, SceneSymbol, SymbolEnd,
+    contact, derive, element, At, Attachment, BodyId, CurveOn, Equation, Fixes, Joint, Linearized,
+    Mark, Moving, SceneSymbol, SymbolEnd,
 };
 use crate::math::{Local, Pose, Real};
 
@@ -55,6 +55,10 @@ impl Joint for PointOnCurve {
 
     fn curve_mut<S>(e: &mut PointOnCurve<S>) -> Option<&mut CurveOn<S>> {
         Some(&mut e.curve)
+    }
+
+    fn fixes<S: Clone>(_: &PointOnCurve<S>) -> Vec<Fixes<S>> {
+        vec![Fixes::Contact]
     }
 
     fn own_start(e: &PointOnCurve, bodies: &[Pose]) -> Vec<f64> {

@@ -6,8 +6,8 @@
 //! and acts at the point of contact C(u). Where 1 ± r κ ≤ 0, the roller does not fit into the curve (undercut).
 
 use crate::elements::{
-    contact, derive, element, At, Attachment, BodyId, CurveOn, Equation, Joint, Linearized, Mark,
-    Moving, ResultQuantity, SceneSymbol, Side, SymbolEnd,
+    contact, derive, element, At, Attachment, BodyId, CurveOn, Equation, Fixes, Joint, Linearized,
+    Mark, Moving, ResultQuantity, SceneSymbol, Side, SymbolEnd,
 };
 use crate::math::{Local, Pose, Real};
 
@@ -39,7 +39,7 @@ fn offset<S: Real>(e: &RollerOnCurve<S>, first: Local<S>) -> Local<S> {
 
 /// The centre of the roller in the frame of body j.
 fn centre<S: Real>(e: &RollerOnCurve<S>, u: S) -> Local<S> {
-    let [c, first, ..] = e.curve.curve.derivatives(u);
+    let [c, first] = e.curve.curve.tangent(u);
     let offset = offset(e, first);
     Local::new(c.x + offset.x, c.y + offset.y)
 }
@@ -95,6 +95,10 @@ impl Joint for RollerOnCurve {
 
     fn curve_mut<S>(e: &mut RollerOnCurve<S>) -> Option<&mut CurveOn<S>> {
         Some(&mut e.curve)
+    }
+
+    fn fixes<S: Clone>(_: &RollerOnCurve<S>) -> Vec<Fixes<S>> {
+        vec![Fixes::Contact]
     }
 
     fn own_start(e: &RollerOnCurve, bodies: &[Pose]) -> Vec<f64> {

@@ -5,6 +5,15 @@ use crate::integrate::Step;
 use crate::model::Model;
 
 impl Switching {
+    /// The functions of all switches at a time of a step.
+    pub(super) fn evaluate_at(&mut self, model: &Model, step: &Step<'_>, t: f64) {
+        let mut y = step.y.to_vec();
+        if t != step.t {
+            step.interpolate(t, &mut y);
+        }
+        self.evaluate(model, t, &y);
+    }
+
     /// The first of the given switches that left a narrow piece: its time, the switch, and the piece beyond.
     pub(super) fn first_through(
         &mut self,

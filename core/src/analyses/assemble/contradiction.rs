@@ -1,0 +1,191 @@
+//! Drivers, driven joints and values of `set` that contradict each other.
+//!
+//! The joints alone can be closed. Drivers are added one by one, in the order of the file. The first one that cannot be
+//! met contradicts those before it if its row of Φ_q depends on theirs; the left null vector shows which ones. A row
+//! that depends on the others at a limit of the motion only, such as a dead point, does not: it is judged at a
+//! neighbouring position too.
+
+use super::failure::{Failure, Fault};
+use super::holding::SET;
+use super::request::Request;
+use super::target::trimmed;
+use super::velocities;
+
+use crate::analyses::closing::{Closing, Stop};
+use crate::analyses::dependence;
+use crate::analyses::mobility::moved;
+use crate::equations::constraints;
+use crate::equations::kinematics::Motions;
+use crate::model::{listed, Model};
+use crate::solve::RANK_TOLERANCE;
+use std::sync::Arc;
+
+/// Most equations of a model in which contradictions are looked for.
+const MOST_ROWS: usize = 300;
+/// Distance of the neighbouring position, rad.
+const NEIGHBOUR: f64 = 0.02;
+/// Largest relative residual of velocities that agree.
+pub(super) const AGREE: f64 = 1e-8;
+
+/// A driven constraint that cannot be met together with others.
+struct Contradiction {
+    /// The constraints that hold, ascending.
+    met: Vec<usize>,
+    /// The one that then does not hold.
+    missed: usize,
+    by: f64,
+    /// Whether rates are meant.
+    rates: bool,
+}
+
+/// The driven constraints, and all others.
+fn parts(model: &Model) -> Option<[Vec<usize>; 2]> {
+    let own = |k: &usize| model.layout.constraints[*k].own.count > 0;
+    let driven = |k: &usize| model.constraints[*k].driven && !own(k);
+    let (driven, rest): (Vec<usize>, Vec<usize>) =
+        (0..model.constraints.len()).partition(|k| driven(k));
+    (!driven.is_empty() && model.layout.n_rows <= MOST_ROWS).then_some([driven, rest])
+}
+
+/// The model with some of its constraints only.
+fn keeping(model: &Model, kept: &[usize]) -> Model {
+    Model::new(&Arc::new(model.blueprint.keeping(kept)), &model.parameters)
+}
+
+/// The constraint after those that are met, among those whose rows its row depends on; None if it is independent.
+fn dependent(
+    model: &Model,
+    t: f64,
+    q: &[f64],
+    (met, last): (&[usize], usize),
+    stop: Stop<'_>,
+) -> Option<Vec<usize>> {
+    let kept: Vec<usize> = met.iter().copied().chain([last]).collect();
+    let reduced = keeping(model, &kept);
+    let groups = dependence::at(&reduced, t, q, RANK_TOLERANCE, stop).groups;
+    let of_last = groups.into_iter().find(|group| group.contains(&(kept.len() - 1)))?;
+    let mut others: Vec<usize> = of_last.into_iter().map(|k| kept[k]).collect();
+    others.retain(|k| *k != last);
+    others.sort_unstable();
+    Some(others)
+}
+
+/// Positions that contradict each other in a model that contains drivers for `set`, if that is why it does not close.
+pub(super) fn of_positions(
+    model: &Model,
+    request: &Request,
+    q: &[f64],
+    stop: Stop<'_>,
+) -> Option<Failure> {
+    let t = request.t;
+    let [driven, rest] = parts(model).filter(|_| q.len() == model.layout.n_q)?;
+    let rows = |k: &usize| model.layout.constraints[*k].rows.clone();
+    let close = |q: &[f64], open: &[usize]| {
+        let rows: Vec<usize> = open.iter().flat_map(rows).collect();
+        let mut q = q.to_vec();
+        Closing::new(model, t, stop).without(&rows).close(&mut q).1.then_some(q)
+    };
+    let mut q = close(q, &driven)?;
+    for (k, last) in driven.iter().enumerate() {
+        if let Some(closed) = close(&q, &driven[k + 1..]) {
+            q = closed;
+            continue;
+        }
+        let met: Vec<usize> = rest.iter().chain(&driven[..k]).copied().collect();
+        let met_there = dependent(model, t, &q, (&met, *last), stop)?;
+        let near = close(&moved(model, &q, NEIGHBOUR, 0), &driven[k..]);
+        near.map_or(Some(Vec::new()), |near| dependent(model, t, &near, (&met, *last), stop))?;
+        let phi = Closing::new(model, t, stop).phi(&q);
+        let by = phi[rows(last)].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let found = Contradiction { met: met_there, missed: *last, by, rates: false };
+        return Some(failure(model, request, &found));
+    }
+    None
+}
+
+/// Rates that contradict each other at a position, in a model that contains drivers for those that are set.
+pub(super) fn of_rates(
+    model: &Model,
+    request: &Request,
+    q: &[f64],
+    v: &[f64],
+    stop: Stop<'_>,
+) -> Option<Failure> {
+    let t = request.t;
+    let [driven, rest] = parts(model)?;
+    let agreed = |kept: &[usize]| {
+        let (reduced, mut v) = (keeping(model, kept), v.to_vec());
+        let left = velocities::project(&reduced, t, q, &mut v);
+        (left <= AGREE && v.iter().all(|v| v.is_finite())).then_some(v)
+    };
+    let mut met = rest;
+    let mut v = agreed(&met)?;
+    for last in driven {
+        met.push(last);
+        if let Some(moving) = agreed(&met) {
+            v = moving;
+            continue;
+        }
+        met.pop();
+        met.sort_unstable();
+        let others = dependent(model, t, q, (&met, last), stop)?;
+        let m = model.layout.n_rows;
+        let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+        let motions = Motions::at(&model.layout, q, &v);
+        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+        let rows = model.layout.constraints[last].rows.clone();
+        let by = rate[rows].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let found = Contradiction { met: others, missed: last, by, rates: true };
+        return Some(failure(model, request, &found));
+    }
+    None
+}
+
+/// "driver one" or "set crank.angle = 70°".
+fn label(model: &Model, request: &Request, k: usize) -> String {
+    let item = &model.constraints[k];
+    match item.name.strip_prefix(SET) {
+        Some(quantity) => format!("{SET}{}", request.written(model, quantity)),
+        None => format!("{} {}", item.group.singular(), item.name),
+    }
+}
+
+/// The place of a constraint in a file.
+fn place(model: &Model, k: usize) -> Vec<String> {
+    let item = &model.constraints[k];
+    match item.name.strip_prefix(SET) {
+        Some(quantity) => vec!["start".to_string(), "set".to_string(), quantity.to_string()],
+        None => vec![item.group.section().to_string(), item.name.clone()],
+    }
+}
+
+fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
+    let Contradiction { met, missed, by, rates } = found;
+    let driven: Vec<usize> =
+        met.iter().filter(|k| model.constraints[**k].driven).copied().collect();
+    // without another driver, the joints decide the quantity
+    let others = if driven.is_empty() { met } else { &driven };
+    let labels: Vec<String> = others.iter().map(|k| label(model, request, *k)).collect();
+    let others = listed(&labels.iter().map(String::as_str).collect::<Vec<_>>());
+    let last = label(model, request, *missed);
+    let hold = if labels.len() == 1 { "holds" } else { "hold" };
+    let unit = model.constraints[*missed].equations[0].unit;
+    let (of, per) = if *rates { ("the rate of ", "/s") } else { ("", "") };
+    let missed_by = trimmed(*by, 3);
+    let message = format!(
+        "{others} and {last} contradict each other: where {others} {hold}, {of}{last} is missed by {missed_by} {unit}{per}"
+    );
+    let hint = match driven.is_empty() {
+        true => format!("remove {last}: the joints leave it no freedom"),
+        false => "remove one of them".to_string(),
+    };
+    let name = &model.constraints[*missed].name;
+    Failure {
+        fault: if *rates { Fault::Rates } else { Fault::Open },
+        name: name.strip_prefix(SET).unwrap_or(name).to_string(),
+        gap: if *rates || unit != "m" { 0.0 } else { *by },
+        places: driven.iter().chain([missed]).map(|k| place(model, *k)).collect(),
+        message,
+        hint,
+    }
+}

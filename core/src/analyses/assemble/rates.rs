@@ -1,0 +1,90 @@
+//! Velocities of the start: from the guess, made consistent; drivers hold the rates of `set`.
+
+use super::contradiction::{self, AGREE};
+use super::failure::{self, Failure};
+use super::holding::held;
+use super::request::Request;
+use super::target::{of_rates, Target};
+use super::velocities;
+use crate::analyses::closing::Stop;
+use crate::elements::Followed;
+use crate::equations::at;
+use crate::equations::kinematics::Motions;
+use crate::expression::Tape;
+use crate::model::Model;
+use std::sync::Arc;
+
+/// Consistent velocities at `q`.
+pub(super) fn consistent(
+    model: &Model,
+    request: &Request,
+    q: &[f64],
+    stop: Stop<'_>,
+) -> Result<Vec<f64>, Box<Failure>> {
+    let mut v = wanted(model, request, q);
+    let extended = holding(model, request.t, q, of_rates(&request.set));
+    let left = velocities::project(&extended, request.t, q, &mut v);
+    if left <= AGREE && v.iter().all(|v| v.is_finite()) {
+        return Ok(v);
+    }
+    let named = contradiction(model, request, q, stop);
+    Err(Box::new(named.unwrap_or_else(|| failure::rates(model, request))))
+}
+
+/// The drivers and rates that contradict each other.
+pub(super) fn contradiction(
+    model: &Model,
+    request: &Request,
+    q: &[f64],
+    stop: Stop<'_>,
+) -> Option<Failure> {
+    let extended = holding(model, request.t, q, of_rates(&request.set));
+    contradiction::of_rates(&extended, request, q, &wanted(model, request, q), stop)
+}
+
+/// The model with a driver for each of the targets, which are rates.
+fn holding<'a>(
+    model: &Model,
+    t: f64,
+    q: &[f64],
+    targets: impl Iterator<Item = &'a Target>,
+) -> Model {
+    let motions = Motions::at_rest(&model.layout, q);
+    let position = |of: &Followed<Tape>| match of {
+        Followed::Coordinate(of) => {
+            q[model.layout.bodies[of.body.0].first + of.coordinate.column()]
+        }
+        Followed::Quantity(of) => of.value.evaluate(&at(&model.parameters, &motions, &[], t)),
+    };
+    let line = |of: &Followed<Tape>, rate: f64| Tape::line(position(of), rate, t);
+    let held: Vec<_> = targets.filter_map(|target| held(model, target, line)).collect();
+    Model::new(&Arc::new(model.blueprint.holding(&held)), &model.parameters)
+}
+
+/// The velocities that are given, set or guessed, before they are made consistent.
+fn wanted(model: &Model, request: &Request, q: &[f64]) -> Vec<f64> {
+    let mut v = match &request.state {
+        Some(state) => state.v.clone(),
+        None => vec![0.0; q.len()],
+    };
+    for target in of_rates(&request.guess).chain(of_rates(&request.set)) {
+        if let Target::Coordinate(target) = target {
+            v[model.layout.bodies[target.body.0].first + target.coordinate.column()] = target.value;
+        }
+    }
+    // rates of points and elements are met as far as they agree with those before them
+    let mut met: Vec<&Target> = Vec::new();
+    for target in of_rates(&request.guess).filter(|target| matches!(target, Target::Quantity(_))) {
+        met.push(target);
+        let leading =
+            holding(model, request.t, q, of_rates(&request.set).chain(met.iter().copied()));
+        let mut tried = v.clone();
+        let left = velocities::project(&leading, request.t, q, &mut tried);
+        if left <= AGREE && tried.iter().all(|v| v.is_finite()) {
+            v = tried;
+        } else {
+            met.pop();
+        }
+    }
+    v
+}

@@ -1,0 +1,229 @@
+//! An owner of position quantities, such as a point or a joint, and its quantities as formulas.
+
+use super::variable::Variable;
+use crate::elements::derive::{seeded, ByThree};
+use crate::elements::{
+    At, Attachment, BodyId, Constraint, Coordinate, CoordinateOf, Followed, ForceElement, Measured,
+    PointOn, QuantityOf,
+};
+use crate::expression::{Symbol, Tape, Values};
+use crate::math::{Dual, Jet, Lift, Local, Pose, Real, Rotation, Vec2};
+use crate::symbolic::{record, Name, Record, Symbolic};
+
+/// An owner of quantities.
+pub(super) enum Owner<S> {
+    /// A point of a body; its component x or y is measured.
+    Point(PointOn<S>),
+    Constraint(Constraint<S>),
+    Force(ForceElement<S>),
+}
+
+/// Components of a point as quantities.
+const OF_POINT: [Measured; 2] = [
+    Measured { names: ["x", "vx", "ax"], unit: "m" },
+    Measured { names: ["y", "vy", "ay"], unit: "m" },
+];
+
+impl<S> Owner<S> {
+    fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Owner<T> {
+        match self {
+            Self::Point(on) => {
+                let s = Local { x: f(&on.s.x), y: f(&on.s.y) };
+                Owner::Point(PointOn { body: on.body, s })
+            }
+            Self::Constraint(element) => Owner::Constraint(element.map(f)),
+            Self::Force(element) => Owner::Force(element.map(f)),
+        }
+    }
+
+    pub fn measured(&self) -> &'static [Measured] {
+        match self {
+            Self::Point(_) => &OF_POINT,
+            Self::Constraint(element) => element.measured(),
+            Self::Force(element) => element.measured(),
+        }
+    }
+
+    pub fn bodies(&self) -> Vec<BodyId> {
+        match self {
+            Self::Point(on) => vec![BodyId::GROUND, on.body],
+            Self::Constraint(element) => element.bodies(),
+            Self::Force(element) => element.bodies(),
+        }
+    }
+}
+
+impl<S: Real> Owner<S> {
+    /// The values of all its quantities.
+    fn measure(&self, at: &At<'_, S>) -> Vec<S> {
+        let mut values = vec![S::zero(); self.measured().len()];
+        match self {
+            Self::Point(on) => {
+                let p = at.j().point(on.s);
+                values.copy_from_slice(&[p.x, p.y]);
+            }
+            Self::Constraint(element) => element.measure(at, &mut values),
+            Self::Force(element) => element.measure(at, &mut values),
+        }
+        values
+    }
+
+    /// The frame on body i or j to which an effort is reduced.
+    fn attachment(&self, body: usize) -> Attachment<S> {
+        let at = |s: Local<S>| Attachment { s, axis: S::zero() };
+        match (self, body) {
+            (Self::Point(on), 1) => at(on.s),
+            (Self::Point(_), _) => at(Local::zero()),
+            (Self::Constraint(element), _) => element.attachment(body),
+            (Self::Force(element), _) => {
+                at(element.points().map_or(Local::zero(), |points| points[body]))
+            }
+        }
+    }
+}
+
+/// Parameters as symbols; fields of elements that are laws are not read.
+struct Parameters<'a>(&'a [Symbolic]);
+
+impl Values<Symbolic> for Parameters<'_> {
+    fn parameter(&self, k: usize) -> Symbolic {
+        self.0[k]
+    }
+    fn time(&self) -> Symbolic {
+        Symbolic::constant(f64::NAN)
+    }
+    fn variable(&self, _: usize) -> Symbolic {
+        Symbolic::constant(f64::NAN)
+    }
+}
+
+/// The model in which the quantities are formulas.
+pub(super) struct Formulas {
+    /// Number of its parameters.
+    pub parameters: usize,
+    /// Whether each body has an angle, ground first.
+    pub turns: Vec<bool>,
+}
+
+impl Formulas {
+    /// The quantity of an owner at a place, or its rate, as a formula; and the frames of its ends.
+    pub fn compile(
+        &self,
+        owner: &Owner<Tape>,
+        k: usize,
+        order: usize,
+    ) -> (Tape, [Attachment<Tape>; 2]) {
+        self.recorded(owner, |poses, over, tape| {
+            let lifted = over.map(&mut |x| Jet::lift(*x));
+            let values = lifted.measure(&At { bodies: poses, own: &[], t: Jet::zero() });
+            let of = if order == 0 { values[k].value } else { values[k].rate };
+            let ends = [0, 1].map(|body| {
+                let Attachment { s, axis } = over.attachment(body);
+                Attachment { s: Local { x: tape(s.x), y: tape(s.y) }, axis: tape(axis) }
+            });
+            (tape(of), ends)
+        })
+    }
+
+    /// Gives the poses of the bodies of an owner and the owner as symbols, and the way from a symbol to a formula.
+    fn recorded<R>(
+        &self,
+        owner: &Owner<Tape>,
+        f: impl FnOnce(&[Pose<Jet<Symbolic>>], &Owner<Symbolic>, &dyn Fn(Symbolic) -> Tape) -> R,
+    ) -> R {
+        record(|record| {
+            let mut symbols = Vec::new();
+            let mut symbol = |record: &Record, rate: Option<Symbolic>, meaning: Symbol| {
+                let name = Name::field(&format!("s{}", symbols.len()));
+                let x = record.changing(name, rate.unwrap_or(Symbolic::zero()));
+                symbols.push((x, meaning));
+                x
+            };
+            let parameters: Vec<Symbolic> =
+                (0..self.parameters).map(|k| symbol(record, None, Symbol::Parameter(k))).collect();
+            let poses: Vec<Pose<Jet<Symbolic>>> = owner
+                .bodies()
+                .into_iter()
+                .map(|body| self.pose(body, &mut |meaning| symbol(record, None, meaning)))
+                .collect();
+            let over = owner.map(&mut |tape| tape.evaluate(&Parameters(&parameters)));
+            f(&poses, &over, &|x| record.tape(x, &symbols))
+        })
+    }
+
+    /// The derivatives of the quantity of an owner at a place by x, y and angle of its bodies i and j.
+    pub fn gradient_of(&self, owner: &Owner<Tape>, k: usize) -> [[Tape; 3]; 2] {
+        self.recorded(owner, |poses, over, tape| {
+            let lifted = over.map(&mut |x| Dual::lift(*x));
+            [0, 1].map(|seed| {
+                let pose = |(body, pose): (usize, &Pose<Jet<Symbolic>>)| {
+                    let pose = Pose {
+                        r: Vec2::new(pose.r.x.value, pose.r.y.value),
+                        angle: pose.angle.value,
+                        rotation: Rotation {
+                            cos: pose.rotation.cos.value,
+                            sin: pose.rotation.sin.value,
+                        },
+                    };
+                    if body == seed {
+                        seeded(&pose)
+                    } else {
+                        pose.lift()
+                    }
+                };
+                let bodies: Vec<Pose<ByThree<Symbolic>>> =
+                    poses.iter().enumerate().map(pose).collect();
+                let at = At { bodies: &bodies, own: &[], t: Dual::zero() };
+                lifted.measure(&at)[k].slope.map(tape)
+            })
+        })
+    }
+
+    /// The pose of a body with its rates; ground rests in the origin.
+    fn pose(
+        &self,
+        body: BodyId,
+        symbol: &mut dyn FnMut(Symbol) -> Symbolic,
+    ) -> Pose<Jet<Symbolic>> {
+        if body.is_ground() {
+            return Pose::identity();
+        }
+        let mut jet = |position: Coordinate, rate: Coordinate| {
+            let mut of = |c| symbol(Symbol::Variable(Variable::Coordinate(body, c).index()));
+            Jet::new(of(position), of(rate), Symbolic::zero())
+        };
+        let x = jet(Coordinate::X, Coordinate::Vx);
+        let y = jet(Coordinate::Y, Coordinate::Vy);
+        let turns = self.turns[body.0];
+        let angle = if turns { jet(Coordinate::Angle, Coordinate::Omega) } else { Jet::zero() };
+        Pose::new(x, y, angle)
+    }
+
+    /// The position quantity of an owner at a place, with the bodies between which it is measured.
+    pub fn followed(&self, owner: &Owner<Tape>, k: usize, name: &str) -> Followed<Tape> {
+        let (value, ends) = self.compile(owner, k, 0);
+        let measured = owner.measured()[k];
+        let bodies = owner.bodies();
+        if let (Owner::Point(on), Some(coordinate)) = (owner, Coordinate::named(measured.names[0]))
+        {
+            let zero = |s: &Tape| s.constant() == Some(0.0);
+            if zero(&on.s.x) && zero(&on.s.y) {
+                return CoordinateOf { body: on.body, coordinate }.into();
+            }
+        }
+        Followed::Quantity(Box::new(QuantityOf {
+            name: name.to_string(),
+            kind: measured.names[0],
+            unit: measured.unit,
+            bodies: [bodies[0], bodies[1]],
+            ends,
+            value,
+        }))
+    }
+}
+
+/// The place of a quantity and the order of its derivative.
+pub(super) fn place(measured: &[Measured], name: &str) -> Option<(usize, usize)> {
+    let mut all = measured.iter().enumerate();
+    all.find_map(|(k, of)| Some((k, of.names.iter().position(|known| *known == name)?)))
+}
