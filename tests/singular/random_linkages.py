@@ -1,4 +1,4 @@
-"""A garage door and random linkages that fold onto one line: models and branches of their motion."""
+"""A garage door and random linkages that fold onto one line: models and branches."""
 
 from __future__ import annotations
 
@@ -91,7 +91,11 @@ def drawn(kind: str, rng: np.random.Generator) -> Linkage:
         middle = short + length(0.1, 0.6)
         other = middle + length(0.05, 0.6)
         longest = middle + other - short
-        others = [Fraction(x) for x in rng.permutation([float(x) for x in (middle, other, longest)])]
+        others = [
+            Fraction(x) for x in rng.permutation([float(x) for x in (middle, other, longest)])
+        ]
         others = [Fraction(round(20 * x), 20) for x in others]
-        lengths = (short, *others) if rng.random() < 0.7 else (others[0], others[1], others[2], short)
+        lengths = (
+            (short, *others) if rng.random() < 0.7 else (others[0], others[1], others[2], short)
+        )
     return four_bar(tuple(float(x) for x in lengths), side, s0, rate, masses)  # type: ignore[arg-type]

@@ -24,7 +24,7 @@ def test_every_method_passes(by: str) -> None:
 
 
 def stiff_linkage(rate: float) -> tuple[kp.Model, kp.State]:
-    """A four-bar with change points, and a bob on its crank that is held by a stiff spring-damper."""
+    """A four-bar with change points, and a bob that a stiff spring-damper holds on its crank."""
     linkage = four_bar((1, 2, 3, 4), 1, 1.0, 9.0)
     at = linkage.start()
     m, inertia = linkage.model, 0.01
