@@ -55,7 +55,11 @@ fn with(force: &ForceElement) -> Model {
     let m = build(all);
     // without its field a state does not exist, and its rate divides by zero
     let finite = At::random(&m, 1).balance(&m).state_rates.iter().all(|rate| rate.is_finite());
-    if finite { m } else { build(&[]) }
+    if finite {
+        m
+    } else {
+        build(&[])
+    }
 }
 
 #[derive(Clone)]
@@ -72,7 +76,13 @@ impl At {
         let mut random = Random::new(seed);
         let mut many = |n: usize| random.many(n);
         let n = m.layout.n_q;
-        Self { q: many(n), v: many(n), a: many(n), z: many(m.layout.n_z), lam: many(m.layout.n_rows) }
+        Self {
+            q: many(n),
+            v: many(n),
+            a: many(n),
+            z: many(m.layout.n_z),
+            lam: many(m.layout.n_rows),
+        }
     }
 
     fn balance(&self, m: &Model) -> Balance {
