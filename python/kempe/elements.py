@@ -165,6 +165,8 @@ class Gear(Element):
         module: Module, with teeth: each radius is module × teeth / 2 [m].
         internal: Whether one wheel is inside the other.
         offset: Φ of the wheels without it [m].
+        pressure_angle: Pressure angle of the teeth: the force |λ| tan(pressure_angle) along the
+            line of centres pushes them apart [rad].
     """
 
     i: str
@@ -174,6 +176,7 @@ class Gear(Element):
     module: Number | None = None
     internal: bool = False
     offset: Number = 0.0
+    pressure_angle: Number = 0.0
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "gear"
     shapes: ClassVar[Mapping[str, str]] = {
@@ -184,6 +187,7 @@ class Gear(Element):
         "module": "number",
         "internal": "flag",
         "offset": "number",
+        "pressure_angle": "number",
     }
 
 
@@ -793,6 +797,7 @@ class ElementMethods:
         module: Number | None = None,
         internal: bool = False,
         offset: Number = 0.0,
+        pressure_angle: Number = 0.0,
     ) -> Gear:
         """Add an element of type ``gear`` and return it.
 
@@ -812,6 +817,8 @@ class ElementMethods:
             module: Module, with teeth: each radius is module × teeth / 2 [m].
             internal: Whether one wheel is inside the other.
             offset: Φ of the wheels without it [m].
+            pressure_angle: Pressure angle of the teeth: the force |λ| tan(pressure_angle) along the
+                line of centres pushes them apart [rad].
         """
         return self._add(
             Gear(
@@ -823,6 +830,7 @@ class ElementMethods:
                 module=module,
                 internal=internal,
                 offset=offset,
+                pressure_angle=pressure_angle,
             )
         )
 

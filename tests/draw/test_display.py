@@ -199,6 +199,7 @@ def test_every_word_of_the_vocabulary_can_be_drawn(mark: str) -> None:
         "points": [[0.0, 0.0], [0.5, 0.0]],
         "axes": [0.0, 0.0],
         "radii": [0.2, 0.3],
+        "teeth": {"module": 0.03, "phase": 0.0},
         "reach": [0.0, 1.0],
         "turning": [0.0, 1.0],
     }

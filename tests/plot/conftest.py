@@ -38,6 +38,16 @@ def squeezer() -> kp.Solution:
     return kp.load(ROOT / "examples" / "squeezer.toml").run()[0]
 
 
+@pytest.fixture(scope="session")
+def planetary() -> kp.Solution:
+    return kp.load(ROOT / "examples" / "planetary_gear.toml").run()[0]
+
+
+@pytest.fixture(scope="session")
+def excavator() -> kp.Solution:
+    return kp.load(ROOT / "examples" / "excavator.toml").run()[0]
+
+
 def pendulum(length: float = 1.0, t_end: float = 2.0, output_step: float = 0.01) -> kp.Solution:
     m = kp.Model("pendulum", gravity=(0, -9.81))
     m.ground.points(O=(0, 0))

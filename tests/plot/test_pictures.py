@@ -38,6 +38,8 @@ PICTURES = {
     "six_bar_motion": ("six_bar", "motion"),
     "slider_crank_slider": ("crank", "slider"),
     "slider_crank_frame": ("crank", "frame 0"),
+    "planetary_frame": ("planetary", "frame 10"),
+    "excavator_frame": ("excavator", "frame 100"),
     "squeezer_initial": ("squeezer", "initial"),
     "squeezer_reactions": ("squeezer", "reactions"),
 }

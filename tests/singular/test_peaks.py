@@ -105,3 +105,20 @@ def test_a_blow_is_no_singular_position() -> None:
     assert abs(found.value) == pytest.approx(2 * 0.001 * 2 / width**2, rel=1e-4)
     assert found.t == pytest.approx(0.5, abs=1e-5)
     assert not len(unbounded(sol, lambda motion: motion.lam[:, 0]))
+
+
+def test_arrows_take_their_scale_from_values_away_from_singular_positions() -> None:
+    sol = passing(2)
+    angle = np.linspace(0, 2 * np.pi, 200_001)
+    angle = angle[np.abs(np.sin(angle)) > 0.15]
+    printed = summary(sol)["peaks"]["reactions"]
+    scene, beside = kp.scene(sol), sol(np.linspace(0, 10, 100_001))
+    told, (low, high) = scene["reaction_scale"], np.array(scene["bounds"]).reshape(2, 2)
+    longest = 0.3 * float((high - low).max()) * told["force"] / told["length"]
+    assert longest == pytest.approx(max(one["force"] for one in printed), rel=1e-6)
+    assert np.hypot(*force(0, beside).T).max() > 2 * longest  # at the pole there is no bound
+    # alpha sets the acceleration of the tips, which has no pole
+    alpha, omega = -GRAVITY * 3.5 * np.cos(angle) / 3, rate(angle, 2)
+    tips = np.hypot(alpha, omega**2).max()
+    assert scene["largest"]["acceleration"] == pytest.approx(tips, rel=1e-4)
+    assert scene["largest"]["velocity"] == pytest.approx(np.abs(omega).max(), rel=1e-4)

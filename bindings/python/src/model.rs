@@ -91,6 +91,7 @@ fn symbols(model: &Model) -> Value {
             "i": end(&symbol.i),
             "j": end(&symbol.j),
             "radii": symbol.mark.radii(),
+            "module": symbol.mark.module(),
         })
     };
     let all = model.symbols();

@@ -124,6 +124,14 @@ macro_rules! constraints {
             pub fn results(&self, at: &At<'_, S>, lam: &[S], out: &mut [S]) {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::results(e, at, lam, out),)+)+ }
             }
+            /// Whether it has a [load](Self::load).
+            pub fn has_load(&self) -> bool {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::has_load(e),)+)+ }
+            }
+            /// Wrenches beside -Φ_qᵀ λ that its multipliers cause.
+            pub fn load(&self, at: &At<'_, S>, lam: &[S], out: &mut dyn FnMut(usize, Wrench<S>)) {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::load(e, at, lam, out),)+)+ }
+            }
             /// The joint frame on a body, given by its place in [`bodies`](Self::bodies).
             pub fn attachment(&self, body: usize) -> Attachment<S> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::attachment(e, body),)+)+ }

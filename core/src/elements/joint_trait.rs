@@ -7,7 +7,7 @@ use super::followed::{BodyId, CoordinateOf};
 use super::kinds::CurveOn;
 use super::measured::Measured;
 use super::symbols::SceneSymbol;
-use crate::math::{Local, Motion, Pose, Real};
+use crate::math::{Local, Motion, Pose, Real, Wrench};
 
 /// A scalar constraint equation of a joint: its name in labels and its unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -149,6 +149,24 @@ pub trait Joint: Element {
 
     /// The [`RESULTS`](Joint::RESULTS) for the multipliers `lam` of the rows of the joint.
     fn results<S: Real>(e: &Self::Over<S>, at: &At<'_, S>, lam: &[S], out: &mut [S]) {
+        let _ = (e, at, lam, out);
+    }
+
+    /// Whether the joint has a [`load`](Joint::load).
+    fn has_load<S: Real>(e: &Self::Over<S>) -> bool {
+        let _ = e;
+        false
+    }
+
+    /// Wrenches beside -Φ_qᵀ λ that the multipliers `lam` of the joint cause, such as the radial force of gear teeth:
+    /// each with the place of its body in [`Joint::bodies`], about the origin of the frame of that body. They do no work
+    /// in any motion that the other joints permit, so that they change the reactions of these and nothing else.
+    fn load<S: Real>(
+        e: &Self::Over<S>,
+        at: &At<'_, S>,
+        lam: &[S],
+        out: &mut dyn FnMut(usize, Wrench<S>),
+    ) {
         let _ = (e, at, lam, out);
     }
 

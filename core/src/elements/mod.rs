@@ -94,7 +94,7 @@ pub mod forces {
 pub mod test_elements;
 
 use crate::expression::Tape;
-use crate::math::{Lift, Local, Pose, Real};
+use crate::math::{Lift, Local, Pose, Real, Wrench};
 pub use attachment::Attachment;
 pub use curve_forms::{CurveForm, CURVE_FORMS};
 pub use curve_formula::Formula as CurveFormula;

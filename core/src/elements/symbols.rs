@@ -19,6 +19,12 @@ pub enum Mark {
     Slide,
     /// A massless rod with a pin at each point.
     Rod,
+    /// A cylinder on i with a piston rod to j: a force along the line.
+    Cylinder,
+    /// The same for a prescribed length.
+    DriveCylinder,
+    /// A rubber sleeve around the point of j in the eye of i.
+    Sleeve,
     /// A coil spring between the points.
     Spring,
     /// A dashpot between the points.
@@ -48,8 +54,17 @@ pub enum Mark {
         /// Whether the strands cross.
         crossed: bool,
     },
-    /// A pitch circle on j around its point, with this radius in m.
+    /// A plain wheel on j around its point, with this radius in m.
     Circle(f64),
+    /// A toothed wheel on j around its point.
+    Toothed {
+        /// Radius of the pitch circle, m.
+        radius: f64,
+        /// Diameter of the pitch circle for each tooth, m; none where the number of teeth is not known.
+        module: Option<f64>,
+        /// Whether the teeth are on the inside of a ring.
+        ring: bool,
+    },
     /// A roller on i around its point, with this radius in m.
     Roller(f64),
     /// A point of i that touches a curve.
@@ -66,6 +81,9 @@ impl Mark {
             Self::Clamp => "clamp",
             Self::Slide => "slide",
             Self::Rod => "rod",
+            Self::Cylinder => "cylinder",
+            Self::DriveCylinder => "drive_cylinder",
+            Self::Sleeve => "sleeve",
             Self::Spring => "spring",
             Self::Dashpot => "dashpot",
             Self::SpiralSpring => "spiral_spring",
@@ -80,6 +98,8 @@ impl Mark {
             Self::Strands { crossed: false, .. } => "open_strands",
             Self::Strands { crossed: true, .. } => "crossed_strands",
             Self::Circle(_) => "circle",
+            Self::Toothed { ring: false, .. } => "toothed_wheel",
+            Self::Toothed { ring: true, .. } => "toothed_ring",
             Self::Roller(_) => "roller",
             Self::Contact => "contact",
             Self::Face => "face",
@@ -92,8 +112,17 @@ impl Mark {
             Self::Circle(radius) | Self::Track(radius) | Self::ToothedLine(radius) => {
                 Some([0.0, radius])
             }
+            Self::Toothed { radius, .. } => Some([0.0, radius]),
             Self::Roller(radius) => Some([radius, 0.0]),
             Self::Strands { radii, .. } => Some(radii),
+            _ => None,
+        }
+    }
+
+    /// Diameter of a pitch circle for each tooth, m, where the model gives it.
+    pub fn module(self) -> Option<f64> {
+        match self {
+            Self::Toothed { module, .. } => module,
             _ => None,
         }
     }
@@ -149,10 +178,9 @@ impl SceneSymbol {
         Self { mark, i: SymbolEnd::body(i), j: SymbolEnd::body(j) }
     }
 
-    /// The pitch circles of two wheels around points.
-    pub fn wheels(radii: [f64; 2], [i, j]: [&PointOn; 2]) -> Vec<Self> {
-        let wheel = |radius, from, on| Self::between_points(Mark::Circle(radius), from, on);
-        vec![wheel(radii[0], j, i), wheel(radii[1], i, j)]
+    /// Two wheels around points.
+    pub fn wheels(marks: [Mark; 2], [i, j]: [&PointOn; 2]) -> Vec<Self> {
+        vec![Self::between_points(marks[0], j, i), Self::between_points(marks[1], i, j)]
     }
 
     /// The arrow of a prescribed quantity.

@@ -15,7 +15,7 @@ use super::kinematics::Motions;
 use super::plan::Plan;
 use super::powers::Powers;
 use super::roles::{self, Roles};
-use super::{mass, reactive, refine, Compiled};
+use super::{mass, reactions, reactive, refine, Compiled};
 use crate::math::Real;
 use crate::model::Model;
 use crate::solve::Breakdown;
@@ -47,7 +47,7 @@ pub struct Workspace<S = f64> {
     /// Whether one elimination does not solve the equations: inertia is added, redundant rows are damped, or forces
     /// depend on reactions.
     modified: bool,
-    /// The rows of the multipliers on which forces depend.
+    /// The rows of the multipliers on which forces, or loads of joints, depend.
     reactive: Vec<usize>,
     n_q: usize,
     /// Number of unknowns of the solver: n_q, and the padding of a short last group.
@@ -92,7 +92,9 @@ impl<S: Real> Workspace<S> {
             z: vec![S::zero(); model.layout.n_z],
             roles,
             matrix,
-            modified: compiled.adds_mass || model.allow_redundancy || !reactive.is_empty(),
+            modified: compiled.adds_mass
+                || model.allow_redundancy
+                || model.forces.iter().any(|force| force.reaction.is_some()),
             reactive,
             compiled,
             solution: vec![S::zero(); n_unknowns + m],
@@ -122,6 +124,18 @@ impl<S: Real> Workspace<S> {
     ) -> Result<(), Breakdown> {
         self.place(model, [q, v, z]);
         self.respond(model, t, gains)
+    }
+
+    /// The same with the [loads](crate::elements::Joint::load) of joints, which change multipliers only.
+    ///
+    /// # Errors
+    /// As [`accelerate`](Self::accelerate).
+    pub fn react(&mut self, model: &Model<S>, t: S, state: [&[S]; 3]) -> Result<(), Breakdown> {
+        self.place(model, state);
+        match self.reactive.is_empty() {
+            true => self.respond(model, t, Gains::default()),
+            false => self.solve_and_refine(model, t, Gains::default()),
+        }
     }
 
     /// Sets coordinates, rates and first-order states, shapes (n_q), (n_q) and (n_z).
@@ -190,6 +204,9 @@ impl<S: Real> Workspace<S> {
             x.extend_from_slice(&right);
             let acting = Acting { z, lam, t };
             forces::generalized(model, compiled, motions, acting, &mut x[..n], powers);
+            if let Some(lam) = lam {
+                reactions::add_loads(model, motions, t, lam, &mut x[..n]);
+            }
             let outcome = refine::solve((model, compiled), motions, matrix, &mut x);
             solution[..n].copy_from_slice(&x[..n]);
             solution[padded..].copy_from_slice(&x[n..]);

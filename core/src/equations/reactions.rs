@@ -1,4 +1,5 @@
-//! Joint reactions (Haug 6.6.8, 6.6.9): F″ = -Cᵀ Aᵀ Φ_rᵀ λ and T″ = -(Φ_φᵀ - s′ᵀ Bᵀ Φ_rᵀ) λ.
+//! Joint reactions (Haug 6.6.8, 6.6.9): F″ = -Cᵀ Aᵀ Φ_rᵀ λ and T″ = -(Φ_φᵀ - s′ᵀ Bᵀ Φ_rᵀ) λ, and the
+//! [loads](crate::elements::Joint::load) of joints.
 
 use super::constraints;
 use super::kinematics::Motions;
@@ -50,11 +51,53 @@ pub fn reaction<S: Real>(
         },
         None => Attachment { s: Local::zero(), axis: S::zero() },
     };
-    let on_body = match body.is_ground() && item.law.is_some() {
+    let mut on_body = match body.is_ground() && item.law.is_some() {
         true => on_ground(model, k, motions, t, lam),
         false => against(model, k, body, motions, t, lam),
     };
+    each_load(model, k, motions, t, lam, |on, w| {
+        if on == body {
+            on_body = on_body + w;
+        }
+    });
     Some(reduced(on_body, &motions[body.0].pose, at, frame))
+}
+
+/// The joints with a load.
+pub(super) fn loaded<S: Real>(model: &Model<S>) -> impl Iterator<Item = usize> + '_ {
+    let all = model.constraints.iter().enumerate();
+    all.filter(|(_, item)| item.element.has_load()).map(|(k, _)| k)
+}
+
+/// Adds the loads of all joints to Q, shape (n_q).
+pub(super) fn add_loads<S: Real>(
+    model: &Model<S>,
+    motions: &Motions<S>,
+    t: S,
+    lam: &[S],
+    q: &mut [S],
+) {
+    for k in loaded(model) {
+        let own = &lam[model.layout.constraints[k].rows.clone()];
+        each_load(model, k, motions, t, own, |body, w| {
+            model.layout.bodies[body.0].add([w.force.x, w.force.y, w.torque], q);
+        });
+    }
+}
+
+/// Gives the load of constraint `k` on each of its bodies, about the origin of its frame.
+fn each_load<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    t: S,
+    lam: &[S],
+    mut visit: impl FnMut(BodyId, Wrench<S>),
+) {
+    let item = &model.constraints[k];
+    positions(model, k, motions, t, |at| {
+        item.element.load(at, lam, &mut |place, w| visit(item.bodies[place], w));
+    });
 }
 
 /// Calls `f` with the positions of the participants of constraint `k`.

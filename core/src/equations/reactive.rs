@@ -12,6 +12,7 @@
 //! that the result does not depend on earlier evaluations. Its matrix has one row for each of the few multipliers u; the
 //! columns are differences.
 
+use super::reactions;
 use crate::math::Real;
 use crate::model::Model;
 
@@ -22,11 +23,12 @@ const DIFFERENCE: f64 = 1e-7;
 /// Accepted change of the multipliers, relative to the largest.
 const ACCEPTED: f64 = 1e-12;
 
-/// The rows of the multipliers on which forces depend, ascending.
+/// The rows of the multipliers on which forces, or loads of joints, depend, ascending.
 pub(super) fn rows<S: Real>(model: &Model<S>) -> Vec<usize> {
-    let joints = model.forces.iter().filter_map(|force| force.reaction);
+    let joints = model.forces.iter().filter_map(|force| force.reaction.map(|joint| joint.0));
+    let joints = joints.chain(reactions::loaded(model));
     let mut rows: Vec<usize> =
-        joints.flat_map(|joint| model.layout.constraints[joint.0].rows.clone()).collect();
+        joints.flat_map(|joint| model.layout.constraints[joint].rows.clone()).collect();
     rows.sort_unstable();
     rows.dedup();
     rows

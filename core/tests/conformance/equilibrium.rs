@@ -2,12 +2,13 @@
 //! forces and the reactions of all its joints and drivers; and so is ground.
 
 use crate::mechanisms::{close, model, Random};
-use kempe::elements::BodyId;
+use crate::samples::{constraints, Participants};
+use kempe::elements::{self, BodyId};
 use kempe::equations::forces::{self, Acting};
 use kempe::equations::kinematics::Motions;
 use kempe::equations::reactions::{reaction, Frame};
 use kempe::equations::{Gains, Workspace};
-use kempe::math::{Local, Rotation, Vec2};
+use kempe::math::{Local, Pose, Rotation, Vec2};
 use kempe::model::Model;
 
 const COUPLED: &str = r#"
@@ -229,4 +230,28 @@ fn laws_of_other_bodies_have_their_columns() {
     }
     let gear = m.layout.constraints[3].rows.start * n;
     assert_eq!(dense[gear + 8], 1.5);
+}
+
+/// Loads of a joint on its bodies cancel, as its reactions do.
+#[test]
+fn loads_cancel() {
+    let mut numbers = Random::new(1);
+    for sample in constraints() {
+        let participants = Participants::random(&sample, &mut numbers);
+        let poses: Vec<_> =
+            participants.bodies.iter().map(|q| Pose::new(q[0], q[1], q[2])).collect();
+        let own: Vec<f64> = participants.own.iter().map(|u| u[0]).collect();
+        let lam: Vec<f64> = (0..sample.equations().len()).map(|k| k as f64 - 1.3).collect();
+        let (mut force, mut moment, mut count) = (Vec2::zero(), 0.0, 0);
+        let at = elements::At { bodies: &poses, own: &own, t: 0.7 };
+        sample.load(&at, &lam, &mut |place, w| {
+            force = force + w.force;
+            moment += w.torque + poses[place].r.cross(w.force);
+            count += 1;
+        });
+        assert_eq!(count > 0, sample.has_load(), "{}", sample.kind());
+        for x in [force.x, force.y, moment] {
+            close(sample.kind(), x, 0.0, 1e-13);
+        }
+    }
 }

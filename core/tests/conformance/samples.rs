@@ -114,6 +114,7 @@ fn wheels() -> Vec<Constraint> {
             module: toothed.then_some(0.05),
             internal,
             offset: 0.1,
+            pressure_angle: 0.35,
         }));
     }
     for (radii, crossed) in [([0.7, 0.3], false), ([0.7, 0.3], true), ([0.4, 0.4], false)] {

@@ -18,6 +18,7 @@ mod position;
 mod projection;
 mod slots;
 mod solved;
+mod teeth;
 mod wheels;
 
 use serde_json::Value;

@@ -4,7 +4,7 @@ use crate::mechanisms::{column, model, start};
 use kempe::analyses::State;
 use kempe::equations::kinematics::Motions;
 use kempe::equations::reactions::{reaction, Frame};
-use kempe::equations::{Gains, Workspace};
+use kempe::equations::Workspace;
 use kempe::math::{Vec2, Wrench};
 use kempe::model::Model;
 
@@ -22,7 +22,7 @@ impl Solved {
     fn at(model: Model, state: State) -> Self {
         let mut workspace = Workspace::new(&model);
         let given = [state.q.as_slice(), &state.v, &state.z];
-        workspace.accelerate(&model, state.t, given, Gains::default()).unwrap();
+        workspace.react(&model, state.t, given).unwrap();
         let (a, lam) = (workspace.a().to_vec(), workspace.lam().to_vec());
         Self { model, state, a, lam }
     }

@@ -13,11 +13,13 @@ from typing import Any
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.draw import items, symbols
+from kempe.draw import along, items, symbols
 from kempe.draw.geometry import placed
 from kempe.draw.items import Frame, Item, fill, line, metres, on_body, print_points, text, upright
 from kempe.draw.labels import Taken, measured, place_labels
 from kempe.draw.palette import one_line
+from kempe.draw.pins import Symbol, dot, support
+from kempe.draw.places import Places
 from kempe.draw.placing import View, place
 from kempe.draw.scene import Scene
 
@@ -32,7 +34,7 @@ BETWEEN_NAMES = " · "
 #: More names than these do not fit on a drawing.
 MOST_NAMES, MOST_NUMBERS = 60, 40
 _LINK, _EDGE, _CURVE, _TINT = 8.0, 1.0, 1.4, 0.72
-_NUMBER = 7.0  # radius of the circle around a number
+_NUMBER, _RINGED = 7.0, 20.0  # radius of the circle around a number, and of symbols around a pin
 _MOST_OBSTACLES = 60  # corners of one item
 
 #: Role, names and frame of objects at one place.
@@ -41,45 +43,18 @@ _Named = tuple[str, list[str], Frame]
 _Name = tuple[str, str, str, Frame]
 
 
-class Places:
-    """Paths of points, those of one place once.
-
-    Args:
-        near: paths that are always so near are one place, m.
-    """
-
-    def __init__(self, near: float) -> None:
-        self._near = near
-        self._paths: Floats | None = None
-
-    def index(self, path: Floats) -> int:
-        """The number of the place of a path, (n_t, 2); a new one if there is none yet."""
-        if self._paths is None:
-            self._paths = path[None]
-            return 0
-        apart = np.abs(self._paths - path).max(axis=(1, 2))
-        k = int(np.argmin(apart))
-        if apart[k] < self._near:
-            return k
-        self._paths = np.concatenate([self._paths, path[None]])
-        return len(self._paths) - 1
-
-    def is_new(self, path: Floats) -> bool:
-        """Whether a path has a place of its own; it is then taken."""
-        before = 0 if self._paths is None else len(self._paths)
-        return self.index(path) == before
-
-
 class Display:
     """A display list in the making.
 
     Args:
         scene: the scene.
         view: the scale and the edges for which names are laid out.
+        taken: boxes that names must not cover, (n, 4), points of print.
     """
 
-    def __init__(self, scene: Scene, view: View) -> None:
+    def __init__(self, scene: Scene, view: View, taken: Floats | None = None) -> None:
         self.scene, self.view = scene, view
+        self._taken = np.empty((0, 4)) if taken is None else taken
         frames = scene["frames"]["poses"]
         chosen = np.unique(np.linspace(0, len(frames) - 1, _SAMPLES).round().astype(int))
         poses = [[[0.0] * 3, *frames[k]] for k in chosen]
@@ -106,17 +81,47 @@ class Display:
         """Bodies, the symbols of all elements, supports, and points without a symbol."""
         for body in self.scene["bodies"]:
             self.add(_rims(body))
-            if body["number"] and not (body["curves"] and len(body["outline"]) == 1):
-                self.add(_link(body))
-        rings, pinned = symbols.Rings(), Places(self._near)
-        for _, group in groupby(self.scene["symbols"], key=lambda symbol: symbol["element"]):
-            own = list(group)
-            aside = symbols.parallel(own)
+        self._draw_links()
+        places, pinned = Places(self._near), Places(self._near)
+        rings = symbols.Rings(lambda symbol: places.index(self._ends(symbol)[-1]))
+        for own in self._by_element():
+            aside = along.parallel(own)
             for symbol in own:
+                if symbol["mark"] == "slot":  # drawn with its body
+                    continue
                 if symbol["mark"] != "pin" or pinned.is_new(self._ends(symbol)[-1]):
                     self.add(symbols.draw(symbol, rings, aside.get(symbol["mark"], 0.0)))
         self._draw_supports()
         self._draw_points()
+
+    def _draw_links(self) -> None:
+        """The bodies: those with a slot first, so that the links that move in it are seen."""
+        slots = [symbol for symbol in self.scene["symbols"] if symbol["mark"] == "slot"]
+        slotted = {symbol["bodies"][0] for symbol in slots}
+        drawn = [
+            body
+            for body in self.scene["bodies"]
+            if body["number"] and not (body["curves"] and len(body["outline"]) == 1)
+        ]
+        for body in drawn:
+            if body["number"] in slotted:
+                self.add(_link(body))
+        for symbol in slots:
+            self.add(symbols.draw(symbol, symbols.Rings()))
+        for body in drawn:
+            if body["number"] not in slotted:
+                self.add(_link(body))
+
+    def _by_element(self) -> list[list[Symbol]]:
+        """The symbols of each element together, those with the largest wheels first."""
+        groups = groupby(self.scene["symbols"], key=lambda symbol: symbol["element"])
+        found = [list(group) for _, group in groups]
+
+        def largest(own: list[Symbol]) -> float:
+            wheels = (symbol for symbol in own if symbol["mark"] in symbols.WHEELS)
+            return max((float(symbol["radii"][1]) for symbol in wheels), default=0.0)
+
+        return sorted(found, key=largest, reverse=True)
 
     def _draw_supports(self) -> None:
         """One support for each place on ground on which something turns."""
@@ -125,24 +130,25 @@ class Display:
             if symbol["mark"] in symbols.PINNED:
                 for body, at in zip(symbol["bodies"], symbol["points"], strict=True):
                     if body == 0 and supported.is_new(self._path(body, at)):
-                        self.add(symbols.support(symbol["element"], at))
+                        self.add(support(symbol["element"], at))
 
     def _draw_points(self) -> None:
-        """A cross or a dot at each named point that no symbol has."""
+        """A dot at each named point that no symbol marks."""
         marked = Places(self._near)
         for symbol in self.scene["symbols"]:
-            for path in self._ends(symbol):
+            ends = self._ends(symbol)
+            for path in ends[1:] if symbol["mark"] in symbols.UNMARKED_I else ends:
                 marked.is_new(path)
         for body in self.scene["bodies"]:
             for point in body["points"]:
                 if marked.is_new(self._path(body["number"], point["at"])):
-                    self.add(symbols.cross(body["name"], body["number"], point["at"]))
+                    self.add(dot(body["name"], body["number"], point["at"]))
 
     def _path(self, body: int, at: items.At) -> Floats:
         """Where a point of a body is at the instants, (n_t, 2), m."""
         return placed(self.poses[:, body], at)
 
-    def _ends(self, symbol: symbols.Symbol) -> list[Floats]:
+    def _ends(self, symbol: Symbol) -> list[Floats]:
         """Where the points of a symbol are at the instants."""
         ends = zip(symbol["bodies"], symbol["points"], strict=True)
         return [self._path(body, at) for body, at in ends if at is not None]
@@ -154,7 +160,7 @@ class Display:
         joints = self.scene["joints"]
         if len(joints) > MOST_NAMES:
             return
-        rods = {s["element"]: s for s in self.scene["symbols"] if s["mark"] == "rod"}
+        rods = {s["element"]: s for s in self.scene["symbols"] if s["mark"] in symbols.ALONG}
         places, found = Places(self._near), list[_Named]()
         for joint in joints:
             rod = rods.get(joint["name"])
@@ -186,7 +192,7 @@ class Display:
             seen.add(symbol["element"])
             i, j = symbol["bodies"]
             role = "driver" if symbol["mark"].startswith("drive") else "element"
-            if symbol["mark"] in ("spring", "dashpot"):
+            if symbol["mark"] in symbols.ALONG:
                 frame = items.between((i, j), symbol["points"])
                 self.name(role, symbol["element"], frame)
             else:
@@ -202,8 +208,11 @@ class Display:
         bodies = self.scene["bodies"][1:]
         if len(bodies) > MOST_NUMBERS:
             return
-        ends = [path for symbol in self.scene["symbols"] for path in self._ends(symbol)]
-        pins = [self.view.points(path) for path in ends]
+        pins = [
+            (self.view.points(path), _RINGED if symbol["mark"] in symbols.AROUND else _NUMBER)
+            for symbol in self.scene["symbols"]
+            for path in self._ends(symbol)
+        ]
         for body in bodies:
             number = str(body["number"] - 1 + index_base)
             at = self._free_place(body, pins)
@@ -214,21 +223,28 @@ class Display:
                 self._names.append((body["name"], words, role, upright(body["number"], at)))
                 continue
             self.add(_numbered(body, at, number))
-            pins.append(self.view.points(self._path(body["number"], at)))
+            pins.append((self.view.points(self._path(body["number"], at)), _NUMBER))
             if words:
                 self.name("body", body["name"], upright(body["number"], at))
 
-    def _free_place(self, body: dict[str, Any], pins: list[Floats]) -> items.At | None:
-        """Where a number covers no pin and no other number; None if there is no room."""
+    def _free_place(
+        self, body: dict[str, Any], pins: list[tuple[Floats, float]]
+    ) -> items.At | None:
+        """Where a number covers no pin and no other number; None if there is no room.
+
+        Args:
+            body: the body.
+            pins: places with the radius around them that is taken.
+        """
         corners = np.array(body["outline"])
         if body["curves"] and len(corners) == 1:
             corners = np.array(body["curves"][0]["points"])
-        shares = [0.5, 0.35, 0.65, 0.25, 0.75]
+        shares = [0.5, 0.35, 0.65, 0.25, 0.75, 0.15, 0.85]
         along = [corners[0] + share * (corners[len(corners) // 2] - corners[0]) for share in shares]
         for at in (corners.mean(axis=0), np.array(body["center"]), *along):
             path = self.view.points(self._path(body["number"], at))
-            gaps = [float(np.hypot(*(path - pin).T).min()) for pin in pins]
-            if min(gaps, default=np.inf) > 2.0 * _NUMBER:
+            gaps = (float(np.hypot(*(path - pin).T).min()) - wide for pin, wide in pins)
+            if min(gaps, default=np.inf) > _NUMBER:
                 return [float(x) for x in at]
         return None
 
@@ -257,7 +273,11 @@ class Display:
     def taken(self) -> Taken:
         """Areas that names must not cover: lines, texts and the outside of the view."""
         count = len(self.poses)
-        segments, reach, boxes = [np.empty((count, 0, 2, 2))], [], [np.empty((count, 0, 4))]
+        segments, reach, boxes = (
+            [np.empty((count, 0, 2, 2))],
+            [],
+            [np.tile(self._taken, (count, 1, 1))],
+        )
         for item in self._items:
             if item["kind"] == "text":
                 half = np.array(size_of(item)) / 2.0
@@ -277,15 +297,18 @@ class Display:
         return np.array([place(item, poses, self.view) for poses in self.poses])
 
 
-def display(scene: Scene, view: View, *, labels: bool = True) -> list[Item]:
+def display(
+    scene: Scene, view: View, *, labels: bool = True, taken: Floats | None = None
+) -> list[Item]:
     """The display list of frames and of the page.
 
     Args:
         scene: the scene.
         view: the visible area.
         labels: whether to write numbers and names.
+        taken: boxes that names must not cover, (n, 4), points of print.
     """
-    made = Display(scene, view)
+    made = Display(scene, view, taken)
     made.draw_mechanism()
     if labels:
         made.number_bodies()
@@ -328,12 +351,11 @@ def _rims(body: dict[str, Any]) -> Iterator[Item]:
     """The curves of a body: areas, or lines where they are open."""
     number, of = body["number"], body["name"]
     frame, colour = on_body(number), f"body {number}" if number else "ground"
-    layer = items.BODY if number else items.GROUND
     for curve in body["curves"]:
         rows, closed = metres(curve["points"]), curve["closed"]
         if closed and number:
-            yield fill(of, frame, rows, colour, layer=layer, tint=_TINT)
-        yield line(of, frame, rows, colour, _CURVE, layer=layer, closed=closed)
+            yield fill(of, frame, rows, colour, layer=items.GROUND, tint=_TINT)
+        yield line(of, frame, rows, colour, _CURVE, layer=items.GROUND, closed=closed)
 
 
 def _numbered(body: dict[str, Any], at: items.At, number: str) -> list[Item]:

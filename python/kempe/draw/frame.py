@@ -16,6 +16,7 @@ from kempe.draw import palette
 from kempe.draw.display import display
 from kempe.draw.geometry import limits, placed, smooth
 from kempe.draw.items import Item
+from kempe.draw.labels import measured
 from kempe.draw.numbers import round_below
 from kempe.draw.palette import one_line, verbatim
 from kempe.draw.placing import View, view_of
@@ -35,6 +36,9 @@ SIZE: Size = (7.2, 4.05)
 DOTS_PER_INCH = 200.0
 #: In how many pieces a path is drawn between two frames.
 _PIECES = 4
+#: Left edge of the title, as a share of the width; height of captions and width of the time,
+#: points.
+_INSET, _CAPTION, _CLOCK = 0.015, 22.0, 78.0
 
 
 def frame_view(scene: Scene, size: Size = SIZE) -> View:
@@ -50,7 +54,28 @@ def frame_items(scene: Scene, size: Size = SIZE, *, labels: bool = True) -> list
         size: of the frame, inches.
         labels: whether to write numbers and names.
     """
-    return display(scene, frame_view(scene, size), labels=labels)
+    view = frame_view(scene, size)
+    return display(scene, view, labels=labels, taken=_captions(scene, view))
+
+
+def _captions(scene: Scene, view: View) -> Floats:
+    """The boxes of title, time and scale, (3, 4), points of print."""
+    (wide, high), title = view.size, one_line(scene["title"], round(view.size[0] / 6.5))
+    below = high - _CAPTION
+    end = _INSET * wide + measured(title, 9.0, bold=False, slanted=False)[0]
+    return np.array(
+        [
+            [0.0, below, end, high],
+            [wide - _CLOCK, below, wide, high],
+            [0.0, 0.0, _scale_bar(view)[1] * view.scale + 8.0, _CAPTION],
+        ]
+    )
+
+
+def _scale_bar(view: View) -> tuple[float, float]:
+    """A round length for the scale bar, and that of the bar with its inset, m."""
+    length = round_below(float(view.size[1]) / view.scale / 6.0)
+    return length, length + 8.0 / view.scale
 
 
 class Frame:
@@ -99,7 +124,7 @@ class Frame:
     def _draw_still(self) -> None:
         """Title, paths and the length of a step."""
         title = verbatim(one_line(self._scene["title"], round(80 * self._size[0] / SIZE[0])))
-        self.axes.text(0.015, 0.975, title, transform=self.axes.transAxes, va="top", fontsize=9)
+        self.axes.text(_INSET, 0.975, title, transform=self.axes.transAxes, va="top", fontsize=9)
         for trace in self._scene["traces"]:
             path = placed(self._path(trace["body"]), trace["point"])
             colour = palette.colour(trace["body"])

@@ -2,13 +2,15 @@
 
 An item is plain data. Its ``frame`` says what it follows; each of its ``points`` is a row
 ``[x, y, px, py]``: lengths of the mechanism and lengths of print, which stay the same whatever the
-scale. There are three frames:
+scale. There are four frames:
 
 * ``body``: origin at the point ``at`` of ``body``, turned by the angle of the body ``turns_with``
   and by ``turn``. x and y are in m, px and py in points of print.
 * ``line``: from a point of one body to a point of another. x is the share of the distance, y is in
   m to the left of the line, px is along the line and py to its left. On distances below ``room``
   px shrinks in proportion.
+* ``ray``: from a point of one body towards a point of another. x is in m from the first point,
+  otherwise as ``line``.
 * ``twist``: around the point ``at`` of body j. x is the share of the angle from body i to body j
   plus ``turn``, px is the radius.
 
@@ -62,6 +64,11 @@ def upright(body: int, at: At = ORIGIN) -> Frame:
 def between(bodies: Sequence[int], ends: Sequence[At], room: float = 0.0) -> Frame:
     """A frame along the line between a point of one body and a point of another."""
     return {"type": "line", "bodies": [*bodies], "ends": [[*end] for end in ends], "room": room}
+
+
+def towards(bodies: Sequence[int], ends: Sequence[At]) -> Frame:
+    """A frame from a point of one body in the direction of a point of another."""
+    return {"type": "ray", "bodies": [*bodies], "ends": [[*end] for end in ends]}
 
 
 def twisted(bodies: Sequence[int], at: At, turn: float) -> Frame:

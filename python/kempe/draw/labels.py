@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe.arrays import Floats
 
@@ -17,9 +18,13 @@ _GAPS = (3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0)
 _GAPS_IN_MOTION = 4
 #: Room to keep between a name and everything else.
 CLEARANCE = 2.0
+#: Names side by side need so much more room not to be read as one.
+_BESIDE = 4.0
 #: To touch a line costs this much more than to be farther away by the same length; to touch a text
 #: still more.
 _TOUCH, _COVER = 10.0, 60.0
+#: A name that is nearer to another anchor costs so much more.
+_MISLEADING = 40.0
 #: Shorter contacts are rounding errors, points.
 _CONTACT = 1e-3
 #: Of places whose costs differ by less, the first is taken, so that rounding errors decide nothing.
@@ -80,15 +85,26 @@ def place_labels(anchors: Floats, sizes: Floats, taken: Taken) -> Floats:
     chosen = np.zeros((len(sizes), 2))
     for k in np.argsort(-sizes[:, 0], kind="stable"):
         size = sizes[k]
-        offsets = _candidates(size, _GAPS if len(anchors) == 1 else _GAPS[:_GAPS_IN_MOTION])
-        costs = np.hypot(*offsets.T)
+        gaps = _GAPS if len(anchors) == 1 else _GAPS[:_GAPS_IN_MOTION]
+        offsets = _candidates(size, gaps)
+        costs = np.repeat(gaps, len(_UNITS))
         for t, anchor in enumerate(anchors[:, k]):
             costs = costs + _cost(anchor + offsets, size, taken, t) / len(anchors)
+            costs = costs + _MISLEADING * _nearer(anchors[t], k, offsets) / len(anchors)
         chosen[k] = offsets[int(np.argmax(costs <= costs.min() + _EQUAL))]
         low = anchors[:, k] + chosen[k] - size / 2.0
         box = np.column_stack([low, low + size])
         taken = replace(taken, boxes=np.concatenate([taken.boxes, box[:, None]], axis=1))
     return chosen
+
+
+def _nearer(anchors: Floats, k: int, offsets: Floats) -> NDArray[np.bool_]:
+    """Whether a name of the k-th anchor with these offsets is nearer to another anchor."""
+    apart = anchors[k] + offsets[:, None] - np.delete(anchors, k, axis=0)
+    own = np.hypot(*offsets.T)
+    far = np.hypot(*np.moveaxis(apart, 2, 0)).min(axis=1, initial=np.inf)
+    found: NDArray[np.bool_] = far < own - _CONTACT
+    return found
 
 
 def _candidates(size: Floats, gaps: Sequence[float]) -> Floats:
@@ -112,7 +128,9 @@ def _cost(centres: Floats, size: Floats, taken: Taken, t: int) -> Floats:
     grown = taken.reach[near][:, None]
     touched = clipped_lengths(low[:, None] - grown, high[:, None] + grown, segments[near])
     cost = _TOUCH * np.sum(touched + 2.0 * (touched > _CONTACT), axis=1)
-    sides = np.minimum(high[:, None], boxes[:, 2:]) - np.maximum(low[:, None], boxes[:, :2])
+    apart = np.array([_BESIDE, 0.0])
+    sides = np.minimum(high[:, None] + apart, boxes[:, 2:])
+    sides = sides - np.maximum(low[:, None] - apart, boxes[:, :2])
     cost = cost + _COVER * np.sum(sides.sum(axis=2) * (sides > _CONTACT).all(axis=2), axis=1)
     outside = np.maximum(taken.inside[0] - low, 0.0) + np.maximum(high - taken.inside[1], 0.0)
     found: Floats = cost + _TOUCH * outside.sum(axis=1)

@@ -80,12 +80,13 @@ def _in_frame(
         angle = poses[frame["turns_with"], 2] + frame["turn"]
         return origin, angle, rows[:, :2] * view.scale + rows[:, 2:]
     i, j = frame["bodies"]
-    if frame["type"] == "line":
+    if frame["type"] in ("line", "ray"):
         begin, end = (view.points(placed(poses[b], at)) for b, at in _ends(frame))
         along = end - begin
         length = float(np.hypot(*along))
-        squeezed = min(1.0, length / frame["room"]) if frame["room"] else 1.0
-        x = rows[:, 0] * length + rows[:, 2] * squeezed
+        squeezed = min(1.0, length / frame["room"]) if frame.get("room") else 1.0
+        unit = length if frame["type"] == "line" else view.scale
+        x = rows[:, 0] * unit + rows[:, 2] * squeezed
         local = np.column_stack([x, rows[:, 1] * view.scale + rows[:, 3]])
         return begin, float(np.arctan2(along[1], along[0])), local
     turn = frame["turn"] + poses[j, 2] - poses[i, 2]
@@ -100,7 +101,7 @@ def _ends(frame: Frame) -> Sequence[tuple[int, Sequence[float]]]:
 
 def hatching(points: Floats, side: int) -> Floats:
     """Short strokes on one side of a line, (k, 2, 2), points."""
-    found = []
+    found, left = [], 0.75 * _SPACING  # to the next stroke
     for begin, end in pairwise(points):
         length = float(np.hypot(*(end - begin)))
         if length == 0.0:
@@ -108,6 +109,8 @@ def hatching(points: Floats, side: int) -> Floats:
         along = (end - begin) / length
         aside = side * np.array([-along[1], along[0]])
         stroke = _STROKE * (aside - along) / np.sqrt(2.0)
-        for at in np.arange(0.75 * _SPACING, length, _SPACING):
-            found.append([begin + at * along, begin + at * along + stroke])
+        while left < length:
+            found.append([begin + left * along, begin + left * along + stroke])
+            left += _SPACING
+        left -= length
     return np.array(found).reshape(-1, 2, 2)

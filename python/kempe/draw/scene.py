@@ -13,7 +13,7 @@ import numpy as np
 
 from kempe.arrays import Floats
 from kempe.compiled import ACCELERATIONS, COORDINATES, RATES, CompiledModel
-from kempe.draw import channels, sampling, shapes
+from kempe.draw import arrows, channels, sampling, shapes
 from kempe.draw.numbers import plain, round_below, rounded
 from kempe.draw.units import scale
 from kempe.errors import ModelError
@@ -70,7 +70,8 @@ def scene(
     symbols = shapes.symbols(motion)
     bounds = shapes.bounds(motion, bodies, joints, symbols)
     size = float(max(bounds[2:] - bounds[:2])) or 1.0
-    reactions = _reactions(motion)
+    reactions, paths = _reactions(motion), _traces(motion, size, traces)
+    peaks = arrows.peaks(solution_or_state, motion, arrows.tracked(bodies, paths))
     return {
         "scene": FORMAT,
         "title": model.title,
@@ -81,7 +82,7 @@ def scene(
         "bodies": bodies,
         "joints": joints,
         "symbols": symbols,
-        "traces": _traces(motion, size, traces),
+        "traces": paths,
         "frames": {
             "t": plain(motion.t),
             "poses": plain(_of_bodies(motion, COORDINATES), _DIGITS_OF_POSES),
@@ -92,7 +93,8 @@ def scene(
         "interpolation": sampling.interpolation(solution_or_state, motion, size),
         "accuracy": _short(sampling.accuracy(solution_or_state, motion)),
         "playback": {"rate": playback_rate(float(motion.t[-1] - motion.t[0]))},
-        "reaction_scale": _reaction_scale(reactions, size),
+        "reaction_scale": _reaction_scale(peaks["reaction"], size),
+        "largest": {kind: peaks[kind] for kind in ("velocity", "acceleration")},
         "channels": channels.channels(motion, sampling.energy(solution_or_state, motion)),
     }
 
@@ -124,10 +126,8 @@ def _reactions(motion: Motion) -> Floats:
     return found
 
 
-def _reaction_scale(reactions: Floats, size: float) -> dict[str, float | None]:
+def _reaction_scale(largest: float, size: float) -> dict[str, float | None]:
     """A round force, and the length of its arrow on the drawing, m."""
-    magnitudes = np.hypot(reactions[..., 0], reactions[..., 1])
-    largest = float(magnitudes[np.isfinite(magnitudes)].max(initial=0.0))
     unit = round_below(largest / 2.0) if largest > 0.0 else 1.0
     length = _LONGEST_ARROW * size * (unit / largest if largest > 0.0 else 1.0)
     return {"force": unit, "length": rounded(length)}

@@ -10,10 +10,15 @@ import numpy as np
 from kempe.arrays import Floats
 from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, Vector
 from kempe.draw.numbers import plain
+from kempe.draw.symbols import WHEELS
+from kempe.draw.teeth import add_teeth
+from kempe.draw.wheels import outer_radius
 from kempe.motion import Motion
 
 #: Points of a body that are closer to a line than this share of its length lie on it.
 _STRAIGHT = 1e-9
+#: Symbols along a line of body i, as long as what moves on it goes.
+_GUIDES = ("slide", "slot", "toothed_line", "track")
 
 
 def body(model: CompiledModel, name: str) -> dict[str, Any]:
@@ -60,7 +65,13 @@ def symbols(motion: Motion) -> list[dict[str, Any]]:
     A mark without points is drawn around the joint that its two bodies share, otherwise at the mass
     centre of body j.
     """
-    return [_symbol(motion, told) for told in motion.compiled.symbols]
+    found = [_symbol(motion, told) for told in motion.compiled.symbols]
+    bodies = (motion.body(name) for name in motion.compiled.all_bodies)
+    first = [[float(np.atleast_1d(x)[0]) for x in (body.x, body.y, body.angle)] for body in bodies]
+    add_teeth(found, np.array(first))
+    for symbol in found:
+        del symbol["module"]
+    return found
 
 
 def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
@@ -72,6 +83,8 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         "points": [i["point"], j["point"] or _pivot(motion.compiled, i["body"], j["body"])],
         "axes": [i["axis"], j["axis"]],
         "radii": told["radii"],
+        "module": told["module"],
+        "teeth": None,
         "reach": None,
         "turning": None,
     }
@@ -79,13 +92,27 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         angles = [motion.body(_name(motion, end)).angle for end in found["bodies"]]
         turn = np.atleast_1d(angles[1] - angles[0])
         found["turning"] = [float(turn[0]), float(np.abs(turn - turn[0]).max())]
-    elif told["mark"] in ("slide", "slot", "toothed_line", "track"):
+    elif told["mark"] in _GUIDES:
         found["reach"] = _reach(motion, found)
-    elif told["mark"].endswith("_strands"):
+    elif told["mark"].endswith(("_strands", "cylinder")):
         found["reach"] = _distance(motion, found)
     elif told["mark"] == "face":
         found["reach"] = _touched(motion, found)
+    if told["mark"] == "force_arrow":
+        found["axes"][0] = _pushing(motion, found)
     return found
+
+
+def _pushing(motion: Motion, symbol: dict[str, Any]) -> float:
+    """The direction of a force in the frame of body i when it is largest, rad."""
+    i, j = (_name(motion, number) for number in symbol["bodies"])
+    force = np.atleast_2d(motion.force(symbol["element"]).force(on=j))
+    size = np.nan_to_num(np.hypot(*force.T))
+    k = int(size.argmax())
+    if size[k] == 0.0:
+        return float(symbol["axes"][0])
+    turned = np.arctan2(force[k, 1], force[k, 0]) - np.atleast_1d(motion.body(i).angle)[k]
+    return float(np.arctan2(np.sin(turned), np.cos(turned)))
 
 
 def _touched(motion: Motion, symbol: dict[str, Any]) -> list[float]:
@@ -235,11 +262,19 @@ def bounds(
             low = np.minimum(low, places.min(axis=0))
             high = np.maximum(high, places.max(axis=0))
     for symbol in symbols:
-        if symbol["mark"] == "circle":
+        if symbol["mark"] in WHEELS:
             view = motion.body(_name(motion, symbol["bodies"][1]))
-            places, radius = view.at(symbol["points"][1]).position, symbol["radii"][1]
+            places, radius = view.at(symbol["points"][1]).position, outer_radius(symbol)
             low = np.minimum(low, places.min(axis=0) - radius)
             high = np.maximum(high, places.max(axis=0) + radius)
+        if symbol["mark"] in _GUIDES:
+            angle, (x, y) = symbol["axes"][0], symbol["points"][0]
+            view = motion.body(_name(motion, symbol["bodies"][0]))
+            for along in symbol["reach"]:
+                end = (x + along * math.cos(angle), y + along * math.sin(angle))
+                places = view.at(end).position
+                low = np.minimum(low, places.min(axis=0))
+                high = np.maximum(high, places.max(axis=0))
     if not np.all(np.isfinite([*low, *high])):
         return np.array([-1.0, -1.0, 1.0, 1.0])
     return np.array([*low, *high])

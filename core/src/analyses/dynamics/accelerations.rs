@@ -10,7 +10,7 @@ use super::model_cache::ModelCache;
 use super::run_results::Run;
 use super::trajectory::States;
 use crate::equations::augmented::NearSingular;
-use crate::equations::{Gains, Workspace};
+use crate::equations::Workspace;
 use crate::integrate::{all_finite, Flow};
 use crate::math::{Lanes, Real};
 use crate::model::Model;
@@ -88,7 +88,7 @@ fn one_by_one(
         let row = k * n..(k + 1) * n;
         let (q, v, z) = (&q[row.clone()], &v[row], &z[k * n_z..(k + 1) * n_z]);
         workspace
-            .accelerate(model, t, [q, v, z], Gains::default())
+            .react(model, t, [q, v, z])
             .and_then(|()| match [workspace.a(), workspace.lam()].into_iter().all(all_finite) {
                 true => Ok(()),
                 false => Err(Breakdown::NotFinite),
@@ -126,7 +126,7 @@ impl<'a> Many<'a> {
         Lanes::from_rows(rows.v, &mut self.v);
         Lanes::from_rows(rows.z, &mut self.z);
         let Self { model, workspace, q, v, z } = self;
-        let solved = workspace.accelerate(model, Lanes::new(t), [q, v, z], Gains::default());
+        let solved = workspace.react(model, Lanes::new(t), [q, v, z]);
         let (a, lam) = (workspace.a(), workspace.lam());
         if solved.is_err() || !are_finite([a, lam]) {
             return false;

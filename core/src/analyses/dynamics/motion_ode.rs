@@ -202,9 +202,12 @@ impl Manifold for MotionOde<'_> {
         self.evaluate(t, y, dy, true)
     }
 
-    /// Near a singular position: there the noise along the lost direction would reject every step.
+    /// Near a singular position: there the noise along the lost direction would reject every step. A motion without a
+    /// freedom has no tangential error; its whole error counts.
     fn project_error(&mut self, dy: &mut [f64]) -> bool {
-        let (true, Some(projector)) = (self.passage.near, &mut self.projector) else {
+        let layout = &self.model.layout;
+        let free = layout.n_rows < layout.n_q;
+        let (true, Some(projector)) = (self.passage.near && free, &mut self.projector) else {
             return false;
         };
         let [dq, dv, ..] = self.model.layout.split_mut(dy);

@@ -41,6 +41,12 @@ impl SingularityForecast {
         self.position.is_some() || !self.stages.is_empty()
     }
 
+    /// Whether a singular position lies between the start of the current trial and `t`.
+    pub fn is_behind(&self, t: f64) -> bool {
+        let from = self.start.map_or(f64::NAN, |(from, _)| from);
+        self.position.is_some_and(|position| (position - t) * (position - from) <= 0.0)
+    }
+
     /// Adds a stage of the current trial.
     pub fn pass(&mut self, stage: Sample) {
         if self.stages.len() == MOST {
@@ -145,6 +151,7 @@ mod tests {
         assert!(approach.foresee(pivot(0.2)).is_some());
         approach.accept(Some(pivot(0.2)));
         assert!(approach.in_reach());
+        assert!(!approach.is_behind(0.29) && approach.is_behind(0.31));
         approach.pass(pivot(0.29));
         assert!(approach.foresee(pivot(0.4)).is_some());
         approach.accept(Some(pivot(0.4)));

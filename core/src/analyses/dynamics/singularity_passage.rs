@@ -92,7 +92,7 @@ impl SingularityPassage {
         v: &[f64],
     ) -> Result<(), Breakdown> {
         let regularised = work.matrix.regularised();
-        self.near = true;
+        self.near |= regularised || self.approach.is_behind(t);
         let Some((row, ratio)) = work.matrix.cancellation() else { return Ok(()) };
         self.approach.pass((t, ratio));
         if !regularised || self.singularity == Singularity::Pass || ratio > INDISTINCT {

@@ -48,7 +48,6 @@ impl Force for Actuator {
     }
 
     fn symbols(e: &Actuator) -> Vec<SceneSymbol> {
-        // a cylinder and its piston look like those of a dashpot
-        vec![SceneSymbol::between_points(Mark::Dashpot, &e.i, &e.j)]
+        vec![SceneSymbol::between_points(Mark::Cylinder, &e.i, &e.j)]
     }
 }

@@ -94,13 +94,6 @@ impl Force for Bushing {
     }
 
     fn symbols(e: &Bushing) -> Vec<SceneSymbol> {
-        let [turns, shifts] =
-            [e.stiffness[2] != 0.0, e.stiffness[0] != 0.0 || e.stiffness[1] != 0.0];
-        let spiral = SceneSymbol::between_points(Mark::SpiralSpring, &e.i, &e.j);
-        let coil = SceneSymbol::between_points(Mark::Spring, &e.i, &e.j);
-        [(turns, spiral), (shifts, coil)]
-            .into_iter()
-            .filter_map(|(acts, symbol)| acts.then_some(symbol))
-            .collect()
+        vec![SceneSymbol::between_points(Mark::Sleeve, &e.i, &e.j)]
     }
 }

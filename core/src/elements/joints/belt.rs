@@ -63,7 +63,7 @@ impl Joint for Belt {
     }
 
     fn symbols(e: &Belt) -> Vec<SceneSymbol> {
-        let mut all = SceneSymbol::wheels(e.radii, [&e.i, &e.j]);
+        let mut all = SceneSymbol::wheels(e.radii.map(Mark::Circle), [&e.i, &e.j]);
         let mark = Mark::Strands { radii: e.radii, crossed: e.crossed };
         all.push(SceneSymbol::between_points(mark, &e.i, &e.j));
         all

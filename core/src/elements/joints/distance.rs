@@ -46,7 +46,8 @@ impl Joint for Distance {
     }
 
     fn symbols(e: &Distance) -> Vec<SceneSymbol> {
-        vec![SceneSymbol::between_points(Mark::Rod, &e.i, &e.j)]
+        let mark = if e.length.is_nan() { Mark::DriveCylinder } else { Mark::Rod };
+        vec![SceneSymbol::between_points(mark, &e.i, &e.j)]
     }
 
     fn attachment<S: Real>(e: &Distance<S>, body: usize) -> Attachment<S> {

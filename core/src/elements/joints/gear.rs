@@ -6,13 +6,19 @@
 //! 2π (rᵢ + σ rⱼ), nearest 0. λ is the tangential force of the teeth; its line of action is normal to the line of
 //! centres, so the pins carry it: ∂Φ/∂Pⱼ has length |rᵢ + σ rⱼ|/|d| = 1. The mechanism must hold the centres
 //! |rᵢ + σ rⱼ| apart.
+//!
+//! Teeth with a pressure angle α touch along the line of action, inclined by α to the tangent of the pitch circles
+//! (Shigley 13-9). The normal force |λ|/cos α has the radial part |λ| tan α along the line of centres, which pushes the
+//! teeth apart for both signs of λ: external wheels away from each other, a wheel inside a ring towards the centre of
+//! the ring. As the centres are held, this force does no work; only the reactions of the pins change.
 
 use crate::elements::wheels::{centres, nearest, radii, radius_fault, rolled, TANGENTIAL};
 use crate::elements::{
-    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Required, ResultQuantity,
-    SceneSymbol,
+    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required,
+    ResultQuantity, SceneSymbol,
 };
-use crate::math::Real;
+use crate::math::{Real, Wrench};
+use std::f64::consts::FRAC_PI_2;
 
 element! {
     /// Gear pair: two wheels whose pitch circles roll on each other,
@@ -35,6 +41,8 @@ element! {
         internal: flag = false,
         /// Φ of the wheels without it.
         offset: number [m] = 0.0,
+        /// Pressure angle of the teeth: the force |λ| tan(pressure_angle) along the line of centres pushes them apart.
+        pressure_angle: number [rad] = 0.0,
     }
 }
 
@@ -86,11 +94,35 @@ impl Joint for Gear {
     }
 
     fn symbols(e: &Gear) -> Vec<SceneSymbol> {
-        SceneSymbol::wheels(radii_of(e), [&e.i, &e.j])
+        let radii = radii_of(e);
+        let larger = radii[0].max(radii[1]);
+        let wheel = |radius| Mark::Toothed {
+            radius,
+            module: e.module,
+            ring: e.internal && radius == larger,
+        };
+        SceneSymbol::wheels(radii.map(wheel), [&e.i, &e.j])
     }
 
     fn results<S: Real>(_: &Gear<S>, _: &At<'_, S>, lam: &[S], out: &mut [S]) {
         out[0] = lam[0];
+    }
+
+    fn has_load<S: Real>(e: &Gear<S>) -> bool {
+        e.pressure_angle.largest_magnitude() != 0.0
+    }
+
+    fn load<S: Real>(
+        e: &Gear<S>,
+        at: &At<'_, S>,
+        lam: &[S],
+        out: &mut dyn FnMut(usize, Wrench<S>),
+    ) {
+        let d = measure::apart(at, &e.i, &e.j);
+        let radial = S::constant(sum(e).0) * lam[0].abs() * e.pressure_angle.tan();
+        let force = d.scale(radial / d.norm());
+        out(0, Wrench::at(at.i().global(e.i.s), -force));
+        out(1, Wrench::at(at.j().global(e.j.s), force));
     }
 
     fn attachment<S: Real>(e: &Gear<S>, body: usize) -> Attachment<S> {
@@ -108,6 +140,10 @@ impl Joint for Gear {
         }
         if let Some(z) = e.teeth.iter().flatten().find(|z| !number(z)) {
             return Some(("teeth", format!("{z}; must be whole numbers from 1")));
+        }
+        if !(0.0..FRAC_PI_2).contains(&e.pressure_angle) {
+            let message = format!("{} rad; must be at least 0 and less than π/2", e.pressure_angle);
+            return Some(("pressure_angle", message));
         }
         let field = if e.radii.is_some() { "radii" } else { "module" };
         let faults = radii_of(e).map(|radius| radius_fault(field, radius, false));

@@ -65,7 +65,8 @@ impl Joint for Rack {
     fn symbols(e: &Rack) -> Vec<SceneSymbol> {
         let (i, j) = (SymbolEnd::point(&e.i).along(e.axis), SymbolEnd::point(&e.j));
         let line = SceneSymbol { mark: Mark::ToothedLine(e.radius), i: i.clone(), j: j.clone() };
-        vec![SceneSymbol { mark: Mark::Circle(e.radius.abs()), i, j }, line]
+        let pinion = Mark::Toothed { radius: e.radius.abs(), module: None, ring: false };
+        vec![SceneSymbol { mark: pinion, i, j }, line]
     }
 
     fn results<S: Real>(_: &Rack<S>, _: &At<'_, S>, lam: &[S], out: &mut [S]) {

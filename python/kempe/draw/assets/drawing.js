@@ -17,7 +17,7 @@ export class Drawing {
     this.motion = motion;
     this.view = new View(scene.bounds);
     this.shown = { names: true, numbers: true, paths: true, reactions: false, velocities: false, accelerations: false };
-    this.vectors = new Vectors(scene, motion);
+    this.vectors = new Vectors(scene);
     this.magnification = 1;
     const piece = extent(scene.bounds) / 200;
     this.traces = scene.traces.map(({ body, point }) => ({ body, path: line(motion.path(body, point, piece)) }));

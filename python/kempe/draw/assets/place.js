@@ -13,12 +13,13 @@ function inFrame(frame, rows, poses, view, unit) {
     return { origin: at(frame.body, frame.at), angle, local };
   }
   const [i, j] = frame.bodies;
-  if (frame.type === "line") {
+  if (frame.type === "line" || frame.type === "ray") {
     const [begin, end] = frame.ends.map((point, k) => at(frame.bodies[k], point));
     const [dx, dy] = [end[0] - begin[0], begin[1] - end[1]];
     const length = Math.hypot(dx, dy);
     const squeezed = frame.room ? Math.min(1, length / (frame.room * unit)) : 1;
-    const local = rows.map(([x, y, px, py]) => [x * length + px * squeezed * unit, y * view.scale + py * unit]);
+    const along = frame.type === "line" ? length : view.scale;
+    const local = rows.map(([x, y, px, py]) => [x * along + px * squeezed * unit, y * view.scale + py * unit]);
     return { origin: begin, angle: Math.atan2(dy, dx), local };
   }
   const turn = frame.turn + poses[j][2] - poses[i][2];
@@ -40,15 +41,17 @@ export function placeItem(item, poses, view, unit) {
 /** Strokes of ground on one side of a line, as a path. */
 export function hatching(points, side, unit) {
   let strokes = "";
+  let left = 0.75 * SPACING * unit; // to the next stroke
   for (let k = 1; k < points.length; k += 1) {
     const [[x0, y0], [x1, y1]] = [points[k - 1], points[k]];
     const length = Math.hypot(x1 - x0, y1 - y0) || 1;
     const [ux, uy] = [(x1 - x0) / length, (y1 - y0) / length];
     const reach = (STROKE * unit) / Math.SQRT2;
     const [dx, dy] = [reach * (side * uy - ux), reach * (-side * ux - uy)];
-    for (let at = 0.75 * SPACING * unit; at < length; at += SPACING * unit) {
-      strokes += `M${x0 + at * ux} ${y0 + at * uy}l${dx} ${dy}`;
+    for (; left < length; left += SPACING * unit) {
+      strokes += `M${x0 + left * ux} ${y0 + left * uy}l${dx} ${dy}`;
     }
+    left -= length;
   }
   return strokes;
 }

@@ -8,30 +8,17 @@ const LONGEST = 0.22;
 
 /** The vectors that can be drawn at an instant, and how long one unit of each kind is, m. */
 export class Vectors {
-  constructor(scene, motion) {
+  constructor(scene) {
     this.scene = scene;
     this.points = tracked(scene);
     const size = LONGEST * extent(scene.bounds);
-    const kind = (unit, vector) => {
-      const largest = this.peak(motion, vector);
-      return { unit, vector, length: largest > 0 ? size / largest : 0 };
-    };
+    const kind = (unit, vector, largest) => ({ unit, vector, length: largest > 0 ? size / largest : 0 });
     const { force, length } = scene.reaction_scale;
     this.kinds = {
       reactions: { unit: "N", length: length / force },
-      velocities: kind("m/s", velocity),
-      accelerations: kind("m/s²", acceleration),
+      velocities: kind("m/s", velocity, scene.largest.velocity),
+      accelerations: kind("m/s²", acceleration, scene.largest.acceleration),
     };
-  }
-
-  /** The largest magnitude over all frames and points. */
-  peak(motion, vector) {
-    let most = 0;
-    for (let k = 0; k < motion.t.length; k += 1) {
-      const now = motion.frame(k);
-      for (const { body, at } of this.points) most = Math.max(most, Math.hypot(...vector(now, body, at)) || 0);
-    }
-    return most;
   }
 
   /** Those of a kind: the force of each joint on its body j, or of each tracked point. */

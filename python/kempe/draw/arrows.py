@@ -1,0 +1,85 @@
+"""The largest vectors of a motion, from which arrows take their scale.
+
+As in figures, values beside a singular position do not count if they have no bound there. Only a
+run that passes such a position is searched between its frames.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from functools import lru_cache, partial
+from typing import Any
+
+import numpy as np
+
+from kempe.arrays import Floats
+from kempe.draw.numbers import rounded
+from kempe.errors import KempeError
+from kempe.extrema import Quantity, largest, passes_singular
+from kempe.motion import Motion
+from kempe.solution import Solution
+from kempe.state import State
+
+#: Number of a body and a point in its frame.
+Tracked = tuple[int, Sequence[float]]
+
+
+def tracked(bodies: list[dict[str, Any]], traces: list[dict[str, Any]]) -> list[Tracked]:
+    """The points with arrows: the traced ones, and the mass centre of each body without points."""
+    centres = ((one["number"], one["center"]) for one in bodies[1:] if not one["points"])
+    return [*((one["body"], one["point"]) for one in traces), *centres]
+
+
+def peaks(drawn: Solution | State, motion: Motion, points: list[Tracked]) -> dict[str, float]:
+    """The largest reaction, N, and the largest velocity and acceleration of the points, SI.
+
+    Args:
+        drawn: the whole motion.
+        motion: the motion at the frames.
+        points: those with arrows.
+    """
+    whole = drawn if isinstance(drawn, Solution) and passes_singular(drawn) else None
+    names = list(motion.compiled.all_bodies)
+    at = [(names[body], (point[0], point[1])) for body, point in points]
+    return {
+        "reaction": _peak(whole, motion, _reaction),
+        "velocity": _peak(whole, motion, partial(_of_points, at, "velocity")),
+        "acceleration": _peak(whole, motion, partial(_of_points, at, "acceleration")),
+    }
+
+
+def _peak(whole: Solution | None, motion: Motion, quantity: Quantity) -> float:
+    """The largest finite value, searched in the whole motion if there is one."""
+    found = float("inf")
+    if whole is not None:
+        once = lru_cache(maxsize=3)(quantity)  # a search reads the same motion several times
+        with suppress(KempeError):  # somewhere in between it has no value
+            found = largest(whole, once).value
+    if not np.isfinite(found):
+        values = quantity(motion)
+        found = float(values[np.isfinite(values)].max(initial=0.0))
+    return float(rounded(found) or 0.0)
+
+
+def _reaction(motion: Motion) -> Floats:
+    """The largest magnitude over all joints, (n_t,), N."""
+    found = np.zeros(np.shape(np.atleast_1d(motion.t)))
+    for name, info in motion.compiled.joints.items():
+        found = np.fmax(found, _size(motion.constraint(name).force(on=info.j)))
+    return found
+
+
+def _of_points(
+    points: list[tuple[str, tuple[float, float]]], quantity: str, motion: Motion
+) -> Floats:
+    """The largest magnitude over all points, (n_t,)."""
+    found = np.zeros(np.shape(np.atleast_1d(motion.t)))
+    for body, at in points:
+        found = np.fmax(found, _size(getattr(motion.body(body).at(at), quantity)))
+    return found
+
+
+def _size(vectors: Floats) -> Floats:
+    found: Floats = np.linalg.norm(np.atleast_2d(vectors), axis=-1)
+    return found
