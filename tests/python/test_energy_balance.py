@@ -1,8 +1,12 @@
 """The energy balance is relative to the energies of the run, at every scale."""
 
+from typing import Any
+
 import kempe as kp
 import numpy as np
 import pytest
+from kempe import plot
+from kempe.report import summary
 
 
 def damped_rod(mass: float, stiffness: float, damping: float) -> tuple[kp.Model, kp.State]:
@@ -90,3 +94,21 @@ def test_nanometres_keep_their_digits_and_their_balance() -> None:
     assert np.abs(coarse.energy.balance).max() > 1e-4
     by_kind = kp.dynamics(*rods(1e-9), **grid, method=kp.Auto(atol={"length": 1e-20}))
     np.testing.assert_allclose(by_kind.q / 1e-9, metre.q, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("method", "allowed"),
+    [(kp.Auto(), 1e-6), (kp.Radau(), 1e-4), (kp.GeneralizedAlpha(), 1e-2)],
+)
+def test_all_reports_of_a_creeping_run_have_one_balance(method: Any, allowed: float) -> None:
+    """The kinetic energy is a millionth of the energy that is exchanged."""
+    m, start = damped_rod(1.0, 4.0, 1e3)
+    sol = kp.dynamics(m, start, t_end=1000, output_step=10, method=method)
+    imbalance = np.abs(sol.energy.balance).max()
+    assert imbalance < allowed
+    assert sol.energy.kinetic.max() < 1e-5 * sol.energy.scale
+    shown = summary(sol)["energy"]
+    assert (shown["largest_imbalance"], shown["scale"]) == (imbalance, sol.energy.scale)
+    drawn = plot.energy_balance(sol)
+    heights = np.concatenate([np.asarray(line.get_ydata(), float) for line in drawn.lines])
+    assert heights.max() == pytest.approx(imbalance, rel=1e-9)

@@ -17,7 +17,8 @@ def motor(**changes: Any) -> kp.Model:
     m.ground.points(O=(0, 0))
     m.body("rotor", mass=1, inertia=J, points={"O": (0, 0)})
     m.revolute("shaft", "ground.O", "rotor.O")
-    fields = {"voltage": U, "resistance": R, "inductance": L, "torque_constant": K, **changes}
+    circuit = {"voltage": U, "resistance": R, "inductance": L, "torque_constant": K}
+    fields = changes if "stall_torque" in changes else {**circuit, **changes}
     m.motor("motor", "rotor", **fields)
     return m
 
@@ -103,3 +104,51 @@ def test_impossible_values_are_refused() -> None:
         motor(inductance=-1).compile()
     with pytest.raises(kp.ModelError, match=r"motor\.amps|'motor'"):
         kp.assemble(motor(), {"motor.amps": 1})
+
+
+def modes(omega: float, current: float) -> tuple[np.ndarray, np.ndarray]:
+    """Rates and amplitudes of i = Σ bₖ exp(λₖ t), whose steady value is zero."""
+    rates, vectors = np.linalg.eig(np.array([[0, K / J], [-K / L, -R / L]]))
+    return rates, vectors[1] * np.linalg.solve(vectors, [omega - U / K, current])
+
+
+def test_a_tight_tolerance_meets_the_closed_form_and_the_energies() -> None:
+    """Rate and current, and the integrals of U i and R i², by the modes of the circuit."""
+    m = motor()
+    start = kp.assemble(m, {"rotor.angle": 0, "rotor.omega": 3, "motor.current": "1.5 A"})
+    tight = kp.DOP853(rtol=1e-13, atol=1e-15)
+    sol = kp.dynamics(m, start, t_end=0.5, output_step=0.01, method=tight)
+    expected = np.array([truth(float(t), 3.0, 1.5) for t in sol.t])
+    assert_allclose(sol["rotor"].omega, expected[:, 0], rtol=0, atol=1e-9)
+    assert_allclose(sol["motor"].current, expected[:, 1], rtol=0, atol=1e-9)
+    rates, parts = modes(3.0, 1.5)
+    charge = (parts / rates * np.expm1(np.outer(sol.t, rates))).sum(axis=1).real
+    sums = np.add.outer(rates, rates)
+    heat = (
+        R
+        * np.einsum(
+            "ij,tij->t", np.outer(parts, parts) / sums, np.expm1(sums * sol.t[:, None, None])
+        ).real
+    )
+    energy = sol.energy
+    assert_allclose(energy.work_of_forces, U * charge, rtol=0, atol=1e-9)
+    assert_allclose(energy.dissipated, heat, rtol=0, atol=1e-9)
+    # electrical = mechanical + stored in the coil + heat
+    mechanical = J * (sol["rotor"].omega ** 2 - 9) / 2
+    stored = L * (sol["motor"].current ** 2 - 1.5**2) / 2
+    assert_allclose(U * charge, mechanical + stored + heat, rtol=0, atol=1e-9)
+    assert_allclose(energy.balance, 0, atol=1e-9)
+
+
+@pytest.mark.parametrize("load", [0.0, 0.6, 1.5, 4.0])
+def test_under_load_it_settles_on_the_line_of_torque_over_speed(load: float) -> None:
+    """Torque K (U - K ω) / R: the stall torque K U / R falls to zero at the free speed U / K."""
+    stall, free = K * U / R, U / K
+    for m in (motor(), motor(stall_torque=stall, free_speed=free)):
+        m.torque("load", "rotor", torque=-load)
+        tight = kp.Radau(rtol=1e-11, atol=1e-13)
+        sol = kp.dynamics(m, kp.assemble(m, {"rotor.angle": 0}), t_end=4, method=tight)
+        omega = free * (1 - load / stall)
+        assert sol["rotor"].omega[-1] == pytest.approx(omega, abs=1e-9)
+        assert sol["motor"].torque(on="rotor")[-1] == pytest.approx(load, abs=1e-9)
+    assert sol["rotor"].alpha[-1] == pytest.approx(0, abs=1e-7)

@@ -33,8 +33,9 @@ class Linkage:
         guess: dict[str, float | str] = {}
         for name, (x, y, c, s) in places.items():
             guess |= {f"{name}.x": x, f"{name}.y": y, f"{name}.angle": float(np.arctan2(s, c))}
-        held: dict[str, float | str] = {"crank.angle": s0, "crank.omega": rate}
-        del guess["crank.angle"]
+        crank = names[0]
+        held: dict[str, float | str] = {f"{crank}.angle": s0, f"{crank}.omega": rate}
+        del guess[f"{crank}.angle"]
         return kp.assemble(self.model, set=held, guess=guess)
 
 

@@ -10,7 +10,9 @@ no constraints and no singular positions, and it is independent of kempe.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 import sympy as sp
@@ -79,9 +81,15 @@ class Branch:
 
     def places(self, s: np.ndarray) -> np.ndarray:
         """x, y, cosine and sine of every body, (n_t, n_bodies, 4)."""
-        rows = [[body.x, body.y, *body.along] for body in self.bodies]
-        evaluated = sp.lambdify(S, rows, modules="math", cse=True)
+        evaluated = placing(self)
         return np.array([evaluated(float(x)) for x in s])
+
+
+@cache
+def placing(branch: Branch) -> Callable[[float], list[list[float]]]:
+    """The places of all bodies, as a function of s."""
+    rows = [[body.x, body.y, *body.along] for body in branch.bodies]
+    return sp.lambdify(S, rows, modules="math", cse=True)
 
 
 def places(q: np.ndarray) -> np.ndarray:

@@ -16,3 +16,18 @@ pub struct Statistics {
     /// Steps of Newton's iteration.
     pub iterations: u32,
 }
+
+impl Statistics {
+    /// The counts of two integrations together.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            steps: self.steps + other.steps,
+            rejected: self.rejected + other.rejected,
+            evaluations: self.evaluations + other.evaluations,
+            jacobians: self.jacobians + other.jacobians,
+            factorisations: self.factorisations + other.factorisations,
+            iterations: self.iterations + other.iterations,
+        }
+    }
+}

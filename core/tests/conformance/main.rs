@@ -5,6 +5,7 @@
 #[path = "../mechanisms/mod.rs"]
 mod mechanisms;
 
+mod balance;
 mod constraints;
 mod energy;
 mod equilibrium;

@@ -1,21 +1,45 @@
 //! The automatic choice of the method: changes between DOP853 and Radau, decided by `stiffness_detection`.
 
+use super::implicit_motion::ImplicitMotion;
 use super::initial_stiffness::InitialStiffness;
 use super::methods::Auto;
-use super::motion_dae::MotionDae;
 use super::motion_ode::MotionOde;
 use super::options::Options;
+use super::singularity_handover::{Method, SingularityHandover};
 use super::stiffness_detection::{MethodChoice, StiffnessDetector, LIMIT, TRIAL, WORTH};
 use crate::integrate::{
-    BoxedStepper, Cause, Dop853, ExplicitMethod, ImplicitMethod, Radau, Statistics, Step,
-    StepControl, Stepper,
+    BoxedStepper, Cause, Dop853, ExplicitMethod, Radau, Statistics, Step, StepControl, Stepper,
 };
 use crate::solve::Breakdown;
 
 /// The stepper of one method.
 enum Piece<'a> {
     Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
-    Implicit(BoxedStepper<MotionDae<'a>, Breakdown>),
+    Implicit(Box<SingularityHandover<'a>>),
+}
+
+impl<'a> Piece<'a> {
+    fn get(&self) -> &dyn Stepper<MotionOde<'a>, Breakdown> {
+        match self {
+            Self::Explicit(stepper) => &**stepper,
+            Self::Implicit(stepper) => &**stepper,
+        }
+    }
+
+    fn get_mut(&mut self) -> &mut dyn Stepper<MotionOde<'a>, Breakdown> {
+        match self {
+            Self::Explicit(stepper) => &mut **stepper,
+            Self::Implicit(stepper) => &mut **stepper,
+        }
+    }
+
+    /// Factorisations that the statistics do not contain.
+    fn factorisations(&self) -> usize {
+        match self {
+            Self::Explicit(stepper) => stepper.statistics().evaluations,
+            Self::Implicit(stepper) => stepper.factorisations(),
+        }
+    }
 }
 
 /// A stepper that changes between an explicit and an implicit method.
@@ -27,7 +51,6 @@ pub(super) struct MethodSwitching<'a> {
     control: StepControl,
     detector: StiffnessDetector<'a>,
     initial: InitialStiffness,
-    dae: Option<MotionDae<'a>>,
     piece: Piece<'a>,
     /// Whether the other method takes the next step.
     due: bool,
@@ -35,8 +58,8 @@ pub(super) struct MethodSwitching<'a> {
     step: Option<f64>,
     /// Statistics of the earlier pieces.
     total: Statistics,
-    /// Evaluations in the earlier explicit pieces; each has one factorisation.
-    explicit_evaluations: usize,
+    /// Factorisations of the earlier pieces that the statistics do not contain.
+    factorisations: usize,
     /// Time at which Radau began, its number of steps since then, and the time of the last comparison.
     tried: (f64, usize, f64),
     choice: MethodChoice,
@@ -62,24 +85,16 @@ impl<'a> MethodSwitching<'a> {
             control: auto.control.clone(),
             detector,
             initial,
-            dae: None,
             piece,
             due: false,
             step: None,
             total: Statistics::default(),
-            explicit_evaluations: 0,
+            factorisations: 0,
             tried: (t, 0, t),
             choice: MethodChoice { method: "dop853", why: String::new() },
         };
         switching.judge_start();
         Ok(switching)
-    }
-
-    /// Holds the pieces of switches in the equations for the implicit method.
-    pub fn hold(&mut self, pieces: &[f64]) {
-        if let Some(dae) = &mut self.dae {
-            dae.hold(pieces);
-        }
     }
 
     /// Whether the model is stiff at the start.
@@ -108,15 +123,15 @@ impl<'a> MethodSwitching<'a> {
         self.due = false;
         let (t, y) = (self.t(), self.y().to_vec());
         self.total = self.statistics();
-        self.explicit_evaluations = self.explicit_factorisations();
+        self.factorisations = self.factorisations();
         let (control, span) = (self.control_from(t), (t, self.t_end));
         self.piece = match &self.piece {
             Piece::Explicit(_) => {
                 self.tried = (t, 0, t);
-                let options = &self.options;
-                let dae = self.dae.get_or_insert_with(|| MotionDae::new(ode.model, options));
-                dae.hold(&ode.workspace.motions.pieces);
-                Piece::Implicit(Radau { control }.start(dae, span, &y)?)
+                let method = Radau { control };
+                let stepper = ImplicitMotion::new(&method, ode, &self.options, span, &y)?;
+                let method = (Method::Implicit(stepper), &self.control);
+                Piece::Implicit(Box::new(SingularityHandover::new(method.0, method.1, span)))
             }
             Piece::Implicit(_) => {
                 self.detector.resume(t);
@@ -127,8 +142,11 @@ impl<'a> MethodSwitching<'a> {
     }
 
     /// Whether the explicit method should end after this step, for stiffness.
-    fn judge_explicit(&mut self) {
+    fn judge_explicit(&mut self, ode: &MotionOde<'a>) {
         let Piece::Explicit(stepper) = &self.piece else { return };
+        if ode.passage.in_reach() {
+            return; // the singular position limits the steps
+        }
         let Some(step) = stepper.last_step() else { return };
         self.step = Some((step.t - step.t_old).abs());
         let predicted = self.detector.predicted.is_some();
@@ -152,6 +170,9 @@ impl<'a> MethodSwitching<'a> {
     /// Whether the implicit method should end after this step, because its steps are not much longer.
     fn judge_implicit(&mut self) {
         let Piece::Implicit(stepper) = &self.piece else { return };
+        if stepper.crossing() {
+            return;
+        }
         let Some(Step { t, t_old, .. }) = stepper.last_step() else { return };
         self.step = Some((t - t_old).abs());
         let (began, taken, since) = &mut self.tried;
@@ -172,18 +193,9 @@ impl<'a> MethodSwitching<'a> {
         }
     }
 
-    /// Factorisations of the explicit pieces, one for each evaluation.
-    fn explicit_factorisations(&self) -> usize {
-        let now = match &self.piece {
-            Piece::Explicit(stepper) => stepper.statistics().evaluations,
-            Piece::Implicit(_) => 0,
-        };
-        self.explicit_evaluations + now
-    }
-
     /// Factorisations that the methods do not count.
     pub fn factorisations(&self) -> usize {
-        self.explicit_factorisations() + self.dae.as_ref().map_or(0, MotionDae::factorisations)
+        self.factorisations + self.piece.factorisations()
     }
 
     /// The current method, and the reason for its choice.
@@ -212,38 +224,22 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
         if self.due {
             self.switch(ode)?;
         }
-        match &mut self.piece {
-            Piece::Explicit(stepper) => {
-                stepper.step(ode)?;
-                self.judge_explicit();
-            }
-            Piece::Implicit(stepper) => {
-                stepper.step(self.dae.as_mut().expect("made for the implicit method"))?;
-                self.judge_implicit();
-            }
-        }
+        self.piece.get_mut().step(ode)?;
+        self.judge_explicit(ode);
+        self.judge_implicit();
         Ok(())
     }
 
     fn prepare_interpolant(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
-        match &mut self.piece {
-            Piece::Explicit(stepper) => stepper.prepare_interpolant(ode),
-            Piece::Implicit(_) => Ok(()),
-        }
+        self.piece.get_mut().prepare_interpolant(ode)
     }
 
     fn last_step(&self) -> Option<Step<'_>> {
-        match &self.piece {
-            Piece::Explicit(stepper) => stepper.last_step(),
-            Piece::Implicit(stepper) => stepper.last_step(),
-        }
+        self.piece.get().last_step()
     }
 
     fn t(&self) -> f64 {
-        match &self.piece {
-            Piece::Explicit(stepper) => stepper.t(),
-            Piece::Implicit(stepper) => stepper.t(),
-        }
+        self.piece.get().t()
     }
 
     fn t_end(&self) -> f64 {
@@ -251,17 +247,11 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
     }
 
     fn y(&self) -> &[f64] {
-        match &self.piece {
-            Piece::Explicit(stepper) => stepper.y(),
-            Piece::Implicit(stepper) => stepper.y(),
-        }
+        self.piece.get().y()
     }
 
     fn restart_until(&mut self, t: f64, y: &[f64], t_end: f64) -> Result<(), Cause<Breakdown>> {
-        match &mut self.piece {
-            Piece::Explicit(stepper) => stepper.restart_until(t, y, t_end)?,
-            Piece::Implicit(stepper) => stepper.restart_until(t, y, t_end)?,
-        }
+        self.piece.get_mut().restart_until(t, y, t_end)?;
         self.t_end = t_end;
         self.detector.resume(t);
         self.tried.2 = t;
@@ -269,17 +259,6 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
     }
 
     fn statistics(&self) -> Statistics {
-        let (now, before) = match &self.piece {
-            Piece::Explicit(stepper) => (stepper.statistics(), &self.total),
-            Piece::Implicit(stepper) => (stepper.statistics(), &self.total),
-        };
-        Statistics {
-            steps: before.steps + now.steps,
-            rejected: before.rejected + now.rejected,
-            evaluations: before.evaluations + now.evaluations,
-            jacobians: before.jacobians + now.jacobians,
-            factorisations: before.factorisations + now.factorisations,
-            iterations: before.iterations + now.iterations,
-        }
+        self.total.plus(self.piece.get().statistics())
     }
 }

@@ -12,9 +12,11 @@
 //! | `course`, `setting`, `event_list` | phases that follow from events, their models, and the events of a phase |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
+//! | `implicit_motion` | an implicit method, with the interface of explicit ones |
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
 //! | `switch_schedule`, `switching` | switches in time, found before a run; switches during a run |
 //! | `singularity_passage`, `singularity_forecast`, `branch_averaging` | singular positions |
+//! | `singularity_handover` | methods that leave singular positions to DOP853 |
 //! | `recorder`, `trajectory`, `report_projection`, `lane_batch` | reported states |
 //! | `interpolated_states` | states between them |
 //! | `constraint_violation` | joints that open too far |
@@ -32,6 +34,7 @@ mod course;
 mod energies;
 mod event_list;
 mod failure;
+mod implicit_motion;
 mod initial_stiffness;
 mod interpolated_states;
 mod lane_batch;
@@ -54,6 +57,7 @@ mod run_results;
 mod sampling;
 mod setting;
 mod singularity_forecast;
+mod singularity_handover;
 mod singularity_passage;
 mod stabilizations;
 mod start_check;

@@ -67,6 +67,11 @@ impl<'a> MotionDae<'a> {
         self.accelerations + self.projector.as_ref().map_or(0, |p| p.factorisations)
     }
 
+    /// The least ratio of a pivot to its largest summand in the augmented matrix of the last acceleration or projection.
+    pub fn pivot(&self) -> Option<f64> {
+        self.workspace.matrix.cancellation().map(|(_, pivot)| pivot)
+    }
+
     fn coefficients<F>(of: NewtonCoefficients<F>) -> Coefficients<F> {
         Coefficients {
             motion: [of.mass, of.damping, of.stiffness, of.rate],

@@ -75,8 +75,9 @@ impl<'a> MotionOde<'a> {
         self.begin(t, y)
     }
 
-    /// Fails at a start with redundant constraints; a singular position alone is allowed.
-    fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Breakdown> {
+    /// Begins the forecast of singular positions at a state. Fails at a start with redundant constraints; a singular
+    /// position alone is allowed.
+    pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Breakdown> {
         let [q, v, z, _] = self.model.layout.split(y);
         if self.workspace.accelerate(self.model, t, [q, v, z], self.gains).is_err() {
             return Ok(()); // the first step fails

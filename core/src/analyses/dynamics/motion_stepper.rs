@@ -1,25 +1,60 @@
 //! The stepper of any method on the equations of motion of a model.
 
 use super::failure::{Failure, Reason};
+use super::implicit_motion::ImplicitMotion;
 use super::method_switching::MethodSwitching;
 use super::methods::Scheme;
-use super::motion_dae::MotionDae;
 use super::motion_ode::MotionOde;
 use super::options::Options;
 use super::sampling::Sample;
+use super::singularity_handover::{Method, SingularityHandover};
 use super::stiffness_detection::MethodChoice;
 use super::switch_schedule::Schedule;
 use super::switching::{After, Switching};
 use crate::integrate::{
-    BoxedStepper, Cause, Direction, ExplicitMethod, ImplicitMethod, Statistics, Step, Stepper,
+    BoxedStepper, Cause, Direction, ExplicitMethod, Statistics, Step, StepControl, Stepper,
 };
 use crate::solve::Breakdown;
 
-/// A method with its own form of the equations of motion, in addition to the ODE.
+/// The stepper of a method.
 enum Kind<'a> {
     Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
-    Implicit(BoxedStepper<MotionDae<'a>, Breakdown>, Box<MotionDae<'a>>),
+    /// Of an implicit method, or of a constant step.
+    HandingOver(Box<SingularityHandover<'a>>),
     Auto(Box<MethodSwitching<'a>>),
+}
+
+impl<'a> Kind<'a> {
+    fn get(&self) -> &dyn Stepper<MotionOde<'a>, Breakdown> {
+        match self {
+            Self::Explicit(stepper) => &**stepper,
+            Self::HandingOver(stepper) => &**stepper,
+            Self::Auto(stepper) => &**stepper,
+        }
+    }
+
+    fn get_mut(&mut self) -> &mut dyn Stepper<MotionOde<'a>, Breakdown> {
+        match self {
+            Self::Explicit(stepper) => &mut **stepper,
+            Self::HandingOver(stepper) => &mut **stepper,
+            Self::Auto(stepper) => &mut **stepper,
+        }
+    }
+
+    /// Of an explicit method that was started.
+    fn explicit(
+        stepper: BoxedStepper<MotionOde<'a>, Breakdown>,
+        (ode, control, span): (&MotionOde<'a>, &StepControl, (f64, f64)),
+    ) -> Self {
+        match ode.passing && control.step.is_some() {
+            true => Self::HandingOver(Box::new(SingularityHandover::new(
+                Method::Explicit(stepper),
+                control,
+                span,
+            ))),
+            false => Self::Explicit(stepper),
+        }
+    }
 }
 
 /// The stepper of a model.
@@ -47,19 +82,26 @@ impl<'a> MotionStepper<'a> {
         y: &[f64],
     ) -> Result<Self, Cause<Breakdown>> {
         let (model, span) = (ode.model, (t, options.t_end));
-        let dae = || Box::new(MotionDae::new(model, options));
-        let kind = match &options.bounded_method(model) {
-            Scheme::Rk45(method) => Kind::Explicit(method.start(&ode, span, y)?),
-            Scheme::Dop853(method) => Kind::Explicit(method.start(&ode, span, y)?),
-            Scheme::Rk4(method) => Kind::Explicit(method.start(&ode, span, y)?),
+        let method = options.bounded_method(model);
+        let control = method.control();
+        let implicit = |stepper| {
+            let method = Method::Implicit(stepper);
+            Kind::HandingOver(Box::new(SingularityHandover::new(method, control, span)))
+        };
+        let kind = match &method {
+            Scheme::Rk45(method) => {
+                Kind::explicit(method.start(&ode, span, y)?, (&ode, control, span))
+            }
+            Scheme::Dop853(method) => {
+                Kind::explicit(method.start(&ode, span, y)?, (&ode, control, span))
+            }
+            Scheme::Rk4(method) => {
+                Kind::explicit(method.start(&ode, span, y)?, (&ode, control, span))
+            }
             Scheme::GeneralizedAlpha(method) => {
-                let dae = dae();
-                Kind::Implicit(method.start(&*dae, span, y)?, dae)
+                implicit(ImplicitMotion::new(method, &ode, options, span, y)?)
             }
-            Scheme::Radau(method) => {
-                let dae = dae();
-                Kind::Implicit(method.start(&*dae, span, y)?, dae)
-            }
+            Scheme::Radau(method) => implicit(ImplicitMotion::new(method, &ode, options, span, y)?),
             Scheme::Auto(auto) => {
                 Kind::Auto(Box::new(MethodSwitching::new(&ode, options, auto, t, y)?))
             }
@@ -129,17 +171,7 @@ impl<'a> MotionStepper<'a> {
     /// Goes on from a state with the pieces of the switches, to the next one.
     fn hold(&mut self, switching: &Switching, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         self.ode.workspace.motions.pieces.clone_from(&switching.pieces);
-        match &mut self.kind {
-            Kind::Explicit(stepper) => stepper.restart_until(t, y, switching.end()),
-            Kind::Implicit(stepper, dae) => {
-                dae.hold(&switching.pieces);
-                stepper.restart_until(t, y, switching.end())
-            }
-            Kind::Auto(stepper) => {
-                stepper.hold(&switching.pieces);
-                stepper.restart_until(t, y, switching.end())
-            }
-        }
+        self.kind.get_mut().restart_until(t, y, switching.end())
     }
 
     /// The same with the switches of this stepper.
@@ -152,44 +184,24 @@ impl<'a> MotionStepper<'a> {
 
     /// Takes the next accepted step of the method.
     fn advance(&mut self) -> Result<(), Cause<Breakdown>> {
-        match &mut self.kind {
-            Kind::Explicit(stepper) => stepper.step(&mut self.ode),
-            Kind::Implicit(stepper, dae) => stepper.step(dae),
-            Kind::Auto(stepper) => stepper.step(&mut self.ode),
-        }
+        self.kind.get_mut().step(&mut self.ode)
     }
 
     /// Computes the data that only the interpolant needs.
     pub fn prepare_interpolant(&mut self) -> Result<(), Cause<Breakdown>> {
-        match &mut self.kind {
-            Kind::Explicit(stepper) => stepper.prepare_interpolant(&mut self.ode),
-            Kind::Implicit(stepper, dae) => stepper.prepare_interpolant(dae),
-            Kind::Auto(stepper) => stepper.prepare_interpolant(&mut self.ode),
-        }
+        self.kind.get_mut().prepare_interpolant(&mut self.ode)
     }
 
     pub fn last_step(&self) -> Option<Step<'_>> {
-        match &self.kind {
-            Kind::Explicit(stepper) => stepper.last_step(),
-            Kind::Implicit(stepper, _) => stepper.last_step(),
-            Kind::Auto(stepper) => stepper.last_step(),
-        }
+        self.kind.get().last_step()
     }
 
     pub fn t(&self) -> f64 {
-        match &self.kind {
-            Kind::Explicit(stepper) => stepper.t(),
-            Kind::Implicit(stepper, _) => stepper.t(),
-            Kind::Auto(stepper) => stepper.t(),
-        }
+        self.kind.get().t()
     }
 
     pub fn y(&self) -> &[f64] {
-        match &self.kind {
-            Kind::Explicit(stepper) => stepper.y(),
-            Kind::Implicit(stepper, _) => stepper.y(),
-            Kind::Auto(stepper) => stepper.y(),
-        }
+        self.kind.get().y()
     }
 
     /// Goes on from a state `y` at a time `t` within the last step.
@@ -199,11 +211,7 @@ impl<'a> MotionStepper<'a> {
             switching.restart(&mut self.ode, t, y);
             return self.go_on_from(t, y);
         }
-        match &mut self.kind {
-            Kind::Explicit(stepper) => stepper.restart(t, y),
-            Kind::Implicit(stepper, _) => stepper.restart(t, y),
-            Kind::Auto(stepper) => stepper.restart(t, y),
-        }
+        self.kind.get_mut().restart(t, y)
     }
 
     /// Takes the last step again, to end the run at a time `t_end` within it.
@@ -217,20 +225,12 @@ impl<'a> MotionStepper<'a> {
             switching.set_end(t_end);
             return self.go_on_from(t, &y);
         }
-        match &mut self.kind {
-            Kind::Explicit(stepper) => stepper.restart_until(t, &y, t_end),
-            Kind::Implicit(stepper, _) => stepper.restart_until(t, &y, t_end),
-            Kind::Auto(stepper) => stepper.restart_until(t, &y, t_end),
-        }
+        self.kind.get_mut().restart_until(t, &y, t_end)
     }
 
     /// Counts of all steps so far; those that were taken again count as rejected.
     pub fn statistics(&self) -> Statistics {
-        let mut counts = match &self.kind {
-            Kind::Explicit(stepper) => stepper.statistics(),
-            Kind::Implicit(stepper, _) => stepper.statistics(),
-            Kind::Auto(stepper) => stepper.statistics(),
-        };
+        let mut counts = self.kind.get().statistics();
         counts.steps -= self.taken_again;
         counts.rejected += self.taken_again;
         counts
@@ -247,11 +247,7 @@ impl<'a> MotionStepper<'a> {
             let [q, v, z, _] = layout.split(y);
             g(t, [q, v, z])
         };
-        match &mut self.kind {
-            Kind::Explicit(stepper) => stepper.locate(&mut self.ode, &mut of_y, direction, 0.0),
-            Kind::Implicit(stepper, dae) => stepper.locate(dae, &mut of_y, direction, 0.0),
-            Kind::Auto(stepper) => stepper.locate(&mut self.ode, &mut of_y, direction, 0.0),
-        }
+        self.kind.get_mut().locate(&mut self.ode, &mut of_y, direction, 0.0)
     }
 
     /// Works at a time within the last step.
@@ -287,7 +283,7 @@ impl<'a> MotionStepper<'a> {
         let counted = self.statistics().factorisations as usize;
         let others = match &self.kind {
             Kind::Explicit(stepper) => stepper.statistics().evaluations,
-            Kind::Implicit(_, dae) => dae.factorisations(),
+            Kind::HandingOver(stepper) => stepper.factorisations(),
             Kind::Auto(stepper) => stepper.factorisations(),
         };
         counted + others + self.ode.factorisations()
