@@ -28,8 +28,8 @@ COLOURS = 64
 
 
 def tutorials() -> list[str]:
-    """The names of the tutorials."""
-    return sorted(page.stem for page in PAGES.glob("*.md") if page.stem != "README")
+    """The names of the tutorials that write pictures."""
+    return sorted(page.stem for page in PAGES.glob("*.md") if '.png"' in page.read_text("utf-8"))
 
 
 def pictures(name: str) -> dict[str, Image.Image]:

@@ -9,6 +9,8 @@ import pytest
 from browser.test_values import example, read
 from draw.mechanisms import moving, slider_crank
 
+from examples import n_four_bar
+
 MADE: dict[str, Callable[[], kp.Solution]] = {
     "four_bar": moving,
     "slider_crank": slider_crank,
@@ -124,3 +126,26 @@ def test_an_arrow_outside_of_the_view_is_left_out(opened: Any) -> None:
         watched.page.click("#zoom-in")
     watched.settle()
     assert len(arrows(watched, "reactions")) < 7
+
+
+@pytest.mark.parametrize("kind", ["velocity", "acceleration"])
+def test_arrows_have_the_scale_of_the_scene(opened: Any, kind: str) -> None:
+    """The scene leaves out values beside singular positions, so the page must take its scale."""
+    model = n_four_bar.windows(2)
+    start = n_four_bar.upright(model, 2)
+    solution = kp.dynamics(model, start, t_end=3, output_step=0.01, dense_output=True)
+    told = kp.scene(solution)
+    (left, low), (right, high) = np.array(told["bounds"]).reshape(2, 2)
+    unit = 0.22 * max(right - left, high - low) / told["largest"][kind]
+    watched = opened(solution, 1280, 800)
+    shown = "velocities" if kind == "velocity" else "accelerations"
+    watched.page.check(f"#show-{shown}")
+    watched.seek(0.3)
+    pins = {pin["name"]: (pin["x"], pin["y"]) for pin in watched.state()["pins"]}
+    metre = np.hypot(*np.subtract(pins["A1"], pins["A0"]))  # the cranks stand 1 m apart
+    found = {name: one for name, one in arrows(watched, shown).items() if one["whole"]}
+    assert found
+    for name, arrow in found.items():
+        body, _, point = name.partition(".")
+        size = np.hypot(*getattr(solution(0.3).body(body).point(point), kind))
+        assert np.hypot(*vector(arrow)) == pytest.approx(size * unit * metre, rel=1e-3)

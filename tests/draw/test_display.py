@@ -202,6 +202,7 @@ def test_every_word_of_the_vocabulary_can_be_drawn(mark: str) -> None:
         "teeth": {"module": 0.03, "phase": 0.0},
         "reach": [0.0, 1.0],
         "turning": [0.0, 1.0],
+        "sense": 1,
     }
     found = list(symbols.draw(symbol, symbols.Rings()))
     view, poses = View(np.zeros(2), 100.0, np.array([500.0, 300.0])), np.zeros((2, 3))

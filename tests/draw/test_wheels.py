@@ -238,3 +238,14 @@ def test_the_arrow_of_a_force_has_its_direction() -> None:
     shaft = next(i for i in frame_items(scene) if i["of"] == "gas" and i["kind"] == "line")
     begin, end = place(shaft, poses_of(scene, 3), frame_view(scene))
     np.testing.assert_allclose((end - begin) / np.hypot(*(end - begin)), [-1, 0], atol=1e-12)
+
+
+@pytest.mark.parametrize(("name", "sense"), [("motor", 1), ("load", -1)])
+def test_the_arrow_of_a_torque_has_its_sense(name: str, sense: int) -> None:
+    scene = scene_of("planetary_gear", 5)
+    head = next(i for i in frame_items(scene) if i["of"] == name and i["kind"] == "fill")
+    poses, view = poses_of(scene, 0), frame_view(scene)
+    tip, *base = place(head, poses, view)
+    centre = place({**head, "points": [[0.0] * 4]}, poses, view)[0]
+    arm, along = tip - centre, tip - np.mean(base, axis=0)
+    assert np.sign(arm[0] * along[1] - arm[1] * along[0]) == sense

@@ -87,6 +87,7 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         "teeth": None,
         "reach": None,
         "turning": None,
+        "sense": 1,
     }
     if i["point"] is None:
         angles = [motion.body(_name(motion, end)).angle for end in found["bodies"]]
@@ -100,6 +101,9 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         found["reach"] = _touched(motion, found)
     if told["mark"] == "force_arrow":
         found["axes"][0] = _pushing(motion, found)
+    elif told["mark"] == "torque_arrow":
+        torque = motion.force(told["element"]).torque(on=_name(motion, j["body"]))
+        found["sense"] = _sign(np.atleast_1d(torque))
     return found
 
 
@@ -113,6 +117,12 @@ def _pushing(motion: Motion, symbol: dict[str, Any]) -> float:
         return float(symbol["axes"][0])
     turned = np.arctan2(force[k, 1], force[k, 0]) - np.atleast_1d(motion.body(i).angle)[k]
     return float(np.arctan2(np.sin(turned), np.cos(turned)))
+
+
+def _sign(values: Floats) -> int:
+    """The sign of the value of largest magnitude."""
+    most = np.nan_to_num(values)[np.abs(np.nan_to_num(values)).argmax()]
+    return -1 if most < 0.0 else 1
 
 
 def _touched(motion: Motion, symbol: dict[str, Any]) -> list[float]:

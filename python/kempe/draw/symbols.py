@@ -186,15 +186,16 @@ def _rotary_dashpot(symbol: Symbol, rings: Rings) -> Iterator[Item]:
 
 
 def _curved_arrow(symbol: Symbol, rings: Rings, colour: str, width: float) -> Iterator[Item]:
-    """A counter-clockwise arrow around the pin: the positive sense."""
+    """An arrow around the pin, counter-clockwise unless its sense is negative."""
     r = rings.radius(symbol)
     begin, end = np.radians([10.0, 170.0])
     frame = upright(symbol["bodies"][1], symbol["points"][1])
-    shaft = print_points(items.arc(r, begin, end - 4.0 / r))
+    turned = np.array([symbol["sense"], 1.0])
+    shaft = print_points(items.arc(r, begin, end - 4.0 / r) * turned)
     yield line(symbol["element"], frame, shaft, colour, width)
     tip = items.arc(r, end, end, 1)[0]
     head = items.arrow_head(tip, end + np.pi / 2.0 - 3.5 / r, 8.0)
-    yield fill(symbol["element"], frame, print_points(head), colour)
+    yield fill(symbol["element"], frame, print_points(head * turned), colour)
 
 
 _AT: dict[str, Callable[[Symbol], Iterator[Item]]] = {
