@@ -27,7 +27,8 @@ def test_the_figures_of_a_tutorial_are_up_to_date(name: str) -> None:
 
 
 def test_every_figure_belongs_to_a_tutorial() -> None:
-    kept = {
-        path.name.partition(".")[0].partition("_")[0] for path in tutorial_figures.FOLDER.iterdir()
-    }
-    assert kept == set(tutorial_figures.tutorials())
+    names = tutorial_figures.tutorials()
+    figures = [path.stem for path in tutorial_figures.FOLDER.iterdir()]
+    of = {name: [f for f in figures if f == name or f.startswith(f"{name}_")] for name in names}
+    assert all(of.values())
+    assert sorted(figures) == sorted(figure for found in of.values() for figure in found)
