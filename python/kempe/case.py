@@ -246,6 +246,30 @@ class Case:
         entries = {**self._entries, name: {**self._entries[name], **given}}
         return Case(self.model, self._start, entries)
 
+    def of_type(self, kind: str) -> Case:
+        """The same case with the analyses of one type and those that they start from.
+
+        Raises:
+            ModelError: there is none.
+        """
+        names = list(self._entries)
+        before = dict(zip(names, ["start", *names], strict=False))
+        kept: set[str] = set()
+        for name, entry in self._entries.items():
+            at = name if entry["type"] == kind else "start"
+            while at != "start":
+                kept.add(at)
+                at = self._entries[at].get("from", before[at])
+        if not kept:
+            raise ModelError(
+                f"the case has no analysis of type {kind}",
+                hint=f'add one: [analyses.{kind}] with type = "{kind}"',
+            )
+        entries = {name: dict(entry) for name, entry in self._entries.items() if name in kept}
+        for name, entry in entries.items():
+            entry.setdefault("from", before[name])  # the one before may be left out
+        return Case(self.model, self._start, entries)
+
     def with_start(self, coordinates: Coordinates) -> Case:
         """The same case with other coordinates and rates set at the start: ``{"crank.angle": 1}``.
 

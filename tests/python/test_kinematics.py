@@ -167,3 +167,31 @@ def test_states_of_forces_do_not_follow_from_the_motion() -> None:
     m.motor("dc", "crank", voltage=12, resistance=1, inductance=0.1, torque_constant=0.5)
     with pytest.raises(kp.ModelError, match="dc: its states do not follow"):
         kp.inverse_dynamics(m, started(m), t_end=1)
+
+
+def test_the_analyses_of_a_type_with_those_they_start_from() -> None:
+    kinematics = {"type": "kinematics", "t_end": 1}
+    entries = {
+        "first": {"type": "dynamics", "t_end": 1},
+        "second": kinematics,
+        "third": {"type": "dynamics", "t_end": 3},
+        "other": kinematics | {"from": "start"},
+    }
+    case = kp.Case(slider_crank(), {"guess": {"piston.x": 0.4}}, entries)
+    assert list(case.of_type("kinematics").analyses) == ["first", "second", "other"]
+    assert list(case.of_type("dynamics").analyses) == ["first", "second", "third"]
+    with pytest.raises(kp.ModelError, match="no analysis of type inverse_dynamics; add one"):
+        case.of_type("inverse_dynamics")
+
+
+def test_on_the_command_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from kempe.cli import app
+
+    monkeypatch.chdir(tmp_path)
+    turn = kp.InverseDynamics(t_end=2, output_step=0.5, name="turn")
+    fall = kp.Dynamics(t_end=0.1, after="start", name="fall")
+    kp.Case(slider_crank(), {"guess": {"piston.x": 0.4}}, [turn, fall]).save("crank.toml")
+    assert app.run(["inverse_dynamics", "crank.toml", "-q", "--figures", "none"]) == 0
+    written = np.genfromtxt("out/crank/solution.csv", delimiter=",", names=True)
+    assert len(written) == 5
+    assert app.run(["kinematics", "crank.toml", "-q"]) != 0

@@ -31,6 +31,13 @@ from kempe.cli.show import show as show_command
 from kempe.cli.study import EXAMPLES as STUDY_EXAMPLES
 from kempe.cli.study import study as study_command
 
+#: Commands that run the analyses of one type, with those that they start from.
+ANALYSES = {
+    "dynamics": "simulations",
+    "kinematics": "analyses of the motion that drivers determine",
+    "inverse_dynamics": "analyses of efforts and reactions",
+}
+
 app = typer.Typer(
     name="kempe",
     help="Planar multibody mechanics: assembly, kinematics, dynamics and joint reactions.",
@@ -39,6 +46,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.command("run", epilog=RUN_EXAMPLES)(run_command)
+for _type, _about in ANALYSES.items():
+    app.command(_type, help=f"Run the {_about} of a case.")(run_command)
 app.command("check", epilog=CHECK_EXAMPLES)(check_command)
 app.command("show", epilog=SHOW_EXAMPLES)(show_command)
 app.command("plot", epilog=PLOT_EXAMPLES)(plot_command)

@@ -57,6 +57,7 @@ EXAMPLES = """Examples:
 
 
 def run(  # noqa: PLR0917 - typer uses the annotations of options and arguments
+    context: typer.Context,
     file: File,
     output: Annotated[
         Path | None,
@@ -90,6 +91,8 @@ def run(  # noqa: PLR0917 - typer uses the annotations of options and arguments
     with document(as_json) as content, shown_in(units):
         case = read_case(file, Changes(settings, t_end, method, rtol, atol, step))
         refuse_without_analysis(case, file)
+        if context.info_name != "run":
+            case = case.of_type(str(context.info_name))
         refuse_impossible(video)
         state = assembled(case)
         console = answers(silent=quiet or as_json)
