@@ -54,6 +54,9 @@ def test_the_flagship_is_driven_for_a_second_and_then_released(method: kp.Option
     np.testing.assert_array_equal(second.t, alone.t)
     np.testing.assert_array_equal(second.q, alone.q)
     np.testing.assert_allclose(second["C.force"], alone["C.force"], rtol=1e-12)
+    freed, held = second.final.matrices(), first.final.matrices()
+    assert (freed.degrees_of_freedom, held.degrees_of_freedom) == (1, 0)
+    assert set(held.rows) - set(freed.rows) == {"motor.angle"}
     # a release is final
     third = kp.dynamics(m, second.final, t_end=1.6)
     assert not third["motor.effort"].any()

@@ -50,6 +50,8 @@ def run(start: kp.State) -> SimpleNamespace:
         message="t_end was reached",
         statistics='{"steps": 2}',
         projection=None,
+        settings=[(0, ([], []))],
+        events=[],
         responses=lambda: (np.zeros((3, n)), np.zeros((3, m))),
         energies=lambda: np.zeros((3, 5)),
     )

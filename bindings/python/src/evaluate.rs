@@ -370,7 +370,8 @@ pub fn matrices<'py>(
     guard("matrices", || {
         let state = state(py, &model.model, t, [&q, &v, &z])?;
         let set = targets(py, model, "set", set)?;
-        let extended = holding(&model.model, &Request { set, t, ..Request::default() });
+        let active = model.active.prepared.model();
+        let extended = holding(active, &Request { set, t, ..Request::default() });
         let all = kempe::equations::dense::matrices(&extended, t, [&state.q, &state.v, &state.z]);
         let (n, m) = (extended.layout.n_q, extended.layout.n_rows);
         let out = PyDict::new(py);

@@ -63,7 +63,7 @@ def matrices(state: State, held: Mapping[str, Number]) -> Matrices:
     found = _core.matrices(state.compiled.core, float(state.t), state.q, state.v, state.z, text)
     names = ("M", "Phi", "Phi_q", "nu", "gamma", "Q", "kkt")
     arrays = {name: fixed(found[name]) for name in names}
-    rows = state.compiled.row_names()
+    rows = [name for name, _ in state.compiled.acting_rows()]
     extra = [f"set.{name}" for name in held]
     labels = (*rows, *extra)[: len(arrays["Phi"])]
     return Matrices(**arrays, rows=labels, columns=tuple(state.compiled.column_names()))
