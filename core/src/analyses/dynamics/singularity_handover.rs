@@ -88,6 +88,8 @@ pub(super) struct SingularityHandover<'a> {
     most: f64,
     /// Steps of the method that were taken again.
     taken_again: usize,
+    /// Evaluations for samples and at the starts of DOP853, each with a factorisation.
+    sampled: usize,
 }
 
 impl<'a> SingularityHandover<'a> {
@@ -106,6 +108,7 @@ impl<'a> SingularityHandover<'a> {
             last: [(f64::NAN, 0.0); 2],
             most: 0.0,
             taken_again: 0,
+            sampled: 0,
         }
     }
 
@@ -128,13 +131,15 @@ impl<'a> SingularityHandover<'a> {
             Method::Explicit(stepper) => stepper.statistics().evaluations,
             Method::Implicit(stepper) => stepper.factorisations(),
         };
-        of_method + self.dop853.as_ref().map_or(0, |dop853| dop853.statistics().evaluations)
+        let of_dop853 = self.dop853.as_ref().map_or(0, |dop853| dop853.statistics().evaluations);
+        of_method + of_dop853 + self.sampled
     }
 
     /// Takes the sample at the start of the next step of the method. Returns whether it is near a singular position.
     fn begin(&mut self, ode: &mut MotionOde<'a>) -> bool {
         let (t, y) = (self.method.get().t(), self.method.get().y().to_vec());
         let sample = sample(ode, t, &y);
+        self.sampled += 1;
         self.forecast.begin(sample.map(|pivot| (t, pivot)));
         self.begun = true;
         self.last = [(t, sample.unwrap_or(0.0)), (f64::NAN, 0.0)];
@@ -160,6 +165,7 @@ impl<'a> SingularityHandover<'a> {
         let slow = (slope * (end.0 - start.0)).abs() < FAST * lower.sqrt();
         if lower < LOW * self.most && !slow {
             let mut y = step.y.to_vec();
+            self.sampled += INSIDE.len();
             for part in INSIDE {
                 let t = step.t_old + part * (step.t - step.t_old);
                 step.interpolate(t, &mut y);
@@ -209,6 +215,7 @@ impl<'a> SingularityHandover<'a> {
     /// DOP853 continues from the state of the method, with a step.
     fn hand_over(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
         let (t, y) = (self.method.get().t(), self.method.get().y().to_vec());
+        self.sampled += 1;
         ode.begin(t, &y).map_err(|error| Cause::Equations { t, error })?;
         self.last[0] = (t, pivot(ode).unwrap_or(0.0));
         match &mut self.dop853 {
