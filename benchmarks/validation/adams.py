@@ -41,7 +41,7 @@ def case(name: str, rows: list[dict[str, Any]]) -> Iterator[Comparison]:
     def column(key: str) -> Any:
         return [row[key] for row in rows]
 
-    yield compared(f"{what}: position, as printed", "m", column("adams_pos"), sol.q[at, :2], 1e-4)
+    yield compared(f"{what}: position, as printed", "m", column("adams_pos"), sol.q[at, :2], 1e-5)
     yield compared(f"{what}: velocity, as printed", "m/s", column("adams_vel"), sol.v[at, :2], 1e-3)
     yield compared(f"{what}: force on ground, as printed", "N", column("adams_Rforce"), force, 2e-3)
     yield compared(f"{what}: q recomputed", "m, rad", column("q"), sol.q[at], 1e-9)

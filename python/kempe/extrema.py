@@ -80,6 +80,15 @@ def unbounded(motion: Motion, quantity: Quantity) -> Floats:
     return np.empty(0) if maxima is None else maxima.poles
 
 
+def passes_singular(motion: Motion) -> bool:
+    """Whether a run passes positions beside which multipliers mean nothing."""
+    if fine(motion) is motion:
+        return False
+    assert isinstance(motion, Solution)
+    found = _singular(motion)
+    return found is not None and len(found.near) > 0
+
+
 def _extreme(motion: Motion, quantity: Quantity, sign: float) -> Extreme:
     """The largest value of sign times the quantity."""
     output = _first(motion, sign * np.atleast_1d(quantity(motion)), sign)

@@ -229,3 +229,12 @@ def test_names_stay_clear_of_the_title() -> None:
     for _, text in frame.painting.texts:
         box = text.get_window_extent()
         assert not (box.overlaps(title)), text.get_text()
+
+
+def test_the_arrow_of_a_force_has_its_direction() -> None:
+    scene = scene_of("engine", 20)
+    (symbol,) = (one for one in scene["symbols"] if one["element"] == "gas")
+    assert abs(symbol["axes"][0]) == pytest.approx(np.pi)  # the gas pushes the piston to the left
+    shaft = next(i for i in frame_items(scene) if i["of"] == "gas" and i["kind"] == "line")
+    begin, end = place(shaft, poses_of(scene, 3), frame_view(scene))
+    np.testing.assert_allclose((end - begin) / np.hypot(*(end - begin)), [-1, 0], atol=1e-12)

@@ -1,11 +1,13 @@
 """The largest vectors of a motion, from which arrows take their scale.
 
-As in figures, values beside a singular position do not count if they have no bound there.
+As in figures, values beside a singular position do not count if they have no bound there. Only a
+run that passes such a position is searched between its frames.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from functools import lru_cache, partial
 from typing import Any
 
@@ -14,7 +16,7 @@ import numpy as np
 from kempe.arrays import Floats
 from kempe.draw.numbers import rounded
 from kempe.errors import KempeError
-from kempe.extrema import Quantity, largest
+from kempe.extrema import Quantity, largest, passes_singular
 from kempe.motion import Motion
 from kempe.solution import Solution
 from kempe.state import State
@@ -33,11 +35,11 @@ def peaks(drawn: Solution | State, motion: Motion, points: list[Tracked]) -> dic
     """The largest reaction, N, and the largest velocity and acceleration of the points, SI.
 
     Args:
-        drawn: the whole motion; its interpolant is searched if there is one.
+        drawn: the whole motion.
         motion: the motion at the frames.
         points: those with arrows.
     """
-    whole = drawn if isinstance(drawn, Solution) else motion
+    whole = drawn if isinstance(drawn, Solution) and passes_singular(drawn) else None
     names = list(motion.compiled.all_bodies)
     at = [(names[body], (point[0], point[1])) for body, point in points]
     return {
@@ -47,12 +49,13 @@ def peaks(drawn: Solution | State, motion: Motion, points: list[Tracked]) -> dic
     }
 
 
-def _peak(whole: Motion, motion: Motion, quantity: Quantity) -> float:
-    once = lru_cache(maxsize=3)(quantity)  # a search reads the same motion several times
-    try:
-        found = largest(whole, once).value
-    except KempeError:  # somewhere in between it has no value
-        found = float("inf")
+def _peak(whole: Solution | None, motion: Motion, quantity: Quantity) -> float:
+    """The largest finite value, searched in the whole motion if there is one."""
+    found = float("inf")
+    if whole is not None:
+        once = lru_cache(maxsize=3)(quantity)  # a search reads the same motion several times
+        with suppress(KempeError):  # somewhere in between it has no value
+            found = largest(whole, once).value
     if not np.isfinite(found):
         values = quantity(motion)
         found = float(values[np.isfinite(values)].max(initial=0.0))
@@ -63,7 +66,7 @@ def _reaction(motion: Motion) -> Floats:
     """The largest magnitude over all joints, (n_t,), N."""
     found = np.zeros(np.shape(np.atleast_1d(motion.t)))
     for name, info in motion.compiled.joints.items():
-        found = np.maximum(found, _size(motion.constraint(name).force(on=info.j)))
+        found = np.fmax(found, _size(motion.constraint(name).force(on=info.j)))
     return found
 
 
@@ -73,7 +76,7 @@ def _of_points(
     """The largest magnitude over all points, (n_t,)."""
     found = np.zeros(np.shape(np.atleast_1d(motion.t)))
     for body, at in points:
-        found = np.maximum(found, _size(getattr(motion.body(body).at(at), quantity)))
+        found = np.fmax(found, _size(getattr(motion.body(body).at(at), quantity)))
     return found
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe.arrays import Floats
 
@@ -22,6 +23,8 @@ _BESIDE = 4.0
 #: To touch a line costs this much more than to be farther away by the same length; to touch a text
 #: still more.
 _TOUCH, _COVER = 10.0, 60.0
+#: A name that is nearer to another anchor costs so much more.
+_MISLEADING = 40.0
 #: Shorter contacts are rounding errors, points.
 _CONTACT = 1e-3
 #: Of places whose costs differ by less, the first is taken, so that rounding errors decide nothing.
@@ -87,11 +90,21 @@ def place_labels(anchors: Floats, sizes: Floats, taken: Taken) -> Floats:
         costs = np.repeat(gaps, len(_UNITS))
         for t, anchor in enumerate(anchors[:, k]):
             costs = costs + _cost(anchor + offsets, size, taken, t) / len(anchors)
+            costs = costs + _MISLEADING * _nearer(anchors[t], k, offsets) / len(anchors)
         chosen[k] = offsets[int(np.argmax(costs <= costs.min() + _EQUAL))]
         low = anchors[:, k] + chosen[k] - size / 2.0
         box = np.column_stack([low, low + size])
         taken = replace(taken, boxes=np.concatenate([taken.boxes, box[:, None]], axis=1))
     return chosen
+
+
+def _nearer(anchors: Floats, k: int, offsets: Floats) -> NDArray[np.bool_]:
+    """Whether a name of the k-th anchor with these offsets is nearer to another anchor."""
+    apart = anchors[k] + offsets[:, None] - np.delete(anchors, k, axis=0)
+    own = np.hypot(*offsets.T)
+    far = np.hypot(*np.moveaxis(apart, 2, 0)).min(axis=1, initial=np.inf)
+    found: NDArray[np.bool_] = far < own - _CONTACT
+    return found
 
 
 def _candidates(size: Floats, gaps: Sequence[float]) -> Floats:

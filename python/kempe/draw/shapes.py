@@ -98,7 +98,21 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         found["reach"] = _distance(motion, found)
     elif told["mark"] == "face":
         found["reach"] = _touched(motion, found)
+    if told["mark"] == "force_arrow":
+        found["axes"][0] = _pushing(motion, found)
     return found
+
+
+def _pushing(motion: Motion, symbol: dict[str, Any]) -> float:
+    """The direction of a force in the frame of body i when it is largest, rad."""
+    i, j = (_name(motion, number) for number in symbol["bodies"])
+    force = np.atleast_2d(motion.force(symbol["element"]).force(on=j))
+    size = np.nan_to_num(np.hypot(*force.T))
+    k = int(size.argmax())
+    if size[k] == 0.0:
+        return float(symbol["axes"][0])
+    turned = np.arctan2(force[k, 1], force[k, 0]) - np.atleast_1d(motion.body(i).angle)[k]
+    return float(np.arctan2(np.sin(turned), np.cos(turned)))
 
 
 def _touched(motion: Motion, symbol: dict[str, Any]) -> list[float]:
