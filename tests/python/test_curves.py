@@ -178,3 +178,26 @@ def test_the_example_of_a_cam_with_dwell() -> None:
     start = kp.assemble(model, guess={"follower.y": 0.05})
     with pytest.warns(kp.EventWarning, match=r"contact.lift_off"):
         kp.dynamics(model, start, t_end=2 * np.pi / 120)
+
+
+@pytest.mark.parametrize(
+    ("curve", "unit"),
+    [
+        ({"circle": [0, 0, 0.05]}, "rad"),
+        ({"polar": "0.05 + 0.01*cos(u)"}, "rad"),
+        ({"line": [[-0.1, 0.05], [0.1, 0.05]]}, "m"),
+        ({"points": [[-0.1, 0.05], [-0.03, 0.05], [0.03, 0.05], [0.1, 0.06]]}, "m"),
+        ({"x": "0.1*u", "y": "0.05", "range": [-1, 1]}, "1"),
+    ],
+)
+def test_u_has_the_unit_of_its_curve(curve: dict[str, object], unit: str) -> None:
+    m = kp.Model("follower")
+    m.ground.points(S=(0, 0.2))
+    m.ground.curves(rim=curve)
+    m.body("follower", mass=1, inertia=1e-3, points={"P": (0, 0)})
+    m.translational("guide", "ground.S", "follower.P", axes=["90*deg", "90*deg"])
+    m.point_on_curve("contact", "follower.P", "ground.rim")
+    start = kp.assemble(m)
+    assert start["follower.y"] > 0.04
+    assert m.compile().column_units()[-1] == unit
+    assert f"contact.u = {start['contact.u']:.6g} {unit}" in " ".join(str(start).split())

@@ -18,6 +18,9 @@ pub struct Formula<S = f64> {
     pub unit: &'static str,
 }
 
+/// The breaks of a curve, and the numbers for which they were found.
+type Found = (Vec<f64>, Option<Arc<Knots>>);
+
 /// The formulas, and the indices of the parameters that they use.
 #[derive(Debug)]
 struct Written {
@@ -25,7 +28,7 @@ struct Written {
     y: Tape,
     parameters: Vec<usize>,
     /// The latest breaks, for the range and the parameters.
-    breaks: Mutex<Option<(Vec<f64>, Option<Arc<Knots>>)>>,
+    breaks: Mutex<Option<Found>>,
 }
 
 impl Formula<Tape> {

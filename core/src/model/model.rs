@@ -91,13 +91,7 @@ impl<S: Real> Model<S> {
             });
         }
         let forces = forces(blueprint, value, &mut switches);
-        for (k, item) in constraints.iter_mut().enumerate() {
-            let breaks = item.element.curve().and_then(|on| on.curve.breaks());
-            item.curve_switch = breaks.map(|breaks| {
-                switches.push(Switch::of_curve(Owner::Constraint(k), breaks));
-                switches.len() - 1
-            });
-        }
+        curve_switches(&mut constraints, &mut switches);
         let bodies: Vec<Body<S>> = blueprint.bodies.iter().map(|body| body.map(value)).collect();
         let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
         let unknowns = bodies[1..].iter().map(|body| if body.turns { 3 } else { 2 });
@@ -131,6 +125,17 @@ impl<S: Real> Model<S> {
     pub fn lift<T: Lift<S>>(&self) -> Model<T> {
         let parameters: Vec<T> = self.parameters.iter().map(|p| T::lift(*p)).collect();
         Model::new(&self.blueprint, &parameters)
+    }
+}
+
+/// Adds the switches of curves to the list.
+fn curve_switches<S: Real>(constraints: &mut [ConstraintItem<S>], switches: &mut Vec<Switch>) {
+    for (k, item) in constraints.iter_mut().enumerate() {
+        let breaks = item.element.curve().and_then(|on| on.curve.breaks());
+        item.curve_switch = breaks.map(|breaks| {
+            switches.push(Switch::of_curve(Owner::Constraint(k), breaks));
+            switches.len() - 1
+        });
     }
 }
 
