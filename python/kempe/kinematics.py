@@ -14,7 +14,7 @@ from kempe.analyses import Progress, refuse_foreign
 from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
 from kempe.errors import KempeError, ModelError, SingularityError
-from kempe.model import Model, compiled_model
+from kempe.model import SECTIONS, Model, compiled_model
 from kempe.option import core_options
 from kempe.options import InverseDynamics, Kinematics
 from kempe.request_cache import encode
@@ -26,6 +26,8 @@ from kempe.values import Number
 POINTS = 361
 #: The method of a solution.
 METHOD = "continuation"
+#: Fields of joints and drivers that take laws of time.
+_LAWS = ("value", "length", "residual")
 #: The time in a formula; no parameter has this name.
 _TIME = re.compile(r"(?<![\w.])t(?![\w.(])")
 
@@ -171,10 +173,7 @@ def _driven_by(model: CompiledModel, over: str, start: State) -> tuple[CompiledM
     """
     tree: dict[str, Any] = model.model.tree()
     drivers: dict[str, Any] = tree.setdefault("drivers", {})
-    if over in drivers:
-        coordinate = drivers[over]["coordinate"]
-    else:
-        coordinate = over
+    coordinate = drivers[over]["coordinate"] if over in drivers else over
     for name, entry in drivers.items():
         if entry.get("coordinate") == coordinate:
             over = name
@@ -193,8 +192,7 @@ def _driven_by(model: CompiledModel, over: str, start: State) -> tuple[CompiledM
     elif joint is not None and joint["type"] == "distance" and quantity == "length":
         joint["length"] = "t"
     else:
-        name = next(name for name in _names() if not _taken(tree, name))
-        drivers[name] = {"type": "coordinate_driver", "coordinate": coordinate, "value": "t"}
+        drivers[_free_name(tree)] = {"type": "coordinate_driver", "coordinate": coordinate, "value": "t"}
     try:
         value = float(start[coordinate])
     except KempeError as error:
@@ -203,13 +201,11 @@ def _driven_by(model: CompiledModel, over: str, start: State) -> tuple[CompiledM
     return changed.compile(), value
 
 
-def _names() -> Any:
-    yield "over"
-    yield from (f"over_{k}" for k in iter(int, 1))
-
-
-def _taken(tree: Mapping[str, Any], name: str) -> bool:
-    return any(name in tree.get(part, {}) for part in ("bodies", "joints", "drivers", "forces"))
+def _free_name(tree: Mapping[str, Any]) -> str:
+    """A name for the new driver: "over", or "over_1" and so on."""
+    taken = {name for section in SECTIONS for name in tree.get(section, {})}
+    names = ("over", *(f"over_{k}" for k in range(1, len(taken) + 2)))
+    return next(name for name in names if name not in taken)
 
 
 def _hold_others(tree: dict[str, Any], over: str, t: float) -> None:
@@ -228,7 +224,3 @@ def _hold_others(tree: dict[str, Any], over: str, t: float) -> None:
                 for key, value in entry.items():
                     if key in _LAWS:
                         entry[key] = held(value)
-
-
-#: Fields of joints and drivers that take laws of time.
-_LAWS = ("value", "length", "residual")

@@ -170,7 +170,7 @@ class Solution(Motion):
             rows = int(np.count_nonzero(np.cumsum(self.t == error.t) == 0))
             if rows:
                 kept = PartialRun(self._run, rows, str(error))
-                error.solution = Solution(self._base, kept, self._method)  # type: ignore[union-attr]
+                error.solution = Solution(self._base, kept, self._method)
             raise
 
     def dissipated(self, name: str) -> Floats:

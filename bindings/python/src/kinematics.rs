@@ -48,8 +48,7 @@ pub fn kinematics(
         let times = row(py, "times", &times, times.as_array().len())?;
         let mut watch = Watch::new(progress.as_ref());
         let began = std::time::Instant::now();
-        let outcome =
-            py.detach(|| driven::kinematics(core, &start, &times, |t| watch.look(t)));
+        let outcome = py.detach(|| driven::kinematics(core, &start, &times, |t| watch.look(t)));
         let made = |motion: driven::Motion, message: &str| {
             PyRun::new(py, model, run(motion, began.elapsed().as_secs_f64()), message)
         };
