@@ -3,7 +3,7 @@
 mod mechanisms;
 
 use kempe::analyses::dynamics::{
-    dynamics, dynamics_in_phases, Auto, Event, Options, Phase, Scheme,
+    dynamics, dynamics_in_phases, Auto, Event, Options, Phase, Scheme, Stepper,
 };
 use kempe::analyses::State;
 use kempe::case::{read, Format};
@@ -201,6 +201,24 @@ fn the_step_to_a_sample_beyond_an_event_does_not_call_the_law() {
     let run = dynamics_in_phases(&[first], &state, &options, |_| Flow::Continue).unwrap();
     close("end", *run.trajectory.t.last().unwrap(), 0.25, 1e-12);
     assert_eq!(*host.at.lock().unwrap(), [0.0, 0.1, 0.2]);
+}
+
+#[test]
+fn a_restart_at_a_sample_takes_it_once() {
+    let (m, host) = with(|x| 1.0 + x[4], Some(Sampling { period: 0.1, start: 0.0 }));
+    let (state, _) = start(&m, &[], &[]);
+    let mut stepper = Stepper::new(&m, &state, &Options::new(0.35)).unwrap();
+    while !stepper.is_at_end() {
+        stepper.step().unwrap();
+        if stepper.state().t == 0.2 {
+            let mut v = stepper.state().v;
+            v[0] = 5.0;
+            stepper.restart(&State { v, ..stepper.state() }).unwrap();
+        }
+    }
+    assert_eq!(*host.at.lock().unwrap(), [0.0, 0.1, 0.2, 3.0 * 0.1]);
+    // from 0.2 s on the force is 1 + 5 at first
+    close("v", stepper.state().v[0], 5.0 + 0.3 + 0.025 * (1.0 + 5.3), 1e-9);
 }
 
 #[test]

@@ -53,7 +53,8 @@ impl<'a> MotionOde<'a> {
     }
 
     /// Projects the state at the start of a run or of a phase, if projection is an option of the run; with
-    /// `velocities`, the velocities in any case. Then computes the laws with a sample there. Fails if the constraints are redundant.
+    /// `velocities`, the velocities in any case. With
+    /// `samples`, then computes the laws with a sample there. Fails if the constraints are redundant.
     ///
     /// # Errors
     /// [`Breakdown`].
@@ -62,6 +63,7 @@ impl<'a> MotionOde<'a> {
         t: f64,
         y: &mut [f64],
         velocities: bool,
+        samples: bool,
     ) -> Result<(), Breakdown> {
         if velocities && self.projector.is_none() {
             let mut projector = Projector::new(self.model, Projection::default());
@@ -69,7 +71,7 @@ impl<'a> MotionOde<'a> {
             projector.project_velocities(&mut self.workspace, t, (q, v))?;
         }
         self.project_state(t, y, false)?;
-        if let Some(sample) = Sample::take(self.model, t, y) {
+        if let Some(sample) = samples.then(|| Sample::take(self.model, t, y)).flatten() {
             sample.put(self.model, y);
         }
         self.begin(t, y)

@@ -221,6 +221,7 @@ impl<'a> MotionStepper<'a> {
             None => return Ok(()),
         };
         self.taken_again += 1;
+        self.sample = None;
         if let Some(switching) = &mut self.switching {
             switching.set_end(t_end);
             return self.go_on_from(t, &y);

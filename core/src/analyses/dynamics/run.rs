@@ -156,7 +156,7 @@ pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
     let tables = (std::mem::take(&mut run.trajectory), run.dense.take());
     let mut recorder = Recorder::new(&ode, wide, options, (at.t0, at.t), tables);
     let q = model.layout.split(&at.y)[0].to_vec();
-    let started = ode.begin_phase(at.t, &mut at.y, phase.project_velocities);
+    let started = ode.begin_phase(at.t, &mut at.y, phase.project_velocities, true);
     let outcome = match started {
         Err(breakdown) => Err(Failure::at_state(model, at.t, &q, breakdown)),
         Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(PhaseEnd::Stopped),

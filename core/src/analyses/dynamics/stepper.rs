@@ -50,7 +50,7 @@ impl<'a> Stepper<'a> {
         let mut ode = MotionOde::new(model, options, ModelCache::default().plan(model));
         let mut y = [&start.q[..], &start.v, &start.z].concat();
         y.resize(model.layout.n_y(), 0.0);
-        let outcome = ode.begin_phase(t, &mut y, false);
+        let outcome = ode.begin_phase(t, &mut y, false, true);
         outcome.map_err(|breakdown| Failure::at_state(model, t, &start.q, breakdown))?;
         let inner = MotionStepper::new(ode, options, schedule, t, &y)
             .map_err(|cause| Failure::of_integrator(model, cause, t, &y))?;
@@ -130,7 +130,7 @@ impl<'a> Stepper<'a> {
             None => self.works().to_vec(),
         };
         y.extend(works);
-        let outcome = self.inner.ode.begin_phase(state.t, &mut y, false);
+        let outcome = self.inner.ode.begin_phase(state.t, &mut y, false, false);
         outcome.map_err(|breakdown| Failure::at_state(self.model, state.t, &state.q, breakdown))?;
         self.inner.restart(state.t, &y).map_err(|cause| self.inner.failure(cause))
     }
