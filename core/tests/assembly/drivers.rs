@@ -82,3 +82,15 @@ fn a_coupling_of_two_bodies() {
     close("second", -3.0 * 0.8 - lam[4], 0.2 * a[5], 1e-10);
     close("first", 2.0 * lam[4], 0.5 * a[2], 1e-10);
 }
+
+/// 2 φ1 - φ2 = value: the value has the sign of the sum, and its rate that of the rates.
+#[test]
+fn a_coupling_with_a_value_that_changes() {
+    let coupling = "[joints.sum]\ntype = \"coupling\"\nterms = { \"first.angle\" = 2, \"P.angle\" = -1 }\nvalue = \"0.3 + 0.5*t\"\n";
+    let driver = GEARS.find("[drivers.gear]").expect("a driver");
+    let load = GEARS.find("[forces.load]").expect("a force");
+    let m = model(&(GEARS[..driver].to_string() + coupling + &GEARS[load..]));
+    let (state, _) = start(&m, &[("first.angle", "0.4"), ("first.omega", "1.5")], &[]);
+    close("angle", state.q[5], 0.5, 1e-12);
+    close("omega", state.v[5], 2.5, 1e-12);
+}
