@@ -167,10 +167,24 @@ impl Drawn<'_> {
                 let known = self.joints.get(self.random.below(self.joints.len())).cloned();
                 text(&known.unwrap_or_default())
             }
+            Shape::Condition => self.condition(),
+            Shape::NameList => Value::List(Vec::new()),
+            Shape::Events => Value::Table(vec![("hit".to_string(), self.condition())]),
+            Shape::Values => Value::Table(vec![("k".to_string(), self.number())]),
             Shape::Flag => Value::Flag(self.random.chance(0.5)),
             Shape::Count => Value::Number((1 + self.random.below(9)) as f64),
             Shape::Word(words) => text(self.random.choice(words)),
             Shape::Options(_) => Value::Table(Vec::new()),
+        }
+    }
+
+    fn condition(&mut self) -> Value {
+        let body = self.body_name();
+        match self.random.below(4) {
+            0 => text("t > 0.01"),
+            1 => text(&format!("{body}.x - 0.1")),
+            2 => text(&format!("{body}.ay < 1")),
+            _ => text(&format!("{body}.vy*sin(40*t)")),
         }
     }
 
