@@ -26,7 +26,7 @@ const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
 /// [`DEEP`] of itself. The steps of an implicit method become ever shorter there, so a forecast over two steps does not
 /// reach the position.
 const NEAR: f64 = 1.0 / 16.0;
-const DEEP: f64 = 0.1;
+const DEEP: f64 = 0.5;
 /// Number of steps of DOP853 after which the method continues at a smaller pivot, if it grows.
 const LONG: usize = 100;
 /// Part of a constant step by which a time may miss the grid.
