@@ -212,6 +212,8 @@ def option_type(field: dict[str, Any], classes: dict[str, str]) -> str:
         return f"{kind} | None = None"
     if of_family:
         return f"{kind} = {classes[value]}()"
+    if shape == "count":
+        value = int(value)
     return f"{kind} = {json.dumps(value) if isinstance(value, str) else repr(value)}"
 
 

@@ -188,17 +188,25 @@ def _driven_by(model: CompiledModel, over: str, start: State) -> tuple[CompiledM
     element, _, quantity = coordinate.rpartition(".")
     joint = tree.get("joints", {}).get(element)
     if over in drivers:
-        drivers[over] = {"type": "coordinate_driver", "coordinate": coordinate, "value": "t"}
-    elif joint is not None and joint["type"] == "distance" and quantity == "length":
-        joint["length"] = "t"
+        drivers[over] = {"type": drivers[over]["type"], "coordinate": coordinate, "value": "t"}
+    elif joint is not None and quantity in joint:
+        joint[quantity] = "t"  # the joint holds this quantity itself
     else:
-        drivers[_free_name(tree)] = {"type": "coordinate_driver", "coordinate": coordinate, "value": "t"}
+        drivers[_free_name(tree)] = {"type": _driver(), "coordinate": coordinate, "value": "t"}
     try:
         value = float(start[coordinate])
     except KempeError as error:
         raise ModelError(f"over: {error}") from error
     changed = Model.from_tree(model.model.with_points(tree))
     return changed.compile(), value
+
+
+def _driver() -> str:
+    """The type of the driver of a coordinate."""
+    for table in json.loads(_core.catalogue())["drivers"]:
+        if {"coordinate", "value"} <= {field["name"] for field in table["fields"]}:
+            return str(table["name"])
+    raise AssertionError("there is a driver of a coordinate")
 
 
 def _free_name(tree: Mapping[str, Any]) -> str:

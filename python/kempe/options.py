@@ -9,7 +9,7 @@ from typing import ClassVar, Literal
 
 from kempe.event import Events
 from kempe.option import Analysis, Option, Shape
-from kempe.values import Number, Terms, Tolerance, Words
+from kempe.values import Number, Pair, Terms, Tolerance, Words
 
 
 @dataclass(frozen=True, repr=False)
@@ -368,4 +368,78 @@ class Dynamics(Analysis):
         "stop": "condition",
         "release": "name_list",
         "parameters": "values",
+    }
+
+
+@dataclass(frozen=True, repr=False)
+class Kinematics(Analysis):
+    """Analysis of type ``kinematics``, an entry of ``[analyses]``.
+
+    Positions, velocities and accelerations of a mechanism whose drivers determine its motion,
+    without integration: over time, or over the value of a driver or position quantity.
+
+    Attributes:
+        t_end: Time at which the motion ends [s].
+        output_step: Time between the reported states; if absent, 1/360 of the interval [s].
+        over: A driver, or a position quantity such as `crank.angle`, whose value takes the
+            place of the time. Not together with t_end and output_step.
+        range: First and last value of `over`, in SI units and rad.
+        n: Number of values in the range, both ends included.
+        after: State at which it starts: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    t_end: Number | None = None
+    output_step: Number | None = None
+    over: str | None = None
+    range: Pair | None = None
+    n: int = 361
+    after: str | None = None
+    name: str = "kinematics"
+    kind: ClassVar[str] = "kinematics"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "t_end": "number",
+        "output_step": "number",
+        "over": "name",
+        "range": "pair",
+        "n": "count",
+        "after": "name",
+    }
+
+
+@dataclass(frozen=True, repr=False)
+class InverseDynamics(Analysis):
+    """Analysis of type ``inverse_dynamics``, an entry of ``[analyses]``.
+
+    Efforts of drivers and reactions of joints for the motion that the drivers prescribe, which
+    is that of `kinematics`.
+
+    Attributes:
+        t_end: Time at which the motion ends [s].
+        output_step: Time between the reported states; if absent, 1/360 of the interval [s].
+        over: A driver, or a position quantity such as `crank.angle`, whose value takes the
+            place of the time. Not together with t_end and output_step.
+        range: First and last value of `over`, in SI units and rad.
+        n: Number of values in the range, both ends included.
+        after: State at which it starts: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    t_end: Number | None = None
+    output_step: Number | None = None
+    over: str | None = None
+    range: Pair | None = None
+    n: int = 361
+    after: str | None = None
+    name: str = "inverse_dynamics"
+    kind: ClassVar[str] = "inverse_dynamics"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "t_end": "number",
+        "output_step": "number",
+        "over": "name",
+        "range": "pair",
+        "n": "count",
+        "after": "name",
     }
