@@ -19,6 +19,7 @@ from kempe.model import Model
 from kempe.names import entry as named
 from kempe.names import few, one_of, unknown
 from kempe.option import Analysis, Option
+from kempe.sequence import of_type
 from kempe.solution import Solution
 from kempe.state import State
 from kempe.values import Number, data, listed, mapping, numbers, plain, reference
@@ -252,23 +253,7 @@ class Case:
         Raises:
             ModelError: there is none.
         """
-        names = list(self._entries)
-        before = dict(zip(names, ["start", *names], strict=False))
-        kept: set[str] = set()
-        for name, entry in self._entries.items():
-            at = name if entry["type"] == kind else "start"
-            while at != "start":
-                kept.add(at)
-                at = self._entries[at].get("from", before[at])
-        if not kept:
-            raise ModelError(
-                f"the case has no analysis of type {kind}",
-                hint=f'add one: [analyses.{kind}] with type = "{kind}"',
-            )
-        entries = {name: dict(entry) for name, entry in self._entries.items() if name in kept}
-        for name, entry in entries.items():
-            entry.setdefault("from", before[name])  # the one before may be left out
-        return Case(self.model, self._start, entries)
+        return Case(self.model, self._start, of_type(self._entries, kind))
 
     def with_start(self, coordinates: Coordinates) -> Case:
         """The same case with other coordinates and rates set at the start: ``{"crank.angle": 1}``.

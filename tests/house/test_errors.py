@@ -51,6 +51,8 @@ CALLS: dict[str, Callable[[], object]] = {
     "Model.allowing_redundancy": MODEL.allowing_redundancy,
     "assemble": lambda: _core.assemble(MODEL, "{}", "{}", 0.0, Q, V, Z),
     "dynamics": lambda: _core.dynamics(MODEL, T, Q, V, Z, OPTIONS, None),
+    "kinematics": lambda: _core.kinematics(MODEL, T, Q, V, Z, TIMES, None),
+    "kinematics_options": lambda: _core.kinematics_options(MODEL, '{"type": "kinematics"}'),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
     "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW, STATES),

@@ -68,7 +68,11 @@ fn at(rtol: f64) -> Scheme {
 /// Largest error of B0; couplers have to stay level, or a window left its branch.
 fn error(n: usize, m: &Model, state: &State, options: &Options, start: [f64; 2]) -> f64 {
     let run = run(m, state, options);
-    let most = if options.method.control().step.is_some() { 6000 } else { 1500 };
+    let most = match &options.method {
+        Scheme::Dop853(method) if method.control.step.is_none() => 300,
+        method if method.control().step.is_some() => 6000,
+        _ => 1500,
+    };
     assert!(run.statistics.steps < most, "{:?}", run.statistics);
     let truth = Pendulum::of(n).swing(start, &run.trajectory.t);
     let mut error = 0.0_f64;

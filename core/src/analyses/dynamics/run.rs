@@ -242,7 +242,6 @@ fn next_step<W: FnMut(f64) -> Flow>(
     if events.is_some() || look.is_some() || recorder.looks_inside(stepper.t()) {
         stepper.prepare_interpolant()?;
     }
-    recorder.sample = stepper.sample().cloned();
     let step = stepper.last_step().expect("a step was taken");
     let found = events.as_mut().map(|events| events.look(model, &step, recorder.t_end));
     let happened = match found {
@@ -256,6 +255,9 @@ fn next_step<W: FnMut(f64) -> Flow>(
         Some(Found::Events(happened)) => happened,
         None => Vec::new(),
     };
+    // a step that is taken again has no sample
+    recorder.sample = stepper.sample().cloned();
+    let step = stepper.last_step().expect("a step was taken");
     let mut flow = recorder.step(&step, watch);
     for event in &happened {
         let y = recorder.state_in(&step, event.t);

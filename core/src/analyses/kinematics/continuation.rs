@@ -5,7 +5,7 @@
 //! would be farther away, or have another velocity. Otherwise half the step is tried.
 
 use super::failure::{Failure, Reason};
-use super::path;
+use super::passage;
 use super::quintic::Quintic;
 use super::solution::{Point, Solver};
 use crate::analyses::mobility::mobility;
@@ -97,7 +97,7 @@ impl<'a> Continuation<'a> {
         }
         self.length = f64::INFINITY;
         self.steps += 1;
-        self.point = path::around(&mut self.solver, &self.point, goal)?;
+        self.point = passage::around(&mut self.solver, &self.point, goal)?;
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! Reasons for the end of a motion, in terms of the mechanism.
 
-use super::Motion;
+use super::motion::Motion;
 use crate::analyses::mobility::Mobility;
 use crate::elements::{BodyId, Group};
 use crate::equations::kinematics::Motions;

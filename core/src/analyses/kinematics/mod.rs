@@ -8,7 +8,8 @@
 //! |---|---|
 //! | `solution` | positions, velocities and accelerations at a time |
 //! | `continuation` | steps along a branch |
-//! | `path`, `limit` | the branch by its length, and the extreme of t on it |
+//! | `passage`, `path`, `limit` | change points and limits; the branch by its length, and the extreme of t on it |
+//! | `motion` | the result |
 //! | `quintic` | polynomials between two points |
 //! | `works` | works over a step, by quadrature |
 //! | `options` | options of kinematics and of inverse dynamics |
@@ -17,37 +18,25 @@
 mod continuation;
 mod failure;
 mod limit;
+mod motion;
 mod options;
+mod passage;
 mod path;
 mod quintic;
 mod solution;
 mod works;
 
 pub use failure::{Failure, Limit, Reason};
+pub use motion::Motion;
 pub use options::{InverseOptions, Options};
 pub use solution::Point;
 
-use super::dynamics::{PiecewiseInterpolant, Trajectory};
+use super::dynamics::PiecewiseInterpolant;
 use super::State;
 use crate::integrate::Flow;
 use crate::model::Model;
 use continuation::Continuation;
 use works::Works;
-
-/// A motion at chosen times.
-#[derive(Clone, Debug, Default)]
-pub struct Motion {
-    /// States, and works since the start. Without forces, as at a singular position, works are NaN.
-    pub trajectory: Trajectory,
-    /// Polynomials between the steps of the continuation.
-    pub dense: PiecewiseInterpolant,
-    /// Steps of the continuation.
-    pub steps: usize,
-    /// Steps that were taken again, shorter.
-    pub rejected: usize,
-    /// Whether the last time was reached; otherwise the observer stopped.
-    pub reached: bool,
-}
 
 /// The motion from `start` through the `times`, which ascend or descend; the first one may be that of the start.
 ///

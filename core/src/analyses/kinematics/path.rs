@@ -3,17 +3,9 @@
 //! With y = (q, t), scaled, a point of the curve solves Φ(y) = 0 and τᵀ(y - y₀) = s with the tangent τ at y₀
 //! (Keller's pseudo-arclength continuation, in *Applications of Bifurcation Theory*, 1977).
 
-use super::failure::Reason;
-use super::limit;
 use super::solution::{Point, Solver};
 use crate::solve::solve_dense;
 
-/// Longest step of the path, scaled.
-const LONGEST: f64 = 1e-2;
-/// Shortest step.
-const SHORTEST: f64 = 1e-9;
-/// Largest number of steps around a position where Φ_q is nearly singular.
-const MOST: usize = 2000;
 /// Least cosine between the tangents of two neighbours.
 const ALONG: f64 = 0.95;
 /// Scaled residual of a closed position, and largest number of iterations.
@@ -36,52 +28,9 @@ pub(super) struct Path<'s, 'a> {
     pub unit: f64,
 }
 
-/// Passes a position near which the steps in t are too short: a change point, where the motion goes on, or a limit, where
-/// it ends.
-pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result<Point, Reason> {
-    let sign = (goal - from.t).signum();
-    let pace = solver.norm(&from.v);
-    let unit = if pace > 0.0 { 1.0 / pace } else { (goal - from.t).abs() };
-    let mut path = Path { solver, unit };
-    let Some(mut place) = path.begin(from, sign) else {
-        return Err(limit::lost(path.solver.model, from));
-    };
-    let mut ds = SHORTEST.sqrt();
-    for _ in 0..MOST {
-        let Some(next) = path.advance(&place, ds) else {
-            ds *= 0.5;
-            if ds < SHORTEST {
-                return Err(limit::lost(path.solver.model, from));
-            }
-            continue;
-        };
-        let forward = sign * next.tangent[next.q.len()];
-        if forward <= 0.0 {
-            return Err(limit::locate(&mut path, &place, ds, sign));
-        }
-        if sign * (next.t - goal) >= 0.0 {
-            // the path passes the goal: only this last part is too steep
-            let Place { t, q, .. } = &place;
-            let share = (goal - t) / (next.t - t);
-            let guess = q.iter().zip(&next.q).map(|(a, b)| a + share * (b - a)).collect();
-            return path
-                .solver
-                .point(goal, guess)
-                .ok_or_else(|| limit::lost(path.solver.model, from));
-        }
-        let regular = forward > 0.1 && next.t != from.t;
-        if let Some(point) = regular.then(|| path.solver.point(next.t, next.q.clone())).flatten() {
-            return Ok(point);
-        }
-        place = next;
-        ds = (1.5 * ds).min(LONGEST);
-    }
-    Err(limit::lost(path.solver.model, from))
-}
-
 impl Path<'_, '_> {
     /// The place of a regular point, with its tangent in the direction of t.
-    fn begin(&mut self, from: &Point, sign: f64) -> Option<Place> {
+    pub fn begin(&mut self, from: &Point, sign: f64) -> Option<Place> {
         let columns = &self.solver.columns;
         let mut tangent: Vec<f64> =
             from.v.iter().zip(columns).map(|(v, scale)| sign * v * self.unit / scale).collect();
