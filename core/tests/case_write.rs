@@ -239,7 +239,7 @@ impl Dice {
 
 /// The analysis without fields that refer to other analyses or exclude other fields.
 fn consistent(mut analysis: Entry) -> Entry {
-    analysis.fields.retain(|(key, _)| key != "from" && key != "output");
+    analysis.fields.retain(|(key, _)| !["from", "output", "over"].contains(&key.as_str()));
     analysis
 }
 

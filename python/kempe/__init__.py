@@ -74,6 +74,8 @@ if TYPE_CHECKING:
     from kempe.draw.player import player as player
     from kempe.draw.scene import scene as scene
     from kempe.draw.still import still as still
+    from kempe.driven import inverse_dynamics as inverse_dynamics
+    from kempe.driven import kinematics as kinematics
     from kempe.energy import Energy as Energy
     from kempe.errors import AssemblyError as AssemblyError
     from kempe.errors import FileError as FileError
@@ -86,8 +88,6 @@ if TYPE_CHECKING:
     from kempe.event import Event as Event
     from kempe.events import EventWarning as EventWarning
     from kempe.functions import Sampled as Sampled
-    from kempe.kinematics import inverse_dynamics as inverse_dynamics
-    from kempe.kinematics import kinematics as kinematics
     from kempe.matrices import Labelled as Labelled
     from kempe.matrices import Matrices as Matrices
     from kempe.matrices import show as show
@@ -161,8 +161,8 @@ _HOME = {
     "dynamics": "analyses",
     "equations": "symbolic",
     "errors": "",
-    "inverse_dynamics": "kinematics",
-    "kinematics": "kinematics",
+    "inverse_dynamics": "driven",
+    "kinematics": "driven",
     "load": "case",
     "load_solution": "archive",
     "player": "draw.player",

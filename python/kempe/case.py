@@ -13,8 +13,8 @@ from typing import Any
 from kempe import _core, files
 from kempe.analyses import AssemblyWarning, Coordinates, Progress, assemble, simulate
 from kempe.compiled import CompiledModel
+from kempe.driven import follow, follow_with_forces
 from kempe.errors import AssemblyError, FileError, KempeError, ModelError
-from kempe.kinematics import follow, follow_with_forces
 from kempe.model import Model
 from kempe.names import entry as named
 from kempe.names import few, one_of, unknown

@@ -140,6 +140,16 @@ type = "dynamics"
 t_end = 7
 method = { type = "dop853", first_step = 1e-3 }
 stabilization = { type = "baumgarte", gains = "step" }
+[analyses.seven]
+type = "kinematics"
+t_end = 8
+output_step = 0.1
+[analyses.eight]
+type = "inverse_dynamics"
+over = "a.angle"
+range = [0, "90 deg"]
+n = 10
+from = "start"
 """
 
 
