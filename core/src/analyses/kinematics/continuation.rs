@@ -43,7 +43,8 @@ impl<'a> Continuation<'a> {
         let mut solver = Solver::new(model);
         let State { t, q, .. } = start;
         let gaps = solver.phi(*t, q);
-        if let Some(row) = (0..gaps.len()).find(|row| !(gaps[*row].abs() <= START)) {
+        let open = |gap: f64| gap.is_nan() || gap.abs() > START;
+        if let Some(row) = (0..gaps.len()).find(|row| open(gaps[*row])) {
             return Err(Reason::open(model, *t, row, gaps[row] * solver.rows[row]).into());
         }
         let freedom = mobility(model, *t, q);

@@ -53,9 +53,9 @@ pub fn kinematics(
 ) -> Result<Motion, Box<Failure>> {
     let mut continuation = Continuation::begin(model, start)?;
     let mut works = Works::new(model, start);
-    let mut motion = Motion::default();
-    motion.dense =
+    let dense =
         PiecewiseInterpolant { t: vec![start.t], degree: quintic::DEGREE, ..Default::default() };
+    let mut motion = Motion { dense, ..Motion::default() };
     for &t in times {
         while continuation.point().t != t {
             let before = continuation.point().clone();

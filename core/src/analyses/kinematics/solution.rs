@@ -107,7 +107,7 @@ impl<'a> Solver<'a> {
             self.factored(t)?;
             let step = self.solved(0, -1.0);
             let size = self.norm(&step);
-            if !(size <= CONTRACTS * last) {
+            if size.is_nan() || size > CONTRACTS * last {
                 return (gap <= ROUNDING).then_some(q);
             }
             q.iter_mut().zip(&step).for_each(|(q, dq)| *q += dq);

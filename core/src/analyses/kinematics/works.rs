@@ -93,7 +93,7 @@ impl<'a> Works<'a> {
         let sum: Three = std::array::from_fn(|k| fine[0][k] + fine[1][k]);
         let size = sum.iter().fold(self.scale, |most, w| most.max(w.abs()));
         let error = (0..WORKS).fold(0.0, |most: f64, k| most.max((sum[k] - whole[k]).abs()));
-        if depth == 0 || !(error > TOLERANCE * size) {
+        if depth == 0 || error <= TOLERANCE * size {
             return sum;
         }
         let both: [Three; 2] =
