@@ -1,8 +1,8 @@
 //! Kinematics: the motion of a mechanism whose drivers determine it, without integration.
 //!
 //! At each time the positions solve Φ(q, t) = 0, the velocities Φ_q v = ν and the accelerations Φ_q a = γ (Haug 3.6).
-//! The motion is followed from the start by short steps, so that it stays on its branch ([`Continuation`]). Where it
-//! cannot go on because the driven value has reached an extreme, this limit is found exactly ([`limit`](mod@limit)).
+//! The motion is followed from the start by short steps, so that it stays on its branch. Where it
+//! cannot go on because the driven value has reached an extreme, this limit is found exactly.
 //!
 //! | file | concept |
 //! |---|---|
