@@ -9,6 +9,7 @@ pub mod dynamics;
 mod errors;
 mod event_options;
 pub mod kinematics;
+pub mod limits;
 mod mobility;
 mod option_tables;
 pub mod options;

@@ -41,6 +41,7 @@ pub use placement::{Dyad, Gap, Placement};
 pub use placer::place;
 pub use report::{Mode, Report};
 pub use request::{targets, Request};
+pub(super) use target::trimmed;
 pub use target::{CoordinateTarget, QuantityTarget, Target};
 pub use targets::Targets;
 

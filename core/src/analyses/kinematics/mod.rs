@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `solution` | positions, velocities and accelerations at a time |
 //! | `continuation` | steps along a branch |
+//! | `dead_point` | limits in terms of the mechanism |
 //! | `passage`, `path`, `limit` | change points and limits; the branch by its length, and the extreme of t on it |
 //! | `motion` | the result |
 //! | `quintic` | polynomials between two points |
@@ -16,6 +17,7 @@
 //! | `failure` | reasons for the end of a motion, in terms of the mechanism |
 
 mod continuation;
+mod dead_point;
 mod failure;
 mod limit;
 mod motion;
@@ -26,7 +28,10 @@ mod quintic;
 mod solution;
 mod works;
 
-pub use failure::{Failure, Limit, Reason};
+pub(in crate::analyses) use continuation::Continuation;
+pub(in crate::analyses) use dead_point::{driven, written};
+pub use dead_point::Limit;
+pub use failure::{Failure, Reason};
 pub use motion::Motion;
 pub use options::{InverseOptions, Options};
 pub use solution::Point;
@@ -35,7 +40,6 @@ use super::dynamics::PiecewiseInterpolant;
 use super::State;
 use crate::integrate::Flow;
 use crate::model::Model;
-use continuation::Continuation;
 use works::Works;
 
 /// The motion from `start` through the `times`, which ascend or descend; the first one may be that of the start.
