@@ -69,7 +69,11 @@ fn check_crank(links: [f64; 4], angle: f64) {
     let found = found(&m, angle, &hints);
     match range_of_crank(links) {
         None => {
-            assert!(found.lower.is_none() && found.upper.is_none(), "{links:?}: {:?}", found.reasons);
+            assert!(
+                found.lower.is_none() && found.upper.is_none(),
+                "{links:?}: {:?}",
+                found.reasons
+            );
             assert!(found.turns.is_some() && found.reasons[0].contains("turns fully"));
         }
         Some([low, high]) => {
@@ -77,7 +81,11 @@ fn check_crank(links: [f64; 4], angle: f64) {
             assert!((lower.value - low).abs() <= 1e-9, "{links:?}: {} {low}", lower.value);
             assert!((upper.value - high).abs() <= 1e-9, "{links:?}: {} {high}", upper.value);
             for bound in [lower, upper] {
-                assert!(bound.reason.contains("dead point, coupler and rocker in line"), "{}", bound.reason);
+                assert!(
+                    bound.reason.contains("dead point, coupler and rocker in line"),
+                    "{}",
+                    bound.reason
+                );
                 assert!(bound.reason.starts_with("crank cannot pass "), "{}", bound.reason);
             }
         }
@@ -164,7 +172,9 @@ fn a_rod_at_right_angles_to_its_slide() {
     ));
     let limits = found(&m, 0.1, &[("piston.x", "0.5")]);
     let exact = [((off - l) / r).asin(), ((off + l) / r).asin()];
-    for (end, exact) in [limits.lower.expect("lower"), limits.upper.expect("upper")].iter().zip(exact) {
+    for (end, exact) in
+        [limits.lower.expect("lower"), limits.upper.expect("upper")].iter().zip(exact)
+    {
         assert!((end.value - exact).abs() < 1e-9, "{} {exact}", end.value);
         assert!(end.reason.ends_with("dead point, rod at right angles to S"), "{}", end.reason);
     }
@@ -219,6 +229,9 @@ fn the_end_of_a_curve_is_a_limit() {
     );
     let limits = found(&m, 0.5, &[]);
     let (lower, upper) = (limits.lower.expect("lower"), limits.upper.expect("upper"));
-    assert!((lower.value + 1.0).abs() < 1e-8 && (upper.value - 2.0).abs() < 1e-8, "{lower:?} {upper:?}");
+    assert!(
+        (lower.value + 1.0).abs() < 1e-8 && (upper.value - 2.0).abs() < 1e-8,
+        "{lower:?} {upper:?}"
+    );
     assert!(upper.reason.ends_with("S is at the end of its curve"), "{}", upper.reason);
 }

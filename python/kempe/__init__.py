@@ -29,6 +29,7 @@ Compute:
     dynamics                the motion from a state
     kinematics              the motion that drivers determine
     inverse_dynamics        the same with efforts and reactions
+    limits                  how far a driver goes, or whether it turns fully
     study                   comparison of methods and stabilizations
     RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
                             methods of integration
@@ -102,9 +103,12 @@ if TYPE_CHECKING:
     from kempe.options import GeneralizedAlpha as GeneralizedAlpha
     from kempe.options import InverseDynamics as InverseDynamics
     from kempe.options import Kinematics as Kinematics
+    from kempe.options import Limits as Limits
     from kempe.options import NoStabilization as NoStabilization
     from kempe.options import Projection as Projection
     from kempe.options import Radau as Radau
+    from kempe.reach import LimitsResult as LimitsResult
+    from kempe.reach import limits as limits
     from kempe.solution import Solution as Solution
     from kempe.start import Start as Start
     from kempe.state import AssemblyReport as AssemblyReport
@@ -137,6 +141,8 @@ _HOME = {
     "KempeError": "errors",
     "Kinematics": "options",
     "Labelled": "matrices",
+    "Limits": "options",
+    "LimitsResult": "reach",
     "Matrices": "matrices",
     "Model": "model",
     "ModelError": "errors",
@@ -163,6 +169,7 @@ _HOME = {
     "errors": "",
     "inverse_dynamics": "driven",
     "kinematics": "driven",
+    "limits": "reach",
     "load": "case",
     "load_solution": "archive",
     "player": "draw.player",

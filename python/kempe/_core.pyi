@@ -273,6 +273,26 @@ def kinematics(
         ModelError: the drivers leave a freedom.
     """
 
+def limits(
+    model: Model,
+    t: float,
+    q: _F,
+    v: _F,
+    z: _F,
+    progress: Callable[[float], None] | None,
+) -> tuple[str, _F, _F]:
+    """The limits of the value that takes the place of t, from a state.
+
+    Returns:
+        JSON with ``lower``, ``upper``, ``unit``, ``reasons`` and ``turns``; the values on the way,
+        (n,); the positions there, (n, n_q).
+
+    Raises:
+        SingularityError: the motion cannot be followed, although it has no limit.
+        AssemblyError: the state does not meet the constraints.
+        ModelError: the drivers leave a freedom.
+    """
+
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F]:
     """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂.
 

@@ -19,6 +19,7 @@ from kempe.model import Model
 from kempe.names import entry as named
 from kempe.names import few, one_of
 from kempe.option import Analysis, Option
+from kempe.reach import find_limits
 from kempe.result import Result
 from kempe.sequence import of_type
 from kempe.solution import Solution
@@ -36,6 +37,7 @@ _RUNNERS: dict[str, _Runner] = {
     "dynamics": simulate,
     "kinematics": follow,
     "inverse_dynamics": follow_with_forces,
+    "limits": find_limits,
 }
 
 

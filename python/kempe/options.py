@@ -443,3 +443,28 @@ class InverseDynamics(Analysis):
         "n": "count",
         "after": "name",
     }
+
+
+@dataclass(frozen=True, repr=False)
+class Limits(Analysis):
+    """Analysis of type ``limits``, an entry of ``[analyses]``.
+
+    How far a driver or position quantity can go both ways until a dead point or the end of a
+    curve, or whether it turns fully.
+
+    Attributes:
+        over: A driver, or a position quantity such as `crank.angle`. If absent, the only
+            driver.
+        after: State at which it starts: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    over: str | None = None
+    after: str | None = None
+    name: str = "limits"
+    kind: ClassVar[str] = "limits"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "over": "name",
+        "after": "name",
+    }

@@ -53,6 +53,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "dynamics": lambda: _core.dynamics(MODEL, T, Q, V, Z, OPTIONS, None),
     "kinematics": lambda: _core.kinematics(MODEL, T, Q, V, Z, TIMES, None),
     "kinematics_options": lambda: _core.kinematics_options(MODEL, '{"type": "kinematics"}'),
+    "limits": lambda: _core.limits(MODEL, T, Q, V, Z, None),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
     "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW, STATES),

@@ -150,6 +150,10 @@ over = "a.angle"
 range = [0, "90 deg"]
 n = 10
 from = "start"
+[analyses.nine]
+type = "limits"
+over = "a.angle"
+from = "start"
 """
 
 

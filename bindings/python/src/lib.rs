@@ -17,6 +17,7 @@ mod formulas;
 mod functions;
 mod guard;
 mod kinematics;
+mod limits;
 mod model;
 mod options;
 mod recent_options;
@@ -85,6 +86,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(dynamics::dynamics, module)?)?;
     module.add_function(wrap_pyfunction!(kinematics::kinematics, module)?)?;
     module.add_function(wrap_pyfunction!(kinematics::kinematics_options, module)?)?;
+    module.add_function(wrap_pyfunction!(limits::limits, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::project, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::energies, module)?)?;

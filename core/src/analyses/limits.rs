@@ -6,6 +6,7 @@
 
 use super::curves::Ranges;
 use super::kinematics::{driven, written, Continuation, Failure, Limit, Reason};
+use super::options::{name, options};
 use super::State;
 use crate::elements::BodyId;
 use crate::integrate::Flow;
@@ -20,6 +21,18 @@ pub const FARTHEST: f64 = 100.0;
 const SAME: f64 = 1e-5;
 /// Width to which the end of a curve is located, as a part of a step.
 const LOCATED: f64 = 1e-14;
+
+options! {
+    /// How far a driver or position quantity can go both ways until a dead point or the end of a curve, or whether it
+    /// turns fully.
+    Options, "limits", "Limits" () {
+        /// A driver, or a position quantity such as `crank.angle`. If absent, the only driver.
+        over: Option<name> = None,
+        /// State at which it starts: "start", or the name of an earlier analysis for the end of that analysis. If
+        /// absent, the end of the analysis before it.
+        from: Option<name> = None,
+    }
+}
 
 /// The limits of a driven value.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -75,7 +88,8 @@ pub fn limits(
     let mut walk = Walk { model, start, unit, curves: Ranges::of(model), watch: &mut watch };
     let (down, mut path) = walk.towards(-1.0)?;
     path.reverse();
-    let described = |end: &End| match end {
+    let described = |end: &End| {
+        match end {
         End::At(bound) => bound.reason.clone(),
         End::Returned(1) => format!("{driven} turns fully: the mechanism is the same after 360°"),
         End::Returned(n) => format!(
@@ -87,6 +101,7 @@ pub fn limits(
         }
         End::Never => format!("{driven} has no limit within {}", written(reach(model), unit)),
         End::Stopped => String::new(),
+    }
     };
     found.reasons.push(described(&down));
     match down {
@@ -164,7 +179,11 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
     }
 
     /// The end of a curve that a contact left in the last step, by bisection.
-    fn end_of_curve(&self, motion: &mut Continuation<'_>, before: (f64, Vec<f64>)) -> Option<Bound> {
+    fn end_of_curve(
+        &self,
+        motion: &mut Continuation<'_>,
+        before: (f64, Vec<f64>),
+    ) -> Option<Bound> {
         self.curves.beyond(self.model, &motion.point().q)?;
         let (mut inside, mut outside) = (before, (motion.point().t, motion.point().q.clone()));
         while (outside.0 - inside.0).abs() > LOCATED * self.start.t.abs().max(1.0) {

@@ -3,6 +3,8 @@
 use super::conditions::Condition;
 use super::dynamics;
 use super::kinematics::{InverseOptions, Options as KinematicsOptions};
+use super::limits::Options as LimitsOptions;
+use super::options::{Declared, Reader};
 use crate::model::{Entry, Model, Problem, Value};
 
 /// Everything that is wrong with analyses that follow each other from an assembled start at t = 0.
@@ -24,6 +26,10 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
             }
             Some(Value::Text(kind)) if kind == "inverse_dynamics" => {
                 InverseOptions::checked(model, fields, &path).map(|options| options.t_end)
+            }
+            // an analysis of a position ends where it begins
+            Some(Value::Text(kind)) if kind == LimitsOptions::NAME => {
+                Reader::read(model, fields, &path, LimitsOptions::read).map(|_| begin)
             }
             _ => dynamics_end(model, fields, &path, begin),
         };

@@ -36,6 +36,7 @@ ANALYSES = {
     "dynamics": "simulations",
     "kinematics": "analyses of the motion that drivers determine",
     "inverse_dynamics": "analyses of efforts and reactions",
+    "limits": "limits of motion",
 }
 
 app = typer.Typer(

@@ -29,8 +29,8 @@ mod solution;
 mod works;
 
 pub(in crate::analyses) use continuation::Continuation;
-pub(in crate::analyses) use dead_point::{driven, written};
 pub use dead_point::Limit;
+pub(in crate::analyses) use dead_point::{driven, written};
 pub use failure::{Failure, Reason};
 pub use motion::Motion;
 pub use options::{InverseOptions, Options};
