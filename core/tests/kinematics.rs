@@ -36,7 +36,7 @@ fn even(n: usize, end: f64) -> Vec<f64> {
 fn limit_of(outcome: Result<Motion, Box<Failure>>) -> (Limit, Motion) {
     let failure = *outcome.expect_err("a limit");
     match failure.reason {
-        Reason::Limit(limit) => (limit, failure.motion),
+        Reason::Limit(limit) => (*limit, failure.motion),
         other => panic!("{other}"),
     }
 }

@@ -30,6 +30,7 @@ Compute:
     kinematics              the motion that drivers determine
     inverse_dynamics        the same with efforts and reactions
     limits                  how far a driver goes, or whether it turns fully
+    mobility                freedoms, redundant joints, singular positions, four-bar loops
     study                   comparison of methods and stabilizations
     RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
                             methods of integration
@@ -87,6 +88,8 @@ if TYPE_CHECKING:
     from kempe.errors import SingularityError as SingularityError
     from kempe.event import Event as Event
     from kempe.events import EventWarning as EventWarning
+    from kempe.freedom import MobilityResult as MobilityResult
+    from kempe.freedom import mobility as mobility
     from kempe.functions import Sampled as Sampled
     from kempe.matrices import Labelled as Labelled
     from kempe.matrices import Matrices as Matrices
@@ -104,6 +107,7 @@ if TYPE_CHECKING:
     from kempe.options import InverseDynamics as InverseDynamics
     from kempe.options import Kinematics as Kinematics
     from kempe.options import Limits as Limits
+    from kempe.options import Mobility as Mobility
     from kempe.options import NoStabilization as NoStabilization
     from kempe.options import Projection as Projection
     from kempe.options import Radau as Radau
@@ -144,6 +148,8 @@ _HOME = {
     "Limits": "options",
     "LimitsResult": "reach",
     "Matrices": "matrices",
+    "Mobility": "options",
+    "MobilityResult": "freedom",
     "Model": "model",
     "ModelError": "errors",
     "Motion": "motion",
@@ -172,6 +178,7 @@ _HOME = {
     "limits": "reach",
     "load": "case",
     "load_solution": "archive",
+    "mobility": "freedom",
     "player": "draw.player",
     "plot": "",
     "report": "",

@@ -273,6 +273,9 @@ def kinematics(
         ModelError: the drivers leave a freedom.
     """
 
+def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
+    """What a mechanism can do at a position, as JSON."""
+
 def limits(
     model: Model,
     t: float,

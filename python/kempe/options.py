@@ -468,3 +468,24 @@ class Limits(Analysis):
         "over": "name",
         "after": "name",
     }
+
+
+@dataclass(frozen=True, repr=False)
+class Mobility(Analysis):
+    """Analysis of type ``mobility``, an entry of ``[analyses]``.
+
+    Degrees of freedom, redundant and singular constraints, locked and loose bodies, and four-
+    bar loops.
+
+    Attributes:
+        after: State that is examined: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    after: str | None = None
+    name: str = "mobility"
+    kind: ClassVar[str] = "mobility"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "after": "name",
+    }

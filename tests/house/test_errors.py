@@ -54,6 +54,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "kinematics": lambda: _core.kinematics(MODEL, T, Q, V, Z, TIMES, None),
     "kinematics_options": lambda: _core.kinematics_options(MODEL, '{"type": "kinematics"}'),
     "limits": lambda: _core.limits(MODEL, T, Q, V, Z, None),
+    "mobility": lambda: _core.mobility(MODEL, T, Q, V, Z),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
     "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW, STATES),

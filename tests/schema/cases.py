@@ -154,6 +154,9 @@ from = "start"
 type = "limits"
 over = "a.angle"
 from = "start"
+[analyses.ten]
+type = "mobility"
+from = "start"
 """
 
 

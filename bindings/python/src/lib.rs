@@ -18,6 +18,7 @@ mod functions;
 mod guard;
 mod kinematics;
 mod limits;
+mod mobility;
 mod model;
 mod options;
 mod recent_options;
@@ -87,6 +88,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(kinematics::kinematics, module)?)?;
     module.add_function(wrap_pyfunction!(kinematics::kinematics_options, module)?)?;
     module.add_function(wrap_pyfunction!(limits::limits, module)?)?;
+    module.add_function(wrap_pyfunction!(mobility::mobility, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::project, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::energies, module)?)?;

@@ -158,7 +158,7 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
                 let before = (motion.point().t, motion.point().q.clone());
                 if let Err(reason) = motion.step(goal) {
                     let Reason::Limit(limit) = reason else { return Err(reason.into()) };
-                    let bound = bound(limit);
+                    let bound = bound(*limit);
                     path.push((bound.value, bound.q.clone()));
                     return Ok((End::At(bound), path));
                 }

@@ -5,6 +5,7 @@ mod closing;
 mod conditions;
 mod curves;
 mod dependence;
+pub mod diagnosis;
 pub mod dynamics;
 mod errors;
 mod event_options;
@@ -20,6 +21,7 @@ mod signal_names;
 mod signals;
 mod state;
 
+pub use dependence::Dependent;
 pub use event_options::{EventOption, DIRECTIONS};
 pub use mobility::{mobility, Mobility};
 pub use option_tables::{declarations, option_families};

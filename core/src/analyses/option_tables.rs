@@ -1,5 +1,6 @@
 //! All analyses and options, as data: for the reader of files, the schema, Python and docs.
 
+use super::diagnosis;
 use super::dynamics;
 use super::kinematics;
 use super::limits;
@@ -13,6 +14,7 @@ static ANALYSES: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         kinematics::Options::declaration(),
         kinematics::InverseOptions::declaration(),
         limits::Options::declaration(),
+        diagnosis::Options::declaration(),
     ]
 });
 static FAMILIES: LazyLock<Vec<Family>> =

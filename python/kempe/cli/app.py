@@ -37,6 +37,7 @@ ANALYSES = {
     "kinematics": "analyses of the motion that drivers determine",
     "inverse_dynamics": "analyses of efforts and reactions",
     "limits": "limits of motion",
+    "mobility": "analyses of the mobility",
 }
 
 app = typer.Typer(

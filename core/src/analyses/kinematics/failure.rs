@@ -50,7 +50,7 @@ pub enum Reason {
         message: String,
     },
     /// The driven value has reached an extreme.
-    Limit(Limit),
+    Limit(Box<Limit>),
 }
 
 impl From<Reason> for Box<Failure> {

@@ -39,7 +39,7 @@ pub(super) fn locate(path: &mut Path<'_, '_>, from: &Place, ds: f64, sign: f64) 
     let Place { t, q, tangent } = best;
     let rates: Vec<f64> =
         tangent.iter().zip(&path.solver.columns).map(|(x, scale)| x * scale).collect();
-    Reason::Limit(Limit::new(path.solver.model, t, q, &rates))
+    Reason::Limit(Box::new(Limit::new(path.solver.model, t, q, &rates)))
 }
 
 /// The motion cannot be followed further, though no limit was found.
