@@ -112,7 +112,7 @@ fn the_limit_of_a_crank_is_named() {
     let (limit, _) = limit_of(through(&m, &hints, &even(40, TAU)));
     let exact = ((g * g + a * a - (b + c) * (b + c)) / (2.0 * g * a)).acos();
     assert!((0.5 + limit.t - exact).abs() < 1e-9);
-    let reason = Reason::Limit(limit).to_string();
+    let reason = Reason::Limit(Box::new(limit)).to_string();
     assert!(reason.starts_with("crank cannot pass ") && reason.contains("dead point"), "{reason}");
     assert!(reason.contains("coupler and rocker in line"), "{reason}");
     assert!(reason.contains(&format!("{:.4}", exact.to_degrees())[..7]), "{reason}");

@@ -174,14 +174,16 @@ def find_mobility(
 
 
 def _redundancy(found: Mapping[str, Any]) -> Redundancy:
-    names = (tuple(found[key]) for key in ("joints", "equations"))
-    return Redundancy(*names, found["remove"], found["consistent"], found.get("kind", ""))
+    joints, equations = tuple(found["joints"]), tuple(found["equations"])
+    return Redundancy(
+        joints, equations, found["remove"], found["consistent"], found.get("kind", "")
+    )
 
 
 def _four_bar(found: Mapping[str, Any]) -> FourBar:
-    of_loop = (tuple(found[key]) for key in ("bodies", "pins", "lengths"))
+    bodies, pins, lengths = (tuple(found[key]) for key in ("bodies", "pins", "lengths"))
     turning = None if found["turning"] is None else tuple(found["turning"])
-    return FourBar(*of_loop, found["kind"], turning)
+    return FourBar(bodies, pins, lengths, found["kind"], turning)
 
 
 def _told(one: Redundancy) -> list[str]:

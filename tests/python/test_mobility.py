@@ -1,4 +1,4 @@
-"""Mobility: freedoms, redundancies, singular positions, bodies and loops, in Python and on the command line."""
+"""Mobility: freedoms, redundancies, singular positions, bodies and loops."""
 
 import json
 from pathlib import Path
@@ -74,7 +74,7 @@ def test_a_change_point_and_its_redundancy() -> None:
     flat = {f"crank{k}.angle": 0.0 for k in range(3)}
     start = kp.assemble(m, set={"crank0.angle": 0}, guess=flat | {"rod.angle": 0})
     found = kp.mobility(m, start)
-    assert [one.kind for one in found.singular][0] == "change point"
+    assert found.singular[0].kind == "change point"
     assert "change point: motions cross here" in str(found)
     assert all(loop.kind == "change point" and loop.turning is None for loop in found.four_bars)
 

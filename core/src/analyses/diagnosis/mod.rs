@@ -92,7 +92,7 @@ pub fn diagnose(model: &Model, state: &State) -> Diagnosis {
     }
 }
 
-/// Equations that depend on others but for an error of the position: at a dead point, Newton's method finds it to half of
+/// Equations that depend on others within the error of the position: at a dead point, Newton's method finds it to half of
 /// the digits.
 fn nearly_dependent(model: &Model, state: &State, redundant: &[Dependent]) -> Vec<Dependent> {
     let mut found = dependence::at(model, state.t, &state.q, NEARLY, &|| false);
