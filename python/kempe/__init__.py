@@ -31,6 +31,7 @@ Compute:
     inverse_dynamics        the same with efforts and reactions
     limits                  how far a driver goes, or whether it turns fully
     mobility                freedoms, redundant joints, singular positions, four-bar loops
+    configurations          all positions in which the mechanism closes
     study                   comparison of methods and stabilizations
     RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
                             methods of integration
@@ -69,6 +70,8 @@ if TYPE_CHECKING:
     from kempe.case import Case as Case
     from kempe.case import Results as Results
     from kempe.case import load as load
+    from kempe.closures import ConfigurationsResult as ConfigurationsResult
+    from kempe.closures import configurations as configurations
     from kempe.display_units import Units as Units
     from kempe.display_units import units as units
     from kempe.draw.animate import animate as animate
@@ -102,6 +105,7 @@ if TYPE_CHECKING:
     from kempe.options import RK45 as RK45
     from kempe.options import Auto as Auto
     from kempe.options import Baumgarte as Baumgarte
+    from kempe.options import Configurations as Configurations
     from kempe.options import Dynamics as Dynamics
     from kempe.options import GeneralizedAlpha as GeneralizedAlpha
     from kempe.options import InverseDynamics as InverseDynamics
@@ -131,6 +135,8 @@ _HOME = {
     "Auto": "options",
     "Baumgarte": "options",
     "Case": "case",
+    "Configurations": "options",
+    "ConfigurationsResult": "closures",
     "DOP853": "options",
     "Dynamics": "options",
     "Energy": "energy",
@@ -169,6 +175,7 @@ _HOME = {
     "Units": "display_units",
     "animate": "draw.animate",
     "assemble": "analyses",
+    "configurations": "closures",
     "draw": "",
     "dynamics": "analyses",
     "equations": "symbolic",

@@ -276,6 +276,17 @@ def kinematics(
 def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
     """What a mechanism can do at a position, as JSON."""
 
+def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _F, _F, str]:
+    """All positions in which a mechanism closes, for the values of ``held``, a JSON text.
+
+    Returns:
+        q, v and z, one row for each; JSON with ``complete`` and the ``reports``.
+
+    Raises:
+        AssemblyError: there is none.
+        ModelError: freedoms are left.
+    """
+
 def limits(
     model: Model,
     t: float,

@@ -489,3 +489,30 @@ class Mobility(Analysis):
     shapes: ClassVar[Mapping[str, Shape]] = {
         "after": "name",
     }
+
+
+@dataclass(frozen=True, repr=False)
+class Configurations(Analysis):
+    """Analysis of type ``configurations``, an entry of ``[analyses]``.
+
+    All positions in which the mechanism closes, for given values of its drivers and of `set`.
+
+    Attributes:
+        set: Coordinates and other position quantities that hold exactly, as in `start.set`; if
+            absent, those of the start.
+        limit: Largest number of configurations.
+        after: State whose time is used: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    set: Terms | None = None
+    limit: int = 100
+    after: str | None = None
+    name: str = "configurations"
+    kind: ClassVar[str] = "configurations"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "set": "values",
+        "limit": "count",
+        "after": "name",
+    }

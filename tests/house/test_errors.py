@@ -55,6 +55,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "kinematics_options": lambda: _core.kinematics_options(MODEL, '{"type": "kinematics"}'),
     "limits": lambda: _core.limits(MODEL, T, Q, V, Z, None),
     "mobility": lambda: _core.mobility(MODEL, T, Q, V, Z),
+    "configurations": lambda: _core.configurations(MODEL, '{"crank.angle": 1}', 9, T),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
     "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW, STATES),

@@ -157,6 +157,11 @@ from = "start"
 [analyses.ten]
 type = "mobility"
 from = "start"
+[analyses.eleven]
+type = "configurations"
+set = { "a.angle" = "20 deg" }
+limit = 5
+from = "start"
 """
 
 

@@ -9,6 +9,7 @@ mod active;
 mod assemble;
 mod attended;
 mod case;
+mod configurations;
 mod convert;
 mod dynamics;
 mod errors;
@@ -89,6 +90,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(kinematics::kinematics_options, module)?)?;
     module.add_function(wrap_pyfunction!(limits::limits, module)?)?;
     module.add_function(wrap_pyfunction!(mobility::mobility, module)?)?;
+    module.add_function(wrap_pyfunction!(configurations::configurations, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::project, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::energies, module)?)?;

@@ -5,10 +5,9 @@
 //! start, after one turn or after several. A length is unlimited if it exceeds [`FARTHEST`] sizes of the mechanism.
 
 use super::curves::Ranges;
-use super::kinematics::{driven, written, Continuation, Failure, Limit, Reason};
+use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason};
 use super::options::{name, options};
 use super::State;
-use crate::elements::BodyId;
 use crate::integrate::Flow;
 use crate::model::{size, Model};
 use std::f64::consts::TAU;
@@ -171,7 +170,7 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
                     return Ok((End::Stopped, path));
                 }
             }
-            if self.unit == "rad" && same(self.model, &self.start.q, &motion.point().q) {
+            if self.unit == "rad" && same(self.model, &self.start.q, &motion.point().q, SAME) {
                 return Ok((End::Returned(turn), path));
             }
         }
@@ -208,17 +207,4 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
 
 fn bound(limit: Limit) -> Bound {
     Bound { value: limit.t, reason: limit.to_string(), q: limit.q }
-}
-
-/// Whether the bodies lie at the same places, whole turns aside.
-fn same(model: &Model, a: &[f64], b: &[f64]) -> bool {
-    let size = size(model);
-    (1..model.bodies.len()).map(BodyId).all(|body| {
-        let columns = model.layout.bodies[body.0];
-        let pairs = columns.range().enumerate();
-        pairs.map(|(c, k)| (c, b[k] - a[k])).all(|(c, d)| match c {
-            2 => (d - TAU * (d / TAU).round()).abs() <= SAME,
-            _ => d.abs() <= SAME * size,
-        })
-    })
 }

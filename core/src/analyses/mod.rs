@@ -3,6 +3,7 @@
 pub mod assemble;
 mod closing;
 mod conditions;
+pub mod configurations;
 mod curves;
 mod dependence;
 pub mod diagnosis;

@@ -1,5 +1,6 @@
 //! All analyses and options, as data: for the reader of files, the schema, Python and docs.
 
+use super::configurations;
 use super::diagnosis;
 use super::dynamics;
 use super::kinematics;
@@ -15,6 +16,7 @@ static ANALYSES: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         kinematics::InverseOptions::declaration(),
         limits::Options::declaration(),
         diagnosis::Options::declaration(),
+        configurations::Options::declaration(),
     ]
 });
 static FAMILIES: LazyLock<Vec<Family>> =

@@ -1,6 +1,7 @@
 //! Checks of the analyses of a case: what is known without a run.
 
 use super::conditions::Condition;
+use super::configurations::Options as ConfigurationsOptions;
 use super::diagnosis::Options as MobilityOptions;
 use super::dynamics;
 use super::kinematics::{InverseOptions, Options as KinematicsOptions};
@@ -31,6 +32,9 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
             // an analysis of a position ends where it begins
             Some(Value::Text(kind)) if kind == LimitsOptions::NAME => {
                 Reader::read(model, fields, &path, LimitsOptions::read).map(|_| begin)
+            }
+            Some(Value::Text(kind)) if kind == ConfigurationsOptions::NAME => {
+                Reader::read(model, fields, &path, ConfigurationsOptions::read).map(|_| begin)
             }
             Some(Value::Text(kind)) if kind == MobilityOptions::NAME => {
                 Reader::read(model, fields, &path, MobilityOptions::read).map(|_| begin)

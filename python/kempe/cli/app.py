@@ -37,6 +37,7 @@ ANALYSES = {
     "kinematics": "analyses of the motion that drivers determine",
     "inverse_dynamics": "analyses of efforts and reactions",
     "limits": "limits of motion",
+    "configurations": "lists of the assembly modes",
     "mobility": "analyses of the mobility",
 }
 

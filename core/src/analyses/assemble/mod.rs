@@ -34,10 +34,12 @@ mod velocities;
 mod worklist;
 
 pub use super::closing::Closing;
+pub(super) use angle_winding::wind;
 pub use failure::{Failure, Fault};
 pub use holding::holding;
 pub use open_placement::open_placement;
 pub use placement::{Dyad, Gap, Placement};
+pub(super) use placements::following;
 pub use placer::place;
 pub use report::{Mode, Report};
 pub use request::{targets, Request};

@@ -10,12 +10,14 @@
 //! | `continuation` | steps along a branch |
 //! | `dead_point` | limits in terms of the mechanism |
 //! | `passage`, `path`, `limit` | change points and limits; the branch by its length, and the extreme of t on it |
+//! | `circuit` | the path of a position until it returns |
 //! | `motion` | the result |
 //! | `quintic` | polynomials between two points |
 //! | `works` | works over a step, by quadrature |
 //! | `options` | options of kinematics and of inverse dynamics |
 //! | `failure` | reasons for the end of a motion, in terms of the mechanism |
 
+mod circuit;
 mod continuation;
 mod dead_point;
 mod failure;
@@ -28,6 +30,7 @@ mod quintic;
 mod solution;
 mod works;
 
+pub(in crate::analyses) use circuit::{circuit, same};
 pub(in crate::analyses) use continuation::Continuation;
 pub use dead_point::Limit;
 pub(in crate::analyses) use dead_point::{driven, written};
