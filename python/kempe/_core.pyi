@@ -294,6 +294,15 @@ def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
 def reaction(model: Model, joint: str, on: str, frame: str, t: _F, q: _F, lam: _F) -> _F:
     """Force and torque about the joint point of a joint on a body: (n_t, 3), N and N·m."""
 
+def place(model: Model, joint: str, on: str, t: _F, q: _F) -> _F:
+    """The point at which the reaction on a body is given, (n_t, 2), global, m."""
+
+def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F:
+    """The balance of each moving body, (n_t, 5 n_bodies).
+
+    |Σ F - m a| and |Σ M - J α|, the largest single force and moment, and the largest lever.
+    """
+
 def results(model: Model, joint: str, t: _F, q: _F, lam: _F) -> _F:
     """The results of a joint beside its reaction, (n_t, n); ``describe`` names them."""
 

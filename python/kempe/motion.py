@@ -14,6 +14,7 @@ from kempe.compiled import CompiledModel, ConstraintInfo
 from kempe.errors import ModelError
 from kempe.model import Model, compiled_model
 from kempe.names import entry, unknown
+from kempe.newton_euler import NewtonEuler, newton_euler
 from kempe.phases import Phases
 from kempe.views import BodyView, ConstraintView, ForceView
 
@@ -107,6 +108,21 @@ class Motion:
         position, velocity = self._by_phase(_core.residual, *self._rows())
         return self._as_given(position), self._as_given(velocity)
 
+    @cached_property
+    def newton_euler(self) -> NewtonEuler:
+        """Newton's and Euler's equations of each body with the reported reactions.
+
+        At a single time the arrays have one row.
+
+        Raises:
+            SingularityError: the reactions are not unique at one of the times.
+        """
+        given = (np.atleast_2d(values) for values in (self.z, self.a, self.lam))
+        (rows,) = self._by_phase(
+            lambda core, *of: (_core.newton_euler(core, *of),), *self._rows(), *given
+        )
+        return newton_euler(tuple(self.compiled.bodies), rows)
+
     def measured(self, name: str, k: int, order: int) -> Floats:
         """Position quantity ``k`` of an element, (n_t,), or its derivative of this order in time.
 
@@ -137,6 +153,12 @@ class Motion:
             values = self._as_given(found)
             self._last_reaction = (joint, on, frame), values
         return values
+
+    def place(self, joint: str, on: str) -> Floats:
+        """The point at which the reaction of a joint on a body is given, (…, 2), global, m."""
+        t, q, _ = self._rows()
+        (found,) = self._by_phase(lambda core, *of: (_core.place(core, joint, on, *of),), t, q)
+        return self._as_given(found)
 
     def results(self, joint: str) -> Floats:
         """Results of a joint beside its reaction, (…, n); see ``ConstraintInfo.results``."""

@@ -276,17 +276,24 @@ def _size(vectors: Floats) -> Any:
 def _of_run(motion: Motion, owner: str) -> Family | None:
     """Energies, which only a solution has, and drift."""
     if owner == "energy" and hasattr(type(motion), "energy"):
-        return {name: Quantity("J", partial(_energy, motion, name)) for name in ENERGIES}
+        found = {name: Quantity("J", partial(_energy, motion, name)) for name in ENERGIES}
+        return {**found, "balance": Quantity("1", partial(_energy, motion, "balance"))}
     if owner == "drift":
         return {
             "position": Quantity("m or rad", lambda: _largest(motion.residuals[0])),
             "velocity": Quantity("m/s or rad/s", lambda: _largest(motion.residuals[1])),
+            "balance": Quantity("1", lambda: _one(motion, motion.newton_euler.balance)),
         }
     return None
 
 
 def _energy(motion: Motion, name: str) -> Any:
     return getattr(motion.energy, name)  # type: ignore[attr-defined]
+
+
+def _one(motion: Motion, rows: Floats) -> Any:
+    """Rows of a motion; the only one of a state."""
+    return rows if motion.q.ndim > 1 else float(rows[0])
 
 
 def _largest(residuals: Floats) -> Any:

@@ -41,7 +41,7 @@ STATUS = {"reached": REACHED, "event": EVENT, "stopped": STOPPED}
 
 @dataclass(frozen=True)
 class Drift:
-    """Constraint violation over time.
+    """Constraint violation over time, and the balance of the reactions.
 
     Attributes:
         position: largest |Φ| at each time, (n_t,), m or rad.
@@ -50,6 +50,19 @@ class Drift:
 
     position: Floats
     velocity: Floats
+    _solution: Solution
+
+    @property
+    def balance(self) -> Floats:
+        """Largest Newton–Euler residual of all bodies at each time, (n_t,).
+
+        It is relative to the largest single force (moment) on the body in the run; see
+        ``Motion.newton_euler``.
+
+        Raises:
+            SingularityError: the reactions are not unique at one of the times.
+        """
+        return self._solution.newton_euler.balance
 
     def __repr__(self) -> str:
         largest = float(self.position.max(initial=0.0)), float(self.velocity.max(initial=0.0))
@@ -201,9 +214,9 @@ class Solution(Motion):
 
     @cached_property
     def drift(self) -> Drift:
-        """Constraint violation over time."""
+        """Constraint violation over time, and the balance of the reactions."""
         position, velocity = (np.abs(r).max(axis=1, initial=0.0) for r in self.residuals)
-        return Drift(fixed(position), fixed(velocity))
+        return Drift(fixed(position), fixed(velocity), self)
 
     @cached_property
     def events(self) -> Mapping[str, EventTimes]:
@@ -214,6 +227,13 @@ class Solution(Motion):
         from kempe.events import events
 
         return events(self)
+
+    @cached_property
+    def summary(self) -> Mapping[str, Any]:
+        """Peaks, energy balance, events, settling times and cost; see ``kempe.report.summary``."""
+        from kempe.report import summary
+
+        return MappingProxyType(summary(self))
 
     @property
     def initial(self) -> State:

@@ -61,6 +61,8 @@ CALLS: dict[str, Callable[[], object]] = {
     "residual": lambda: _core.residual(MODEL, TIMES, ROW, ROW),
     "measured": lambda: _core.measured(MODEL, "C", TIMES, ROW, ROW, ROW),
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
+    "place": lambda: _core.place(MODEL, "C", "rocker", TIMES, ROW),
+    "newton_euler": lambda: _core.newton_euler(MODEL, TIMES, ROW, ROW, STATES, ROW, LAM),
     "results": lambda: _core.results(MODEL, "C", TIMES, ROW, LAM),
     "force_energy": lambda: _core.force_energy(MODEL, "spring", TIMES, ROW, ROW, STATES),
     "force": lambda: _core.force(

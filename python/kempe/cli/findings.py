@@ -116,6 +116,8 @@ def _show_accuracy(console: Console, summary: dict[str, Any]) -> None:
         text = f"largest residual {value} in {worst['equation']} at {_measured(worst['at'], 's')}"
         console.print(Text(f"  {text}"))
     scale = f"largest energy {_measured(energy['scale'], 'J')}"
+    share = f"{summary['newton_euler']:.2g} of the largest force or moment on a body"
+    console.print(Text(f"  Newton-Euler balance within {share}"))
     console.print(Text(f"  energy balance within {energy['largest_imbalance']:.2g} of the {scale}"))
 
 

@@ -54,6 +54,7 @@ def summary(solution: Solution) -> dict[str, Any]:
             "residual_rate": max(_largest_rate(solution), _largest_rate(sampled.steps)),
         },
         "energy": energy(sampled),
+        "newton_euler": solution.newton_euler.largest,
         "events": {name: event.t.tolist() for name, event in solution.events.items()},
         "settling": [settling_of(sampled, name) for name in compiled.bodies],
         "statistics": dict(solution.statistics),
