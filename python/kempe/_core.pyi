@@ -303,6 +303,12 @@ def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F
     |Σ F - m a| and |Σ M - J α|, the largest single force and moment, and the largest lever.
     """
 
+def measure(model: Model, text: str) -> tuple[list[str], str]:
+    """The quantities that an expression uses, and its SI unit."""
+
+def measure_values(model: Model, text: str, t: _F, quantities: _F) -> _F:
+    """Values of an expression, (n_t,), for the values of its quantities, (n_t, n)."""
+
 def results(model: Model, joint: str, t: _F, q: _F, lam: _F) -> _F:
     """The results of a joint beside its reaction, (n_t, n); ``describe`` names them."""
 

@@ -61,6 +61,8 @@ CALLS: dict[str, Callable[[], object]] = {
     "residual": lambda: _core.residual(MODEL, TIMES, ROW, ROW),
     "measured": lambda: _core.measured(MODEL, "C", TIMES, ROW, ROW, ROW),
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
+    "measure": lambda: _core.measure(MODEL, "C.force"),
+    "measure_values": lambda: _core.measure_values(MODEL, "C.force", TIMES, ROW[:, :1]),
     "place": lambda: _core.place(MODEL, "C", "rocker", TIMES, ROW),
     "newton_euler": lambda: _core.newton_euler(MODEL, TIMES, ROW, ROW, STATES, ROW, LAM),
     "results": lambda: _core.results(MODEL, "C", TIMES, ROW, LAM),

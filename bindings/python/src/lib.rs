@@ -17,6 +17,7 @@ mod formulas;
 mod functions;
 mod guard;
 mod kinematics;
+mod measures;
 mod model;
 mod options;
 mod reactions;
@@ -98,6 +99,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(evaluate::force, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force_energy, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::matrices, module)?)?;
+    module.add_function(wrap_pyfunction!(measures::measure, module)?)?;
+    module.add_function(wrap_pyfunction!(measures::measure_values, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::formulas, module)?)?;
     module.add_function(wrap_pyfunction!(_inject_panic, module)?)?;
     module.add_function(wrap_pyfunction!(_raise, module)?)?;

@@ -9,13 +9,16 @@ pub mod dynamics;
 mod errors;
 mod event_options;
 pub mod kinematics;
+pub mod measures;
 mod mobility;
 mod option_tables;
 pub mod options;
+mod quantities;
 mod required;
 mod results;
 mod sequence;
 mod signal_names;
+mod signal_units;
 mod signals;
 mod state;
 
