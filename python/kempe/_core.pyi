@@ -309,6 +309,9 @@ def measure(model: Model, text: str) -> tuple[list[str], str]:
 def measure_values(model: Model, text: str, t: _F, quantities: _F) -> _F:
     """Values of an expression, (n_t,), for the values of its quantities, (n_t, n)."""
 
+def not_unique(model: Model, t: _F, q: _F) -> list[str]:
+    """The joints and drivers without a unique reaction at one of the states."""
+
 def results(model: Model, joint: str, t: _F, q: _F, lam: _F) -> _F:
     """The results of a joint beside its reaction, (n_t, n); ``describe`` names them."""
 

@@ -260,9 +260,9 @@ class Motion:
     # The type of the result depends on the name, which a type checker cannot follow. Checked code
     # uses the methods above.
     def __getitem__(self, name: str) -> Any:
-        """A body, joint, driver or force by name, or a quantity such as ``rocker.angle``.
+        """A body, joint, driver or force by name, a quantity such as ``rocker.angle``, or a measure.
 
-        Quantities have the names that they have in files and in tables; a quantity is an array
+        Quantities have the names that they have in files and in tables. A quantity or measure is an array
         (n_t,), in a state a float, in SI units and rad.
 
         Raises:
@@ -282,7 +282,7 @@ class Motion:
             return self.constraint(name)
         if name in compiled.forces:
             return self.force(name)
-        if "." in name:
+        if "." in name or name in compiled.measures:
             return quantities.named(self, name).read()
         raise unknown("body, joint, driver or force", name, compiled.names())
 

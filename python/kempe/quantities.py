@@ -1,7 +1,7 @@
 """Quantities by name, such as ``crank.angle``: the same text in files, tables and Python.
 
 The first part of a name is a body, a point of a body, a joint, driver or force element, ``energy``
-or ``drift``; the last part is the quantity. Quantities of a joint or force element are those of
+or ``drift``; the last part is the quantity. A measure has one part. Quantities of a joint or force element are those of
 body j as seen from body i; a force or torque is that on body j.
 """
 
@@ -60,6 +60,8 @@ def named(motion: Motion, name: str) -> Quantity:
     Raises:
         ModelError: there is no such quantity; it is also a ``KeyError``.
     """
+    if name in motion.compiled.measures:
+        return _measure_of(motion, name)
     owner, _, quantity = name.rpartition(".")
     family = _family(motion, owner)
     if family is None:
@@ -74,6 +76,16 @@ def names(motion: Motion) -> Iterator[str]:
     for owner in _owners(motion):
         for quantity in _family(motion, owner) or ():
             yield f"{owner}.{quantity}"
+    yield from motion.compiled.measures
+
+
+def _measure_of(motion: Motion, name: str) -> Quantity:
+    """A measure as a quantity."""
+    from kempe.measures import values  # which read quantities
+
+    return Quantity(
+        motion.compiled.measures[name].unit, lambda: _one(motion, values(motion, name))
+    )
 
 
 def _owners(motion: Motion) -> Iterator[str]:

@@ -53,7 +53,7 @@ class Extent:
 
 
 def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
-    """Time, coordinates, paths, multipliers, reactions, first-order states, forces and energies.
+    """Time, coordinates, multipliers, reactions, states, forces, energies and measures.
 
     Raises:
         ModelError: there is no such frame or point.
@@ -90,6 +90,7 @@ def _names(solution: Solution, extent: Extent) -> Iterator[str]:
         yield from (f"{name}.force",) if force.points is not None else ()
         yield f"{name}.torque_on_{force.j}"
     yield from (f"energy.{name}" for name in quantities.ENERGIES)
+    yield from compiled.measures
 
 
 def _parted(name: str) -> tuple[str, str, str]:

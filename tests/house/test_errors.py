@@ -63,6 +63,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
     "measure": lambda: _core.measure(MODEL, "C.force"),
     "measure_values": lambda: _core.measure_values(MODEL, "C.force", TIMES, ROW[:, :1]),
+    "not_unique": lambda: _core.not_unique(MODEL, TIMES, ROW),
     "place": lambda: _core.place(MODEL, "C", "rocker", TIMES, ROW),
     "newton_euler": lambda: _core.newton_euler(MODEL, TIMES, ROW, ROW, STATES, ROW, LAM),
     "results": lambda: _core.results(MODEL, "C", TIMES, ROW, LAM),

@@ -12,6 +12,7 @@ use kempe::equations::reactions;
 use kempe::math::Wrench;
 use kempe::model::Model;
 use pyo3::prelude::*;
+use std::collections::BTreeSet;
 
 /// The body `on`, which a joint or driver must touch.
 fn touched(py: Python<'_>, model: &Model, k: usize, on: &str) -> PyResult<BodyId> {
@@ -110,6 +111,27 @@ pub fn newton_euler<'py>(
             }
         });
         table(py, out, (count, 5 * (model.bodies.len() - 1)))
+    })
+}
+
+/// The names of the joints and drivers without a unique reaction at one of the states.
+#[pyfunction]
+#[pyo3(signature = (model, t, q))]
+pub fn not_unique(
+    py: Python<'_>,
+    model: &PyModel,
+    t: Row<'_>,
+    q: Rows<'_>,
+) -> PyResult<Vec<String>> {
+    guard("not_unique", || {
+        let active = &**model.active.prepared.model();
+        let t = t.as_array().to_vec();
+        let n = active.layout.n_q;
+        let q = rows(py, "q", &q, (t.len(), n))?;
+        let at =
+            |(k, t): (usize, &f64)| kempe::analyses::not_unique(active, *t, &q[k * n..(k + 1) * n]);
+        let found: BTreeSet<usize> = t.iter().enumerate().flat_map(at).collect();
+        Ok(found.into_iter().map(|k| active.constraints[k].name.clone()).collect())
     })
 }
 

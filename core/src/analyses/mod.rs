@@ -21,6 +21,7 @@ mod signal_names;
 mod signal_units;
 mod signals;
 mod state;
+mod uniqueness;
 
 pub use event_options::{EventOption, DIRECTIONS};
 pub use mobility::{mobility, Mobility};
@@ -28,3 +29,4 @@ pub use option_tables::{declarations, option_families};
 pub use results::NoResult;
 pub use sequence::check;
 pub use state::State;
+pub use uniqueness::not_unique;

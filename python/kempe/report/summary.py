@@ -55,10 +55,18 @@ def summary(solution: Solution) -> dict[str, Any]:
         },
         "energy": energy(sampled),
         "newton_euler": solution.newton_euler.largest,
+        "measures": [measure(solution, name) for name in compiled.measures],
         "events": {name: event.t.tolist() for name, event in solution.events.items()},
         "settling": [settling_of(sampled, name) for name in compiled.bodies],
         "statistics": dict(solution.statistics),
     }
+
+
+def measure(solution: Solution, name: str) -> dict[str, Any]:
+    """The statistics of a measure; None for those that it does not have."""
+    found = solution.measure(name)
+    about = {"name": name, "expression": found.info.expression, "unit": found.unit}
+    return {**about, **found.statistics()}
 
 
 def mechanism(state: State) -> dict[str, Any]:
