@@ -9,7 +9,6 @@ import os
 from typing import Any
 
 import kempe as kp
-import pytest
 from kempe.solution import Solution
 
 #: The largest residual that is accepted, relative to the largest force (moment) on the body.
@@ -33,7 +32,7 @@ def _checked(self: Solution, *given: Any, **named: Any) -> None:
         without.append(f"{type(error).__name__}: {test}")
 
 
-def pytest_configure(config: pytest.Config) -> None:
+def pytest_configure() -> None:
     Solution.__init__ = _checked  # type: ignore[method-assign]
 
 

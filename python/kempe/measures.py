@@ -180,8 +180,9 @@ class Measure:
 
     @cached_property
     def settling(self) -> float:
-        """Settling time, s: later values differ from the last one by 0.5 % of the largest deviation.
+        """Settling time, s: from then on the values stay near the last one.
 
+        The band is 0.5 % of the largest deviation from the last value.
         NaN if the values do not stay in this band during the last tenth of the time; the first
         time if they do not change.
         """

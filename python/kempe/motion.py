@@ -18,6 +18,9 @@ from kempe.newton_euler import NewtonEuler, newton_euler
 from kempe.phases import Phases
 from kempe.views import BodyView, ConstraintView, ForceView
 
+#: Most states at which the uniqueness of reactions is examined.
+_EXAMINED = 11
+
 
 class Motion:
     """Positions and velocities; accelerations and multipliers are computed on first access.
@@ -154,6 +157,16 @@ class Motion:
             self._last_reaction = (joint, on, frame), values
         return values
 
+    @cached_property
+    def not_unique(self) -> frozenset[str]:
+        """Joints and drivers without a unique reaction; see ``ConstraintView.unique``."""
+        if self.compiled.redundancy != "allow" or not len(np.atleast_1d(self.t)):
+            return frozenset()
+        t, q, _ = self._rows()
+        some = np.unique(np.linspace(0, len(t) - 1, _EXAMINED).round().astype(int))
+        model = self.compiled.core
+        return frozenset(_core.not_unique(model, t[some], np.ascontiguousarray(q[some])))
+
     def place(self, joint: str, on: str) -> Floats:
         """The point at which the reaction of a joint on a body is given, (…, 2), global, m."""
         t, q, _ = self._rows()
@@ -260,10 +273,10 @@ class Motion:
     # The type of the result depends on the name, which a type checker cannot follow. Checked code
     # uses the methods above.
     def __getitem__(self, name: str) -> Any:
-        """A body, joint, driver or force by name, a quantity such as ``rocker.angle``, or a measure.
+        """A body, joint, driver or force, a quantity such as ``rocker.angle``, or a measure.
 
-        Quantities have the names that they have in files and in tables. A quantity or measure is an array
-        (n_t,), in a state a float, in SI units and rad.
+        Quantities have the names that they have in files and in tables. A quantity or measure is an
+        array (n_t,), in a state a float, in SI units and rad.
 
         Raises:
             ModelError: the name is unknown; the error is also a ``KeyError``.

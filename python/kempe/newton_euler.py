@@ -15,7 +15,7 @@ from kempe.arrays import Floats, fixed
 
 #: Part of the largest force or moment in the mechanism below which those on one body are rounding
 #: errors of the others: a scale is at least this part.
-RESOLVED = 1e-6
+RESOLVED = 1e-4
 #: Numbers for each body from the core.
 WIDTH = 5
 
@@ -63,7 +63,7 @@ def newton_euler(bodies: tuple[str, ...], rows: Floats) -> NewtonEuler:
     """The residuals from the rows of the core, (n_t, 5 n_bodies).
 
     A force on a body can be a rounding error of others, as on a wheel that turns about its mass
-    centre. Each scale is therefore at least a millionth of the largest one in the mechanism, where
+    centre. Each scale is therefore at least 1e-4 of the largest one in the mechanism, where
     the largest lever turns forces into moments and moments into forces.
     """
     of = rows.reshape(len(rows), len(bodies), WIDTH)

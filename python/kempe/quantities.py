@@ -1,8 +1,8 @@
 """Quantities by name, such as ``crank.angle``: the same text in files, tables and Python.
 
 The first part of a name is a body, a point of a body, a joint, driver or force element, ``energy``
-or ``drift``; the last part is the quantity. A measure has one part. Quantities of a joint or force element are those of
-body j as seen from body i; a force or torque is that on body j.
+or ``drift``; the last part is the quantity. A measure has one part. Quantities of a joint or force
+element are those of body j as seen from body i; a force or torque is that on body j.
 """
 
 from __future__ import annotations
@@ -83,9 +83,7 @@ def _measure_of(motion: Motion, name: str) -> Quantity:
     """A measure as a quantity."""
     from kempe.measures import values  # which read quantities
 
-    return Quantity(
-        motion.compiled.measures[name].unit, lambda: _one(motion, values(motion, name))
-    )
+    return Quantity(motion.compiled.measures[name].unit, lambda: _one(motion, values(motion, name)))
 
 
 def _owners(motion: Motion) -> Iterator[str]:

@@ -46,6 +46,7 @@ def _show_peaks(console: Console, peaks: dict[str, Any]) -> None:
         rows = [(*name, *row) for name, row in zip(names, cells, strict=True)]
         table(console, ("joint", "on", *header), rows, left=2)
         _show_unbounded(console, reactions)
+        _show_minimum_norm(console, reactions)
     if forces:
         heading(console, "Largest forces")
         header, cells = _columns(forces)
@@ -60,6 +61,14 @@ def _show_unbounded(console: Console, reactions: list[dict[str, Any]]) -> None:
     if names:
         span = f"first at {_measured(times[0], 's')}, last at {_measured(times[-1], 's')}"
         text = f"without bound at singular positions, not counted here ({span}): {few(names)}"
+        console.print(Text(f"  {text}"))
+
+
+def _show_minimum_norm(console: Console, reactions: list[dict[str, Any]]) -> None:
+    """The reactions that redundant constraints leave open."""
+    names = [r["joint"] for r in reactions if not r["unique"]]
+    if names:
+        text = f"not unique, of the smallest multipliers (minimum norm): {few(names)}"
         console.print(Text(f"  {text}"))
 
 

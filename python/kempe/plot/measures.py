@@ -22,9 +22,7 @@ if TYPE_CHECKING:
 _PRINTED = str.maketrans({"*": "·"})
 
 
-def measure(
-    motion: Motion, name: str, *, ax: Axes | None = None, cut: float | None = None
-) -> Axes:
+def measure(motion: Motion, name: str, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
     """Draw a measure over time.
 
     Args:

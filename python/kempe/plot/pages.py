@@ -57,7 +57,7 @@ def pages(
 
 
 def _is_key(page: Page) -> bool:
-    """Whether ``kempe run`` draws it by default: someone asked for each measure."""
+    """Whether ``kempe run`` draws it by default; measures always."""
     return page.name in KEY or page.name.startswith("measure_")
 
 

@@ -87,7 +87,8 @@ def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
     """Largest reaction of a joint or driver on its body j, with its time.
 
     ``unbounded_at`` are the times of singular positions beside which the force has no bound. The
-    peaks are those of the other times.
+    peaks are those of the other times. ``unique`` is False if redundant constraints leave the
+    reaction open: its values are those of minimum norm.
     """
     on = sampled.solution.compiled.constraints[name].j
     read = partial(_force, name, on)
@@ -101,6 +102,7 @@ def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
         "torque": torque.value,
         "torque_at": torque.t,
         "unbounded_at": unbounded(sampled.solution, read).tolist(),
+        "unique": name not in sampled.solution.not_unique,
     }
 
 
