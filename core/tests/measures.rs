@@ -78,7 +78,7 @@ fn structure_is_checked() {
     assert!(of("pin = 3").contains("an expression of quantities"));
     assert!(of("deg = 'rod.x'").contains("reserved"));
     assert!(faults("measures = 3\n").contains("a table of names and expressions"));
-    assert!(faults("[measure]\na = 't'\n").contains("did you mean 'measures'"));
+    assert!(faults("[measure]\na = 't'\n").contains("unknown key 'measure'"));
 }
 
 #[test]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -114,24 +114,22 @@ class Measure:
     def _highest(self) -> Extreme:
         from kempe.extrema import largest
 
-        return largest(*self._searched)
+        if self.info.is_of_run:
+            return self._at(int(self.values.argmax()))
+        return largest(self._solution, partial(values, name=self.name))
 
     @cached_property
     def _lowest(self) -> Extreme:
         from kempe.extrema import least
 
-        return least(*self._searched)
-
-    @property
-    def _searched(self) -> tuple[Motion, Any]:
-        """The motion that is searched for extremes, and the values at its times."""
         if self.info.is_of_run:
-            from kempe.motion import Motion
+            return self._at(int(self.values.argmin()))
+        return least(self._solution, partial(values, name=self.name))
 
-            motion = Motion.__new__(Motion)
-            motion.t = self.t
-            return motion, lambda _: self.values
-        return self._solution, partial(values, name=self.name)
+    def _at(self, row: int) -> Extreme:
+        from kempe.extrema import Extreme
+
+        return Extreme(float(self.values[row]), float(self.t[row]))
 
     @property
     def max(self) -> float:

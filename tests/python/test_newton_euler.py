@@ -128,6 +128,30 @@ def test_a_wrong_reaction_is_found() -> None:
     assert found.moment[0, 0] == pytest.approx(arm, rel=1e-9)
 
 
+def test_a_wrong_torque_is_found() -> None:
+    m = coupled()
+    state = kp.assemble(m)
+    motion = kp.Motion(m, np.array([0.0]), state.q[None], state.v[None])
+    lam = motion.lam.copy()
+    row = [*motion.compiled.row_names()].index("follow.angle")
+    lam[0, row] += 0.25
+    motion.__dict__["_dynamics"] = motion.a, lam
+    found = motion.newton_euler
+    assert found.force.max() < 1e-12
+    np.testing.assert_allclose(found.moment[0], [0.3 * 0.25, 0.25, 0], atol=1e-12)
+    assert found.largest == max(found.moment[0] / found.moment_scale)
+
+
+def test_a_coupling_acts_on_the_bodies_of_its_quantities() -> None:
+    model = coupled()
+    solution = kp.dynamics(model, kp.assemble(model), t_end=1)
+    # 2 one.angle + two.angle - 0.5 Q.angle, where Q joins three to ground
+    effort = solution["ratio"].lam[:, 0]
+    for body, factor in {"one": 2, "two": 1, "three": -0.5, "ground": -2.5}.items():
+        np.testing.assert_allclose(solution["ratio"].torque(on=body), -factor * effort, rtol=1e-12)
+        assert not solution["ratio"].force(on=body).any()
+
+
 def test_the_balance_is_reported() -> None:
     _, solution = pendulum()
     over_time = solution.drift.balance

@@ -50,6 +50,23 @@ def test_frames_turn_the_global_components() -> None:
     np.testing.assert_allclose(c.force(on="rocker", frame="i"), -opposite, atol=1e-8)
 
 
+def test_the_radial_line_joins_two_pins_or_begins_at_the_mass_centre() -> None:
+    m = kp.Model("plates", gravity=(0, -9.81))
+    m.ground.points(A=(0, 0))
+    plates = {"A": (0, 0), "B": (1, 0), "C": (1, 1)}
+    m.body("one", mass=1, inertia=1, center=(0.3, 0.8), points=plates)
+    m.body("two", mass=1, inertia=1, center=(0.3, 0.8), points={"B": (0, 0)})
+    m.revolute("A", "ground.A", "one.A")
+    m.revolute("B", "one.B", "two.B")
+    state = kp.assemble(m, set={"one.angle": 0.3, "two.angle": 0.1})
+    assert state["B"].reaction(on="one", frame="radial").axis == pytest.approx(0.3)
+    assert state["A"].reaction(on="one", frame="radial").axis == pytest.approx(0.3 - np.pi)
+    at_c = state["B"].reaction(on="one", frame="radial", about="C")
+    assert at_c.axis == pytest.approx(0.3 - np.pi / 2)
+    alone = state["B"].reaction(on="two", frame="radial")  # from the mass centre of two to B
+    assert alone.axis == pytest.approx(0.1 + np.arctan2(-0.8, -0.3))
+
+
 @pytest.mark.parametrize("frame", ["global", "body", "joint"])
 def test_a_reaction_agrees_with_force_and_torque(frame: str) -> None:
     sol = crank()
