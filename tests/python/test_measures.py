@@ -117,6 +117,17 @@ def test_the_strongest_oscillation_is_found(series: object, frequency: float) ->
     assert found == pytest.approx(frequency, rel=2e-5, nan_ok=True)
 
 
+def test_measures_of_a_whole_run_have_extremes_at_the_outputs() -> None:
+    m = oscillator(damping=4)
+    m.measures(lost="s.dissipated", all="energy.kinetic + energy.potential")
+    sol = kp.dynamics(m, kp.assemble(m, set={"mass.x": 0.1}), t_end=5, output_step=0.01)
+    lost, everything = sol.measure("lost"), sol.measure("all")
+    assert (lost.min, lost.t_min, lost.t_max) == (0, 0, 5)
+    assert lost.max == lost.final == pytest.approx(4 - everything.final, rel=1e-6)
+    assert (everything.max, everything.t_max) == (pytest.approx(4), 0)
+    assert (everything.min, everything.t_min) == (everything.values.min(), 5)
+
+
 def test_expressions_use_parameters_tables_and_the_time() -> None:
     m = shaker(stress="motor.effort/area", late="step(t - 1)*factor", lift="lift(block.x)")
     m.table("lift", x=(-1, 1), y=(-2, 2), interpolation="linear")

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from house.places import ROOT
 
+EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
+
 
 def crank() -> kp.Solution:
     """A uniform bar of 2 kg and 0.5 m that turns about A with 8 rad/s."""
@@ -95,6 +97,22 @@ def test_a_roller_pushes_at_the_point_of_contact() -> None:
     np.testing.assert_allclose(i.point, j.point, atol=1e-9)
     np.testing.assert_allclose(i.force, -j.force, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(np.hypot(*i.force.T), np.abs(sol[f"{name}.normal"]), rtol=1e-9)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_action_is_reaction_on_every_body_that_a_joint_touches(path: Path) -> None:
+    sol = next(iter(kp.load(path).run().values()))
+    for name, info in sol.compiled.constraints.items():
+        force, moment, size = np.zeros((len(sol.t), 2)), np.zeros(len(sol.t)), 1e-9
+        for body in info.bodies:
+            on = sol[name].reaction(on=body)
+            force = force + on.force
+            arm = on.point[:, 0] * on.force[:, 1] - on.point[:, 1] * on.force[:, 0]
+            moment = moment + on.torque + arm
+            size = max(size, np.abs(on.force).max(), np.abs(on.torque).max(), np.abs(arm).max())
+        assert np.abs(force).max() < 1e-9 * size, name
+        # an open joint turns by its gap times the force
+        assert np.abs(moment).max() < 2e-5 * size, name
 
 
 @pytest.mark.parametrize(
