@@ -48,7 +48,7 @@ class ConstraintView(Generic[S]):
         Raises:
             ModelError: ``on``, ``frame`` or ``about`` has another value.
         """
-        if frame in FRAMES and about is None:
+        if about is None and checked_frame(frame, REACTION_FRAMES) in FRAMES:
             return fixed(self._reaction(on, frame)[..., :2])
         return self.reaction(on=on, frame=frame, about=about).force
 
