@@ -9,6 +9,7 @@ pub mod dynamics;
 mod errors;
 mod event_options;
 pub mod kinematics;
+pub mod linearization;
 mod mobility;
 mod option_tables;
 pub mod options;
