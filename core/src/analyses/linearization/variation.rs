@@ -79,6 +79,20 @@ impl<'a> Variation<'a> {
         &self.model
     }
 
+    /// Whether the constraints at the state have derivatives by the parameter.
+    pub fn moves_constraints(&self) -> bool {
+        let Self { model, at, .. } = self;
+        let [q, v] = [at.q, at.v].map(|x| seeded(x, &[]));
+        let motions = Motions::at(&model.layout, &q, &v);
+        let rows = || vec![D::zero(); model.layout.n_rows];
+        let [mut phi, mut rates, mut gamma] = [(); 3].map(|()| rows());
+        let t = D::lift(self.t);
+        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rates, &mut gamma);
+        let mut jacobian = vec![D::zero(); model.layout.n_entries];
+        constraints::jacobian(model, &motions, t, &mut jacobian);
+        [phi, rates, gamma, jacobian].into_iter().flatten().any(|x| x.slope != [0.0])
+    }
+
     /// The derivatives along a direction.
     pub fn along(&self, direction: Point<'_>) -> Slopes {
         let Self { model, compiled, at, .. } = self;
