@@ -16,4 +16,6 @@ mod variation;
 
 pub use failure::Failure;
 pub use freedoms::Freedoms;
+pub(super) use least_norm::LeastNorm;
 pub use stiffness::reduced_stiffness;
+pub(super) use variation::{Point as StatePoint, Variation};
