@@ -6,6 +6,7 @@ mod conditions;
 mod curves;
 mod dependence;
 pub mod dynamics;
+pub mod equilibrium;
 mod errors;
 mod event_options;
 pub mod kinematics;

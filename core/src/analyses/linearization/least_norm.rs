@@ -23,7 +23,7 @@ const CORRECTIONS: usize = 3;
 
 /// The factors at one position.
 #[derive(Debug)]
-pub(super) struct LeastNorm<'a> {
+pub(in crate::analyses) struct LeastNorm<'a> {
     model: &'a Model,
     matrix: Augmented,
     /// Scale of each coordinate: the size of the mechanism for lengths, 1 for angles.

@@ -12,6 +12,7 @@
 use super::failure::Failure;
 use super::freedoms::Freedoms;
 use super::names::{output, Input};
+use super::parameters::slopes_by_parameter;
 use super::response::Linear;
 use super::variation::{seeded, Point, Slopes, Variation, D};
 use crate::analyses::dynamics::{Prepared, States};
@@ -192,7 +193,8 @@ impl Equations<'_> {
     /// The derivatives of accelerations, state rates and outputs along a direction.
     fn column(&self, direction: &Direction) -> Result<Column, Failure> {
         let Direction { q, v, z, force, parameter } = direction;
-        let of_parameter = parameter.map(|k| self.variation.by_parameter(k));
+        let of_parameter =
+            parameter.map(|k| self.variation.by_parameters(&slopes_by_parameter(self.model, k)));
         let variation = of_parameter.as_ref().unwrap_or(&self.variation);
         if let Some(k) = parameter.filter(|_| variation.moves_constraints()) {
             return Err(Failure::geometry(self.model, k));

@@ -15,7 +15,7 @@ macro_rules! names {
             type Value = Vec<String>;
 
             fn shape() -> Shape {
-                Shape::NameList
+                Shape::Quantities
             }
             fn data(_: &Vec<String>) -> Default {
                 Default::Absent

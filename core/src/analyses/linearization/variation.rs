@@ -14,11 +14,11 @@ use crate::math::{Dual, Lift, Real};
 use crate::model::Model;
 
 /// A number with its derivative along the direction.
-pub(super) type D = Dual<1>;
+pub(in crate::analyses) type D = Dual<1>;
 
 /// A state with accelerations and multipliers, or a direction in their space; an empty slice is zero.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Point<'a> {
+pub(in crate::analyses) struct Point<'a> {
     pub q: &'a [f64],
     pub v: &'a [f64],
     pub z: &'a [f64],
@@ -28,7 +28,7 @@ pub(super) struct Point<'a> {
 
 /// The derivatives along a direction.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Slopes {
+pub(in crate::analyses) struct Slopes {
     /// Of M a + Φ_qᵀ λ - Q, and of the loads, shape (n_q).
     pub forces: Vec<f64>,
     /// Of Φ_q v + Φ_t, shape (n_rows).
@@ -40,7 +40,7 @@ pub(super) struct Slopes {
 }
 
 /// `point` with the derivatives `along`.
-pub(super) fn seeded(point: &[f64], along: &[f64]) -> Vec<D> {
+pub(in crate::analyses) fn seeded(point: &[f64], along: &[f64]) -> Vec<D> {
     let slopes = along.iter().copied().chain(std::iter::repeat(0.0));
     point.iter().zip(slopes).map(|(value, slope)| Dual { value: *value, slope: [slope] }).collect()
 }
@@ -51,7 +51,7 @@ fn slopes(x: &[D]) -> Vec<f64> {
 
 /// The equations of motion at one state, over dual numbers.
 #[derive(Clone, Debug)]
-pub(super) struct Variation<'a> {
+pub(in crate::analyses) struct Variation<'a> {
     model: Model<D>,
     compiled: Compiled<D>,
     t: f64,
@@ -66,10 +66,10 @@ impl<'a> Variation<'a> {
         Self { compiled: Compiled::new(&model), model, t, at, loads }
     }
 
-    /// The same with derivatives by a parameter.
-    pub fn by_parameter(&self, k: usize) -> Self {
+    /// The same with derivatives by something of which the parameters have these derivatives.
+    pub fn by_parameters(&self, slopes: &[f64]) -> Self {
         let mut parameters = self.model.parameters.clone();
-        parameters[k].slope = [1.0];
+        parameters.iter_mut().zip(slopes).for_each(|(p, slope)| p.slope = [*slope]);
         let model = Model::new(&self.model.blueprint, &parameters);
         Self { compiled: Compiled::new(&model), model, ..*self }
     }
