@@ -15,7 +15,9 @@ Complexes: TypeAlias = NDArray[np.complex128]
 _ROUNDING = 1e-12
 
 
-def eigenmodes(mass: Floats, damping: Floats, stiffness: Floats, a: Floats) -> tuple[Complexes, Complexes]:
+def eigenmodes(
+    mass: Floats, damping: Floats, stiffness: Floats, a: Floats
+) -> tuple[Complexes, Complexes]:
     """Eigenvalues, 1/s, and the part of the independent coordinates in their vectors.
 
     Of two conjugate eigenvalues only that with the positive imaginary part is returned. The
@@ -25,7 +27,9 @@ def eigenmodes(mass: Floats, damping: Floats, stiffness: Floats, a: Floats) -> t
     of a symmetric matrix, which keeps all digits; otherwise s are those of A.
 
     Args:
-        mass, damping, stiffness: M, C and K, (f, f).
+        mass: M, (f, f).
+        damping: C, (f, f).
+        stiffness: K, (f, f).
         a: A of x = (u, u̇, z), (n, n).
 
     Returns:
@@ -57,7 +61,7 @@ def _is_symmetric(stiffness: Floats) -> bool:
 
 
 def _undamped(mass: Floats, stiffness: Floats) -> tuple[Complexes, Complexes]:
-    """s of M s² + K = 0: a positive ω² gives one of the pair ±iω, another two real eigenvalues."""
+    """S of M s² + K = 0: a positive ω² gives one of the pair ±iω, another two real eigenvalues."""
     lower = np.linalg.cholesky((mass + mass.T) / 2.0)
     half = np.linalg.solve(lower, stiffness)
     reduced = np.linalg.solve(lower, half.T)

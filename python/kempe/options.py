@@ -470,7 +470,7 @@ class Modes(Analysis):
     kind: ClassVar[str] = "modes"
     shapes: ClassVar[Mapping[str, Shape]] = {
         "n": "count",
-        "inputs": "name_list",
-        "outputs": "name_list",
+        "inputs": "quantities",
+        "outputs": "quantities",
         "after": "name",
     }

@@ -130,7 +130,9 @@ class FourBar:
         found = []
         for part in (along, rate, bend):
             ends = np.cumsum(part, axis=0)
-            found.append(np.array([part[0] / 2.0, ends[0] + part[1] / 2.0, ends[1] + part[2] / 2.0]))
+            found.append(
+                np.array([part[0] / 2.0, ends[0] + part[1] / 2.0, ends[1] + part[2] / 2.0])
+            )
         return found[0], found[1], found[2]
 
     def acceleration(self, x: np.ndarray) -> complex:
@@ -147,7 +149,7 @@ class FourBar:
         return (force - change * rate**2) / inertia
 
     def outputs(self, x: np.ndarray) -> tuple[complex, ...]:
-        """Angle of the rocker, height of the coupler's centre, its velocity, alpha of the rocker."""
+        """Angle of the rocker, height and velocity of the coupler's centre, alpha of the rocker."""
         crank, rate, _, _ = x
         angle, first, second = self.coefficients(crank)
         place, velocity, _ = self.centres(crank)
