@@ -11,9 +11,6 @@ from modes.minimal_models import FourBar, G
 
 from examples.n_four_bar import windows
 
-sys.path.append(str(ROOT / "examples"))
-from n_four_bar import windows
-
 
 def pendulum(spring: float = 0.0, damping: float = 0.0) -> kp.Model:
     m = kp.Model("pendulum", gravity=(0, -G))
