@@ -138,7 +138,7 @@ class ModesResult(Result):
         Args:
             k: number of the mode, from 0.
             amplitude: largest change of an angle, rad, or of a place, as a share of the size of
-                the mechanism; 0.2 when None.
+                the mechanism; 0.15 when None.
 
         Raises:
             ModelError: there are not so many modes.
