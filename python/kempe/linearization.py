@@ -290,7 +290,7 @@ def linearized(
 def _scaled(shapes: Complexes) -> Complexes:
     """Each shape divided by its largest number."""
     if not shapes.size:
-        return shapes.copy()
+        return np.zeros_like(shapes)
     largest = np.take_along_axis(shapes, np.abs(shapes).argmax(axis=1)[:, None], axis=1)
     # a mode of states alone, such as a current, moves nothing
     found: Complexes = shapes / np.where(np.abs(largest) > 0.0, largest, 1.0) + 0.0
