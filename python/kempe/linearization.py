@@ -183,6 +183,8 @@ class ModesResult(Result):
         """The modes in lines."""
         count = len(self.coordinates)
         many = f"{count} independent coordinate{'s' * (count != 1)}"
+        if not len(self.A):
+            return ["no independent coordinate: joints and drivers hold all coordinates"]
         lines = [f"{many}: {_few(self.coordinates)}"]
         if not self.is_equilibrium:
             lines.append(self._off_balance())
