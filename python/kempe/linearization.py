@@ -270,7 +270,7 @@ def modes(
         AssemblyError: the state does not meet the constraints.
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
-    entry = Modes(n, tuple(inputs), tuple(outputs)).tree()
+    entry = Modes(n, inputs, outputs).tree()
     return linearized(compiled_model(model), state, entry, None)
 
 
