@@ -17,6 +17,7 @@ mod formulas;
 mod functions;
 mod guard;
 mod kinematics;
+mod linearization;
 mod measures;
 mod model;
 mod options;
@@ -87,6 +88,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(dynamics::dynamics, module)?)?;
     module.add_function(wrap_pyfunction!(kinematics::kinematics, module)?)?;
     module.add_function(wrap_pyfunction!(kinematics::kinematics_options, module)?)?;
+    module.add_function(wrap_pyfunction!(linearization::linearize, module)?)?;
+    module.add_function(wrap_pyfunction!(linearization::modes_options, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::project, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::energies, module)?)?;

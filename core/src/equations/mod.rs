@@ -25,7 +25,7 @@ pub mod newton_euler;
 mod plan;
 mod powers;
 pub mod reactions;
-mod reactive;
+pub mod reactive;
 mod refine;
 mod residuals;
 mod roles;

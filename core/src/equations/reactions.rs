@@ -107,13 +107,7 @@ pub(super) fn loaded<S: Real>(model: &Model<S>) -> impl Iterator<Item = usize> +
 }
 
 /// Adds the loads of all joints to Q, shape (n_q).
-pub(super) fn add_loads<S: Real>(
-    model: &Model<S>,
-    motions: &Motions<S>,
-    t: S,
-    lam: &[S],
-    q: &mut [S],
-) {
+pub fn add_loads<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, lam: &[S], q: &mut [S]) {
     for k in loaded(model) {
         let own = &lam[model.layout.constraints[k].rows.clone()];
         each_load(model, k, motions, t, own, |body, w| {

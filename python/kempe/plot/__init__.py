@@ -9,6 +9,7 @@ from kempe.plot.configuration import configuration
 from kempe.plot.energy import energy, energy_balance
 from kempe.plot.measures import measure
 from kempe.plot.mechanism import mechanism
+from kempe.plot.mode_shapes import mode_shape
 from kempe.plot.page import Page, save, select
 from kempe.plot.pages import pages
 from kempe.plot.reactions import all_reactions, reactions
@@ -25,6 +26,7 @@ __all__ = [
     "energy_balance",
     "measure",
     "mechanism",
+    "mode_shape",
     "pages",
     "positions",
     "reactions",
