@@ -32,6 +32,7 @@ Compute:
     limits                  how far a driver goes, or whether it turns fully
     mobility                freedoms, redundant joints, singular positions, four-bar loops
     configurations          all positions in which the mechanism closes
+    modes                   frequencies, damping and shapes about a state, and its state space
     study                   comparison of methods and stabilizations
     RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
                             methods of integration
@@ -94,6 +95,8 @@ if TYPE_CHECKING:
     from kempe.freedom import MobilityResult as MobilityResult
     from kempe.freedom import mobility as mobility
     from kempe.functions import Sampled as Sampled
+    from kempe.linearization import ModesResult as ModesResult
+    from kempe.linearization import modes as modes
     from kempe.matrices import Labelled as Labelled
     from kempe.matrices import Matrices as Matrices
     from kempe.matrices import show as show
@@ -112,6 +115,7 @@ if TYPE_CHECKING:
     from kempe.options import Kinematics as Kinematics
     from kempe.options import Limits as Limits
     from kempe.options import Mobility as Mobility
+    from kempe.options import Modes as Modes
     from kempe.options import NoStabilization as NoStabilization
     from kempe.options import Projection as Projection
     from kempe.options import Radau as Radau
@@ -158,6 +162,8 @@ _HOME = {
     "MobilityResult": "freedom",
     "Model": "model",
     "ModelError": "errors",
+    "Modes": "options",
+    "ModesResult": "linearization",
     "Motion": "motion",
     "NoStabilization": "options",
     "Projection": "options",
@@ -186,6 +192,7 @@ _HOME = {
     "load": "case",
     "load_solution": "archive",
     "mobility": "freedom",
+    "modes": "linearization",
     "player": "draw.player",
     "plot": "",
     "report": "",

@@ -17,6 +17,7 @@ from kempe.compiled import CompiledModel
 from kempe.driven import follow, follow_with_forces
 from kempe.errors import AssemblyError, FileError, KempeError, ModelError
 from kempe.freedom import find_mobility
+from kempe.linearization import linearized
 from kempe.model import Model
 from kempe.names import entry as named
 from kempe.names import few, one_of
@@ -43,6 +44,7 @@ _RUNNERS: dict[str, _Runner] = {
     "configurations": find_configurations,
     "limits": find_limits,
     "mobility": find_mobility,
+    "modes": linearized,
 }
 
 

@@ -162,6 +162,12 @@ type = "configurations"
 set = { "a.angle" = "20 deg" }
 limit = 5
 from = "start"
+[analyses.twelve]
+type = "modes"
+n = 2
+inputs = ["a.angle"]
+outputs = ["a.x", "a.alpha"]
+from = "start"
 """
 
 

@@ -5,6 +5,7 @@ use super::diagnosis;
 use super::dynamics;
 use super::kinematics;
 use super::limits;
+use super::linearization;
 use super::options::{Declaration, Declared, Family, Member};
 use std::sync::LazyLock;
 
@@ -17,6 +18,7 @@ static ANALYSES: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         limits::Options::declaration(),
         diagnosis::Options::declaration(),
         configurations::Options::declaration(),
+        linearization::Options::declaration(),
     ]
 });
 static FAMILIES: LazyLock<Vec<Family>> =

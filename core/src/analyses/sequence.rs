@@ -6,6 +6,7 @@ use super::diagnosis::Options as MobilityOptions;
 use super::dynamics;
 use super::kinematics::{InverseOptions, Options as KinematicsOptions};
 use super::limits::Options as LimitsOptions;
+use super::linearization::Options as ModesOptions;
 use super::options::{Declared, Reader};
 use crate::model::{Entry, Model, Problem, Value};
 
@@ -38,6 +39,9 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
             }
             Some(Value::Text(kind)) if kind == MobilityOptions::NAME => {
                 Reader::read(model, fields, &path, MobilityOptions::read).map(|_| begin)
+            }
+            Some(Value::Text(kind)) if kind == "modes" => {
+                ModesOptions::checked(model, fields, &path).map(|_| begin)
             }
             _ => dynamics_end(model, fields, &path, begin),
         };

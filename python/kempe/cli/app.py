@@ -39,6 +39,7 @@ ANALYSES = {
     "limits": "limits of motion",
     "configurations": "lists of the assembly modes",
     "mobility": "analyses of the mobility",
+    "modes": "frequencies, damping and shapes of small motions",
 }
 
 app = typer.Typer(

@@ -7,7 +7,9 @@ axes are compressed after ``cut=``, which ``transient(solution)`` finds.
 from kempe.plot.body_motion import accelerations, positions, velocities
 from kempe.plot.configuration import configuration
 from kempe.plot.energy import energy, energy_balance
+from kempe.plot.measures import measure
 from kempe.plot.mechanism import mechanism
+from kempe.plot.mode_shapes import mode_shape
 from kempe.plot.page import Page, save, select
 from kempe.plot.pages import pages
 from kempe.plot.reactions import all_reactions, reactions
@@ -22,7 +24,9 @@ __all__ = [
     "configuration",
     "energy",
     "energy_balance",
+    "measure",
     "mechanism",
+    "mode_shape",
     "pages",
     "positions",
     "reactions",

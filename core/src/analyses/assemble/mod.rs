@@ -37,6 +37,7 @@ pub use super::closing::Closing;
 pub(super) use angle_winding::wind;
 pub use failure::{Failure, Fault};
 pub use holding::holding;
+pub use named::position;
 pub use open_placement::open_placement;
 pub use placement::{Dyad, Gap, Placement};
 pub(super) use placements::following;
