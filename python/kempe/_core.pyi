@@ -300,6 +300,40 @@ def linearize(
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
 
+def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
+    """What a mechanism can do at a position, as JSON."""
+
+def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _F, _F, str]:
+    """All positions in which a mechanism closes, for the values of ``held``, a JSON text.
+
+    Returns:
+        q, v and z, one row for each; JSON with ``complete`` and the ``reports``.
+
+    Raises:
+        AssemblyError: there is none.
+        ModelError: freedoms are left.
+    """
+
+def limits(
+    model: Model,
+    t: float,
+    q: _F,
+    v: _F,
+    z: _F,
+    progress: Callable[[float], None] | None,
+) -> tuple[str, _F, _F]:
+    """The limits of the value that takes the place of t, from a state.
+
+    Returns:
+        JSON with ``lower``, ``upper``, ``unit``, ``reasons`` and ``turns``; the values on the way,
+        (n,); the positions there, (n, n_q).
+
+    Raises:
+        SingularityError: the motion cannot be followed, although it has no limit.
+        AssemblyError: the state does not meet the constraints.
+        ModelError: the drivers leave a freedom.
+    """
+
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F]:
     """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂.
 

@@ -37,6 +37,9 @@ ANALYSES = {
     "kinematics": "analyses of the motion that drivers determine",
     "inverse_dynamics": "analyses of efforts and reactions",
     "modes": "frequencies, damping and shapes of small motions",
+    "limits": "limits of motion",
+    "configurations": "lists of the assembly modes",
+    "mobility": "analyses of the mobility",
 }
 
 app = typer.Typer(
