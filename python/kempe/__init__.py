@@ -29,6 +29,8 @@ Compute:
     dynamics                the motion from a state
     kinematics              the motion that drivers determine
     inverse_dynamics        the same with efforts and reactions
+    equilibrium             the rest position, its stability, paths over a parameter
+    stiffness_at            the stiffness felt at a point
     study                   comparison of methods and stabilizations
     RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
                             methods of integration
@@ -99,6 +101,7 @@ if TYPE_CHECKING:
     from kempe.options import Auto as Auto
     from kempe.options import Baumgarte as Baumgarte
     from kempe.options import Dynamics as Dynamics
+    from kempe.options import Equilibrium as Equilibrium
     from kempe.options import GeneralizedAlpha as GeneralizedAlpha
     from kempe.options import InverseDynamics as InverseDynamics
     from kempe.options import Kinematics as Kinematics
@@ -109,6 +112,10 @@ if TYPE_CHECKING:
     from kempe.start import Start as Start
     from kempe.state import AssemblyReport as AssemblyReport
     from kempe.state import State as State
+    from kempe.statics import EquilibriumResult as EquilibriumResult
+    from kempe.statics import PointStiffness as PointStiffness
+    from kempe.statics import equilibrium as equilibrium
+    from kempe.statics import stiffness_at as stiffness_at
     from kempe.studies import Study as Study
     from kempe.studies import study as study
     from kempe.symbolic import equations as equations
@@ -126,6 +133,8 @@ _HOME = {
     "DOP853": "options",
     "Dynamics": "options",
     "Energy": "energy",
+    "Equilibrium": "options",
+    "EquilibriumResult": "statics",
     "Event": "event",
     "EventWarning": "events",
     "FileError": "errors",
@@ -142,6 +151,7 @@ _HOME = {
     "ModelError": "errors",
     "Motion": "motion",
     "NoStabilization": "options",
+    "PointStiffness": "statics",
     "Projection": "options",
     "RK4": "options",
     "RK45": "options",
@@ -160,6 +170,7 @@ _HOME = {
     "draw": "",
     "dynamics": "analyses",
     "equations": "symbolic",
+    "equilibrium": "statics",
     "errors": "",
     "inverse_dynamics": "driven",
     "kinematics": "driven",
@@ -170,6 +181,7 @@ _HOME = {
     "report": "",
     "scene": "draw.scene",
     "show": "matrices",
+    "stiffness_at": "statics",
     "still": "draw.still",
     "study": "studies",
     "units": "display_units",

@@ -11,6 +11,7 @@ mod attended;
 mod case;
 mod convert;
 mod dynamics;
+mod equilibrium;
 mod errors;
 mod evaluate;
 mod formulas;
@@ -85,6 +86,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(dynamics::dynamics, module)?)?;
     module.add_function(wrap_pyfunction!(kinematics::kinematics, module)?)?;
     module.add_function(wrap_pyfunction!(kinematics::kinematics_options, module)?)?;
+    module.add_function(wrap_pyfunction!(equilibrium::equilibrium, module)?)?;
+    module.add_function(wrap_pyfunction!(equilibrium::compliance, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::project, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::energies, module)?)?;

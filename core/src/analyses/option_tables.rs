@@ -1,6 +1,7 @@
 //! All analyses and options, as data: for the reader of files, the schema, Python and docs.
 
 use super::dynamics;
+use super::equilibrium;
 use super::kinematics;
 use super::options::{Declaration, Declared, Family, Member};
 use std::sync::LazyLock;
@@ -11,6 +12,7 @@ static ANALYSES: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         dynamics::Options::declaration(),
         kinematics::Options::declaration(),
         kinematics::InverseOptions::declaration(),
+        equilibrium::Options::declaration(),
     ]
 });
 static FAMILIES: LazyLock<Vec<Family>> =

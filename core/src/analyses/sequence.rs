@@ -2,6 +2,7 @@
 
 use super::conditions::Condition;
 use super::dynamics;
+use super::equilibrium::Options as EquilibriumOptions;
 use super::kinematics::{InverseOptions, Options as KinematicsOptions};
 use crate::model::{Entry, Model, Problem, Value};
 
@@ -24,6 +25,9 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
             }
             Some(Value::Text(kind)) if kind == "inverse_dynamics" => {
                 InverseOptions::checked(model, fields, &path).map(|options| options.t_end)
+            }
+            Some(Value::Text(kind)) if kind == "equilibrium" => {
+                EquilibriumOptions::checked(model, fields, &path).map(|_| begin)
             }
             _ => dynamics_end(model, fields, &path, begin),
         };

@@ -7,11 +7,14 @@ from dataclasses import replace
 from typing import Any
 
 from kempe.plot.page import Page
+from kempe.plot.rest import rest_pages
 from kempe.result import Result
 
 #: The function that lists the figures of a result, by the type of the analysis. It is called with
 #: the result and the number of the first body.
-_PAGES: dict[str, Callable[[Any, int], list[Page]]] = {}
+_PAGES: dict[str, Callable[[Any, int], list[Page]]] = {
+    "equilibrium": rest_pages,
+}
 
 
 def result_pages(result: Result, index_base: int = 1) -> list[Page]:

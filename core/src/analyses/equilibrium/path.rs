@@ -52,11 +52,10 @@ pub struct Path {
     pub values: Vec<f64>,
     /// The equilibrium at each value.
     pub points: Vec<Equilibrium>,
-    /// Values and equilibria at folds, where the path turns back; they are among the points too.
-    pub folds: Vec<(f64, Equilibrium)>,
-    /// Values and equilibria where the stability changes without a fold: other paths cross there. They are among the
-    /// points too.
-    pub branches: Vec<(f64, Equilibrium)>,
+    /// Places among the points of the folds, where the path turns back.
+    pub folds: Vec<usize>,
+    /// Places of points where the stability changes without a fold: other paths cross there.
+    pub branches: Vec<usize>,
     /// The end.
     pub end: End,
 }
@@ -136,12 +135,11 @@ fn follow(
 }
 
 impl Path {
-    /// Adds a point.
-    pub(super) fn add(&mut self, course: &Course<'_>, spot: &Spot) -> Result<Equilibrium, Reason> {
-        let found = course.equilibrium(spot)?;
+    /// Adds a point; returns its place.
+    pub(super) fn add(&mut self, course: &Course<'_>, spot: &Spot) -> Result<usize, Reason> {
+        self.points.push(course.equilibrium(spot)?);
         self.values.push(spot.value);
-        self.points.push(found.clone());
-        Ok(found)
+        Ok(self.values.len() - 1)
     }
 }
 

@@ -25,7 +25,7 @@ pub(super) fn between(
         let fold = zero(course, from, to, ds, |step| step.tangent.p);
         if let Some(fold) = fold.filter(|fold| inside(fold.spot.value)) {
             let found = path.add(course, &fold.spot)?;
-            path.folds.push((fold.spot.value, found));
+            path.folds.push(found);
         }
         return Ok(());
     }
@@ -44,7 +44,7 @@ pub(super) fn between(
         }
         if let Some(step) = best.filter(|step| inside(step.spot.value)) {
             let found = path.add(course, &step.spot)?;
-            path.branches.push((step.spot.value, found));
+            path.branches.push(found);
         }
     }
     Ok(())
