@@ -126,6 +126,7 @@ impl Dice {
             Shape::NameList => {
                 Value::List((0..self.roll(3)).map(|_| Value::Text(self.name(used))).collect())
             }
+            Shape::Quantities => Value::List(vec![Value::Text(self.text())]),
             Shape::Events => self.events(used),
             Shape::Values => Value::Table(
                 (0..1 + self.roll(3)).map(|_| (self.name(used), self.formula())).collect(),

@@ -273,6 +273,33 @@ def kinematics(
         ModelError: the drivers leave a freedom.
     """
 
+def modes_options(model: Model, text: str) -> str:
+    """The options of ``modes``, checked, as JSON.
+
+    Args:
+        model: the mechanism.
+        text: JSON, an entry of ``analyses`` as in a file.
+
+    Raises:
+        ModelError: an option is invalid.
+    """
+
+def linearize(
+    model: Model, t: float, q: _F, v: _F, z: _F, inputs: list[str], outputs: list[str]
+) -> dict[str, Any]:
+    """The linear equations at a state on f independent coordinates, with n = 2 f + n_z states.
+
+    Returns:
+        ``coordinates`` (names), ``columns`` of q, places ``states`` of z; ``basis`` (f, n_q);
+        ``mass``, ``damping``, ``stiffness`` (f, f); ``A`` (n, n), ``B`` (n, inputs), ``C``
+        (outputs, n), ``D`` (outputs, inputs); ``acceleration`` (n_q,), ``values`` (outputs,).
+
+    Raises:
+        SingularityError: the position is singular, or no mass moves with a coordinate.
+        AssemblyError: the state does not meet the constraints.
+        ModelError: an unknown input or output, or a parameter that changes the geometry.
+    """
+
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F]:
     """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂.
 

@@ -18,6 +18,7 @@ mod formulas;
 mod functions;
 mod guard;
 mod kinematics;
+mod linearization;
 mod model;
 mod options;
 mod recent_options;
@@ -88,6 +89,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(kinematics::kinematics_options, module)?)?;
     module.add_function(wrap_pyfunction!(equilibrium::equilibrium, module)?)?;
     module.add_function(wrap_pyfunction!(equilibrium::compliance, module)?)?;
+    module.add_function(wrap_pyfunction!(linearization::linearize, module)?)?;
+    module.add_function(wrap_pyfunction!(linearization::modes_options, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::project, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::energies, module)?)?;

@@ -3,6 +3,7 @@
 use super::dynamics;
 use super::equilibrium;
 use super::kinematics;
+use super::linearization;
 use super::options::{Declaration, Declared, Family, Member};
 use std::sync::LazyLock;
 
@@ -13,6 +14,7 @@ static ANALYSES: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         kinematics::Options::declaration(),
         kinematics::InverseOptions::declaration(),
         equilibrium::Options::declaration(),
+        linearization::Options::declaration(),
     ]
 });
 static FAMILIES: LazyLock<Vec<Family>> =

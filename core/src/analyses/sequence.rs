@@ -4,6 +4,7 @@ use super::conditions::Condition;
 use super::dynamics;
 use super::equilibrium::Options as EquilibriumOptions;
 use super::kinematics::{InverseOptions, Options as KinematicsOptions};
+use super::linearization::Options as ModesOptions;
 use crate::model::{Entry, Model, Problem, Value};
 
 /// Everything that is wrong with analyses that follow each other from an assembled start at t = 0.
@@ -28,6 +29,9 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
             }
             Some(Value::Text(kind)) if kind == "equilibrium" => {
                 EquilibriumOptions::checked(model, fields, &path).map(|_| begin)
+            }
+            Some(Value::Text(kind)) if kind == "modes" => {
+                ModesOptions::checked(model, fields, &path).map(|_| begin)
             }
             _ => dynamics_end(model, fields, &path, begin),
         };

@@ -211,7 +211,9 @@ fn property(f: &Field) -> Value {
         Shape::Curves => reference("curves"),
         Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name => json!({ "type": "string" }),
         Shape::Condition => json!({ "type": "string" }),
-        Shape::NameList => json!({ "type": "array", "items": { "type": "string" } }),
+        Shape::NameList | Shape::Quantities => {
+            json!({ "type": "array", "items": { "type": "string" } })
+        }
         Shape::Events => reference("events"),
         Shape::Values => reference("terms"),
         Shape::Flag => json!({ "type": "boolean" }),

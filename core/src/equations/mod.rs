@@ -24,7 +24,7 @@ pub mod motion;
 mod plan;
 mod powers;
 pub mod reactions;
-mod reactive;
+pub mod reactive;
 mod refine;
 mod residuals;
 mod roles;

@@ -8,6 +8,7 @@ from kempe.plot.body_motion import accelerations, positions, velocities
 from kempe.plot.configuration import configuration
 from kempe.plot.energy import energy, energy_balance
 from kempe.plot.mechanism import mechanism
+from kempe.plot.mode_shapes import mode_shape
 from kempe.plot.page import Page, save, select
 from kempe.plot.pages import pages
 from kempe.plot.reactions import all_reactions, reactions
@@ -23,6 +24,7 @@ __all__ = [
     "energy",
     "energy_balance",
     "mechanism",
+    "mode_shape",
     "pages",
     "positions",
     "reactions",

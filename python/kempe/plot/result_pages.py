@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from kempe.plot.mode_shapes import mode_pages
 from kempe.plot.page import Page
 from kempe.plot.rest import rest_pages
 from kempe.result import Result
@@ -14,6 +15,7 @@ from kempe.result import Result
 #: the result and the number of the first body.
 _PAGES: dict[str, Callable[[Any, int], list[Page]]] = {
     "equilibrium": rest_pages,
+    "modes": mode_pages,
 }
 
 

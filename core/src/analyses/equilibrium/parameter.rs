@@ -2,11 +2,9 @@
 
 use super::failure::Reason;
 use super::statics::{Place, Statics};
-use crate::analyses::linearization::{LeastNorm, StatePoint, Variation};
+use crate::analyses::linearization::{slopes_by_parameter, LeastNorm, StatePoint, Variation};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::expression::parameters::Parameters;
-use crate::expression::Expression;
 use crate::math::{Dual, Lift};
 use crate::model::Model;
 
@@ -32,7 +30,9 @@ impl ByParameter {
         let rest = vec![0.0; place.q.len()];
         let at = StatePoint { q: &place.q, v: &rest, z: &place.z, a: &rest, lam: &place.lam };
         let plain = Variation::new(model, t, at, false);
-        let by = plain.by_parameters(&slopes(model, over));
+        let own = model.blueprint.parameters.iter().position(|name| name == over);
+        let slopes = own.map_or_else(Vec::new, |own| slopes_by_parameter(model, own));
+        let by = plain.by_parameters(&slopes);
         let opens = opening(by.model(), &place.q, t);
         let singular = |_| Reason::singular(model, t, &place.q);
         let factors =
@@ -48,19 +48,6 @@ impl ByParameter {
         let missing = statics.followed(&by_states, forces, &rates)?;
         Ok(Self { motion, missing })
     }
-}
-
-/// The derivatives of all parameters by one of them.
-fn slopes(model: &Model, over: &str) -> Vec<f64> {
-    let formulas: Vec<(&str, Expression)> =
-        model.blueprint.formulas.iter().map(|(name, e)| (name.as_str(), e.clone())).collect();
-    let own = model.blueprint.parameters.iter().position(|name| name == over);
-    let Ok(parameters) = Parameters::with_tables(&formulas, &model.blueprint.tables) else {
-        return model.parameters.iter().map(|_| f64::NAN).collect();
-    };
-    let values =
-        parameters.evaluate(|k| (Some(k) == own).then(|| D::variable(model.parameters[k], 0)));
-    values.iter().map(|x| x.slope[0]).collect()
 }
 
 /// ∂Φ/∂p.

@@ -39,6 +39,13 @@ pub enum Failure {
     Motion(Box<dynamics::Failure>),
     /// The name of an input or output.
     Name(Box<Problem>),
+    /// A parameter that is no input.
+    Geometry {
+        /// The parameter.
+        parameter: String,
+    },
+    /// An output without derivative at the state, by its place among the outputs.
+    NoDerivative(usize),
 }
 
 impl Failure {
@@ -55,6 +62,19 @@ impl Failure {
         Self::Singular { t, name, message }
     }
 
+    /// The independent coordinate in this column moves no mass.
+    pub(super) fn no_inertia(model: &Model, t: f64, column: usize) -> Self {
+        Self::NoInertia { t, coordinate: coordinate(model, column) }
+    }
+
+    pub(super) fn geometry(model: &Model, k: usize) -> Self {
+        Self::Geometry { parameter: model.blueprint.parameters[k].clone() }
+    }
+
+    pub(super) const fn no_derivative(k: usize) -> Self {
+        Self::NoDerivative(k)
+    }
+
     /// The row of a breakdown depends on others.
     pub(super) fn breakdown(model: &Model, t: f64, breakdown: Breakdown) -> Self {
         let group = match breakdown {
@@ -63,6 +83,21 @@ impl Failure {
         };
         Self::singular(model, t, &group)
     }
+}
+
+/// The name of a coordinate, such as `crank.angle`, or of an internal one, such as `contact.u`.
+pub fn coordinate(model: &Model, column: usize) -> String {
+    if let Some((body, k)) = model.layout.body_of(column) {
+        return format!("{}.{}", model.bodies[body.0].name, ["x", "y", "angle"][k]);
+    }
+    let own = |slots: &crate::model::Slots| slots.own.range().contains(&column);
+    let k = model.layout.constraints.iter().position(own).unwrap_or(0);
+    let slots = &model.layout.constraints[k];
+    let number = match slots.own.count {
+        1 => String::new(),
+        _ => (column + 1 - slots.own.first).to_string(),
+    };
+    format!("{}.u{number}", model.constraints[k].name)
 }
 
 impl fmt::Display for Failure {
@@ -81,6 +116,12 @@ impl fmt::Display for Failure {
             ),
             Self::Motion(failure) => write!(f, "{}", failure.reason),
             Self::Name(problem) => f.write_str(&problem.message),
+            Self::Geometry { parameter } => write!(
+                f,
+                "'{parameter}' changes the geometry of a joint or the law of a driver; an input is a parameter of forces \
+                 or masses alone"
+            ),
+            Self::NoDerivative(k) => write!(f, "output {} has no derivative at the state", k + 1),
         }
     }
 }

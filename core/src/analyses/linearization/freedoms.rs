@@ -2,17 +2,16 @@
 //! rows of u in N are the unit matrix.
 //!
 //! Arbitrary vectors, as many as there are freedoms, are projected onto Φ_q x = 0 and made orthonormal. Their rows are
-//! then taken one by one where the remainder is long (see [`rank`]), angles before lengths, so that no entry of N becomes
-//! large. Each column costs one solution with the sparse factors.
+//! then taken one by one where they keep much of themselves, angles before lengths, so that no entry of N becomes large.
+//! Each column costs one solution with the sparse factors.
 
 use super::failure::Failure;
 use super::least_norm::LeastNorm;
 use crate::analyses::mobility::mobility;
 use crate::model::Model;
-use crate::solve::rank;
 
-/// Rows of the orthonormal vectors that are shorter cannot be independent coordinates.
-const SHORT: f64 = 1e-10;
+/// Part of the largest entry with which a coordinate is taken before later ones.
+const ENOUGH: f64 = 0.1;
 
 /// Independent coordinates and the basis N.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,15 +125,31 @@ fn orthonormalize(columns: &mut [Vec<f64>]) {
     }
 }
 
-/// The coordinates that are taken, ascending.
+/// The coordinates that are taken, ascending: by elimination, each time the first one that keeps enough of the largest
+/// entry, angles before lengths.
 fn independent(model: &Model, free: &[Vec<f64>]) -> Vec<usize> {
     let lengths = model.layout.lengths();
     let mut order: Vec<usize> = (0..lengths.len()).collect();
-    order.sort_by_key(|k| lengths[*k]); // angles first
-    let rows: Vec<f64> =
-        order.iter().flat_map(|k| free.iter().map(move |column| column[*k])).collect();
-    let taken = rank(&rows, free.len(), SHORT).independent;
-    let mut taken: Vec<usize> = taken.into_iter().map(|at| order[at]).collect();
+    order.sort_by_key(|row| lengths[*row]);
+    let mut left = free.to_vec();
+    let mut taken = Vec::with_capacity(left.len());
+    while let Some(count) = left.len().checked_sub(1) {
+        let sizes: Vec<f64> = order
+            .iter()
+            .map(|row| left.iter().fold(0.0, |most: f64, column| most.max(column[*row].abs())))
+            .collect();
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        let at = sizes.iter().position(|size| *size >= ENOUGH * largest).unwrap_or(0);
+        let row = order.remove(at);
+        let size = |j: &usize| left[*j][row].abs();
+        let best = (0..=count).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(count);
+        let pivot = left.swap_remove(best);
+        for column in &mut left {
+            let part = column[row] / pivot[row];
+            column.iter_mut().zip(&pivot).for_each(|(x, pivot)| *x -= part * pivot);
+        }
+        taken.push(row);
+    }
     taken.sort_unstable();
     taken
 }

@@ -66,14 +66,6 @@ impl<'a> Variation<'a> {
         Self { compiled: Compiled::new(&model), model, t, at, loads }
     }
 
-    /// The same with derivatives by a parameter.
-    pub fn by_parameter(&self, k: usize) -> Self {
-        let mut parameters = self.model.parameters.clone();
-        parameters[k].slope = [1.0];
-        let model = Model::new(&self.model.blueprint, &parameters);
-        Self { compiled: Compiled::new(&model), model, ..*self }
-    }
-
     /// The same with derivatives by something of which the parameters have these derivatives.
     pub fn by_parameters(&self, slopes: &[f64]) -> Self {
         let mut parameters = self.model.parameters.clone();
@@ -85,6 +77,20 @@ impl<'a> Variation<'a> {
     /// The model over dual numbers.
     pub fn model(&self) -> &Model<D> {
         &self.model
+    }
+
+    /// Whether the constraints at the state have derivatives by the parameter.
+    pub fn moves_constraints(&self) -> bool {
+        let Self { model, at, .. } = self;
+        let [q, v] = [at.q, at.v].map(|x| seeded(x, &[]));
+        let motions = Motions::at(&model.layout, &q, &v);
+        let rows = || vec![D::zero(); model.layout.n_rows];
+        let [mut phi, mut rates, mut gamma] = [(); 3].map(|()| rows());
+        let t = D::lift(self.t);
+        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rates, &mut gamma);
+        let mut jacobian = vec![D::zero(); model.layout.n_entries];
+        constraints::jacobian(model, &motions, t, &mut jacobian);
+        [phi, rates, gamma, jacobian].into_iter().flatten().any(|x| x.slope != [0.0])
     }
 
     /// The derivatives along a direction.
