@@ -15,7 +15,9 @@ Complexes: TypeAlias = NDArray[np.complex128]
 _ROUNDING = 1e-12
 
 
-def eigenmodes(mass: Floats, damping: Floats, stiffness: Floats, a: Floats) -> tuple[Complexes, Complexes]:
+def eigenmodes(
+    mass: Floats, damping: Floats, stiffness: Floats, a: Floats
+) -> tuple[Complexes, Complexes]:
     """Eigenvalues, 1/s, and the part of the independent coordinates in their vectors.
 
     Of two conjugate eigenvalues only that with the positive imaginary part is returned. The

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from types import MappingProxyType
 from typing import Any, ClassVar
 
 import numpy as np
@@ -90,7 +89,7 @@ class EquilibriumResult(Result):
         self.stiffness: Floats = fixed(self._of(stiffness))
         self.eigenvalues: Floats = fixed(self._of(np.array(values).reshape(len(points), f)))
         self.stable: Any = np.array(stable) if self.over else bool(stable[0])
-        self.effort: Mapping[str, Any] = MappingProxyType(self._efforts(points))
+        self.effort: Mapping[str, Any] = self._efforts(points)
         self.residual = max(float(point["residual"]) for point in points)
         self.steps, self.relaxed = int(points[0]["steps"]), int(points[0]["relaxed"])
         why = found.get("why")

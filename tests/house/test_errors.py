@@ -53,6 +53,8 @@ CALLS: dict[str, Callable[[], object]] = {
     "dynamics": lambda: _core.dynamics(MODEL, T, Q, V, Z, OPTIONS, None),
     "kinematics": lambda: _core.kinematics(MODEL, T, Q, V, Z, TIMES, None),
     "kinematics_options": lambda: _core.kinematics_options(MODEL, '{"type": "kinematics"}'),
+    "equilibrium": lambda: _core.equilibrium(MODEL, T, Q, V, Z, '{"type": "equilibrium"}', None),
+    "compliance": lambda: _core.compliance(MODEL, T, Q, V, Z, "rocker.C", ["crank.angle"]),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
     "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW, STATES),

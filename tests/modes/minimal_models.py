@@ -130,7 +130,9 @@ class FourBar:
         found = []
         for part in (along, rate, bend):
             ends = np.cumsum(part, axis=0)
-            found.append(np.array([part[0] / 2.0, ends[0] + part[1] / 2.0, ends[1] + part[2] / 2.0]))
+            found.append(
+                np.array([part[0] / 2.0, ends[0] + part[1] / 2.0, ends[1] + part[2] / 2.0])
+            )
         return found[0], found[1], found[2]
 
     def acceleration(self, x: np.ndarray) -> complex:

@@ -10,7 +10,9 @@ from modes.minimal_models import CartPole, FourBar, G, slopes
 POINTS = (0.1j, 0.5j, 1j, 2j, 10j, 0.3, 1.7, -0.4 + 0.9j, 3 + 2j, 0.05 + 0.02j)
 
 
-def agree(found: kp.ModesResult, a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> None:
+def agree(
+    found: kp.ModesResult, a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray
+) -> None:
     for own, expected in ((found.A, a), (found.B, b), (found.C, c), (found.D, d)):
         np.testing.assert_allclose(own, expected, rtol=1e-10, atol=1e-11 * np.abs(expected).max())
     expected = np.linalg.eigvals(a)
@@ -42,9 +44,7 @@ def test_a_cart_and_a_pole(state: tuple[float, ...]) -> None:
     own = CartPole()
     m = cart_pole(own)
     x, angle, v, rate = state
-    start = kp.assemble(
-        m, set={"cart.x": x, "pole.angle": angle, "cart.vx": v, "pole.omega": rate}
-    )
+    start = kp.assemble(m, set={"cart.x": x, "pole.angle": angle, "cart.vx": v, "pole.omega": rate})
     found = kp.modes(
         m,
         start,
@@ -155,7 +155,9 @@ def test_a_motor_with_inductance() -> None:
     m.motor("motor", "rotor", voltage="V", resistance=r, inductance=inductance, torque_constant=k)
     m.torque("drag", "rotor", torque="-load*rotor.omega")
     start = kp.assemble(m, set={"rotor.omega": 3})
-    found = kp.modes(m, start, inputs=["V", "rotor.angle"], outputs=["motor.current", "motor.torque"])
+    found = kp.modes(
+        m, start, inputs=["V", "rotor.angle"], outputs=["motor.current", "motor.torque"]
+    )
     assert found.state_names == ("rotor.angle", "rotor.omega", "motor.current")
     a = [[0, 1, 0], [0, -0.1 / j, k / j], [0, -k / inductance, -r / inductance]]
     np.testing.assert_allclose(found.A, a, rtol=1e-13)

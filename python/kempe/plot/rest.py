@@ -186,8 +186,11 @@ def _framed(result: EquilibriumResult) -> Scene:
 def _lines(state: State) -> Iterator[tuple[Floats, Floats]]:
     """The points of each body, x and y in m."""
     for name, body in state.compiled.bodies.items():
-        points = np.array([
-            [float(state[f"{name}.{point}.{axis}"]) for axis in ("x", "y")] for point in body.points
-        ])
+        points = np.array(
+            [
+                [float(state[f"{name}.{point}.{axis}"]) for axis in ("x", "y")]
+                for point in body.points
+            ]
+        )
         if len(points) > 1:
             yield points[:, 0], points[:, 1]
