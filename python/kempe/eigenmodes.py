@@ -27,7 +27,9 @@ def eigenmodes(
     of a symmetric matrix, which keeps all digits; otherwise s are those of A.
 
     Args:
-        mass, damping, stiffness: M, C and K, (f, f).
+        mass: M, (f, f).
+        damping: C, (f, f).
+        stiffness: K, (f, f).
         a: A of x = (u, u̇, z), (n, n).
 
     Returns:
@@ -59,7 +61,7 @@ def _is_symmetric(stiffness: Floats) -> bool:
 
 
 def _undamped(mass: Floats, stiffness: Floats) -> tuple[Complexes, Complexes]:
-    """s of M s² + K = 0: a positive ω² gives one of the pair ±iω, another two real eigenvalues."""
+    """S of M s² + K = 0: a positive ω² gives one of the pair ±iω, another two real eigenvalues."""
     lower = np.linalg.cholesky((mass + mass.T) / 2.0)
     half = np.linalg.solve(lower, stiffness)
     reduced = np.linalg.solve(lower, half.T)

@@ -15,8 +15,8 @@ from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
 from kempe.eigenmodes import Complexes, eigenmodes
 from kempe.errors import ModelError
-from kempe.model import Model, compiled_model
 from kempe.mode_shape import ModeShape
+from kempe.model import Model, compiled_model
 from kempe.option import core_options
 from kempe.options import Modes
 from kempe.request_cache import encode
@@ -26,7 +26,7 @@ from kempe.table import Column
 
 #: Largest number of modes that a report lists.
 MOST_LISTED = 20
-#: Acceleration of a coordinate beside ω² that counts as an equilibrium.
+#: Rate or acceleration of a coordinate, beside |s| or |s|², that counts as an equilibrium.
 _AT_REST = 1e-6
 
 
@@ -47,8 +47,8 @@ class ModesResult(Result):
         A, B, C, D: matrices of the state space; (n, n), (n, inputs), (outputs, n) and (outputs,
             inputs).
         values: values of the outputs at the state.
-        acceleration: accelerations of the independent coordinates at the state, (f); zero at an
-            equilibrium.
+        rates, acceleration: rates and accelerations of the independent coordinates at the state,
+            (f); zero at an equilibrium.
         basis: motion of all coordinates with each independent one, (f, n_q).
         eigenvalues: (n_modes,), 1/s, ascending by magnitude. Of two conjugate ones that with the
             positive imaginary part is listed; a real one is a mode by itself.
@@ -81,6 +81,7 @@ class ModesResult(Result):
         self.A, self.B, self.C, self.D = (fixed(found[name]) for name in ("A", "B", "C", "D"))
         self.values, self.basis = fixed(found["values"]), fixed(found["basis"])
         self.acceleration = fixed(found["acceleration"][columns])
+        self.rates = fixed(state.v[columns])
         values, vectors = eigenmodes(
             self.mass_matrix, self.damping_matrix, self.stiffness_matrix, self.A
         )
@@ -116,10 +117,20 @@ class ModesResult(Result):
 
     @property
     def is_equilibrium(self) -> bool:
-        """Whether the mechanism stays at the state: it neither moves nor accelerates."""
-        fastest = float(self.omega.max(initial=0.0)) ** 2
-        still = float(np.abs(self.acceleration).max(initial=0.0)) <= _AT_REST * (fastest or 1.0)
-        return still and not np.any(self.state.v)
+        """Whether the mechanism stays at the state: it neither moves nor accelerates.
+
+        Rates and accelerations count as zero up to 1e-6 rad or m times the largest |s| or |s|².
+        """
+        return not self._moves and self._size(self.acceleration, 2) <= _AT_REST
+
+    @property
+    def _moves(self) -> bool:
+        return self._size(self.rates, 1) > _AT_REST
+
+    def _size(self, rates: Floats, order: int) -> float:
+        """The largest rate of an order, over that power of the largest |s|."""
+        fastest = float(self.omega.max(initial=0.0)) ** order
+        return float(np.abs(rates).max(initial=0.0)) / (fastest or 1.0)
 
     def shape(self, k: int, amplitude: float | None = None) -> ModeShape:
         """A mode as a motion that can be drawn and animated.
@@ -127,7 +138,7 @@ class ModesResult(Result):
         Args:
             k: number of the mode, from 0.
             amplitude: largest change of an angle, rad, or of a place, as a share of the size of
-                the mechanism; 0.2 when None.
+                the mechanism; 0.15 when None.
 
         Raises:
             ModelError: there are not so many modes.
@@ -139,8 +150,9 @@ class ModesResult(Result):
     def transfer(self, s: complex) -> Complexes:
         """C (s I - A)⁻¹ B + D, (outputs, inputs)."""
         unit = np.eye(len(self.A))
-        found: Complexes = self.C @ np.linalg.solve(s * unit - self.A, self.B) + self.D
-        return found
+        return np.asarray(
+            self.C @ np.linalg.solve(s * unit - self.A, self.B) + self.D, dtype=np.complex128
+        )
 
     def summary(self) -> dict[str, Any]:
         """The result as plain data."""
@@ -180,7 +192,7 @@ class ModesResult(Result):
         return lines
 
     def _off_balance(self) -> str:
-        if np.any(self.state.v):
+        if self._moves:
             return "the mechanism moves at this state: the modes hold for a short time"
         worst = int(np.abs(self.acceleration).argmax())
         unit = "rad/s²" if self.coordinates[worst].endswith("angle") else "m/s²"
@@ -241,7 +253,7 @@ def modes(
     """Frequencies, damping and shapes of small motions about a state, and its state space.
 
     The state may be an equilibrium, any other pose, or a state of a motion, ``sol(0.5)``; it
-    remains as it is in time, also where it is no equilibrium.
+    remains as it is in time, also where it is not an equilibrium.
 
     Args:
         model: the mechanism.
@@ -281,7 +293,8 @@ def _scaled(shapes: Complexes) -> Complexes:
         return shapes.copy()
     largest = np.take_along_axis(shapes, np.abs(shapes).argmax(axis=1)[:, None], axis=1)
     # a mode of states alone, such as a current, moves nothing
-    return shapes / np.where(np.abs(largest) > 0.0, largest, 1.0) + 0.0
+    found: Complexes = shapes / np.where(np.abs(largest) > 0.0, largest, 1.0) + 0.0
+    return found
 
 
 def _matrix(matrix: Floats, columns: Sequence[str]) -> list[Column]:

@@ -10,7 +10,7 @@ from kempe.eigenmodes import Complexes
 from kempe.state import State
 
 #: Largest change of an angle, rad, and of a place as a share of the size of the mechanism.
-AMPLITUDE = 0.2
+AMPLITUDE = 0.15
 #: Remaining residual of the constraints, relative to the size of the mechanism.
 _CLOSED = 1e-9
 

@@ -52,6 +52,8 @@ CALLS: dict[str, Callable[[], object]] = {
     "assemble": lambda: _core.assemble(MODEL, "{}", "{}", 0.0, Q, V, Z),
     "dynamics": lambda: _core.dynamics(MODEL, T, Q, V, Z, OPTIONS, None),
     "kinematics": lambda: _core.kinematics(MODEL, T, Q, V, Z, TIMES, None),
+    "linearize": lambda: _core.linearize(MODEL, T, Q, V, Z, [], []),
+    "modes_options": lambda: _core.modes_options(MODEL, '{"type": "modes"}'),
     "kinematics_options": lambda: _core.kinematics_options(MODEL, '{"type": "kinematics"}'),
     "equilibrium": lambda: _core.equilibrium(MODEL, T, Q, V, Z, '{"type": "equilibrium"}', None),
     "compliance": lambda: _core.compliance(MODEL, T, Q, V, Z, "rocker.C", ["crank.angle"]),

@@ -149,7 +149,7 @@ class FourBar:
         return (force - change * rate**2) / inertia
 
     def outputs(self, x: np.ndarray) -> tuple[complex, ...]:
-        """Angle of the rocker, height of the coupler's centre, its velocity, alpha of the rocker."""
+        """Angle of the rocker, height and velocity of the coupler's centre, alpha of the rocker."""
         crank, rate, _, _ = x
         angle, first, second = self.coefficients(crank)
         place, velocity, _ = self.centres(crank)

@@ -150,6 +150,13 @@ over = "a.angle"
 range = [0, "90 deg"]
 n = 10
 from = "start"
+[analyses.nine]
+type = "equilibrium"
+hold = ["a.angle"]
+over = "g"
+range = [9, 10]
+nearest = true
+from = "start"
 """
 
 

@@ -37,6 +37,7 @@ ANALYSES = {
     "kinematics": "analyses of the motion that drivers determine",
     "inverse_dynamics": "analyses of efforts and reactions",
     "equilibrium": "analyses of rest positions and their stability",
+    "modes": "frequencies, damping and shapes of small motions",
 }
 
 app = typer.Typer(

@@ -114,7 +114,7 @@ def _animate_mode(
     labels: bool,
 ) -> Path:
     if kind == "html":
-        raise ModelError(f"{path}: a mode is no page", hint="end it in .gif or .mp4")
+        raise ModelError(f"{path}: a page cannot show a mode", hint="end it in .gif or .mp4")
     usual = _FILMS[kind]
     film = Film(size or usual.size, fps or usual.fps, labels=labels)
     _write(kind, path, film, lambda: pictures_of_mode(shape, film.size, film.fps, labels=labels))

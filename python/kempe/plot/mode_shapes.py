@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 #: Most shapes that are drawn, and those among the key figures.
 _MOST, _KEY = 12, 3
-#: Share of white of the mechanism at rest, and at the other end of its motion.
-_RESTING, _OTHER = 0.8, 0.6
+#: Share of white of the mechanism at rest.
+_RESTING = 0.55
 
 
 def mode_pages(result: ModesResult, _: int = 1) -> list[Page]:
@@ -40,30 +40,29 @@ def mode_pages(result: ModesResult, _: int = 1) -> list[Page]:
 
 
 def mode_shape(shape: ModeShape, *, ax: Axes | None = None) -> Axes:
-    """Draw a mode: the mechanism at rest in grey, and at both ends of its motion.
+    """Draw a mode: the mechanism at one end of its motion, and at rest in grey.
 
     Args:
         shape: ``modes.shape(0)``.
         ax: where to; a figure of its own when None.
     """
     with style.on(ax) as axes:
-        ends = [shape.state, shape.at(np.pi), shape.at(0.0)]
-        scenes = [scene(state) for state in ends]
+        scenes = [scene(state) for state in (shape.state, shape.at(0.0))]
         bounds = bounds_of(scenes)
-        for shown, tint in zip(scenes, (_RESTING, _OTHER, 0.0), strict=True):
-            _paint(axes, {**shown, "bounds": bounds}, _title(shape), tint)
+        for shown, resting in zip(scenes, (True, False), strict=True):
+            _paint(axes, {**shown, "bounds": bounds}, _title(shape), resting=resting)
         return axes
 
 
-def _paint(axes: Axes, shown: Scene, title: str, tint: float) -> None:
+def _paint(axes: Axes, shown: Scene, title: str, *, resting: bool) -> None:
     from kempe.draw.painter import Painting
 
     made = drawn(axes, shown, title)
     found: list[Item] = made.finish()
-    if tint == _RESTING:
-        found = [{**item, "colour": "quiet"} for item in found]
-    if tint:
-        found = [{**item, "tint": tint + (1.0 - tint) * item["tint"]} for item in found]
+    if resting:
+        white = [_RESTING + (1.0 - _RESTING) * item["tint"] for item in found]
+        pairs = zip(found, white, strict=True)
+        found = [{**item, "colour": "quiet", "tint": tint} for item, tint in pairs]
     Painting(axes, found, made.poses[0], shown["length"]["metres"])
 
 
@@ -90,7 +89,7 @@ def _eigenvalues(result: ModesResult) -> Figure:
         axes.axvline(0.0, color="#888888", linewidth=0.8)
         axes.plot(pairs.real, pairs.imag, "x")
         axes.set_title("Eigenvalues", loc="left")
-        axes.set_xlabel("real part [1/s]")
-        axes.set_ylabel("imaginary part [rad/s]")
+        axes.set_xlabel("real part / (1/s)")
+        axes.set_ylabel("imaginary part / (rad/s)")
         found: Figure = axes.figure  # type: ignore[assignment]
         return found

@@ -3,10 +3,11 @@
 //! With the reduced stiffness K and the motion P = ∂(point)/∂u with the independent coordinates u, C = P K⁻¹ Pᵀ. The
 //! compliance is finite even where the mechanism does not give way, so that it is computed, not the stiffness.
 
-use super::failure::{column_name, Reason};
+use super::failure::Reason;
 use super::holding;
 use super::search::{relative, zero};
 use super::statics::Statics;
+use crate::analyses::linearization::coordinate;
 use crate::analyses::State;
 use crate::elements::BodyId;
 use crate::equations::kinematics::Motions;
@@ -58,7 +59,7 @@ pub fn compliance(
             |axis: usize| -> f64 { by_basis.iter().zip(vector).map(|(p, v)| p[axis] * v).sum() };
         if value.abs() <= limit && along(0).hypot(along(1)) > STILL * size {
             let free = local.basis.coordinates.first().map_or(0, |k| *k);
-            return Err(Reason::Loose { coordinate: column_name(&held, free) });
+            return Err(Reason::Loose { coordinate: coordinate(&held, free) });
         }
     }
     let mut found = [0.0; 4];

@@ -1,8 +1,9 @@
 //! A position of rest with its stability and its forces.
 
-use super::failure::{column_name, Reason};
+use super::failure::Reason;
 use super::search::{relative, zero};
 use super::statics::{Place, Statics};
+use crate::analyses::linearization::coordinate;
 use crate::analyses::State;
 use crate::model::Model;
 use crate::solve::Eigen;
@@ -57,7 +58,7 @@ impl Equilibrium {
             lam: lam[..own].to_vec(),
             holders: lam[own..].iter().map(|lam| -lam).collect(),
             efforts: efforts(model, &lam, own),
-            coordinates: freedoms.coordinates.iter().map(|k| column_name(model, *k)).collect(),
+            coordinates: freedoms.coordinates.iter().map(|k| coordinate(model, *k)).collect(),
             stable: scaled.iter().all(|x| *x > limit),
             stiffness,
             eigenvalues,

@@ -79,8 +79,10 @@ impl<'s, 'a> Search<'s, 'a> {
             self.relaxed += count;
         }
         let own = self.statics.freedoms(&place)?.coordinates;
-        let far = self.far(&first, &place);
-        Err(Reason::of_search(self.statics.model, &first, &place, &own, far))
+        let moved: Vec<f64> = place.q.iter().zip(&first.q).map(|(b, a)| b - a).collect();
+        let left = (place.missing.as_slice(), place.scale);
+        let way = (moved.as_slice(), self.far(&first, &place));
+        Err(Reason::of_search(self.statics.model, way, left, &own))
     }
 
     fn far(&self, first: &Place, place: &Place) -> bool {

@@ -1,8 +1,9 @@
 //! Special points between two points of a path: folds, crossings of other paths, and the ends of the range.
 
 use super::failure::Reason;
-use super::path::{advance, End, Path};
+use super::points::{End, Path};
 use super::spot::{Course, Step};
+use super::stride::advance;
 
 /// Length of the path to which a point is located.
 const LOCATED: f64 = 1e-15;

@@ -277,7 +277,8 @@ fn check_closed(model: &Model, state: &State) -> Result<(), Failure> {
     let motions = Motions::at_rest(&model.layout, &state.q);
     constraints::residual(model, &motions, state.t, &mut phi);
     let scales = row_scales(model);
-    let open = phi.iter().zip(&scales).position(|(gap, scale)| !(gap.abs() <= CLOSED * scale));
+    let open =
+        phi.iter().zip(&scales).position(|(gap, scale)| gap.is_nan() || gap.abs() > CLOSED * scale);
     match open {
         None => Ok(()),
         Some(row) => {

@@ -47,7 +47,7 @@ impl Input {
 /// The output with this name.
 ///
 /// # Errors
-/// There is no such quantity, or it is no function of the state.
+/// There is no such quantity, or it is not a function of the state.
 pub(super) fn output(model: &Model, name: &str) -> Result<Signal, Problem> {
     match signal(model, name) {
         Some(

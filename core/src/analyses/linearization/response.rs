@@ -140,7 +140,7 @@ fn reduced_mass(model: &Model, motions: &Motions, freedoms: &Freedoms) -> Result
     let mut left = reduced.clone();
     for k in 0..f {
         let pivot = left[k * f + k];
-        if !(pivot > MASSLESS * reduced[k * f + k]) {
+        if pivot.is_nan() || pivot <= MASSLESS * reduced[k * f + k] {
             return Err(freedoms.coordinates[k]);
         }
         for row in k + 1..f {
