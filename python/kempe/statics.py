@@ -65,7 +65,7 @@ def equilibrium(
         AssemblyError: the mechanism does not close.
         ModelError: an argument is invalid.
     """
-    entry = Equilibrium(hold or None, over, range, nearest or None).tree()
+    entry = Equilibrium(hold or None, over, range, nearest).tree()
     return rest(compiled_model(model), start, entry, progress)
 
 
@@ -102,7 +102,7 @@ class PointStiffness:
     stiffnesses: Floats
     directions: Floats
 
-    def along(self, direction: Sequence[float]) -> float:
+    def along(self, direction: Sequence[float] | Floats) -> float:
         """Force over displacement along a direction if the force acts along it, N/m."""
         u = np.asarray(direction, dtype=float)
         if u.shape != (2,) or not np.any(u):

@@ -66,7 +66,7 @@ def test_what_a_holder_must_apply_is_the_slope_of_the_potential() -> None:
     def potential(angle: complex) -> complex:
         x = 0.1 * np.cos(angle) + np.sqrt(0.09 - 0.01 * np.sin(angle) ** 2)
         height = 0.1 * np.sin(angle) / 2
-        return G * (1 + 0.5) * height + 150 * (0.8 - x - 0.3) ** 2
+        return complex(G * (1 + 0.5) * height + 150 * (0.8 - x - 0.3) ** 2)
 
     for degrees in (20, 75, 140, 250):
         start = kp.assemble(m, set={"crank.angle": f"{degrees} deg"}, guess={"piston.x": 0.35})
@@ -170,7 +170,7 @@ def test_a_truss_of_rigid_bars_with_a_torsion_spring() -> None:
 
     def load(a: complex) -> complex:  # moment of all forces about a, over L cos a
         spring = k * (2 * np.cos(a) - 2 * np.cos(begin)) * 2 * np.sin(a)
-        return (spring + 3.0 * (begin - a)) / np.cos(a)
+        return complex((spring + 3.0 * (begin - a)) / np.cos(a))
 
     fold = brentq(lambda a: load(a + 1e-30j).imag / 1e-30, 0.1, 0.45, xtol=1e-15)
     assert found.fold_points
@@ -358,7 +358,7 @@ def test_progress_is_reported_and_may_stop_the_work() -> None:
     m = truss()
     start = kp.assemble(m)
 
-    def stop(value: float) -> None:
+    def stop(_: float) -> None:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

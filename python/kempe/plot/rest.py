@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,8 +32,16 @@ _PANEL, _REST = 52.0, 12.0
 #: Largest number of panels.
 _MOST = 4
 #: The looks of the two kinds of equilibria, and of special points.
-_KINDS = {True: {"linestyle": "-"}, False: {"linestyle": (0, (4, 2)), "linewidth": 1.0}}
-_FOLD = {"marker": "o", "markerfacecolor": "white", "markeredgecolor": "black", "linestyle": "none"}
+_KINDS: dict[bool, dict[str, Any]] = {
+    True: {"linestyle": "-"},
+    False: {"linestyle": (0, (4, 2)), "linewidth": 1.0},
+}
+_FOLD: dict[str, Any] = {
+    "marker": "o",
+    "markerfacecolor": "white",
+    "markeredgecolor": "black",
+    "linestyle": "none",
+}
 _CROSSING = {**_FOLD, "marker": "D"}
 
 
