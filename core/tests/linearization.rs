@@ -2,11 +2,11 @@
 
 mod mechanisms;
 
-use kempe::analyses::linearization::{reduced_stiffness, Freedoms};
+use kempe::analyses::linearization::{linearize, reduced_stiffness, Failure, Freedoms};
 use kempe::equations::Workspace;
 use kempe::model::Model;
 use kempe::State;
-use mechanisms::{model, start};
+use mechanisms::{model, start, PENDULUM};
 use std::f64::consts::PI;
 
 const G: f64 = 9.81;
@@ -82,4 +82,46 @@ fn stiffness_of_a_double_pendulum() {
     for (found, expected) in found.iter().zip(expected) {
         assert!((found - expected).abs() < 1e-12 * weight, "{found} {expected}");
     }
+}
+
+#[test]
+fn a_pendulum_with_inputs_and_outputs() {
+    let m = model(PENDULUM);
+    let state = start(&m, &[("rod.angle", "0.3"), ("rod.omega", "2")], &[]).0;
+    let names = |all: &[&str]| all.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let outputs = names(&["rod.P.x", "rod.alpha", "pin.fy"]);
+    let found = linearize(&m, &state, &names(&["rod.angle"]), &outputs).expect("regular");
+    let (s, c, rate) = (0.3_f64.sin(), 0.3_f64.cos(), 2.0);
+    let alpha = -1.5 * G * c;
+    let slope = 1.5 * G * s;
+    let close = |found: &[f64], expected: &[f64]| {
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(expected) {
+            assert!(
+                (found - expected).abs() < 1e-12 * expected.abs().max(1.0),
+                "{found} {expected}"
+            );
+        }
+    };
+    close(&found.mass, &[1.0 / 3.0]);
+    close(&found.a, &[0.0, 1.0, slope, 0.0]);
+    close(&found.b, &[0.0, 3.0]);
+    // the pin carries m (a_y + g) with a_y = (cos φ α - sin φ ω²) / 2
+    let by_angle = (c * slope - s * alpha - c * rate * rate) / 2.0;
+    close(&found.c, &[-s, 0.0, slope, 0.0, by_angle, -2.0 * s * rate / 2.0]);
+    close(&found.d, &[0.0, 3.0, 1.5 * c]);
+    close(&found.values, &[c, alpha, (c * alpha - s * rate * rate) / 2.0 + G]);
+}
+
+#[test]
+fn unknown_names_and_flat_windows_are_refused() {
+    let m = model(PENDULUM);
+    let state = start(&m, &[], &[]).0;
+    let refused = linearize(&m, &state, &["rod.omega".to_string()], &[]);
+    assert!(matches!(refused, Err(Failure::Name(_))), "{refused:?}");
+    let refused = linearize(&m, &state, &[], &["rod.speed".to_string()]);
+    assert!(matches!(refused, Err(Failure::Name(_))), "{refused:?}");
+    let m = windows(1);
+    let state = turned(&m, 1, 0.0);
+    assert!(matches!(linearize(&m, &state, &[], &[]), Err(Failure::Singular { .. })));
 }

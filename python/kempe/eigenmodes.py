@@ -39,7 +39,7 @@ def eigenmodes(
     if f == 0 and not len(a):
         return np.empty(0, dtype=complex), np.empty((0, 0), dtype=complex)
     alone = len(a) == 2 * f
-    if alone and not _matters(damping, mass, stiffness) and _is_symmetric(stiffness):
+    if alone and not np.any(damping) and _is_symmetric(mass, stiffness):
         found, vectors = _undamped(mass, (stiffness + stiffness.T) / 2.0)
     else:
         all_values, all_vectors = np.linalg.eig(a)
@@ -50,14 +50,11 @@ def eigenmodes(
     return found[order], vectors[order]
 
 
-def _matters(damping: Floats, mass: Floats, stiffness: Floats) -> bool:
-    """Whether the damping is more than rounding beside √(M K)."""
-    scale = np.sqrt(np.abs(mass).max() * np.abs(stiffness).max())
-    return bool(np.abs(damping).max() > _ROUNDING * scale)
-
-
-def _is_symmetric(stiffness: Floats) -> bool:
-    return bool(np.abs(stiffness - stiffness.T).max() <= _ROUNDING * np.abs(stiffness).max())
+def _is_symmetric(mass: Floats, stiffness: Floats) -> bool:
+    """Whether K is symmetric up to rounding, in units in which the diagonal of M is 1."""
+    unit = 1.0 / np.sqrt(np.diag(mass))
+    scaled = unit[:, None] * stiffness * unit
+    return bool(np.abs(scaled - scaled.T).max() <= _ROUNDING * np.abs(scaled).max())
 
 
 def _undamped(mass: Floats, stiffness: Floats) -> tuple[Complexes, Complexes]:

@@ -183,6 +183,8 @@ class ModesResult(Result):
         """The modes in lines."""
         count = len(self.coordinates)
         many = f"{count} independent coordinate{'s' * (count != 1)}"
+        if not len(self.A):
+            return ["no independent coordinate: joints and drivers hold all coordinates"]
         lines = [f"{many}: {_few(self.coordinates)}"]
         if not self.is_equilibrium:
             lines.append(self._off_balance())
@@ -268,7 +270,7 @@ def modes(
         AssemblyError: the state does not meet the constraints.
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
-    entry = Modes(n, tuple(inputs), tuple(outputs)).tree()
+    entry = Modes(n, inputs, outputs).tree()
     return linearized(compiled_model(model), state, entry, None)
 
 
@@ -290,7 +292,7 @@ def linearized(
 def _scaled(shapes: Complexes) -> Complexes:
     """Each shape divided by its largest number."""
     if not shapes.size:
-        return shapes.copy()
+        return np.zeros_like(shapes)
     largest = np.take_along_axis(shapes, np.abs(shapes).argmax(axis=1)[:, None], axis=1)
     # a mode of states alone, such as a current, moves nothing
     found: Complexes = shapes / np.where(np.abs(largest) > 0.0, largest, 1.0) + 0.0

@@ -216,6 +216,8 @@ def test_faults_are_named() -> None:
         kp.modes(m, rest, inputs=["rod.omega"])
     with pytest.raises(kp.ModelError, match=r"rod\.angl"):
         kp.modes(m, rest, outputs=["rod.angl"])
+    with pytest.raises(kp.ModelError, match="inputs"):
+        kp.modes(m, rest, inputs="rod.angle")
     with pytest.raises(kp.ModelError, match="n: 0"):
         kp.modes(m, rest, n=0)
     with pytest.raises(kp.ModelError, match=r"energy\.work"):

@@ -157,6 +157,12 @@ over = "g"
 range = [9, 10]
 nearest = true
 from = "start"
+[analyses.ten]
+type = "modes"
+n = 2
+inputs = ["a.angle"]
+outputs = ["a.x", "a.alpha"]
+from = "start"
 """
 
 
