@@ -274,40 +274,18 @@ def kinematics(
     """
 
 def equilibrium(
-    model: Model,
-    t: float,
-    q: _F,
-    v: _F,
-    z: _F,
-    text: str,
-    progress: Callable[[float], None] | None,
+    model: Model, t: float, q: _F, v: _F, z: _F, text: str, progress: Callable[[float], None] | None
 ) -> str:
     """The rest position that a state leads to, or a path of them, as JSON.
 
-    Args:
-        model: the mechanism.
-        t: time of the state, s.
-        q: (n_q,), coordinates of the state.
-        v: (n_q,), their rates; they do not count.
-        z: (n_z,), first-order states.
-        text: JSON, an entry of ``analyses`` as in a file.
-        progress: called with the number of steps, or with the value of the parameter.
-
-    Raises:
-        ModelError: an option is invalid.
-        SingularityError: there is no equilibrium within reach, or the position is singular.
-        AssemblyError: the mechanism does not close.
+    ``text`` is an entry of ``analyses`` as in a file, in JSON. ``progress`` is called with the
+    number of steps, or with the value of the parameter.
     """
 
 def compliance(
     model: Model, t: float, q: _F, v: _F, z: _F, point: str, hold: list[str]
 ) -> list[float]:
-    """∂(displacement)/∂(force) of a point at rest, m/N: xx, xy, yx, yy.
-
-    Raises:
-        ModelError: there is no such point, or the state is not at rest.
-        SingularityError: the point moves without any stiffness.
-    """
+    """∂(displacement)/∂(force) of a point at rest, m/N: xx, xy, yx, yy."""
 
 def modes_options(model: Model, text: str) -> str:
     """The options of ``modes``, checked, as JSON.
