@@ -273,6 +273,20 @@ def kinematics(
         ModelError: the drivers leave a freedom.
     """
 
+def equilibrium(
+    model: Model, t: float, q: _F, v: _F, z: _F, text: str, progress: Callable[[float], None] | None
+) -> str:
+    """The rest position that a state leads to, or a path of them, as JSON.
+
+    ``text`` is an entry of ``analyses`` as in a file, in JSON. ``progress`` is called with the
+    number of steps, or with the value of the parameter.
+    """
+
+def compliance(
+    model: Model, t: float, q: _F, v: _F, z: _F, point: str, hold: list[str]
+) -> list[float]:
+    """∂(displacement)/∂(force) of a point at rest, m/N: xx, xy, yx, yy."""
+
 def modes_options(model: Model, text: str) -> str:
     """The options of ``modes``, checked, as JSON.
 

@@ -446,6 +446,40 @@ class InverseDynamics(Analysis):
 
 
 @dataclass(frozen=True, repr=False)
+class Equilibrium(Analysis):
+    """Analysis of type ``equilibrium``, an entry of ``[analyses]``.
+
+    The position in which a mechanism comes to rest, with its stability; or all positions of
+    rest along a path over a parameter.
+
+    Attributes:
+        hold: Position quantities that a holder keeps at their values of the start, such as
+            `crank.angle`.
+        over: A parameter of the model, over which a path of equilibria is followed.
+        range: First and last value of `over`, in SI units and rad.
+        nearest: Whether the equilibrium nearest to the start is wanted, stable or not.
+        after: State at which it starts: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    hold: Words | None = None
+    over: str | None = None
+    range: Pair | None = None
+    nearest: bool = False
+    after: str | None = None
+    name: str = "equilibrium"
+    kind: ClassVar[str] = "equilibrium"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "hold": "quantities",
+        "over": "name",
+        "range": "pair",
+        "nearest": "flag",
+        "after": "name",
+    }
+
+
+@dataclass(frozen=True, repr=False)
 class Modes(Analysis):
     """Analysis of type ``modes``, an entry of ``[analyses]``.
 

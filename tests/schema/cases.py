@@ -151,6 +151,13 @@ range = [0, "90 deg"]
 n = 10
 from = "start"
 [analyses.nine]
+type = "equilibrium"
+hold = ["a.angle"]
+over = "g"
+range = [9, 10]
+nearest = true
+from = "start"
+[analyses.ten]
 type = "modes"
 n = 2
 inputs = ["a.angle"]

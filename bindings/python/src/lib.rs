@@ -12,6 +12,7 @@ mod case;
 mod configurations;
 mod convert;
 mod dynamics;
+mod equilibrium;
 mod errors;
 mod evaluate;
 mod formulas;
@@ -91,6 +92,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(dynamics::dynamics, module)?)?;
     module.add_function(wrap_pyfunction!(kinematics::kinematics, module)?)?;
     module.add_function(wrap_pyfunction!(kinematics::kinematics_options, module)?)?;
+    module.add_function(wrap_pyfunction!(equilibrium::equilibrium, module)?)?;
+    module.add_function(wrap_pyfunction!(equilibrium::compliance, module)?)?;
     module.add_function(wrap_pyfunction!(linearization::linearize, module)?)?;
     module.add_function(wrap_pyfunction!(linearization::modes_options, module)?)?;
     module.add_function(wrap_pyfunction!(limits::limits, module)?)?;

@@ -4,6 +4,7 @@ use super::conditions::Condition;
 use super::configurations::Options as ConfigurationsOptions;
 use super::diagnosis::Options as MobilityOptions;
 use super::dynamics;
+use super::equilibrium::Options as EquilibriumOptions;
 use super::kinematics::{InverseOptions, Options as KinematicsOptions};
 use super::limits::Options as LimitsOptions;
 use super::linearization::Options as ModesOptions;
@@ -35,6 +36,9 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
                 InverseOptions::checked(model, fields, &path).map(|options| options.t_end)
             }
             // an analysis of a position ends where it begins
+            EquilibriumOptions::NAME => {
+                EquilibriumOptions::checked(model, fields, &path).map(|_| begin)
+            }
             ModesOptions::NAME => ModesOptions::checked(model, fields, &path).map(|_| begin),
             LimitsOptions::NAME => {
                 Reader::read(model, fields, &path, LimitsOptions::read).map(|_| begin)

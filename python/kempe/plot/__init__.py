@@ -14,6 +14,7 @@ from kempe.plot.page import Page, save, select
 from kempe.plot.pages import pages
 from kempe.plot.reactions import all_reactions, reactions
 from kempe.plot.residual import residual
+from kempe.plot.rest import path, rest_position
 from kempe.plot.time_axis import transient
 from kempe.plot.torques import torques
 
@@ -28,9 +29,11 @@ __all__ = [
     "mechanism",
     "mode_shape",
     "pages",
+    "path",
     "positions",
     "reactions",
     "residual",
+    "rest_position",
     "save",
     "select",
     "torques",
