@@ -55,11 +55,16 @@ class Extent:
 def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
     """Time, coordinates, paths, multipliers, reactions, first-order states, forces and energies.
 
+    The values of a driven quantity are in the place of the time in a motion over this quantity.
+
     Raises:
         ModelError: there is no such frame or point.
     """
-    table = [_column("t", "s", solution.t)]
+    first = solution.variable
+    table = [_column(first.name, first.unit, solution.t)]
     for name in _names(solution, extent or Extent()):
+        if name == first.name:
+            continue
         quantity = quantities.named(solution, name)
         table.append(_column(name, quantity.unit, quantity.read()))
     return table

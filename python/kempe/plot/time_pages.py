@@ -157,7 +157,7 @@ class TimePages:
             if quantity in info.quantities
         ]
         symbol, unit = QUANTITIES[quantity]
-        return Panel(symbol, unit, curves, name=symbol)
+        return Panel(symbol, unit, curves, name=symbol, variable=self.solution.variable)
 
     def of_residual(self) -> Page:
         """By how much the constraints are not met."""
