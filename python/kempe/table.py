@@ -61,7 +61,7 @@ def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
         ModelError: there is no such frame or point.
     """
     first = solution.variable
-    table = [_column(first.name, first.unit, solution.t)]
+    table = [column(first.name, first.unit, solution.t)]
     for name in _names(solution, extent or Extent()):
         if name == first.name:
             continue
@@ -70,7 +70,8 @@ def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
     return table
 
 
-def _column(name: str, unit: str, values: Floats) -> Column:
+def column(name: str, unit: str, values: Floats) -> Column:
+    """A column in the display unit of a quantity in SI units."""
     shown = display(unit)
     return Column(name, shown.unit, values / shown.divisor)
 
@@ -133,7 +134,15 @@ def dataframe(solution: Solution, extent: Extent | None = None) -> pandas.DataFr
 
 def write_csv(solution: Solution, path: Path | str, extent: Extent | None = None) -> None:
     """Write the columns as CSV with 17 digits, which preserves every number."""
-    table = columns(solution, extent)
+    write_columns(columns(solution, extent), path)
+
+
+def write_columns(table: Sequence[Column], path: Path | str) -> None:
+    """Write columns as CSV, with names and units in the header.
+
+    Raises:
+        FileError: the file cannot be written; an existing file is not changed.
+    """
     text = io.StringIO()
     header = (files.csv_cell(f"{column.name} [{column.unit}]") for column in table)
     text.write(",".join(header) + "\n")

@@ -153,7 +153,8 @@ def acceleration_polygon(solution_or_state: Solution | State, t: float | None = 
 def _polygon(
     kind: str, unit: str, state: State, images: Mapping[str, Floats], sides: list[Side]
 ) -> Polygon:
-    kept = MappingProxyType({name: fixed(image) for name, image in images.items()})
+    at_pole = {POLE: np.zeros(2)}
+    kept = MappingProxyType({name: fixed(i) for name, i in {**images, **at_pole}.items()})
     return Polygon(kind, unit, state.variable, float(state.t), kept, tuple(sides), state)
 
 
