@@ -69,7 +69,6 @@ if TYPE_CHECKING:
     from kempe.archive import load_solution as load_solution
     from kempe.case import Case as Case
     from kempe.case import Results as Results
-    from kempe.case import Start as Start
     from kempe.case import load as load
     from kempe.display_units import Units as Units
     from kempe.display_units import units as units
@@ -110,6 +109,7 @@ if TYPE_CHECKING:
     from kempe.options import Projection as Projection
     from kempe.options import Radau as Radau
     from kempe.solution import Solution as Solution
+    from kempe.start import Start as Start
     from kempe.state import AssemblyReport as AssemblyReport
     from kempe.state import State as State
     from kempe.studies import Study as Study
@@ -154,7 +154,7 @@ _HOME = {
     "Sampled": "functions",
     "SingularityError": "errors",
     "Solution": "solution",
-    "Start": "case",
+    "Start": "start",
     "State": "state",
     "Study": "studies",
     "Units": "display_units",

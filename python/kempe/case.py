@@ -6,7 +6,7 @@ import copy
 import json
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,17 +17,21 @@ from kempe.driven import follow, follow_with_forces
 from kempe.errors import AssemblyError, FileError, KempeError, ModelError
 from kempe.model import Model
 from kempe.names import entry as named
-from kempe.names import few, one_of, unknown
+from kempe.names import few, one_of
 from kempe.option import Analysis, Option
+from kempe.result import Result
 from kempe.sequence import of_type
 from kempe.solution import Solution
+from kempe.start import Start, read_start
 from kempe.state import State
 from kempe.values import Number, data, listed, mapping, numbers, plain, reference
 
 FORMATS = {".toml": "toml", ".json": "json"}
 
 #: The function that runs an analysis, by its ``type``.
-_Runner = Callable[[CompiledModel, State, Mapping[str, Any], "Progress | None"], Solution]
+_Runner = Callable[
+    [CompiledModel, State, Mapping[str, Any], "Progress | None"], "Solution | Result"
+]
 _RUNNERS: dict[str, _Runner] = {
     "dynamics": simulate,
     "kinematics": follow,
@@ -35,32 +39,14 @@ _RUNNERS: dict[str, _Runner] = {
 }
 
 
-@dataclass(frozen=True)
-class Start:
-    """The request for assembly before the first analysis.
+class Results(Mapping[str, Any]):
+    """Solutions and other results of a case: by name, or by position as in a list."""
 
-    Attributes:
-        set: coordinates and rates that hold exactly, m, rad and per s.
-        guess: approximate coordinates and rates.
-    """
-
-    set: Coordinates = field(default_factory=dict)
-    guess: Coordinates = field(default_factory=dict)
-
-    def tree(self) -> dict[str, Any]:
-        """The section ``start`` as in a file."""
-        held, hint = numbers(self.set, "start.set"), numbers(self.guess, "start.guess")
-        return {key: value for key, value in (("set", held), ("guess", hint)) if value}
-
-
-class Results(Mapping[str, Solution]):
-    """Solutions of a case: by name, or by position as in a list."""
-
-    def __init__(self, solutions: Mapping[str, Solution]) -> None:
+    def __init__(self, solutions: Mapping[str, Solution | Result]) -> None:
         self._solutions = dict(solutions)
 
-    def __getitem__(self, key: str | int) -> Solution:
-        """A solution by the name of its analysis or by its position.
+    def __getitem__(self, key: str | int) -> Any:
+        """A ``Solution`` or ``Result`` by the name of its analysis or by its position.
 
         Raises:
             ModelError: there is no analysis of that name; it is a ``KeyError`` too.
@@ -106,7 +92,7 @@ class Case:
         if not isinstance(model, Model):
             raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) makes one")
         self.model = model
-        self._start = _start(start)
+        self._start = read_start(start)
         self._entries = _entries(analyses)
         self._core().check(model.compile().core)
 
@@ -115,7 +101,7 @@ class Case:
         tree = json.loads(core.tree())
         case = cls.__new__(cls)
         case.model = Model.from_tree(tree, core, folder)
-        case._start = _start(tree.get("start"))
+        case._start = read_start(tree.get("start"))
         case._entries = dict(tree.get("analyses", {}))
         return case
 
@@ -189,8 +175,8 @@ class Case:
 
     def each(
         self, progress: Progress | None = None, start: State | None = None
-    ) -> Iterator[tuple[str, Solution]]:
-        """Run the analyses one by one and yield each solution at once.
+    ) -> Iterator[tuple[str, Solution | Result]]:
+        """Run the analyses one by one and yield each solution or other result at once.
 
         An analysis starts in the state in which the one before it ended. If the joints drifted
         until then, as they do with Baumgarte's stabilization, it starts in the nearest state that
@@ -247,13 +233,27 @@ class Case:
         entries = {**self._entries, name: {**self._entries[name], **given}}
         return Case(self.model, self._start, entries)
 
-    def of_type(self, kind: str) -> Case:
+    def of_type(self, kind: str, absent: Mapping[str, Number] | None = None) -> Case:
         """The same case with the analyses of one type and those that they start from.
 
+        Args:
+            kind: the type.
+            absent: fields of an analysis from the start that is added if there is none of this
+                type.
+
         Raises:
-            ModelError: there is none.
+            ModelError: there is none, and one with the given fields lacks others.
         """
-        return Case(self.model, self._start, of_type(self._entries, kind))
+        entries = of_type(self._entries, kind)
+        if entries:
+            return Case(self.model, self._start, entries)
+        added = {"type": kind, **(absent or {}), "from": "start"}
+        try:
+            return Case(self.model, self._start, {kind: added})
+        except KempeError as error:
+            hint = f'add one: [analyses.{kind}] with type = "{kind}"'
+            told = f"the case has no analysis of type {kind}, and one without options is impossible"
+            raise ModelError(f"{told}: {error.args[0]}", hint=hint) from error
 
     def with_start(self, coordinates: Coordinates) -> Case:
         """The same case with other coordinates and rates set at the start: ``{"crank.angle": 1}``.
@@ -347,25 +347,6 @@ def _format(path: Path | str, doing: str) -> str:
     if where.is_dir():
         raise files.trouble(path, doing, IsADirectoryError())
     raise FileError(f"cannot {doing} {path}: the name must end in .toml or .json", name=str(path))
-
-
-def _start(start: Start | Mapping[str, Coordinates] | None) -> Start:
-    if isinstance(start, Start):
-        return start
-    given = mapping(start, "start", "{'set': {…}, 'guess': {…}}")
-    for key in given:
-        if key not in ("set", "guess"):
-            raise unknown("key of start", key, ["set", "guess"])
-    return Start(_flat(given.get("set", {})), _flat(given.get("guess", {})))
-
-
-def _flat(coordinates: Mapping[str, Any]) -> dict[str, Any]:
-    """``{"crank": {"angle": 1}}``, which a dotted key means in TOML, as ``{"crank.angle": 1}``."""
-    flat: dict[str, Any] = {}
-    for key, value in coordinates.items():
-        nested = value.items() if isinstance(value, Mapping) else ()
-        flat |= {f"{key}.{name}": entry for name, entry in nested} or {key: value}
-    return flat
 
 
 def _entries(

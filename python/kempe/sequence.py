@@ -5,15 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from kempe.errors import ModelError
-
 
 def of_type(entries: Mapping[str, Mapping[str, Any]], kind: str) -> dict[str, dict[str, Any]]:
-    """The analyses of one type with those that they start from; each names its start.
-
-    Raises:
-        ModelError: there is none of this type.
-    """
+    """The analyses of one type with those that they start from; each names its start."""
     names = list(entries)
     before = dict(zip(names, ["start", *names], strict=False))
     starts = {name: entries[name].get("from", before[name]) for name in names}
@@ -23,9 +17,4 @@ def of_type(entries: Mapping[str, Mapping[str, Any]], kind: str) -> dict[str, di
         while at not in kept:
             kept.add(at)
             at = starts[at]
-    if kept == {"start"}:
-        raise ModelError(
-            f"the case has no analysis of type {kind}",
-            hint=f'add one: [analyses.{kind}] with type = "{kind}"',
-        )
     return {name: {**entries[name], "from": starts[name]} for name in names if name in kept}

@@ -12,6 +12,8 @@ from typing import Any
 import kempe as kp
 import pytest
 
+pytestmark = pytest.mark.alone
+
 EXAMPLE = Path(__file__).parents[2] / "examples" / "four_bar.toml"
 
 #: Replacements of a value.

@@ -10,6 +10,8 @@ import pytest
 
 from examples.n_four_bar import windows
 
+pytestmark = pytest.mark.alone
+
 FOUR_BAR = Path(__file__).parents[2] / "examples" / "four_bar.toml"
 TRIES = 3
 

@@ -15,7 +15,10 @@ import kempe
 import pytest
 from house.places import ROOT
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="./kempe is a script for POSIX shells")
+pytestmark = [
+    pytest.mark.alone,
+    pytest.mark.skipif(os.name != "posix", reason="./kempe is a script for POSIX shells"),
+]
 
 SETUP_FAILED = 5
 TOOLS = "sh dirname cat cksum find sort mkdir rm mv tail sleep env"

@@ -13,6 +13,8 @@ import kempe as kp
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.alone
+
 ROOT = Path(__file__).parents[2]
 
 

@@ -1,5 +1,6 @@
 """Driven motions without integration: closed forms, limits, and the refusals."""
 
+import json
 from pathlib import Path
 
 import kempe as kp
@@ -180,8 +181,10 @@ def test_the_analyses_of_a_type_with_those_they_start_from() -> None:
     case = kp.Case(slider_crank(), {"guess": {"piston.x": 0.4}}, entries)
     assert list(case.of_type("kinematics").analyses) == ["first", "second", "other"]
     assert list(case.of_type("dynamics").analyses) == ["first", "second", "third"]
-    with pytest.raises(kp.ModelError, match="no analysis of type inverse_dynamics; add one"):
+    with pytest.raises(kp.ModelError, match=r"type inverse_dynamics.*t_end: missing"):
         case.of_type("inverse_dynamics")
+    added = case.of_type("inverse_dynamics", {"t_end": 2}).analyses
+    assert added == {"inverse_dynamics": {"type": "inverse_dynamics", "t_end": 2, "from": "start"}}
 
 
 def test_on_the_command_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -195,3 +198,11 @@ def test_on_the_command_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     written = np.genfromtxt("out/crank/solution.csv", delimiter=",", names=True)
     assert len(written) == 5
     assert app.run(["kinematics", "crank.toml", "-q"]) != 0
+    options = ["-q", "--figures", "none", "-o", "added"]
+    assert app.run(["kinematics", "crank.toml", "--t-end", "0.5", *options]) == 0
+    added = np.genfromtxt("added/solution.csv", delimiter=",", names=True)
+    assert [added["t_s"][0], added["t_s"][-1]] == [0, 0.5]
+    # the method belongs to the simulation only
+    assert app.run(["run", "crank.toml", "--method", "rk4", "--step", "0.01", *options]) == 0
+    fall = json.loads(Path("added/fall/summary.json").read_text(encoding="utf-8"))
+    assert fall["statistics"]["method"] == "rk4"

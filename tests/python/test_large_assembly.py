@@ -12,6 +12,8 @@ import kempe as kp
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.alone
+
 
 def ladder(squares: int) -> kp.Model:
     """Rods on pins 1 m apart with couplers between neighbours: unit squares in a row."""

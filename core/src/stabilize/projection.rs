@@ -21,6 +21,9 @@ use crate::solve::Breakdown;
 
 /// Largest number of iterations for positions, and for velocities.
 const MOST: usize = 12;
+/// The same for reported states. Beside a singular position Newton's method converges linearly: each iteration divides
+/// the residual by about 4. A step would be taken anew instead, which a reported state cannot be.
+const MOST_REPORTED: usize = 60;
 /// If a chord iteration reduces the residual by less, the matrix is factorised anew.
 const SLOW: f64 = 1e-2;
 /// Remainder of a step for velocities with the factor of the same state, since Φ̇ is linear in the velocities.
@@ -198,7 +201,8 @@ impl<'a, S: Real> Projector<'a, S> {
     ) -> Result<bool, Breakdown> {
         let (mut last, mut newton) = (f64::INFINITY, false);
         let (mut target, mut rounding) = (0.0, 0.0);
-        for iteration in 0..MOST {
+        let most = if self.fastest.is_some() { MOST_REPORTED } else { MOST };
+        for iteration in 0..most {
             self.look(workspace, t, (&*q, &*v));
             let gap = self.gaps[level as usize];
             if iteration == 0 {

@@ -24,7 +24,7 @@ from kempe.cli.arguments import (
 )
 from kempe.cli.clock import drawing
 from kempe.cli.console import answers
-from kempe.cli.solved import CaseOrSolution, results_folder, solved
+from kempe.cli.solved import CaseOrSolution, motions, results_folder
 from kempe.errors import ModelError
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def animate(  # noqa: PLR0917 - typer distinguishes options by their annotations
     if at is not None and (begin is not None or end is not None or form is not None):
         raise ModelError("--at is one time", hint="leave --from, --to and --format out")
     console = answers()
-    found = list(solved(file, Changes(settings, t_end, method, rtol, atol, step)))
+    found = motions(file, Changes(settings, t_end, method, rtol, atol, step))
     for name, solution, (first, last) in _parts(found, *((begin, end) if at is None else (at, at))):
         with shown_in(units):
             if at is not None:

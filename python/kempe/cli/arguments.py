@@ -102,13 +102,23 @@ class Changes:
 
     def applied(self, case: Case) -> Case:
         """The case with the changes of its analyses."""
-        for name, entry in case.analyses.items():
-            method = self._method(entry.get("method", {"type": Method.auto.value}))
+        for name in _having("method", case):
+            old = case.analyses[name].get("method", {"type": Method.auto.value})
+            method = self._method(old)
             if method is not None:
                 case = case.with_analysis(name, method=method)
-        if self.t_end is not None and case.analyses:
-            case = case.with_analysis([*case.analyses][-1], t_end=number_or_formula(self.t_end))
+        ending = _having("t_end", case)
+        if self.t_end is not None and ending:
+            case = case.with_analysis(ending[-1], t_end=number_or_formula(self.t_end))
         return case
+
+    def of_type(self, case: Case, kind: str) -> Case:
+        """The case with the analyses of one type; one from the start if the file has none."""
+        from kempe.option import Analysis
+
+        end = {} if self.t_end is None else {"t_end": number_or_formula(self.t_end)}
+        fields = next(each.shapes for each in Analysis.__subclasses__() if each.kind == kind)
+        return case.of_type(kind, {key: end[key] for key in end if key in fields})
 
     def _method(self, old: dict[str, Any]) -> dict[str, Any] | None:
         """The changed method of an analysis; None if it does not change.
@@ -124,6 +134,14 @@ class Changes:
         known = _fields(self.method)
         kept = {key: old[key] for key in old if key in ("rtol", "atol") and key in known}
         return {"type": self.method.value, **kept, **given}
+
+
+def _having(field: str, case: Case) -> list[str]:
+    """The names of the analyses that have a field."""
+    from kempe.option import Analysis
+
+    kinds = {each.kind for each in Analysis.__subclasses__() if field in each.shapes}
+    return [name for name, entry in case.analyses.items() if entry["type"] in kinds]
 
 
 def _fields(method: Method) -> set[str]:
@@ -151,8 +169,14 @@ def shown_in(names: str | None) -> Iterator[None]:
         yield
 
 
-def read_case(file: Path, changes: Changes) -> Case:
-    """The case from a file or from standard input, with the changes of the command line."""
+def read_case(file: Path, changes: Changes, kind: str | None = None) -> Case:
+    """The case from a file or from standard input, with the changes of the command line.
+
+    Args:
+        file: the file.
+        changes: the changes.
+        kind: type of the analyses to which the case is reduced; all if None.
+    """
     from kempe.case import load, parsed
 
     pairs = dict(map(setting, changes.settings or []))
@@ -164,7 +188,8 @@ def read_case(file: Path, changes: Changes) -> Case:
         case = parsed(text, form, "standard input", parameters)
     else:
         case = load(file, parameters=parameters)
-    return changes.applied(case.with_start(start) if start else case)
+    case = case.with_start(start) if start else case
+    return changes.applied(case if kind is None else changes.of_type(case, kind))
 
 
 def _standard_input() -> str:

@@ -10,6 +10,7 @@ from kempe.cli.clock import drawing as progress_of
 from kempe.cli.figures import Drawing, Which
 
 if TYPE_CHECKING:
+    from kempe.result import Result
     from kempe.solution import Solution
 
 FIRST, LAST = "first_frame.png", "last_frame.png"
@@ -39,7 +40,7 @@ def write_drawings(solution: Solution, folder: Path, drawing: Drawing) -> list[P
     return written
 
 
-def write_figures(solution: Solution, folder: Path, drawing: Drawing) -> list[Path]:
+def write_figures(solution: Solution | Result, folder: Path, drawing: Drawing) -> list[Path]:
     """The wanted figures.
 
     Raises:

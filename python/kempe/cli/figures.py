@@ -13,6 +13,7 @@ from kempe.errors import ModelError
 
 if TYPE_CHECKING:
     from kempe.plot import Page
+    from kempe.result import Result
     from kempe.solution import Solution
 
 
@@ -62,8 +63,8 @@ class Drawing:
     time_axis: Axis = Axis.linear
     video: Form | None = None
 
-    def pages(self, solution: Solution) -> list[Page]:
-        """The figures of a solution."""
+    def pages(self, solution: Solution | Result) -> list[Page]:
+        """The figures of a solution or another result."""
         from kempe.plot import pages
 
         compressed = self.time_axis is Axis.compressed

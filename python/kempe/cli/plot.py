@@ -25,6 +25,7 @@ from kempe.cli.solved import CaseOrSolution, results_folder, solved
 
 if TYPE_CHECKING:
     from kempe.plot import Page
+    from kempe.result import Result
     from kempe.solution import Solution
 
 EXAMPLES = """Examples:
@@ -84,14 +85,17 @@ def _folder(file: Path, output: Path | None, analysis: str) -> Path:
     return results_folder(file) / analysis / "figures" if output is None else output / analysis
 
 
-def _chosen(solution: Solution, known: list[Page], names: list[str]) -> list[Page]:
+def _chosen(solution: Solution | Result, known: list[Page], names: list[str]) -> list[Page]:
     """The requested pages; an unknown joint or force in the name of a figure is reported as such.
 
     Raises:
         ModelError: there is no such figure, joint or force.
     """
     from kempe.plot import select
+    from kempe.solution import Solution
 
+    if not isinstance(solution, Solution):
+        return select(known, names)
     told = {word for page in known for word in (page.name, page.about, page.stem)}
     for name in names:
         for family, look_up in (

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from kempe.cli.figures import Drawing
+    from kempe.result import Result
     from kempe.solution import Solution
 
-FILES = ("solution.npz", "solution.csv", "summary.json")
+SUMMARY = "summary.json"
+FILES = ("solution.npz", "solution.csv", SUMMARY)
 
 
 def write_results(
@@ -29,7 +31,6 @@ def write_results(
     Raises:
         FileError: a file cannot be written.
     """
-    from kempe import files
     from kempe.cli.drawings import write_drawings, write_figures
 
     data, text, overview = (folder / name for name in FILES)
@@ -37,7 +38,27 @@ def write_results(
     solution.to_csv(text)
     written = [data, text, overview, *write_drawings(solution, folder, drawing)]
     written += write_figures(solution, folder, drawing)
-    names = [path.relative_to(folder).as_posix() for path in written]
-    content = json.dumps({**summary, "files": names}, indent=2, ensure_ascii=False)
-    files.write_text(overview, content + "\n")
+    _write_summary(overview, summary, written)
     return written
+
+
+def write_result(result: Result, folder: Path, drawing: Drawing) -> list[Path]:
+    """Write tables, figures and summary of a result that is not a motion; return the files.
+
+    Raises:
+        FileError: a file cannot be written.
+    """
+    from kempe.cli.drawings import write_figures
+
+    overview = folder / SUMMARY
+    written = [*result.save(folder), overview, *write_figures(result, folder, drawing)]
+    _write_summary(overview, result.summary(), written)
+    return written
+
+
+def _write_summary(path: Path, summary: dict[str, Any], written: list[Path]) -> None:
+    from kempe import files
+
+    names = [each.relative_to(path.parent).as_posix() for each in written]
+    content = json.dumps({**summary, "files": names}, indent=2, ensure_ascii=False)
+    files.write_text(path, content + "\n")

@@ -39,6 +39,7 @@ from kempe.errors import KempeError
 
 if TYPE_CHECKING:
     from kempe.case import Case
+    from kempe.result import Result
     from kempe.solution import Solution
     from kempe.state import State
 
@@ -89,10 +90,9 @@ def run(  # noqa: PLR0917 - typer uses the annotations of options and arguments
     """Assemble a mechanism, run its analyses and write the results."""
     drawing = figures.Drawing(Which.none if without else which, index_base, time_axis, video)
     with document(as_json) as content, shown_in(units):
-        case = read_case(file, Changes(settings, t_end, method, rtol, atol, step))
+        kind = None if context.info_name == "run" else str(context.info_name)
+        case = read_case(file, Changes(settings, t_end, method, rtol, atol, step), kind)
         refuse_without_analysis(case, file)
-        if context.info_name != "run":
-            case = case.of_type(str(context.info_name))
         refuse_impossible(video)
         state = assembled(case)
         console = answers(silent=quiet or as_json)
@@ -126,19 +126,34 @@ class _Finished:
     drawing: figures.Drawing
     summaries: dict[str, Any] = field(default_factory=dict)
 
-    def finish(self, name: str, solution: Solution) -> None:
+    def finish(self, name: str, found: Solution | Result) -> None:
+        from kempe.cli.results import write_result
+        from kempe.result import Result
+
+        folder = self.folder / name if self.apart else self.folder
+        if isinstance(found, Result):
+            heading(self.console, name)
+            for line in found.report():
+                self.console.print(Text(f"  {line}" if line else ""))
+            summary, written = found.summary(), write_result(found, folder, self.drawing)
+        else:
+            summary, written = self._motion(name, found, folder)
+        self.summaries[name] = {**summary, "files": [str(path) for path in written]}
+        heading(self.console, "Files")
+        for path in written:
+            self.console.print(Text(f"  {path}"))
+
+    def _motion(
+        self, name: str, solution: Solution, folder: Path
+    ) -> tuple[dict[str, Any], list[Path]]:
+        """Print and write a motion; its summary and files."""
         from kempe.cli.findings import show_findings
         from kempe.cli.results import write_results
         from kempe.report import summary
 
         found = summary(solution)
         show_findings(self.console, name, found)
-        folder = self.folder / name if self.apart else self.folder
-        written = write_results(solution, found, folder, self.drawing)
-        self.summaries[name] = {**found, "files": [str(path) for path in written]}
-        heading(self.console, "Files")
-        for path in written:
-            self.console.print(Text(f"  {path}"))
+        return found, write_results(solution, found, folder, self.drawing)
 
 
 def _show_start(console: Console, case: Case, state: State) -> None:
@@ -149,15 +164,15 @@ def _show_start(console: Console, case: Case, state: State) -> None:
     show_jacobian(console, state, case.held)
 
 
-def _solutions(case: Case, state: State, clock: Clock) -> Iterator[tuple[str, Solution]]:
-    """The solutions one after the other; the clock displays the progress of each."""
+def _solutions(case: Case, state: State, clock: Clock) -> Iterator[tuple[str, Solution | Result]]:
+    """The results one after the other; the clock displays the progress of each."""
     each = case.each(clock, state)
     now = float(state.t)
     ends = {"start": now}
     for name, entry in case.analyses.items():
         with clock.running(name, ends.get(entry.get("from", ""), now), entry.get("t_end")):
             done = next(each)
-        now = ends[name] = float(done[1].t[-1])
+        now = ends[name] = float(done[1].final.t)
         yield done
 
 

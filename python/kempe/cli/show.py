@@ -174,11 +174,14 @@ def _written(shown: Labelled, state: State, form: Form) -> str:
 
 def _state(case: Case, solution: Solution | None, t: float | None) -> State:
     """The assembled mechanism, or the state of the simulation at ``t``."""
+    from kempe.solution import Solution
+
     if solution is not None:
         solutions, start = iter([solution]), solution.initial
     else:
         start = assembled(case)
-        solutions = (found for _, found in case.each(start=start))
+        each = (found for _, found in case.each(start=start))
+        solutions = (found for found in each if isinstance(found, Solution))
     if t is None or t == float(start.t):
         return start
     reached = float(start.t)

@@ -13,6 +13,7 @@ from kempe.errors import ModelError
 
 if TYPE_CHECKING:
     from kempe.case import Case
+    from kempe.result import Result
     from kempe.solution import Solution
 
 CaseOrSolution = Annotated[
@@ -29,8 +30,22 @@ def results_folder(file: Path) -> Path:
     return file.parent if is_stored(file) else Path("out") / stem(file)
 
 
-def solved(file: Path, changes: Changes) -> Iterator[tuple[str, Solution]]:
-    """The solutions with the names of their analyses; the name is empty for a single analysis.
+def motions(file: Path, changes: Changes) -> list[tuple[str, Solution]]:
+    """The solutions alone, as ``solved``.
+
+    Raises:
+        ModelError: the case contains no analysis of a motion.
+    """
+    from kempe.solution import Solution
+
+    found = [each for each in solved(file, changes) if isinstance(each[1], Solution)]
+    if not found:
+        raise ModelError(f"{file} contains no analysis of a motion", hint="add one, as dynamics")
+    return found  # type: ignore[return-value]  # filtered
+
+
+def solved(file: Path, changes: Changes) -> Iterator[tuple[str, Solution | Result]]:
+    """The results with the names of their analyses; the name is empty for a single analysis.
 
     Raises:
         ModelError: the case contains no analysis, or a stored solution is to be changed.

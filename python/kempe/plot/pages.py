@@ -10,8 +10,10 @@ from kempe.compiled import COORDINATES
 from kempe.plot import drawing_pages
 from kempe.plot.marks import mark_events
 from kempe.plot.page import Page, file_names
+from kempe.plot.result_pages import result_pages
 from kempe.plot.time_axis import transient
 from kempe.plot.time_pages import TimePages, only_turns
+from kempe.result import Result
 from kempe.solution import Solution
 from kempe.values import instance
 
@@ -25,12 +27,16 @@ KEY = ("mechanism", "residual", "energy", "reactions", "motion")
 
 
 def pages(
-    solution: Solution, index_base: int = 1, most: int | None = None, *, compressed: bool = False
+    solution: Solution | Result,
+    index_base: int = 1,
+    most: int | None = None,
+    *,
+    compressed: bool = False,
 ) -> list[Page]:
-    """All figures of a solution; each is drawn on request.
+    """All figures of a solution or another result; each is drawn on request.
 
     Args:
-        solution: the solution.
+        solution: the solution or result.
         index_base: number of the first body.
         most: of figures of one kind, such as those of the joints; any number when None.
         compressed: whether time axes are compressed after ``transient(solution)``, if the motion
@@ -39,6 +45,8 @@ def pages(
     Returns:
         The figures; those of one family, such as the joints, have the same number.
     """
+    if isinstance(solution, Result):
+        return result_pages(solution, index_base)
     instance(solution, Solution, "a solution")
     cut = transient(solution) if compressed else None
     found: list[Page] = []

@@ -13,6 +13,7 @@ from kempe.analyses import simulate
 from kempe.case import Case
 from kempe.errors import IntegrationError, ModelError, SingularityError
 from kempe.names import one_of
+from kempe.solution import Solution
 from kempe.studies import table
 from kempe.studies.findings import findings
 from kempe.studies.outcome import Outcome, Outcomes, differences
@@ -20,7 +21,6 @@ from kempe.studies.variants import Variant, variants
 from kempe.values import instance
 
 if TYPE_CHECKING:
-    from kempe.solution import Solution
     from kempe.state import State
 
 #: Output times where the analysis names no output_step.
@@ -78,9 +78,11 @@ def study(
         KempeError: the mechanism does not go together, or the reference itself fails.
     """
     instance(case, Case, "a case")
-    names = list(case.analyses)
+    names = [name for name, entry in case.analyses.items() if entry["type"] == "dynamics"]
     if not names:
-        raise ModelError("the case contains no analysis", hint="add one, as [analyses.release]")
+        raise ModelError(
+            "the case contains no analysis of type dynamics", hint="add one, as [analyses.release]"
+        )
     name = names[0] if analysis is None else one_of("analysis", analysis, names)
     begin, entry = _beginning(case, name)
     reference: Solution | None = None
@@ -101,13 +103,11 @@ def _beginning(case: Case, name: str) -> tuple[State, dict[str, Any]]:
     """The state in which an analysis starts, and its entry with output times."""
     entry = {**case.analyses[name], "dense_output": False, "max_steps": MOST_STEPS}
     entry.pop("output", None)
-    for done, solution in case.each():
-        if done == name:
-            begin = solution.initial
-            break
+    solutions = ((n, found) for n, found in case.each() if isinstance(found, Solution))
+    solution = next(found for done, found in solutions if done == name)
     if "output_step" not in entry:
         entry["output_step"] = float(solution.t[-1] - solution.t[0]) / OUTPUTS
-    return begin, entry
+    return solution.initial, entry
 
 
 def _computed(
