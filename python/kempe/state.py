@@ -285,7 +285,11 @@ class State(Motion):
             lines.append(f"{name} = {value / shown.divisor:.6g} {shown.unit}")
         report = [] if self.report is None else [str(self.report)]
         of, shown = self.variable, display(self.variable.unit)
-        lines = [f"{of.name} = {self.t / shown.divisor:g} {shown.unit}", *map(str.rstrip, lines), *report]
+        lines = [
+            f"{of.name} = {self.t / shown.divisor:g} {shown.unit}",
+            *map(str.rstrip, lines),
+            *report,
+        ]
         return "\n".join(lines)
 
     def __repr__(self) -> str:

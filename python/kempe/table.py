@@ -66,7 +66,7 @@ def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
         if name == first.name:
             continue
         quantity = quantities.named(solution, name)
-        table.append(_column(name, quantity.unit, quantity.read()))
+        table.append(column(name, quantity.unit, quantity.read()))
     return table
 
 

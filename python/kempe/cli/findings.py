@@ -22,7 +22,9 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     start, end = (figure(span[key] / shown.divisor) for key in ("start", "end"))
     over = "" if of.is_time else f"over {of.name}, "
     gap = "" if shown.symbol == "°" else " "
-    heading(console, f"{name}: {over}{start} to {end}{gap}{shown.symbol}, {span['outputs']} outputs")
+    heading(
+        console, f"{name}: {over}{start} to {end}{gap}{shown.symbol}, {span['outputs']} outputs"
+    )
     console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
     _show_peaks(console, summary["peaks"], of.unit)
     _show_events(console, summary["events"], of.unit)

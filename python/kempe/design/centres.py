@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe.arrays import Floats, fixed
 from kempe.errors import ModelError
@@ -40,7 +41,7 @@ class InstantCentre:
     j: str
     t: Floats
     position: Floats
-    at_infinity: Floats
+    at_infinity: NDArray[np.bool_]
     direction: Floats
     omega: Floats
     _motion: Motion
@@ -102,9 +103,7 @@ def instant_centre(motion: Motion, i: str, j: str) -> InstantCentre:
         direction = np.where(length > 0.0, turned / length, [1.0, 0.0])
     direction = np.where((w < 0.0)[..., None], -direction, direction)
     position = np.where(far[..., None], np.inf, middle + offset)
-    return InstantCentre(
-        i, j, motion.t, fixed(position), far, fixed(direction), fixed(w), motion
-    )
+    return InstantCentre(i, j, motion.t, fixed(position), far, fixed(direction), fixed(w), motion)
 
 
 def _extent(motion: Motion) -> tuple[Floats, float]:
@@ -135,5 +134,3 @@ def _fastest(motion: Motion, middle: Floats, size: float) -> Floats:
         u, omega = _at(motion, name, middle)
         found = np.maximum(found, np.hypot(u[..., 0], u[..., 1]) + np.abs(omega) * size)
     return found
-
-

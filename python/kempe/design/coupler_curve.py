@@ -21,6 +21,8 @@ from kempe.variable import Variable
 
 #: A path is closed if its ends are closer than this share of its size.
 _CLOSED = 1e-9
+#: A path smaller than this share of the mechanism is rounding.
+_NOTHING = 1e-12
 #: A speed under this share of the largest one is a standstill.
 _STILL = 1e-7
 
@@ -75,7 +77,8 @@ def coupler_curve(solution: Solution, point: Place) -> CouplerCurve:
     position, speed = path.position, np.hypot(*path.velocity.T)
     size = float(np.ptp(position, axis=0).max())
     name = located(solution.compiled, point)[2]
-    if size == 0.0 or not speed.any():
+    arm = float(np.abs(solution(t[:1]).q).max()) + float(np.hypot(*path.s))
+    if size <= _NOTHING * arm or not speed.any():
         raise ModelError(f"{name} does not move", name=name, hint="name a point of a moving body")
     cusps = _cusps(solution, point, float(speed.max()))
     first, last = (point_of(solution(t[[k]]), point) for k in (0, -1))
@@ -85,7 +88,8 @@ def coupler_curve(solution: Solution, point: Place) -> CouplerCurve:
     ends = [float(t[0]), *cusps[(cusps != t[0]) & (cusps != t[-1])], float(t[-1])]
 
     def rate(motion: Motion) -> Floats:
-        return np.hypot(*point_of(motion, point).velocity.T)
+        found: Floats = np.hypot(*point_of(motion, point).velocity.T)
+        return found
 
     origin = position.mean(axis=0)
 
@@ -124,4 +128,5 @@ def _cusps(solution: Solution, point: Place, fastest: float) -> Floats:
     speed = np.hypot(*point_of(solution(found), point).velocity.T)
     still = found[speed <= _STILL * fastest]
     first, last = sorted((float(solution.t[0]), float(solution.t[-1])))
-    return still[(still > first) & (still < last)]
+    inside: Floats = still[(still > first) & (still < last)]
+    return inside

@@ -222,7 +222,9 @@ def flywheel(
     """
     effort, rate, unit = _reads(interpolated(solution), driver)
     if unit != "N*m":
-        raise ModelError(f"{driver} turns no shaft", name=driver, hint="name the driver of an angle")
+        raise ModelError(
+            f"{driver} turns no shaft", name=driver, hint="name the driver of an angle"
+        )
     if not 0.0 < fluctuation < 1.0:
         raise ModelError(
             f"fluctuation: {fluctuation!r} is not between 0 and 1", hint="write 0.02 for 2 %"
@@ -276,5 +278,7 @@ def _along(solution: Solution, read: Read, t: Floats) -> Floats:
     nodes, weights = np.polynomial.legendre.leggauss(4)
     half = np.diff(t)[:, None] / 2.0
     times = t[:-1, None] + half + half * nodes
-    pieces = (half * weights * np.asarray(read(solution(times.ravel()))).reshape(times.shape)).sum(1)
+    pieces = (half * weights * np.asarray(read(solution(times.ravel()))).reshape(times.shape)).sum(
+        1
+    )
     return np.concatenate([[0.0], np.cumsum(pieces)])

@@ -90,7 +90,7 @@ class FreeBody:
             f"# loads on {self.body}{case}, at {of.name} = {self.t:.17g} {of.unit}",
             "# axes of the body; forces act on the body; its origin is (0, 0)",
             f"# mass {info.mass:.17g} kg, inertia {info.inertia:.17g} kg*m^2 about the mass centre",
-            "# gravity and inertia: resultants at the mass centre, or the fields in the last columns",
+            "# gravity and inertia: resultants at the mass centre, or fields in the last columns",
             _HEADER,
         ]
         lines += [self._row(load) for load in self.loads if load.kind != "gravity"]

@@ -45,7 +45,7 @@ def interpolated(solution: Solution) -> Solution:
     """The solution, if it has values between its outputs.
 
     Raises:
-        ModelError: it is no solution, has less than two outputs, or no interpolant.
+        ModelError: it is not a solution, has less than two outputs, or no interpolant.
     """
     instance(solution, Solution, "a solution")
     if solution.dense is None:

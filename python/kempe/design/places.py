@@ -33,7 +33,7 @@ def located(model: CompiledModel, place: Place) -> tuple[str, Vector, str]:
         return body, known[point], place
     if not isinstance(place, tuple | list) or len(place) != 2 or not isinstance(place[0], str):
         raise ModelError(
-            f"point: {place!r} is no point",
+            f"point: {place!r} is not a point",
             hint='write "coupler.P", or ("coupler", (0.1, 0.2)) in the frame of the body, m',
         )
     body = model.body(place[0]).name

@@ -103,7 +103,7 @@ def velocity_polygon(solution_or_state: Solution | State, t: float | None = None
     Raises:
         ModelError: the instant is not within the solution.
     """
-    state = _state(solution_or_state, t)
+    state = state_at(solution_or_state, t)
     points = _points(state)
     images = {p.name: _velocity(state, p) for p in points}
     sides = [
@@ -112,7 +112,9 @@ def velocity_polygon(solution_or_state: Solution | State, t: float | None = None
     for a, b in _pairs(state.compiled, points):
         apart = _position(state, b) - _position(state, a)
         omega = float(state.body(a.body).omega)
-        sides.append(Side(b.name + a.name, "relative", a.body, images[a.name], omega * _turned(apart)))
+        sides.append(
+            Side(b.name + a.name, "relative", a.body, images[a.name], omega * _turned(apart))
+        )
     for a, b, slip, _ in _slides(state, points):
         sides.append(Side(b.name + a.name, "slip", a.body, images[a.name], slip))
     return _polygon("velocity", "m/s", state, images, sides)
@@ -128,7 +130,7 @@ def acceleration_polygon(solution_or_state: Solution | State, t: float | None = 
     Raises:
         ModelError: the instant is not within the solution.
     """
-    state = _state(solution_or_state, t)
+    state = state_at(solution_or_state, t)
     points = _points(state)
     images = {p.name: _acceleration(state, p) for p in points}
     sides = [
@@ -158,7 +160,8 @@ def _polygon(
     return Polygon(kind, unit, state.variable, float(state.t), kept, tuple(sides), state)
 
 
-def _state(solution_or_state: Solution | State, t: float | None) -> State:
+def state_at(solution_or_state: Solution | State, t: float | None) -> State:
+    """The state at an instant of a solution, its first when None; a state as it is."""
     instance(solution_or_state, (Solution, State), "a solution or a state")
     if isinstance(solution_or_state, State):
         if t is not None and t != solution_or_state.t:
@@ -212,10 +215,10 @@ def _points(state: State) -> list[_Point]:
             if not any(p.body == body and _near(p.s, s) for p in taken):
                 label = point if named.count(point) == 1 else f"{body}.{point}"
                 found.append(_Point(label, body, s))
-    return [p for k, p in enumerate(found) if not _repeats(state, p, found[:k])]
+    return [p for k, p in enumerate(found) if not _repeats(p, found[:k])]
 
 
-def _repeats(state: State, point: _Point, before: list[_Point]) -> bool:
+def _repeats(point: _Point, before: list[_Point]) -> bool:
     """Whether the same place of the same body has a name already."""
     return any(p.body == point.body and _near(p.s, point.s) for p in before)
 
@@ -246,9 +249,7 @@ def _pairs(model: CompiledModel, points: list[_Point]) -> Iterator[tuple[_Point,
                 yield first, other
 
 
-def _slides(
-    state: State, points: list[_Point]
-) -> Iterator[tuple[_Point, _Point, Floats, Floats]]:
+def _slides(state: State, points: list[_Point]) -> Iterator[tuple[_Point, _Point, Floats, Floats]]:
     """For slides on moving bodies: the point under it, its own, the slip, and its direction."""
     by = {(p.name, p.body): p for p in points}
     for name, info in state.compiled.joints.items():

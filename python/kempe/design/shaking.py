@@ -104,5 +104,7 @@ def _place(motion: Motion, about: str | tuple[float, float]) -> tuple[float, flo
         return vector(about, "about")
     body, _, point = about.rpartition(".")
     if body != "ground":
-        raise ModelError(f"about: {about!r} is no point of ground", hint='write "ground.O" or (x, y)')
+        raise ModelError(
+            f"about: {about!r} is not a point of ground", hint='write "ground.O" or (x, y)'
+        )
     return motion.body(body).point(point).s

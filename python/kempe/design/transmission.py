@@ -41,7 +41,6 @@ class TransmissionAngle:
         variable: what ``t`` contains.
         t: instants close enough for a smooth curve, (n,), s.
         angle: angle between the links, from 0 to π, (n,), rad.
-        transmission: the same as an acute angle, π/2 - \\|π/2 - angle\\|, (n,), rad.
         limits: the least and the largest ``angle``, found on the interpolant.
         worst: the least ``transmission``, with its instant.
     """
@@ -83,11 +82,13 @@ def transmission_angle(
             ``{"coupler": "coupler.B"}``.
 
     Raises:
-        ModelError: the joint is no pin, or the line of a body is not unique.
+        ModelError: the joint is not a pin, or the line of a body is not unique.
     """
     info = solution.joint(joint).info
     if not is_pin(info):
-        raise ModelError(f"{joint} is no revolute joint", name=joint, hint="name a pin of two links")
+        raise ModelError(
+            f"{joint} is not a revolute joint", name=joint, hint="name a pin of two links"
+        )
     given = mapping(lines, "lines", "{'coupler': 'coupler.B'}")
     for body in given:
         if body not in (info.i, info.j):
@@ -153,8 +154,8 @@ def mechanical_advantage(motion: Motion, output: str, input: str) -> Floats:  # 
     """Effort at the output over effort at the input of a mechanism without losses, (n_t,).
 
     By virtual power it is the rate of the input over that of the output (Norton, *Design of
-    Machinery*, section 6.5), negative if a positive effort at the input pushes the output back. At a
-    toggle position it is ±∞.
+    Machinery*, section 6.5), negative if a positive effort at the input pushes the output back. At
+    a toggle position it is ±∞.
 
     Args:
         motion: a solution, or the motion at some times.
@@ -240,8 +241,9 @@ def toggles(solution: Solution, output: str) -> list[Toggle]:
         ModelError: there is no such quantity, or it does not move.
     """
     rate = rate_name(solution.compiled, output)
-    size = float(np.abs(solution(instants(solution))[rate]).max(initial=0.0))
-    if size == 0.0:
+    motion = solution(instants(solution))
+    size = float(np.abs(motion[rate]).max(initial=0.0))
+    if size <= _STILL * float(np.abs(motion.v).max(initial=0.0)):
         raise ModelError(f"{output} does not move", name=output, hint="name a moving quantity")
     found = zeros(solution, lambda motion: _without_noise(motion[rate], size))
     states = [solution(float(t)) for t in found]
@@ -261,9 +263,9 @@ def _in_line(state: State) -> tuple[tuple[str, str], ...]:
     model, found = state.compiled, []
     for name, info in model.joints.items():
         links = (info.i, info.j)
-        if is_pin(info) and all(_is_link(model, body, name) for body in links):
-            if abs(np.sin(float(_angle(name, {}, state)))) < _IN_LINE:
-                found.append(links)
+        pinned = is_pin(info) and all(_is_link(model, body, name) for body in links)
+        if pinned and abs(np.sin(float(_angle(name, {}, state)))) < _IN_LINE:
+            found.append(links)
     return tuple(found)
 
 

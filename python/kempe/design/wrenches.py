@@ -6,7 +6,6 @@ J α. Forces are those of joints, drivers and force elements.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,7 +45,7 @@ class Load:
 
 
 def cross(a: Floats, b: Floats) -> Floats:
-    """z component of the product of vectors of the plane, (…)."""
+    """Z component of the product of vectors of the plane, (…)."""
     return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
 
 
@@ -58,18 +57,15 @@ def loads(motion: Motion, body: str, *, gravity: bool = True) -> list[Load]:
         SingularityError: reactions are not unique.
     """
     info = motion.compiled.body(body)
-    found = [_of_joint(motion, c, body) for c in _acting(motion.compiled.constraints, body)]
-    found += [_of_element(motion, f, body) for f in _acting(motion.compiled.forces, body)]
+    model = motion.compiled
+    found = [_of_joint(motion, c, body) for c in model.constraints.values() if body in c.bodies]
+    found += [_of_element(motion, f, body) for f in model.forces.values() if body in f.bodies]
     if gravity and info.number:
         mass = mass_and_inertia(motion, body)[0]
         weight = mass[..., None] * np.array(motion.compiled.gravity)
         centre = motion.body(body).at(info.center).position
         found.append(Load("gravity", "gravity", fixed(weight), np.zeros(np.shape(mass)), centre))
     return found
-
-
-def _acting(elements: object, body: str) -> Iterator[ConstraintInfo | ForceInfo]:
-    yield from (e for e in elements.values() if body in e.bodies)  # type: ignore[attr-defined]
 
 
 def _of_joint(motion: Motion, info: ConstraintInfo, body: str) -> Load:
@@ -138,7 +134,7 @@ class Inertia:
 
 
 def inertia(motion: Motion, body: str) -> Inertia:
-    """m a and J α of a body."""
+    """M a and J α of a body."""
     info, view = motion.compiled.body(body), motion.body(body)
     mass, about = mass_and_inertia(motion, body)
     centre = view.at(info.center)
@@ -174,5 +170,3 @@ def imbalance(found: list[Load], of: Inertia) -> float:
         if scale > 0.0
     ]
     return max(shares, default=0.0)
-
-

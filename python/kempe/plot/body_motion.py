@@ -191,16 +191,12 @@ def _draw_all(
     if turn:
         unit = QUANTITIES[names[2]][1]
         still = unit == "rad"
-        panel = Panel(
-            turn[0].label, unit, turn, turning_points=still, variable=motion.variable
-        )
+        panel = Panel(turn[0].label, unit, turn, turning_points=still, variable=motion.variable)
         lines += _draw_turning(axes, t, panel, cut)
     axes.legend(handles=lines, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=3)
 
 
-def _draw_turning(
-    axes: Axes, t: Floats, panel: Panel, cut: float | None
-) -> Sequence[Line2D]:
+def _draw_turning(axes: Axes, t: Floats, panel: Panel, cut: float | None) -> Sequence[Line2D]:
     """An angle or its rate on a twin of the axes; returns its lines."""
     twin = axes.twinx()
     twin.grid(visible=False)
