@@ -23,7 +23,7 @@ class Load:
 
     Attributes:
         name: the joint, driver or force element; "gravity" for the weight.
-        kind: "joint", "driver", "force" or "gravity".
+        kind: "joint", "driver", "element" or "gravity".
         force: (n_t, 2), N, global.
         moment: about the place, (n_t,), N·m.
         place: where it is reduced to, (n_t, 2), m, global.
@@ -90,7 +90,7 @@ def _of_element(motion: Motion, info: ForceInfo, body: str) -> Load:
         s = info.points[1] if body == info.j else info.points[0]
         place = own.at(s).position
         moment = moment - cross(place - own.r, force)
-    return Load(info.name, "force", force, fixed(moment), place)
+    return Load(info.name, "element", force, fixed(moment), place)
 
 
 def _by_multipliers(

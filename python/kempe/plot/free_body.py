@@ -44,7 +44,7 @@ _ROOM = 0.32
 _LONGEST, _SHORTEST, _RADIUS, _WIDTH = 64.0, 15.0, 13.0, 1.5
 #: Loads below this share of the largest are not drawn.
 _NOTHING = 1e-9
-_COLOURS = {"joint": "reaction", "driver": "drive", "force": "force", "gravity": "ink"}
+_COLOURS = {"joint": "reaction", "driver": "drive", "element": "force", "gravity": "ink"}
 
 #: An arrow: name, colour, place, vector, and whether it is dashed.
 _Arrow = tuple[str, str, Floats, Floats, bool]
