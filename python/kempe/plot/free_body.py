@@ -1,8 +1,8 @@
 """The free-body diagram of a body: all forces and moments on it, with values, and -m a.
 
-Arrows begin where the force acts. Their lengths are proportional to the forces, but a small one
-keeps a least length, so that it is seen. With d'Alembert's force -m a, drawn dashed at the mass
-centre, all forces are in balance.
+Arrows begin where the force acts, or end there if it pushes on the body. Their lengths are
+proportional to the forces, but a small one keeps a least length, so that it is seen. With
+d'Alembert's force -m a, drawn dashed at the mass centre, all forces are in balance.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from kempe.draw.items import (
     upright,
 )
 from kempe.draw.scene import Scene, scene
-from kempe.draw.units import Scale, scale
+from kempe.draw.units import scale
 from kempe.plot import style
 from kempe.plot.configuration import instant
 from kempe.plot.picture import drawn, paint
@@ -83,15 +83,13 @@ def draw_free_body(found: FreeBody, *, ax: Axes | None = None) -> Axes:
     title = f"Forces on {style.short(found.body)}, {case}{instant(found.state)}"
     with style.on(ax, _HEIGHT) as axes:
         made = drawn(axes, _alone(found), title)
-        unit = scale("N", most)
         for arrow in arrows:
             if float(np.hypot(*arrow[3])) > _NOTHING * most:
-                _add_force(made, arrow, most, unit)
+                _add_force(made, arrow, most, np.asarray(found.inertia.centre))
         least = max(_NOTHING * turning, 1e-9 * most * _size(made.scene))
-        of = scale("N·m", turning)
         for name, place, moment in moments:
             if abs(moment) > least:
-                _add_moment(made, name, place, moment, of)
+                _add_moment(made, name, place, moment)
         paint(axes, made)
         return axes
 
@@ -129,11 +127,13 @@ def _size(made: Scene) -> float:
     return float((high - low).max()) or 1.0
 
 
-def _add_force(made: Display, arrow: _Arrow, most: float, unit: Scale) -> None:
+def _add_force(made: Display, arrow: _Arrow, most: float, centre: Floats) -> None:
     name, colour, place, vector, dashed = arrow
     size = float(np.hypot(*vector))
     length = max(_LONGEST * size / most, _SHORTEST)
     along = vector / size
+    inwards = float(along @ (centre - place)) > 1e-3 * _size(made.scene)
+    begin = -length if inwards else 0.0
     frame = upright(0, [float(x) for x in place])
     shaft = length - 6.0
     pieces = [(0.0, shaft)]
@@ -141,25 +141,26 @@ def _add_force(made: Display, arrow: _Arrow, most: float, unit: Scale) -> None:
         count = max(2, int(shaft // 6.0))
         marks = np.linspace(0.0, shaft, 2 * count)
         pieces = [(float(marks[2 * k]), float(marks[2 * k + 1])) for k in range(count)]
-    items: list[Item] = [
-        line(
-            name,
-            frame,
-            print_points(np.array([a * along, b * along])),
-            colour,
-            _WIDTH,
-            layer=NUMBER - 1,
-        )
-        for a, b in pieces
-    ]
-    head = arrow_head([float(x) for x in length * along], float(np.arctan2(*along[::-1])), 8.0)
+    items: list[Item] = []
+    for first, last in pieces:
+        rows = print_points(np.array([(begin + first) * along, (begin + last) * along]))
+        items.append(line(name, frame, rows, colour, _WIDTH, layer=NUMBER - 1))
+    tip = (begin + length) * along
+    head = arrow_head([float(x) for x in tip], float(np.arctan2(*along[::-1])), 8.0)
     made.add([*items, fill(name, frame, print_points(head), colour, layer=NUMBER - 1)])
-    tip = made.view.plane(made.view.points(place) + length * along)
-    number = f"{size / unit.divisor:.4g} {unit.unit}"
-    made.name("measure", f"{style.one_line(name, 14)}: {number}", upright(0, [*map(float, tip)]))
+    free = begin * along if inwards else tip  # the end that is away from the body
+    at = made.view.plane(made.view.points(place) + free)
+    words = f"{style.one_line(name, 14)}: {_valued('N', size)}"
+    made.name("measure", words, upright(0, [float(x) for x in at]))
 
 
-def _add_moment(made: Display, name: str, place: Floats, moment: float, unit: Scale) -> None:
+def _valued(unit: str, value: float) -> str:
+    """A number with the unit that keeps it short."""
+    shown = scale(unit, abs(value))
+    return f"{value / shown.divisor:.4g} {shown.unit}".replace("-", "−")
+
+
+def _add_moment(made: Display, name: str, place: Floats, moment: float) -> None:
     frame = upright(0, [float(x) for x in place])
     turned = np.array([1.0, 1.0 if moment > 0.0 else -1.0])
     begin, end = np.radians([-60.0, 200.0])
@@ -169,5 +170,4 @@ def _add_moment(made: Display, name: str, place: Floats, moment: float, unit: Sc
     colour = "quiet" if name == "−J α" else "force"
     made.add([line(name, frame, shaft, colour, _WIDTH, layer=NUMBER - 1)])
     made.add([fill(name, frame, print_points(head), colour, layer=NUMBER - 1)])
-    number = f"{moment / unit.divisor:.4g} {unit.unit}".replace("-", "−")
-    made.name("measure", f"{style.one_line(name, 14)}: {number}", frame)
+    made.name("measure", f"{style.one_line(name, 14)}: {_valued('N·m', moment)}", frame)
