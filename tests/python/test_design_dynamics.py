@@ -357,12 +357,39 @@ def test_a_load_case_out_of_balance_is_not_written(turn: kp.Solution, tmp_path: 
         design.free_body(turn, "ground")
 
 
-@pytest.mark.parametrize("example", ["cam_roller", "excavator", "jansen_leg", "planetary_gear"])
+@pytest.mark.parametrize(
+    "example", ["cam_roller", "excavator", "jansen_leg", "planetary_gear", "squeezer"]
+)
 def test_all_bodies_balance(example: str) -> None:
     sol = kp.load(f"examples/{example}.toml").run()[0]
     motion = sol(np.linspace(float(sol.t[0]), float(sol.t[-1]), 7))
     for body in sol.compiled.bodies:
         assert imbalance(loads(motion, body), inertia(motion, body)) < 1e-12
+
+
+def test_the_force_of_a_flat_face_acts_at_its_point_of_contact() -> None:
+    """The contact moves along the face, to e cos φ beside the guide, which carries the moment."""
+    m = kp.Model("eccentric cam", gravity=(0, -G))
+    m.ground.points(O=(0, 0))
+    rim = {"rim": {"circle": (0.02, 0, 0.05)}}
+    m.body("cam", mass=2, inertia=0.01, points={"O": (0, 0)}, curves=rim)
+    m.body("follower", mass=0.8, inertia=0.001, points={"P": (0, 0)})
+    m.revolute("shaft", "ground.O", "cam.O")
+    m.translational("guide", "ground.O", "follower.P", axes=("90*deg", "90*deg"))
+    m.flat_on_curve("contact", "follower.P", "cam.rim")
+    m.coordinate_driver("motor", "cam.angle", value="pi/2 + 10*t")
+    sol = kp.inverse_dynamics(m, kp.assemble(m), t_end=0.6, output_step=0.05)
+    for body in ("cam", "follower"):
+        assert imbalance(loads(sol, body), inertia(sol, body)) < 1e-13
+    (contact,) = (load for load in loads(sol, "follower") if load.name == "contact")
+    arm = 0.02 * np.cos(np.pi / 2 + 10 * sol.t)
+    assert contact.moment == pytest.approx(arm * contact.force[:, 1], abs=1e-13)
+    found = design.shaking(sol)
+    lift = -0.8 * 100 * 0.02 * np.sin(np.pi / 2 + 10 * found.t)
+    assert found.force[:, 1] == pytest.approx(-lift, abs=1e-10)
+    assert found.moment == pytest.approx(np.zeros(len(found.t)), abs=1e-10)
+    files = [case.residual for case in design.load_cases(sol, "follower")]
+    assert max(files) < 1e-12
 
 
 def test_the_centripetal_field_of_a_turning_bar() -> None:
