@@ -24,8 +24,12 @@ _LEAST, _WISHED, _MOST = 4, 721, 20_000
 _PARTS, _ROUNDS = 32, 10
 #: A maximum is bracketed by two of so many parts; its value has converged after four rounds.
 _TOPS = 6
-#: Nodes of Gauss in a panel, panels at first, and how often their number doubles at most.
-_NODES, _PANELS, _DOUBLINGS = 16, 8, 9
+#: Nodes of Gauss in a panel, panels at first and, of all parts together, at most.
+_NODES, _PANELS, _MOST_PANELS = 16, 8, 1024
+#: How often the points of the trapezoidal rule double at most.
+_DOUBLINGS = 9
+#: A quantity below this share of its largest value is zero.
+_NOISE = 1e-12
 #: An integral has converged when it changes by less than this share of that of the magnitude.
 _CONVERGED = 1e-13
 
@@ -68,10 +72,15 @@ def instants(solution: Solution) -> Floats:
 
 
 def zeros(solution: Solution, read: Read) -> Floats:
-    """All instants at which a quantity changes its sign or is zero, refined to rounding."""
+    """All instants at which a quantity changes its sign or is zero, refined to rounding.
+
+    Of a part of the motion in which it is zero all the time, the first and the last instant.
+    """
     t = instants(solution)
     values = np.asarray(read(solution(t)))
-    exact = t[values == 0.0]
+    values = np.where(np.abs(values) <= _NOISE * np.abs(values).max(initial=0.0), 0.0, values)
+    still = np.concatenate([[False], values == 0.0, [False]])
+    exact = t[still[1:-1] & ~(still[:-2] & still[2:])]
     k = np.flatnonzero(values[:-1] * values[1:] < 0.0)
     low, high = t[k], t[k + 1]
     first = np.sign(values[k])
@@ -137,7 +146,8 @@ def integral(
     """
     if periodic and len(ends) == 2:
         return np.array([_trapezoid(solution, read, ends[0], ends[1])])
-    return np.array([_gauss(solution, read, a, b) for a, b in pairwise(ends)])
+    most = max(_PANELS, _MOST_PANELS // max(len(ends) - 1, 1))
+    return np.array([_gauss(solution, read, (a, b), most) for a, b in pairwise(ends)])
 
 
 def _trapezoid(solution: Solution, read: Read, a: float, b: float) -> float:
@@ -153,14 +163,14 @@ def _trapezoid(solution: Solution, read: Read, a: float, b: float) -> float:
     return value
 
 
-def _gauss(solution: Solution, read: Read, a: float, b: float) -> float:
-    """Gauss's rule in equal panels, and in the steps of an integrator if they are finer."""
-    if a == b:
+def _gauss(solution: Solution, read: Read, ends: tuple[float, float], most: int) -> float:
+    """Gauss's rule in equal panels, so many at most."""
+    if ends[0] == ends[1]:
         return 0.0
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
-    panels, before = _PANELS, np.inf
-    for _ in range(_DOUBLINGS):
-        bounds = np.linspace(a, b, panels + 1)
+    panels, value, before = _PANELS, 0.0, np.inf
+    while panels <= most:
+        bounds = np.linspace(*ends, panels + 1)
         half = np.diff(bounds)[:, None] / 2.0
         times = (bounds[:-1, None] + half) + half * nodes
         values = np.asarray(read(solution(times.ravel()))).reshape(times.shape)
