@@ -29,10 +29,12 @@ Compute:
     dynamics                the motion from a state
     kinematics              the motion that drivers determine
     inverse_dynamics        the same with efforts and reactions
+    equilibrium             the rest position, its stability, paths over a parameter
+    stiffness_at            the stiffness felt at a point
+    modes                   frequencies, damping and shapes about a state, and its state space
     limits                  how far a driver goes, or whether it turns fully
     mobility                freedoms, redundant joints, singular positions, four-bar loops
     configurations          all positions in which the mechanism closes
-    modes                   frequencies, damping and shapes about a state, and its state space
     study                   comparison of methods and stabilizations
     RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
                             methods of integration
@@ -43,6 +45,8 @@ Results:
     show, equations         matrices and equations with the names of the model
     report.summary          peaks, settling times, energy balance
     load_solution           a solution that was saved
+
+    design                  coupler curves, transmission angles, motors, flywheels, pin loads
 
 Show:
     plot                    figures
@@ -60,6 +64,7 @@ from typing import TYPE_CHECKING, Any
 from kempe._version import __version__
 
 if TYPE_CHECKING:
+    from kempe import design as design
     from kempe import draw as draw
     from kempe import errors as errors
     from kempe import plot as plot
@@ -110,6 +115,7 @@ if TYPE_CHECKING:
     from kempe.options import Baumgarte as Baumgarte
     from kempe.options import Configurations as Configurations
     from kempe.options import Dynamics as Dynamics
+    from kempe.options import Equilibrium as Equilibrium
     from kempe.options import GeneralizedAlpha as GeneralizedAlpha
     from kempe.options import InverseDynamics as InverseDynamics
     from kempe.options import Kinematics as Kinematics
@@ -125,6 +131,10 @@ if TYPE_CHECKING:
     from kempe.start import Start as Start
     from kempe.state import AssemblyReport as AssemblyReport
     from kempe.state import State as State
+    from kempe.statics import EquilibriumResult as EquilibriumResult
+    from kempe.statics import PointStiffness as PointStiffness
+    from kempe.statics import equilibrium as equilibrium
+    from kempe.statics import stiffness_at as stiffness_at
     from kempe.studies import Study as Study
     from kempe.studies import study as study
     from kempe.symbolic import equations as equations
@@ -144,6 +154,8 @@ _HOME = {
     "DOP853": "options",
     "Dynamics": "options",
     "Energy": "energy",
+    "Equilibrium": "options",
+    "EquilibriumResult": "statics",
     "Event": "event",
     "EventWarning": "events",
     "FileError": "errors",
@@ -166,6 +178,7 @@ _HOME = {
     "ModesResult": "linearization",
     "Motion": "motion",
     "NoStabilization": "options",
+    "PointStiffness": "statics",
     "Projection": "options",
     "RK4": "options",
     "RK45": "options",
@@ -182,22 +195,25 @@ _HOME = {
     "animate": "draw.animate",
     "assemble": "analyses",
     "configurations": "closures",
+    "design": "",
     "draw": "",
     "dynamics": "analyses",
     "equations": "symbolic",
+    "equilibrium": "statics",
     "errors": "",
     "inverse_dynamics": "driven",
     "kinematics": "driven",
     "limits": "reach",
     "load": "case",
     "load_solution": "archive",
-    "mobility": "freedom",
     "modes": "linearization",
+    "mobility": "freedom",
     "player": "draw.player",
     "plot": "",
     "report": "",
     "scene": "draw.scene",
     "show": "matrices",
+    "stiffness_at": "statics",
     "still": "draw.still",
     "study": "studies",
     "units": "display_units",

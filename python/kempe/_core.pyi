@@ -245,24 +245,10 @@ def dynamics(
     """
 
 def kinematics_options(model: Model, text: str) -> str:
-    """The options of ``kinematics`` or ``inverse_dynamics``, checked, as JSON.
-
-    Args:
-        model: the mechanism.
-        text: JSON, an entry of ``analyses`` as in a file.
-
-    Raises:
-        ModelError: an option is invalid.
-    """
+    """The options of ``kinematics`` or ``inverse_dynamics``, checked, as JSON."""
 
 def kinematics(
-    model: Model,
-    t: float,
-    q: _F,
-    v: _F,
-    z: _F,
-    times: _F,
-    progress: Callable[[float], None] | None,
+    model: Model, t: float, q: _F, v: _F, z: _F, times: _F, progress: Callable[[float], None] | None
 ) -> Run:
     """The motion that the drivers determine, at ``times``, (n_t,), from a state.
 
@@ -273,27 +259,22 @@ def kinematics(
         ModelError: the drivers leave a freedom.
     """
 
-def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
-    """What a mechanism can do at a position, as JSON."""
+def equilibrium(
+    model: Model, t: float, q: _F, v: _F, z: _F, text: str, progress: Callable[[float], None] | None
+) -> str:
+    """The rest position that a state leads to, or a path of them, as JSON.
 
-def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _F, _F, str]:
-    """q, v and z of all configurations, one row each, with JSON: ``complete`` and ``reports``."""
+    ``text`` is an entry of ``analyses`` as in a file, in JSON. ``progress`` is called with the
+    number of steps, or with the value of the parameter.
+    """
 
-def limits(
-    model: Model, t: float, q: _F, v: _F, z: _F, progress: Callable[[float], None] | None
-) -> tuple[str, _F, _F]:
-    """The limits of the value of t: JSON, the values on the way, and the positions (n, n_q)."""
+def compliance(
+    model: Model, t: float, q: _F, v: _F, z: _F, point: str, hold: list[str]
+) -> list[float]:
+    """∂(displacement)/∂(force) of a point at rest, m/N: xx, xy, yx, yy."""
 
 def modes_options(model: Model, text: str) -> str:
-    """The options of ``modes``, checked, as JSON.
-
-    Args:
-        model: the mechanism.
-        text: JSON, an entry of ``analyses`` as in a file.
-
-    Raises:
-        ModelError: an option is invalid.
-    """
+    """The options of ``modes``, checked, as JSON."""
 
 def linearize(
     model: Model, t: float, q: _F, v: _F, z: _F, inputs: list[str], outputs: list[str]
@@ -310,6 +291,17 @@ def linearize(
         AssemblyError: the state does not meet the constraints.
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
+
+def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
+    """What a mechanism can do at a position, as JSON."""
+
+def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _F, _F, str]:
+    """q, v and z of all configurations, one row each, with JSON: ``complete`` and ``reports``."""
+
+def limits(
+    model: Model, t: float, q: _F, v: _F, z: _F, progress: Callable[[float], None] | None
+) -> tuple[str, _F, _F]:
+    """The limits of the value of t: JSON, the values on the way, and the positions (n, n_q)."""
 
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F]:
     """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂.

@@ -29,6 +29,7 @@ from kempe.sequence import of_type
 from kempe.solution import Solution
 from kempe.start import Start, read_start
 from kempe.state import State
+from kempe.statics import rest
 from kempe.values import Number, data, listed, mapping, numbers, plain, reference
 
 FORMATS = {".toml": "toml", ".json": "json"}
@@ -41,10 +42,11 @@ _RUNNERS: dict[str, _Runner] = {
     "dynamics": simulate,
     "kinematics": follow,
     "inverse_dynamics": follow_with_forces,
+    "equilibrium": rest,
+    "modes": linearized,
     "configurations": find_configurations,
     "limits": find_limits,
     "mobility": find_mobility,
-    "modes": linearized,
 }
 
 

@@ -446,6 +446,71 @@ class InverseDynamics(Analysis):
 
 
 @dataclass(frozen=True, repr=False)
+class Equilibrium(Analysis):
+    """Analysis of type ``equilibrium``, an entry of ``[analyses]``.
+
+    The position in which a mechanism comes to rest, with its stability; or all positions of
+    rest along a path over a parameter.
+
+    Attributes:
+        hold: Position quantities that a holder keeps at their values of the start, such as
+            `crank.angle`.
+        over: A parameter of the model, over which a path of equilibria is followed.
+        range: First and last value of `over`, in SI units and rad.
+        nearest: Whether the equilibrium nearest to the start is wanted, stable or not.
+        after: State at which it starts: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    hold: Words | None = None
+    over: str | None = None
+    range: Pair | None = None
+    nearest: bool = False
+    after: str | None = None
+    name: str = "equilibrium"
+    kind: ClassVar[str] = "equilibrium"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "hold": "quantities",
+        "over": "name",
+        "range": "pair",
+        "nearest": "flag",
+        "after": "name",
+    }
+
+
+@dataclass(frozen=True, repr=False)
+class Modes(Analysis):
+    """Analysis of type ``modes``, an entry of ``[analyses]``.
+
+    Frequencies, damping and shapes of small motions about a state, with the state-space
+    matrices of named inputs and outputs.
+
+    Attributes:
+        n: Number of modes, the slowest first; if absent, all.
+        inputs: Parameters of forces, or position quantities such as `crank.angle` for their
+            generalized force.
+        outputs: Quantities.
+        after: State about which the motions are small: "start", or the name of an earlier
+            analysis for the end of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    n: int | None = None
+    inputs: Words | None = None
+    outputs: Words | None = None
+    after: str | None = None
+    name: str = "modes"
+    kind: ClassVar[str] = "modes"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "n": "count",
+        "inputs": "quantities",
+        "outputs": "quantities",
+        "after": "name",
+    }
+
+
+@dataclass(frozen=True, repr=False)
 class Limits(Analysis):
     """Analysis of type ``limits``, an entry of ``[analyses]``.
 
@@ -514,36 +579,5 @@ class Configurations(Analysis):
     shapes: ClassVar[Mapping[str, Shape]] = {
         "set": "values",
         "limit": "count",
-        "after": "name",
-    }
-
-
-@dataclass(frozen=True, repr=False)
-class Modes(Analysis):
-    """Analysis of type ``modes``, an entry of ``[analyses]``.
-
-    Frequencies, damping and shapes of small motions about a state, with the state-space
-    matrices of named inputs and outputs.
-
-    Attributes:
-        n: Number of modes, the slowest first; if absent, all.
-        inputs: Parameters of forces, or position quantities such as `crank.angle` for their
-            generalized force.
-        outputs: Quantities.
-        after: State about which the motions are small: "start", or the name of an earlier
-            analysis for the end of that analysis. If absent, the end of the analysis before it.
-        name: its name in the case.
-    """
-
-    n: int | None = None
-    inputs: Words | None = None
-    outputs: Words | None = None
-    after: str | None = None
-    name: str = "modes"
-    kind: ClassVar[str] = "modes"
-    shapes: ClassVar[Mapping[str, Shape]] = {
-        "n": "count",
-        "inputs": "quantities",
-        "outputs": "quantities",
         "after": "name",
     }

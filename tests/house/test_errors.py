@@ -58,6 +58,8 @@ CALLS: dict[str, Callable[[], object]] = {
     "limits": lambda: _core.limits(MODEL, T, Q, V, Z, None),
     "mobility": lambda: _core.mobility(MODEL, T, Q, V, Z),
     "configurations": lambda: _core.configurations(MODEL, '{"crank.angle": 1}', 9, T),
+    "equilibrium": lambda: _core.equilibrium(MODEL, T, Q, V, Z, '{"type": "equilibrium"}', None),
+    "compliance": lambda: _core.compliance(MODEL, T, Q, V, Z, "rocker.C", ["crank.angle"]),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
     "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW, STATES),

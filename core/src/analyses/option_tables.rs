@@ -3,6 +3,7 @@
 use super::configurations;
 use super::diagnosis;
 use super::dynamics;
+use super::equilibrium;
 use super::kinematics;
 use super::limits;
 use super::linearization;
@@ -15,10 +16,11 @@ static ANALYSES: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         dynamics::Options::declaration(),
         kinematics::Options::declaration(),
         kinematics::InverseOptions::declaration(),
+        equilibrium::Options::declaration(),
+        linearization::Options::declaration(),
         limits::Options::declaration(),
         diagnosis::Options::declaration(),
         configurations::Options::declaration(),
-        linearization::Options::declaration(),
     ]
 });
 static FAMILIES: LazyLock<Vec<Family>> =
