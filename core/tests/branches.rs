@@ -66,7 +66,7 @@ fn near_change(random: &mut Random, kind: usize, off: f64) -> [f64; 4] {
     match kind {
         0 => [long, short, long + off, short + 2.0 * off],
         1 => [long, short, short + 2.0 * off, long + off],
-        _ => [short, long, short + 2.0 * off, long + 3.0 * off],
+        _ => [short, long, short + 2.0 * off, long + off],
     }
 }
 

@@ -35,6 +35,32 @@ pub fn solve_dense(a: &mut [f64], b: &mut [f64]) -> bool {
     true
 }
 
+/// The sign of the determinant of a matrix, row by row, shape (n, n), which is overwritten; 0 if a pivot is zero or not a
+/// number.
+pub fn sign_of_determinant(a: &mut [f64], n: usize) -> f64 {
+    let mut sign = 1.0;
+    for k in 0..n {
+        let best = (k..n).max_by(|i, j| a[i * n + k].abs().total_cmp(&a[j * n + k].abs()));
+        let best = best.unwrap_or(k);
+        let pivot = a[best * n + k];
+        if pivot == 0.0 || !pivot.is_finite() {
+            return 0.0;
+        }
+        if best != k {
+            (k..n).for_each(|column| a.swap(k * n + column, best * n + column));
+            sign = -sign;
+        }
+        sign *= pivot.signum();
+        for row in k + 1..n {
+            let factor = a[row * n + k] / pivot;
+            if factor != 0.0 {
+                (k + 1..n).for_each(|column| a[row * n + column] -= factor * a[k * n + column]);
+            }
+        }
+    }
+    sign
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -46,6 +72,13 @@ mod tests {
         let mut b = vec![7.0, 6.0, -1.0];
         assert!(solve_dense(&mut a, &mut b));
         assert!(b.iter().zip([1.0, 2.0, 3.0]).all(|(x, y): (&f64, f64)| (x - y).abs() < 1e-15));
+    }
+
+    #[test]
+    fn the_sign_of_a_determinant() {
+        assert_eq!(sign_of_determinant(&mut [0.0, 2.0, 3.0, 1.0], 2), -1.0);
+        assert_eq!(sign_of_determinant(&mut [2.0, 0.0, 3.0, 1.0], 2), 1.0);
+        assert_eq!(sign_of_determinant(&mut [1.0, 2.0, 2.0, 4.0], 2), 0.0);
     }
 
     #[test]

@@ -85,7 +85,7 @@ mod symmetric;
 pub use block_lu::{BlockLu, LOST};
 pub use breakdown::Breakdown;
 pub use condensed::{Condensation, CondensedGroup};
-pub use dense::solve_dense;
+pub use dense::{sign_of_determinant, solve_dense};
 pub use lu_symbolic::LuPlan;
 pub use mass_block::{InverseMass, PIVOT_TOLERANCE};
 pub use newton::Newton;

@@ -33,6 +33,8 @@ pub(in crate::analyses) struct Continuation<'a> {
     point: Point,
     /// The next step, if the last one limits it.
     length: f64,
+    /// The sign of det Φ_q at the point, if it is known.
+    orientation: Option<f64>,
     steps: usize,
     rejected: usize,
 }
@@ -52,7 +54,14 @@ impl<'a> Continuation<'a> {
             return Err(Reason::Free { degrees_of_freedom: freedom.degrees_of_freedom }.into());
         }
         match solver.point(*t, q.clone()) {
-            Some(point) => Ok(Self { solver, point, length: f64::INFINITY, steps: 0, rejected: 0 }),
+            Some(point) => Ok(Self {
+                solver,
+                point,
+                length: f64::INFINITY,
+                orientation: None,
+                steps: 0,
+                rejected: 0,
+            }),
             None => Err(Reason::singular_start(model, *t, q, &freedom).into()),
         }
     }
@@ -84,7 +93,7 @@ impl<'a> Continuation<'a> {
             let t = if h == left { goal } else { self.point.t + h };
             let predicted = self.point.predicted(h);
             if let Some(next) = self.solver.point(t, predicted.clone()) {
-                if self.is_near(&next, &predicted, h) {
+                if self.is_near(&next, &predicted, h) && self.keeps_orientation(&next) {
                     self.length = 2.0 * h.abs();
                     self.steps += 1;
                     self.point = next;
@@ -96,6 +105,7 @@ impl<'a> Continuation<'a> {
                 if let Some(next) = self.across(goal) {
                     self.steps += 1;
                     self.point = next;
+                    self.orientation = None;
                     return Ok(());
                 }
             }
@@ -104,6 +114,7 @@ impl<'a> Continuation<'a> {
         self.length = f64::INFINITY;
         self.steps += 1;
         self.point = passage::around(&mut self.solver, &self.point, goal)?;
+        self.orientation = None;
         Ok(())
     }
 
@@ -119,6 +130,16 @@ impl<'a> Continuation<'a> {
         let middle = Point { t: goal, ..Quintic::new(&self.point, &beyond).at(0.5) };
         let gaps = self.solver.phi(goal, &middle.q);
         gaps.iter().all(|gap| gap.abs() <= START).then_some(middle)
+    }
+
+    /// Whether det Φ_q keeps its sign. It changes only across a singular position, and between branches that nearly meet
+    /// at one: a step beside a change point could jump from one to the other.
+    fn keeps_orientation(&mut self, next: &Point) -> bool {
+        let before = self.orientation.unwrap_or_else(|| self.solver.orientation(&self.point));
+        let after = self.solver.orientation(next);
+        let keeps = before * after >= 0.0;
+        self.orientation = Some(if keeps { after } else { before });
+        keeps
     }
 
     /// Whether a point lies where the last one leads.

@@ -4,6 +4,7 @@ use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
 use crate::model::{column_scales, row_scales, Model};
+use crate::solve::sign_of_determinant;
 
 /// Largest scaled residual of a closed position.
 const CLOSED: f64 = 1e-13;
@@ -19,6 +20,8 @@ const REDUNDANT: f64 = 1e-18;
 const REGULAR: f64 = 1e-9;
 /// The same, as a part of that at the first position.
 const OF_FIRST: f64 = 1e-4;
+/// Largest number of coordinates for which the orientation is examined.
+const MOST_DENSE: usize = 120;
 
 /// The motion at a time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -158,6 +161,18 @@ impl<'a> Solver<'a> {
     pub fn phi(&mut self, t: f64, q: &[f64]) -> Vec<f64> {
         self.evaluate(t, (q, &vec![0.0; q.len()]));
         self.terms[0].iter().zip(&self.rows).map(|(phi, scale)| phi / scale).collect()
+    }
+
+    /// The sign of det Φ_q, which a regular motion keeps; 0 where it is not examined.
+    pub fn orientation(&mut self, point: &Point) -> f64 {
+        let n = self.model.layout.n_q;
+        if self.model.layout.n_rows != n || n > MOST_DENSE {
+            return 0.0;
+        }
+        let full = self.extended(point.t, &point.q, 1.0);
+        let mut square: Vec<f64> =
+            full.chunks(n + 1).flat_map(|row| row[..n].iter().copied()).collect();
+        sign_of_determinant(&mut square, n)
     }
 
     /// Φ_q, scaled, with the column Φ_t, row by row, shape (n_rows, n_q + 1). `unit` is the scale of t.
