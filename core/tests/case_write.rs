@@ -221,6 +221,7 @@ impl Dice {
             joints: self.entries(&elements(Group::Joints), used),
             drivers: self.entries(&elements(Group::Drivers), used),
             forces: self.entries(&elements(Group::Forces), used),
+            measures: (0..self.roll(3)).map(|_| self.measure(used)).collect(),
             functions: None,
         };
         let analyses: Vec<Table> =
@@ -229,6 +230,10 @@ impl Dice {
         analyses.iter_mut().for_each(|entry| entry.name = self.folder(used));
         let start = Start { set: self.coordinates(used), guess: self.coordinates(used) };
         Case { definition, start, analyses: analyses.into_iter().map(consistent).collect() }
+    }
+
+    fn measure(&mut self, used: &mut usize) -> (String, Value) {
+        (self.name(used), Value::Text(self.text()))
     }
 
     fn coordinates(&mut self, used: &mut usize) -> Vec<(String, Value)> {

@@ -314,6 +314,40 @@ def linearize(
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
 
+def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
+    """What a mechanism can do at a position, as JSON."""
+
+def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _F, _F, str]:
+    """All positions in which a mechanism closes, for the values of ``held``, a JSON text.
+
+    Returns:
+        q, v and z, one row for each; JSON with ``complete`` and the ``reports``.
+
+    Raises:
+        AssemblyError: there is none.
+        ModelError: freedoms are left.
+    """
+
+def limits(
+    model: Model,
+    t: float,
+    q: _F,
+    v: _F,
+    z: _F,
+    progress: Callable[[float], None] | None,
+) -> tuple[str, _F, _F]:
+    """The limits of the value that takes the place of t, from a state.
+
+    Returns:
+        JSON with ``lower``, ``upper``, ``unit``, ``reasons`` and ``turns``; the values on the way,
+        (n,); the positions there, (n, n_q).
+
+    Raises:
+        SingularityError: the motion cannot be followed, although it has no limit.
+        AssemblyError: the state does not meet the constraints.
+        ModelError: the drivers leave a freedom.
+    """
+
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F]:
     """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂.
 
@@ -334,6 +368,24 @@ def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
 
 def reaction(model: Model, joint: str, on: str, frame: str, t: _F, q: _F, lam: _F) -> _F:
     """Force and torque about the joint point of a joint on a body: (n_t, 3), N and N·m."""
+
+def place(model: Model, joint: str, on: str, t: _F, q: _F) -> _F:
+    """The point at which the reaction on a body is given, (n_t, 2), global, m."""
+
+def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F:
+    """The balance of each moving body, (n_t, 5 n_bodies).
+
+    |Σ F - m a| and |Σ M - J α|, the largest single force and moment, and the largest lever.
+    """
+
+def measure(model: Model, text: str) -> tuple[list[str], str]:
+    """The quantities that an expression uses, and its SI unit."""
+
+def measure_values(model: Model, text: str, t: _F, quantities: _F) -> _F:
+    """Values of an expression, (n_t,), for the values of its quantities, (n_t, n)."""
+
+def not_unique(model: Model, t: _F, q: _F) -> list[str]:
+    """The joints and drivers without a unique reaction at one of the states."""
 
 def results(model: Model, joint: str, t: _F, q: _F, lam: _F) -> _F:
     """The results of a joint beside its reaction, (n_t, n); ``describe`` names them."""

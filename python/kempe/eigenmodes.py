@@ -69,7 +69,7 @@ def _undamped(mass: Floats, stiffness: Floats) -> tuple[Complexes, Complexes]:
     vectors = []
     for square, shape in zip(squares, shapes, strict=True):
         root = float(np.sqrt(abs(square)))
-        pair = [1j * root] if square > 0.0 else [complex(-root), complex(root)]
+        pair = [1j * root] if square > 0.0 else [complex(0.0 - root), complex(root)]
         found += pair
         vectors += [shape] * len(pair)
     return np.array(found, dtype=complex), np.array(vectors, dtype=complex)

@@ -508,3 +508,76 @@ class Modes(Analysis):
         "outputs": "quantities",
         "after": "name",
     }
+
+
+@dataclass(frozen=True, repr=False)
+class Limits(Analysis):
+    """Analysis of type ``limits``, an entry of ``[analyses]``.
+
+    How far a driver or position quantity can go both ways until a dead point or the end of a
+    curve, or whether it turns fully.
+
+    Attributes:
+        over: A driver, or a position quantity such as `crank.angle`. If absent, the only
+            driver.
+        after: State at which it starts: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    over: str | None = None
+    after: str | None = None
+    name: str = "limits"
+    kind: ClassVar[str] = "limits"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "over": "name",
+        "after": "name",
+    }
+
+
+@dataclass(frozen=True, repr=False)
+class Mobility(Analysis):
+    """Analysis of type ``mobility``, an entry of ``[analyses]``.
+
+    Degrees of freedom, redundant and singular constraints, locked and loose bodies, and four-
+    bar loops.
+
+    Attributes:
+        after: State that is examined: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    after: str | None = None
+    name: str = "mobility"
+    kind: ClassVar[str] = "mobility"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "after": "name",
+    }
+
+
+@dataclass(frozen=True, repr=False)
+class Configurations(Analysis):
+    """Analysis of type ``configurations``, an entry of ``[analyses]``.
+
+    All positions in which the mechanism closes, for given values of its drivers and of `set`.
+
+    Attributes:
+        set: Coordinates and other position quantities that hold exactly, as in `start.set`; if
+            absent, those of the start.
+        limit: Largest number of configurations.
+        after: State whose time is used: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    set: Terms | None = None
+    limit: int = 100
+    after: str | None = None
+    name: str = "configurations"
+    kind: ClassVar[str] = "configurations"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "set": "values",
+        "limit": "count",
+        "after": "name",
+    }

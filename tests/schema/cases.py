@@ -162,6 +162,17 @@ type = "modes"
 n = 2
 inputs = ["a.angle"]
 outputs = ["a.x", "a.alpha"]
+[analyses.limits]
+type = "limits"
+over = "a.angle"
+from = "start"
+[analyses.ten]
+type = "mobility"
+from = "start"
+[analyses.eleven]
+type = "configurations"
+set = { "a.angle" = "20 deg" }
+limit = 5
 from = "start"
 """
 

@@ -31,6 +31,8 @@ pub(super) enum Energy {
     Dissipated,
     Work,
     Total,
+    /// Change of the total relative to the scale of the run.
+    Balance,
 }
 
 /// A part of a force or of a reaction.
@@ -82,10 +84,14 @@ pub(super) enum Signal {
     ForcePower(usize),
     /// Energy that a force element stores.
     ForceEnergy(usize),
+    /// Energy that a force element has dissipated since the start of the run.
+    ForceDissipated(usize),
     /// An energy of the whole mechanism.
     Energy(Energy),
     /// Largest violation of the constraints, or of their rates.
     Drift { order: usize },
+    /// Largest Newton–Euler residual, relative to the scale of the run.
+    Balance,
 }
 
 impl Signal {
@@ -102,7 +108,13 @@ impl Signal {
             }
             Self::ForcePower(k) | Self::ForceEnergy(k) => model.forces[*k].reaction.is_some(),
             Self::Constant(_) | Self::State(_) | Self::Energy(_) | Self::Drift { .. } => false,
+            Self::ForceDissipated(_) | Self::Balance => false,
         }
+    }
+
+    /// Whether it follows from a whole run only; its value at a state is NaN.
+    pub fn is_of_run(&self) -> bool {
+        matches!(self, Self::Energy(Energy::Balance) | Self::ForceDissipated(_) | Self::Balance)
     }
 
     /// Its value.
@@ -137,6 +149,7 @@ impl Signal {
             Self::ForceEnergy(k) => forces::potential(model, *k, seen.motions, acting(seen)),
             Self::Energy(of) => energy_of(model, *of, seen),
             Self::Drift { order } => drift(model, *order, seen),
+            Self::ForceDissipated(_) | Self::Balance => S::constant(f64::NAN),
         }
     }
 }
@@ -207,6 +220,7 @@ fn energy_of<S: Real>(model: &Model<S>, of: Energy, seen: &Seen<'_, S>) -> S {
         Energy::Potential => energy::potential(model, seen.motions, seen.state[2], seen.t),
         Energy::Dissipated => works(0),
         Energy::Work => works(1) + works(2),
+        Energy::Balance => S::constant(f64::NAN),
         Energy::Total => {
             let all = [Energy::Kinetic, Energy::Potential, Energy::Dissipated];
             let work = -energy_of(model, Energy::Work, seen);

@@ -21,6 +21,7 @@ mod laws;
 pub mod mass;
 pub mod measured;
 pub mod motion;
+pub mod newton_euler;
 mod plan;
 mod powers;
 pub mod reactions;

@@ -38,6 +38,9 @@ ANALYSES = {
     "inverse_dynamics": "analyses of efforts and reactions",
     "equilibrium": "analyses of rest positions and their stability",
     "modes": "frequencies, damping and shapes of small motions",
+    "limits": "limits of motion",
+    "configurations": "lists of the assembly modes",
+    "mobility": "analyses of the mobility",
 }
 
 app = typer.Typer(

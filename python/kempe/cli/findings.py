@@ -22,6 +22,7 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     heading(console, f"{span_text}, {span['outputs']} outputs")
     console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
     _show_peaks(console, summary["peaks"])
+    _show_measures(console, summary["measures"])
     _show_events(console, summary["events"])
     _show_accuracy(console, summary)
     _show_settling(console, summary["settling"])
@@ -45,6 +46,7 @@ def _show_peaks(console: Console, peaks: dict[str, Any]) -> None:
         rows = [(*name, *row) for name, row in zip(names, cells, strict=True)]
         table(console, ("joint", "on", *header), rows, left=2)
         _show_unbounded(console, reactions)
+        _show_minimum_norm(console, reactions)
     if forces:
         heading(console, "Largest forces")
         header, cells = _columns(forces)
@@ -60,6 +62,34 @@ def _show_unbounded(console: Console, reactions: list[dict[str, Any]]) -> None:
         span = f"first at {_measured(times[0], 's')}, last at {_measured(times[-1], 's')}"
         text = f"without bound at singular positions, not counted here ({span}): {few(names)}"
         console.print(Text(f"  {text}"))
+
+
+def _show_minimum_norm(console: Console, reactions: list[dict[str, Any]]) -> None:
+    """The reactions that redundant constraints leave open."""
+    names = [r["joint"] for r in reactions if not r["unique"]]
+    if names:
+        text = f"not unique, of the smallest multipliers (minimum norm): {few(names)}"
+        console.print(Text(f"  {text}"))
+
+
+def _show_measures(console: Console, measures: list[dict[str, Any]]) -> None:
+    """The statistics of each measure, in the unit of the measure."""
+    if not measures:
+        return
+    heading(console, "Measures")
+    of_unit = ("max", "min", "mean", "rms", "final")
+    rows = [
+        (
+            of["name"],
+            display(of["unit"]).symbol,
+            *(_number(of[name], of["unit"]) for name in of_unit),
+            "-" if of["settling"] is None else _number(of["settling"], "s"),
+            "-" if of["frequency"] is None else figure(of["frequency"]),
+        )
+        for of in measures
+    ]
+    header = ("measure", "unit", *of_unit, _header("settled at", "s"), "frequency / Hz")
+    table(console, header, rows, left=2)
 
 
 def _show_events(console: Console, events: dict[str, list[float]]) -> None:
@@ -116,6 +146,8 @@ def _show_accuracy(console: Console, summary: dict[str, Any]) -> None:
         text = f"largest residual {value} in {worst['equation']} at {_measured(worst['at'], 's')}"
         console.print(Text(f"  {text}"))
     scale = f"largest energy {_measured(energy['scale'], 'J')}"
+    share = f"{summary['newton_euler']:.2g} of the largest force or moment on a body"
+    console.print(Text(f"  Newton-Euler balance within {share}"))
     console.print(Text(f"  energy balance within {energy['largest_imbalance']:.2g} of the {scale}"))
 
 

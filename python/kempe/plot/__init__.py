@@ -7,6 +7,7 @@ axes are compressed after ``cut=``, which ``transient(solution)`` finds.
 from kempe.plot.body_motion import accelerations, positions, velocities
 from kempe.plot.configuration import configuration
 from kempe.plot.energy import energy, energy_balance
+from kempe.plot.measures import measure
 from kempe.plot.mechanism import mechanism
 from kempe.plot.mode_shapes import mode_shape
 from kempe.plot.page import Page, save, select
@@ -24,6 +25,7 @@ __all__ = [
     "configuration",
     "energy",
     "energy_balance",
+    "measure",
     "mechanism",
     "mode_shape",
     "pages",

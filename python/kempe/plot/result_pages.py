@@ -6,15 +6,19 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from kempe.plot.limits import pages as limit_pages
 from kempe.plot.mode_shapes import mode_pages
 from kempe.plot.page import Page
 from kempe.plot.rest import rest_pages
+from kempe.plot.sheet import pages as sheets
 from kempe.result import Result
 
 #: The function that lists the figures of a result, by the type of the analysis. It is called with
 #: the result and the number of the first body.
 _PAGES: dict[str, Callable[[Any, int], list[Page]]] = {
+    "configurations": sheets,
     "equilibrium": rest_pages,
+    "limits": limit_pages,
     "modes": mode_pages,
 }
 

@@ -16,6 +16,9 @@ use crate::equations::mass;
 use crate::model::Model;
 use crate::solve::solve_dense;
 
+/// Part of its diagonal entry that a pivot of the reduced mass keeps.
+const MASSLESS: f64 = 1e-13;
+
 /// Changes of accelerations and multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Response {
@@ -35,6 +38,8 @@ pub(super) struct Linear<'a> {
     pub freedoms: Freedoms,
     /// Nᵀ M N, row by row.
     pub mass: Vec<f64>,
+    /// The same after elimination.
+    eliminated: Vec<f64>,
     /// Rows of multipliers on which forces depend, with the columns of R.
     reactive: Vec<(usize, Vec<f64>)>,
     /// The response to each column of R.
@@ -51,7 +56,9 @@ impl<'a> Linear<'a> {
         (variation, rows): (&Variation<'_>, &[usize]),
     ) -> Result<Self, usize> {
         let motions = Motions::at(&model.layout, q, v);
-        let mass = reduced_mass(model, &motions, &freedoms)?;
+        let mass = reduced_mass(model, &motions, &freedoms);
+        let eliminated = eliminated(&mass, freedoms.basis.len())
+            .map_err(|freedom| freedoms.coordinates[freedom])?;
         let column = |row: &usize| {
             let mut unit = vec![0.0; model.layout.n_rows];
             unit[*row] = 1.0;
@@ -61,7 +68,8 @@ impl<'a> Linear<'a> {
         };
         let reactive: Vec<(usize, Vec<f64>)> = rows.iter().map(column).collect();
         let by_reaction = Vec::new();
-        let mut linear = Self { model, motions, factors, freedoms, mass, reactive, by_reaction };
+        let mut linear =
+            Self { model, motions, factors, freedoms, mass, eliminated, reactive, by_reaction };
         let none = vec![0.0; model.layout.n_rows];
         linear.by_reaction =
             linear.reactive.iter().map(|(_, column)| linear.plain(column, &none)).collect();
@@ -109,9 +117,7 @@ impl<'a> Linear<'a> {
         self.subtract_mass_times(&a, &mut left);
         let force = self.freedoms.reduce(&left);
         let mut alpha = force.clone();
-        if !solve_dense(&mut self.mass.clone(), &mut alpha) {
-            alpha.fill(f64::NAN);
-        }
+        substitute(&self.eliminated, &mut alpha);
         let motion = self.freedoms.extend(&alpha);
         self.subtract_mass_times(&motion, &mut left);
         a.iter_mut().zip(motion).for_each(|(a, x)| *a += x);
@@ -125,8 +131,8 @@ impl<'a> Linear<'a> {
     }
 }
 
-/// Nᵀ M N, row by row. The error is an independent coordinate that moves no mass.
-fn reduced_mass(model: &Model, motions: &Motions, freedoms: &Freedoms) -> Result<Vec<f64>, usize> {
+/// Nᵀ M N, row by row.
+fn reduced_mass(model: &Model, motions: &Motions, freedoms: &Freedoms) -> Vec<f64> {
     let f = freedoms.basis.len();
     let mut reduced = vec![0.0; f * f];
     for (k, column) in freedoms.basis.iter().enumerate() {
@@ -136,22 +142,39 @@ fn reduced_mass(model: &Model, motions: &Motions, freedoms: &Freedoms) -> Result
             reduced[row * f + k] = entry;
         }
     }
-    // Cholesky's factors show a freedom without mass
-    let mut left = reduced.clone();
-    for k in 0..f {
-        let pivot = left[k * f + k];
-        if pivot.is_nan() || pivot <= MASSLESS * reduced[k * f + k] {
-            return Err(freedoms.coordinates[k]);
-        }
-        for row in k + 1..f {
-            let factor = left[row * f + k] / pivot;
-            for column in k + 1..f {
-                left[row * f + column] -= factor * left[k * f + column];
-            }
-        }
-    }
-    Ok(reduced)
+    reduced
 }
 
-/// Part of its diagonal entry that a pivot of the reduced mass keeps.
-const MASSLESS: f64 = 1e-13;
+/// A symmetric matrix, shape (n, n), after elimination without pivoting; below the diagonal the entries from which rows
+/// were subtracted remain. The error is a row without a positive pivot.
+fn eliminated(matrix: &[f64], n: usize) -> Result<Vec<f64>, usize> {
+    let mut left = matrix.to_vec();
+    for k in 0..n {
+        let (above, below) = left.split_at_mut((k + 1) * n);
+        let own = &above[k * n..];
+        let pivot = own[k];
+        if pivot.is_nan() || pivot <= MASSLESS * matrix[k * n + k] {
+            return Err(k);
+        }
+        for row in below.chunks_exact_mut(n) {
+            let factor = row[k] / pivot;
+            row[k + 1..].iter_mut().zip(&own[k + 1..]).for_each(|(x, own)| *x -= factor * own);
+        }
+    }
+    Ok(left)
+}
+
+/// Solves A x = b in place with the [eliminated] matrix A.
+fn substitute(eliminated: &[f64], b: &mut [f64]) {
+    let n = b.len();
+    for k in 0..n {
+        let row = &eliminated[k * n..][..n];
+        let sum: f64 = (0..k).map(|j| row[j] / eliminated[j * n + j] * b[j]).sum();
+        b[k] -= sum;
+    }
+    for k in (0..n).rev() {
+        let row = &eliminated[k * n..][..n];
+        let sum: f64 = row[k + 1..].iter().zip(&b[k + 1..]).map(|(a, x)| a * x).sum();
+        b[k] = (b[k] - sum) / row[k];
+    }
+}
