@@ -46,6 +46,8 @@ Results:
     report.summary          peaks, settling times, energy balance
     load_solution           a solution that was saved
 
+    design                  coupler curves, transmission angles, motors, flywheels, pin loads
+
 Show:
     plot                    figures
     animate, player         videos and pages with the motion
@@ -62,6 +64,7 @@ from typing import TYPE_CHECKING, Any
 from kempe._version import __version__
 
 if TYPE_CHECKING:
+    from kempe import design as design
     from kempe import draw as draw
     from kempe import errors as errors
     from kempe import plot as plot
@@ -192,6 +195,7 @@ _HOME = {
     "animate": "draw.animate",
     "assemble": "analyses",
     "configurations": "closures",
+    "design": "",
     "draw": "",
     "dynamics": "analyses",
     "equations": "symbolic",

@@ -27,6 +27,7 @@ from kempe.errors import FileError, KempeError
 from kempe.phases import Settings
 from kempe.runs import EventRows, StoredRun
 from kempe.solution import STATUS, Solution
+from kempe.variable import TIME, Variable
 
 KIND = "kempe solution"
 #: Version of the file layout.
@@ -73,6 +74,7 @@ def _about(solution: Solution) -> dict[str, Any]:
         "statistics": dict(solution.statistics),
         "projection": solution._run.projection,
         "settings": [[row, list(map(list, p)), released] for row, (p, released) in settings],
+        "variable": [solution.variable.name, solution.variable.unit],
         "events": [[name, len(t)] for name, t, *_ in solution._run.events],
     }
 
@@ -104,8 +106,9 @@ def load_solution(path: Path | str) -> Solution:
                 f"cannot read {where}: written by kempe {about.get('kempe')}", hint="update kempe"
             )
         model = CompiledModel.from_case(json.dumps(_entry(about, "case", dict)))
-        arrays = _read_arrays(stored, model)
-        solution = Solution(model, _run(about, arrays))
+        variable = _variable(about)
+        arrays = _read_arrays(stored, model, is_over_time=variable.is_time)
+        solution = Solution(model, _run(about, arrays), variable=variable)
         _check_agreement(solution)
         return solution
 
@@ -172,7 +175,9 @@ def _member(
         yield file, shape, kind
 
 
-def _read_arrays(stored: zipfile.ZipFile, model: CompiledModel) -> dict[str, Floats]:
+def _read_arrays(
+    stored: zipfile.ZipFile, model: CompiledModel, *, is_over_time: bool
+) -> dict[str, Floats]:
     """All arrays of a solution, checked; z of version 0.1 is absent."""
     wanted = _shapes(stored, model)
     sizes: dict[str, int] = {}
@@ -182,7 +187,8 @@ def _read_arrays(stored: zipfile.ZipFile, model: CompiledModel) -> dict[str, Flo
     arrays = {name: _floats(stored, name) for name in wanted}
     arrays.setdefault("z", np.zeros((sizes["n"], model.n_z)))
     for name in ("t", "dense_t"):
-        if np.any(np.diff(arrays.get(name, np.zeros(1))) < 0.0):
+        steps = np.diff(arrays.get(name, np.zeros(1)))
+        if np.any(steps < 0.0) and (is_over_time or np.any(steps > 0.0)):
             _refuse(f"the times {name} are not in order")
     return arrays
 
@@ -292,6 +298,14 @@ def _projection(about: Mapping[str, Any]) -> float | None:
     if isinstance(given, bool) or not isinstance(given, (int, float)) or not 0 < given < math.inf:
         _refuse(f"its projection is {given!r}")
     return float(given)
+
+
+def _variable(about: Mapping[str, Any]) -> Variable:
+    """What the times are; the time in files of version 0.1."""
+    given = about.get("variable", [TIME.name, TIME.unit])
+    if not isinstance(given, list) or [type(word) for word in given] != [str, str]:
+        _refuse("its variable is damaged")
+    return Variable(*given)
 
 
 def _method(case: Mapping[str, Any]) -> str:

@@ -18,7 +18,8 @@ class DenseOutput:
     """y(t_old + θ h) = y_old + h Σ_k c_k θ^(k+1) in every step, with y = [q, v, z, works].
 
     Attributes:
-        t: boundaries of the k steps, (k + 1,), s.
+        t: boundaries of the k steps, (k + 1,), s; descending for a motion over a quantity that
+            falls.
         y: y at the start of each step, (k, n_y).
         c: coefficients, (k, n_y, degree): degree 4, with DOP853 9.
     """
@@ -42,7 +43,8 @@ class DenseOutput:
             ModelError: a time is outside the simulated interval, or is NaN.
         """
         self._refuse_outside(t)
-        after = np.searchsorted(self.t, t, side="right")
+        sign = self._direction
+        after = np.searchsorted(sign * self.t, sign * np.asarray(t), side="right")
         step = np.clip(after - 1, 0, len(self.y) - 1)
         h = self.t[step + 1] - self.t[step]
         theta = ((t - self.t[step]) / np.where(h == 0.0, 1.0, h))[..., None]
@@ -56,9 +58,14 @@ class DenseOutput:
         y = self(t)
         return y[..., :n_q], y[..., n_q : 2 * n_q], y[..., 2 * n_q : 2 * n_q + n_z]
 
+    @property
+    def _direction(self) -> float:
+        return -1.0 if self.t[-1] < self.t[0] else 1.0
+
     def _refuse_outside(self, t: Floats) -> None:
         slack = 1e-12 * max(abs(self.t[0]), abs(self.t[-1]))
-        inside = (t >= self.t[0] - slack) & (t <= self.t[-1] + slack)
+        low, high = sorted((self.t[0], self.t[-1]))
+        inside = (t >= low - slack) & (t <= high + slack)
         if not np.all(inside):
             wrong = float(np.extract(~inside, t)[0])
             raise ModelError(

@@ -17,10 +17,12 @@ from kempe.errors import KempeError, ModelError, SingularityError
 from kempe.model import NAMED, Model, compiled_model
 from kempe.option import core_options
 from kempe.options import InverseDynamics, Kinematics
+from kempe.quantities import named
 from kempe.request_cache import encode
 from kempe.solution import Solution
 from kempe.state import State
 from kempe.values import Number
+from kempe.variable import TIME, Variable
 
 #: Number of outputs over a range or over time, both ends included.
 POINTS = 361
@@ -112,11 +114,12 @@ def follow(
     if over is None:
         return _through(kept, start, _times(start.t, options), progress)
     first, last = options["range"]
-    driven, value = driven_by(kept, over, start)
+    driven, value, variable = driven_by(kept, over, start)
     at = State(driven, value, start.q, start.v, z=start.z)
     if first != value:
         at = _through(driven, at, np.array([first]), progress).final
-    return _through(driven, at, np.linspace(first, last, options["n"]), progress)
+    values = np.linspace(first, last, options["n"])
+    return _through(driven, at, values, progress, variable)
 
 
 def follow_with_forces(
@@ -135,9 +138,13 @@ def follow_with_forces(
 
 
 def _through(
-    model: CompiledModel, start: State, times: Floats, progress: Progress | None
+    model: CompiledModel,
+    start: State,
+    times: Floats,
+    progress: Progress | None,
+    variable: Variable = TIME,
 ) -> Solution:
-    """The motion through given times."""
+    """The motion through given times, or values of a driven quantity."""
     try:
         run = _core.kinematics(model.core, start.t, start.q, start.v, start.z, times, progress)
     except BaseException as error:  # including interruptions and exceptions of progress
@@ -145,9 +152,9 @@ def _through(
         if isinstance(error, SingularityError):
             error.value = error.t
         if partial is not None and len(partial.t):
-            error.solution = Solution(model, partial, METHOD)  # type: ignore[attr-defined]
+            error.solution = Solution(model, partial, METHOD, variable)  # type: ignore[attr-defined]
         raise
-    return Solution(model, run, METHOD)
+    return Solution(model, run, METHOD, variable)
 
 
 def _times(t: float, options: Mapping[str, Any]) -> Floats:
@@ -164,8 +171,10 @@ def _times(t: float, options: Mapping[str, Any]) -> Floats:
     return whole if np.isclose(whole[-1], end, rtol=1e-12, atol=0) else np.append(whole, end)
 
 
-def driven_by(model: CompiledModel, over: str, start: State) -> tuple[CompiledModel, float]:
-    """The model with ``over`` driven by t, and the value of ``over`` at the start.
+def driven_by(
+    model: CompiledModel, over: str, start: State
+) -> tuple[CompiledModel, float, Variable]:
+    """The model with ``over`` driven by t, the value of ``over`` at the start, and what t is now.
 
     Raises:
         ModelError: there is no such driver or position quantity, or several drivers determine the
@@ -195,11 +204,12 @@ def driven_by(model: CompiledModel, over: str, start: State) -> tuple[CompiledMo
     else:
         drivers[_free_name(tree)] = {"type": _driver(), "coordinate": coordinate, "value": "t"}
     try:
-        value = float(start[coordinate])
+        quantity = named(start, coordinate)
+        value = float(quantity.read())
     except KempeError as error:
         raise ModelError(f"over: {error}") from error
     changed = Model.from_tree(model.model.with_points(tree))
-    return changed.compile(), value
+    return changed.compile(), value, Variable(coordinate, quantity.unit)
 
 
 def _forget(tree: dict[str, Any], drivers: Mapping[str, Any]) -> None:

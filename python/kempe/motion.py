@@ -16,6 +16,7 @@ from kempe.model import Model, compiled_model
 from kempe.names import entry, unknown
 from kempe.newton_euler import NewtonEuler, newton_euler
 from kempe.phases import Phases
+from kempe.variable import TIME, Variable
 from kempe.views import BodyView, ConstraintView, ForceView
 
 #: Most states at which the uniqueness of reactions is examined.
@@ -31,7 +32,8 @@ class Motion:
 
     Attributes:
         compiled: the compiled model at the time of the computation.
-        t: (n_t,), s.
+        t: (n_t,), s; values of ``variable`` in a motion over a driven quantity.
+        variable: what ``t`` contains: the time, or a driven quantity with its unit.
         q: (n_t, n_q) or (n_q,): x, y, angle of each moving body in order, m and rad, then the
             internal coordinates of joints; see ``model.column_names()``.
         v: their rates, per s.
@@ -41,6 +43,8 @@ class Motion:
 
     #: The phases of its rows; None if all have the compiled model.
     _phases: Phases | None = None
+    #: What ``t`` contains.
+    variable: Variable = TIME
     #: Whether accelerations are computed near singular positions too, as in runs that pass them.
     _passing = False
     #: The reaction that was computed last, with its joint, body and frame.
@@ -66,7 +70,8 @@ class Motion:
         self.z = fixed(np.zeros((*self.t.shape, compiled.n_z)) if z is None else z)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Motion, (self.compiled, np.array(self.t), self.q, self.v, self.z)
+        made = self.compiled, np.array(self.t), self.q, self.v, self.z
+        return Motion, made, {"variable": self.variable}
 
     @property
     def model(self) -> Model:
@@ -308,8 +313,10 @@ class Motion:
         return [*self.compiled.names(), *quantities.names(self)]
 
     def __repr__(self) -> str:
-        span = f"{len(self.t)} times from {self.t[0]:g} to {self.t[-1]:g} s" if len(self.t) else ""
-        return f"<Motion of {self.compiled.title!r}: {span or 'no times'}>"
+        of = self.variable
+        what = "times" if of.is_time else f"values of {of.name}"
+        span = f"{len(self.t)} {what} from {self.t[0]:g} to {self.t[-1]:g} {of.unit}"
+        return f"<Motion of {self.compiled.title!r}: {span if len(self.t) else f'no {what}'}>"
 
 
 def _checked(name: str, values: object, shape: tuple[int, ...]) -> Floats:

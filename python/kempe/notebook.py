@@ -53,8 +53,12 @@ def of_state(state: State) -> str:
 
 def of_solution(solution: Solution) -> str:
     """Drawing of the last state, and the extent, cost and accuracy of a run."""
+    of = solution.variable
     rows = [
-        ("time", f"{solution.t[0]:g} to {solution.t[-1]:g} s, {len(solution.t)} outputs"),
+        (
+            "time" if of.is_time else of.name,
+            f"{solution.t[0]:g} to {solution.t[-1]:g} {of.unit}, {len(solution.t)} outputs",
+        ),
         ("end", solution.message),
         ("method", f"{solution.statistics['method']}, {solution.statistics['steps']} steps"),
         ("largest opening of a joint", f"{solution.drift.position.max(initial=0.0):.3g} m or rad"),

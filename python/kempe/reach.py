@@ -166,7 +166,7 @@ def find_limits(
         raise ModelError(f"progress: {progress!r} is not a function")
     refuse_foreign(model, start)
     over = entry.get("over") or _only_driver(model)
-    driven, value = driven_by(model, over, start)
+    driven, value, _ = driven_by(model, over, start)
     text, values, positions = _core.limits(driven.core, value, start.q, start.v, start.z, progress)
     path = Motion(driven, values, positions, np.zeros_like(positions), _repeated(start.z, values))
     return LimitsResult(start, over, json.loads(text), value, path)

@@ -24,6 +24,7 @@ from kempe.motion import Motion
 from kempe.phases import Phases, phases
 from kempe.runs import PartialRun, StoredRun
 from kempe.state import State
+from kempe.variable import TIME, Variable
 
 if TYPE_CHECKING:
     import pandas
@@ -54,14 +55,21 @@ class Solution(Motion):
     Attributes:
         model: the model of the user.
         compiled: the compiled model at the time of the run.
-        t: (n_t,), s.
+        t: (n_t,), s; values of ``variable`` in a motion over a driven quantity.
+        variable: what ``t`` contains: the time, or a driven quantity with its unit.
         q, v: (n_t, n_q), m, rad and per s.
         z: (n_t, n_z): first-order states of force elements; empty for most models.
         status: 0 if the end was reached, 1 if an event stopped the run, -1 otherwise.
         message: reason for the end of the run.
     """
 
-    def __init__(self, model: Model | CompiledModel, run: Run, method: str = "unknown") -> None:
+    def __init__(
+        self,
+        model: Model | CompiledModel,
+        run: Run,
+        method: str = "unknown",
+        variable: Variable = TIME,
+    ) -> None:
         base = compiled_model(model)
         settings = run.settings
         super().__init__(base.variant(settings[0][1]), run.t, run.q, run.v, run.z)
@@ -71,11 +79,12 @@ class Solution(Motion):
             self._phases = phases(base, settings, len(run.t))
         self._passing = run.projection is not None and self.compiled.redundancy != "allow"
         self._method = method
+        self.variable = variable
         self.status = STATUS[run.status]
         self.message = run.message
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Solution, (self._base, self.stored(), self._method)
+        return Solution, (self._base, self.stored(), self._method, self.variable)
 
     def stored(self) -> StoredRun:
         """The run with all its results, for a copy or a file."""
@@ -154,7 +163,7 @@ class Solution(Motion):
             rows = int(np.count_nonzero(np.cumsum(self.t == error.t) == 0))
             if rows:
                 kept = PartialRun(self._run, rows, str(error))
-                error.solution = Solution(self._base, kept, self._method)
+                error.solution = Solution(self._base, kept, self._method, self.variable)
             raise
 
     def dissipated(self, name: str) -> Floats:
@@ -242,7 +251,7 @@ class Solution(Motion):
 
     def _state(self, model: CompiledModel, t: float, q: Floats, v: Floats, z: Floats) -> State:
         state = State(model, t, q, v, z=z)
-        state._passing = self._passing
+        state._passing, state.variable = self._passing, self.variable
         return state
 
     def __call__(self, t: float | Floats) -> Motion:
@@ -269,6 +278,7 @@ class Solution(Motion):
         times = np.atleast_1d(at)
         q, v, z = self.dense.parts(times, self.compiled.n_q, self.compiled.n_z)
         motion = Motion(self.compiled, times, q, v, z)
+        motion.variable = self.variable
         motion._passing, motion._phases = self._passing, self._phases_at(times)
         if (tolerance := self._run.projection) is not None:
             q, v = motion._by_phase(partial(_project, tolerance), times, q, v, z)
@@ -366,6 +376,8 @@ class Solution(Motion):
 
     def __repr__(self) -> str:
         count = len(self.t)
-        span = f"t = {self.t[0]:g} … {self.t[-1]:g} s, {count} outputs" if count else "no outputs"
+        of = self.variable
+        ends = f"{self.t[0]:g} … {self.t[-1]:g} {of.unit}" if count else ""
+        span = f"{of.name} = {ends}, {count} outputs" if count else "no outputs"
         steps = f"{self.statistics['steps']} steps of {self.statistics['method']}"
         return f"<Solution of {self.compiled.title!r}: {span}, {steps}; {self.message}>"

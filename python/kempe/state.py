@@ -188,7 +188,8 @@ class State(Motion):
         self.report = report
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self.compiled, self.t, self.q, self.v, self.report, self.z)
+        made = self.compiled, self.t, self.q, self.v, self.report, self.z
+        return _restored, made, {"variable": self.variable}
 
     def body(self, name: str) -> BodyView[float]:  # type: ignore[override]
         """A body by name, including ground.
@@ -283,14 +284,17 @@ class State(Motion):
             shown = display(unit)
             lines.append(f"{name} = {value / shown.divisor:.6g} {shown.unit}")
         report = [] if self.report is None else [str(self.report)]
-        time = display("s")
-        lines = [f"t = {self.t / time.divisor:g} {time.unit}", *map(str.rstrip, lines), *report]
+        of, shown = self.variable, display(self.variable.unit)
+        lines = [
+            f"{of.name} = {self.t / shown.divisor:g} {shown.unit}",
+            *map(str.rstrip, lines),
+            *report,
+        ]
         return "\n".join(lines)
 
     def __repr__(self) -> str:
-        return (
-            f"<State of {self.compiled.title!r} at t = {self.t:g} s: {few(self.compiled.bodies)}>"
-        )
+        at = f"{self.variable.name} = {self.t:g} {self.variable.unit}"
+        return f"<State of {self.compiled.title!r} at {at}: {few(self.compiled.bodies)}>"
 
     def _repr_html_(self) -> str:
         from kempe.notebook import of_state

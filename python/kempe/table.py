@@ -47,8 +47,8 @@ class Column:
     @property
     def label(self) -> str:
         """Name and unit, such as ``C.fx_on_rocker [N]``; with a remark if it is not unique."""
-        remark = "" if self.unique else f", {MINIMUM_NORM}"
-        return f"{self.name} [{self.unit}{remark}]"
+        remarks = ", ".join(filter(None, (self.unit, "" if self.unique else MINIMUM_NORM)))
+        return f"{self.name} [{remarks}]" if remarks else self.name
 
 
 @dataclass(frozen=True)
@@ -68,19 +68,25 @@ class Extent:
 def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
     """Time, coordinates, multipliers, reactions, states, forces, energies and measures.
 
+    The values of a driven quantity are in the place of the time in a motion over this quantity.
+
     Raises:
         ModelError: there is no such frame or point.
     """
-    table = [_column("t", "s", solution.t)]
+    first = solution.variable
+    table = [column(first.name, first.unit, solution.t)]
     for name in _names(solution, extent or Extent()):
+        if name == first.name:
+            continue
         quantity = quantities.named(solution, name)
         owner = name.rpartition(".")[0]
-        column = _column(name, quantity.unit, quantity.read())
-        table.append(replace(column, unique=owner not in solution.not_unique))
+        values = column(name, quantity.unit, quantity.read())
+        table.append(replace(values, unique=owner not in solution.not_unique))
     return table
 
 
-def _column(name: str, unit: str, values: Floats) -> Column:
+def column(name: str, unit: str, values: Floats) -> Column:
+    """A column in the display unit of a quantity in SI units."""
     shown = display(unit)
     return Column(name, shown.unit, values / shown.divisor)
 
@@ -145,7 +151,15 @@ def dataframe(solution: Solution, extent: Extent | None = None) -> pandas.DataFr
 
 def write_csv(solution: Solution, path: Path | str, extent: Extent | None = None) -> None:
     """Write the columns as CSV with 17 digits, which preserves every number."""
-    table = columns(solution, extent)
+    write_columns(columns(solution, extent), path)
+
+
+def write_columns(table: Sequence[Column], path: Path | str) -> None:
+    """Write columns as CSV, with names and units in the header.
+
+    Raises:
+        FileError: the file cannot be written; an existing file is not changed.
+    """
     text = io.StringIO()
     header = (files.csv_cell(column.label) for column in table)
     text.write(",".join(header) + "\n")

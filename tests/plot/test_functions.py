@@ -39,7 +39,50 @@ FUNCTIONS: dict[str, tuple[Draw, str]] = {
     "energy_balance": (plot.energy_balance, "relative error / 1"),
     "mechanism": (plot.mechanism, "y / m"),
     "configuration": (plot.configuration, "y / m"),
+    "coupler_curve": (lambda sol, **a: plot.coupler_curve(sol, "coupler.B", **a), "y / m"),
+    "transmission_angle": (lambda sol, **a: plot.transmission_angle(sol, "C", **a), "μ / °"),
+    "effort": (lambda sol, **a: plot.effort(sol, "spring", **a), "$T$ / kN·m"),
+    "torque_speed": (lambda sol, **a: plot.torque_speed(sol, "spring", **a), "$T$ / kN·m"),
+    "velocity_polygon": (lambda sol, **a: plot.velocity_polygon(sol, 0.3, **a), "$v_y$ / (m/s)"),
+    "acceleration_polygon": (
+        lambda sol, **a: plot.acceleration_polygon(sol, 0.3, **a),
+        "$a_y$ / (10³ m/s²)",
+    ),
+    "instant_centres": (lambda sol, **a: plot.instant_centres(sol, 0.3, **a), "y / m"),
+    "pin_load": (lambda sol, **a: plot.pin_load(sol, "C", **a), "$F_{y′}$ / kN"),
+    "rest_position": (
+        lambda sol, **a: plot.rest_position(kp.equilibrium(sol.model, sol.initial), **a),
+        "y / m",
+    ),
+    "path": (
+        lambda sol, **a: plot.path(
+            kp.equilibrium(sol.model, sol.initial, over="k", range=(1e6, 1.1e6)),
+            "crank.angle",
+            **a,
+        ),
+        "crank.angle / °",
+    ),
+    "mode_shape": (
+        lambda sol, **a: plot.mode_shape(kp.modes(sol.model, sol.initial).shape(0), **a),
+        "y / m",
+    ),
+    "shaking_force": (plot.shaking_force, "$F_y$ / kN"),
+    "free_body": (lambda sol, **a: plot.free_body(sol, "coupler", 0.3, **a), "y / m"),
+    "draw_free_body": (
+        lambda sol, **a: plot.draw_free_body(kp.design.free_body(sol, "rocker", 0.3), **a),
+        "y / m",
+    ),
 }
+#: Labels of the horizontal axes.
+ACROSS = (
+    "time t / s",
+    "x / m",
+    "k / SI units",
+    "ω / (rad/s)",
+    "$v_x$ / (m/s)",
+    "$a_x$ / (10³ m/s²)",
+)
+FORCES = ("$F_{x′}$ / kN", "$F_x$ / kN")
 
 
 def lines(axes: Axes) -> dict[str, Any]:
@@ -55,7 +98,16 @@ def test_options_of_the_functions_are_named() -> None:
     assert len(drawing) == len(FUNCTIONS)
     for function in drawing:
         for name, parameter in inspect.signature(function).parameters.items():
-            is_option = name in {"ax", "cut", "on", "frame", "index_base", "legend"}
+            is_option = name in {
+                "ax",
+                "cut",
+                "on",
+                "over",
+                "lines",
+                "frame",
+                "index_base",
+                "legend",
+            }
             assert (parameter.kind is inspect.Parameter.KEYWORD_ONLY) == is_option or (
                 name == "quantity"
             ), (function, name)
@@ -67,7 +119,7 @@ def test_axes_have_labels_with_units(flagship: kp.Solution, name: str) -> None:
     axes = draw(flagship)
     assert isinstance(axes, Axes)
     assert axes.get_ylabel() == label
-    assert axes.get_xlabel() in ("time t / s", "x / m")
+    assert axes.get_xlabel() in (*ACROSS, *FORCES)
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)

@@ -35,10 +35,10 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
             InverseOptions::NAME => {
                 InverseOptions::checked(model, fields, &path).map(|options| options.t_end)
             }
+            // an analysis of a position ends where it begins
             EquilibriumOptions::NAME => {
                 EquilibriumOptions::checked(model, fields, &path).map(|_| begin)
             }
-            // an analysis of a position ends where it begins
             ModesOptions::NAME => ModesOptions::checked(model, fields, &path).map(|_| begin),
             LimitsOptions::NAME => {
                 Reader::read(model, fields, &path, LimitsOptions::read).map(|_| begin)

@@ -8,24 +8,30 @@ from rich.console import Console
 from rich.text import Text
 
 from kempe.cli.console import figure, heading, table
-from kempe.display_units import display
+from kempe.display_units import Shown, display
 from kempe.display_units import heading as units_heading
 from kempe.names import few
+from kempe.variable import Variable
 
 
 def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     """Print peaks, energy balance, settling times and cost of one analysis."""
     span = summary["time"]
-    seconds = display("s")
-    start, end = (figure(span[key] / seconds.divisor) for key in ("start", "end"))
-    span_text = f"{name}: {start} to {end} {seconds.symbol}"
-    heading(console, f"{span_text}, {span['outputs']} outputs")
+    of = Variable(**summary["variable"])
+    shown = _shown(of.unit)
+    start, end = (figure(span[key] / shown.divisor) for key in ("start", "end"))
+    over = "" if of.is_time else f"over {of.name}, "
+    gap = "" if shown.symbol == "°" else " "
+    heading(
+        console, f"{name}: {over}{start} to {end}{gap}{shown.symbol}, {span['outputs']} outputs"
+    )
     console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
-    _show_peaks(console, summary["peaks"])
-    _show_measures(console, summary["measures"])
-    _show_events(console, summary["events"])
-    _show_accuracy(console, summary)
-    _show_settling(console, summary["settling"])
+    _show_peaks(console, summary["peaks"], of.unit)
+    _show_measures(console, summary["measures"], timed=of.is_time)
+    _show_events(console, summary["events"], of.unit)
+    _show_accuracy(console, summary, of.unit)
+    if of.is_time:
+        _show_settling(console, summary["settling"])
     cost = summary["statistics"]
     console.print()
     counts = f"{cost['steps']} steps, {cost['rejected']} rejected"
@@ -37,29 +43,34 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
         console.print(Text(f"  method {cost['method']}: {cost['why']}"))
 
 
-def _show_peaks(console: Console, peaks: dict[str, Any]) -> None:
+def _shown(unit: str) -> Shown:
+    """The display unit of the time or of a driven quantity; angles are in degrees."""
+    return display(unit, "deg") if unit == "rad" else display(unit)
+
+
+def _show_peaks(console: Console, peaks: dict[str, Any], at: str) -> None:
     reactions, forces = peaks["reactions"], peaks["forces"]
     if reactions:
         heading(console, "Largest reactions")
         names = ((r["joint"], r["on"]) for r in reactions)
-        header, cells = _columns(reactions)
+        header, cells = _columns(reactions, at)
         rows = [(*name, *row) for name, row in zip(names, cells, strict=True)]
         table(console, ("joint", "on", *header), rows, left=2)
-        _show_unbounded(console, reactions)
+        _show_unbounded(console, reactions, at)
         _show_minimum_norm(console, reactions)
     if forces:
         heading(console, "Largest forces")
-        header, cells = _columns(forces)
+        header, cells = _columns(forces, at)
         rows = [(f["name"], f["on"], *row, _parts(f)) for f, row in zip(forces, cells, strict=True)]
         table(console, ("force", "on", *header, _header("torque of parts", "N*m")), rows, left=2)
 
 
-def _show_unbounded(console: Console, reactions: list[dict[str, Any]]) -> None:
+def _show_unbounded(console: Console, reactions: list[dict[str, Any]], at: str) -> None:
     """The reactions that have no bound beside singular positions."""
     names = [r["joint"] for r in reactions if r["unbounded_at"]]
     times = sorted(t for r in reactions for t in r["unbounded_at"])
     if names:
-        span = f"first at {_measured(times[0], 's')}, last at {_measured(times[-1], 's')}"
+        span = f"first at {_place(times[0], at)}, last at {_place(times[-1], at)}"
         text = f"without bound at singular positions, not counted here ({span}): {few(names)}"
         console.print(Text(f"  {text}"))
 
@@ -72,8 +83,8 @@ def _show_minimum_norm(console: Console, reactions: list[dict[str, Any]]) -> Non
         console.print(Text(f"  {text}"))
 
 
-def _show_measures(console: Console, measures: list[dict[str, Any]]) -> None:
-    """The statistics of each measure, in the unit of the measure."""
+def _show_measures(console: Console, measures: list[dict[str, Any]], *, timed: bool) -> None:
+    """The statistics of each measure, in its unit; without times if the motion is over a value."""
     if not measures:
         return
     heading(console, "Measures")
@@ -83,47 +94,56 @@ def _show_measures(console: Console, measures: list[dict[str, Any]]) -> None:
             of["name"],
             display(of["unit"]).symbol,
             *(_number(of[name], of["unit"]) for name in of_unit),
-            "-" if of["settling"] is None else _number(of["settling"], "s"),
-            "-" if of["frequency"] is None else figure(of["frequency"]),
+            *((_or_none(of["settling"], "s"), _or_none(of["frequency"], "Hz")) if timed else ()),
         )
         for of in measures
     ]
-    header = ("measure", "unit", *of_unit, _header("settled at", "s"), "frequency / Hz")
-    table(console, header, rows, left=2)
+    over_time = (_header("settled at", "s"), "frequency / Hz") if timed else ()
+    table(console, ("measure", "unit", *of_unit, *over_time), rows, left=2)
 
 
-def _show_events(console: Console, events: dict[str, list[float]]) -> None:
+def _or_none(value: float | None, unit: str) -> str:
+    return "-" if value is None else _number(value, unit)
+
+
+def _show_events(console: Console, events: dict[str, list[float]], at: str) -> None:
     occurred = {name: times for name, times in events.items() if times}
     if not occurred:
         return
     heading(console, "Events")
     rows = [
-        (name, str(len(times)), _number(times[0], "s"), _number(times[-1], "s"))
+        (name, str(len(times)), *(figure(t / _shown(at).divisor) for t in (times[0], times[-1])))
         for name, times in occurred.items()
     ]
-    header = (_header("first at", "s"), _header("last at", "s"))
+    header = tuple(f"{word} / {_shown(at).symbol}" for word in ("first at", "last at"))
     table(console, ("event", "times", *header), rows)
 
 
-def _columns(peaks: list[dict[str, Any]]) -> tuple[list[str], list[list[str]]]:
+def _columns(peaks: list[dict[str, Any]], at: str) -> tuple[list[str], list[list[str]]]:
     """Header and cells of forces and torques; a column of zeros is omitted."""
     quantities = [("force", "N"), ("torque", "N*m")]
     shown = [pair for pair in quantities if any(peak[pair[0]] for peak in peaks)]
     columns = [
-        entry for name, unit in shown for entry in ((name, name, unit), ("at", f"{name}_at", "s"))
+        entry for name, unit in shown for entry in ((name, name, unit), ("at", f"{name}_at", at))
     ]
-    header = [_header(title, unit) for title, _, unit in columns]
-    cells = [[_number(peak[key], unit) for _, key, unit in columns] for peak in peaks]
+    usual = "deg" if at == "rad" else None
+    header = [_header(title, unit, usual) for title, _, unit in columns]
+    cells = [[_number(peak[key], unit, usual) for _, key, unit in columns] for peak in peaks]
     return header, cells
 
 
-def _header(title: str, unit: str) -> str:
-    return units_heading(title, unit).replace("·", " ")
+def _header(title: str, unit: str, usual: str | None = None) -> str:
+    return units_heading(title, unit, usual if unit == "rad" else None).replace("·", " ")
 
 
 def _number(value: float, unit: str, usual: str | None = None) -> str:
     """A number in the display unit."""
-    return figure(value / display(unit, usual).divisor)
+    return figure(value / display(unit, usual if unit == "rad" else None).divisor)
+
+
+def _place(value: float, unit: str) -> str:
+    """A time, or a value of the driven quantity."""
+    return _measured(value, unit, "deg" if unit == "rad" else None)
 
 
 def _measured(value: float, unit: str, usual: str | None = None) -> str:
@@ -137,13 +157,13 @@ def _parts(force: dict[str, Any]) -> str:
     return ", ".join(f"{part} {_number(peak, 'N*m')}" for part, peak in parts)
 
 
-def _show_accuracy(console: Console, summary: dict[str, Any]) -> None:
+def _show_accuracy(console: Console, summary: dict[str, Any], at: str) -> None:
     heading(console, "Accuracy")
     worst, energy = summary["peaks"]["residual"], summary["energy"]
     if worst is not None:
         shown = display(worst["unit"])
         value = f"{worst['value'] / shown.divisor:.3g} {shown.symbol}"
-        text = f"largest residual {value} in {worst['equation']} at {_measured(worst['at'], 's')}"
+        text = f"largest residual {value} in {worst['equation']} at {_place(worst['at'], at)}"
         console.print(Text(f"  {text}"))
     scale = f"largest energy {_measured(energy['scale'], 'J')}"
     share = f"{summary['newton_euler']:.2g} of the largest force or moment on a body"

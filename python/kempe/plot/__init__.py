@@ -5,38 +5,57 @@ axes are compressed after ``cut=``, which ``transient(solution)`` finds.
 """
 
 from kempe.plot.body_motion import accelerations, positions, velocities
+from kempe.plot.centres import instant_centres
 from kempe.plot.configuration import configuration
+from kempe.plot.coupler_curves import coupler_curve
+from kempe.plot.efforts import effort, torque_speed
 from kempe.plot.energy import energy, energy_balance
+from kempe.plot.free_body import draw_free_body, free_body
 from kempe.plot.measures import measure
 from kempe.plot.mechanism import mechanism
 from kempe.plot.mode_shapes import mode_shape
 from kempe.plot.page import Page, save, select
 from kempe.plot.pages import pages
+from kempe.plot.pin_loads import pin_load
+from kempe.plot.polygons import acceleration_polygon, velocity_polygon
 from kempe.plot.reactions import all_reactions, reactions
 from kempe.plot.residual import residual
 from kempe.plot.rest import path, rest_position
+from kempe.plot.shaking import shaking_force
 from kempe.plot.time_axis import transient
 from kempe.plot.torques import torques
+from kempe.plot.transmission import transmission_angle
 
 __all__ = [
     "Page",
+    "acceleration_polygon",
     "accelerations",
     "all_reactions",
     "configuration",
+    "coupler_curve",
+    "draw_free_body",
+    "effort",
     "energy",
     "energy_balance",
+    "free_body",
+    "instant_centres",
     "measure",
     "mechanism",
     "mode_shape",
     "pages",
     "path",
+    "pin_load",
     "positions",
     "reactions",
     "residual",
     "rest_position",
     "save",
     "select",
+    "shaking_force",
+    "torque_speed",
     "torques",
     "transient",
+    "transmission_angle",
     "velocities",
+    "velocity_polygon",
 ]

@@ -121,6 +121,7 @@ def body_panel(motion: Motion, body: str, quantity: str, index_base: int) -> Pan
         f"{title} {symbol}",
         degrees=quantity == "angle" and chosen_for("rad") is None,
         turning_points=quantity in COORDINATES,
+        variable=motion.variable,
     )
 
 
@@ -184,20 +185,22 @@ def _draw_all(
     """Both directions on the axes, the turning, if any, on a twin of them."""
     x, y, *turn = (_curve(motion, body, name, style.line(k)) for k, name in enumerate(names))
     t, unit = times(motion), QUANTITIES[names[0]][1]
-    draw(axes, t, Panel(f"{x.label}, {y.label}", unit, [x, y], title), cut=cut)
+    both = Panel(f"{x.label}, {y.label}", unit, [x, y], title, variable=motion.variable)
+    draw(axes, t, both, cut=cut)
     lines = [*axes.lines]
     if turn:
-        lines += _draw_turning(axes, t, turn[0], QUANTITIES[names[2]][1], cut)
+        unit = QUANTITIES[names[2]][1]
+        still = unit == "rad"
+        panel = Panel(turn[0].label, unit, turn, turning_points=still, variable=motion.variable)
+        lines += _draw_turning(axes, t, panel, cut)
     axes.legend(handles=lines, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=3)
 
 
-def _draw_turning(
-    axes: Axes, t: Floats, turn: Curve, unit: str, cut: float | None
-) -> Sequence[Line2D]:
+def _draw_turning(axes: Axes, t: Floats, panel: Panel, cut: float | None) -> Sequence[Line2D]:
     """An angle or its rate on a twin of the axes; returns its lines."""
     twin = axes.twinx()
     twin.grid(visible=False)
     twin.spines["right"].set_visible(True)
-    draw(twin, t, Panel(turn.label, unit, [turn], turning_points=unit == "rad"))
-    show_time(twin, TimeAxis.of(t, cut), label=False)
+    draw(twin, t, panel)
+    show_time(twin, TimeAxis.of(t, cut, panel.variable), label=False)
     return [*twin.lines]

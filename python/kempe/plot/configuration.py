@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from kempe.display_units import display
 from kempe.draw.scene import scene
 from kempe.plot import style
 from kempe.plot.picture import drawn, paint
@@ -35,11 +36,21 @@ def configuration(
     """
     state = state_at(solution_or_state, t)
     with style.on(ax) as axes:
-        made = drawn(axes, scene(state), f"t = {float(state.t):g} s")
+        made = drawn(axes, scene(state), instant(state))
         made.number_bodies(index_base, names=True)
         made.name_joints()
         paint(axes, made)
         return axes
+
+
+def instant(state: State) -> str:
+    """The time of a state, or the value of its driven quantity, such as ``crank.angle = 30°``."""
+    of = state.variable
+    if of.is_time:
+        return f"t = {float(state.t):g} s"
+    shown = display(of.unit, "deg") if of.unit == "rad" else display(of.unit)
+    gap = "" if shown.symbol == "°" else " "
+    return f"{style.verbatim(of.name)} = {float(state.t) / shown.divisor:.6g}{gap}{shown.symbol}"
 
 
 def state_at(solution_or_state: Solution | State, t: float | None) -> State:

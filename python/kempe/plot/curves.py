@@ -43,7 +43,7 @@ def draw(
         span: range of the axis, SI units; that of the curves when None.
     """
     unit = chosen or scale(panel.unit, panel.peak)
-    time = TimeAxis.of(t, cut)
+    time = TimeAxis.of(t, cut, panel.variable)
     add_lines(axes, t, panel.curves, time=time, divisor=unit.divisor)
     marks = chosen_peaks(panel.curves, turning_points=panel.turning_points)
     _limit(axes, span or panel.span, unit.divisor, [side for _, side, _ in marks], span is not None)

@@ -40,7 +40,7 @@ def energy(solution: Solution, *, ax: Axes | None = None, cut: float | None = No
     ]
     acting = [one for one in curves if one.values.any()] or curves[:1]
     with style.on(ax) as axes:
-        draw(axes, t, Panel("E", "J", acting, legend=True), cut=cut)
+        draw(axes, t, Panel("E", "J", acting, legend=True, variable=solution.variable), cut=cut)
         return axes
 
 
@@ -54,7 +54,7 @@ def energy_balance(solution: Solution, *, ax: Axes | None = None, cut: float | N
     """
     instance(solution, Solution, "a solution")
     error = np.abs(solution.energy.balance)
-    time = TimeAxis.of(solution.t, cut)
+    time = TimeAxis.of(solution.t, cut, solution.variable)
     t = solution.t / time.unit.divisor
     with style.on(ax) as axes:
         draw_envelope(axes, t, error, "balance", style.line(0))

@@ -30,7 +30,7 @@ def mark_events(figure: Figure, solution: Solution) -> None:
     panels = [axes for axes in figure.axes if axes.lines]
     if not occurred or not panels:
         return
-    divisor = TimeAxis.of(np.atleast_1d(fine(solution).t)).unit.divisor
+    divisor = TimeAxis.of(np.atleast_1d(fine(solution).t), None, solution.variable).unit.divisor
     top = max(panels, key=lambda axes: axes.get_position().y1)
     for event in occurred:
         for axes in panels:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from kempe.compiled import COORDINATES
-from kempe.plot import drawing_pages
+from kempe.plot import design_pages, drawing_pages
 from kempe.plot.marks import mark_events
 from kempe.plot.page import Page, file_names
 from kempe.plot.result_pages import result_pages
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
 #: The figures that are not over time.
 DRAWINGS = ("mechanism", "initial", "final")
-#: The figures that show a run at a glance, which ``kempe run`` draws by default.
+#: The figures that show a run at a glance, which ``kempe run`` draws by default; of a driven motion
+#: also coupler curves, transmission angles and efforts.
 KEY = ("mechanism", "residual", "energy", "reactions", "motion")
 
 
@@ -53,7 +54,11 @@ def pages(
     for family in _families(solution, index_base, most, cut):
         number = found[-1].number + 1 if found else 1
         found += [replace(page, number=number, key=_is_key(page)) for page in family]
-    return [_with_marks(page, solution) for page in found]
+    found = [_with_marks(page, solution) for page in found]
+    for family in design_pages.families(solution, index_base, most):
+        number = found[-1].number + 1
+        found += [replace(page, number=number) for page in family]
+    return found
 
 
 def _is_key(page: Page) -> bool:

@@ -11,6 +11,7 @@ import numpy as np
 from kempe.arrays import Floats
 from kempe.extrema import Extreme, Quantity, largest, least
 from kempe.fine import fine
+from kempe.variable import TIME, Variable
 
 if TYPE_CHECKING:
     from kempe.motion import Motion
@@ -60,6 +61,7 @@ class Panel:
         legend: whether to write one, above the panel to the right.
         degrees: whether an axis to the right gives an angle in degrees.
         turning_points: whether extreme values at the first and the last time stay unmarked.
+        variable: what the horizontal axis shows.
     """
 
     symbol: str
@@ -70,6 +72,7 @@ class Panel:
     legend: bool = False
     degrees: bool = False
     turning_points: bool = False
+    variable: Variable = TIME
 
     @property
     def peak(self) -> float:

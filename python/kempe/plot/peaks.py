@@ -61,7 +61,8 @@ def chosen_peaks(curves: Sequence[Curve], *, turning_points: bool) -> list[Mark]
 def peak_text(extreme: Extreme, unit: Scale, time: Scale) -> str:
     """Such as ``−12.3 kN at 0.42 s``."""
     value = f"{extreme.value / unit.divisor:.4g}".replace("-", "−")
-    return f"{value} {unit.unit} at {extreme.t / time.divisor:.4g} {time.unit}"
+    at = f"{extreme.t / time.divisor:.4g}".replace("-", "−")
+    return f"{value} {unit.unit} at {at}{'' if time.unit == '°' else ' '}{time.unit}"
 
 
 def add_peaks(axes: Axes, marks: Sequence[Mark], unit: Scale, time: Scale) -> None:

@@ -84,14 +84,15 @@ def force_panel(motion: Motion, joint: str, body: str, frame: ReactionFrame) -> 
         curve(motion, "|F|", lambda at: np.hypot(*force(at).T), dotted),
     ]
     title = f"{_beside(joint, body)}, {frame} frame{_remark(motion, joint)}"
-    return Panel("F", "N", curves, title, title)
+    return Panel("F", "N", curves, title, title, variable=motion.variable)
 
 
 def torque_panel(motion: Motion, joint: str, body: str) -> Panel:
     """Torque of a joint on a body about the joint point."""
     line = curve(motion, "T", lambda at: at.constraint(joint).torque(on=body), style.SUM)
     title = f"{_beside(joint, body)}{_remark(motion, joint)}"
-    return Panel("T", "N·m", [line], title, f"torque of {title}")
+    named = f"torque of {title}"
+    return Panel("T", "N·m", [line], title, named, variable=motion.variable)
 
 
 def _remark(motion: Motion, joint: str) -> str:
@@ -130,8 +131,9 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
         one = curve(motion, label, magnitude, style.line(len(curves)))
         if name in motion.compiled.joints or one.values.any():
             curves.append(one)
-    panel = Panel("|F|", "N", curves, "Reactions", "reactions")
-    unit, time = scale("N", panel.peak), TimeAxis.of(times(motion)).unit
+    of = motion.variable
+    panel = Panel("|F|", "N", curves, "Reactions", "reactions", variable=of)
+    unit, time = scale("N", panel.peak), TimeAxis.of(times(motion), None, of).unit
     with_peaks = [
         replace(one, label=f"{one.label}: {peak_text(one.high, unit, time)}")
         if one.high is not None and len(curves) <= _MOST_PEAKS

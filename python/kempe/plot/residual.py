@@ -28,7 +28,7 @@ def residual(solution: Solution, *, ax: Axes | None = None, cut: float | None = 
     instance(solution, Solution, "a solution")
     drift = solution.drift
     units = list(dict.fromkeys(solution.compiled.row_units())) or ["m"]
-    time = TimeAxis.of(solution.t, cut)
+    time = TimeAxis.of(solution.t, cut, solution.variable)
     t = solution.t / time.unit.divisor
     drawn = {"position, max |Φ|": drift.position, "velocity, max |dΦ/dt|": drift.velocity}
     with style.on(ax) as axes:

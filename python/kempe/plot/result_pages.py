@@ -17,8 +17,8 @@ from kempe.result import Result
 #: the result and the number of the first body.
 _PAGES: dict[str, Callable[[Any, int], list[Page]]] = {
     "configurations": sheets,
-    "equilibrium": rest_pages,
     "limits": limit_pages,
+    "equilibrium": rest_pages,
     "modes": mode_pages,
 }
 

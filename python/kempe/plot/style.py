@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Literal, TypeAlias
 
 from kempe.draw.palette import COLOURS, GROUND, LONGEST_NAME, colour, one_line, verbatim
 
-__all__ = ["COLOURS", "GROUND", "LONGEST_NAME", "colour", "verbatim"]
+__all__ = ["COLOURS", "GROUND", "LONGEST_NAME", "colour", "one_line", "verbatim"]
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -77,10 +77,10 @@ def applied() -> Iterator[None]:
 
 
 @contextmanager
-def on(ax: Axes | None) -> Iterator[Axes]:
-    """The axes to draw in, in the style of kempe: those given, or new ones when None."""
+def on(ax: Axes | None, height: float = HEIGHT) -> Iterator[Axes]:
+    """The axes to draw in, in the style of kempe: those given, or new ones of a height, mm."""
     with applied():
-        yield new_axes() if ax is None else ax
+        yield new_axes(height) if ax is None else ax
 
 
 def line(k: int) -> dict[str, Any]:
@@ -101,11 +101,11 @@ def marked_line(k: int) -> dict[str, Any]:
     }
 
 
-def new_axes() -> Axes:
+def new_axes(height: float = HEIGHT) -> Axes:
     """Axes in a figure of their own that a notebook or ``plt.show()`` shows."""
     from matplotlib import pyplot
 
-    size = (WIDTH * MILLIMETRE, HEIGHT * MILLIMETRE)
+    size = (WIDTH * MILLIMETRE, height * MILLIMETRE)
     axes: Axes = pyplot.subplots(figsize=size, layout="constrained", dpi=DOTS_PER_INCH)[1]
     return axes
 

@@ -15,18 +15,20 @@ if TYPE_CHECKING:
 _SIZE = 8.0
 #: Most ticks, and the room between two numbers in a row and in a column, points.
 _MOST, _BESIDE, _ABOVE = 6, 10.0, 5.0
-_STEPS = (1, 2, 2.5, 5, 10)
+STEPS = (1, 2, 2.5, 5, 10)
+#: Steps of angles in degrees, such as 30, 45, 60 and 90.
+DEGREES = (1, 1.5, 3, 4.5, 6, 9, 10)
 
 
-def set_ticks(axis: Axis) -> None:
-    """Put ticks within the limits of a linear axis."""
+def set_ticks(axis: Axis, steps: Sequence[float] = STEPS) -> None:
+    """Put ticks within the limits of a linear axis, apart by such steps times a power of ten."""
     from matplotlib.ticker import MaxNLocator
 
     low, high = sorted(axis.get_view_interval())
     length = _length(axis)
     chosen: list[float] = []
     for count in range(_MOST, 1, -1):
-        ticks = MaxNLocator(count, steps=_STEPS).tick_values(low, high)
+        ticks = MaxNLocator(count, steps=steps).tick_values(low, high)
         slack = 1e-9 * (high - low)
         chosen = [float(tick) for tick in ticks if low - slack <= tick <= high + slack]
         if _needed(axis, labels(chosen)) <= length:

@@ -1,4 +1,7 @@
-"""The time axis: where a motion comes to rest early, the quiet rest can be compressed."""
+"""The horizontal axis: the time, or a driven quantity.
+
+Where a motion comes to rest early, the quiet rest can be compressed.
+"""
 
 from __future__ import annotations
 
@@ -9,9 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.arrays import Floats
+from kempe.display_units import display
 from kempe.draw.units import Scale, scale
-from kempe.plot.ticks import labels, set_ticks
+from kempe.plot.ticks import DEGREES, STEPS, labels, set_ticks
 from kempe.report.settling import settling
+from kempe.variable import TIME, Variable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,20 +39,27 @@ class TimeAxis:
         first, last: its ends, s.
         unit: unit of the numbers on it.
         cut: time after which it is compressed, s; never when None.
+        variable: what it shows.
     """
 
     first: float
     last: float
     unit: Scale
     cut: float | None
+    variable: Variable = TIME
 
     @classmethod
-    def of(cls, t: Floats, cut: float | None = None) -> TimeAxis:
-        """The axis for times (n_t,) or (), s."""
+    def of(cls, t: Floats, cut: float | None = None, variable: Variable = TIME) -> TimeAxis:
+        """The axis for times (n_t,) or (), s, or for values of another variable."""
         first, last = float(np.min(t)), float(np.max(t))
         inside = cut is not None and first < cut < last
-        unit = scale("s", min(max(abs(first), abs(last)), 1.0))  # never thousands of seconds
-        return cls(first, last, unit, cut if inside else None)
+        most = max(abs(first), abs(last))
+        if variable.unit == "rad":
+            angle = display("rad", "deg")
+            unit = Scale(angle.divisor, angle.symbol)
+        else:  # never thousands of seconds
+            unit = scale(variable.unit, min(most, 1.0) if variable.is_time else most)
+        return cls(first, last, unit, cut if inside else None, variable)
 
 
 def transient(motion: Motion) -> float | None:
@@ -99,13 +111,15 @@ def show_time(axes: Axes, time: TimeAxis, *, label: bool = True) -> None:
         set_ticks(axes.xaxis)
     elif time.cut is None:
         axes.set_xlim(first, last)
-        set_ticks(axes.xaxis)
+        set_ticks(axes.xaxis, DEGREES if time.unit.unit == "°" else STEPS)
     else:
         cut = time.cut / time.unit.divisor
         _compress(axes, first, cut, last)
         told = f"  (grey: compressed after {cut:g} {time.unit.unit})"
     if label:
-        axes.set_xlabel(f"{time.unit.axis('time t')}{told}")
+        from kempe.plot.style import verbatim
+
+        axes.set_xlabel(f"{time.unit.axis(verbatim(time.variable.words))}{told}")
 
 
 def _compress(axes: Axes, first: float, cut: float, last: float) -> None:

@@ -158,7 +158,7 @@ class TimePages:
             if quantity in info.quantities
         ]
         symbol, unit = QUANTITIES[quantity]
-        return Panel(symbol, unit, curves, name=symbol)
+        return Panel(symbol, unit, curves, name=symbol, variable=self.solution.variable)
 
     def of_measure(self, name: str, file: str) -> Page:
         """A measure over time."""

@@ -62,4 +62,5 @@ def torque_panel(motion: Motion, force: str, on: str | None = None) -> Panel:
     acting = [part for part in parts if part.values.any()]
     title = f"{style.short(force, 16)} on {style.short(body, 14)}"
     curves = [*acting, total] if len(acting) > 1 else [total]
-    return Panel("T", "N·m", curves, title, f"torque of {title}", legend=True)
+    named = f"torque of {title}"
+    return Panel("T", "N·m", curves, title, named, legend=True, variable=motion.variable)

@@ -44,6 +44,7 @@ def summary(solution: Solution) -> dict[str, Any]:
             "end": float(solution.t[-1]),
             "outputs": len(solution.t),
         },
+        "variable": {"name": solution.variable.name, "unit": solution.variable.unit},
         "mechanism": mechanism(solution.initial),
         "start": solution.initial.coordinates(),
         "end": solution.final.coordinates(),

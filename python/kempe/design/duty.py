@@ -1,0 +1,284 @@
+"""What a drive must deliver over a motion: efforts, powers, work, and the flywheel that helps.
+
+Work ∫ P dt, root mean square √(∫ T² dt / ∫ dt). At the flywheel, the energy E(θ) = ∫ (T - T_m) dθ
+with the mean T_m over the cycle has the range ΔE; a flywheel of the inertia J = ΔE / (C_s ω²) keeps
+the speed within C_s = (ω_max - ω_min)/ω of its mean ω (Norton, *Design of Machinery*, 11.11;
+Shigley and Uicker, *Theory of Machines and Mechanisms*, ch. 18).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from kempe.arrays import Floats, fixed
+from kempe.design.locate import instants, integral, interpolated, limits, zeros
+from kempe.design.transmission import rate_name
+from kempe.errors import ModelError
+from kempe.extrema import Extreme
+from kempe.motion import Motion
+from kempe.names import unknown
+from kempe.quantities import named
+from kempe.solution import Solution
+from kempe.variable import Variable
+
+Read = Callable[[Motion], Floats]
+
+
+@dataclass(frozen=True, repr=False)
+class Duty:
+    """What a driver or motor delivers over a motion.
+
+    Attributes:
+        name: the driver or force element.
+        variable: what ``t`` contains. Over a driven quantity its rate is 1, and so are the powers
+            those at this rate.
+        unit: of the effort, "N*m" or "N".
+        t: instants close enough for a smooth curve, (n,), s.
+        rate: of its coordinate, (n,), rad/s or m/s.
+        effort: (n,), N·m or N; positive if it increases the coordinate.
+        power: effort × rate, (n,), W; negative where it brakes.
+        peak: the effort of largest magnitude with its sign, and its instant.
+        peak_power: the power of largest magnitude with its sign, and its instant.
+        rms: root mean square of the effort over t.
+        mean: mean of the effort over t.
+        mean_power: mean of the power over t, W.
+        work: work over the whole motion, J.
+        driving_work, braking_work: its positive and its negative part, J.
+    """
+
+    name: str
+    variable: Variable
+    unit: str
+    t: Floats
+    rate: Floats
+    effort: Floats
+    power: Floats
+    peak: Extreme
+    peak_power: Extreme
+    rms: float
+    mean: float
+    mean_power: float
+    work: float
+    driving_work: float
+    braking_work: float
+
+    @property
+    def points(self) -> Floats:
+        """Speed and effort at each instant, (n, 2), as a motor's catalogue draws them."""
+        return fixed(np.column_stack([self.rate, self.effort]))
+
+    @property
+    def quadrants(self) -> tuple[int, ...]:
+        """The quadrants of speed and effort that occur, 1 to 4; 2 and 4 brake."""
+        rate, effort = self.rate, self.effort
+        noise = [1e-9 * float(np.abs(values).max(initial=0.0)) for values in (rate, effort)]
+        signs = ((1, 1), (-1, 1), (-1, -1), (1, -1))
+        return tuple(
+            k
+            for k, (x, y) in enumerate(signs, 1)
+            if np.any((x * rate > noise[0]) & (y * effort > noise[1]))
+        )
+
+    def __repr__(self) -> str:
+        unit = self.unit.replace("*", "·")
+        told = f"peak {self.peak.value:.6g} {unit}, rms {self.rms:.6g} {unit}"
+        return f"<Duty of {self.name}: {told}, work {self.work:.6g} J>"
+
+
+def duty(solution: Solution, name: str) -> Duty:
+    """Efforts, powers and work of a driver, or of a motor, actuator or torque.
+
+    Args:
+        solution: the motion, such as one cycle, of ``inverse_dynamics`` or ``dynamics``.
+        name: a driver, or a force element that measures the coordinate it acts on.
+
+    Raises:
+        ModelError: there is no such driver or element, or it has no effort and rate.
+    """
+    effort, rate, unit = _reads(interpolated(solution), name)
+
+    def power(motion: Motion) -> Floats:
+        return np.asarray(effort(motion) * rate(motion))
+
+    t = instants(solution)
+    found = solution(t)
+    turns = [float(t[0]), *_inner(zeros(solution, power), t), float(t[-1])]
+    works = integral(solution, power, turns)
+    ends = [float(t[0]), float(t[-1])]
+    span = ends[1] - ends[0]
+    square = float(integral(solution, lambda motion: effort(motion) ** 2, ends)[0])
+    return Duty(
+        name,
+        solution.variable,
+        unit,
+        fixed(t),
+        fixed(rate(found)),
+        fixed(effort(found)),
+        fixed(power(found)),
+        _peak(solution, effort),
+        _peak(solution, power),
+        float(np.sqrt(square / span)),
+        float(integral(solution, effort, ends)[0]) / span,
+        float(works.sum()) / span,
+        float(works.sum()),
+        float(works[works > 0.0].sum()),
+        float(works[works < 0.0].sum()),
+    )
+
+
+def _inner(found: Floats, t: Floats) -> Floats:
+    """The instants strictly within a motion."""
+    low, high = sorted((float(t[0]), float(t[-1])))
+    return found[(found > low) & (found < high)]
+
+
+def _peak(solution: Solution, read: Read) -> Extreme:
+    both = limits(solution, read)
+    return max(both.largest, both.least, key=lambda extreme: abs(extreme.value))
+
+
+def _reads(solution: Solution, name: str) -> tuple[Read, Read, str]:
+    """Effort and rate of a driver or force element as functions, and the unit of the effort."""
+    model = solution.compiled
+    driver = model.tree.get("drivers", {}).get(name, {})
+    if name in model.drivers and "coordinate" in driver:
+        names = f"{name}.effort", rate_name(model, driver["coordinate"])
+    elif name in model.forces and model.forces[name].measured:
+        of = model.forces[name].measured[0]
+        names = f"{name}.{'torque' if of.unit == 'rad' else 'force'}", f"{name}.{of.names[1]}"
+    elif name in (*model.drivers, *model.forces):
+        raise ModelError(
+            f"{name} has no coordinate of its own, so that it has no single effort and rate",
+            name=name,
+            hint=f'its power is the quantity "{name}.power"',
+        )
+    else:
+        raise unknown("driver or force element", name, [*model.drivers, *model.forces])
+    unit = named(solution, names[0]).unit
+
+    def effort(motion: Motion) -> Floats:
+        return np.asarray(named(motion, names[0]).read(), dtype=np.float64)
+
+    def rate(motion: Motion) -> Floats:
+        return np.asarray(named(motion, names[1]).read(), dtype=np.float64)
+
+    return effort, rate, unit
+
+
+@dataclass(frozen=True, repr=False)
+class Flywheel:
+    """A flywheel for a given fluctuation of the speed.
+
+    Attributes:
+        inertia: its moment of inertia, kg·m².
+        energy: ΔE, the energy that it must give and take, J.
+        speed: mean speed, rad/s.
+        fluctuation: C_s = (ω_max - ω_min)/ω.
+        mean_torque: mean over the angle of the cycle, which the motor then delivers, N·m.
+        slowest, fastest: instants of the least and the largest speed, s, or values of the driven
+            quantity.
+        variable, t: what the instants are, and some close enough for a smooth curve, (n,).
+        torque: torque on the shaft without a flywheel, (n,), N·m.
+        stored: energy that the flywheel has taken up since the first instant, (n,), J.
+    """
+
+    inertia: float
+    energy: float
+    speed: float
+    fluctuation: float
+    mean_torque: float
+    slowest: float
+    fastest: float
+    variable: Variable
+    t: Floats
+    torque: Floats
+    stored: Floats
+
+    def __repr__(self) -> str:
+        return f"<Flywheel: {self.inertia:.6g} kg m² for ΔE = {self.energy:.6g} J>"
+
+
+def flywheel(
+    solution: Solution, driver: str, *, fluctuation: float, speed: float | None = None
+) -> Flywheel:
+    """The flywheel on the shaft of a driver that keeps the speed nearly constant.
+
+    The motion is a cycle at constant speed by ``inverse_dynamics``. The torque of the driver is
+    what the mechanism and its loads take; a motor with the flywheel delivers its mean. The inertia
+    is that of the flywheel in addition to the mechanism.
+
+    Args:
+        solution: one or more whole cycles.
+        driver: the driver of the shaft.
+        fluctuation: C_s = (ω_max - ω_min)/ω, such as 0.02.
+        speed: mean speed ω, rad/s; that of the solution when None, which must then be over time.
+
+    Raises:
+        ModelError: the driver does not turn a shaft in one direction, the fluctuation is not
+            between 0 and 1, or the speed is missing.
+    """
+    effort, rate, unit = _reads(interpolated(solution), driver)
+    if unit != "N*m":
+        raise ModelError(
+            f"{driver} turns no shaft", name=driver, hint="name the driver of an angle"
+        )
+    if not 0.0 < fluctuation < 1.0:
+        raise ModelError(
+            f"fluctuation: {fluctuation!r} is not between 0 and 1", hint="write 0.02 for 2 %"
+        )
+    t = instants(solution)
+    ends = [float(t[0]), float(t[-1])]
+    found = solution(t)
+    rates = rate(found)
+    if rates.min() <= 0.0 <= rates.max():
+        raise ModelError(f"{driver} does not turn in one direction all the time", name=driver)
+    angle = float(integral(solution, rate, ends)[0])
+    work = float(integral(solution, lambda m: effort(m) * rate(m), ends)[0])
+    mean = work / angle
+    omega = _speed(solution, angle, speed)
+
+    def excess(motion: Motion) -> Floats:
+        """Rate of the energy that the flywheel gives."""
+        return np.asarray((effort(motion) - mean) * rate(motion))
+
+    marks = np.array([ends[0], *_inner(zeros(solution, excess), t), ends[1]])
+    given = np.concatenate([[0.0], np.cumsum(integral(solution, excess, [*marks]))])
+    energy = float(np.ptp(given))
+    return Flywheel(
+        energy / (fluctuation * omega**2),
+        energy,
+        omega,
+        fluctuation,
+        mean,
+        float(marks[given.argmax()]),
+        float(marks[given.argmin()]),
+        solution.variable,
+        fixed(t),
+        fixed(effort(found)),
+        fixed(-_along(solution, excess, t)),
+    )
+
+
+def _speed(solution: Solution, angle: float, speed: float | None) -> float:
+    if speed is None and solution.variable.is_time:
+        return abs(angle / float(solution.t[-1] - solution.t[0]))
+    if speed is None or not 0.0 < speed < np.inf:
+        raise ModelError(
+            "speed: missing" if speed is None else f"speed: {speed!r} is not positive",
+            hint="give the mean speed in rad/s; the solution is over a quantity, at rate 1",
+        )
+    return float(speed)
+
+
+def _along(solution: Solution, read: Read, t: Floats) -> Floats:
+    """An integral from the first to each instant."""
+    nodes, weights = np.polynomial.legendre.leggauss(4)
+    half = np.diff(t)[:, None] / 2.0
+    times = t[:-1, None] + half + half * nodes
+    pieces = (half * weights * np.asarray(read(solution(times.ravel()))).reshape(times.shape)).sum(
+        1
+    )
+    return np.concatenate([[0.0], np.cumsum(pieces)])

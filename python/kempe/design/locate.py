@@ -1,0 +1,182 @@
+"""Instants within a solution, zeros and extreme values between its outputs, and integrals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from kempe.arrays import Floats
+from kempe.errors import ModelError
+from kempe.extrema import Extreme
+from kempe.motion import Motion
+from kempe.solution import Solution
+from kempe.values import instance
+
+#: A quantity of a motion, (n_t,).
+Read = Callable[[Motion], Floats]
+
+#: Instants of a solution: in each step at least, for all steps at least and at most.
+_LEAST, _WISHED, _MOST = 4, 721, 20_000
+#: Brackets shrink to one of so many parts, so often: by 1e-15 together.
+_PARTS, _ROUNDS = 32, 10
+#: A maximum is bracketed by two of so many parts; its value has converged after four rounds.
+_TOPS = 6
+#: Nodes of Gauss in a panel, panels at first and, of all parts together, at most.
+_NODES, _PANELS, _MOST_PANELS = 16, 8, 1024
+#: How often the points of the trapezoidal rule double at most.
+_DOUBLINGS = 9
+#: A quantity below this share of its largest value is zero.
+_NOISE = 1e-12
+#: An integral has converged when it changes by less than this share of that of the magnitude.
+_CONVERGED = 1e-13
+
+
+class Limits(NamedTuple):
+    """The least and the largest value of a quantity over a motion.
+
+    Attributes:
+        least, largest: value and time, or value of the driven quantity.
+    """
+
+    least: Extreme
+    largest: Extreme
+
+
+def interpolated(solution: Solution) -> Solution:
+    """The solution, if it has values between its outputs.
+
+    Raises:
+        ModelError: it is not a solution, has less than two outputs, or no interpolant.
+    """
+    instance(solution, Solution, "a solution")
+    if solution.dense is None:
+        raise ModelError("the solution has no interpolant", hint="use dense_output=True")
+    if len(solution.t) < 2:
+        raise ModelError("the solution has only one instant", hint="compute a motion")
+    return solution
+
+
+def instants(solution: Solution) -> Floats:
+    """Times close enough for smooth curves, ascending or descending as those of the solution."""
+    dense = interpolated(solution).dense
+    assert dense is not None
+    bounds = np.unique(dense.t)
+    pieces = max(_LEAST, -(-_WISHED // max(len(bounds) - 1, 1)))
+    pieces = max(1, min(pieces, _MOST // max(len(bounds) - 1, 1)))
+    inside = bounds[:-1, None] + np.arange(pieces) / pieces * np.diff(bounds)[:, None]
+    found = np.append(inside.ravel(), bounds[-1])
+    return found if dense.t[-1] >= dense.t[0] else found[::-1]
+
+
+def zeros(solution: Solution, read: Read) -> Floats:
+    """All instants at which a quantity changes its sign or is zero, refined to rounding.
+
+    Of a part of the motion in which it is zero all the time, the first and the last instant.
+    """
+    t = instants(solution)
+    values = np.asarray(read(solution(t)))
+    values = np.where(np.abs(values) <= _NOISE * np.abs(values).max(initial=0.0), 0.0, values)
+    still = np.concatenate([[False], values == 0.0, [False]])
+    exact = t[still[1:-1] & ~(still[:-2] & still[2:])]
+    k = np.flatnonzero(values[:-1] * values[1:] < 0.0)
+    low, high = t[k], t[k + 1]
+    first = np.sign(values[k])
+    share = np.linspace(0.0, 1.0, _PARTS + 1)
+    for _ in range(_ROUNDS if len(k) else 0):
+        times = low[:, None] + share * (high - low)[:, None]
+        inner = np.asarray(read(solution(times.ravel()))).reshape(times.shape)
+        same = inner * first[:, None] > 0.0
+        same[:, 0], same[:, -1] = True, False
+        last = same.cumprod(axis=1).sum(axis=1) - 1
+        rows = np.arange(len(k))
+        low, high = times[rows, last], times[rows, last + 1]
+    found = np.unique(np.concatenate([exact, (low + high) / 2.0]))
+    return found if t[-1] >= t[0] else found[::-1]
+
+
+def limits(solution: Solution, read: Read) -> Limits:
+    """The least and the largest value of a smooth quantity; of equal ones the first."""
+    t = instants(solution)
+    values = np.asarray(read(solution(t)))
+    low, high = (_top(solution, read, t, values, sign) for sign in (-1.0, 1.0))
+    return Limits(low, high)
+
+
+def _top(solution: Solution, read: Read, t: Floats, values: Floats, sign: float) -> Extreme:
+    """The largest value of sign times a quantity."""
+    best = float((sign * values).max())
+    room = 1e-12 * float(np.abs(values).max(initial=0.0))
+    near = 1e-3 * float(np.ptp(values)) + room
+    padded = np.concatenate([[-np.inf], sign * values, [-np.inf]])
+    peaks = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] >= padded[2:])
+    k = np.flatnonzero(peaks & (sign * values >= best - near))[:8]
+    brackets = t[np.clip(k[:, None] + [-1, 1], 0, len(t) - 1)]
+    share = np.linspace(0.0, 1.0, _PARTS + 1)
+    rows = np.arange(len(k))
+    top, at = sign * values[k], t[k]
+    for _ in range(_TOPS):
+        times = brackets[:, :1] + share * np.diff(brackets)
+        inner = sign * np.asarray(read(solution(times.ravel()))).reshape(times.shape)
+        m = inner.argmax(axis=1)
+        better = inner[rows, m] > top
+        top, at = np.where(better, inner[rows, m], top), np.where(better, times[rows, m], at)
+        ends = np.clip(m[:, None] + [-1, 1], 0, _PARTS)
+        brackets = np.take_along_axis(times, ends, axis=1)
+    first = int(np.argmax(top >= top.max() - room))
+    return Extreme(float(sign * top[first]), float(at[first]))
+
+
+def integral(
+    solution: Solution, read: Read, ends: Sequence[float], *, periodic: bool = False
+) -> Floats:
+    """Integrals of a quantity over t between neighbouring instants, (n - 1,).
+
+    A smooth periodic quantity over its period is integrated by the trapezoidal rule, which
+    converges exponentially; any other by Gauss's rule in panels. The number of points is doubled
+    until the value no longer changes.
+
+    Args:
+        solution: the solution.
+        read: the quantity; kinks are at the ends only.
+        ends: instants, ascending or descending.
+        periodic: whether the quantity is smooth and periodic over the whole of the ends.
+    """
+    if periodic and len(ends) == 2:
+        return np.array([_trapezoid(solution, read, ends[0], ends[1])])
+    most = max(_PANELS, _MOST_PANELS // max(len(ends) - 1, 1))
+    return np.array([_gauss(solution, read, (a, b), most) for a, b in pairwise(ends)])
+
+
+def _trapezoid(solution: Solution, read: Read, a: float, b: float) -> float:
+    count = 128
+    sums = float(np.sum(read(solution(a + (b - a) * np.arange(count) / count))))
+    value = sums * (b - a) / count
+    for _ in range(_DOUBLINGS):
+        middle = np.asarray(read(solution(a + (b - a) * (np.arange(count) + 0.5) / count)))
+        sums, count, before = sums + float(np.sum(middle)), 2 * count, value
+        value = sums * (b - a) / count
+        if abs(value - before) <= _CONVERGED * float(np.abs(middle).mean()) * abs(b - a):
+            break
+    return value
+
+
+def _gauss(solution: Solution, read: Read, ends: tuple[float, float], most: int) -> float:
+    """Gauss's rule in equal panels, so many at most."""
+    if ends[0] == ends[1]:
+        return 0.0
+    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
+    panels, value, before = _PANELS, 0.0, np.inf
+    while panels <= most:
+        bounds = np.linspace(*ends, panels + 1)
+        half = np.diff(bounds)[:, None] / 2.0
+        times = (bounds[:-1, None] + half) + half * nodes
+        values = np.asarray(read(solution(times.ravel()))).reshape(times.shape)
+        value = float((half * weights * values).sum())
+        size = float((np.abs(half) * weights * np.abs(values)).sum())
+        if abs(value - before) <= _CONVERGED * size:
+            break
+        panels, before = 2 * panels, value
+    return value

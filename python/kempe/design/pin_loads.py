@@ -1,0 +1,221 @@
+"""Pin loads: the force of each joint on its bodies over a motion, in the frame of the body.
+
+In the frame of a body the force shows where a pin or bearing is loaded, and by how much. The load
+cases are the instants at which its magnitude or one of its components is extreme.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from kempe import files
+from kempe.arrays import Floats, fixed
+from kempe.design.free_body import FreeBody, free_body
+from kempe.design.locate import instants, interpolated, limits
+from kempe.errors import ModelError
+from kempe.extrema import Extreme
+from kempe.motion import Motion
+from kempe.names import one_of
+from kempe.solution import Solution
+from kempe.table import Column, column, write_columns
+from kempe.variable import Variable
+from kempe.views.frames import checked_body
+
+#: The extreme cases of a joint on a body.
+CASES = ("max", "x_max", "x_min", "y_max", "y_min")
+
+
+@dataclass(frozen=True, repr=False)
+class PinLoad:
+    """The force of a joint on a body over a motion, in the frame of the body.
+
+    Attributes:
+        joint: the joint or driver.
+        on: the body.
+        variable: what ``t`` contains.
+        t: instants close enough for a smooth curve, (n,), s.
+        force: (n, 2), N, in the axes of the body.
+        moment: about the joint point, (n,), N·m.
+        extremes: the extreme values with their instants, found on the interpolant: "max" of the
+            magnitude, "x_max", "x_min", "y_max" and "y_min" of the components.
+    """
+
+    joint: str
+    on: str
+    variable: Variable
+    t: Floats
+    force: Floats
+    moment: Floats
+    extremes: Mapping[str, Extreme]
+
+    @property
+    def magnitude(self) -> Floats:
+        """(n,), N."""
+        return fixed(np.hypot(*self.force.T))
+
+    @property
+    def direction(self) -> Floats:
+        """Angle of the force in the frame of the body, from -π to π, (n,), rad."""
+        return fixed(np.arctan2(self.force[:, 1], self.force[:, 0]))
+
+    def __repr__(self) -> str:
+        return f"<PinLoad of {self.joint} on {self.on}: up to {self.extremes['max'].value:.6g} N>"
+
+
+def pin_load(solution: Solution, joint: str, on: str | None = None) -> PinLoad:
+    """The force of a joint on a body over a motion, in the frame of the body.
+
+    Args:
+        solution: a motion of ``inverse_dynamics`` or ``dynamics``.
+        joint: the joint or driver.
+        on: the body; body j when None.
+
+    Raises:
+        ModelError: there is no such joint, or it does not touch the body.
+        SingularityError: its reaction is not unique.
+    """
+    info = interpolated(solution).constraint(joint).info
+    body = checked_body(info, info.j if on is None else on)
+    t = instants(solution)
+    found = solution(t).constraint(joint)
+    return PinLoad(
+        joint,
+        body,
+        solution.variable,
+        fixed(t),
+        found.force(on=body, frame="body"),
+        fixed(found.torque(on=body)),
+        MappingProxyType(_extremes(solution, joint, body)),
+    )
+
+
+def _extremes(solution: Solution, joint: str, body: str) -> dict[str, Extreme]:
+    reads: dict[str, Callable[[Motion], Floats]] = {
+        "magnitude": partial(_component, joint, body, None),
+        "x": partial(_component, joint, body, 0),
+        "y": partial(_component, joint, body, 1),
+    }
+    of = {name: limits(solution, read) for name, read in reads.items()}
+    return {
+        "max": of["magnitude"].largest,
+        "x_max": of["x"].largest,
+        "x_min": of["x"].least,
+        "y_max": of["y"].largest,
+        "y_min": of["y"].least,
+    }
+
+
+def _component(joint: str, body: str, k: int | None, motion: Motion) -> Floats:
+    force = motion.constraint(joint).force(on=body, frame="body")
+    return np.hypot(*force.T) if k is None else np.asarray(force[:, k])
+
+
+def pin_loads(solution: Solution) -> list[PinLoad]:
+    """The loads of all joints on all their moving bodies; see ``pin_load``."""
+    model = interpolated(solution).compiled
+    return [
+        pin_load(solution, joint, body)
+        for joint, info in model.joints.items()
+        for body in dict.fromkeys(info.bodies)
+        if body in model.bodies
+    ]
+
+
+def pin_table(solution: Solution) -> list[Column]:
+    """The forces of all joints in the frames of their bodies at the outputs, as columns.
+
+    The first column is the time or the driven quantity; the others have names of quantities, such
+    as ``A.body_fx_on_rod``, and display units.
+    """
+    model, of = solution.compiled, solution.variable
+    found = [column(of.name, of.unit, solution.t)]
+    for joint, info in model.joints.items():
+        for body in dict.fromkeys(info.bodies):
+            if body in model.bodies:
+                view = solution.constraint(joint)
+                force = view.force(on=body, frame="body")
+                moment = np.asarray(view.torque(on=body))
+                found += [
+                    column(f"{joint}.body_fx_on_{body}", "N", force[:, 0]),
+                    column(f"{joint}.body_fy_on_{body}", "N", force[:, 1]),
+                    column(f"{joint}.torque_on_{body}", "N*m", moment),
+                ]
+    return found
+
+
+def write_pin_loads(solution: Solution, path: Path | str) -> None:
+    """Write the table of pin loads as CSV; see ``pin_table``.
+
+    Raises:
+        FileError: the file cannot be written; an existing file is not changed.
+    """
+    write_columns(pin_table(solution), path)
+
+
+def load_cases(solution: Solution, body: str, joint: str | None = None) -> list[FreeBody]:
+    """The extreme cases of the joints of a body, each with all loads on the body.
+
+    Args:
+        solution: a motion of ``inverse_dynamics`` or ``dynamics``.
+        body: a moving body.
+        joint: one of its joints; all when None.
+
+    Returns:
+        For each joint "JOINT_max", "JOINT_x_max", "JOINT_x_min", "JOINT_y_max", "JOINT_y_min".
+
+    Raises:
+        ModelError: there is no such body or joint.
+        SingularityError: reactions are not unique.
+    """
+    model = interpolated(solution).compiled
+    if not model.body(body).number:
+        raise ModelError(f"{body} does not move", name=body, hint="name a moving body")
+    own = [name for name, info in model.joints.items() if body in info.bodies]
+    names = own if joint is None else [one_of(f"joint of {body}", joint, own)]
+    return [
+        free_body(solution, body, extreme.t, name=f"{name}_{case}")
+        for name in names
+        for case, extreme in pin_load(solution, name, body).extremes.items()
+    ]
+
+
+def export_load_cases(
+    solution: Solution, folder: Path | str, bodies: list[str] | None = None
+) -> list[Path]:
+    """Write the load cases of bodies for finite elements, one CSV for each body and case.
+
+    Each file is in balance with the inertia loads to 1e-9 of its largest load; this is checked.
+
+    Args:
+        solution: a motion of ``inverse_dynamics`` or ``dynamics``.
+        folder: the folder, made if missing; the files are ``BODY/CASE.csv``.
+        bodies: the bodies; all moving ones when None.
+
+    Raises:
+        ModelError: there is no such body, or a load case is not in balance.
+        FileError: a file cannot be written.
+    """
+    into = files.checked_path(folder, "write")
+    return [_written(into, case) for case in _all_cases(solution, bodies)]
+
+
+def _all_cases(solution: Solution, bodies: list[str] | None) -> Iterator[FreeBody]:
+    for body in solution.compiled.bodies if bodies is None else bodies:
+        yield from load_cases(solution, body)
+
+
+def _written(into: Path, case: FreeBody) -> Path:
+    path = into / _plain(case.body) / f"{_plain(case.name)}.csv"
+    case.to_csv(path)
+    return path
+
+
+def _plain(name: str) -> str:
+    """A name fit for a file."""
+    return "".join(c if c.isalnum() or c in "-_" else "_" for c in name)

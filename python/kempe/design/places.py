@@ -1,0 +1,94 @@
+"""Points of bodies by name or by coordinates, and the lines of links between their pins."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from kempe.arrays import Floats, fixed
+from kempe.compiled import CompiledModel, ConstraintInfo, Vector
+from kempe.errors import ModelError
+from kempe.motion import Motion
+from kempe.names import few, unknown
+from kempe.values import vector
+from kempe.views import PointView
+
+#: A point: "coupler.P", or a body and coordinates in its frame: ("coupler", (0.1, 0.2)), m.
+Place: TypeAlias = "str | tuple[str, Vector]"
+
+
+def located(model: CompiledModel, place: Place) -> tuple[str, Vector, str]:
+    """The body of a point, its coordinates in the frame of the body, m, and its name.
+
+    Raises:
+        ModelError: there is no such body or point.
+    """
+    if isinstance(place, str):
+        body, _, point = place.rpartition(".")
+        known = model.body(body or place).points
+        if point not in known or not body:
+            raise unknown(f"point of {body or place}", point, known)
+        return body, known[point], place
+    if not isinstance(place, tuple | list) or len(place) != 2 or not isinstance(place[0], str):
+        raise ModelError(
+            f"point: {place!r} is not a point",
+            hint='write "coupler.P", or ("coupler", (0.1, 0.2)) in the frame of the body, m',
+        )
+    body = model.body(place[0]).name
+    s = vector(place[1], f"point of {body}")
+    return body, s, f"{body} at ({s[0]:g}, {s[1]:g})"
+
+
+def point_of(motion: Motion, place: Place) -> PointView:
+    """A point of a body of a motion; see ``located``."""
+    body, s, name = located(motion.compiled, place)
+    return motion.body(body).at(s, name)
+
+
+def is_pin(info: ConstraintInfo) -> bool:
+    """Whether a joint holds two points together, so that its bodies can only turn against it."""
+    turns = bool(info.measured) and info.measured[0].names[0] == "angle"
+    return info.group == "joints" and turns and not info.coordinates
+
+
+def is_slide(info: ConstraintInfo) -> bool:
+    """Whether a joint is a straight slide without turning."""
+    return info.group == "joints" and [unit for _, unit in info.equations] == ["m", "rad"]
+
+
+def mass_and_inertia(motion: Motion, body: str) -> tuple[Floats, Floats]:
+    """Mass of a body at each time, (n_t,), kg, and its inertia about the mass centre, kg·m²."""
+    count = np.shape(motion.t)
+    models = [motion.compiled] if motion._phases is None else motion._phases.models
+    of_row = np.zeros(count, dtype=np.intp) if motion._phases is None else motion._phases.of_row
+    both = np.array([(m.bodies[body].mass, m.bodies[body].inertia) for m in models])[of_row]
+    return fixed(both[..., 0]), fixed(both[..., 1])
+
+
+def others_at(model: CompiledModel, body: str, joint: str) -> list[ConstraintInfo]:
+    """The joints of a body besides one, that hold a point or guide it along a line."""
+    return [
+        info
+        for name, info in model.joints.items()
+        if name != joint and body in (info.i, info.j) and (is_pin(info) or is_slide(info))
+    ]
+
+
+def one_other(model: CompiledModel, body: str, joint: str) -> ConstraintInfo:
+    """The only other joint of a link with two joints.
+
+    Raises:
+        ModelError: it has none, or several.
+    """
+    found = others_at(model, body, joint)
+    if len(found) != 1:
+        names: Sequence[str] = [info.name for info in found]
+        told = f"{len(found)} other joints ({few(names)})" if found else "no other joint"
+        raise ModelError(
+            f"{body} has {told} besides {joint}, so that its line is not unique",
+            name=body,
+            hint=f'name a point on its line: lines={{"{body}": "{body}.POINT"}}',
+        )
+    return found[0]

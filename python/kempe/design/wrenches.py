@@ -1,0 +1,172 @@
+"""All forces on a body with the places where they act, and their balance with inertia.
+
+The balance is Newton's and Euler's: Σ F + m g = m a of the mass centre, and Σ M about it equals
+J α. Forces are those of joints, drivers and force elements.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kempe.arrays import Floats, fixed
+from kempe.compiled import ConstraintInfo, ForceInfo
+from kempe.design.places import mass_and_inertia
+from kempe.motion import Motion
+from kempe.state import State
+
+
+@dataclass(frozen=True, repr=False)
+class Load:
+    """Force and moment of one element on a body.
+
+    Attributes:
+        name: the joint, driver or force element; "gravity" for the weight.
+        kind: "joint", "driver", "element" or "gravity".
+        force: (n_t, 2), N, global.
+        moment: about the place, (n_t,), N·m.
+        place: where it is reduced to, (n_t, 2), m, global.
+    """
+
+    name: str
+    kind: str
+    force: Floats
+    moment: Floats
+    place: Floats
+
+    def about(self, place: Floats) -> Floats:
+        """Moment about another place, (n_t,), N·m."""
+        arm = self.place - place
+        return np.asarray(self.moment + cross(arm, self.force))
+
+    def __repr__(self) -> str:
+        return f"<Load of {self.name}>"
+
+
+def cross(a: Floats, b: Floats) -> Floats:
+    """Z component of the product of vectors of the plane, (…)."""
+    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
+
+
+def loads(motion: Motion, body: str, *, gravity: bool = True) -> list[Load]:
+    """All forces on a body, joints first; those that are zero by nature too.
+
+    Raises:
+        ModelError: there is no such body.
+        SingularityError: reactions are not unique.
+    """
+    info = motion.compiled.body(body)
+    model = motion.compiled
+    found = [_of_joint(motion, c, body) for c in model.constraints.values() if body in c.bodies]
+    found += [_of_element(motion, f, body) for f in model.forces.values() if body in f.bodies]
+    if gravity and info.number:
+        mass = mass_and_inertia(motion, body)[0]
+        weight = mass[..., None] * np.array(motion.compiled.gravity)
+        centre = motion.body(body).at(info.center).position
+        found.append(Load("gravity", "gravity", fixed(weight), np.zeros(np.shape(mass)), centre))
+    return found
+
+
+def _of_joint(motion: Motion, info: ConstraintInfo, body: str) -> Load:
+    """Its reaction at the joint point of the body; without one at the origin of the frame."""
+    view = motion.constraint(info.name)
+    force, moment = view.force(on=body), np.asarray(view.torque(on=body))
+    kind = info.group.rstrip("s")
+    if info.coordinates and body in (info.i, info.j):
+        place = motion.body(info.i).at(info.point_i).position
+        moment = _by_multipliers(motion, info, body, force, place)
+        return Load(info.name, kind, force, moment, place)
+    at = {info.j: info.point_j, info.i: info.point_i}.get(body, (0.0, 0.0))
+    return Load(info.name, kind, force, moment, motion.body(body).at(at).position)
+
+
+def _of_element(motion: Motion, info: ForceInfo, body: str) -> Load:
+    """Its action about the origin of the frame; at its own point, if it has one there."""
+    view, own = motion.force(info.name), motion.body(body)
+    force, moment = view.force(on=body), np.asarray(view.torque(on=body))
+    place = own.r
+    if info.points is not None and body in (info.i, info.j):
+        s = info.points[1] if body == info.j else info.points[0]
+        place = own.at(s).position
+        moment = moment - cross(place - own.r, force)
+    return Load(info.name, "element", force, fixed(moment), place)
+
+
+def _by_multipliers(
+    motion: Motion, info: ConstraintInfo, body: str, force: Floats, place: Floats
+) -> Floats:
+    """Moment of a joint on a curve, whose point of contact moves, about a place, (n_t,).
+
+    It follows from -Φ_qᵀ λ, the force and moment about the origin of the frame of the body.
+    """
+    about = motion.compiled.all_bodies[body]
+    if not about.number:
+        other = next(name for name in info.bodies if name != body)
+        away = motion.constraint(info.name).force(on=other)
+        return -_by_multipliers(motion, info, other, away, place)
+    lam = np.atleast_2d(motion.lam)[:, info.rows]
+    rows = (np.atleast_1d(motion.t), *map(np.atleast_2d, (motion.q, motion.v, motion.z)))
+    found = np.empty(len(lam))
+    for k, (t, q, v, z) in enumerate(zip(*rows, strict=True)):
+        jacobian = State(motion.compiled, float(t), q, v, z=z).matrices().Phi_q
+        block = np.asarray(jacobian)[info.rows, about.columns]
+        found[k] = -(block.T @ lam[k])[2] if about.count == 3 else 0.0
+    moment = found.reshape(np.shape(motion.t))
+    return np.asarray(moment - cross(place - motion.body(body).r, force))
+
+
+@dataclass(frozen=True, repr=False)
+class Inertia:
+    """Mass times acceleration of a body.
+
+    Attributes:
+        force: m a of the mass centre, (n_t, 2), N.
+        moment: J α, (n_t,), N·m.
+        centre: the mass centre, (n_t, 2), m.
+        acceleration: of the mass centre, (n_t, 2), m/s².
+    """
+
+    force: Floats
+    moment: Floats
+    centre: Floats
+    acceleration: Floats
+
+
+def inertia(motion: Motion, body: str) -> Inertia:
+    """M a and J α of a body."""
+    info, view = motion.compiled.body(body), motion.body(body)
+    mass, about = mass_and_inertia(motion, body)
+    centre = view.at(info.center)
+    return Inertia(
+        fixed(mass[..., None] * centre.acceleration),
+        fixed(about * view.alpha),
+        centre.position,
+        centre.acceleration,
+    )
+
+
+def imbalance(found: list[Load], of: Inertia) -> float:
+    """Largest error of Newton's and Euler's equations of a body, relative.
+
+    It is relative to the largest single force, or moment about the mass centre, of all instants.
+    """
+    force = sum((one.force for one in found), -of.force)
+    moments = [one.about(of.centre) for one in found]
+    moment = sum(moments, -of.moment)
+    arms = [np.hypot(*np.moveaxis(one.force, -1, 0)) for one in found]
+    inertial = np.hypot(*np.moveaxis(of.force, -1, 0))
+    most = max((float(np.max(a, initial=0.0)) for a in [*arms, inertial]), default=0.0)
+    # a moment by a force at a place has the rounding error of its parts
+    turning = [np.abs(m) for m in [*moments, of.moment]]
+    turning += [
+        np.hypot(*np.moveaxis(one.place - of.centre, -1, 0)) * size
+        for one, size in zip(found, arms, strict=True)
+    ]
+    largest = max((float(np.max(m, initial=0.0)) for m in turning), default=0.0)
+    shares = [
+        float(np.abs(error).max(initial=0.0)) / scale
+        for error, scale in ((force, most), (moment, largest))
+        if scale > 0.0
+    ]
+    return max(shares, default=0.0)

@@ -1,0 +1,157 @@
+"""The figures of design on pages: of motions that drivers determine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from kempe.compiled import CompiledModel
+from kempe.design.coupler_curve import coupler_curve as curve_of
+from kempe.design.places import is_pin, is_slide, others_at
+from kempe.errors import KempeError
+from kempe.plot import style
+from kempe.plot.centres import instant_centres
+from kempe.plot.coupler_curves import coupler_curve
+from kempe.plot.efforts import effort, torque_speed
+from kempe.plot.page import Page, file_names
+from kempe.plot.pin_loads import pin_load
+from kempe.plot.polygons import acceleration_polygon, velocity_polygon
+from kempe.plot.shaking import shaking_force
+from kempe.plot.transmission import transmission_angle
+from kempe.solution import Solution
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: The method of motions that drivers determine.
+_DRIVEN = "continuation"
+_SQUARE = 110.0
+#: Points nearer than this are one point, m, relative to 1 m.
+_SAME = 1e-12
+
+
+def families(solution: Solution, index_base: int, most: int | None) -> Iterator[list[Page]]:
+    """The pages of a driven motion; none for others. Those with forces only where these are unique.
+
+    Args:
+        solution: the solution.
+        index_base: number of the first body.
+        most: of figures of one kind; any number when None.
+    """
+    if solution.statistics.get("method") != _DRIVEN or len(solution.t) < 2:
+        return
+    model = solution.compiled
+    points = [name for name in free_points(model) if _moves(solution, name)]
+    yield _pages("path", points, partial(coupler_curve, solution), _SQUARE, key=True)[:most]
+    joints = transmitting(model)
+    angles = partial(transmission_angle, solution)
+    yield _pages("transmission", joints, angles, key=True)[:most]
+    t = float(solution.t[0] + 0.4 * (solution.t[-1] - solution.t[0]))
+    centres = partial(instant_centres, index_base=index_base)
+    yield [
+        _page("velocity_polygon", lambda ax: velocity_polygon(solution, t, ax=ax), _SQUARE),
+        _page("acceleration_polygon", lambda ax: acceleration_polygon(solution, t, ax=ax), _SQUARE),
+        _page("instant_centres", lambda ax: centres(solution, t, ax=ax), 120.0),
+    ]
+    if _has_forces(solution):
+        drives = [name for name in model.drivers if f"{name}.effort" in solution]
+        yield _pages("effort", drives, partial(effort, solution), key=True)[:most]
+        yield _pages("duty", drives, partial(torque_speed, solution), 90.0)[:most]
+        yield _loads(solution)[:most]
+        yield [_page("shaking_force", lambda ax: shaking_force(solution, ax=ax), _SQUARE)]
+
+
+def free_points(model: CompiledModel) -> list[str]:
+    """Named points of moving bodies that are not at a joint, such as "coupler.P"."""
+    found = []
+    for body, info in model.bodies.items():
+        joined = [
+            place
+            for joint in model.joints.values()
+            for on, place in ((joint.i, joint.point_i), (joint.j, joint.point_j))
+            if on == body
+        ]
+        for name, s in info.points.items():
+            if all(np.hypot(s[0] - x, s[1] - y) > _SAME for x, y in joined):
+                found.append(f"{body}.{name}")
+    return found
+
+
+def transmitting(model: CompiledModel) -> list[str]:
+    """Pins at which a link without a driver, guided by ground, is moved by another link."""
+    driven = {body for driver in model.drivers.values() for body in driver.bodies}
+    return [
+        name
+        for name, info in model.joints.items()
+        if is_pin(info)
+        and all(len(others_at(model, body, name)) == 1 for body in (info.i, info.j))
+        and any(_is_output(model, body, name, driven) for body in (info.i, info.j))
+    ]
+
+
+def _is_output(model: CompiledModel, body: str, joint: str, driven: set[str]) -> bool:
+    (other,) = others_at(model, body, joint)
+    grounded = "ground" in (other.i, other.j) and (is_pin(other) or is_slide(other))
+    return body in model.bodies and body not in driven and grounded
+
+
+def _moves(solution: Solution, point: str) -> bool:
+    try:
+        curve_of(solution, point)
+    except KempeError:
+        return False
+    return True
+
+
+def _has_forces(solution: Solution) -> bool:
+    try:
+        return bool(solution.lam.any())
+    except KempeError:
+        return False
+
+
+def _loads(solution: Solution) -> list[Page]:
+    model = solution.compiled
+    pairs = [
+        (joint, body)
+        for joint, info in model.joints.items()
+        for body in dict.fromkeys((info.i, info.j))
+        if body in model.bodies
+    ]
+    names = [f"{joint}_on_{body}" for joint, body in pairs]
+    files = file_names(f"pin_load_{name}" for name in names)
+    return [
+        _page(file, partial(pin_load, solution, joint, on=body), _SQUARE, f"pin_load_{name}")
+        for file, name, (joint, body) in zip(files, names, pairs, strict=True)
+    ]
+
+
+def _pages(
+    kind: str,
+    names: list[str],
+    draw: Callable[..., Axes],
+    height: float = style.HEIGHT,
+    *,
+    key: bool = False,
+) -> list[Page]:
+    """A page for each name."""
+    files = file_names(f"{kind}_{name}" for name in names)
+    return [
+        _page(file, partial(draw, name), height, f"{kind}_{name}", key=key)
+        for file, name in zip(files, names, strict=True)
+    ]
+
+
+def _page(
+    name: str, draw: Callable[..., Axes], height: float, about: str = "", *, key: bool = False
+) -> Page:
+    def drawing() -> Figure:
+        figure = style.figure(height)
+        draw(ax=figure.add_subplot())
+        return figure
+
+    return Page(0, name, about or name, drawing, key)
