@@ -292,7 +292,7 @@ fn freedoms_that_are_left_are_refused_and_a_limit_is_kept() {
     let request = Request { set: asked(&m, "set", &[("crank.angle", "1")]), ..Request::default() };
     let found = configurations(&m, &request, 1, &|| false).expect("one");
     assert!(found.states.len() == 1 && !found.complete);
-    // a relative angle is no exact placement, and both closures are found
+    // a relative angle is solved by Newton's method, and both closures are found
     let found = all(&m, &[("B.angle", "1")]).expect("positions");
     assert!(found.states.len() >= 2, "{}", found.states.len());
 }

@@ -245,24 +245,10 @@ def dynamics(
     """
 
 def kinematics_options(model: Model, text: str) -> str:
-    """The options of ``kinematics`` or ``inverse_dynamics``, checked, as JSON.
-
-    Args:
-        model: the mechanism.
-        text: JSON, an entry of ``analyses`` as in a file.
-
-    Raises:
-        ModelError: an option is invalid.
-    """
+    """The options of ``kinematics`` or ``inverse_dynamics``, checked, as JSON."""
 
 def kinematics(
-    model: Model,
-    t: float,
-    q: _F,
-    v: _F,
-    z: _F,
-    times: _F,
-    progress: Callable[[float], None] | None,
+    model: Model, t: float, q: _F, v: _F, z: _F, times: _F, progress: Callable[[float], None] | None
 ) -> Run:
     """The motion that the drivers determine, at ``times``, (n_t,), from a state.
 
@@ -288,15 +274,7 @@ def compliance(
     """∂(displacement)/∂(force) of a point at rest, m/N: xx, xy, yx, yy."""
 
 def modes_options(model: Model, text: str) -> str:
-    """The options of ``modes``, checked, as JSON.
-
-    Args:
-        model: the mechanism.
-        text: JSON, an entry of ``analyses`` as in a file.
-
-    Raises:
-        ModelError: an option is invalid.
-    """
+    """The options of ``modes``, checked, as JSON."""
 
 def linearize(
     model: Model, t: float, q: _F, v: _F, z: _F, inputs: list[str], outputs: list[str]
@@ -318,35 +296,12 @@ def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
     """What a mechanism can do at a position, as JSON."""
 
 def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _F, _F, str]:
-    """All positions in which a mechanism closes, for the values of ``held``, a JSON text.
-
-    Returns:
-        q, v and z, one row for each; JSON with ``complete`` and the ``reports``.
-
-    Raises:
-        AssemblyError: there is none.
-        ModelError: freedoms are left.
-    """
+    """q, v and z of all configurations, one row each, with JSON: ``complete`` and ``reports``."""
 
 def limits(
-    model: Model,
-    t: float,
-    q: _F,
-    v: _F,
-    z: _F,
-    progress: Callable[[float], None] | None,
+    model: Model, t: float, q: _F, v: _F, z: _F, progress: Callable[[float], None] | None
 ) -> tuple[str, _F, _F]:
-    """The limits of the value that takes the place of t, from a state.
-
-    Returns:
-        JSON with ``lower``, ``upper``, ``unit``, ``reasons`` and ``turns``; the values on the way,
-        (n,); the positions there, (n, n_q).
-
-    Raises:
-        SingularityError: the motion cannot be followed, although it has no limit.
-        AssemblyError: the state does not meet the constraints.
-        ModelError: the drivers leave a freedom.
-    """
+    """The limits of the value of t: JSON, the values on the way, and the positions (n, n_q)."""
 
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F]:
     """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂.

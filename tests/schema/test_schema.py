@@ -84,7 +84,9 @@ def closed(path: list[Any]) -> bool:
     match path:
         case ["parameters"] | ["tables" | "bodies" | "joints" | "drivers" | "forces" | "analyses"]:
             return False
-        case ["start", "set" | "guess", *_] | [*_, "points" | "through" | "curves" | "terms"]:
+        case ["start", "set" | "guess", *_] | ["analyses", _, "set"]:
+            return False
+        case [*_, "points" | "through" | "curves" | "terms"]:
             return False
     return True
 
