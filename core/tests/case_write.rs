@@ -126,6 +126,7 @@ impl Dice {
             Shape::NameList => {
                 Value::List((0..self.roll(3)).map(|_| Value::Text(self.name(used))).collect())
             }
+            Shape::Quantities => Value::List(vec![Value::Text(self.text())]),
             Shape::Events => self.events(used),
             Shape::Values => Value::Table(
                 (0..1 + self.roll(3)).map(|_| (self.name(used), self.formula())).collect(),
@@ -220,6 +221,7 @@ impl Dice {
             joints: self.entries(&elements(Group::Joints), used),
             drivers: self.entries(&elements(Group::Drivers), used),
             forces: self.entries(&elements(Group::Forces), used),
+            measures: (0..self.roll(3)).map(|_| self.measure(used)).collect(),
             functions: None,
         };
         let analyses: Vec<Table> =
@@ -228,6 +230,10 @@ impl Dice {
         analyses.iter_mut().for_each(|entry| entry.name = self.folder(used));
         let start = Start { set: self.coordinates(used), guess: self.coordinates(used) };
         Case { definition, start, analyses: analyses.into_iter().map(consistent).collect() }
+    }
+
+    fn measure(&mut self, used: &mut usize) -> (String, Value) {
+        (self.name(used), Value::Text(self.text()))
     }
 
     fn coordinates(&mut self, used: &mut usize) -> Vec<(String, Value)> {

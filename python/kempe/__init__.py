@@ -29,6 +29,7 @@ Compute:
     dynamics                the motion from a state
     kinematics              the motion that drivers determine
     inverse_dynamics        the same with efforts and reactions
+    modes                   frequencies, damping and shapes about a state, and its state space
     study                   comparison of methods and stabilizations
     RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
                             methods of integration
@@ -90,6 +91,8 @@ if TYPE_CHECKING:
     from kempe.event import Event as Event
     from kempe.events import EventWarning as EventWarning
     from kempe.functions import Sampled as Sampled
+    from kempe.linearization import ModesResult as ModesResult
+    from kempe.linearization import modes as modes
     from kempe.matrices import Labelled as Labelled
     from kempe.matrices import Matrices as Matrices
     from kempe.matrices import show as show
@@ -105,6 +108,7 @@ if TYPE_CHECKING:
     from kempe.options import GeneralizedAlpha as GeneralizedAlpha
     from kempe.options import InverseDynamics as InverseDynamics
     from kempe.options import Kinematics as Kinematics
+    from kempe.options import Modes as Modes
     from kempe.options import NoStabilization as NoStabilization
     from kempe.options import Projection as Projection
     from kempe.options import Radau as Radau
@@ -143,6 +147,8 @@ _HOME = {
     "Matrices": "matrices",
     "Model": "model",
     "ModelError": "errors",
+    "Modes": "options",
+    "ModesResult": "linearization",
     "Motion": "motion",
     "NoStabilization": "options",
     "Projection": "options",
@@ -169,6 +175,7 @@ _HOME = {
     "kinematics": "driven",
     "load": "case",
     "load_solution": "archive",
+    "modes": "linearization",
     "player": "draw.player",
     "plot": "",
     "report": "",

@@ -273,6 +273,33 @@ def kinematics(
         ModelError: the drivers leave a freedom.
     """
 
+def modes_options(model: Model, text: str) -> str:
+    """The options of ``modes``, checked, as JSON.
+
+    Args:
+        model: the mechanism.
+        text: JSON, an entry of ``analyses`` as in a file.
+
+    Raises:
+        ModelError: an option is invalid.
+    """
+
+def linearize(
+    model: Model, t: float, q: _F, v: _F, z: _F, inputs: list[str], outputs: list[str]
+) -> dict[str, Any]:
+    """The linear equations at a state on f independent coordinates, with n = 2 f + n_z states.
+
+    Returns:
+        ``coordinates`` (names), ``columns`` of q, places ``states`` of z; ``basis`` (f, n_q);
+        ``mass``, ``damping``, ``stiffness`` (f, f); ``A`` (n, n), ``B`` (n, inputs), ``C``
+        (outputs, n), ``D`` (outputs, inputs); ``acceleration`` (n_q,), ``values`` (outputs,).
+
+    Raises:
+        SingularityError: the position is singular, or no mass moves with a coordinate.
+        AssemblyError: the state does not meet the constraints.
+        ModelError: an unknown input or output, or a parameter that changes the geometry.
+    """
+
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F]:
     """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂.
 
@@ -293,6 +320,24 @@ def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
 
 def reaction(model: Model, joint: str, on: str, frame: str, t: _F, q: _F, lam: _F) -> _F:
     """Force and torque about the joint point of a joint on a body: (n_t, 3), N and N·m."""
+
+def place(model: Model, joint: str, on: str, t: _F, q: _F) -> _F:
+    """The point at which the reaction on a body is given, (n_t, 2), global, m."""
+
+def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F:
+    """The balance of each moving body, (n_t, 5 n_bodies).
+
+    |Σ F - m a| and |Σ M - J α|, the largest single force and moment, and the largest lever.
+    """
+
+def measure(model: Model, text: str) -> tuple[list[str], str]:
+    """The quantities that an expression uses, and its SI unit."""
+
+def measure_values(model: Model, text: str, t: _F, quantities: _F) -> _F:
+    """Values of an expression, (n_t,), for the values of its quantities, (n_t, n)."""
+
+def not_unique(model: Model, t: _F, q: _F) -> list[str]:
+    """The joints and drivers without a unique reaction at one of the states."""
 
 def results(model: Model, joint: str, t: _F, q: _F, lam: _F) -> _F:
     """The results of a joint beside its reaction, (n_t, n); ``describe`` names them."""

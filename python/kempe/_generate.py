@@ -34,6 +34,7 @@ TYPES = dict.fromkeys(REFERENCES, "str") | {
     "condition": "str",
     "events": "Events",
     "name_list": "Words",
+    "quantities": "Words",
     "values": "Terms",
 }
 #: Laws of forces may be Python functions.

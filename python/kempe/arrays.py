@@ -28,7 +28,7 @@ def scalar(values: Any) -> Any:
     return float(values) if np.ndim(values) == 0 else fixed(values)
 
 
-def rotated(angle: Floats, s: tuple[float, float]) -> tuple[Floats, Floats]:
+def rotated(angle: Floats, s: tuple[Any, Any]) -> tuple[Floats, Floats]:
     """A(φ) s for a vector s fixed in a body: its global components."""
     cos, sin = np.cos(angle), np.sin(angle)
     return cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]

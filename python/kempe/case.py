@@ -15,6 +15,7 @@ from kempe.analyses import AssemblyWarning, Coordinates, Progress, assemble, sim
 from kempe.compiled import CompiledModel
 from kempe.driven import follow, follow_with_forces
 from kempe.errors import AssemblyError, FileError, KempeError, ModelError
+from kempe.linearization import linearized
 from kempe.model import Model
 from kempe.names import entry as named
 from kempe.names import few, one_of
@@ -36,6 +37,7 @@ _RUNNERS: dict[str, _Runner] = {
     "dynamics": simulate,
     "kinematics": follow,
     "inverse_dynamics": follow_with_forces,
+    "modes": linearized,
 }
 
 

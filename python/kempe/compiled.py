@@ -27,6 +27,7 @@ from kempe.lookup_tables import TableInfo
 from kempe.names import entry
 
 if TYPE_CHECKING:
+    from kempe.measures import MeasureInfo
     from kempe.model import Model
     from kempe.phases import Setting
 
@@ -219,6 +220,13 @@ class CompiledModel:
         return MappingProxyType({info.name: info for info in infos})
 
     @cached_property
+    def measures(self) -> Mapping[str, MeasureInfo]:
+        """The measures, in the order of the file."""
+        from kempe.measures import measure_infos
+
+        return MappingProxyType({info.name: info for info in measure_infos(self)})
+
+    @cached_property
     def symbols(self) -> tuple[dict[str, Any], ...]:
         """What a drawing shows for joints, drivers and forces, in their order.
 
@@ -302,10 +310,11 @@ class CompiledModel:
         return f"<CompiledModel {self.title!r}: {counts}>"
 
     def names(self) -> Iterator[str]:
-        """Names of all bodies, joints, drivers and forces."""
+        """Names of all bodies, joints, drivers, forces and measures."""
         yield from self.all_bodies
         yield from self.constraints
         yield from self.forces
+        yield from self.measures
 
     def _column_names(self, of_body: Sequence[str], suffix: str) -> list[str]:
         names = [f"{b.name}.{name}" for b in self.bodies.values() for name in of_body[: b.count]]

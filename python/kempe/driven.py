@@ -14,7 +14,7 @@ from kempe.analyses import Progress, refuse_foreign
 from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
 from kempe.errors import KempeError, ModelError, SingularityError
-from kempe.model import SECTIONS, Model, compiled_model
+from kempe.model import NAMED, Model, compiled_model
 from kempe.option import core_options
 from kempe.options import InverseDynamics, Kinematics
 from kempe.quantities import named
@@ -193,6 +193,7 @@ def _driven_by(
                 f"over: the drivers {', '.join(drivers)} determine the motion already",
                 hint=f"name one of them, or remove the one that {over} replaces",
             )
+        _forget(tree, drivers)
         drivers.clear()  # the quantity drives in place of the only driver
     element, _, quantity = coordinate.rpartition(".")
     joint = tree.get("joints", {}).get(element)
@@ -211,6 +212,14 @@ def _driven_by(
     return changed.compile(), value, Variable(coordinate, quantity.unit)
 
 
+def _forget(tree: dict[str, Any], drivers: Mapping[str, Any]) -> None:
+    """Leave out the measures of drivers that no longer exist."""
+    gone = re.compile("|".join(rf"(?<![\w.]){re.escape(name)}\." for name in drivers))
+    measures = tree.get("measures", {})
+    for name in [name for name, text in measures.items() if gone.search(text)]:
+        del measures[name]
+
+
 def _driver() -> str:
     """The type of the driver of a coordinate."""
     for table in json.loads(_core.catalogue())["drivers"]:
@@ -221,7 +230,7 @@ def _driver() -> str:
 
 def _free_name(tree: Mapping[str, Any]) -> str:
     """A name for the new driver: "over", or "over_1" and so on."""
-    taken = {name for section in SECTIONS for name in tree.get(section, {})}
+    taken = {name for section in NAMED for name in tree.get(section, {})}
     names = ("over", *(f"over_{k}" for k in range(1, len(taken) + 2)))
     return next(name for name in names if name not in taken)
 

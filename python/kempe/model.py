@@ -11,12 +11,12 @@ from typing import Any, Literal, TypeAlias
 from kempe import _core
 from kempe.bodies import Bar, Body, PointMass
 from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
-from kempe.element import Element
 from kempe.elements import E, ElementMethods
 from kempe.errors import ModelError
 from kempe.functions import Functions
 from kempe.ground import Ground, with_ground
 from kempe.lookup_tables import TableInfo
+from kempe.measure_methods import MeasureMethods
 from kempe.names import few, unknown
 from kempe.tree_methods import TreeMethods
 from kempe.values import (
@@ -37,9 +37,11 @@ FORMAT = 1
 #: Whether redundant constraints are accepted.
 Redundancy: TypeAlias = Literal["refuse", "allow"]
 SECTIONS = ("bodies", "joints", "drivers", "forces")
+#: The sections whose entries share one namespace.
+NAMED = (*SECTIONS, "measures")
 
 
-class Model(ElementMethods, TreeMethods):
+class Model(ElementMethods, MeasureMethods, TreeMethods):
     """A planar mechanism that is built step by step.
 
     ::
@@ -85,7 +87,7 @@ class Model(ElementMethods, TreeMethods):
             **({"redundancy": redundancy} if redundancy else {}),
             "parameters": numbers(parameters, "parameters"),
             "tables": {},
-            **{section: {} for section in SECTIONS},
+            **{section: {} for section in NAMED},
         }
         self._source: tuple[_core.Case, dict[str, float | str]] | None = None
         self._compiled: CompiledModel | None = None
@@ -161,18 +163,18 @@ class Model(ElementMethods, TreeMethods):
         return self._add(PointMass(name, mass, at))
 
     def _add(self, element: E) -> E:
-        self._refuse_taken(element)
+        self._refuse_taken(element.section, element.name)
         self._tree[element.section][element.name] = element.tree()
         self._changed()
         return element
 
-    def _refuse_taken(self, element: Element) -> None:
-        path = f"{element.section}.{element.name}"
-        if _core.is_reserved(element.name):
+    def _refuse_taken(self, of: str, name: str) -> None:
+        path = f"{of}.{name}"
+        if _core.is_reserved(name):
             refuse(path, "this name is reserved; choose another")
-        for section in SECTIONS:
-            if element.name in self._tree[section]:
-                refuse(path, f"the name is taken by {section}.{element.name}; choose another")
+        for section in NAMED:
+            if name in self._tree[section]:
+                refuse(path, f"the name is taken by {section}.{name}; choose another")
 
     def _ground_points(self, given: Mapping[str, Pair]) -> None:
         self._on_ground("point", given, points)

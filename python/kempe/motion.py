@@ -14,9 +14,13 @@ from kempe.compiled import CompiledModel, ConstraintInfo
 from kempe.errors import ModelError
 from kempe.model import Model, compiled_model
 from kempe.names import entry, unknown
+from kempe.newton_euler import NewtonEuler, newton_euler
 from kempe.phases import Phases
 from kempe.variable import TIME, Variable
 from kempe.views import BodyView, ConstraintView, ForceView
+
+#: Most states at which the uniqueness of reactions is examined.
+_EXAMINED = 11
 
 
 class Motion:
@@ -112,6 +116,21 @@ class Motion:
         position, velocity = self._by_phase(_core.residual, *self._rows())
         return self._as_given(position), self._as_given(velocity)
 
+    @cached_property
+    def newton_euler(self) -> NewtonEuler:
+        """Newton's and Euler's equations of each body with the reported reactions.
+
+        At a single time the arrays have one row.
+
+        Raises:
+            SingularityError: the reactions are not unique at one of the times.
+        """
+        given = (np.atleast_2d(values) for values in (self.z, self.a, self.lam))
+        (rows,) = self._by_phase(
+            lambda core, *of: (_core.newton_euler(core, *of),), *self._rows(), *given
+        )
+        return newton_euler(tuple(self.compiled.bodies), rows)
+
     def measured(self, name: str, k: int, order: int) -> Floats:
         """Position quantity ``k`` of an element, (n_t,), or its derivative of this order in time.
 
@@ -142,6 +161,22 @@ class Motion:
             values = self._as_given(found)
             self._last_reaction = (joint, on, frame), values
         return values
+
+    @cached_property
+    def not_unique(self) -> frozenset[str]:
+        """Joints and drivers without a unique reaction; see ``ConstraintView.unique``."""
+        if self.compiled.redundancy != "allow" or not len(np.atleast_1d(self.t)):
+            return frozenset()
+        t, q, _ = self._rows()
+        some = np.unique(np.linspace(0, len(t) - 1, _EXAMINED).round().astype(int))
+        model = self.compiled.core
+        return frozenset(_core.not_unique(model, t[some], np.ascontiguousarray(q[some])))
+
+    def place(self, joint: str, on: str) -> Floats:
+        """The point at which the reaction of a joint on a body is given, (…, 2), global, m."""
+        t, q, _ = self._rows()
+        (found,) = self._by_phase(lambda core, *of: (_core.place(core, joint, on, *of),), t, q)
+        return self._as_given(found)
 
     def results(self, joint: str) -> Floats:
         """Results of a joint beside its reaction, (…, n); see ``ConstraintInfo.results``."""
@@ -243,10 +278,10 @@ class Motion:
     # The type of the result depends on the name, which a type checker cannot follow. Checked code
     # uses the methods above.
     def __getitem__(self, name: str) -> Any:
-        """A body, joint, driver or force by name, or a quantity such as ``rocker.angle``.
+        """A body, joint, driver or force, a quantity such as ``rocker.angle``, or a measure.
 
-        Quantities have the names that they have in files and in tables; a quantity is an array
-        (n_t,), in a state a float, in SI units and rad.
+        Quantities have the names that they have in files and in tables. A quantity or measure is an
+        array (n_t,), in a state a float, in SI units and rad.
 
         Raises:
             ModelError: the name is unknown; the error is also a ``KeyError``.
@@ -265,7 +300,7 @@ class Motion:
             return self.constraint(name)
         if name in compiled.forces:
             return self.force(name)
-        if "." in name:
+        if "." in name or name in compiled.measures:
             return quantities.named(self, name).read()
         raise unknown("body, joint, driver or force", name, compiled.names())
 

@@ -443,3 +443,34 @@ class InverseDynamics(Analysis):
         "n": "count",
         "after": "name",
     }
+
+
+@dataclass(frozen=True, repr=False)
+class Modes(Analysis):
+    """Analysis of type ``modes``, an entry of ``[analyses]``.
+
+    Frequencies, damping and shapes of small motions about a state, with the state-space
+    matrices of named inputs and outputs.
+
+    Attributes:
+        n: Number of modes, the slowest first; if absent, all.
+        inputs: Parameters of forces, or position quantities such as `crank.angle` for their
+            generalized force.
+        outputs: Quantities.
+        after: State about which the motions are small: "start", or the name of an earlier
+            analysis for the end of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    n: int | None = None
+    inputs: Words | None = None
+    outputs: Words | None = None
+    after: str | None = None
+    name: str = "modes"
+    kind: ClassVar[str] = "modes"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "n": "count",
+        "inputs": "quantities",
+        "outputs": "quantities",
+        "after": "name",
+    }

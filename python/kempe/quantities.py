@@ -1,8 +1,8 @@
 """Quantities by name, such as ``crank.angle``: the same text in files, tables and Python.
 
 The first part of a name is a body, a point of a body, a joint, driver or force element, ``energy``
-or ``drift``; the last part is the quantity. Quantities of a joint or force element are those of
-body j as seen from body i; a force or torque is that on body j.
+or ``drift``; the last part is the quantity. A measure has one part. Quantities of a joint or force
+element are those of body j as seen from body i; a force or torque is that on body j.
 """
 
 from __future__ import annotations
@@ -60,6 +60,8 @@ def named(motion: Motion, name: str) -> Quantity:
     Raises:
         ModelError: there is no such quantity; it is also a ``KeyError``.
     """
+    if name in motion.compiled.measures:
+        return _measure_of(motion, name)
     owner, _, quantity = name.rpartition(".")
     family = _family(motion, owner)
     if family is None:
@@ -74,6 +76,14 @@ def names(motion: Motion) -> Iterator[str]:
     for owner in _owners(motion):
         for quantity in _family(motion, owner) or ():
             yield f"{owner}.{quantity}"
+    yield from motion.compiled.measures
+
+
+def _measure_of(motion: Motion, name: str) -> Quantity:
+    """A measure as a quantity."""
+    from kempe.measures import values  # which read quantities
+
+    return Quantity(motion.compiled.measures[name].unit, lambda: _one(motion, values(motion, name)))
 
 
 def _owners(motion: Motion) -> Iterator[str]:
@@ -276,17 +286,24 @@ def _size(vectors: Floats) -> Any:
 def _of_run(motion: Motion, owner: str) -> Family | None:
     """Energies, which only a solution has, and drift."""
     if owner == "energy" and hasattr(type(motion), "energy"):
-        return {name: Quantity("J", partial(_energy, motion, name)) for name in ENERGIES}
+        found = {name: Quantity("J", partial(_energy, motion, name)) for name in ENERGIES}
+        return {**found, "balance": Quantity("1", partial(_energy, motion, "balance"))}
     if owner == "drift":
         return {
             "position": Quantity("m or rad", lambda: _largest(motion.residuals[0])),
             "velocity": Quantity("m/s or rad/s", lambda: _largest(motion.residuals[1])),
+            "balance": Quantity("1", lambda: _one(motion, motion.newton_euler.balance)),
         }
     return None
 
 
 def _energy(motion: Motion, name: str) -> Any:
     return getattr(motion.energy, name)  # type: ignore[attr-defined]
+
+
+def _one(motion: Motion, rows: Floats) -> Any:
+    """Rows of a motion; the only one of a state."""
+    return rows if motion.q.ndim > 1 else float(rows[0])
 
 
 def _largest(residuals: Floats) -> Any:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
 from types import MappingProxyType
@@ -17,6 +16,7 @@ from kempe import _core
 from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
 from kempe.dense import WORKS, DenseOutput
+from kempe.drift import Drift
 from kempe.energy import Energy
 from kempe.errors import IntegrationError, KempeError, ModelError, SingularityError
 from kempe.model import compiled_model
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     import pandas
 
     from kempe.events import EventTimes
+    from kempe.measures import Measure
     from kempe.model import Model
     from kempe.runs import Run
     from kempe.views.frames import Frame
@@ -38,23 +39,6 @@ if TYPE_CHECKING:
 #: or it failed.
 REACHED, EVENT, STOPPED = 0, 1, -1
 STATUS = {"reached": REACHED, "event": EVENT, "stopped": STOPPED}
-
-
-@dataclass(frozen=True)
-class Drift:
-    """Constraint violation over time.
-
-    Attributes:
-        position: largest |Φ| at each time, (n_t,), m or rad.
-        velocity: largest |Φ_q q̇ + Φ_t| at each time, (n_t,), per s.
-    """
-
-    position: Floats
-    velocity: Floats
-
-    def __repr__(self) -> str:
-        largest = float(self.position.max(initial=0.0)), float(self.velocity.max(initial=0.0))
-        return f"<Drift: position up to {largest[0]:.3g}, velocity up to {largest[1]:.3g}>"
 
 
 def _project(tolerance: float, core: _core.Model, *rows: Floats) -> tuple[Floats, Floats]:
@@ -210,9 +194,9 @@ class Solution(Motion):
 
     @cached_property
     def drift(self) -> Drift:
-        """Constraint violation over time."""
+        """Constraint violation over time, and the balance of the reactions."""
         position, velocity = (np.abs(r).max(axis=1, initial=0.0) for r in self.residuals)
-        return Drift(fixed(position), fixed(velocity))
+        return Drift(fixed(position), fixed(velocity), self)
 
     @cached_property
     def events(self) -> Mapping[str, EventTimes]:
@@ -223,6 +207,23 @@ class Solution(Motion):
         from kempe.events import events
 
         return events(self)
+
+    @cached_property
+    def summary(self) -> Mapping[str, Any]:
+        """Peaks, energy balance, events, settling times and cost; see ``kempe.report.summary``."""
+        from kempe.report import summary
+
+        return MappingProxyType(summary(self))
+
+    def measure(self, name: str) -> Measure:
+        """A measure with its statistics, such as ``sol.measure("pin").max``.
+
+        Raises:
+            ModelError: there is no such measure; the error is also a ``KeyError``.
+        """
+        from kempe.measures import Measure
+
+        return Measure(self, name)
 
     @property
     def initial(self) -> State:

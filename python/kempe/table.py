@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
 
 
+#: The remark at values that are not unique.
+MINIMUM_NORM = "minimum norm"
+
+
 @dataclass(frozen=True)
 class Column:
     """One quantity over time.
@@ -31,11 +35,20 @@ class Column:
         name: such as ``rocker.angle``.
         unit: display unit, such as ``rad``.
         values: (n_t,), in this unit.
+        unique: False for a reaction or multiplier that redundant constraints leave open; its values
+            are those of minimum norm.
     """
 
     name: str
     unit: str
     values: Floats
+    unique: bool = True
+
+    @property
+    def label(self) -> str:
+        """Name and unit, such as ``C.fx_on_rocker [N]``; with a remark if it is not unique."""
+        remark = "" if self.unique else f", {MINIMUM_NORM}"
+        return f"{self.name} [{self.unit}{remark}]"
 
 
 @dataclass(frozen=True)
@@ -53,7 +66,7 @@ class Extent:
 
 
 def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
-    """Time, coordinates, paths, multipliers, reactions, first-order states, forces and energies.
+    """Time, coordinates, multipliers, reactions, states, forces, energies and measures.
 
     The values of a driven quantity are in the place of the time in a motion over this quantity.
 
@@ -66,7 +79,9 @@ def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
         if name == first.name:
             continue
         quantity = quantities.named(solution, name)
-        table.append(column(name, quantity.unit, quantity.read()))
+        owner = name.rpartition(".")[0]
+        found = column(name, quantity.unit, quantity.read())
+        table.append(replace(found, unique=owner not in solution.not_unique))
     return table
 
 
@@ -96,6 +111,7 @@ def _names(solution: Solution, extent: Extent) -> Iterator[str]:
         yield from (f"{name}.force",) if force.points is not None else ()
         yield f"{name}.torque_on_{force.j}"
     yield from (f"energy.{name}" for name in quantities.ENERGIES)
+    yield from compiled.measures
 
 
 def _parted(name: str) -> tuple[str, str, str]:
@@ -129,6 +145,7 @@ def dataframe(solution: Solution, extent: Extent | None = None) -> pandas.DataFr
     table = columns(solution, extent)
     frame = pandas.DataFrame({column.name: column.values for column in table})
     frame.attrs["units"] = {column.name: column.unit for column in table}
+    frame.attrs["minimum_norm"] = [column.name for column in table if not column.unique]
     return frame
 
 
@@ -144,7 +161,7 @@ def write_columns(table: Sequence[Column], path: Path | str) -> None:
         FileError: the file cannot be written; an existing file is not changed.
     """
     text = io.StringIO()
-    header = (files.csv_cell(f"{column.name} [{column.unit}]") for column in table)
+    header = (files.csv_cell(column.label) for column in table)
     text.write(",".join(header) + "\n")
     np.savetxt(text, np.column_stack([column.values for column in table]), "%.17g", ",")
     files.write_text(path, text.getvalue())

@@ -301,5 +301,6 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "curve": reference,
     "condition": reference,
     "name_list": listed_words,
+    "quantities": listed_words,
     "values": numbers,
 }

@@ -2,6 +2,7 @@
 
 import inspect
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import kempe as kp
@@ -14,6 +15,14 @@ from plot.paintings import links
 
 Draw = Callable[..., Axes]
 
+
+@cache
+def measured(sol: kp.Solution) -> kp.Solution:
+    """The same solution of the model with a measure."""
+    tree = {**sol.model.tree(), "measures": {"pin": "C.force"}}
+    return kp.Solution(kp.Model.from_tree(tree).compile(), sol.stored(), "dop853")
+
+
 FUNCTIONS: dict[str, tuple[Draw, str]] = {
     "positions": (lambda sol, **a: plot.positions(sol, "crank", **a), "x, y / m"),
     "velocities": (lambda sol, **a: plot.velocities(sol, "crank", **a), "$v_x$, $v_y$ / (m/s)"),
@@ -24,6 +33,7 @@ FUNCTIONS: dict[str, tuple[Draw, str]] = {
     "torques": (lambda sol, **a: plot.torques(sol, "spring", **a), "T / kN·m"),
     "reactions": (lambda sol, **a: plot.reactions(sol, "C", **a), "F / kN"),
     "all_reactions": (plot.all_reactions, "|F| / kN"),
+    "measure": (lambda sol, **a: plot.measure(measured(sol), "pin", **a), "pin / kN"),
     "residual": (plot.residual, "residual / (m, m/s)"),
     "energy": (plot.energy, "E / kJ"),
     "energy_balance": (plot.energy_balance, "relative error / 1"),

@@ -196,6 +196,7 @@ def test_coordinates_of_a_joint_are_columns_with_their_rates() -> None:
         bodies={},
         constraints=joints,
         forces={},
+        measures={},
         row_names=lambda: ["pin.x"],
         state_names=lambda: ["motor.current"],
     )

@@ -150,6 +150,12 @@ over = "a.angle"
 range = [0, "90 deg"]
 n = 10
 from = "start"
+[analyses.nine]
+type = "modes"
+n = 2
+inputs = ["a.angle"]
+outputs = ["a.x", "a.alpha"]
+from = "start"
 """
 
 

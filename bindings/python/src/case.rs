@@ -6,6 +6,7 @@ use crate::errors::{raise, Failure, Kind};
 use crate::functions;
 use crate::guard::guard;
 use crate::model::PyModel;
+use kempe::analyses::measures;
 use kempe::case::{self, Case, Diagnostic, Document, Format, MOST_REPORTED};
 use kempe::model::{self, Value};
 use pyo3::prelude::*;
@@ -97,7 +98,11 @@ impl PyCase {
                 functions::place(py, &mut Arc::make_mut(&mut case).definition, state, functions);
             }
             let built = attended(py, move |_| {
-                model::build(&case.definition, &overrides).map(PyModel::new)
+                let model = model::build(&case.definition, &overrides)?;
+                match measures::check(&model, &case.definition.measures) {
+                    found if found.is_empty() => Ok(PyModel::new(model)),
+                    found => Err(found),
+                }
             })?;
             built.map_err(|found| self.raise(py, Kind::Model, &found))
         })

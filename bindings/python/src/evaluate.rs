@@ -12,7 +12,7 @@ use kempe::equations::constraints;
 use kempe::equations::forces::{self, Acting};
 use kempe::equations::kinematics::Motions;
 use kempe::equations::measured::{measured as measure, offered, ElementId};
-use kempe::equations::reactions::{self, Frame};
+use kempe::equations::reactions::Frame;
 use kempe::math::Wrench;
 use kempe::model::Model;
 use kempe::stabilize::Projection;
@@ -21,14 +21,16 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// Positions and velocities as rows.
-struct Rates {
-    t: Vec<f64>,
+pub struct Rates {
+    /// Times, s.
+    pub t: Vec<f64>,
     q: Vec<f64>,
     v: Vec<f64>,
 }
 
 impl Rates {
-    fn read(
+    /// Rows of Python.
+    pub fn read(
         py: Python<'_>,
         model: &Model,
         t: &Row<'_>,
@@ -41,7 +43,7 @@ impl Rates {
     }
 
     /// Gives the motion of all bodies at each state.
-    fn each(&self, model: &Model, mut visit: impl FnMut(usize, f64, &Motions)) {
+    pub fn each(&self, model: &Model, mut visit: impl FnMut(usize, f64, &Motions)) {
         let n = model.layout.n_q;
         let mut motions = Motions::new(&model.layout);
         for (k, &t) in self.t.iter().enumerate() {
@@ -177,7 +179,8 @@ pub fn residual<'py>(
     })
 }
 
-fn frame_named(py: Python<'_>, name: &str) -> PyResult<Frame> {
+/// The frame of this name.
+pub fn frame_named(py: Python<'_>, name: &str) -> PyResult<Frame> {
     match name {
         "global" => Ok(Frame::Global),
         "body" => Ok(Frame::Body),
@@ -187,7 +190,7 @@ fn frame_named(py: Python<'_>, name: &str) -> PyResult<Frame> {
 }
 
 /// The body `on`, which must be one of those of `owner`.
-fn one_of(
+pub fn one_of(
     py: Python<'_>,
     model: &Model,
     bodies: &[BodyId],
@@ -203,71 +206,9 @@ fn one_of(
     Err(refuse(py, "on", format!("'{on}' is not a body of {owner}; it joins {joined}")))
 }
 
-fn unknown(py: Python<'_>, what: &str, name: &str) -> PyErr {
+/// The error for an element that there is not.
+pub fn unknown(py: Python<'_>, what: &str, name: &str) -> PyErr {
     refuse(py, name, format!("there is no {what} of this name"))
-}
-
-/// Force, and torque about the joint point, of a joint or driver on a body.
-#[pyfunction]
-#[pyo3(signature = (model, joint, on, frame, t, q, lam))]
-#[allow(clippy::too_many_arguments)] // the arguments of Python
-pub fn reaction<'py>(
-    py: Python<'py>,
-    model: &PyModel,
-    joint: &str,
-    on: &str,
-    frame: &str,
-    t: Row<'py>,
-    q: Rows<'py>,
-    lam: Rows<'py>,
-) -> PyResult<Table<'py>> {
-    guard("reaction", || {
-        let model = &*model.model;
-        let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
-        let frame = frame_named(py, frame)?;
-        let body = one_of(py, model, &model.constraints[k].bodies, joint, on)?;
-        let states = Rates::read(py, model, &t, &q, &q)?;
-        let m = model.layout.n_rows;
-        let lam = rows(py, "lam", &lam, (states.t.len(), m))?;
-        let own = model.layout.constraints[k].rows.clone();
-        let mut out = Vec::with_capacity(3 * states.t.len());
-        states.each(model, |at, t, motions| {
-            let lam = &lam[at * m..][own.clone()];
-            let found = reactions::reaction(model, k, body, frame, motions, t, lam);
-            let w = found.unwrap_or_else(Wrench::zero);
-            out.extend([w.force.x, w.force.y, w.torque]);
-        });
-        table(py, out, (states.t.len(), 3))
-    })
-}
-
-/// The results of a joint beside its reaction, such as the normal force of a roller: (n_t, n).
-#[pyfunction]
-#[pyo3(signature = (model, joint, t, q, lam))]
-pub fn results<'py>(
-    py: Python<'py>,
-    model: &PyModel,
-    joint: &str,
-    t: Row<'py>,
-    q: Rows<'py>,
-    lam: Rows<'py>,
-) -> PyResult<Table<'py>> {
-    guard("results", || {
-        let model = &*model.model;
-        let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
-        let states = Rates::read(py, model, &t, &q, &q)?;
-        let (m, count) = (model.layout.n_rows, states.t.len());
-        let lam = rows(py, "lam", &lam, (count, m))?;
-        let own = model.layout.constraints[k].rows.clone();
-        let width = model.constraints[k].element.result_quantities().len();
-        let mut out = vec![0.0; width * count];
-        states.each(model, |at, t, motions| {
-            let lam = &lam[at * m..][own.clone()];
-            let out = &mut out[at * width..(at + 1) * width];
-            reactions::results(model, k, motions, t, lam, out);
-        });
-        table(py, out, (count, width))
-    })
 }
 
 /// Force, and torque about the body's origin, of a force element or one of its parts on a body.

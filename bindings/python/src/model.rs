@@ -9,6 +9,7 @@ use kempe::analyses::dynamics::{Prepared, Setting};
 use kempe::elements::{
     BodyId, Curve, CurveOn, Measured, OwnState, ResultQuantity, SceneSymbol, SymbolEnd,
 };
+use kempe::equations::reactions::touched;
 use kempe::expression::Table;
 use kempe::math::Local;
 use kempe::model::{Body, Columns, Functions, Model};
@@ -232,7 +233,9 @@ fn measured(all: &[Measured]) -> Vec<Value> {
 
 fn constraint(model: &Model, k: usize) -> Value {
     let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
-    let (i, j, bodies) = connected(model, &item.bodies);
+    let (i, j, _) = connected(model, &item.bodies);
+    let touched: Vec<BodyId> = touched(model, k).collect();
+    let (_, _, bodies) = connected(model, &touched);
     let result =
         |r: &ResultQuantity| json!({ "name": r.name, "unit": r.unit, "negative": r.negative });
     let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.unit });

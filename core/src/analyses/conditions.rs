@@ -1,16 +1,12 @@
 //! Conditions on quantities of a motion: a comparison, or an expression that becomes zero.
 
-use super::signal_names::{names, signal};
+use super::quantities::{refuse_whole_run, Quantities};
 use super::signals::{Seen, Signal};
 use crate::equations::kinematics::Motions;
 use crate::equations::{Gains, Workspace};
-use crate::expression::{
-    Expression, ExpressionError, Inferred, Names, Sense, Symbol, Table, Tape, Values,
-};
+use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape, Values};
 use crate::integrate::Direction;
 use crate::model::{Model, Problem};
-use std::cell::RefCell;
-use std::sync::Arc;
 
 /// A condition over the quantities of a model. Its event is a change of sign of its function.
 #[derive(Clone, Debug)]
@@ -21,55 +17,6 @@ pub(super) struct Condition {
     comparison: Option<Sense>,
     /// Whether a quantity needs accelerations or multipliers.
     pub needs_solution: bool,
-}
-
-/// The names that a condition may use; each quantity becomes a variable.
-struct Quantities<'a> {
-    model: &'a Model,
-    released: &'a [String],
-    signals: RefCell<Vec<Signal>>,
-    /// The latest name that is unknown.
-    missed: RefCell<String>,
-}
-
-impl Names for Quantities<'_> {
-    fn resolve(&self, name: &str) -> Option<Symbol> {
-        let blueprint = &self.model.blueprint;
-        if let Some(k) = blueprint.parameters.iter().position(|known| known == name) {
-            return Some(Symbol::Parameter(k));
-        }
-        if name == "t" {
-            return Some(Symbol::Time);
-        }
-        let found = signal(self.model, name).or_else(|| self.of_released(name));
-        let Some(found) = found else {
-            self.missed.replace(name.to_string());
-            return None;
-        };
-        let mut signals = self.signals.borrow_mut();
-        let known = signals.iter().position(|known| *known == found);
-        Some(Symbol::Variable(known.unwrap_or_else(|| {
-            signals.push(found);
-            signals.len() - 1
-        })))
-    }
-
-    fn known(&self) -> Vec<String> {
-        let own = self.model.blueprint.parameters.iter().cloned().chain(["t".to_string()]);
-        own.chain(names(self.model, &self.missed.borrow())).collect()
-    }
-
-    fn tables(&self) -> &[Arc<Table>] {
-        &self.model.blueprint.tables
-    }
-}
-
-impl Quantities<'_> {
-    /// A released driver acts no more.
-    fn of_released(&self, name: &str) -> Option<Signal> {
-        let (owner, _) = name.rsplit_once('.')?;
-        self.released.iter().any(|known| known == owner).then_some(Signal::Constant(0.0))
-    }
 }
 
 impl Condition {
@@ -86,9 +33,9 @@ impl Condition {
 
     fn compile(model: &Model, released: &[String], text: &str) -> Result<Self, ExpressionError> {
         let (expression, comparison) = Expression::parse_condition(text)?;
-        let quantities =
-            Quantities { model, released, signals: RefCell::default(), missed: RefCell::default() };
+        let quantities = Quantities::of(model, released);
         let tape = expression.compile(&quantities)?;
+        refuse_whole_run(text, &quantities.found.borrow())?;
         let inferred = &model.blueprint.inferred;
         expression.infer(&quantities, &|symbol| match symbol {
             Symbol::Parameter(k) => inferred[k],
@@ -101,7 +48,8 @@ impl Condition {
             let fault = ExpressionError::new(0..text.len(), message);
             return Err(fault.hint(hint.to_string()));
         }
-        let signals = quantities.signals.into_inner();
+        let found = quantities.found.into_inner();
+        let signals: Vec<Signal> = found.into_iter().map(|(_, signal)| signal).collect();
         let needs_solution = signals.iter().any(|signal| signal.needs_solution(model));
         Ok(Self { tape, signals, comparison, needs_solution })
     }

@@ -2,6 +2,7 @@
 
 use super::dynamics;
 use super::kinematics;
+use super::linearization;
 use super::options::{Declaration, Declared, Family, Member};
 use std::sync::LazyLock;
 
@@ -11,6 +12,7 @@ static ANALYSES: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         dynamics::Options::declaration(),
         kinematics::Options::declaration(),
         kinematics::InverseOptions::declaration(),
+        linearization::Options::declaration(),
     ]
 });
 static FAMILIES: LazyLock<Vec<Family>> =

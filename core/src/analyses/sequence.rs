@@ -3,6 +3,7 @@
 use super::conditions::Condition;
 use super::dynamics;
 use super::kinematics::{InverseOptions, Options as KinematicsOptions};
+use super::linearization::Options as ModesOptions;
 use crate::model::{Entry, Model, Problem, Value};
 
 /// Everything that is wrong with analyses that follow each other from an assembled start at t = 0.
@@ -24,6 +25,9 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
             }
             Some(Value::Text(kind)) if kind == "inverse_dynamics" => {
                 InverseOptions::checked(model, fields, &path).map(|options| options.t_end)
+            }
+            Some(Value::Text(kind)) if kind == "modes" => {
+                ModesOptions::checked(model, fields, &path).map(|_| begin)
             }
             _ => dynamics_end(model, fields, &path, begin),
         };

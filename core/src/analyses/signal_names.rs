@@ -8,7 +8,7 @@ use crate::model::{Columns, Model};
 /// The quantities of one owner with their names.
 type Family = Vec<(String, Signal)>;
 
-const COORDINATES: [[&str; 3]; 3] =
+pub(super) const COORDINATES: [[&str; 3]; 3] =
     [["x", "y", "angle"], ["vx", "vy", "omega"], ["ax", "ay", "alpha"]];
 
 /// The quantity with this name.
@@ -63,12 +63,14 @@ fn family(model: &Model, owner: &str) -> Option<Family> {
                 ("dissipated", Energy::Dissipated),
                 ("work", Energy::Work),
                 ("total", Energy::Total),
+                ("balance", Energy::Balance),
             ];
             Some(all.map(|(known, of)| (name(known), Signal::Energy(of))).into())
         }
         "drift" => {
             let drift = |order| Signal::Drift { order };
-            Some(vec![(name("position"), drift(0)), (name("velocity"), drift(1))])
+            let balance = (name("balance"), Signal::Balance);
+            Some(vec![(name("position"), drift(0)), (name("velocity"), drift(1)), balance])
         }
         _ => None,
     }
@@ -163,6 +165,7 @@ fn of_force(model: &Model, k: usize) -> Family {
     }
     add("power", Signal::ForcePower(k));
     add("energy", Signal::ForceEnergy(k));
+    add("dissipated", Signal::ForceDissipated(k));
     for (state, place) in item.states.iter().zip(model.layout.states[k].clone()) {
         add(state.name, Signal::State(place));
     }

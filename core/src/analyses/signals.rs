@@ -6,21 +6,21 @@ use crate::equations::kinematics::Motions;
 use crate::equations::measured::{self, ElementId};
 use crate::equations::reactions::{self, Frame};
 use crate::equations::{constraints, energy};
-use crate::math::{Local, Vec2, Wrench};
+use crate::math::{Local, Real, Vec2, Wrench};
 use crate::model::Model;
 
 /// A state at which signals are read.
-pub(super) struct Seen<'a> {
+pub(super) struct Seen<'a, S = f64> {
     /// Time, s.
-    pub t: f64,
+    pub t: S,
     /// Coordinates, rates and first-order states.
-    pub state: [&'a [f64]; 3],
+    pub state: [&'a [S]; 3],
     /// Works up to the state, J.
-    pub works: &'a [f64],
+    pub works: &'a [S],
     /// The same positions and rates.
-    pub motions: &'a Motions,
+    pub motions: &'a Motions<S>,
     /// Accelerations and multipliers; NaN where they are not unique.
-    pub solved: [&'a [f64]; 2],
+    pub solved: [&'a [S]; 2],
 }
 
 /// Energies and works.
@@ -31,6 +31,8 @@ pub(super) enum Energy {
     Dissipated,
     Work,
     Total,
+    /// Change of the total relative to the scale of the run.
+    Balance,
 }
 
 /// A part of a force or of a reaction.
@@ -43,11 +45,11 @@ pub(super) enum Part {
 }
 
 impl Part {
-    fn of(self, w: &Wrench) -> f64 {
+    fn of<S: Real>(self, w: &Wrench<S>) -> S {
         match self {
             Self::X => w.force.x,
             Self::Y => w.force.y,
-            Self::Size => w.force.x.hypot(w.force.y),
+            Self::Size => w.force.norm(),
             Self::Torque => w.torque,
         }
     }
@@ -82,10 +84,14 @@ pub(super) enum Signal {
     ForcePower(usize),
     /// Energy that a force element stores.
     ForceEnergy(usize),
+    /// Energy that a force element has dissipated since the start of the run.
+    ForceDissipated(usize),
     /// An energy of the whole mechanism.
     Energy(Energy),
     /// Largest violation of the constraints, or of their rates.
     Drift { order: usize },
+    /// Largest Newton–Euler residual, relative to the scale of the run.
+    Balance,
 }
 
 impl Signal {
@@ -102,19 +108,26 @@ impl Signal {
             }
             Self::ForcePower(k) | Self::ForceEnergy(k) => model.forces[*k].reaction.is_some(),
             Self::Constant(_) | Self::State(_) | Self::Energy(_) | Self::Drift { .. } => false,
+            Self::ForceDissipated(_) | Self::Balance => false,
         }
     }
 
+    /// Whether it follows from a whole run only; its value at a state is NaN.
+    pub fn is_of_run(&self) -> bool {
+        matches!(self, Self::Energy(Energy::Balance) | Self::ForceDissipated(_) | Self::Balance)
+    }
+
     /// Its value.
-    pub fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
+    pub fn value<S: Real>(&self, model: &Model<S>, seen: &Seen<'_, S>) -> S {
         let [a, lam] = seen.solved;
         match self {
-            Self::Constant(x) => *x,
+            Self::Constant(x) => S::constant(*x),
             Self::Column { order: 2, column } => a[*column],
             Self::Column { order, column } => seen.state[*order][*column],
             Self::State(k) => seen.state[2][*k],
             Self::Point { body, s, axis, order } => {
-                let jet = measured::point(model, *body, *s, seen.motions, a)[*axis];
+                let s = Local { x: S::constant(s.x), y: S::constant(s.y) };
+                let jet = measured::point(model, *body, s, seen.motions, a)[*axis];
                 [jet.value, jet.rate, jet.second][*order]
             }
             Self::Measured { id, k, order } => {
@@ -123,7 +136,8 @@ impl Signal {
             }
             Self::Reaction { k, part } => part.of(&reaction(model, *k, lam, seen)),
             Self::Result { k, place } => {
-                let mut out = vec![0.0; model.constraints[*k].element.result_quantities().len()];
+                let mut out =
+                    vec![S::zero(); model.constraints[*k].element.result_quantities().len()];
                 reactions::results(model, *k, seen.motions, seen.t, own(model, *k, lam), &mut out);
                 out[*place]
             }
@@ -135,15 +149,16 @@ impl Signal {
             Self::ForceEnergy(k) => forces::potential(model, *k, seen.motions, acting(seen)),
             Self::Energy(of) => energy_of(model, *of, seen),
             Self::Drift { order } => drift(model, *order, seen),
+            Self::ForceDissipated(_) | Self::Balance => f64::NAN,
         }
     }
 }
 
-fn own<'l>(model: &Model, k: usize, lam: &'l [f64]) -> &'l [f64] {
+fn own<'l, S>(model: &Model<S>, k: usize, lam: &'l [S]) -> &'l [S] {
     &lam[model.layout.constraints[k].rows.clone()]
 }
 
-fn acting<'s>(seen: &Seen<'s>) -> Acting<'s, f64> {
+fn acting<'s, S: Real>(seen: &Seen<'s, S>) -> Acting<'s, S> {
     Acting { z: seen.state[2], lam: Some(seen.solved[1]), t: seen.t }
 }
 
@@ -152,13 +167,13 @@ fn body_j(bodies: &[BodyId]) -> BodyId {
     bodies[bodies.len().min(2) - 1]
 }
 
-fn reaction(model: &Model, k: usize, lam: &[f64], seen: &Seen<'_>) -> Wrench {
+fn reaction<S: Real>(model: &Model<S>, k: usize, lam: &[S], seen: &Seen<'_, S>) -> Wrench<S> {
     let (on, own) = (body_j(&model.constraints[k].bodies), own(model, k, lam));
     let found = reactions::reaction(model, k, on, Frame::Global, seen.motions, seen.t, own);
     found.unwrap_or_else(Wrench::zero)
 }
 
-fn force_on_j(model: &Model, k: usize, seen: &Seen<'_>) -> Wrench {
+fn force_on_j<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> Wrench<S> {
     let (on, mut sum) = (body_j(&model.forces[k].bodies), Wrench::zero());
     forces::each_wrench(model, k, seen.motions, acting(seen), |_, body, wrench| {
         if body == on {
@@ -168,8 +183,8 @@ fn force_on_j(model: &Model, k: usize, seen: &Seen<'_>) -> Wrench {
     sum
 }
 
-fn power(model: &Model, k: usize, seen: &Seen<'_>) -> f64 {
-    let mut sum = 0.0;
+fn power<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> S {
+    let mut sum = S::zero();
     forces::each_wrench(model, k, seen.motions, acting(seen), |_, body, wrench| {
         sum += wrench.power(seen.motions[body.0].twist);
     });
@@ -177,7 +192,7 @@ fn power(model: &Model, k: usize, seen: &Seen<'_>) -> f64 {
 }
 
 /// The force along the line from point i to point j; zero where they coincide.
-fn line(model: &Model, id: ElementId, seen: &Seen<'_>) -> f64 {
+fn line<S: Real>(model: &Model<S>, id: ElementId, seen: &Seen<'_, S>) -> S {
     let (bodies, points, force) = match id {
         ElementId::Constraint(k) => {
             let item = &model.constraints[k];
@@ -194,32 +209,29 @@ fn line(model: &Model, id: ElementId, seen: &Seen<'_>) -> f64 {
     };
     let at = |end: usize| seen.motions[bodies[end.min(bodies.len() - 1)].0].pose.point(points[end]);
     let d = at(1) - at(0);
-    let length = d.x.hypot(d.y);
-    if length > 0.0 {
-        d.dot(force) / length
-    } else {
-        0.0
-    }
+    let length = d.norm();
+    S::select(length, d.dot(force) / length, S::zero())
 }
 
-fn energy_of(model: &Model, of: Energy, seen: &Seen<'_>) -> f64 {
-    let works = |k: usize| seen.works.get(k).copied().unwrap_or(0.0);
+fn energy_of<S: Real>(model: &Model<S>, of: Energy, seen: &Seen<'_, S>) -> S {
+    let works = |k: usize| seen.works.get(k).copied().unwrap_or(S::zero());
     match of {
         Energy::Kinetic => energy::kinetic(model, seen.motions),
         Energy::Potential => energy::potential(model, seen.motions, seen.state[2], seen.t),
         Energy::Dissipated => works(0),
         Energy::Work => works(1) + works(2),
+        Energy::Balance => f64::NAN,
         Energy::Total => {
             let all = [Energy::Kinetic, Energy::Potential, Energy::Dissipated];
-            let sum: f64 = all.into_iter().map(|of| energy_of(model, of, seen)).sum();
-            sum - energy_of(model, Energy::Work, seen)
+            let work = -energy_of(model, Energy::Work, seen);
+            all.into_iter().fold(work, |sum, of| sum + energy_of(model, of, seen))
         }
     }
 }
 
-fn drift(model: &Model, order: usize, seen: &Seen<'_>) -> f64 {
+fn drift<S: Real>(model: &Model<S>, order: usize, seen: &Seen<'_, S>) -> S {
     let m = model.layout.n_rows;
-    let [mut phi, mut rate, mut gamma] = [0, 1, 2].map(|_| vec![0.0; m]);
+    let [mut phi, mut rate, mut gamma] = [0, 1, 2].map(|_| vec![S::zero(); m]);
     constraints::velocity_terms(model, seen.motions, seen.t, &mut phi, &mut rate, &mut gamma);
-    [phi, rate][order].iter().fold(0.0, |most, x| f64::max(most, x.abs()))
+    [phi, rate][order].iter().fold(S::zero(), |most, x| most.max(x.abs()))
 }

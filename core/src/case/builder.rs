@@ -2,6 +2,7 @@
 
 use super::body_builder::{Bar, BodyBuilder, General, Ground, PointMass};
 use super::{read, write, Case, Format};
+use crate::analyses::measures;
 use crate::elements::{catalogue, Element, Group, Number, Pair, Value, Written};
 use crate::model::{build, Definition, Entry, Model, Problem, Problems};
 
@@ -43,6 +44,13 @@ impl ModelBuilder {
     /// A named parameter: a number, or a formula in other parameters.
     pub fn parameter(&mut self, name: &str, value: impl Into<Number>) -> &mut Self {
         self.definition.parameters.push((name.to_string(), value.into().into()));
+        self
+    }
+
+    /// A measure: a named expression of quantities, such as `C.force`; see [`measures`](crate::analyses::measures).
+    pub fn measure(&mut self, name: &str, expression: &str) -> &mut Self {
+        let text = Value::Text(expression.to_string());
+        self.definition.measures.push((name.to_string(), text));
         self
     }
 
@@ -126,7 +134,11 @@ impl ModelBuilder {
         structure(&case)?;
         let value = |(name, value): &(&str, N)| (name.to_string(), value.clone().into().into());
         let parameters: Vec<(String, Value)> = parameters.iter().map(value).collect();
-        Ok(build(&case.definition, &parameters)?)
+        let model = build(&case.definition, &parameters)?;
+        match measures::check(&model, &case.definition.measures) {
+            found if found.is_empty() => Ok(model),
+            found => Err(Problems(found)),
+        }
     }
 }
 
@@ -159,6 +171,7 @@ fn given_twice(definition: &Definition) -> Vec<Problem> {
         }
     };
     report(&["parameters"], definition.parameters.iter().map(|(name, _)| name.as_str()).collect());
+    report(&["measures"], definition.measures.iter().map(|(name, _)| name.as_str()).collect());
     for (section, entries) in [
         ("tables", &definition.tables),
         ("bodies", &definition.bodies),

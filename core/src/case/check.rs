@@ -14,7 +14,7 @@ use crate::model::{table_fields, Entry, Problem, Value};
 /// Words for the key `redundancy`.
 pub(super) const REDUNDANCY: [&str; 2] = ["refuse", "allow"];
 
-const SECTIONS: [&str; 12] = [
+const SECTIONS: [&str; 13] = [
     "kempe",
     "title",
     "gravity",
@@ -25,6 +25,7 @@ const SECTIONS: [&str; 12] = [
     "joints",
     "drivers",
     "forces",
+    "measures",
     "start",
     "analyses",
 ];
@@ -89,6 +90,7 @@ fn section(
         "joints" => model.joints = elements(report, node, Group::Joints, namespace),
         "drivers" => model.drivers = elements(report, node, Group::Drivers, namespace),
         "forces" => model.forces = elements(report, node, Group::Forces, namespace),
+        "measures" => model.measures = measures(report, node, namespace),
         "start" => case.start = start::read(report, node, root),
         "analyses" => case.analyses = analyses(report, node),
         _ => {
@@ -166,6 +168,22 @@ fn parameters(report: &mut Report, node: &Node) -> Vec<(String, Value)> {
         report.within(name, |report| {
             names::unreserved_key(report, name);
             number(report, value);
+        });
+    }
+    table.values()
+}
+
+fn measures(report: &mut Report, node: &Node, namespace: &mut Namespace) -> Vec<(String, Value)> {
+    let Data::Table(table) = &node.data else {
+        wrong(report, node, "a table of names and expressions");
+        return Vec::new();
+    };
+    for (name, value) in &table.entries {
+        report.within(name, |report| {
+            namespace.take(report, name, "measure");
+            if !matches!(value.data, Data::Text(_)) {
+                wrong(report, value, "an expression of quantities, such as \"C.force\"");
+            }
         });
     }
     table.values()

@@ -4,8 +4,8 @@ use super::events::events;
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
 use super::values::{
-    count, curves, names, number, numbers, pair, plain_numbers, points, terms, tolerance, triple,
-    two_columns, two_names, units, word, wrong, TERMS,
+    count, curves, names, number, numbers, pair, plain_numbers, points, quantities, terms,
+    tolerance, triple, two_columns, two_names, units, word, wrong, TERMS,
 };
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
@@ -122,6 +122,7 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Coordinate, _) => wrong(report, node, "a coordinate as \"body.angle\""),
         (Shape::Name, _) => wrong(report, node, "a name"),
         (Shape::NameList, _) => names(report, node),
+        (Shape::Quantities, _) => quantities(report, node),
         (Shape::Condition, Data::Text(_)) => {}
         (Shape::Condition, _) => wrong(report, node, "a condition \"crank.angle > 270*deg\""),
         (Shape::Events, _) => events(report, node),

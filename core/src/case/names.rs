@@ -89,7 +89,7 @@ pub(super) fn unreserved_key(report: &mut Report, name: &str) {
     }
 }
 
-/// The namespace that bodies, joints, drivers and forces share.
+/// The namespace that bodies, joints, drivers, forces and measures share.
 #[derive(Default)]
 pub(super) struct Namespace(HashMap<String, &'static str>);
 
@@ -106,7 +106,7 @@ impl Namespace {
             }
             Some(other) => {
                 let message = format!("'{}' is already the name of a {other}", super::shown(name));
-                let hint = "bodies, joints, drivers and forces share one namespace";
+                let hint = "bodies, joints, drivers, forces and measures share one namespace";
                 report.add(report.here(message).at_key().hint(hint));
             }
         }

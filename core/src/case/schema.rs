@@ -81,6 +81,8 @@ fn sections() -> Map<String, Value> {
             catalogue().into_iter().filter(|(g, _)| *g == group).map(|(_, t)| t).collect();
         sections[group.section()] = by_name(one_of(&tables, None), &RESERVED);
     }
+    let measure = json!({ "type": "string", "description": "An expression of quantities." });
+    sections["measures"] = by_name(measure, &RESERVED);
     sections["start"] = closed(object(start), json!({}));
     let mut analyses = by_name(options(declarations()), &[]);
     analyses["propertyNames"] = folders();
@@ -211,7 +213,9 @@ fn property(f: &Field) -> Value {
         Shape::Curves => reference("curves"),
         Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name => json!({ "type": "string" }),
         Shape::Condition => json!({ "type": "string" }),
-        Shape::NameList => json!({ "type": "array", "items": { "type": "string" } }),
+        Shape::NameList | Shape::Quantities => {
+            json!({ "type": "array", "items": { "type": "string" } })
+        }
         Shape::Events => reference("events"),
         Shape::Values => reference("terms"),
         Shape::Flag => json!({ "type": "boolean" }),

@@ -160,6 +160,19 @@ pub(super) fn names(report: &mut Report, node: &Node) {
     }
 }
 
+/// Any number of quantities.
+pub(super) fn quantities(report: &mut Report, node: &Node) {
+    let Data::List(items) = &node.data else {
+        return wrong(report, node, "a list of quantities [\"crank.angle\"]");
+    };
+    for (k, item) in items.iter().enumerate() {
+        report.within(&k.to_string(), |report| match &item.data {
+            Data::Text(_) => {}
+            _ => wrong(report, item, "a quantity as \"crank.angle\""),
+        });
+    }
+}
+
 /// Numbers, not formulas.
 pub(super) fn plain_numbers(report: &mut Report, node: &Node) {
     let Data::List(items) = &node.data else { return wrong(report, node, "a list of numbers") };

@@ -40,6 +40,7 @@ fn tree(case: &Case) -> Vec<(String, Value)> {
         ("joints", entries(&model.joints)),
         ("drivers", entries(&model.drivers)),
         ("forces", entries(&model.forces)),
+        ("measures", table(&model.measures)),
         ("start", Some(Value::Table(start.collect()))),
         ("analyses", entries(&case.analyses)),
     ];

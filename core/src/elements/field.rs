@@ -37,6 +37,8 @@ pub enum Shape {
     Name,
     /// Any number of names.
     NameList,
+    /// Any number of quantities, such as `crank.angle`, or of parameters.
+    Quantities,
     /// A condition on quantities: a comparison, or an expression that becomes zero.
     Condition,
     /// Conditions by name, each alone or in a table with a direction.

@@ -35,22 +35,10 @@ pub fn reaction<S: Real>(
     lam: &[S],
 ) -> Option<Wrench<S>> {
     let item = &model.constraints[k];
-    let place = item.bodies.iter().position(|b| *b == body);
-    let blocks = &model.layout.constraints[k].blocks;
-    if place.is_none() && blocks.iter().all(|block| block.body != Some(body)) {
+    if !touched(model, k).any(|known| known == body) {
         return None;
     }
-    let at = match place {
-        Some(place) => match contact(model, k, motions, t) {
-            // the place where the reaction acts, seen from this body
-            Some(contact) => Attachment {
-                s: motions[body.0].pose.rotation.inverse(contact - motions[body.0].pose.r),
-                ..item.element.attachment(place)
-            },
-            None => item.element.attachment(place),
-        },
-        None => Attachment { s: Local::zero(), axis: S::zero() },
-    };
+    let at = attached(model, k, body, motions, t);
     let mut on_body = match body.is_ground() && item.law.is_some() {
         true => on_ground(model, k, motions, t, lam),
         false => against(model, k, body, motions, t, lam),
@@ -63,6 +51,55 @@ pub fn reaction<S: Real>(
     Some(reduced(on_body, &motions[body.0].pose, at, frame))
 }
 
+/// The bodies on which constraint `k` acts, each once: those of the element, i and j first, then those of its laws.
+///
+/// Coordinates in a law are measured from ground, which takes the opposite force.
+pub fn touched<S>(model: &Model<S>, k: usize) -> impl Iterator<Item = BodyId> + '_ {
+    let item = &model.constraints[k];
+    let all = item.bodies.iter().enumerate();
+    let own = all.filter(|(k, body)| !item.bodies[..*k].contains(body)).map(|(_, body)| *body);
+    let blocks = model.layout.constraints[k].blocks.iter().filter_map(|block| block.body);
+    let others = blocks.filter(|body| !item.bodies.contains(body));
+    let ground = (item.measures_from_ground && !item.bodies.iter().any(|body| body.is_ground()))
+        .then_some(BodyId(0));
+    own.chain(others).chain(ground)
+}
+
+/// The global point at which the reaction of constraint `k` on a body is given: its force acts there, and its torque is
+/// about this point.
+pub fn place<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    body: BodyId,
+    motions: &Motions<S>,
+    t: S,
+) -> Vec2<S> {
+    motions[body.0].pose.point(attached(model, k, body, motions, t).s)
+}
+
+/// The joint frame on a body, with its origin where the reaction acts.
+fn attached<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    body: BodyId,
+    motions: &Motions<S>,
+    t: S,
+) -> Attachment<S> {
+    let item = &model.constraints[k];
+    let Some(place) = item.bodies.iter().position(|b| *b == body) else {
+        return Attachment { s: Local::zero(), axis: S::zero() };
+    };
+    let joint = item.element.attachment(place);
+    match contact(model, k, motions, t) {
+        // the place where the reaction acts, seen from this body
+        Some(contact) => {
+            let pose = motions[body.0].pose;
+            Attachment { s: pose.rotation.inverse(contact - pose.r), ..joint }
+        }
+        None => joint,
+    }
+}
+
 /// The joints with a load.
 pub(super) fn loaded<S: Real>(model: &Model<S>) -> impl Iterator<Item = usize> + '_ {
     let all = model.constraints.iter().enumerate();
@@ -70,13 +107,7 @@ pub(super) fn loaded<S: Real>(model: &Model<S>) -> impl Iterator<Item = usize> +
 }
 
 /// Adds the loads of all joints to Q, shape (n_q).
-pub(super) fn add_loads<S: Real>(
-    model: &Model<S>,
-    motions: &Motions<S>,
-    t: S,
-    lam: &[S],
-    q: &mut [S],
-) {
+pub fn add_loads<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, lam: &[S], q: &mut [S]) {
     for k in loaded(model) {
         let own = &lam[model.layout.constraints[k].rows.clone()];
         each_load(model, k, motions, t, own, |body, w| {

@@ -24,7 +24,7 @@ const DIFFERENCE: f64 = 1e-7;
 const ACCEPTED: f64 = 1e-12;
 
 /// The rows of the multipliers on which forces, or loads of joints, depend, ascending.
-pub(super) fn rows<S: Real>(model: &Model<S>) -> Vec<usize> {
+pub fn rows<S: Real>(model: &Model<S>) -> Vec<usize> {
     let joints = model.forces.iter().filter_map(|force| force.reaction.map(|joint| joint.0));
     let joints = joints.chain(reactions::loaded(model));
     let mut rows: Vec<usize> =

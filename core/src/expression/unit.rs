@@ -58,7 +58,7 @@ impl Dimension {
     }
 
     /// The usual unit of a derived dimension, such as `N`, if it has one.
-    pub(super) fn common_unit(self) -> Option<&'static str> {
+    pub fn common_unit(self) -> Option<&'static str> {
         let of = |name: &str| Unit::parse(name).is_ok_and(|unit| unit.dimension == self);
         ["N", "N*m", "N/m", "N*m*s", "N*s/m", "W", "V", "Ohm", "H", "N*m/A"]
             .into_iter()

@@ -40,6 +40,8 @@ pub struct Definition {
     pub drivers: Vec<Entry>,
     /// Forces.
     pub forces: Vec<Entry>,
+    /// Measures: named expressions of quantities, evaluated after an analysis.
+    pub measures: Vec<(String, Value)>,
     /// Laws that a host computes; [`Value::Function`] contains the number of one.
     pub functions: Option<Functions>,
 }

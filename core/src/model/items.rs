@@ -73,6 +73,8 @@ pub struct ConstraintItem<S = f64> {
     pub element: Constraint<S>,
     /// The element over formulas, if one of them depends on time or state.
     pub law: Option<Box<Constraint<Tape>>>,
+    /// Whether a law of it reads a coordinate of a body, which is measured from ground.
+    pub measures_from_ground: bool,
     /// Whether time or a driven motion does work through it.
     pub driven: bool,
     /// Equations, in the order of the rows.

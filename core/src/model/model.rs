@@ -85,6 +85,7 @@ impl<S: Real> Model<S> {
                     let owner = Owner::Constraint(constraints.len());
                     Box::new(formula.map(&mut |tape| Switch::number(tape, owner, &mut switches)))
                 }),
+                measures_from_ground: !depends.bodies.is_empty(),
                 driven: *group == Group::Drivers || depends.time,
                 equations,
                 curve_switch: None,

@@ -54,6 +54,7 @@
 //! | `lu_symbolic` | order and fill of an unsymmetric block matrix |
 //! | `block_lu` | its factors, real or complex, without allocation |
 //! | `dense` | small dense systems |
+//! | `symmetric` | eigenvalues and vectors of dense symmetric matrices |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
 //! | `breakdown` | why a system has no usable solution |
 //! | `rank` | numerical rank, dependent rows and left null vectors |
@@ -79,6 +80,7 @@ mod storage;
 mod structure;
 mod substitute;
 mod symbolic;
+mod symmetric;
 
 pub use block_lu::{BlockLu, LOST};
 pub use breakdown::Breakdown;
@@ -95,3 +97,4 @@ pub use saddle::Saddle;
 pub use schur::PinSum;
 pub use sparse_rank::{SparseRank, SparseRow};
 pub use structure::{Group, RowBlock};
+pub use symmetric::{is_positive, Eigen};

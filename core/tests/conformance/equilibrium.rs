@@ -6,6 +6,7 @@ use crate::samples::{constraints, Participants};
 use kempe::elements::{self, BodyId};
 use kempe::equations::forces::{self, Acting};
 use kempe::equations::kinematics::Motions;
+use kempe::equations::newton_euler::balances;
 use kempe::equations::reactions::{reaction, Frame};
 use kempe::equations::{Gains, Workspace};
 use kempe::math::{Local, Pose, Rotation, Vec2};
@@ -142,6 +143,33 @@ fn of_every_body() {
         // pins of a state that does not close carry a couple of gap and force
         let couple: f64 = (0..3).map(|k| gap_couple(&m, &at, k)).sum();
         close("moment on ground", moment + all_moments, couple, 1e-11 * size);
+    }
+}
+
+#[test]
+fn newton_and_euler_balance_every_body_and_find_a_wrong_multiplier() {
+    let m = model(COUPLED);
+    for seed in 1..20 {
+        let at = At::random(&m, seed);
+        let of = |lam: &[f64]| {
+            let acting = Acting { z: &[], lam: Some(lam), t: at.t };
+            balances(&m, &at.workspace.motions, at.workspace.a(), acting)
+        };
+        let mut lam = at.workspace.lam().to_vec();
+        for found in of(&lam) {
+            assert!(found.largest_force > 1.0 && found.largest_moment > 1e-3, "{found:?}");
+            close("force", found.force, 0.0, 1e-12 * found.largest_force);
+            close(
+                "moment",
+                found.moment,
+                0.0,
+                1e-12 * (found.largest_moment + found.largest_force),
+            );
+        }
+        lam[1] += 0.5; // the y row of pin A, on body one alone
+        let found = of(&lam);
+        close("wrong force", found[0].force, 0.5, 1e-9);
+        assert!(found[1].force < 1e-9 && found[2].force < 1e-9);
     }
 }
 

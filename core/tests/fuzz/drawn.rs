@@ -168,7 +168,7 @@ impl Drawn<'_> {
                 text(&known.unwrap_or_default())
             }
             Shape::Condition => self.condition(),
-            Shape::NameList => Value::List(Vec::new()),
+            Shape::NameList | Shape::Quantities => Value::List(Vec::new()),
             Shape::Events => Value::Table(vec![("hit".to_string(), self.condition())]),
             Shape::Values => Value::Table(vec![("k".to_string(), self.number())]),
             Shape::Flag => Value::Flag(self.random.chance(0.5)),

@@ -36,6 +36,7 @@ ANALYSES = {
     "dynamics": "simulations",
     "kinematics": "analyses of the motion that drivers determine",
     "inverse_dynamics": "analyses of efforts and reactions",
+    "modes": "frequencies, damping and shapes of small motions",
 }
 
 app = typer.Typer(

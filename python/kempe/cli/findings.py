@@ -27,6 +27,7 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     )
     console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
     _show_peaks(console, summary["peaks"], of.unit)
+    _show_measures(console, summary["measures"], of.unit)
     _show_events(console, summary["events"], of.unit)
     _show_accuracy(console, summary, of.unit)
     if of.is_time:
@@ -56,6 +57,7 @@ def _show_peaks(console: Console, peaks: dict[str, Any], at: str) -> None:
         rows = [(*name, *row) for name, row in zip(names, cells, strict=True)]
         table(console, ("joint", "on", *header), rows, left=2)
         _show_unbounded(console, reactions, at)
+        _show_minimum_norm(console, reactions)
     if forces:
         heading(console, "Largest forces")
         header, cells = _columns(forces, at)
@@ -71,6 +73,34 @@ def _show_unbounded(console: Console, reactions: list[dict[str, Any]], at: str) 
         span = f"first at {_place(times[0], at)}, last at {_place(times[-1], at)}"
         text = f"without bound at singular positions, not counted here ({span}): {few(names)}"
         console.print(Text(f"  {text}"))
+
+
+def _show_minimum_norm(console: Console, reactions: list[dict[str, Any]]) -> None:
+    """The reactions that redundant constraints leave open."""
+    names = [r["joint"] for r in reactions if not r["unique"]]
+    if names:
+        text = f"not unique, of the smallest multipliers (minimum norm): {few(names)}"
+        console.print(Text(f"  {text}"))
+
+
+def _show_measures(console: Console, measures: list[dict[str, Any]], at: str) -> None:
+    """The statistics of each measure, in the unit of the measure."""
+    if not measures:
+        return
+    heading(console, "Measures")
+    of_unit = ("max", "min", "mean", "rms", "final")
+    rows = [
+        (
+            of["name"],
+            display(of["unit"]).symbol,
+            *(_number(of[name], of["unit"]) for name in of_unit),
+            "-" if of["settling"] is None else figure(of["settling"] / _shown(at).divisor),
+            "-" if of["frequency"] is None else figure(of["frequency"]),
+        )
+        for of in measures
+    ]
+    header = ("measure", "unit", *of_unit, f"settled at / {_shown(at).symbol}", "frequency / Hz")
+    table(console, header, rows, left=2)
 
 
 def _show_events(console: Console, events: dict[str, list[float]], at: str) -> None:
@@ -133,6 +163,8 @@ def _show_accuracy(console: Console, summary: dict[str, Any], at: str) -> None:
         text = f"largest residual {value} in {worst['equation']} at {_place(worst['at'], at)}"
         console.print(Text(f"  {text}"))
     scale = f"largest energy {_measured(energy['scale'], 'J')}"
+    share = f"{summary['newton_euler']:.2g} of the largest force or moment on a body"
+    console.print(Text(f"  Newton-Euler balance within {share}"))
     console.print(Text(f"  energy balance within {energy['largest_imbalance']:.2g} of the {scale}"))
 
 

@@ -101,6 +101,7 @@ def _chosen(solution: Solution | Result, known: list[Page], names: list[str]) ->
         for family, look_up in (
             ("reactions_", solution.constraint),
             ("torque_", solution.force),
+            ("measure_", solution.measure),
         ):
             if name.startswith(family) and name not in told:
                 look_up(name.removeprefix(family))

@@ -11,11 +11,13 @@ import numpy as np
 
 from kempe import files
 from kempe.draw.frame import Frame, Picture
+from kempe.draw.oscillation import pictures as pictures_of_mode
 from kempe.draw.pixels import Pixels, format_of
 from kempe.draw.player import player
 from kempe.draw.sampling import FRAMES_PER_SECOND, Span
 from kempe.draw.scene import playback_rate, scene
 from kempe.errors import ModelError
+from kempe.mode_shape import ModeShape
 from kempe.solution import Solution
 
 FORMATS = ("html", "mp4", "gif")
@@ -49,7 +51,7 @@ _FILMS = {"mp4": Film((1280, 720), 30.0), "gif": Film((640, 360), 20.0)}
 
 
 def animate(
-    solution: Solution,
+    solution: Solution | ModeShape,
     path: Path | str,
     *,
     fps: float | None = None,
@@ -63,7 +65,8 @@ def animate(
     """Write a motion as a page, a video or a GIF, chosen by the ending of the path.
 
     Args:
-        solution: the motion.
+        solution: the motion, or a mode, ``modes.shape(0)``, of which one slow period is shown as
+            MP4 or GIF.
         path: ending in ``.html``, ``.mp4`` or ``.gif``.
         fps: pictures per second, 30 for MP4 and 20 for GIF by default; a page has no use for it.
         speed: 2 plays twice as fast. 1 is real time, except for motions shorter than 2 s or longer
@@ -87,6 +90,8 @@ def animate(
     if kind not in FORMATS:
         raise ModelError(f"{path}: the format is unknown", hint="end it in .html, .mp4 or .gif")
     _refuse_wrong(fps=fps, speed=speed)
+    if isinstance(solution, ModeShape):
+        return _animate_mode(solution, Path(path), kind, size, fps, labels=labels)
     first, last = float(solution.t[0]), float(solution.t[-1])
     span = first if begin is None else float(begin), last if end is None else float(end)
     if kind == "html":
@@ -95,6 +100,28 @@ def animate(
         return player(solution, path, speed=speed, span=span, labels=labels)
     usual = _FILMS[kind]
     film = Film(size or usual.size, fps or usual.fps, speed, span, labels)
+    _write(kind, Path(path), film, lambda: _pictures(solution, film, progress))
+    return Path(path)
+
+
+def _animate_mode(
+    shape: ModeShape,
+    path: Path,
+    kind: str,
+    size: Pixels | None,
+    fps: float | None,
+    *,
+    labels: bool,
+) -> Path:
+    if kind == "html":
+        raise ModelError(f"{path}: a page cannot show a mode", hint="end it in .gif or .mp4")
+    usual = _FILMS[kind]
+    film = Film(size or usual.size, fps or usual.fps, labels=labels)
+    _write(kind, path, film, lambda: pictures_of_mode(shape, film.size, film.fps, labels=labels))
+    return path
+
+
+def _write(kind: str, path: Path, film: Film, pictures: Callable[[], Iterator[Picture]]) -> None:
     if kind == "mp4" and any(count % 2 for count in film.size):
         raise ModelError("size: an MP4 needs an even width and an even height")
     if kind == "mp4":
@@ -105,8 +132,7 @@ def animate(
     else:
         from kempe.draw.gif import write_gif as write
 
-    write(path, _pictures(solution, film, progress), film.fps)
-    return Path(path)
+    write(path, pictures(), film.fps)
 
 
 def _pieces(count: int, each: float) -> int:

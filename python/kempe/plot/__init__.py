@@ -11,7 +11,9 @@ from kempe.plot.coupler_curves import coupler_curve
 from kempe.plot.efforts import effort, torque_speed
 from kempe.plot.energy import energy, energy_balance
 from kempe.plot.free_body import draw_free_body, free_body
+from kempe.plot.measures import measure
 from kempe.plot.mechanism import mechanism
+from kempe.plot.mode_shapes import mode_shape
 from kempe.plot.page import Page, save, select
 from kempe.plot.pages import pages
 from kempe.plot.pin_loads import pin_load
@@ -36,7 +38,9 @@ __all__ = [
     "energy_balance",
     "free_body",
     "instant_centres",
+    "measure",
     "mechanism",
+    "mode_shape",
     "pages",
     "pin_load",
     "positions",

@@ -53,12 +53,17 @@ def pages(
     found: list[Page] = []
     for family in _families(solution, index_base, most, cut):
         number = found[-1].number + 1 if found else 1
-        found += [replace(page, number=number, key=page.name in KEY) for page in family]
+        found += [replace(page, number=number, key=_is_key(page)) for page in family]
     found = [_with_marks(page, solution) for page in found]
     for family in design_pages.families(solution, index_base, most):
         number = found[-1].number + 1
         found += [replace(page, number=number) for page in family]
     return found
+
+
+def _is_key(page: Page) -> bool:
+    """Whether ``kempe run`` draws it by default; measures always."""
+    return page.name in KEY or page.name.startswith("measure_")
 
 
 def _with_marks(page: Page, solution: Solution) -> Page:
@@ -89,6 +94,7 @@ def _families(
     turning = [name for name in model.forces if only_turns(solution, name)]
     yield [over_time.of_torque(*names) for names in _filed(turning)[:most]]
     yield [over_time.of_reactions(*names) for names in _filed(model.constraints)[:most]]
+    yield [over_time.of_measure(*names) for names in _filed(model.measures)[:most]]
     yield [over_time.of_residual()]
     yield [over_time.of_energy()]
     yield [over_time.of_all_reactions()]

@@ -16,13 +16,14 @@ from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
 from kempe.plot.peaks import peak_text
 from kempe.plot.time_axis import TimeAxis
+from kempe.table import MINIMUM_NORM
 from kempe.values import instance
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from kempe.arrays import Floats
-    from kempe.views.frames import Frame
+    from kempe.views.frames import ReactionFrame
 
 #: How a component is written in each frame: x″ is along the joint's axis, x′ along the body's.
 _PRIMES = {"global": "", "body": "′", "joint": "″"}
@@ -35,7 +36,7 @@ def reactions(
     joint: str,
     *,
     on: str | None = None,
-    frame: Frame = "global",
+    frame: ReactionFrame = "global",
     quantity: str = "force",
     ax: Axes | None = None,
     cut: float | None = None,
@@ -47,7 +48,8 @@ def reactions(
         motion: a solution, drawn on its interpolant, or the motion at some times.
         joint: name of the joint or driver.
         on: the body; its body j when None.
-        frame: "global", "body" or "joint" (Haug 6.6.8).
+        frame: "global", "body", "joint" (Haug 6.6.8), "i", "j" or "radial", where x is along the
+            radius and y to its left; see ``ConstraintView.reaction``.
         quantity: "force" or "torque".
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
@@ -68,7 +70,7 @@ def reactions(
         return axes
 
 
-def force_panel(motion: Motion, joint: str, body: str, frame: Frame) -> Panel:
+def force_panel(motion: Motion, joint: str, body: str, frame: ReactionFrame) -> Panel:
     """Components and magnitude of the force of a joint on a body in a frame."""
 
     def force(at: Motion) -> Floats:
@@ -81,16 +83,21 @@ def force_panel(motion: Motion, joint: str, body: str, frame: Frame) -> Panel:
         curve(motion, f"$F_{{y{prime}}}$", lambda at: force(at)[..., 1], style.line(1)),
         curve(motion, "|F|", lambda at: np.hypot(*force(at).T), dotted),
     ]
-    title = f"{_beside(joint, body)}, {frame} frame"
+    title = f"{_beside(joint, body)}, {frame} frame{_remark(motion, joint)}"
     return Panel("F", "N", curves, title, title, variable=motion.variable)
 
 
 def torque_panel(motion: Motion, joint: str, body: str) -> Panel:
     """Torque of a joint on a body about the joint point."""
     line = curve(motion, "T", lambda at: at.constraint(joint).torque(on=body), style.SUM)
-    title = _beside(joint, body)
+    title = f"{_beside(joint, body)}{_remark(motion, joint)}"
     named = f"torque of {title}"
     return Panel("T", "N·m", [line], title, named, variable=motion.variable)
+
+
+def _remark(motion: Motion, joint: str) -> str:
+    """The remark at a reaction that redundant constraints leave open."""
+    return "" if motion.constraint(joint).unique else f", {MINIMUM_NORM}"
 
 
 def _beside(joint: str, body: str) -> str:
@@ -120,7 +127,8 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
     curves: list[Curve] = []
     for name in motion.compiled.constraints:
         magnitude = partial(_magnitude, name)
-        one = curve(motion, style.short(name), magnitude, style.line(len(curves)))
+        label = f"{style.short(name)}{_remark(motion, name)}"
+        one = curve(motion, label, magnitude, style.line(len(curves)))
         if name in motion.compiled.joints or one.values.any():
             curves.append(one)
     of = motion.variable

@@ -6,12 +6,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from kempe.plot.mode_shapes import mode_pages
 from kempe.plot.page import Page
 from kempe.result import Result
 
 #: The function that lists the figures of a result, by the type of the analysis. It is called with
 #: the result and the number of the first body.
-_PAGES: dict[str, Callable[[Any, int], list[Page]]] = {}
+_PAGES: dict[str, Callable[[Any, int], list[Page]]] = {"modes": mode_pages}
 
 
 def result_pages(result: Result, index_base: int = 1) -> list[Page]:

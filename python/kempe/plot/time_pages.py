@@ -15,6 +15,7 @@ from kempe.plot import style
 from kempe.plot.body_motion import QUANTITIES, body_panel, body_title
 from kempe.plot.energy import energy, energy_balance
 from kempe.plot.grid import Sheet, sheet_figure
+from kempe.plot.measures import measure
 from kempe.plot.page import Page
 from kempe.plot.panel import Curve, Panel, times
 from kempe.plot.reactions import all_reactions, force_panel
@@ -158,6 +159,16 @@ class TimePages:
         ]
         symbol, unit = QUANTITIES[quantity]
         return Panel(symbol, unit, curves, name=symbol, variable=self.solution.variable)
+
+    def of_measure(self, name: str, file: str) -> Page:
+        """A measure over time."""
+        return Page(0, f"measure_{file}", f"measure_{name}", partial(self._measure, name))
+
+    def _measure(self, name: str) -> Figure:
+        figure = style.figure(style.HEIGHT, layout=None)
+        axes = style.axes_at(figure, (19.0, 11.0, 137.0, 55.0), style.HEIGHT)
+        measure(self.solution, name, ax=axes, cut=self.cut)
+        return figure
 
     def of_residual(self) -> Page:
         """By how much the constraints are not met."""

@@ -55,10 +55,19 @@ def summary(solution: Solution) -> dict[str, Any]:
             "residual_rate": max(_largest_rate(solution), _largest_rate(sampled.steps)),
         },
         "energy": energy(sampled),
+        "newton_euler": solution.newton_euler.largest,
+        "measures": [measure(solution, name) for name in compiled.measures],
         "events": {name: event.t.tolist() for name, event in solution.events.items()},
         "settling": [settling_of(sampled, name) for name in compiled.bodies],
         "statistics": dict(solution.statistics),
     }
+
+
+def measure(solution: Solution, name: str) -> dict[str, Any]:
+    """The statistics of a measure; None for those that it does not have."""
+    found = solution.measure(name)
+    about = {"name": name, "expression": found.info.expression, "unit": found.unit}
+    return {**about, **found.statistics()}
 
 
 def mechanism(state: State) -> dict[str, Any]:
@@ -79,7 +88,8 @@ def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
     """Largest reaction of a joint or driver on its body j, with its time.
 
     ``unbounded_at`` are the times of singular positions beside which the force has no bound. The
-    peaks are those of the other times.
+    peaks are those of the other times. ``unique`` is False if redundant constraints leave the
+    reaction open: its values are those of minimum norm.
     """
     on = sampled.solution.compiled.constraints[name].j
     read = partial(_force, name, on)
@@ -93,6 +103,7 @@ def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
         "torque": torque.value,
         "torque_at": torque.t,
         "unbounded_at": unbounded(sampled.solution, read).tolist(),
+        "unique": name not in sampled.solution.not_unique,
     }
 
 

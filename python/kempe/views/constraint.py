@@ -9,8 +9,16 @@ from typing import TYPE_CHECKING, Generic, cast
 
 from kempe.arrays import Floats, fixed, scalar
 from kempe.compiled import ConstraintInfo
+from kempe.errors import ModelError
 from kempe.views.body import S
-from kempe.views.frames import Frame, checked_body, checked_frame
+from kempe.views.frames import (
+    FRAMES,
+    REACTION_FRAMES,
+    ReactionFrame,
+    checked_body,
+    checked_frame,
+)
+from kempe.views.reaction import Reaction, read
 
 if TYPE_CHECKING:
     from kempe.motion import Motion
@@ -32,18 +40,52 @@ class ConstraintView(Generic[S]):
         """Name of the joint or driver."""
         return self.info.name
 
-    def force(self, *, on: str, frame: Frame = "global") -> Floats:
-        """Force that the joint exerts on a body, (n_t, 2), N.
-
-        Args:
-            on: the body; one of the connected bodies.
-            frame: "global", "body" (axes of this body) or "joint" (axes of the joint on this body).
-                The components on the two bodies are opposite in the global frame only.
+    def force(
+        self, *, on: str, frame: ReactionFrame = "global", about: str | None = None
+    ) -> Floats:
+        """Force that the joint exerts on a body, (n_t, 2), N; see ``reaction`` for the arguments.
 
         Raises:
-            ModelError: ``on`` or ``frame`` has another value.
+            ModelError: ``on``, ``frame`` or ``about`` has another value.
         """
-        return fixed(self._reaction(on, frame)[..., :2])
+        if about is None and checked_frame(frame, REACTION_FRAMES) in FRAMES:
+            return fixed(self._reaction(on, frame)[..., :2])
+        return self.reaction(on=on, frame=frame, about=about).force
+
+    def reaction(
+        self, *, on: str, frame: ReactionFrame = "global", about: str | None = None
+    ) -> Reaction:
+        """Force and torque that the joint exerts on a body, with point, frame and sign.
+
+        Args:
+            on: the body; one of those that the joint or driver touches.
+            frame: axes of the components: "global"; "body", those of this body; "joint", those of
+                the joint on this body; "i" or "j", those of body i or j; "radial", along the line
+                to the joint from the other joint of this body, and to the left of it. The
+                components on two bodies are opposite in the frames "global", "i" and "j" only.
+            about: of the frame "radial", the point of the body from which the line comes. By
+                default it is the other joint of a body with two joints; of any other body it is the
+                mass centre.
+
+        Raises:
+            ModelError: ``on``, ``frame`` or ``about`` has another value, or the joint lies at the
+                point ``about``.
+        """
+        body, axes = checked_body(self.info, on), checked_frame(frame, REACTION_FRAMES)
+        if about is not None and axes != "radial":
+            hint = 'only the frame "radial" needs it'
+            raise ModelError(f"about: {about!r} with frame {axes!r}", name=self.name, hint=hint)
+        return read(self._motion, self.info, body, axes, about)
+
+    @property
+    def unique(self) -> bool:
+        """Whether the reaction is unique.
+
+        If not, redundant constraints share the loads, and its values are those of the smallest
+        multipliers. Accepted redundant constraints (``redundancy="allow"``) are examined at the
+        outputs, of a long motion at eleven of them.
+        """
+        return self.name not in self._motion.not_unique
 
     def torque(self, *, on: str) -> S:
         """Torque that the joint exerts on a body about the joint point, (n_t,), N·m.

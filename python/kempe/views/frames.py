@@ -11,6 +11,9 @@ from kempe.names import UnknownNameError, one_of
 Frame: TypeAlias = Literal["global", "body", "joint"]
 #: Global axes; axes of the body given by ``on=``; axes of the joint on this body (Haug 6.6.8).
 FRAMES: tuple[Frame, ...] = ("global", "body", "joint")
+ReactionFrame: TypeAlias = Literal["global", "body", "joint", "i", "j", "radial"]
+#: Also the axes of body i and of body j, and the direction from the other joint of the body.
+REACTION_FRAMES: tuple[ReactionFrame, ...] = (*FRAMES, "i", "j", "radial")
 
 
 def checked_body(element: ConstraintInfo | ForceInfo, on: str) -> str:

@@ -36,6 +36,7 @@ mod worklist;
 pub use super::closing::Closing;
 pub use failure::{Failure, Fault};
 pub use holding::holding;
+pub use named::position;
 pub use open_placement::open_placement;
 pub use placement::{Dyad, Gap, Placement};
 pub use placer::place;

@@ -170,6 +170,25 @@ pub(super) fn named(
     of_body(names, (owner, word), fault, problems)
 }
 
+/// The position quantity with this name, such as `crank.angle` or `slide.displacement`.
+///
+/// # Errors
+/// There is no quantity of this name, or it is no position of a moving body.
+pub fn position(model: &Model, name: &str) -> Result<Followed<Tape>, Problem> {
+    let mut problems = Vec::new();
+    let found = named(&Names::of(model), name, &[name.to_string()], &mut problems);
+    let target = found.map(|found| found.with(0.0)).filter(|target| !target.is_rate());
+    match (target.and_then(|target| target.followed()), problems.pop()) {
+        (Some((of, _)), _) => Ok(of),
+        (None, Some(problem)) => Err(problem),
+        (None, None) => {
+            let message = format!("'{name}' is not a position quantity that a driver could hold");
+            Err(Problem::at(&[name], message)
+                .hint("give one such as crank.angle or slide.displacement"))
+        }
+    }
+}
+
 fn of_body(
     names: &Names<'_>,
     (body, coordinate): (&str, &str),

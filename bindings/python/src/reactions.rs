@@ -1,0 +1,165 @@
+//! Reactions at given states, and the balance of each body.
+
+use crate::convert::{rows, table, Row, Rows};
+use crate::evaluate::{frame_named, one_of, unknown, Rates};
+use crate::guard::guard;
+use crate::model::PyModel;
+use crate::respond::Table;
+use kempe::elements::BodyId;
+use kempe::equations::forces::Acting;
+use kempe::equations::newton_euler::balances;
+use kempe::equations::reactions;
+use kempe::math::Wrench;
+use kempe::model::Model;
+use pyo3::prelude::*;
+use std::collections::BTreeSet;
+
+/// The body `on`, which a joint or driver must touch.
+fn touched(py: Python<'_>, model: &Model, k: usize, on: &str) -> PyResult<BodyId> {
+    let all: Vec<BodyId> = reactions::touched(model, k).collect();
+    one_of(py, model, &all, &model.constraints[k].name, on)
+}
+
+/// Force, and torque about the joint point, of a joint or driver on a body.
+#[pyfunction]
+#[pyo3(signature = (model, joint, on, frame, t, q, lam))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn reaction<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    joint: &str,
+    on: &str,
+    frame: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+    lam: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("reaction", || {
+        let model = &*model.model;
+        let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
+        let frame = frame_named(py, frame)?;
+        let body = touched(py, model, k, on)?;
+        let states = Rates::read(py, model, &t, &q, &q)?;
+        let m = model.layout.n_rows;
+        let lam = rows(py, "lam", &lam, (states.t.len(), m))?;
+        let own = model.layout.constraints[k].rows.clone();
+        let mut out = Vec::with_capacity(3 * states.t.len());
+        states.each(model, |at, t, motions| {
+            let lam = &lam[at * m..][own.clone()];
+            let found = reactions::reaction(model, k, body, frame, motions, t, lam);
+            let w = found.unwrap_or_else(Wrench::zero);
+            out.extend([w.force.x, w.force.y, w.torque]);
+        });
+        table(py, out, (states.t.len(), 3))
+    })
+}
+
+/// The point at which the reaction of a joint or driver on a body is given: (n_t, 2), global, m.
+#[pyfunction]
+#[pyo3(signature = (model, joint, on, t, q))]
+pub fn place<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    joint: &str,
+    on: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("place", || {
+        let model = &*model.model;
+        let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
+        let body = touched(py, model, k, on)?;
+        let states = Rates::read(py, model, &t, &q, &q)?;
+        let mut out = Vec::with_capacity(2 * states.t.len());
+        states.each(model, |_, t, motions| {
+            let p = reactions::place(model, k, body, motions, t);
+            out.extend([p.x, p.y]);
+        });
+        table(py, out, (states.t.len(), 2))
+    })
+}
+
+/// The balance of each moving body: |Σ F - m a|, |Σ M - J α|, the largest single force and moment, and the largest lever,
+/// (n_t, 5 n_bodies).
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, z, a, lam))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn newton_euler<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+    a: Rows<'py>,
+    lam: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("newton_euler", || {
+        let model = &*model.model;
+        let states = Rates::read(py, model, &t, &q, &v)?;
+        let count = states.t.len();
+        let (n, n_z, m) = (model.layout.n_q, model.layout.n_z, model.layout.n_rows);
+        let z = rows(py, "z", &z, (count, n_z))?;
+        let a = rows(py, "a", &a, (count, n))?;
+        let lam = rows(py, "lam", &lam, (count, m))?;
+        let mut out = Vec::new();
+        states.each(model, |k, t, motions| {
+            let lam = Some(&lam[k * m..(k + 1) * m]);
+            let acting = Acting { z: &z[k * n_z..(k + 1) * n_z], lam, t };
+            for of in balances(model, motions, &a[k * n..(k + 1) * n], acting) {
+                out.extend([of.force, of.moment, of.largest_force, of.largest_moment, of.lever]);
+            }
+        });
+        table(py, out, (count, 5 * (model.bodies.len() - 1)))
+    })
+}
+
+/// The names of the joints and drivers without a unique reaction at one of the states.
+#[pyfunction]
+#[pyo3(signature = (model, t, q))]
+pub fn not_unique(
+    py: Python<'_>,
+    model: &PyModel,
+    t: Row<'_>,
+    q: Rows<'_>,
+) -> PyResult<Vec<String>> {
+    guard("not_unique", || {
+        let active = &**model.active.prepared.model();
+        let t = t.as_array().to_vec();
+        let n = active.layout.n_q;
+        let q = rows(py, "q", &q, (t.len(), n))?;
+        let at =
+            |(k, t): (usize, &f64)| kempe::analyses::not_unique(active, *t, &q[k * n..(k + 1) * n]);
+        let found: BTreeSet<usize> = t.iter().enumerate().flat_map(at).collect();
+        Ok(found.into_iter().map(|k| active.constraints[k].name.clone()).collect())
+    })
+}
+
+/// The results of a joint beside its reaction, such as the normal force of a roller: (n_t, n).
+#[pyfunction]
+#[pyo3(signature = (model, joint, t, q, lam))]
+pub fn results<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    joint: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+    lam: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("results", || {
+        let model = &*model.model;
+        let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
+        let states = Rates::read(py, model, &t, &q, &q)?;
+        let (m, count) = (model.layout.n_rows, states.t.len());
+        let lam = rows(py, "lam", &lam, (count, m))?;
+        let own = model.layout.constraints[k].rows.clone();
+        let width = model.constraints[k].element.result_quantities().len();
+        let mut out = vec![0.0; width * count];
+        states.each(model, |at, t, motions| {
+            let lam = &lam[at * m..][own.clone()];
+            let out = &mut out[at * width..(at + 1) * width];
+            reactions::results(model, k, motions, t, lam, out);
+        });
+        table(py, out, (count, width))
+    })
+}

@@ -1,0 +1,70 @@
+//! The stiffness felt at a point: the compliance C = ∂(displacement)/∂(force), shape (2, 2), at rest.
+//!
+//! With the reduced stiffness K and the motion P = ∂(point)/∂u with the independent coordinates u, C = P K⁻¹ Pᵀ. The
+//! compliance is finite even where the mechanism does not give way, so that it is computed, not the stiffness.
+
+use super::failure::{column_name, Reason};
+use super::holding;
+use super::search::{relative, zero};
+use super::statics::Statics;
+use crate::analyses::State;
+use crate::elements::BodyId;
+use crate::equations::kinematics::Motions;
+use crate::math::Local;
+use crate::model::Model;
+use crate::solve::{solve_dense, Eigen};
+
+/// Largest force that is left at rest, relative to the largest single force.
+const AT_REST: f64 = 1e-6;
+/// Motion of a point, relative to that of the mechanism, that counts as none.
+const STILL: f64 = 1e-9;
+
+/// C of a point fixed in a body, m/N, row by row, at a state of rest. `hold` names position quantities that are held.
+///
+/// # Errors
+/// The state is not at rest, or the point moves without any stiffness.
+pub fn compliance(
+    model: &Model,
+    state: &State,
+    hold: &[String],
+    body: BodyId,
+    point: Local,
+) -> Result<[f64; 4], Reason> {
+    let held = holding::holding(model, state, hold)?;
+    let mut statics = Statics::new(&held, state.t);
+    let place = statics.place(&state.q, &state.z)?;
+    let local = statics.local(&place)?;
+    let left = relative(&local, &place);
+    if left > AT_REST {
+        return Err(Reason::Moving { relative: left });
+    }
+    let motions = Motions::at_rest(&held.layout, &place.q);
+    let arm = motions[body.0].pose.global(point);
+    let moved = |basis: &Vec<f64>| {
+        let [x, y, angle] = held.layout.bodies[body.0].of(basis);
+        [x - arm.y * angle, y + arm.x * angle]
+    };
+    let by_basis: Vec<[f64; 2]> = local.basis.basis.iter().map(moved).collect();
+    let limit = zero(&local.stiffness, place.scale);
+    let eigen = Eigen::of(&local.stiffness, local.gradient.len());
+    let size = statics.columns.iter().fold(0.0, |most: f64, x| most.max(*x));
+    for (value, vector) in eigen.values.iter().zip(&eigen.vectors) {
+        let along =
+            |axis: usize| -> f64 { by_basis.iter().zip(vector).map(|(p, v)| p[axis] * v).sum() };
+        if value.abs() <= limit && along(0).hypot(along(1)) > STILL * size {
+            let free = local.basis.coordinates.first().map_or(0, |k| *k);
+            return Err(Reason::Loose { coordinate: column_name(&held, free) });
+        }
+    }
+    let mut found = [0.0; 4];
+    for force in 0..2 {
+        let mut u: Vec<f64> = by_basis.iter().map(|p| p[force]).collect();
+        if !solve_dense(&mut local.stiffness.clone(), &mut u) {
+            return Err(Reason::Loose { coordinate: String::new() });
+        }
+        for axis in 0..2 {
+            found[2 * axis + force] = by_basis.iter().zip(&u).map(|(p, u)| p[axis] * u).sum();
+        }
+    }
+    Ok(found)
+}

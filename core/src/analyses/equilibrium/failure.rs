@@ -1,0 +1,160 @@
+//! Reasons for which no equilibrium was found, in terms of the mechanism.
+
+use super::statics::Place;
+use crate::analyses::mobility::mobility;
+use crate::model::{Model, Problem};
+use std::fmt;
+
+/// The reason.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reason {
+    /// The constraints cannot be closed near the start.
+    Open,
+    /// The position is singular: its freedoms are not those of its neighbours.
+    Singular {
+        /// A joint that takes part.
+        name: String,
+        /// Description.
+        message: String,
+    },
+    /// A force or its derivative is not finite.
+    NotFinite,
+    /// A state of an element has no value at which it rests.
+    State {
+        /// The state.
+        name: String,
+    },
+    /// The forces do work without end.
+    Endless {
+        /// The independent coordinate that moved farthest.
+        coordinate: String,
+        /// Its motion, m or rad.
+        moved: f64,
+        /// Its unit.
+        unit: &'static str,
+        /// The force or torque that acts along it, N or N·m.
+        force: f64,
+    },
+    /// The search ended without an equilibrium.
+    Lost {
+        /// The force that is left, relative to the largest single force.
+        relative: f64,
+        /// The independent coordinate along which the largest force is left.
+        coordinate: String,
+    },
+    /// A state that must be at rest is not.
+    Moving {
+        /// The force that is left, relative to the largest single force.
+        relative: f64,
+    },
+    /// A point moves without any stiffness.
+    Loose {
+        /// An independent coordinate.
+        coordinate: String,
+    },
+    /// An option has a wrong value.
+    Option(Vec<Problem>),
+    /// The work was stopped.
+    Stopped,
+}
+
+impl Reason {
+    pub(super) fn singular(model: &Model, t: f64, q: &[f64]) -> Self {
+        let found = mobility(model, t, q);
+        let group = found.singular.iter().chain(&found.redundant).next();
+        let group = group.cloned().unwrap_or_default();
+        let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+        let message = match names.is_empty() {
+            true => "the position is singular".to_string(),
+            false => format!("the position is singular: {} depend on each other", names.join(", ")),
+        };
+        Self::Singular {
+            name: names.first().map_or_else(String::new, |n| (*n).to_string()),
+            message,
+        }
+    }
+
+    pub(super) fn state(model: &Model, place: usize) -> Self {
+        let of = model.layout.states.iter().position(|own| own.contains(&place));
+        let name = of.map_or_else(String::new, |k| {
+            let item = &model.forces[k];
+            let at = place - model.layout.states[k].start;
+            let state = item.states.get(at).map_or("state", |state| state.name);
+            format!("{}.{state}", item.name)
+        });
+        Self::State { name }
+    }
+
+    /// The force `missing` remains after a search that came from `start`.
+    pub(super) fn of_search(
+        model: &Model,
+        start: &Place,
+        place: &Place,
+        own: &[usize],
+        far: bool,
+    ) -> Self {
+        let lengths = model.layout.lengths();
+        let moved = |k: &usize| (place.q[*k] - start.q[*k]).abs();
+        let most = own.iter().max_by(|a, b| moved(a).total_cmp(&moved(b)));
+        let Some(&column) = most else {
+            return Self::Lost { relative: 0.0, coordinate: String::new() };
+        };
+        let coordinate = column_name(model, column);
+        let largest = place.missing.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        match far {
+            true => Self::Endless {
+                coordinate,
+                moved: moved(&column),
+                unit: if lengths[column] { "m" } else { "rad" },
+                force: -place.missing[column],
+            },
+            false => Self::Lost { relative: largest / place.scale, coordinate },
+        }
+    }
+}
+
+/// The name of a coordinate.
+pub(super) fn column_name(model: &Model, column: usize) -> String {
+    match model.layout.body_of(column) {
+        Some((body, at)) => format!("{}.{}", model.bodies[body.0].name, ["x", "y", "angle"][at]),
+        None => {
+            let own = model.layout.constraints.iter().position(|c| c.own.range().contains(&column));
+            own.map_or_else(String::new, |k| format!("{}.u", model.constraints[k].name))
+        }
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Open => f.write_str("the mechanism cannot be closed near the start"),
+            Self::Singular { message, .. } => f.write_str(message),
+            Self::NotFinite => f.write_str("a force, or its derivative, is not finite at rest"),
+            Self::State { name } => {
+                write!(f, "{name} has no value at which it rests, so that there is no equilibrium")
+            }
+            Self::Endless { coordinate, moved, unit, .. } => write!(
+                f,
+                "there is no equilibrium within reach: the forces still do work after {coordinate} has moved by \
+                 {moved:.3} {unit}"
+            ),
+            Self::Lost { relative, coordinate } => write!(
+                f,
+                "no equilibrium was found: near {coordinate} a force of {relative:.1e} of the largest one is left"
+            ),
+            Self::Moving { relative } => write!(
+                f,
+                "the state is not at rest: a force of {relative:.1e} of the largest one is left"
+            ),
+            Self::Loose { coordinate } => write!(
+                f,
+                "the point moves without any stiffness: nothing holds the mechanism along {coordinate}"
+            ),
+            Self::Option(problems) => {
+                let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
+                f.write_str(&texts.join("\n"))
+            }
+            Self::Stopped => f.write_str("the search was stopped"),
+        }
+    }
+}

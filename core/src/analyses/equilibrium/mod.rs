@@ -1,0 +1,77 @@
+//! Statics: positions of rest, their stability, paths of them over a parameter, and the stiffness at a point.
+//!
+//! With v = 0 and ż = 0, a position of rest solves
+//!
+//! ```text
+//! Φ(q, t) = 0        Φ_qᵀ λ - Q(q, 0, z, t) = 0
+//! ```
+//!
+//! at a fixed time t; drivers hold their coordinates. Newton's step of this system is taken in the null space of Φ_q, with
+//! the derivative K = ∂(Φ_qᵀ λ - Q)/∂q along it: the reduced stiffness, which is the Hessian of the potential where all
+//! forces have one. Its eigenvalues decide the stability (Pfister, *Dynamik*; Bathe, *Finite Element Procedures*, 8.4).
+//!
+//! | file | concept |
+//! |---|---|
+//! | `statics` | the equations at rest |
+//! | `search`, `relaxation` | Newton's method down the potential, and dynamic relaxation where it fails |
+//! | `holding` | holders of coordinates |
+//! | `result` | a position of rest with stability and efforts |
+//! | `parameter`, `spot`, `path`, `turning` | paths over a parameter: derivatives, points, steps, folds |
+//! | `compliance` | the stiffness felt at a point |
+//! | `options`, `failure` | options, and reasons for which there is no result |
+
+mod compliance;
+mod failure;
+mod holding;
+mod options;
+mod parameter;
+mod path;
+mod relaxation;
+mod result;
+mod search;
+mod spot;
+mod statics;
+mod turning;
+
+pub use compliance::compliance;
+pub use failure::Reason;
+pub use options::Options;
+pub use path::{path, End, Path};
+pub use result::Equilibrium;
+
+use super::State;
+use crate::integrate::Flow;
+use crate::model::Model;
+use search::Search;
+use statics::Statics;
+
+/// The position in which a mechanism comes to rest from `start`, whose rates do not count.
+///
+/// The search goes down the potential, so that it leaves maxima and saddles unless the start is one; with
+/// [`nearest`](Options::nearest) it is plain Newton iteration. `watch` is called with the number of steps.
+///
+/// # Errors
+/// [`Reason`].
+pub fn equilibrium(
+    model: &Model,
+    start: &State,
+    options: &Options,
+    mut watch: impl FnMut(usize) -> Flow,
+) -> Result<Equilibrium, Reason> {
+    let held = holding::holding(model, start, &options.hold)?;
+    from(&held, start, options, &mut watch)
+}
+
+/// The same for a model with its holders.
+fn from(
+    held: &Model,
+    start: &State,
+    options: &Options,
+    watch: &mut dyn FnMut(usize) -> Flow,
+) -> Result<Equilibrium, Reason> {
+    let mut statics = Statics::new(held, start.t);
+    let place = statics.place(&start.q, &start.z)?;
+    let found = Search::new(&mut statics, options.nearest, watch).run(place)?;
+    let result = Equilibrium::at(&statics, &found.place, options.hold.len())?;
+    Ok(Equilibrium { steps: found.steps, relaxed: found.relaxed, ..result })
+}

@@ -1,0 +1,73 @@
+//! A position of rest with its stability and its forces.
+
+use super::failure::{column_name, Reason};
+use super::search::{relative, zero};
+use super::statics::{Place, Statics};
+use crate::analyses::State;
+use crate::model::Model;
+use crate::solve::Eigen;
+
+/// A position of rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// The state, with v = 0 and ż = 0.
+    pub state: State,
+    /// Multipliers of joints and drivers: Φ_qᵀ λ = Q, shape (n_rows).
+    pub lam: Vec<f64>,
+    /// What each holder applies, positive if it increases its quantity, N or N·m.
+    pub holders: Vec<f64>,
+    /// The effort of each driver by its name.
+    pub efforts: Vec<(String, f64)>,
+    /// Names of the independent coordinates of the reduced stiffness.
+    pub coordinates: Vec<String>,
+    /// Eigenvalues of the reduced stiffness on the independent coordinates, ascending.
+    pub eigenvalues: Vec<f64>,
+    /// Whether all eigenvalues are positive.
+    pub stable: bool,
+    /// The force that is left, relative to the largest single force.
+    pub residual: f64,
+    /// Steps of Newton's method.
+    pub steps: usize,
+    /// Steps of dynamic relaxation.
+    pub relaxed: usize,
+}
+
+impl Equilibrium {
+    /// At a place of a model whose last `holders` rows are those of holders.
+    pub(super) fn at(statics: &Statics<'_>, place: &Place, holders: usize) -> Result<Self, Reason> {
+        let model = statics.model;
+        let local = statics.local(place)?;
+        let scaled = Eigen::of(&local.stiffness, local.gradient.len()).values;
+        let limit = zero(&local.stiffness, place.scale);
+        let freedoms = statics.freedoms(place)?;
+        let stiffness = statics.stiffness(place, &freedoms)?;
+        let mut eigenvalues = Eigen::of(&stiffness, freedoms.coordinates.len()).values;
+        let zeros = scaled.iter().filter(|x| x.abs() <= limit).count();
+        let mut order: Vec<usize> = (0..eigenvalues.len()).collect();
+        order.sort_by(|a, b| eigenvalues[*a].abs().total_cmp(&eigenvalues[*b].abs()));
+        order.iter().take(zeros).for_each(|k| eigenvalues[*k] = 0.0);
+        eigenvalues.sort_by(f64::total_cmp);
+        let own = model.layout.n_rows - holders;
+        let rest = vec![0.0; place.q.len()];
+        Ok(Self {
+            state: State { t: statics.t, q: place.q.clone(), v: rest, z: place.z.clone() },
+            lam: place.lam[..own].to_vec(),
+            holders: place.lam[own..].iter().map(|lam| -lam).collect(),
+            efforts: efforts(model, &place.lam, own),
+            coordinates: freedoms.coordinates.iter().map(|k| column_name(model, *k)).collect(),
+            stable: scaled.iter().all(|x| *x > limit),
+            eigenvalues,
+            residual: relative(&local, place),
+            steps: 0,
+            relaxed: 0,
+        })
+    }
+}
+
+/// The efforts of the drivers whose rows come before `own`.
+fn efforts(model: &Model, lam: &[f64], own: usize) -> Vec<(String, f64)> {
+    let all = model.constraints.iter().zip(&model.layout.constraints);
+    let drivers =
+        all.filter(|(item, slots)| item.element.drives().is_some() && slots.rows.end <= own);
+    drivers.map(|(item, slots)| (item.name.clone(), -lam[slots.rows.start])).collect()
+}

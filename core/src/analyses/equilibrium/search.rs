@@ -1,0 +1,281 @@
+//! The search of a rest position.
+//!
+//! Newton's method on the freedoms, with the exact stiffness. Where the stiffness is not positive, the step uses the
+//! magnitudes of its eigenvalues (Gill, Murray and Wright, *Practical Optimization*, 1981, 4.4), so that it goes down
+//! the potential and leaves maxima and saddles. Steps are bounded, and shortened until the energy falls. If that fails, as
+//! where forces have kinks, dynamic relaxation goes on.
+
+use super::failure::Reason;
+use super::relaxation;
+use super::statics::{Local, Place, Statics};
+use crate::integrate::Flow;
+use crate::solve::{is_positive, solve_dense, Eigen};
+
+/// Force that counts as none, relative to the largest single force.
+const NONE: f64 = 1e-14;
+/// Force from which rounding may decide.
+const SMALL: f64 = 1e-9;
+/// Longest step of a scaled coordinate, and the first one.
+const LONGEST: f64 = 0.5;
+const FIRST: f64 = 0.2;
+/// Shortest step.
+const SHORTEST: f64 = 1e-12;
+/// Largest number of steps, and of rounds with relaxation between them.
+const STEPS: usize = 500;
+const ROUNDS: usize = 4;
+/// Part of the predicted change of energy that a step must reach.
+const ENOUGH: f64 = 1e-4;
+/// An eigenvalue of the stiffness below this part of the largest counts as zero.
+pub(super) const ZERO: f64 = 1e-11;
+/// Motion from an unstable position, scaled, and the largest number of these.
+const PUSH: f64 = 1e-2;
+const PUSHES: usize = 12;
+/// Motion after which forces that still do work have no equilibrium within reach.
+const FAR: f64 = 40.0;
+
+/// A rest position.
+pub(super) struct Found {
+    pub place: Place,
+    /// Steps of Newton's method.
+    pub steps: usize,
+    /// Steps of dynamic relaxation.
+    pub relaxed: usize,
+}
+
+/// The search from one start.
+pub(super) struct Search<'s, 'a> {
+    pub statics: &'s mut Statics<'a>,
+    /// Whether the nearest equilibrium is sought, stable or not.
+    pub nearest: bool,
+    pub watch: &'s mut dyn FnMut(usize) -> Flow,
+    steps: usize,
+    relaxed: usize,
+}
+
+impl<'s, 'a> Search<'s, 'a> {
+    pub fn new(
+        statics: &'s mut Statics<'a>,
+        nearest: bool,
+        watch: &'s mut dyn FnMut(usize) -> Flow,
+    ) -> Self {
+        Self { statics, nearest, watch, steps: 0, relaxed: 0 }
+    }
+
+    /// The rest position that a start leads to.
+    pub fn run(mut self, start: Place) -> Result<Found, Reason> {
+        let first = start.clone();
+        let mut place = start;
+        for round in 0..ROUNDS {
+            let (reached, rests) = self.descend(place)?;
+            place = reached;
+            if rests {
+                return Ok(Found { place, steps: self.steps, relaxed: self.relaxed });
+            }
+            if self.nearest || round + 1 == ROUNDS || self.far(&first, &place) {
+                break;
+            }
+            let (reached, count) = relaxation::relax(self.statics, place, self.watch)?;
+            place = reached;
+            self.relaxed += count;
+        }
+        let own = self.statics.freedoms(&place)?.coordinates;
+        let far = self.far(&first, &place);
+        Err(Reason::of_search(self.statics.model, &first, &place, &own, far))
+    }
+
+    fn far(&self, first: &Place, place: &Place) -> bool {
+        let way: Vec<f64> = place.q.iter().zip(&first.q).map(|(b, a)| b - a).collect();
+        self.statics.largest(&way) > FAR
+    }
+
+    /// Goes down until the forces vanish; returns the place, and whether they do.
+    fn descend(&mut self, mut place: Place) -> Result<(Place, bool), Reason> {
+        let (mut radius, mut pushes, begin) = (FIRST, 0, self.steps);
+        let mut local = self.statics.local(&place)?;
+        let mut at_start = self.steps == 0 && self.relaxed == 0;
+        while self.steps < begin + STEPS {
+            if (self.watch)(self.steps) == Flow::Stop {
+                return Err(Reason::Stopped);
+            }
+            let size = relative(&local, &place);
+            if size <= SMALL {
+                (place, local) = self.polished(place, local)?;
+                let down = down(&local, &place).filter(|_| !self.nearest && !at_start);
+                let Some(direction) = down.filter(|_| pushes < PUSHES) else {
+                    return Ok((place, true));
+                };
+                pushes += 1;
+                match self.pushed(&place, &local, &direction)? {
+                    Some(next) => (place, local, radius) = (next.0, next.1, FIRST),
+                    None => return Ok((place, true)),
+                }
+                continue;
+            }
+            at_start = false;
+            self.steps += 1;
+            match self.step(&place, &local, &mut radius)? {
+                Some(next) => (place, local) = next,
+                None => return Ok((place, false)),
+            }
+        }
+        Ok((place, false))
+    }
+
+    /// One step that lowers the energy; None if there is none.
+    fn step(
+        &mut self,
+        place: &Place,
+        local: &Local,
+        radius: &mut f64,
+    ) -> Result<Option<(Place, Local)>, Reason> {
+        let newton = solved(&local.stiffness, &local.gradient);
+        let full = match &newton {
+            Some(p) if self.nearest || self.good(local, p) => p.clone(),
+            _ => modified(local, place.scale),
+        };
+        let length = self.statics.largest(&local.basis.extend(&full));
+        let mut part = (*radius / length).min(1.0);
+        while part * length > SHORTEST {
+            let p: Vec<f64> = full.iter().map(|x| part * x).collect();
+            if let Some(next) = self.tried(place, local, &p)? {
+                let bounded = part < 1.0;
+                *radius =
+                    if bounded { (2.0 * part * length).min(LONGEST) } else { radius.max(FIRST) };
+                return Ok(Some(next));
+            }
+            part *= 0.3;
+            *radius = (part * length).max(SHORTEST);
+        }
+        Ok(None)
+    }
+
+    /// Whether Newton's step goes down to a minimum.
+    fn good(&self, local: &Local, p: &[f64]) -> bool {
+        let f = p.len();
+        let transposed = |k: usize| local.stiffness[(k % f) * f + k / f];
+        let symmetric: Vec<f64> =
+            (0..f * f).map(|k| 0.5 * (local.stiffness[k] + transposed(k))).collect();
+        dot(&local.gradient, p) < 0.0 && is_positive(&symmetric, f)
+    }
+
+    /// The place after a step, if it is better.
+    fn tried(
+        &mut self,
+        place: &Place,
+        local: &Local,
+        p: &[f64],
+    ) -> Result<Option<(Place, Local)>, Reason> {
+        let dq = local.basis.extend(p);
+        let Some(next) = self.moved(place, &dq) else { return Ok(None) };
+        let Ok(there) = self.statics.local(&next) else { return Ok(None) };
+        let (before, after) = (relative(local, place), relative(&there, &next));
+        let better = match self.nearest {
+            true => after < before,
+            false => {
+                let predicted = dot(&local.gradient, p);
+                let change = self.statics.energy_change(place, &next);
+                let rounding = predicted.abs() < 1e-13 * place.scale;
+                change <= ENOUGH * predicted || (rounding && after < before)
+            }
+        };
+        Ok(better.then_some((next, there)))
+    }
+
+    /// The closed place near q + dq, unless closing leads elsewhere.
+    fn moved(&mut self, place: &Place, dq: &[f64]) -> Option<Place> {
+        let q: Vec<f64> = place.q.iter().zip(dq).map(|(q, dq)| q + dq).collect();
+        let next = self.statics.place(&q, &place.z).ok()?;
+        let closing: Vec<f64> = next.q.iter().zip(&q).map(|(b, a)| b - a).collect();
+        let near = self.statics.largest(&closing) <= 0.5 * self.statics.largest(dq) + 1e-9;
+        near.then_some(next)
+    }
+
+    /// The same place with the forces reduced to rounding.
+    fn polished(&mut self, mut place: Place, mut local: Local) -> Result<(Place, Local), Reason> {
+        for _ in 0..8 {
+            let before = relative(&local, &place);
+            let Some(p) = solved(&local.stiffness, &local.gradient) else { break };
+            let dq = local.basis.extend(&p);
+            let step = self.statics.largest(&dq);
+            if step > FIRST || before <= NONE && step < 1e-15 {
+                break;
+            }
+            let Some(next) = self.moved(&place, &dq) else { break };
+            let Ok(there) = self.statics.local(&next) else { break };
+            let after = relative(&there, &next);
+            if after >= before {
+                break;
+            }
+            (place, local) = (next, there);
+            self.steps += 1;
+        }
+        Ok((place, local))
+    }
+
+    /// A place beside an unstable one with less energy.
+    fn pushed(
+        &mut self,
+        place: &Place,
+        local: &Local,
+        direction: &[f64],
+    ) -> Result<Option<(Place, Local)>, Reason> {
+        let dq = local.basis.extend(direction);
+        let length = self.statics.largest(&dq);
+        for way in [PUSH, -PUSH] {
+            let dq: Vec<f64> = dq.iter().map(|x| x * way / length).collect();
+            if let Some(next) = self.moved(place, &dq) {
+                if self.statics.energy_change(place, &next) < 0.0 {
+                    let there = self.statics.local(&next)?;
+                    return Ok(Some((next, there)));
+                }
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// The force along the freedoms, relative to the largest single force.
+pub(super) fn relative(local: &Local, place: &Place) -> f64 {
+    let size = dot(&local.gradient, &local.gradient).sqrt();
+    if size == 0.0 {
+        0.0
+    } else {
+        size / place.scale.max(f64::MIN_POSITIVE)
+    }
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The eigenvalues of a stiffness that count as zero have at most this magnitude.
+pub(super) fn zero(stiffness: &[f64], scale: f64) -> f64 {
+    ZERO * stiffness.iter().fold(scale, |most, x| most.max(x.abs()))
+}
+
+/// The direction in which the potential falls most from a rest position; None if it is a minimum.
+fn down(local: &Local, place: &Place) -> Option<Vec<f64>> {
+    let eigen = Eigen::of(&local.stiffness, local.gradient.len());
+    let least = *eigen.values.first()?;
+    (least < -zero(&local.stiffness, place.scale)).then(|| eigen.vectors[0].clone())
+}
+
+/// -K⁻¹ g.
+fn solved(stiffness: &[f64], gradient: &[f64]) -> Option<Vec<f64>> {
+    let mut p: Vec<f64> = gradient.iter().map(|g| -g).collect();
+    let solved = solve_dense(&mut stiffness.to_vec(), &mut p);
+    (solved && p.iter().all(|x| x.is_finite())).then_some(p)
+}
+
+/// The step with the magnitudes of the eigenvalues.
+fn modified(local: &Local, scale: f64) -> Vec<f64> {
+    let f = local.gradient.len();
+    let eigen = Eigen::of(&local.stiffness, f);
+    let largest = eigen.values.iter().fold(scale, |most, x| most.max(x.abs()));
+    let mut p = vec![0.0; f];
+    for (value, vector) in eigen.values.iter().zip(&eigen.vectors) {
+        let part = -dot(vector, &local.gradient) / value.abs().max(1e-6 * largest);
+        p.iter_mut().zip(vector).for_each(|(p, v)| *p += part * v);
+    }
+    p
+}

@@ -1,0 +1,141 @@
+//! Points of a path of equilibria over a parameter p, and their tangent.
+//!
+//! Along a path, K u + k dp = 0 with the reduced stiffness K and the derivative k of the reduced forces by p: the motion
+//! is dq = B u + (dq/dp) dp with the basis B of the freedoms. At a fold dp = 0 and K is singular, but K and k together
+//! keep their rank, so that the system with one row more is regular.
+
+use super::failure::Reason;
+use super::parameter::{self, ByParameter};
+use super::result::Equilibrium;
+use super::search::zero;
+use super::statics::{Local, Place, Statics};
+use crate::model::Model;
+use crate::solve::{solve_dense, Eigen};
+
+/// A path over a parameter.
+pub(super) struct Course<'m> {
+    /// The model with its holders.
+    pub model: &'m Model,
+    /// Number of holders.
+    pub holders: usize,
+    pub t: f64,
+    /// The parameter.
+    pub over: &'m str,
+    /// Its range is one unit.
+    pub unit: f64,
+    /// 1/s² n for the scales s of the coordinates and their number n.
+    pub weights: Vec<f64>,
+}
+
+/// A direction (dq, dp).
+#[derive(Clone, Debug)]
+pub(super) struct Direction {
+    pub q: Vec<f64>,
+    pub p: f64,
+}
+
+/// A closed position at a value, not necessarily at rest.
+pub(super) struct Spot {
+    pub value: f64,
+    pub place: Place,
+    local: Local,
+    by: ByParameter,
+    /// Derivative of the reduced forces by the parameter.
+    reduced: Vec<f64>,
+}
+
+/// A point of the path.
+pub(super) struct Step {
+    pub spot: Spot,
+    pub tangent: Direction,
+    /// Iterations that found it.
+    pub iterations: usize,
+}
+
+impl Course<'_> {
+    /// The position near `q` at a value.
+    pub fn spot(&self, value: f64, q: &[f64], z: &[f64]) -> Result<Spot, Reason> {
+        let model = parameter::at(self.model, self.over, value)?;
+        let mut statics = Statics::new(&model, self.t);
+        let place = statics.place(q, z)?;
+        let local = statics.local(&place)?;
+        let by = ByParameter::new(&statics, &place, self.over)?;
+        let reduced = local.basis.reduce(&by.missing);
+        match reduced.iter().all(|x| x.is_finite()) {
+            true => Ok(Spot { value, place, local, by, reduced }),
+            false => Err(Reason::NotFinite),
+        }
+    }
+
+    /// The result at a spot.
+    pub fn equilibrium(&self, spot: &Spot) -> Result<Equilibrium, Reason> {
+        let model = parameter::at(self.model, self.over, spot.value)?;
+        let statics = Statics::new(&model, self.t);
+        Equilibrium::at(&statics, &spot.place, self.holders)
+    }
+
+    fn product(&self, a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).zip(&self.weights).map(|((a, b), w)| a * b * w).sum()
+    }
+
+    /// The product of two directions.
+    pub fn along(&self, a: &Direction, b: &Direction) -> f64 {
+        self.product(&a.q, &b.q) + a.p * b.p / (self.unit * self.unit)
+    }
+
+    /// Solves K u + k dp = `right`, and the direction along `row` = `last`.
+    fn solved(&self, spot: &Spot, row: &Direction, right: &[f64], last: f64) -> Option<Direction> {
+        let Local { basis, stiffness, .. } = &spot.local;
+        let f = spot.reduced.len();
+        let n = f + 1;
+        let mut matrix = vec![0.0; n * n];
+        for r in 0..f {
+            matrix[r * n..r * n + f].copy_from_slice(&stiffness[r * f..(r + 1) * f]);
+            matrix[r * n + f] = spot.reduced[r];
+        }
+        // rows of comparable length
+        let size = matrix.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let size = if size > 0.0 { size } else { 1.0 };
+        for (column, b) in basis.basis.iter().enumerate() {
+            matrix[f * n + column] = size * self.product(b, &row.q);
+        }
+        let of_value = self.product(&spot.by.motion, &row.q) + row.p / (self.unit * self.unit);
+        matrix[f * n + f] = size * of_value;
+        let mut x = right.to_vec();
+        x.push(size * last);
+        if !solve_dense(&mut matrix, &mut x) || x.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
+        let mut q = basis.extend(&x[..f]);
+        if q.is_empty() {
+            q = vec![0.0; spot.place.q.len()];
+        }
+        q.iter_mut().zip(&spot.by.motion).for_each(|(q, motion)| *q += motion * x[f]);
+        Some(Direction { q, p: x[f] })
+    }
+
+    /// The unit tangent at a point of the path, in the sense of `before`.
+    pub fn tangent(&self, spot: &Spot, before: &Direction) -> Option<Direction> {
+        let none = vec![0.0; spot.reduced.len()];
+        let mut tangent = self.solved(spot, before, &none, 1.0)?;
+        let length = self.along(&tangent, &tangent).sqrt();
+        tangent.q.iter_mut().for_each(|x| *x /= length);
+        tangent.p /= length;
+        Some(tangent)
+    }
+
+    /// The correction of a spot, normal to `tangent` through the prediction.
+    pub fn correction(&self, spot: &Spot, tangent: &Direction, ahead: f64) -> Option<Direction> {
+        let right: Vec<f64> = spot.local.gradient.iter().map(|g| -g).collect();
+        self.solved(spot, tangent, &right, -ahead)
+    }
+}
+
+impl Spot {
+    /// Number of negative eigenvalues of the stiffness.
+    pub fn negative(&self) -> usize {
+        let limit = zero(&self.local.stiffness, self.place.scale);
+        let values = Eigen::of(&self.local.stiffness, self.reduced.len()).values;
+        values.iter().filter(|x| **x < -limit).count()
+    }
+}

@@ -1,0 +1,127 @@
+//! Reasons for which a mechanism has no linear equations at a state.
+
+use crate::analyses::dynamics;
+use crate::model::{Model, Problem};
+use crate::solve::Breakdown;
+use std::fmt;
+
+/// The reason.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure {
+    /// The position is singular: its freedoms are not those of its neighbours.
+    Singular {
+        /// Time, s.
+        t: f64,
+        /// A joint or driver that takes part.
+        name: String,
+        /// Description.
+        message: String,
+    },
+    /// The state does not meet the constraints.
+    Open {
+        /// The time, s.
+        t: f64,
+        /// The joint or driver.
+        name: String,
+        /// The gap, m or rad.
+        gap: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// A freedom moves no mass.
+    NoInertia {
+        /// The time, s.
+        t: f64,
+        /// The independent coordinate.
+        coordinate: String,
+    },
+    /// The equations of motion have no solution at the state.
+    Motion(Box<dynamics::Failure>),
+    /// The name of an input or output.
+    Name(Box<Problem>),
+    /// A parameter that is no input.
+    Geometry {
+        /// The parameter.
+        parameter: String,
+    },
+    /// An output without derivative at the state, by its place among the outputs.
+    NoDerivative(usize),
+}
+
+impl Failure {
+    /// The groups of constraints depend on each other at this position only.
+    pub(super) fn singular(model: &Model, t: f64, groups: &[Vec<usize>]) -> Self {
+        let group = groups.first().cloned().unwrap_or_default();
+        let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+        let name = names.first().map_or_else(String::new, |name| (*name).to_string());
+        let message = format!(
+            "the position at t = {t:.6} s is singular: {} depend on each other here, so that the mechanism has other \
+             freedoms than beside it, and no linear equations",
+            names.join(", ")
+        );
+        Self::Singular { t, name, message }
+    }
+
+    /// The independent coordinate in this column moves no mass.
+    pub(super) fn no_inertia(model: &Model, t: f64, column: usize) -> Self {
+        Self::NoInertia { t, coordinate: coordinate(model, column) }
+    }
+
+    pub(super) fn geometry(model: &Model, k: usize) -> Self {
+        Self::Geometry { parameter: model.blueprint.parameters[k].clone() }
+    }
+
+    pub(super) const fn no_derivative(k: usize) -> Self {
+        Self::NoDerivative(k)
+    }
+
+    /// The row of a breakdown depends on others.
+    pub(super) fn breakdown(model: &Model, t: f64, breakdown: Breakdown) -> Self {
+        let group = match breakdown {
+            Breakdown::Row(row) => vec![vec![model.layout.owner(row).0]],
+            _ => Vec::new(),
+        };
+        Self::singular(model, t, &group)
+    }
+}
+
+/// The name of a coordinate, such as `crank.angle`, or of an internal one, such as `contact.u`.
+pub fn coordinate(model: &Model, column: usize) -> String {
+    if let Some((body, k)) = model.layout.body_of(column) {
+        return format!("{}.{}", model.bodies[body.0].name, ["x", "y", "angle"][k]);
+    }
+    let own = |slots: &crate::model::Slots| slots.own.range().contains(&column);
+    let k = model.layout.constraints.iter().position(own).unwrap_or(0);
+    let slots = &model.layout.constraints[k];
+    let number = match slots.own.count {
+        1 => String::new(),
+        _ => (column + 1 - slots.own.first).to_string(),
+    };
+    format!("{}.u{number}", model.constraints[k].name)
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Singular { message, .. } => f.write_str(message),
+            Self::Open { t, name, gap, unit } => write!(
+                f,
+                "the state does not meet the constraints at t = {t:.6} s: {name} is open by {:.3e} {unit}",
+                gap.abs()
+            ),
+            Self::NoInertia { coordinate, t } => write!(
+                f,
+                "no mass moves with {coordinate} at t = {t:.6} s, so that its acceleration is not determined; give mass \
+                 or inertia to a body that moves with it"
+            ),
+            Self::Motion(failure) => write!(f, "{}", failure.reason),
+            Self::Name(problem) => f.write_str(&problem.message),
+            Self::Geometry { parameter } => write!(
+                f,
+                "'{parameter}' changes the geometry of a joint or the law of a driver; an input is a parameter of forces \
+                 or masses alone"
+            ),
+            Self::NoDerivative(k) => write!(f, "output {} has no derivative at the state", k + 1),
+        }
+    }
+}

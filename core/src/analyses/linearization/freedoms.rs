@@ -1,0 +1,174 @@
+//! Independent coordinates u at a position, and the motion δq = N δu of all coordinates with them: Φ_q N = 0, and the
+//! rows of u in N are the unit matrix.
+//!
+//! Arbitrary vectors, as many as there are freedoms, are projected onto Φ_q x = 0 and made orthonormal. Their rows are
+//! then taken one by one where they keep much of themselves, angles before lengths, so that no entry of N becomes large.
+//! Each column costs one solution with the sparse factors.
+
+use super::failure::Failure;
+use super::least_norm::LeastNorm;
+use crate::analyses::mobility::mobility;
+use crate::model::Model;
+
+/// Part of the largest entry with which a coordinate is taken before later ones.
+const ENOUGH: f64 = 0.1;
+
+/// Independent coordinates and the basis N.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Freedoms {
+    /// The columns of q that are independent, ascending.
+    pub coordinates: Vec<usize>,
+    /// N by columns, each of shape (n_q).
+    pub basis: Vec<Vec<f64>>,
+}
+
+impl Freedoms {
+    /// At time `t` and coordinates `q` that meet the constraints. Drivers hold their coordinates.
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] at a position where constraints are dependent that are not redundant.
+    pub fn at(model: &Model, t: f64, q: &[f64]) -> Result<Self, Failure> {
+        Self::with_factors(model, t, q).map(|(freedoms, _)| freedoms)
+    }
+
+    pub(super) fn with_factors<'a>(
+        model: &'a Model,
+        t: f64,
+        q: &[f64],
+    ) -> Result<(Self, LeastNorm<'a>), Failure> {
+        let found = mobility(model, t, q);
+        if !found.singular.is_empty() {
+            return Err(Failure::singular(model, t, &found.singular));
+        }
+        let factors = LeastNorm::new(model, t, q, !found.redundant.is_empty())
+            .map_err(|breakdown| Failure::breakdown(model, t, breakdown))?;
+        let free = orthonormal(&factors, found.degrees_of_freedom);
+        let coordinates = independent(model, &free);
+        let mut basis = free;
+        solve_for(&coordinates, &mut basis);
+        for column in &mut basis {
+            scale(column, &factors.scales, 1);
+            factors.project(column);
+            scale(column, &factors.scales, -1);
+        }
+        solve_for(&coordinates, &mut basis);
+        for (column, &own) in basis.iter_mut().zip(&coordinates) {
+            scale(column, &factors.scales, 1);
+            let unit = column[own];
+            column.iter_mut().for_each(|x| *x /= unit);
+        }
+        Ok((Self { coordinates, basis }, factors))
+    }
+
+    /// Nᵀ f, shape (f) for f of shape (n_q).
+    pub fn reduce(&self, f: &[f64]) -> Vec<f64> {
+        self.basis.iter().map(|column| column.iter().zip(f).map(|(n, f)| n * f).sum()).collect()
+    }
+
+    /// N α, shape (n_q).
+    pub fn extend(&self, alpha: &[f64]) -> Vec<f64> {
+        let n = self.basis.first().map_or(0, Vec::len);
+        let mut x = vec![0.0; n];
+        for (column, alpha) in self.basis.iter().zip(alpha) {
+            x.iter_mut().zip(column).for_each(|(x, n)| *x += alpha * n);
+        }
+        x
+    }
+
+    /// The same x up to a motion: its independent coordinates become zero.
+    pub(super) fn without_motion(&self, x: &mut [f64]) {
+        for (column, &own) in self.basis.iter().zip(&self.coordinates) {
+            let part = x[own];
+            if part != 0.0 {
+                x.iter_mut().zip(column).for_each(|(x, n)| *x -= part * n);
+                x[own] = 0.0;
+            }
+        }
+    }
+}
+
+/// Multiplies (`power` = 1) or divides (-1) by the scales.
+fn scale(x: &mut [f64], scales: &[f64], power: i32) {
+    x.iter_mut().zip(scales).for_each(|(x, scale)| *x *= scale.powi(power));
+}
+
+/// Orthonormal vectors with Φ_q x = 0, in units of the scales.
+fn orthonormal(factors: &LeastNorm<'_>, count: usize) -> Vec<Vec<f64>> {
+    let n = factors.scales.len();
+    // fixed arbitrary numbers
+    let part = |k: usize| (12.9898 * (k as f64 + 1.618)).sin() * 43758.5453;
+    let probe = |j: usize| (0..n).map(|k| part(j * n + k).fract() - 0.5).collect();
+    let mut found: Vec<Vec<f64>> = (0..count).map(probe).collect();
+    // the second pass removes what the first has left by rounding
+    for _ in 0..2 {
+        for column in &mut found {
+            scale(column, &factors.scales, 1);
+            factors.project(column);
+            scale(column, &factors.scales, -1);
+        }
+        orthonormalize(&mut found);
+    }
+    found
+}
+
+/// Gram–Schmidt, modified.
+fn orthonormalize(columns: &mut [Vec<f64>]) {
+    for k in 0..columns.len() {
+        let (before, rest) = columns.split_at_mut(k);
+        let own = &mut rest[0];
+        for other in before {
+            let part: f64 = own.iter().zip(&*other).map(|(a, b)| a * b).sum();
+            own.iter_mut().zip(other).for_each(|(a, b)| *a -= part * *b);
+        }
+        let length = own.iter().map(|x| x * x).sum::<f64>().sqrt();
+        own.iter_mut().for_each(|x| *x /= length);
+    }
+}
+
+/// The coordinates that are taken, ascending: by elimination, each time the first one that keeps enough of the largest
+/// entry, angles before lengths.
+fn independent(model: &Model, free: &[Vec<f64>]) -> Vec<usize> {
+    let lengths = model.layout.lengths();
+    let mut order: Vec<usize> = (0..lengths.len()).collect();
+    order.sort_by_key(|row| lengths[*row]);
+    let mut left = free.to_vec();
+    let mut taken = Vec::with_capacity(left.len());
+    while let Some(count) = left.len().checked_sub(1) {
+        let sizes: Vec<f64> = order
+            .iter()
+            .map(|row| left.iter().fold(0.0, |most: f64, column| most.max(column[*row].abs())))
+            .collect();
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        let at = sizes.iter().position(|size| *size >= ENOUGH * largest).unwrap_or(0);
+        let row = order.remove(at);
+        let size = |j: &usize| left[*j][row].abs();
+        let best = (0..=count).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(count);
+        let pivot = left.swap_remove(best);
+        for column in &mut left {
+            let part = column[row] / pivot[row];
+            column.iter_mut().zip(&pivot).for_each(|(x, pivot)| *x -= part * pivot);
+        }
+        taken.push(row);
+    }
+    taken.sort_unstable();
+    taken
+}
+
+/// Combines the columns so that their rows `taken` become the unit matrix (Gauss–Jordan on columns).
+fn solve_for(taken: &[usize], columns: &mut [Vec<f64>]) {
+    for (k, &row) in taken.iter().enumerate() {
+        let size = |j: &usize| columns[*j][row].abs();
+        let best = (k..columns.len()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(k);
+        columns.swap(k, best);
+        let pivot = columns[k][row];
+        columns[k].iter_mut().for_each(|x| *x /= pivot);
+        let own = columns[k].clone();
+        for (_, other) in columns.iter_mut().enumerate().filter(|(j, _)| *j != k) {
+            let part = other[row];
+            if part != 0.0 {
+                other.iter_mut().zip(&own).for_each(|(x, own)| *x -= part * own);
+                other[row] = 0.0;
+            }
+        }
+    }
+}

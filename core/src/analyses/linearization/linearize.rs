@@ -1,0 +1,291 @@
+//! The linear equations of a mechanism at a state, on independent coordinates u:
+//!
+//! ```text
+//! M δü + C δu̇ + K δu = forces of inputs and of first-order states
+//! ẋ = A x + B w,   y = C x + D w,   x = (δu, δu̇, δz)
+//! ```
+//!
+//! A direction of x is continued to all coordinates by the constraints: δq = N δu and δv = N δu̇ + S δu with
+//! Φ_q S = -∂(Φ_q v + Φ_t)/∂q N. The accelerations along it follow from the derivatives of the equations of motion, so that
+//! A, B, C and D are exact at any state, also in motion.
+
+use super::failure::Failure;
+use super::freedoms::Freedoms;
+use super::names::{output, Input};
+use super::parameters::slopes_by_parameter;
+use super::response::Linear;
+use super::variation::{seeded, Point, Slopes, Variation, D};
+use crate::analyses::dynamics::{Prepared, States};
+use crate::analyses::signals::{Seen, Signal};
+use crate::analyses::State;
+use crate::equations::kinematics::Motions;
+use crate::equations::{constraints, reactive};
+use crate::integrate::Flow;
+use crate::math::{Lift, Real};
+use crate::model::{row_scales, Model, Problem};
+
+/// Largest residual of a position, relative to the size of the mechanism.
+const CLOSED: f64 = 1e-6;
+
+/// Linear equations at a state. Matrices are stored row by row; x = (u, u̇, z) has n = 2 f + n_z components.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Linearization {
+    /// The columns of q that are independent, shape (f).
+    pub coordinates: Vec<usize>,
+    /// The places in z that belong to x; values of sampled laws do not.
+    pub states: Vec<usize>,
+    /// N by columns, each of shape (n_q).
+    pub basis: Vec<Vec<f64>>,
+    /// M, shape (f, f).
+    pub mass: Vec<f64>,
+    /// C, shape (f, f).
+    pub damping: Vec<f64>,
+    /// K, shape (f, f).
+    pub stiffness: Vec<f64>,
+    /// A, shape (n, n).
+    pub a: Vec<f64>,
+    /// B, shape (n, inputs).
+    pub b: Vec<f64>,
+    /// C, shape (outputs, n).
+    pub c: Vec<f64>,
+    /// D, shape (outputs, inputs).
+    pub d: Vec<f64>,
+    /// Accelerations of all coordinates at the state, shape (n_q); zero at an equilibrium.
+    pub acceleration: Vec<f64>,
+    /// Values of the outputs at the state.
+    pub values: Vec<f64>,
+}
+
+/// A change of the state and of the forces.
+#[derive(Debug, Default)]
+struct Direction {
+    q: Vec<f64>,
+    v: Vec<f64>,
+    z: Vec<f64>,
+    /// A generalized force, shape (n_q), or empty.
+    force: Vec<f64>,
+    /// A parameter.
+    parameter: Option<usize>,
+}
+
+/// One column of the equations.
+struct Column {
+    /// ü of the independent coordinates, then ż.
+    rates: Vec<f64>,
+    outputs: Vec<f64>,
+    /// Reduced force.
+    force: Vec<f64>,
+}
+
+/// The linear equations at a state that meets the constraints, with inputs and outputs by name.
+///
+/// An input is a parameter, or a position quantity for its generalized force. An output is any quantity of the state.
+/// Drivers hold their coordinates, and the time stays.
+///
+/// # Errors
+/// [`Failure`]: a singular position, an open joint, a freedom without mass, or an unknown name.
+pub fn linearize(
+    model: &Model,
+    state: &State,
+    inputs: &[String],
+    outputs: &[String],
+) -> Result<Linearization, Failure> {
+    let named = |problem: Problem| Failure::Name(Box::new(problem));
+    let read = |name: &String| Input::named(model, name).map_err(named);
+    let inputs = inputs.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let read = |name: &String| output(model, name).map_err(named);
+    let outputs = outputs.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let State { t, q, v, z } = state;
+    check_closed(model, state)?;
+    let freedom = Freedoms::with_factors(model, *t, q)?;
+    let states = States { t: &[*t], q, v, z };
+    let solved = Prepared::new(model).accelerations(states, false, |_| Flow::Continue);
+    let solved = solved.map_err(Failure::Motion)?;
+    let at = Point { q, v, z, a: &solved.a, lam: &solved.lam };
+    let variation = Variation::new(model, *t, at, true);
+    let linear = Linear::new(model, [q, v], freedom, (&variation, &reactive::rows(model)));
+    let linear = linear.map_err(|column| Failure::no_inertia(model, *t, column))?;
+    Equations { model, t: *t, at, variation, linear, outputs }.all(&inputs)
+}
+
+/// The equations at a state.
+struct Equations<'a> {
+    model: &'a Model,
+    t: f64,
+    at: Point<'a>,
+    variation: Variation<'a>,
+    linear: Linear<'a>,
+    outputs: Vec<Signal>,
+}
+
+impl Equations<'_> {
+    fn all(self, inputs: &[Input]) -> Result<Linearization, Failure> {
+        let Self { model, ref linear, at, .. } = self;
+        let held = &model.layout.held;
+        let states: Vec<usize> = (0..at.z.len()).filter(|place| !held.contains(place)).collect();
+        let basis = &linear.freedoms.basis;
+        let f = basis.len();
+        let mut of_state: Vec<Column> = Vec::with_capacity(2 * f + states.len());
+        for motion in basis {
+            let moved = Point { q: motion, ..Point::default() };
+            let mut rates = self.variation.along(moved).rates;
+            rates.iter_mut().for_each(|rate| *rate = -*rate);
+            let v = linear.velocities(&rates);
+            of_state.push(self.column(&Direction {
+                q: motion.clone(),
+                v,
+                ..Direction::default()
+            })?);
+        }
+        for motion in basis {
+            of_state.push(self.column(&Direction { v: motion.clone(), ..Direction::default() })?);
+        }
+        for place in &states {
+            let mut z = vec![0.0; at.z.len()];
+            z[*place] = 1.0;
+            of_state.push(self.column(&Direction { z, ..Direction::default() })?);
+        }
+        let of_inputs = inputs.iter().map(|input| self.column(&self.direction(input)));
+        let of_inputs = of_inputs.collect::<Result<Vec<_>, _>>()?;
+        let reduced = |columns: &[Column]| {
+            let entry = |row: usize| columns.iter().map(move |column| -column.force[row]);
+            (0..f).flat_map(entry).collect()
+        };
+        let (a, c) = self.matrices(&of_state, &states, true);
+        let (b, d) = self.matrices(&of_inputs, &states, false);
+        Ok(Linearization {
+            mass: linear.mass.clone(),
+            stiffness: reduced(&of_state[..f]),
+            damping: reduced(&of_state[f..2 * f]),
+            a,
+            b,
+            c,
+            d,
+            acceleration: at.a.to_vec(),
+            values: self.observe(&self.variation, Point::default()).map(|y| y.value).collect(),
+            coordinates: linear.freedoms.coordinates.clone(),
+            basis: basis.clone(),
+            states,
+        })
+    }
+
+    /// The matrices of the rates and of the outputs by columns of the state or of inputs.
+    fn matrices(
+        &self,
+        columns: &[Column],
+        states: &[usize],
+        of_state: bool,
+    ) -> (Vec<f64>, Vec<f64>) {
+        let f = self.linear.freedoms.basis.len();
+        let mut rates = Vec::new();
+        for row in 0..f {
+            let unit = |column: usize| f64::from(u8::from(of_state && column == f + row));
+            rates.extend((0..columns.len()).map(unit));
+        }
+        let places = (0..f).chain(states.iter().map(|place| f + place));
+        for place in places {
+            rates.extend(columns.iter().map(|column| column.rates[place]));
+        }
+        let output = |row: usize| columns.iter().map(move |column| column.outputs[row]);
+        (rates, (0..self.outputs.len()).flat_map(output).collect())
+    }
+
+    /// The derivatives of accelerations, state rates and outputs along a direction.
+    fn column(&self, direction: &Direction) -> Result<Column, Failure> {
+        let Direction { q, v, z, force, parameter } = direction;
+        let of_parameter =
+            parameter.map(|k| self.variation.by_parameters(&slopes_by_parameter(self.model, k)));
+        let variation = of_parameter.as_ref().unwrap_or(&self.variation);
+        if let Some(k) = parameter.filter(|_| variation.moves_constraints()) {
+            return Err(Failure::geometry(self.model, k));
+        }
+        let Slopes { mut forces, mut accelerations, states, .. } =
+            variation.along(Point { q, v, z, ..Point::default() });
+        forces.iter_mut().for_each(|x| *x = -*x);
+        forces.iter_mut().zip(force).for_each(|(x, force)| *x += force);
+        accelerations.iter_mut().for_each(|x| *x = -*x);
+        let response = self.linear.response(&forces, &accelerations);
+        let moved = Point { q, v, z, a: &response.a, lam: &response.lam };
+        let outputs: Vec<f64> = self.observe(variation, moved).map(|y| y.slope[0]).collect();
+        if let Some(k) = outputs.iter().position(|y| !y.is_finite()) {
+            return Err(Failure::no_derivative(k));
+        }
+        let own = self.linear.freedoms.coordinates.iter().map(|column| response.a[*column]);
+        Ok(Column { rates: own.chain(states).collect(), outputs, force: response.force })
+    }
+
+    /// The direction of an input.
+    fn direction(&self, input: &Input) -> Direction {
+        match input {
+            Input::Parameter(k) => Direction { parameter: Some(*k), ..Direction::default() },
+            Input::Quantity(of) => Direction { force: self.gradient(of), ..Direction::default() },
+        }
+    }
+
+    /// The derivatives of a position quantity by the coordinates, shape (n_q).
+    fn gradient(&self, of: &Signal) -> Vec<f64> {
+        let n = self.at.q.len();
+        let by = |k: usize| {
+            let mut q = vec![0.0; n];
+            q[k] = 1.0;
+            self.see(&self.variation, Point { q: &q, ..Point::default() }, |model, seen| {
+                of.value(model, seen).slope[0]
+            })
+        };
+        (0..n).map(by).collect()
+    }
+
+    /// The outputs with their derivatives along a direction.
+    fn observe<'s>(
+        &'s self,
+        variation: &'s Variation<'_>,
+        along: Point<'s>,
+    ) -> impl Iterator<Item = D> + 's {
+        let values = self.see(variation, along, |model, seen| {
+            self.outputs.iter().map(|output| output.value(model, seen)).collect::<Vec<_>>()
+        });
+        values.into_iter()
+    }
+
+    /// Calls `f` with the state, of which the derivatives are those along a direction.
+    fn see<R>(
+        &self,
+        variation: &Variation<'_>,
+        along: Point<'_>,
+        f: impl FnOnce(&Model<D>, &Seen<'_, D>) -> R,
+    ) -> R {
+        let (model, at) = (variation.model(), self.at);
+        let pairs = [
+            (at.q, along.q),
+            (at.v, along.v),
+            (at.z, along.z),
+            (at.a, along.a),
+            (at.lam, along.lam),
+        ];
+        let [q, v, z, a, lam] = pairs.map(|(point, along)| seeded(point, along));
+        let motions = Motions::at(&model.layout, &q, &v);
+        let t = D::lift(self.t);
+        let works = [D::zero(); crate::model::WORKS];
+        let (state, solved) = ([&q[..], &v, &z], [&a[..], &lam]);
+        f(model, &Seen { t, state, works: &works, motions: &motions, solved })
+    }
+}
+
+/// Whether the state meets the constraints.
+fn check_closed(model: &Model, state: &State) -> Result<(), Failure> {
+    let mut phi = vec![0.0; model.layout.n_rows];
+    let motions = Motions::at_rest(&model.layout, &state.q);
+    constraints::residual(model, &motions, state.t, &mut phi);
+    let scales = row_scales(model);
+    let open =
+        phi.iter().zip(&scales).position(|(gap, scale)| gap.is_nan() || gap.abs() > CLOSED * scale);
+    match open {
+        None => Ok(()),
+        Some(row) => {
+            let (k, equation) = model.layout.owner(row);
+            let item = &model.constraints[k];
+            let unit = item.equations[equation].unit;
+            Err(Failure::Open { t: state.t, name: item.name.clone(), gap: phi[row], unit })
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! Linear equations of a mechanism on independent coordinates, at an equilibrium or any other state.
+//!
+//! | file | concept |
+//! |---|---|
+//! | `least_norm` | solutions with the constraints alone |
+//! | `freedoms` | independent coordinates, and the motion of all coordinates with them |
+//! | `variation` | derivatives of the equations of motion along a direction |
+//! | `parameters` | derivatives of parameters that are formulas of others |
+//! | `response` | accelerations and multipliers that change with forces |
+//! | `names` | inputs and outputs by name |
+//! | `linearize` | reduced mass, damping and stiffness, and the state-space matrices |
+//! | `options` | options of `modes` |
+//! | `stiffness` | the reduced stiffness at rest |
+//! | `failure` | states without linear equations |
+
+mod failure;
+mod freedoms;
+mod least_norm;
+mod linearize;
+mod names;
+mod options;
+mod parameters;
+mod response;
+mod stiffness;
+mod variation;
+
+pub use failure::{coordinate, Failure};
+pub use freedoms::Freedoms;
+pub(super) use least_norm::LeastNorm;
+pub use linearize::{linearize, Linearization};
+pub use options::Options;
+pub(super) use parameters::slopes_by_parameter;
+pub use stiffness::reduced_stiffness;
+pub(super) use variation::{Point as StatePoint, Variation};

@@ -1,0 +1,74 @@
+//! Inputs and outputs of linear equations by name.
+
+use crate::analyses::signal_names::{names, signal};
+use crate::analyses::signals::{Energy, Signal};
+use crate::expression::suggest::did_you_mean;
+use crate::model::{Model, Problem};
+
+/// An input.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Input {
+    /// A parameter, by its place.
+    Parameter(usize),
+    /// A position quantity: the input is its generalized force.
+    Quantity(Signal),
+}
+
+impl Input {
+    /// The input with this name.
+    ///
+    /// # Errors
+    /// There is neither a parameter nor a position quantity of this name.
+    pub fn named(model: &Model, name: &str) -> Result<Self, Problem> {
+        let parameters = &model.blueprint.parameters;
+        if let Some(k) = parameters.iter().position(|known| known == name) {
+            return Ok(Self::Parameter(k));
+        }
+        match signal(model, name) {
+            Some(
+                found @ (Signal::Column { order: 0, .. }
+                | Signal::Point { order: 0, .. }
+                | Signal::Measured { order: 0, .. }),
+            ) => Ok(Self::Quantity(found)),
+            Some(_) => {
+                let message = format!("'{name}' is not a position quantity");
+                let hint = "an input is a parameter of a force, or a position quantity such as crank.angle, for its \
+                            generalized force";
+                Err(problem(message).hint(hint))
+            }
+            None => {
+                let known = parameters.iter().cloned().chain(names(model, name));
+                Err(unknown("parameter or quantity", name, known))
+            }
+        }
+    }
+}
+
+/// The output with this name.
+///
+/// # Errors
+/// There is no such quantity, or it is not a function of the state.
+pub(super) fn output(model: &Model, name: &str) -> Result<Signal, Problem> {
+    match signal(model, name) {
+        Some(
+            Signal::Energy(Energy::Dissipated | Energy::Work | Energy::Total)
+            | Signal::Drift { .. },
+        ) => {
+            let message = format!("'{name}' depends on the run, not on the state alone");
+            Err(problem(message).hint("remove it from the outputs"))
+        }
+        Some(found) => Ok(found),
+        None => Err(unknown("quantity", name, names(model, name).into_iter())),
+    }
+}
+
+fn problem(message: String) -> Problem {
+    let nowhere: [&str; 0] = [];
+    Problem::at(&nowhere, message)
+}
+
+fn unknown(what: &str, name: &str, known: impl Iterator<Item = String>) -> Problem {
+    let known: Vec<String> = known.collect();
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    problem(format!("unknown {what} '{name}'")).maybe_hint(did_you_mean(name, &known))
+}

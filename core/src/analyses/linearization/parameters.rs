@@ -1,0 +1,18 @@
+//! Derivatives of the parameters of a model by one of them: formulas of other parameters follow.
+
+use crate::expression::parameters::Parameters;
+use crate::expression::Expression;
+use crate::math::Dual;
+use crate::model::Model;
+
+/// The derivatives of all parameters by the `own`-th, shape (n_parameters).
+pub(in crate::analyses) fn slopes_by_parameter(model: &Model, own: usize) -> Vec<f64> {
+    let formulas: Vec<(&str, Expression)> =
+        model.blueprint.formulas.iter().map(|(name, e)| (name.as_str(), e.clone())).collect();
+    let Ok(parameters) = Parameters::with_tables(&formulas, &model.blueprint.tables) else {
+        return vec![f64::NAN; model.parameters.len()];
+    };
+    let values: Vec<Dual<1>> =
+        parameters.evaluate(|k| (k == own).then(|| Dual::variable(model.parameters[own], 0)));
+    values.iter().map(|x| x.slope[0]).collect()
+}

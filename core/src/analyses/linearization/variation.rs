@@ -1,0 +1,137 @@
+//! Derivatives of the equations of motion along a direction of the state, by dual numbers:
+//!
+//! ```text
+//! M a + Φ_qᵀ λ - Q - loads     Φ_q v + Φ_t     Φ_q a - γ     ż
+//! ```
+//!
+//! The code is that of the equations themselves. Therefore all terms are included: curvature of the constraints,
+//! centrifugal and gyroscopic terms, laws, and forces that depend on reactions.
+
+use crate::equations::forces::{self, Acting};
+use crate::equations::kinematics::Motions;
+use crate::equations::{constraints, mass, reactions, Compiled, Powers};
+use crate::math::{Dual, Lift, Real};
+use crate::model::Model;
+
+/// A number with its derivative along the direction.
+pub(in crate::analyses) type D = Dual<1>;
+
+/// A state with accelerations and multipliers, or a direction in their space; an empty slice is zero.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::analyses) struct Point<'a> {
+    pub q: &'a [f64],
+    pub v: &'a [f64],
+    pub z: &'a [f64],
+    pub a: &'a [f64],
+    pub lam: &'a [f64],
+}
+
+/// The derivatives along a direction.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::analyses) struct Slopes {
+    /// Of M a + Φ_qᵀ λ - Q, and of the loads, shape (n_q).
+    pub forces: Vec<f64>,
+    /// Of Φ_q v + Φ_t, shape (n_rows).
+    pub rates: Vec<f64>,
+    /// Of Φ_q a - γ, shape (n_rows).
+    pub accelerations: Vec<f64>,
+    /// Of ż, shape (n_z).
+    pub states: Vec<f64>,
+}
+
+/// `point` with the derivatives `along`.
+pub(in crate::analyses) fn seeded(point: &[f64], along: &[f64]) -> Vec<D> {
+    let slopes = along.iter().copied().chain(std::iter::repeat(0.0));
+    point.iter().zip(slopes).map(|(value, slope)| Dual { value: *value, slope: [slope] }).collect()
+}
+
+fn slopes(x: &[D]) -> Vec<f64> {
+    x.iter().map(|x| x.slope[0]).collect()
+}
+
+/// The equations of motion at one state, over dual numbers.
+#[derive(Clone, Debug)]
+pub(in crate::analyses) struct Variation<'a> {
+    model: Model<D>,
+    compiled: Compiled<D>,
+    t: f64,
+    at: Point<'a>,
+    /// Whether loads of joints belong to the forces.
+    loads: bool,
+}
+
+impl<'a> Variation<'a> {
+    pub fn new(model: &Model, t: f64, at: Point<'a>, loads: bool) -> Self {
+        let model: Model<D> = model.lift();
+        Self { compiled: Compiled::new(&model), model, t, at, loads }
+    }
+
+    /// The same with derivatives by something of which the parameters have these derivatives.
+    pub fn by_parameters(&self, slopes: &[f64]) -> Self {
+        let mut parameters = self.model.parameters.clone();
+        parameters.iter_mut().zip(slopes).for_each(|(p, slope)| p.slope = [*slope]);
+        let model = Model::new(&self.model.blueprint, &parameters);
+        Self { compiled: Compiled::new(&model), model, ..*self }
+    }
+
+    /// The model over dual numbers.
+    pub fn model(&self) -> &Model<D> {
+        &self.model
+    }
+
+    /// Whether the constraints at the state have derivatives by the parameter.
+    pub fn moves_constraints(&self) -> bool {
+        let Self { model, at, .. } = self;
+        let [q, v] = [at.q, at.v].map(|x| seeded(x, &[]));
+        let motions = Motions::at(&model.layout, &q, &v);
+        let rows = || vec![D::zero(); model.layout.n_rows];
+        let [mut phi, mut rates, mut gamma] = [(); 3].map(|()| rows());
+        let t = D::lift(self.t);
+        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rates, &mut gamma);
+        let mut jacobian = vec![D::zero(); model.layout.n_entries];
+        constraints::jacobian(model, &motions, t, &mut jacobian);
+        [phi, rates, gamma, jacobian].into_iter().flatten().any(|x| x.slope != [0.0])
+    }
+
+    /// The derivatives along a direction.
+    pub fn along(&self, direction: Point<'_>) -> Slopes {
+        let Self { model, compiled, at, .. } = self;
+        let layout = &model.layout;
+        let t = D::lift(self.t);
+        let [q, v, z, a, lam] = [
+            (at.q, direction.q),
+            (at.v, direction.v),
+            (at.z, direction.z),
+            (at.a, direction.a),
+            (at.lam, direction.lam),
+        ]
+        .map(|(point, along)| seeded(point, along));
+        let motions = Motions::at(layout, &q, &v);
+        let zeros = |count: usize| vec![D::zero(); count];
+        let [mut phi, mut rates, mut gamma] = [(); 3].map(|()| zeros(layout.n_rows));
+        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rates, &mut gamma);
+        let mut jacobian = zeros(layout.n_entries);
+        constraints::jacobian(model, &motions, t, &mut jacobian);
+        let acting = Acting { z: &z, lam: Some(&lam), t };
+        let mut forces = zeros(layout.n_q);
+        let powers = &mut Powers::zero();
+        forces::generalized(model, compiled, &motions, acting, &mut forces, powers);
+        if self.loads {
+            reactions::add_loads(model, &motions, t, &lam, &mut forces);
+        }
+        forces.iter_mut().for_each(|x| *x = -*x);
+        mass::add_times(model, &motions, &a, &mut forces);
+        constraints::add_transposed(model, &jacobian, &lam, &mut forces);
+        let mut accelerations = zeros(layout.n_rows);
+        constraints::times_all(model, &jacobian, &a, &mut accelerations);
+        accelerations.iter_mut().zip(&gamma).for_each(|(x, gamma)| *x -= *gamma);
+        let mut states = zeros(layout.n_z);
+        forces::state_rates(model, &motions, acting, &mut states);
+        Slopes {
+            forces: slopes(&forces),
+            rates: slopes(&rates),
+            accelerations: slopes(&accelerations),
+            states: slopes(&states),
+        }
+    }
+}

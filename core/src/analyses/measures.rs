@@ -1,0 +1,118 @@
+//! Measures: named expressions of quantities, evaluated after an analysis.
+//!
+//! A measure may use every quantity by name, parameters, tables and t. It uses no other measure. The values of its
+//! quantities come from the caller, who knows them at all outputs; so a measure may also use quantities of a whole run.
+
+use super::quantities::Quantities;
+use super::signal_units::unit_of;
+use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape, Values};
+use crate::model::{Model, Problem, Value};
+
+/// The unit of an expression whose dimension does not follow from its parameters.
+pub const UNKNOWN_UNIT: &str = "SI";
+
+/// An expression of quantities of a model.
+#[derive(Clone, Debug)]
+pub struct Measure {
+    tape: Tape,
+    /// The quantities that it uses, each once.
+    pub quantities: Vec<String>,
+    /// Its SI unit, such as `N`; `1` for a number, [`UNKNOWN_UNIT`] if it cannot be known.
+    pub unit: String,
+}
+
+impl Measure {
+    /// Reads a measure over a model.
+    ///
+    /// # Errors
+    /// A fault of the text, an unknown name, or dimensions that do not fit.
+    pub fn read(model: &Model, text: &str) -> Result<Self, Problem> {
+        let nowhere: [&str; 0] = [];
+        Self::compile(model, text).map_err(|fault| {
+            Problem::at(&nowhere, fault.message).within(fault.span).maybe_hint(fault.hint)
+        })
+    }
+
+    fn compile(model: &Model, text: &str) -> Result<Self, ExpressionError> {
+        let expression = Expression::parse(text)?;
+        let names = Quantities::of(model, &[]);
+        let tape = expression.compile(&names)?;
+        let found = names.found.borrow().clone();
+        let units: Vec<_> = found.iter().map(|(name, of)| unit_of(model, name, of)).collect();
+        let inferred = expression.infer(&names, &|symbol| match symbol {
+            Symbol::Parameter(k) => model.blueprint.inferred[k],
+            Symbol::Variable(k) => units.get(k).map_or(Inferred::Open, |unit| dimension(unit)),
+            Symbol::Time => dimension("s"),
+        })?;
+        let quantities = found.into_iter().map(|(name, _)| name).collect();
+        Ok(Self { tape, quantities, unit: written(inferred, &units) })
+    }
+
+    /// Its value for the values of its quantities, in their order.
+    pub fn value(&self, model: &Model, t: f64, quantities: &[f64]) -> f64 {
+        self.tape.evaluate(&At { model, t, quantities })
+    }
+}
+
+/// The dimension of a unit; a name such as `m or rad` has none.
+fn dimension(unit: &str) -> Inferred {
+    match unit {
+        "1" => Inferred::Number,
+        _ => Unit::parse(unit).map_or(Inferred::Open, |unit| Inferred::Of(unit.dimension)),
+    }
+}
+
+/// The unit of a dimension: that of the quantities if they have it, otherwise the usual one.
+fn written(inferred: Inferred, units: &[String]) -> String {
+    let Inferred::Of(of) = inferred else {
+        let unit = if inferred == Inferred::Number { "1" } else { UNKNOWN_UNIT };
+        return unit.to_string();
+    };
+    match units.iter().find(|unit| dimension(unit) == inferred) {
+        Some(unit) => unit.clone(),
+        None if of.s == 0 && of.m == 0 && of.kg == 0 && of.a == 0 => "rad".to_string(),
+        None => of.common_unit().map_or_else(|| of.to_string(), str::to_string),
+    }
+}
+
+/// The values of the names of a measure.
+struct At<'a> {
+    model: &'a Model,
+    t: f64,
+    quantities: &'a [f64],
+}
+
+impl Values<f64> for At<'_> {
+    fn parameter(&self, k: usize) -> f64 {
+        self.model.parameters[k]
+    }
+    fn time(&self) -> f64 {
+        self.t
+    }
+    fn variable(&self, k: usize) -> f64 {
+        self.quantities[k]
+    }
+}
+
+/// Everything that is wrong with the measures of a definition.
+pub fn check(model: &Model, measures: &[(String, Value)]) -> Vec<Problem> {
+    let names: Vec<&str> = measures.iter().map(|(name, _)| name.as_str()).collect();
+    let wrong = measures.iter().filter_map(|(name, value)| {
+        let Value::Text(text) = value else { return None };
+        let problem = Measure::read(model, text).err()?;
+        let problem = of_measures(problem, text, &names);
+        Some(Problem { path: ["measures", name].map(str::to_string).to_vec(), ..problem })
+    });
+    wrong.collect()
+}
+
+/// The hint for a measure that uses another one.
+fn of_measures(problem: Problem, text: &str, names: &[&str]) -> Problem {
+    let used = problem.within.clone().and_then(|span| text.get(span));
+    match used.filter(|used| names.contains(used)) {
+        Some(_) => {
+            problem.hint("a measure cannot use another one; write the expression of that measure")
+        }
+        None => problem,
+    }
+}

@@ -1,0 +1,78 @@
+//! The names that formulas of conditions and measures may use: parameters, t and quantities of a motion.
+
+use super::signal_names::{names, signal};
+use super::signals::Signal;
+use crate::expression::{ExpressionError, Names, Symbol, Table};
+use crate::model::Model;
+use std::cell::RefCell;
+use std::sync::Arc;
+
+/// The names of a formula; each quantity becomes a variable.
+pub(super) struct Quantities<'a> {
+    model: &'a Model,
+    released: &'a [String],
+    /// The quantities that occur, with their names, in the order of their variables.
+    pub found: RefCell<Vec<(String, Signal)>>,
+    /// The latest name that is unknown.
+    missed: RefCell<String>,
+}
+
+impl<'a> Quantities<'a> {
+    /// Of a model, from which the drivers `released` were removed.
+    pub fn of(model: &'a Model, released: &'a [String]) -> Self {
+        Self { model, released, found: RefCell::default(), missed: RefCell::default() }
+    }
+
+    /// A released driver acts no more.
+    fn of_released(&self, name: &str) -> Option<Signal> {
+        let (owner, _) = name.rsplit_once('.')?;
+        self.released.iter().any(|known| known == owner).then_some(Signal::Constant(0.0))
+    }
+}
+
+impl Names for Quantities<'_> {
+    fn resolve(&self, name: &str) -> Option<Symbol> {
+        let blueprint = &self.model.blueprint;
+        if let Some(k) = blueprint.parameters.iter().position(|known| known == name) {
+            return Some(Symbol::Parameter(k));
+        }
+        if name == "t" {
+            return Some(Symbol::Time);
+        }
+        let signal = signal(self.model, name).or_else(|| self.of_released(name));
+        let Some(signal) = signal else {
+            self.missed.replace(name.to_string());
+            return None;
+        };
+        let mut found = self.found.borrow_mut();
+        let known = found.iter().position(|(_, known)| *known == signal);
+        Some(Symbol::Variable(known.unwrap_or_else(|| {
+            found.push((name.to_string(), signal));
+            found.len() - 1
+        })))
+    }
+
+    fn known(&self) -> Vec<String> {
+        let own = self.model.blueprint.parameters.iter().cloned().chain(["t".to_string()]);
+        own.chain(names(self.model, &self.missed.borrow())).collect()
+    }
+
+    fn tables(&self) -> &[Arc<Table>] {
+        &self.model.blueprint.tables
+    }
+}
+
+/// Refuses a quantity that is known at the end of a run only.
+pub(super) fn refuse_whole_run(
+    text: &str,
+    found: &[(String, Signal)],
+) -> Result<(), ExpressionError> {
+    let Some((name, _)) = found.iter().find(|(_, signal)| signal.is_of_run()) else {
+        return Ok(());
+    };
+    let start = text.find(name.as_str()).unwrap_or(0);
+    let span = start..(start + name.len()).min(text.len());
+    let message = format!("{name} is known at the end of a run only");
+    let hint = "a measure can use it; a condition can use energy.total or energy.dissipated";
+    Err(ExpressionError::new(span, message).hint(hint.to_string()))
+}

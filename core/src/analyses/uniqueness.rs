@@ -1,0 +1,17 @@
+//! Whether the reactions of joints and drivers are unique at a position.
+//!
+//! M a + Φ_qᵀ λ = Q determines λ up to the left null vectors y of Φ_q, yᵀ Φ_q = 0. A joint whose rows take part in one of
+//! them has no unique reaction: its values are those of the smallest λ.
+
+use super::dependence;
+use crate::model::Model;
+use crate::solve::RANK_TOLERANCE;
+
+/// The constraints (indices) without a unique reaction at a position, ascending.
+pub fn not_unique(model: &Model, t: f64, q: &[f64]) -> Vec<usize> {
+    let found = dependence::at(model, t, q, RANK_TOLERANCE, &|| false);
+    let mut all: Vec<usize> = found.groups.into_iter().flatten().collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}

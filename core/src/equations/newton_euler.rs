@@ -1,0 +1,104 @@
+//! The balance of each body: reactions, applied forces and weight against m a and J α (Newton and Euler).
+//!
+//! For a body with mass m, moment of inertia J and mass centre C, the residuals are
+//!
+//! ```text
+//! Σ F - m a_C,        Σ (T + (P - C) × F) - J α.
+//! ```
+//!
+//! Each F acts at its point P with the torque T about it, as [`reaction`] reports it for joints and drivers. The sums use
+//! neither Φ_q of the mechanism, nor the mass matrix, nor Q: they check the reported forces, not the solution of the
+//! equations of motion.
+
+use super::forces::{each_wrench, Acting};
+use super::kinematics::Motions;
+use super::measured;
+use super::reactions::{place, reaction, touched, Frame};
+use crate::elements::BodyId;
+use crate::math::{Vec2, Wrench};
+use crate::model::Model;
+
+/// The sums over the forces on one body at one state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyBalance {
+    /// |Σ F - m a_C|, N.
+    pub force: f64,
+    /// |Σ M - J α| about the mass centre, N·m; zero for a point mass.
+    pub moment: f64,
+    /// The largest single force, weight included, N.
+    pub largest_force: f64,
+    /// The largest moment of a single force or torque about the mass centre, N·m.
+    pub largest_moment: f64,
+    /// The largest distance from the mass centre to a point where a reaction acts, m.
+    pub lever: f64,
+}
+
+/// The forces on one body while they are added.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    force: [f64; 2],
+    moment: f64,
+    of: BodyBalance,
+}
+
+impl Sum {
+    /// Adds a force at an arm from the mass centre, and a torque.
+    fn add(&mut self, arm: Vec2, force: Vec2, torque: f64) {
+        let moment = torque + arm.cross(force);
+        self.force = [self.force[0] + force.x, self.force[1] + force.y];
+        self.moment += moment;
+        self.of.largest_force = self.of.largest_force.max(force.norm());
+        self.of.largest_moment = self.of.largest_moment.max(moment.abs());
+    }
+}
+
+/// The balances of all moving bodies, in the order of the model.
+///
+/// `a` are the accelerations, shape (n_q); `acting` contains the multipliers.
+pub fn balances(
+    model: &Model,
+    motions: &Motions,
+    a: &[f64],
+    acting: Acting<'_, f64>,
+) -> Vec<BodyBalance> {
+    let mut sums = vec![Sum::default(); model.bodies.len()];
+    let center = |body: usize| motions[body].pose.point(model.bodies[body].center);
+    add_reactions(model, motions, acting, &center, &mut sums);
+    for k in 0..model.forces.len() {
+        each_wrench(model, k, motions, acting, |_, BodyId(body), w| {
+            sums[body].add(motions[body].pose.r - center(body), w.force, w.torque);
+        });
+    }
+    let balance = |(k, mut sum): (usize, Sum)| {
+        let body = &model.bodies[k];
+        sum.add(Vec2::zero(), model.gravity.scale(body.mass), 0.0);
+        let [x, y] = measured::point(model, BodyId(k), body.center, motions, a);
+        let alpha = model.layout.bodies[k].of(a)[2];
+        let [fx, fy] = [sum.force[0] - body.mass * x.second, sum.force[1] - body.mass * y.second];
+        let moment = if body.turns { (sum.moment - body.inertia * alpha).abs() } else { 0.0 };
+        BodyBalance { force: fx.hypot(fy), moment, ..sum.of }
+    };
+    sums.into_iter().enumerate().skip(1).map(balance).collect()
+}
+
+/// Adds the reactions of all joints and drivers, each at the point at which it is reported.
+fn add_reactions(
+    model: &Model,
+    motions: &Motions,
+    acting: Acting<'_, f64>,
+    center: &impl Fn(usize) -> Vec2,
+    sums: &mut [Sum],
+) {
+    let lam = acting.lam.unwrap_or_default();
+    for (k, slots) in model.layout.constraints.iter().enumerate() {
+        let own = &lam[slots.rows.clone()];
+        for on in touched(model, k) {
+            let found = reaction(model, k, on, Frame::Global, motions, acting.t, own);
+            let w = found.unwrap_or_else(Wrench::zero);
+            let arm = place(model, k, on, motions, acting.t) - center(on.0);
+            let sum = &mut sums[on.0];
+            sum.of.lever = sum.of.lever.max(arm.norm());
+            sum.add(arm, w.force, w.torque);
+        }
+    }
+}

@@ -1,0 +1,86 @@
+"""Newton's and Euler's equations of each body, with the reactions that a motion reports.
+
+For a body with mass m, moment of inertia J and mass centre C, Σ F - m a_C and
+Σ (T + (P - C) × F) - J α vanish. Each F acts at the point P where it is reported, with the torque T
+about P. The sums use the reported forces, not the equations that the analysis has solved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kempe.arrays import Floats, fixed
+
+#: Part of the largest force or moment in the mechanism below which those on one body are rounding
+#: errors of the others: a scale is at least this part.
+RESOLVED = 1e-4
+#: Numbers for each body from the core.
+WIDTH = 5
+
+
+@dataclass(frozen=True, repr=False)
+class NewtonEuler:
+    """Residuals of the balance of each moving body, with time as first axis.
+
+    Attributes:
+        bodies: the moving bodies, in the order of the columns.
+        force: |Σ F - m a|, (n_t, n_bodies), N.
+        moment: |Σ M - J α| about the mass centre, (n_t, n_bodies), N·m; zero for a point mass.
+        force_scale: the largest single force on each body in the motion, (n_bodies,), N.
+        moment_scale: the largest moment of a single force or torque, (n_bodies,), N·m.
+    """
+
+    bodies: tuple[str, ...]
+    force: Floats
+    moment: Floats
+    force_scale: Floats
+    moment_scale: Floats
+
+    @property
+    def relative(self) -> Floats:
+        """The larger of both residuals, each relative to its scale, (n_t, n_bodies)."""
+        parts = (self.force, self.force_scale), (self.moment, self.moment_scale)
+        shares = [of / np.where(scale > 0.0, scale, 1.0) for of, scale in parts]
+        return fixed(np.maximum(*shares))
+
+    @property
+    def balance(self) -> Floats:
+        """The largest relative residual of all bodies, (n_t,)."""
+        return fixed(self.relative.max(axis=1, initial=0.0))
+
+    @property
+    def largest(self) -> float:
+        """The largest relative residual in the motion."""
+        return float(self.balance.max(initial=0.0))
+
+    def __repr__(self) -> str:
+        return f"<NewtonEuler of {len(self.bodies)} bodies: up to {self.largest:.3g}>"
+
+
+def newton_euler(bodies: tuple[str, ...], rows: Floats) -> NewtonEuler:
+    """The residuals from the rows of the core, (n_t, 5 n_bodies).
+
+    A force on a body can be a rounding error of others, as on a wheel that turns about its mass
+    centre. Each scale is therefore at least 1e-4 of the largest one in the mechanism, where
+    the largest lever turns forces into moments and moments into forces.
+    """
+    of = rows.reshape(len(rows), len(bodies), WIDTH)
+    force, moment, forces, moments, levers = np.moveaxis(of, -1, 0)
+    force_scale, moment_scale = (each.max(axis=0, initial=0.0) for each in (forces, moments))
+    lever = float(levers.max(initial=0.0))
+    most_force = float(force_scale.max(initial=0.0))
+    most_moment = float(moment_scale.max(initial=0.0))
+    if lever > 0.0:
+        most_force, most_moment = (
+            max(most_force, most_moment / lever),
+            max(most_moment, most_force * lever),
+        )
+    return NewtonEuler(
+        bodies,
+        fixed(force),
+        fixed(moment),
+        fixed(np.maximum(force_scale, RESOLVED * most_force)),
+        fixed(np.maximum(moment_scale, RESOLVED * most_moment)),
+    )
