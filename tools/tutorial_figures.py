@@ -23,6 +23,8 @@ from PIL import Image
 ROOT = Path(__file__).parents[1]
 PAGES = ROOT / "docs" / "tutorials"
 FOLDER = ROOT / "docs" / "images" / "tutorials"
+#: A file that the page shows, after its name.
+_FILE = r"Write this as `([\w.]+)`:\n\n```toml\n(.*?)^```"
 #: Colours of a figure.
 COLOURS = 64
 
@@ -39,6 +41,8 @@ def pictures(name: str) -> dict[str, Image.Image]:
     before = Path.cwd()
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(ROOT / "examples", Path(folder) / "examples")
+        for file, content in re.findall(_FILE, text, re.S | re.M):
+            Path(folder, file).write_text(content, "utf-8")
         os.chdir(folder)
         try:
             with contextlib.redirect_stdout(io.StringIO()), mpl.rc_context():

@@ -36,7 +36,7 @@ fn even(n: usize, end: f64) -> Vec<f64> {
 fn limit_of(outcome: Result<Motion, Box<Failure>>) -> (Limit, Motion) {
     let failure = *outcome.expect_err("a limit");
     match failure.reason {
-        Reason::Limit(limit) => (limit, failure.motion),
+        Reason::Limit(limit) => (*limit, failure.motion),
         other => panic!("{other}"),
     }
 }
@@ -112,9 +112,10 @@ fn the_limit_of_a_crank_is_named() {
     let (limit, _) = limit_of(through(&m, &hints, &even(40, TAU)));
     let exact = ((g * g + a * a - (b + c) * (b + c)) / (2.0 * g * a)).acos();
     assert!((0.5 + limit.t - exact).abs() < 1e-9);
-    let reason = Reason::Limit(limit).to_string();
-    assert!(reason.contains("motor cannot pass") && reason.contains("dead point"), "{reason}");
+    let reason = Reason::Limit(Box::new(limit)).to_string();
+    assert!(reason.starts_with("crank cannot pass ") && reason.contains("dead point"), "{reason}");
     assert!(reason.contains("coupler and rocker in line"), "{reason}");
+    assert!(reason.contains(&format!("{:.4}", exact.to_degrees())[..7]), "{reason}");
 }
 
 /// A parallelogram passes its change points, also with outputs exactly there, and does not fold.

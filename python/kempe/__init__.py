@@ -29,7 +29,12 @@ Compute:
     dynamics                the motion from a state
     kinematics              the motion that drivers determine
     inverse_dynamics        the same with efforts and reactions
+    equilibrium             the rest position, its stability, paths over a parameter
+    stiffness_at            the stiffness felt at a point
     modes                   frequencies, damping and shapes about a state, and its state space
+    limits                  how far a driver goes, or whether it turns fully
+    mobility                freedoms, redundant joints, singular positions, four-bar loops
+    configurations          all positions in which the mechanism closes
     study                   comparison of methods and stabilizations
     RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
                             methods of integration
@@ -71,6 +76,8 @@ if TYPE_CHECKING:
     from kempe.case import Case as Case
     from kempe.case import Results as Results
     from kempe.case import load as load
+    from kempe.closures import ConfigurationsResult as ConfigurationsResult
+    from kempe.closures import configurations as configurations
     from kempe.display_units import Units as Units
     from kempe.display_units import units as units
     from kempe.draw.animate import animate as animate
@@ -90,6 +97,8 @@ if TYPE_CHECKING:
     from kempe.errors import SingularityError as SingularityError
     from kempe.event import Event as Event
     from kempe.events import EventWarning as EventWarning
+    from kempe.freedom import MobilityResult as MobilityResult
+    from kempe.freedom import mobility as mobility
     from kempe.functions import Sampled as Sampled
     from kempe.linearization import ModesResult as ModesResult
     from kempe.linearization import modes as modes
@@ -104,18 +113,28 @@ if TYPE_CHECKING:
     from kempe.options import RK45 as RK45
     from kempe.options import Auto as Auto
     from kempe.options import Baumgarte as Baumgarte
+    from kempe.options import Configurations as Configurations
     from kempe.options import Dynamics as Dynamics
+    from kempe.options import Equilibrium as Equilibrium
     from kempe.options import GeneralizedAlpha as GeneralizedAlpha
     from kempe.options import InverseDynamics as InverseDynamics
     from kempe.options import Kinematics as Kinematics
+    from kempe.options import Limits as Limits
+    from kempe.options import Mobility as Mobility
     from kempe.options import Modes as Modes
     from kempe.options import NoStabilization as NoStabilization
     from kempe.options import Projection as Projection
     from kempe.options import Radau as Radau
+    from kempe.reach import LimitsResult as LimitsResult
+    from kempe.reach import limits as limits
     from kempe.solution import Solution as Solution
     from kempe.start import Start as Start
     from kempe.state import AssemblyReport as AssemblyReport
     from kempe.state import State as State
+    from kempe.statics import EquilibriumResult as EquilibriumResult
+    from kempe.statics import PointStiffness as PointStiffness
+    from kempe.statics import equilibrium as equilibrium
+    from kempe.statics import stiffness_at as stiffness_at
     from kempe.studies import Study as Study
     from kempe.studies import study as study
     from kempe.symbolic import equations as equations
@@ -130,9 +149,13 @@ _HOME = {
     "Auto": "options",
     "Baumgarte": "options",
     "Case": "case",
+    "Configurations": "options",
+    "ConfigurationsResult": "closures",
     "DOP853": "options",
     "Dynamics": "options",
     "Energy": "energy",
+    "Equilibrium": "options",
+    "EquilibriumResult": "statics",
     "Event": "event",
     "EventWarning": "events",
     "FileError": "errors",
@@ -144,13 +167,18 @@ _HOME = {
     "KempeError": "errors",
     "Kinematics": "options",
     "Labelled": "matrices",
+    "Limits": "options",
+    "LimitsResult": "reach",
     "Matrices": "matrices",
+    "Mobility": "options",
+    "MobilityResult": "freedom",
     "Model": "model",
     "ModelError": "errors",
     "Modes": "options",
     "ModesResult": "linearization",
     "Motion": "motion",
     "NoStabilization": "options",
+    "PointStiffness": "statics",
     "Projection": "options",
     "RK4": "options",
     "RK45": "options",
@@ -166,21 +194,26 @@ _HOME = {
     "Units": "display_units",
     "animate": "draw.animate",
     "assemble": "analyses",
+    "configurations": "closures",
     "design": "",
     "draw": "",
     "dynamics": "analyses",
     "equations": "symbolic",
+    "equilibrium": "statics",
     "errors": "",
     "inverse_dynamics": "driven",
     "kinematics": "driven",
+    "limits": "reach",
     "load": "case",
     "load_solution": "archive",
     "modes": "linearization",
+    "mobility": "freedom",
     "player": "draw.player",
     "plot": "",
     "report": "",
     "scene": "draw.scene",
     "show": "matrices",
+    "stiffness_at": "statics",
     "still": "draw.still",
     "study": "studies",
     "units": "display_units",

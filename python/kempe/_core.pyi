@@ -273,6 +273,20 @@ def kinematics(
         ModelError: the drivers leave a freedom.
     """
 
+def equilibrium(
+    model: Model, t: float, q: _F, v: _F, z: _F, text: str, progress: Callable[[float], None] | None
+) -> str:
+    """The rest position that a state leads to, or a path of them, as JSON.
+
+    ``text`` is an entry of ``analyses`` as in a file, in JSON. ``progress`` is called with the
+    number of steps, or with the value of the parameter.
+    """
+
+def compliance(
+    model: Model, t: float, q: _F, v: _F, z: _F, point: str, hold: list[str]
+) -> list[float]:
+    """∂(displacement)/∂(force) of a point at rest, m/N: xx, xy, yx, yy."""
+
 def modes_options(model: Model, text: str) -> str:
     """The options of ``modes``, checked, as JSON.
 
@@ -298,6 +312,40 @@ def linearize(
         SingularityError: the position is singular, or no mass moves with a coordinate.
         AssemblyError: the state does not meet the constraints.
         ModelError: an unknown input or output, or a parameter that changes the geometry.
+    """
+
+def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
+    """What a mechanism can do at a position, as JSON."""
+
+def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _F, _F, str]:
+    """All positions in which a mechanism closes, for the values of ``held``, a JSON text.
+
+    Returns:
+        q, v and z, one row for each; JSON with ``complete`` and the ``reports``.
+
+    Raises:
+        AssemblyError: there is none.
+        ModelError: freedoms are left.
+    """
+
+def limits(
+    model: Model,
+    t: float,
+    q: _F,
+    v: _F,
+    z: _F,
+    progress: Callable[[float], None] | None,
+) -> tuple[str, _F, _F]:
+    """The limits of the value that takes the place of t, from a state.
+
+    Returns:
+        JSON with ``lower``, ``upper``, ``unit``, ``reasons`` and ``turns``; the values on the way,
+        (n,); the positions there, (n, n_q).
+
+    Raises:
+        SingularityError: the motion cannot be followed, although it has no limit.
+        AssemblyError: the state does not meet the constraints.
+        ModelError: the drivers leave a freedom.
     """
 
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F]:

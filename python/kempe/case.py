@@ -12,19 +12,24 @@ from typing import Any
 
 from kempe import _core, files
 from kempe.analyses import AssemblyWarning, Coordinates, Progress, assemble, simulate
+from kempe.closures import find_configurations
 from kempe.compiled import CompiledModel
 from kempe.driven import follow, follow_with_forces
 from kempe.errors import AssemblyError, FileError, KempeError, ModelError
+from kempe.freedom import find_mobility
 from kempe.linearization import linearized
 from kempe.model import Model
 from kempe.names import entry as named
 from kempe.names import few, one_of
 from kempe.option import Analysis, Option
+from kempe.options import Configurations
+from kempe.reach import find_limits
 from kempe.result import Result
 from kempe.sequence import of_type
 from kempe.solution import Solution
 from kempe.start import Start, read_start
 from kempe.state import State
+from kempe.statics import rest
 from kempe.values import Number, data, listed, mapping, numbers, plain, reference
 
 FORMATS = {".toml": "toml", ".json": "json"}
@@ -37,7 +42,11 @@ _RUNNERS: dict[str, _Runner] = {
     "dynamics": simulate,
     "kinematics": follow,
     "inverse_dynamics": follow_with_forces,
+    "equilibrium": rest,
     "modes": linearized,
+    "configurations": find_configurations,
+    "limits": find_limits,
+    "mobility": find_mobility,
 }
 
 
@@ -197,6 +206,8 @@ class Case:
             name, after = analysis["name"], analysis.get("from")
             begin = state if after is None else ends[after]
             runner, entry = _RUNNERS[analysis["type"]], self._entries[name]
+            if analysis["type"] == Configurations.kind:
+                entry = {"set": self._start.set, **entry}
             try:
                 solution = runner(model, begin, entry, progress)
             except AssemblyError as error:

@@ -114,7 +114,7 @@ def follow(
     if over is None:
         return _through(kept, start, _times(start.t, options), progress)
     first, last = options["range"]
-    driven, value, variable = _driven_by(kept, over, start)
+    driven, value, variable = driven_by(kept, over, start)
     at = State(driven, value, start.q, start.v, z=start.z)
     if first != value:
         at = _through(driven, at, np.array([first]), progress).final
@@ -171,7 +171,7 @@ def _times(t: float, options: Mapping[str, Any]) -> Floats:
     return whole if np.isclose(whole[-1], end, rtol=1e-12, atol=0) else np.append(whole, end)
 
 
-def _driven_by(
+def driven_by(
     model: CompiledModel, over: str, start: State
 ) -> tuple[CompiledModel, float, Variable]:
     """The model with ``over`` driven by t, the value of ``over`` at the start, and what t is now.

@@ -446,6 +446,40 @@ class InverseDynamics(Analysis):
 
 
 @dataclass(frozen=True, repr=False)
+class Equilibrium(Analysis):
+    """Analysis of type ``equilibrium``, an entry of ``[analyses]``.
+
+    The position in which a mechanism comes to rest, with its stability; or all positions of
+    rest along a path over a parameter.
+
+    Attributes:
+        hold: Position quantities that a holder keeps at their values of the start, such as
+            `crank.angle`.
+        over: A parameter of the model, over which a path of equilibria is followed.
+        range: First and last value of `over`, in SI units and rad.
+        nearest: Whether the equilibrium nearest to the start is wanted, stable or not.
+        after: State at which it starts: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    hold: Words | None = None
+    over: str | None = None
+    range: Pair | None = None
+    nearest: bool = False
+    after: str | None = None
+    name: str = "equilibrium"
+    kind: ClassVar[str] = "equilibrium"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "hold": "quantities",
+        "over": "name",
+        "range": "pair",
+        "nearest": "flag",
+        "after": "name",
+    }
+
+
+@dataclass(frozen=True, repr=False)
 class Modes(Analysis):
     """Analysis of type ``modes``, an entry of ``[analyses]``.
 
@@ -472,5 +506,78 @@ class Modes(Analysis):
         "n": "count",
         "inputs": "quantities",
         "outputs": "quantities",
+        "after": "name",
+    }
+
+
+@dataclass(frozen=True, repr=False)
+class Limits(Analysis):
+    """Analysis of type ``limits``, an entry of ``[analyses]``.
+
+    How far a driver or position quantity can go both ways until a dead point or the end of a
+    curve, or whether it turns fully.
+
+    Attributes:
+        over: A driver, or a position quantity such as `crank.angle`. If absent, the only
+            driver.
+        after: State at which it starts: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    over: str | None = None
+    after: str | None = None
+    name: str = "limits"
+    kind: ClassVar[str] = "limits"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "over": "name",
+        "after": "name",
+    }
+
+
+@dataclass(frozen=True, repr=False)
+class Mobility(Analysis):
+    """Analysis of type ``mobility``, an entry of ``[analyses]``.
+
+    Degrees of freedom, redundant and singular constraints, locked and loose bodies, and four-
+    bar loops.
+
+    Attributes:
+        after: State that is examined: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    after: str | None = None
+    name: str = "mobility"
+    kind: ClassVar[str] = "mobility"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "after": "name",
+    }
+
+
+@dataclass(frozen=True, repr=False)
+class Configurations(Analysis):
+    """Analysis of type ``configurations``, an entry of ``[analyses]``.
+
+    All positions in which the mechanism closes, for given values of its drivers and of `set`.
+
+    Attributes:
+        set: Coordinates and other position quantities that hold exactly, as in `start.set`; if
+            absent, those of the start.
+        limit: Largest number of configurations.
+        after: State whose time is used: "start", or the name of an earlier analysis for the end
+            of that analysis. If absent, the end of the analysis before it.
+        name: its name in the case.
+    """
+
+    set: Terms | None = None
+    limit: int = 100
+    after: str | None = None
+    name: str = "configurations"
+    kind: ClassVar[str] = "configurations"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "set": "values",
+        "limit": "count",
         "after": "name",
     }

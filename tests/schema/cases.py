@@ -151,10 +151,28 @@ range = [0, "90 deg"]
 n = 10
 from = "start"
 [analyses.nine]
+type = "equilibrium"
+hold = ["a.angle"]
+over = "g"
+range = [9, 10]
+nearest = true
+from = "start"
+[analyses.ten]
 type = "modes"
 n = 2
 inputs = ["a.angle"]
 outputs = ["a.x", "a.alpha"]
+[analyses.limits]
+type = "limits"
+over = "a.angle"
+from = "start"
+[analyses.ten]
+type = "mobility"
+from = "start"
+[analyses.eleven]
+type = "configurations"
+set = { "a.angle" = "20 deg" }
+limit = 5
 from = "start"
 """
 

@@ -65,7 +65,8 @@ pub fn assemble<'py>(
     })
 }
 
-fn raise(py: Python<'_>, failure: &core::Failure) -> PyErr {
+/// The failure of an assembly as an error.
+pub fn raise(py: Python<'_>, failure: &core::Failure) -> PyErr {
     let kind = match failure.fault {
         Fault::Redundant => Kind::Redundancy,
         Fault::Open | Fault::Rates | Fault::Stopped => Kind::Assembly,
@@ -82,7 +83,8 @@ fn raise(py: Python<'_>, failure: &core::Failure) -> PyErr {
     named.raise(py)
 }
 
-fn describe(report: &Report) -> Value {
+/// The report of an assembly as JSON.
+pub fn describe(report: &Report) -> Value {
     let iterations = report
         .iterations
         .iter()

@@ -83,7 +83,8 @@ fn run(motion: driven::Motion, seconds: f64) -> Run {
     }
 }
 
-fn because(reason: &driven::Reason) -> Failure {
+/// The failure of a motion as an error.
+pub fn because(reason: &driven::Reason) -> Failure {
     let message = reason.to_string();
     match reason {
         driven::Reason::Free { .. } => {

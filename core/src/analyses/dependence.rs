@@ -11,26 +11,42 @@ const PART: f64 = 1e-6;
 /// Largest number of equations for which the dense rank is found. It takes the clearest rows first; its cost is cubic.
 pub(super) const MOST_DENSE: usize = 300;
 
-/// The dependent equations at a position.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Dependence {
-    /// Their rows, ascending.
-    pub rows: Vec<usize>,
-    /// For each of them the constraints (indices) that take part.
-    pub groups: Vec<Vec<usize>>,
+/// An equation that depends on others.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Dependent {
+    /// Its row of Φ_q.
+    pub row: usize,
+    /// The constraints (indices) that take part, ascending.
+    pub group: Vec<usize>,
+    /// The rows k that take part with their factors y_k: Σ y_k Φ_q,k = 0.
+    pub factors: Vec<(usize, f64)>,
 }
 
-/// The dependent equations, whose remainder is at most `tolerance`; without a meaning if `stop` became true.
-pub(super) fn at(model: &Model, t: f64, q: &[f64], tolerance: f64, stop: Stop<'_>) -> Dependence {
-    let rows = scaled_rows(model, t, q);
-    match rows.len() <= MOST_DENSE {
+/// The dependent equations by their rows, ascending; their remainder is at most `tolerance`. Without a meaning if `stop`
+/// became true.
+pub(super) fn at(
+    model: &Model,
+    t: f64,
+    q: &[f64],
+    tolerance: f64,
+    stop: Stop<'_>,
+) -> Vec<Dependent> {
+    let (rows, lengths) = scaled_rows(model, t, q);
+    let mut found = match rows.len() <= MOST_DENSE {
         true => dense(model, &rows, tolerance),
         false => sparse(model, rows, tolerance, stop).unwrap_or_default(),
+    };
+    for dependent in &mut found {
+        for (row, factor) in &mut dependent.factors {
+            // a row of zeros has the length 0
+            *factor /= if lengths[*row] > 0.0 { lengths[*row] } else { 1.0 };
+        }
     }
+    found
 }
 
-/// The rows of Φ_q, of length 1. The size of the mechanism makes metres and radians comparable.
-fn scaled_rows(model: &Model, t: f64, q: &[f64]) -> Vec<SparseRow> {
+/// The rows of Φ_q, of length 1, and their lengths before. The size of the mechanism makes metres and radians comparable.
+fn scaled_rows(model: &Model, t: f64, q: &[f64]) -> (Vec<SparseRow>, Vec<f64>) {
     let mut entries = vec![0.0; model.layout.n_entries];
     constraints::jacobian(model, &Motions::at_rest(&model.layout, q), t, &mut entries);
     let scales = column_scales(model);
@@ -40,25 +56,26 @@ fn scaled_rows(model: &Model, t: f64, q: &[f64]) -> Vec<SparseRow> {
         let entry = Some(entries[at] * scales[column]).filter(|x| x.is_finite());
         rows[row].push((column, entry.unwrap_or(0.0)));
     }
+    let mut lengths = Vec::with_capacity(rows.len());
     for row in &mut rows {
         row.sort_unstable_by_key(|(column, _)| *column);
         let mut values: Vec<f64> = row.iter().map(|(_, x)| *x).collect();
         let columns = values.len();
-        normalize_rows(&mut values, columns);
+        lengths.push(normalize_rows(&mut values, columns).first().copied().unwrap_or(0.0));
         row.iter_mut().zip(values).for_each(|((_, x), value)| *x = value);
     }
-    rows
+    (rows, lengths)
 }
 
-fn dense(model: &Model, rows: &[SparseRow], tolerance: f64) -> Dependence {
+fn dense(model: &Model, rows: &[SparseRow], tolerance: f64) -> Vec<Dependent> {
     let n = model.layout.n_q;
     let mut full = vec![0.0; rows.len() * n];
     for (row, entries) in rows.iter().enumerate() {
         entries.iter().for_each(|(column, x)| full[row * n + column] = *x);
     }
     let found = rank(&full, n, tolerance);
-    let group = |y: &Vec<f64>| owners(model, y.iter().copied().enumerate());
-    Dependence { groups: found.left_null.iter().map(group).collect(), rows: found.dependent }
+    let pairs = found.dependent.iter().zip(&found.left_null);
+    pairs.map(|(row, y)| dependent(model, *row, y.iter().copied().enumerate())).collect()
 }
 
 fn sparse(
@@ -66,22 +83,21 @@ fn sparse(
     mut rows: Vec<SparseRow>,
     tolerance: f64,
     stop: Stop<'_>,
-) -> Option<Dependence> {
+) -> Option<Vec<Dependent>> {
     let place = places(model);
     for row in &mut rows {
         row.iter_mut().for_each(|(column, _)| *column = place[*column]);
         row.sort_unstable_by_key(|(column, _)| *column);
     }
     let found = SparseRank::new(&rows, model.layout.n_q, tolerance, stop)?;
-    let group = |(k, row): (usize, &usize)| {
+    let one = |(k, row): (usize, &usize)| {
         // more groups are never reported
         let others = if k < MOST_REPORTED { found.dependence(&rows, *row) } else { Vec::new() };
         let mut parts: SparseRow = others.into_iter().chain([(*row, 1.0)]).collect();
         parts.sort_unstable_by_key(|(row, _)| *row);
-        owners(model, parts.into_iter())
+        dependent(model, *row, parts.into_iter())
     };
-    let groups = found.dependent.iter().enumerate().map(group).collect();
-    Some(Dependence { groups, rows: found.dependent })
+    Some(found.dependent.iter().enumerate().map(one).collect())
 }
 
 /// The place of each column in an order with little fill.
@@ -100,10 +116,10 @@ fn places(model: &Model) -> Vec<usize> {
     place
 }
 
-/// The constraints with rows that take part, ascending.
-fn owners(model: &Model, parts: impl Iterator<Item = (usize, f64)>) -> Vec<usize> {
-    let rows = parts.filter(|(_, part)| part.abs() > PART);
-    let mut owners: Vec<usize> = rows.map(|(row, _)| model.layout.owner(row).0).collect();
-    owners.dedup();
-    owners
+/// The equation with the rows that take part.
+fn dependent(model: &Model, row: usize, parts: impl Iterator<Item = (usize, f64)>) -> Dependent {
+    let factors: Vec<(usize, f64)> = parts.filter(|(_, part)| part.abs() > PART).collect();
+    let mut group: Vec<usize> = factors.iter().map(|(row, _)| model.layout.owner(*row).0).collect();
+    group.dedup();
+    Dependent { row, group, factors }
 }

@@ -7,7 +7,7 @@
 //! part.
 
 use super::closing::{Closing, Stop};
-use super::dependence::{self, Dependence, MOST_DENSE};
+use super::dependence::{self, Dependent, MOST_DENSE};
 use crate::elements::{BodyId, Coordinate, CoordinateOf};
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
@@ -31,7 +31,7 @@ const HOLDS: f64 = 1e-11;
 const EXCURSIONS: usize = 6;
 
 /// How a mechanism can move at a position.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mobility {
     /// Coordinates less independent constraints.
     pub degrees_of_freedom: usize,
@@ -41,6 +41,10 @@ pub struct Mobility {
     pub redundant: Vec<Vec<usize>>,
     /// Groups that are dependent at this position only.
     pub singular: Vec<Vec<usize>>,
+    /// The equations that repeat others, of which [`Mobility::redundant`] gives each group once.
+    pub redundant_equations: Vec<Dependent>,
+    /// The equations that depend on others at this position only.
+    pub singular_equations: Vec<Dependent>,
 }
 
 /// Mobility at an assembled position.
@@ -52,36 +56,45 @@ pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
 pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Stop<'_>) -> Mobility {
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
     if beyond_doubt(model, t, q) {
-        let degrees_of_freedom = n - m;
-        return Mobility { degrees_of_freedom, rank: m, redundant: vec![], singular: vec![] };
+        return Mobility { degrees_of_freedom: n - m, rank: m, ..Mobility::default() };
     }
     let here = dependence::at(model, t, q, RANK_TOLERANCE, stop);
-    let rank = m - here.rows.len();
-    let [mut redundant, mut singular] = judge(model, t, q, here, stop);
-    redundant.dedup();
-    singular.dedup();
-    Mobility { degrees_of_freedom: n.saturating_sub(rank), rank, redundant, singular }
+    let rank = m - here.len();
+    let [redundant_equations, singular_equations] = judge(model, t, q, here, stop);
+    let groups = |equations: &[Dependent]| {
+        let mut groups: Vec<Vec<usize>> = equations.iter().map(|e| e.group.clone()).collect();
+        groups.dedup();
+        groups
+    };
+    Mobility {
+        degrees_of_freedom: n.saturating_sub(rank),
+        rank,
+        redundant: groups(&redundant_equations),
+        singular: groups(&singular_equations),
+        redundant_equations,
+        singular_equations,
+    }
 }
 
-/// The groups of redundant equations, and of those that are dependent at this position only.
+/// The redundant equations, and those that are dependent at this position only.
 fn judge(
     model: &Model,
     t: f64,
     q: &[f64],
-    here: Dependence,
+    here: Vec<Dependent>,
     stop: Stop<'_>,
-) -> [Vec<Vec<usize>>; 2] {
+) -> [Vec<Dependent>; 2] {
     let found = split(model, t, q, &here, stop);
     if found[1].len() < 2 {
         return found;
     }
-    let mut best: Option<(Vec<f64>, Dependence)> = None;
+    let mut best: Option<(Vec<f64>, Vec<Dependent>)> = None;
     for held in (0..=EXCURSIONS).take_while(|_| !stop()) {
         let Some(near) = neighbour(model, t, q, held, stop) else { continue };
         let there = dependence::at(model, t, &near, RANK_TOLERANCE, stop);
-        let fewest = best.as_ref().map_or(&here, |(_, dependence)| dependence).rows.len();
-        if there.rows.len() < fewest {
-            let full = there.rows.is_empty();
+        let fewest = best.as_ref().map_or(&here, |(_, dependent)| dependent).len();
+        if there.len() < fewest {
+            let full = there.is_empty();
             best = Some((near, there));
             if full {
                 break;
@@ -91,25 +104,25 @@ fn judge(
     match best {
         Some((near, there)) => {
             let [redundant, _] = split(model, t, &near, &there, stop);
-            [redundant, here.groups]
+            [redundant, here]
         }
         None => found,
     }
 }
 
-/// The groups of the equations that hold near a position even without them, and of the others.
+/// The equations that hold near a position even without them, and the others.
 fn split(
     model: &Model,
     t: f64,
     q: &[f64],
-    dependence: &Dependence,
+    dependent: &[Dependent],
     stop: Stop<'_>,
-) -> [Vec<Vec<usize>>; 2] {
-    let Dependence { rows, groups } = dependence;
+) -> [Vec<Dependent>; 2] {
+    let rows: Vec<usize> = dependent.iter().map(|one| one.row).collect();
     if rows.is_empty() {
         return [Vec::new(), Vec::new()];
     }
-    let mut closing = Closing::new(model, t, stop).without(rows);
+    let mut closing = Closing::new(model, t, stop).without(&rows);
     let scales = row_scales(model);
     let mut holds = vec![true; rows.len()];
     // one excursion may by chance keep an equation almost satisfied
@@ -127,8 +140,8 @@ fn split(
         }
     }
     let mut split = [Vec::new(), Vec::new()];
-    for (holds, group) in holds.iter().zip(groups) {
-        split[usize::from(!holds)].push(group.clone());
+    for (holds, one) in holds.iter().zip(dependent) {
+        split[usize::from(!holds)].push(one.clone());
     }
     split
 }
@@ -143,7 +156,7 @@ pub(super) fn dependent(model: &Model, t: f64, q: &[f64], row: usize) -> Vec<usi
     if model.layout.n_rows > MOST_DENSE {
         return vec![own];
     }
-    let found = dependence::at(model, t, q, NEAR, &|| false).groups;
+    let found = dependence::at(model, t, q, NEAR, &|| false).into_iter().map(|one| one.group);
     found.into_iter().find(|group| group.contains(&own)).unwrap_or(vec![own])
 }
 
@@ -161,7 +174,13 @@ fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
 
 /// A position a little way along an admissible motion, if there is one. Where branches meet, Newton's method
 /// returns to the meeting point; therefore the angle of body `held` is kept away from it (ground: none).
-fn neighbour(model: &Model, t: f64, q: &[f64], held: usize, stop: Stop<'_>) -> Option<Vec<f64>> {
+pub(super) fn neighbour(
+    model: &Model,
+    t: f64,
+    q: &[f64],
+    held: usize,
+    stop: Stop<'_>,
+) -> Option<Vec<f64>> {
     let extended = match held.checked_sub(1) {
         Some(_) => {
             let columns = model.layout.bodies.get(held).filter(|columns| columns.count == 3)?;

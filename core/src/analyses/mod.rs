@@ -3,13 +3,16 @@
 pub mod assemble;
 mod closing;
 mod conditions;
+pub mod configurations;
 mod curves;
 mod dependence;
+pub mod diagnosis;
 pub mod dynamics;
 pub mod equilibrium;
 mod errors;
 mod event_options;
 pub mod kinematics;
+pub mod limits;
 pub mod linearization;
 pub mod measures;
 mod mobility;
@@ -25,6 +28,7 @@ mod signals;
 mod state;
 mod uniqueness;
 
+pub use dependence::Dependent;
 pub use event_options::{EventOption, DIRECTIONS};
 pub use mobility::{mobility, Mobility};
 pub use option_tables::{declarations, option_families};

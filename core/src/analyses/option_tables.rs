@@ -1,7 +1,11 @@
 //! All analyses and options, as data: for the reader of files, the schema, Python and docs.
 
+use super::configurations;
+use super::diagnosis;
 use super::dynamics;
+use super::equilibrium;
 use super::kinematics;
+use super::limits;
 use super::linearization;
 use super::options::{Declaration, Declared, Family, Member};
 use std::sync::LazyLock;
@@ -12,7 +16,11 @@ static ANALYSES: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         dynamics::Options::declaration(),
         kinematics::Options::declaration(),
         kinematics::InverseOptions::declaration(),
+        equilibrium::Options::declaration(),
         linearization::Options::declaration(),
+        limits::Options::declaration(),
+        diagnosis::Options::declaration(),
+        configurations::Options::declaration(),
     ]
 });
 static FAMILIES: LazyLock<Vec<Family>> =

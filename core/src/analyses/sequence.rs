@@ -1,9 +1,14 @@
 //! Checks of the analyses of a case: what is known without a run.
 
 use super::conditions::Condition;
+use super::configurations::Options as ConfigurationsOptions;
+use super::diagnosis::Options as MobilityOptions;
 use super::dynamics;
+use super::equilibrium::Options as EquilibriumOptions;
 use super::kinematics::{InverseOptions, Options as KinematicsOptions};
+use super::limits::Options as LimitsOptions;
 use super::linearization::Options as ModesOptions;
+use super::options::{Declared, Reader};
 use crate::model::{Entry, Model, Problem, Value};
 
 /// Everything that is wrong with analyses that follow each other from an assembled start at t = 0.
@@ -19,15 +24,30 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
         };
         let begin = begin.and_then(|(_, t)| *t);
         let fields = &entry.fields;
-        let end = match entry.get("type") {
-            Some(Value::Text(kind)) if kind == "kinematics" => {
+        let kind = match entry.get("type") {
+            Some(Value::Text(kind)) => kind.as_str(),
+            _ => "",
+        };
+        let end = match kind {
+            KinematicsOptions::NAME => {
                 KinematicsOptions::checked(model, fields, &path).map(|options| options.t_end)
             }
-            Some(Value::Text(kind)) if kind == "inverse_dynamics" => {
+            InverseOptions::NAME => {
                 InverseOptions::checked(model, fields, &path).map(|options| options.t_end)
             }
-            Some(Value::Text(kind)) if kind == "modes" => {
-                ModesOptions::checked(model, fields, &path).map(|_| begin)
+            // an analysis of a position ends where it begins
+            EquilibriumOptions::NAME => {
+                EquilibriumOptions::checked(model, fields, &path).map(|_| begin)
+            }
+            ModesOptions::NAME => ModesOptions::checked(model, fields, &path).map(|_| begin),
+            LimitsOptions::NAME => {
+                Reader::read(model, fields, &path, LimitsOptions::read).map(|_| begin)
+            }
+            MobilityOptions::NAME => {
+                Reader::read(model, fields, &path, MobilityOptions::read).map(|_| begin)
+            }
+            ConfigurationsOptions::NAME => {
+                Reader::read(model, fields, &path, ConfigurationsOptions::read).map(|_| begin)
             }
             _ => dynamics_end(model, fields, &path, begin),
         };

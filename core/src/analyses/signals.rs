@@ -149,7 +149,7 @@ impl Signal {
             Self::ForceEnergy(k) => forces::potential(model, *k, seen.motions, acting(seen)),
             Self::Energy(of) => energy_of(model, *of, seen),
             Self::Drift { order } => drift(model, *order, seen),
-            Self::ForceDissipated(_) | Self::Balance => f64::NAN,
+            Self::ForceDissipated(_) | Self::Balance => S::constant(f64::NAN),
         }
     }
 }
@@ -220,7 +220,7 @@ fn energy_of<S: Real>(model: &Model<S>, of: Energy, seen: &Seen<'_, S>) -> S {
         Energy::Potential => energy::potential(model, seen.motions, seen.state[2], seen.t),
         Energy::Dissipated => works(0),
         Energy::Work => works(1) + works(2),
-        Energy::Balance => f64::NAN,
+        Energy::Balance => S::constant(f64::NAN),
         Energy::Total => {
             let all = [Energy::Kinetic, Energy::Potential, Energy::Dissipated];
             let work = -energy_of(model, Energy::Work, seen);

@@ -10,7 +10,7 @@ use crate::solve::RANK_TOLERANCE;
 /// The constraints (indices) without a unique reaction at a position, ascending.
 pub fn not_unique(model: &Model, t: f64, q: &[f64]) -> Vec<usize> {
     let found = dependence::at(model, t, q, RANK_TOLERANCE, &|| false);
-    let mut all: Vec<usize> = found.groups.into_iter().flatten().collect();
+    let mut all: Vec<usize> = found.into_iter().flat_map(|dependent| dependent.group).collect();
     all.sort_unstable();
     all.dedup();
     all

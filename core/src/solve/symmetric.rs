@@ -65,9 +65,9 @@ fn rotate(a: &mut [f64], n: usize, (p, q): (usize, usize), vectors: &mut [Vec<f6
         (a[p * n + k], a[q * n + k]) = (c * x - s * y, s * x + c * y);
     }
     (a[p * n + q], a[q * n + p]) = (0.0, 0.0);
-    for k in 0..n {
-        let (x, y) = (vectors[p][k], vectors[q][k]);
-        (vectors[p][k], vectors[q][k]) = (c * x - s * y, s * x + c * y);
+    let (before, from_q) = vectors.split_at_mut(q);
+    for (x, y) in before[p].iter_mut().zip(&mut from_q[0]) {
+        (*x, *y) = (c * *x - s * *y, s * *x + c * *y);
     }
     true
 }

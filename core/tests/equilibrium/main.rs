@@ -4,6 +4,7 @@
 mod mechanisms;
 
 mod chain;
+mod fifty;
 mod one_freedom;
 mod paths;
 mod refused;

@@ -49,8 +49,9 @@ fn a_von_mises_truss_snaps_through() {
         assert_eq!(found.end, End::Last);
         assert_eq!(found.folds.len(), 2, "{:?}", found.values);
         let y = column(&m, "apex", 1);
-        for ((value, at), sign) in found.folds.iter().zip([1.0, -1.0]) {
-            close("load", *value, sign * top, 1e-10 * top);
+        for (k, sign) in found.folds.iter().zip([1.0, -1.0]) {
+            let (value, at) = (found.values[*k], &found.points[*k]);
+            close("load", value, sign * top, 1e-10 * top);
             close("angle", at.state.q[y].atan2(b), sign * angle, 1e-9);
         }
         for (value, at) in found.values.iter().zip(&found.points) {

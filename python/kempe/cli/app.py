@@ -36,7 +36,11 @@ ANALYSES = {
     "dynamics": "simulations",
     "kinematics": "analyses of the motion that drivers determine",
     "inverse_dynamics": "analyses of efforts and reactions",
+    "equilibrium": "analyses of rest positions and their stability",
     "modes": "frequencies, damping and shapes of small motions",
+    "limits": "limits of motion",
+    "configurations": "lists of the assembly modes",
+    "mobility": "analyses of the mobility",
 }
 
 app = typer.Typer(

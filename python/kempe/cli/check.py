@@ -23,7 +23,7 @@ from kempe.cli.arguments import (
     read_case,
     shown_in,
 )
-from kempe.cli.console import answers
+from kempe.cli.console import answers, heading
 from kempe.cli.failure import document
 
 if TYPE_CHECKING:
@@ -50,15 +50,20 @@ def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
     as_json: AsJson = False,
 ) -> None:
     """Read a case, assemble its mechanism and show the configuration, without a simulation."""
+    from kempe import mobility
     from kempe.cli.mechanism import show_configuration, show_mechanism
 
     with document(as_json) as found, shown_in(units):
         case = read_case(file, Changes(settings, t_end, method, rtol, atol, step))
         state = assembled(case)
-        found.update(_content(case, state))
+        freedom = mobility(state.compiled, state)
+        found.update(_content(case, state), mobility=freedom.summary())
         console = answers(silent=as_json)
         show_mechanism(console, state)
         show_configuration(console, state)
+        heading(console, "Mobility")
+        for line in freedom.report():
+            console.print(Text(f"  {line}"))
     analyses = ", ".join(f"{name} ({entry['type']})" for name, entry in case.analyses.items())
     console.print()
     name = "standard input" if str(file) == STDIN else file

@@ -52,7 +52,11 @@ def sampled(
         raise ModelError(f"frames={frames}: must be 1 or more")
     if isinstance(drawn, State):
         t = np.array([drawn.t])
-        return Motion(drawn.compiled, t, drawn.q[None], drawn.v[None], drawn.z[None])
+        motion = Motion(drawn.compiled, t, drawn.q[None], drawn.v[None], drawn.z[None])
+        known = vars(drawn).get("_dynamics")
+        if known is not None:
+            vars(motion)["_dynamics"] = tuple(values[None] for values in known)
+        return motion
     begin, end = whole = float(drawn.t[0]), float(drawn.t[-1])
     if span is not None:
         begin, end = span

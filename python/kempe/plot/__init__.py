@@ -21,6 +21,7 @@ from kempe.plot.polygons import acceleration_polygon, velocity_polygon
 from kempe.plot.reactions import all_reactions, reactions
 from kempe.plot.residual import residual
 from kempe.plot.shaking import shaking_force
+from kempe.plot.rest import path, rest_position
 from kempe.plot.time_axis import transient
 from kempe.plot.torques import torques
 from kempe.plot.transmission import transmission_angle
@@ -43,9 +44,11 @@ __all__ = [
     "mode_shape",
     "pages",
     "pin_load",
+    "path",
     "positions",
     "reactions",
     "residual",
+    "rest_position",
     "save",
     "select",
     "shaking_force",

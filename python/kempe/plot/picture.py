@@ -10,9 +10,11 @@ from kempe.arrays import Floats
 from kempe.draw.display import Display
 from kempe.draw.placing import View
 from kempe.draw.scene import Scene
+from kempe.draw.scene import scene as scene_of
 from kempe.draw.units import Scale
 from kempe.plot import style
 from kempe.plot.ticks import set_ticks
+from kempe.state import State
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,6 +23,14 @@ if TYPE_CHECKING:
 _MARGIN = 0.17
 #: A drawing is at least so high for its width, and so wide for its height.
 _LEAST_SIDE = 0.45
+
+
+def at_rest(state: State) -> Scene:
+    """The scene of a position alone, without forces: also where these are not unique."""
+    still = State(state.compiled, state.t, state.q, np.zeros_like(state.v), z=state.z)
+    # in place of what follows from the equations of motion
+    vars(still)["_dynamics"] = (np.zeros_like(still.q), np.zeros(still.compiled.n_rows))
+    return scene_of(still)
 
 
 def frame(scene: Scene) -> tuple[Floats, Floats]:

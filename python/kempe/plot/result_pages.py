@@ -6,13 +6,21 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from kempe.plot.limits import pages as limit_pages
 from kempe.plot.mode_shapes import mode_pages
 from kempe.plot.page import Page
+from kempe.plot.sheet import pages as sheets
+from kempe.plot.rest import rest_pages
 from kempe.result import Result
 
 #: The function that lists the figures of a result, by the type of the analysis. It is called with
 #: the result and the number of the first body.
-_PAGES: dict[str, Callable[[Any, int], list[Page]]] = {"modes": mode_pages}
+_PAGES: dict[str, Callable[[Any, int], list[Page]]] = {
+    "configurations": sheets,
+    "limits": limit_pages,
+    "equilibrium": rest_pages,
+    "modes": mode_pages,
+}
 
 
 def result_pages(result: Result, index_base: int = 1) -> list[Page]:

@@ -72,7 +72,7 @@ fn root(group: &mut [usize], mut b: usize) -> usize {
 }
 
 /// Turns bodies by whole turns, so that driven relative angles have their values and not others of the same pose.
-pub(super) fn wind(model: &Model, t: f64, q: &mut [f64]) {
+pub(in crate::analyses) fn wind(model: &Model, t: f64, q: &mut [f64]) {
     for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
         let ([i, j], [equation]) = (&item.bodies[..], &item.equations[..]) else { continue };
         if item.group != Group::Drivers || equation.unit != "rad" {

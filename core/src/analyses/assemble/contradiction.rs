@@ -62,8 +62,9 @@ fn dependent(
 ) -> Option<Vec<usize>> {
     let kept: Vec<usize> = met.iter().copied().chain([last]).collect();
     let reduced = keeping(model, &kept);
-    let groups = dependence::at(&reduced, t, q, RANK_TOLERANCE, stop).groups;
-    let of_last = groups.into_iter().find(|group| group.contains(&(kept.len() - 1)))?;
+    let found = dependence::at(&reduced, t, q, RANK_TOLERANCE, stop);
+    let of_last =
+        found.into_iter().map(|one| one.group).find(|group| group.contains(&(kept.len() - 1)))?;
     let mut others: Vec<usize> = of_last.into_iter().map(|k| kept[k]).collect();
     others.retain(|k| *k != last);
     others.sort_unstable();

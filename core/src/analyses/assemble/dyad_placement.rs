@@ -34,6 +34,8 @@ impl Placer<'_> {
         let at_joint = [joint.own, joint.at_other];
         let arms = [0, 1].map(|k| at_joint[k] - carried[k].0.own);
         let [p1, p2] = carried.map(|(_, at)| at);
+        // a body may turn about three pins in one place
+        self.result.assumed |= arms.iter().any(|arm| arm.norm() == 0.0);
         let pin = self.pin_between(carried.map(|(leg, _)| leg.other));
         let opposite =
             pin.and_then(|pin| Some(self.poses[pin.other].as_ref()?.point(pin.at_other)));
@@ -94,6 +96,7 @@ impl Placer<'_> {
     ) {
         let link = joint.other;
         let arm = joint.at_other - anchor.own;
+        self.result.assumed |= arm.norm() == 0.0;
         let (distances, missing) = rail.meeting(joint.own, at, arm.norm());
         let closures: Vec<[Pose; 2]> = distances
             .iter()

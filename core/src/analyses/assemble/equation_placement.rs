@@ -68,6 +68,7 @@ impl Placer<'_> {
             let k = self.equations.of[b][at];
             let solutions = self.solutions(k, b, &freedom);
             if let Some(pose) = self.chosen(b, &solutions) {
+                self.result.assumed = true;
                 return self.put(b, pose);
             }
         }

@@ -34,14 +34,17 @@ mod velocities;
 mod worklist;
 
 pub use super::closing::Closing;
+pub(super) use angle_winding::wind;
 pub use failure::{Failure, Fault};
 pub use holding::holding;
 pub use named::position;
 pub use open_placement::open_placement;
 pub use placement::{Dyad, Gap, Placement};
+pub(super) use placements::following;
 pub use placer::place;
 pub use report::{Mode, Report};
 pub use request::{targets, Request};
+pub(super) use target::trimmed;
 pub use target::{CoordinateTarget, QuantityTarget, Target};
 pub use targets::Targets;
 

@@ -173,7 +173,7 @@ pub(super) fn named(
 /// The position quantity with this name, such as `crank.angle` or `slide.displacement`.
 ///
 /// # Errors
-/// There is no quantity of this name, or it is no position of a moving body.
+/// There is no quantity of this name, or it is not the position of a moving body.
 pub fn position(model: &Model, name: &str) -> Result<Followed<Tape>, Problem> {
     let mut problems = Vec::new();
     let found = named(&Names::of(model), name, &[name.to_string()], &mut problems);

@@ -44,4 +44,6 @@ pub struct Placement {
     pub gaps: Vec<Gap>,
     /// Number of options of each undecided choice.
     pub options: Vec<usize>,
+    /// Whether a body was placed by an assumption or by a search, so that other choices may give more positions.
+    pub assumed: bool,
 }

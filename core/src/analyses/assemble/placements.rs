@@ -37,7 +37,10 @@ impl<'a> Placements<'a> {
 }
 
 /// The next combination: the last choice that still has an option takes it. A gap remains whatever is chosen after it.
-fn following(mut choices: Vec<usize>, placement: &Placement) -> Option<Vec<usize>> {
+pub(in crate::analyses) fn following(
+    mut choices: Vec<usize>,
+    placement: &Placement,
+) -> Option<Vec<usize>> {
     let options = &placement.options;
     choices.resize(options.len(), 0);
     let before_gap = placement.gaps.first().map_or(options.len(), |gap| gap.choices);

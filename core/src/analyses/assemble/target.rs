@@ -108,7 +108,7 @@ impl Target {
 }
 
 /// Some significant digits without trailing zeros.
-pub(super) fn trimmed(x: f64, digits: usize) -> String {
+pub(in crate::analyses) fn trimmed(x: f64, digits: usize) -> String {
     let rounded = format!("{x:.*e}", digits - 1).parse::<f64>().unwrap_or(x);
     match rounded.abs() {
         1e-5..1e16 => format!("{rounded}"),

@@ -3,10 +3,11 @@
 //! With the reduced stiffness K and the motion P = ∂(point)/∂u with the independent coordinates u, C = P K⁻¹ Pᵀ. The
 //! compliance is finite even where the mechanism does not give way, so that it is computed, not the stiffness.
 
-use super::failure::{column_name, Reason};
+use super::failure::Reason;
 use super::holding;
 use super::search::{relative, zero};
 use super::statics::Statics;
+use crate::analyses::linearization::coordinate;
 use crate::analyses::State;
 use crate::elements::BodyId;
 use crate::equations::kinematics::Motions;
@@ -18,6 +19,9 @@ use crate::solve::{solve_dense, Eigen};
 const AT_REST: f64 = 1e-6;
 /// Motion of a point, relative to that of the mechanism, that counts as none.
 const STILL: f64 = 1e-9;
+
+/// Motion of a point, relative to that of the mechanism, that is rounding.
+const ROUNDING: f64 = 1e-13;
 
 /// C of a point fixed in a body, m/N, row by row, at a state of rest. `hold` names position quantities that are held.
 ///
@@ -44,16 +48,18 @@ pub fn compliance(
         let [x, y, angle] = held.layout.bodies[body.0].of(basis);
         [x - arm.y * angle, y + arm.x * angle]
     };
-    let by_basis: Vec<[f64; 2]> = local.basis.basis.iter().map(moved).collect();
+    let size = statics.columns.iter().fold(0.0, |most: f64, x| most.max(*x));
+    let exact = |x: f64| if x.abs() > ROUNDING * size { x } else { 0.0 };
+    let by_basis: Vec<[f64; 2]> =
+        local.basis.basis.iter().map(|basis| moved(basis).map(exact)).collect();
     let limit = zero(&local.stiffness, place.scale);
     let eigen = Eigen::of(&local.stiffness, local.gradient.len());
-    let size = statics.columns.iter().fold(0.0, |most: f64, x| most.max(*x));
     for (value, vector) in eigen.values.iter().zip(&eigen.vectors) {
         let along =
             |axis: usize| -> f64 { by_basis.iter().zip(vector).map(|(p, v)| p[axis] * v).sum() };
         if value.abs() <= limit && along(0).hypot(along(1)) > STILL * size {
             let free = local.basis.coordinates.first().map_or(0, |k| *k);
-            return Err(Reason::Loose { coordinate: column_name(&held, free) });
+            return Err(Reason::Loose { coordinate: coordinate(&held, free) });
         }
     }
     let mut found = [0.0; 4];

@@ -1,6 +1,6 @@
 //! Reasons for which no equilibrium was found, in terms of the mechanism.
 
-use super::statics::Place;
+use crate::analyses::linearization::coordinate as named;
 use crate::analyses::mobility::mobility;
 use crate::model::{Model, Problem};
 use std::fmt;
@@ -85,41 +85,28 @@ impl Reason {
         Self::State { name }
     }
 
-    /// The force `missing` remains after a search that came from `start`.
+    /// The forces `missing`, relative to the `largest` single one, remain after a search that moved the coordinates by
+    /// `moved`, shape (n_q); `own` are the independent ones.
     pub(super) fn of_search(
         model: &Model,
-        start: &Place,
-        place: &Place,
+        (moved, far): (&[f64], bool),
+        (missing, largest): (&[f64], f64),
         own: &[usize],
-        far: bool,
     ) -> Self {
-        let lengths = model.layout.lengths();
-        let moved = |k: &usize| (place.q[*k] - start.q[*k]).abs();
-        let most = own.iter().max_by(|a, b| moved(a).total_cmp(&moved(b)));
+        let most = own.iter().max_by(|a, b| moved[**a].abs().total_cmp(&moved[**b].abs()));
         let Some(&column) = most else {
             return Self::Lost { relative: 0.0, coordinate: String::new() };
         };
-        let coordinate = column_name(model, column);
-        let largest = place.missing.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let coordinate = named(model, column);
+        let left = missing.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         match far {
             true => Self::Endless {
                 coordinate,
-                moved: moved(&column),
-                unit: if lengths[column] { "m" } else { "rad" },
-                force: -place.missing[column],
+                moved: moved[column].abs(),
+                unit: if model.layout.lengths()[column] { "m" } else { "rad" },
+                force: -missing[column],
             },
-            false => Self::Lost { relative: largest / place.scale, coordinate },
-        }
-    }
-}
-
-/// The name of a coordinate.
-pub(super) fn column_name(model: &Model, column: usize) -> String {
-    match model.layout.body_of(column) {
-        Some((body, at)) => format!("{}.{}", model.bodies[body.0].name, ["x", "y", "angle"][at]),
-        None => {
-            let own = model.layout.constraints.iter().position(|c| c.own.range().contains(&column));
-            own.map_or_else(String::new, |k| format!("{}.u", model.constraints[k].name))
+            false => Self::Lost { relative: left / largest, coordinate },
         }
     }
 }

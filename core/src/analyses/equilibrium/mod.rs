@@ -16,7 +16,7 @@
 //! | `search`, `relaxation` | Newton's method down the potential, and dynamic relaxation where it fails |
 //! | `holding` | holders of coordinates |
 //! | `result` | a position of rest with stability and efforts |
-//! | `parameter`, `spot`, `path`, `turning` | paths over a parameter: derivatives, points, steps, folds |
+//! | `parameter`, `spot`, `stride`, `turning`, `points`, `path` | paths over a parameter: derivatives, tangents, steps, folds |
 //! | `compliance` | the stiffness felt at a point |
 //! | `options`, `failure` | options, and reasons for which there is no result |
 
@@ -26,17 +26,20 @@ mod holding;
 mod options;
 mod parameter;
 mod path;
+mod points;
 mod relaxation;
 mod result;
 mod search;
 mod spot;
 mod statics;
+mod stride;
 mod turning;
 
 pub use compliance::compliance;
 pub use failure::Reason;
 pub use options::Options;
-pub use path::{path, End, Path};
+pub use path::path;
+pub use points::{End, Path};
 pub use result::Equilibrium;
 
 use super::State;

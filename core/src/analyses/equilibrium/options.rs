@@ -14,7 +14,7 @@ impl Kind for positions {
     type Value = Vec<String>;
 
     fn shape() -> Shape {
-        Shape::NameList
+        Shape::Quantities
     }
 
     fn data(_: &Vec<String>) -> Default {

@@ -5,8 +5,9 @@ use super::failure::Reason;
 use super::holding;
 use super::options::Options;
 use super::parameter;
-use super::result::Equilibrium;
-use super::spot::{Course, Direction, Spot, Step};
+use super::points::{End, Path};
+use super::spot::{Course, Direction, Step};
+use super::stride::advance;
 use super::turning;
 use crate::analyses::State;
 use crate::integrate::Flow;
@@ -18,48 +19,10 @@ const FIRST: f64 = 0.01;
 const LONGEST: f64 = 0.04;
 /// Shortest step.
 const SHORTEST: f64 = 1e-9;
-/// Least cosine between neighbouring tangents.
-const ALONG: f64 = 0.97;
-/// Iterations of a step, and those after which the next step is not longer.
-const ITERATIONS: usize = 12;
+/// Iterations after which the next step is not longer.
 const EASY: usize = 4;
-/// Correction at which a point is found, in the same unit as steps.
-const FOUND: f64 = 1e-13;
-/// Correction at which rounding may decide.
-const ROUNDING: f64 = 1e-9;
 /// Largest number of points.
 const POINTS: usize = 5000;
-
-/// The end of a path.
-#[derive(Clone, Debug, PartialEq)]
-pub enum End {
-    /// It reached the last value of the range.
-    Last,
-    /// It turned and came back to the first value.
-    First,
-    /// It could not be followed further.
-    Lost(Reason),
-    /// It has very many points.
-    Long,
-    /// The observer stopped it.
-    Stopped,
-}
-
-/// A path of equilibria.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Path {
-    /// The values of the parameter; a path may turn back.
-    pub values: Vec<f64>,
-    /// The equilibrium at each value.
-    pub points: Vec<Equilibrium>,
-    /// Values and equilibria at folds, where the path turns back; they are among the points too.
-    pub folds: Vec<(f64, Equilibrium)>,
-    /// Values and equilibria where the stability changes without a fold: other paths cross there. They are among the
-    /// points too.
-    pub branches: Vec<(f64, Equilibrium)>,
-    /// The end.
-    pub end: End,
-}
 
 /// The path of equilibria over `options.over`, from the one at the first value of `options.range` that `start` leads to.
 ///
@@ -133,45 +96,4 @@ fn follow(
         at = next;
     }
     Ok(End::Long)
-}
-
-impl Path {
-    /// Adds a point.
-    pub(super) fn add(&mut self, course: &Course<'_>, spot: &Spot) -> Result<Equilibrium, Reason> {
-        let found = course.equilibrium(spot)?;
-        self.values.push(spot.value);
-        self.points.push(found.clone());
-        Ok(found)
-    }
-}
-
-/// The point of the path at the distance `ds` along the tangent.
-pub(super) fn advance(course: &Course<'_>, from: &Step, ds: f64) -> Result<Step, Reason> {
-    let Step { spot: Spot { place, value, .. }, tangent, .. } = from;
-    let ahead: Vec<f64> = place.q.iter().zip(&tangent.q).map(|(q, dq)| q + ds * dq).collect();
-    let goal = value + ds * tangent.p;
-    let mut spot = course.spot(goal, &ahead, &place.z)?;
-    let lost = || Reason::Lost { relative: f64::NAN, coordinate: course.over.to_string() };
-    let mut last = f64::INFINITY;
-    for iterations in 1..=ITERATIONS {
-        let q: Vec<f64> = spot.place.q.iter().zip(&ahead).map(|(q, goal)| q - goal).collect();
-        let beside = course.along(&Direction { q, p: spot.value - goal }, tangent);
-        let step = course.correction(&spot, tangent, beside).ok_or_else(lost)?;
-        let size = course.along(&step, &step).sqrt();
-        let done = size <= FOUND || (size <= ROUNDING && size >= 0.3 * last);
-        if done {
-            let after = course.tangent(&spot, tangent).ok_or_else(lost)?;
-            return match course.along(&after, tangent) >= ALONG {
-                true => Ok(Step { spot, tangent: after, iterations }),
-                false => Err(lost()),
-            };
-        }
-        if size > 0.5 * last || size > ds {
-            return Err(lost());
-        }
-        let q: Vec<f64> = spot.place.q.iter().zip(&step.q).map(|(q, dq)| q + dq).collect();
-        spot = course.spot(spot.value + step.p, &q, &spot.place.z)?;
-        last = size;
-    }
-    Err(lost())
 }

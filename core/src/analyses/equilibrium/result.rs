@@ -1,8 +1,9 @@
 //! A position of rest with its stability and its forces.
 
-use super::failure::{column_name, Reason};
+use super::failure::Reason;
 use super::search::{relative, zero};
 use super::statics::{Place, Statics};
+use crate::analyses::linearization::coordinate;
 use crate::analyses::State;
 use crate::model::Model;
 use crate::solve::Eigen;
@@ -12,7 +13,7 @@ use crate::solve::Eigen;
 pub struct Equilibrium {
     /// The state, with v = 0 and ż = 0.
     pub state: State,
-    /// Multipliers of joints and drivers: Φ_qᵀ λ = Q, shape (n_rows).
+    /// Multipliers of joints and drivers: Φ_qᵀ λ = Q with the loads of joints, shape (n_rows).
     pub lam: Vec<f64>,
     /// What each holder applies, positive if it increases its quantity, N or N·m.
     pub holders: Vec<f64>,
@@ -20,7 +21,9 @@ pub struct Equilibrium {
     pub efforts: Vec<(String, f64)>,
     /// Names of the independent coordinates of the reduced stiffness.
     pub coordinates: Vec<String>,
-    /// Eigenvalues of the reduced stiffness on the independent coordinates, ascending.
+    /// The reduced stiffness on the independent coordinates, shape (f, f).
+    pub stiffness: Vec<f64>,
+    /// Eigenvalues of its symmetric part, ascending. It is symmetric where all forces have a potential.
     pub eigenvalues: Vec<f64>,
     /// Whether all eigenvalues are positive.
     pub stable: bool,
@@ -48,14 +51,16 @@ impl Equilibrium {
         order.iter().take(zeros).for_each(|k| eigenvalues[*k] = 0.0);
         eigenvalues.sort_by(f64::total_cmp);
         let own = model.layout.n_rows - holders;
+        let lam = statics.with_loads(place)?;
         let rest = vec![0.0; place.q.len()];
         Ok(Self {
             state: State { t: statics.t, q: place.q.clone(), v: rest, z: place.z.clone() },
-            lam: place.lam[..own].to_vec(),
-            holders: place.lam[own..].iter().map(|lam| -lam).collect(),
-            efforts: efforts(model, &place.lam, own),
-            coordinates: freedoms.coordinates.iter().map(|k| column_name(model, *k)).collect(),
+            lam: lam[..own].to_vec(),
+            holders: lam[own..].iter().map(|lam| -lam).collect(),
+            efforts: efforts(model, &lam, own),
+            coordinates: freedoms.coordinates.iter().map(|k| coordinate(model, *k)).collect(),
             stable: scaled.iter().all(|x| *x > limit),
+            stiffness,
             eigenvalues,
             residual: relative(&local, place),
             steps: 0,

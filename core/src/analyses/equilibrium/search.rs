@@ -79,8 +79,10 @@ impl<'s, 'a> Search<'s, 'a> {
             self.relaxed += count;
         }
         let own = self.statics.freedoms(&place)?.coordinates;
-        let far = self.far(&first, &place);
-        Err(Reason::of_search(self.statics.model, &first, &place, &own, far))
+        let moved: Vec<f64> = place.q.iter().zip(&first.q).map(|(b, a)| b - a).collect();
+        let left = (place.missing.as_slice(), place.scale);
+        let way = (moved.as_slice(), self.far(&first, &place));
+        Err(Reason::of_search(self.statics.model, way, left, &own))
     }
 
     fn far(&self, first: &Place, place: &Place) -> bool {
@@ -257,7 +259,16 @@ pub(super) fn zero(stiffness: &[f64], scale: f64) -> f64 {
 fn down(local: &Local, place: &Place) -> Option<Vec<f64>> {
     let eigen = Eigen::of(&local.stiffness, local.gradient.len());
     let least = *eigen.values.first()?;
-    (least < -zero(&local.stiffness, place.scale)).then(|| eigen.vectors[0].clone())
+    (least < -zero(&local.stiffness, place.scale) && is_symmetric(&local.stiffness))
+        .then(|| eigen.vectors[0].clone())
+}
+
+/// Whether a stiffness is that of a potential.
+fn is_symmetric(stiffness: &[f64]) -> bool {
+    let f = stiffness.len().isqrt();
+    let largest = stiffness.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let skew = |k: usize| (stiffness[k] - stiffness[(k % f) * f + k / f]).abs();
+    (0..f * f).all(|k| skew(k) <= 1e-9 * largest)
 }
 
 /// -K⁻¹ g.

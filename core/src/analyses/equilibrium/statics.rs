@@ -8,6 +8,7 @@ use crate::equations::balance::Balance;
 use crate::equations::energy;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
+use crate::equations::reactions;
 use crate::math::Vec2;
 use crate::model::{column_scales, row_scales, size, Model};
 use crate::solve::solve_dense;
@@ -146,6 +147,21 @@ impl<'a> Statics<'a> {
             last = size;
         }
         Err(Reason::state(self.model, self.states[0]))
+    }
+
+    /// The multipliers with the [loads](crate::elements::Joint::load) of joints, which do no work. They depend on
+    /// multipliers that they do not change.
+    pub fn with_loads(&self, place: &Place) -> Result<Vec<f64>, Reason> {
+        let motions = Motions::at_rest(&self.model.layout, &place.q);
+        let mut loads = vec![0.0; place.q.len()];
+        reactions::add_loads(self.model, &motions, self.t, &place.lam, &mut loads);
+        if loads.iter().all(|x| *x == 0.0) {
+            return Ok(place.lam.clone());
+        }
+        let factors = LeastNorm::new(self.model, self.t, &place.q, self.redundant)
+            .map_err(|_| Reason::singular(self.model, self.t, &place.q))?;
+        let more = factors.multipliers(&loads);
+        Ok(place.lam.iter().zip(more).map(|(lam, more)| lam + more).collect())
     }
 
     /// The freedoms at a place.

@@ -1,8 +1,9 @@
 //! Special points between two points of a path: folds, crossings of other paths, and the ends of the range.
 
 use super::failure::Reason;
-use super::path::{advance, End, Path};
+use super::points::{End, Path};
 use super::spot::{Course, Step};
+use super::stride::advance;
 
 /// Length of the path to which a point is located.
 const LOCATED: f64 = 1e-15;
@@ -25,7 +26,7 @@ pub(super) fn between(
         let fold = zero(course, from, to, ds, |step| step.tangent.p);
         if let Some(fold) = fold.filter(|fold| inside(fold.spot.value)) {
             let found = path.add(course, &fold.spot)?;
-            path.folds.push((fold.spot.value, found));
+            path.folds.push(found);
         }
         return Ok(());
     }
@@ -44,7 +45,7 @@ pub(super) fn between(
         }
         if let Some(step) = best.filter(|step| inside(step.spot.value)) {
             let found = path.add(course, &step.spot)?;
-            path.branches.push((step.spot.value, found));
+            path.branches.push(found);
         }
     }
     Ok(())

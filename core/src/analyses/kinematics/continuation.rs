@@ -28,7 +28,7 @@ const SHORT: f64 = 0.2;
 const START: f64 = 1e-9;
 
 /// Follows a motion.
-pub(super) struct Continuation<'a> {
+pub(in crate::analyses) struct Continuation<'a> {
     solver: Solver<'a>,
     point: Point,
     /// The next step, if the last one limits it.
@@ -65,6 +65,11 @@ impl<'a> Continuation<'a> {
     /// Steps, and steps that were taken again.
     pub fn counts(&self) -> (usize, usize) {
         (self.steps, self.rejected)
+    }
+
+    /// The position at `t` that is closed from one nearby.
+    pub fn closed(&mut self, t: f64, q: Vec<f64>) -> Option<Vec<f64>> {
+        self.solver.point(t, q).map(|point| point.q)
     }
 
     /// Takes a step, at most to `goal`.

@@ -1,5 +1,6 @@
 //! Reasons for the end of a motion, in terms of the mechanism.
 
+use super::dead_point::Limit;
 use super::motion::Motion;
 use crate::analyses::mobility::Mobility;
 use crate::elements::{BodyId, Group};
@@ -49,20 +50,7 @@ pub enum Reason {
         message: String,
     },
     /// The driven value has reached an extreme.
-    Limit(Limit),
-}
-
-/// An extreme of the driven value.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Limit {
-    /// The time, or the value in its place.
-    pub t: f64,
-    /// The position, shape (n_q).
-    pub q: Vec<f64>,
-    /// The driver that cannot go on.
-    pub driver: String,
-    /// Two bodies that are in line there, if there are such.
-    pub in_line: Option<[String; 2]>,
+    Limit(Box<Limit>),
 }
 
 impl From<Reason> for Box<Failure> {
@@ -95,13 +83,6 @@ impl Reason {
         let name = names.first().map_or_else(String::new, |name| (*name).to_string());
         Self::Singular { t, name, message }
     }
-}
-
-/// The limit at a position.
-pub(super) fn limit(model: &Model, t: f64, q: Vec<f64>) -> Limit {
-    let drivers = model.constraints.iter().filter(|item| item.driven);
-    let driver = drivers.map(|item| item.name.clone()).next().unwrap_or_default();
-    Limit { t, driver, in_line: in_line(model, &q), q }
 }
 
 /// A position from which the motion cannot be followed.
@@ -167,13 +148,7 @@ impl fmt::Display for Reason {
                 gap.abs()
             ),
             Self::Singular { message, .. } => f.write_str(message),
-            Self::Limit(Limit { t, driver, in_line, .. }) => {
-                write!(f, "{driver} cannot pass {t:.9}: dead point")?;
-                match in_line {
-                    Some([a, b]) => write!(f, ", {a} and {b} in line"),
-                    None => Ok(()),
-                }
-            }
+            Self::Limit(limit) => limit.fmt(f),
         }
     }
 }

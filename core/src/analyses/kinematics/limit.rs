@@ -1,5 +1,6 @@
 //! The extreme value of t on the path: the limit of the motion.
 
+use super::dead_point::Limit;
 use super::failure::{self, Reason};
 use super::path::{Path, Place};
 use super::solution::Point;
@@ -35,7 +36,10 @@ pub(super) fn locate(path: &mut Path<'_, '_>, from: &Place, ds: f64, sign: f64) 
             (high, values[1]) = (middle, value);
         }
     }
-    Reason::Limit(failure::limit(path.solver.model, best.t, best.q))
+    let Place { t, q, tangent } = best;
+    let rates: Vec<f64> =
+        tangent.iter().zip(&path.solver.columns).map(|(x, scale)| x * scale).collect();
+    Reason::Limit(Box::new(Limit::new(path.solver.model, t, q, &rates)))
 }
 
 /// The motion cannot be followed further, though no limit was found.

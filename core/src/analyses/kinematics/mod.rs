@@ -8,14 +8,18 @@
 //! |---|---|
 //! | `solution` | positions, velocities and accelerations at a time |
 //! | `continuation` | steps along a branch |
+//! | `dead_point` | limits in terms of the mechanism |
 //! | `passage`, `path`, `limit` | change points and limits; the branch by its length, and the extreme of t on it |
+//! | `circuit` | the path of a position until it returns |
 //! | `motion` | the result |
 //! | `quintic` | polynomials between two points |
 //! | `works` | works over a step, by quadrature |
 //! | `options` | options of kinematics and of inverse dynamics |
 //! | `failure` | reasons for the end of a motion, in terms of the mechanism |
 
+mod circuit;
 mod continuation;
+mod dead_point;
 mod failure;
 mod limit;
 mod motion;
@@ -26,7 +30,11 @@ mod quintic;
 mod solution;
 mod works;
 
-pub use failure::{Failure, Limit, Reason};
+pub(in crate::analyses) use circuit::{circuit, same};
+pub(in crate::analyses) use continuation::Continuation;
+pub use dead_point::Limit;
+pub(in crate::analyses) use dead_point::{driven, written};
+pub use failure::{Failure, Reason};
 pub use motion::Motion;
 pub use options::{InverseOptions, Options};
 pub use solution::Point;
@@ -35,7 +43,6 @@ use super::dynamics::PiecewiseInterpolant;
 use super::State;
 use crate::integrate::Flow;
 use crate::model::Model;
-use continuation::Continuation;
 use works::Works;
 
 /// The motion from `start` through the `times`, which ascend or descend; the first one may be that of the start.

@@ -1,0 +1,50 @@
+//! Limits of motion as Python sees them: interruptible, with progress.
+
+use crate::convert::{state, table, Row};
+use crate::guard::guard;
+use crate::kinematics::because;
+use crate::model::PyModel;
+use crate::watch::Watch;
+use kempe::analyses::limits::{limits as core, Bound as End};
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::prelude::*;
+use serde_json::json;
+
+/// Limits as JSON, the values on the way, and the positions there.
+type Found<'py> = (String, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>);
+
+/// The limits of the value that takes the place of t.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, z, progress))]
+pub fn limits<'py>(
+    py: Python<'py>,
+    model: &Bound<'_, PyModel>,
+    t: f64,
+    q: Row<'_>,
+    v: Row<'_>,
+    z: Row<'_>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Found<'py>> {
+    guard("limits", || {
+        let model = &model.get().model;
+        let start = state(py, model, t, [&q, &v, &z])?;
+        let mut watch = Watch::new(progress.as_ref());
+        let outcome = py.detach(|| core(model, &start, |t| watch.look(t)));
+        if let Some(error) = watch.raised {
+            return Err(error);
+        }
+        let found = outcome.map_err(|failure| because(&failure.reason).raise(py))?;
+        let value = |bound: &Option<End>| bound.as_ref().map(|bound| bound.value);
+        let text = json!({
+            "lower": value(&found.lower),
+            "upper": value(&found.upper),
+            "unit": found.unit,
+            "reasons": found.reasons,
+            "turns": found.turns,
+        });
+        let values: Vec<f64> = found.path.iter().map(|(value, _)| *value).collect();
+        let positions: Vec<f64> = found.path.iter().flat_map(|(_, q)| q.iter().copied()).collect();
+        let positions = table(py, positions, (values.len(), model.layout.n_q))?;
+        Ok((text.to_string(), values.into_pyarray(py), positions))
+    })
+}

@@ -1,0 +1,58 @@
+//! The diagnosis of a mechanism as Python sees it.
+
+use crate::attended::attended;
+use crate::convert::{state, Row};
+use crate::guard::guard;
+use crate::model::PyModel;
+use kempe::analyses::diagnosis::{diagnose, Diagnosis, FourBar, Redundancy};
+use pyo3::prelude::*;
+use serde_json::{json, Value};
+
+/// What a mechanism can do at a position, as JSON.
+#[pyfunction]
+pub fn mobility(
+    py: Python<'_>,
+    model: &PyModel,
+    t: f64,
+    q: Row<'_>,
+    v: Row<'_>,
+    z: Row<'_>,
+) -> PyResult<String> {
+    guard("mobility", || {
+        let core = std::sync::Arc::clone(model.active.prepared.model());
+        let state = state(py, &core, t, [&q, &v, &z])?;
+        let found = attended(py, move |_| diagnose(&core, &state))?;
+        Ok(described(&found).to_string())
+    })
+}
+
+fn described(found: &Diagnosis) -> Value {
+    let singular = found.singular.iter().map(|(one, kind)| {
+        let mut one = redundancy(one);
+        one["kind"] = json!(kind.to_string());
+        one
+    });
+    json!({
+        "gruebler": found.gruebler,
+        "driven": found.driven,
+        "degrees_of_freedom": found.mobility.degrees_of_freedom,
+        "rank": found.mobility.rank,
+        "redundant": found.redundant.iter().map(redundancy).collect::<Vec<_>>(),
+        "singular": singular.collect::<Vec<_>>(),
+        "locked": found.locked,
+        "loose": found.loose,
+        "four_bars": found.four_bars.iter().map(four_bar).collect::<Vec<_>>(),
+    })
+}
+
+fn redundancy(one: &Redundancy) -> Value {
+    let Redundancy { joints, equations, remove, consistent } = one;
+    json!({ "joints": joints, "equations": equations, "remove": remove, "consistent": consistent })
+}
+
+fn four_bar(one: &FourBar) -> Value {
+    let FourBar { bodies, pins, lengths, class } = one;
+    let turning =
+        class.turning().map(|places| places.map(|k| bodies[k].clone()).collect::<Vec<_>>());
+    json!({ "bodies": bodies, "pins": pins, "lengths": lengths, "kind": class.to_string(), "turning": turning })
+}

@@ -1,0 +1,98 @@
+//! All positions in which a mechanism closes, for given values of its drivers and of `set`.
+//!
+//! Where dyads alone place all bodies, each has at most two closures, and all combinations are computed: the list is
+//! complete. Otherwise Newton's method starts from many positions, and from each position found the path of every driven
+//! value is followed through its limits until it returns; other positions with the same value lie on it.
+//!
+//! | file | concept |
+//! |---|---|
+//! | `found` | positions without duplicates |
+//! | `walk` | all closures of dyads |
+//! | `search` | starts of Newton's method, and circuits |
+//! | `options` | options of the analysis |
+
+mod found;
+mod options;
+mod search;
+mod walk;
+
+pub use options::Options;
+
+use super::assemble::{assemble_until, holding, Failure as AssemblyFailure, Report, Request};
+use super::mobility::mobility;
+use super::State;
+use crate::model::Model;
+use found::Found;
+
+/// The positions in which a mechanism closes.
+#[derive(Clone, Debug, Default)]
+pub struct Configurations {
+    /// The states, with the reports of their assembly.
+    pub states: Vec<(State, Report)>,
+    /// Whether there are no others: proven, where dyads place all bodies.
+    pub complete: bool,
+}
+
+/// A reason for which configurations cannot be listed.
+#[derive(Clone, Debug)]
+pub enum Failure {
+    /// There is none, or a rate contradicts the drivers.
+    Assembly(Box<AssemblyFailure>),
+    /// Freedoms are left, so that there are infinitely many.
+    Free {
+        /// Their number.
+        degrees_of_freedom: usize,
+    },
+}
+
+/// The configurations with the values of `request.set`, at most `limit`; guesses are not used.
+///
+/// # Errors
+/// [`Failure`]: the mechanism does not close, or freedoms are left.
+pub fn configurations(
+    model: &Model,
+    request: &Request,
+    limit: usize,
+    stop: &dyn Fn() -> bool,
+) -> Result<Configurations, Failure> {
+    let held = holding(model, request);
+    let mut found = Found::new(&held, limit);
+    let mut complete = walk::walk(&held, request.t, &mut found, stop);
+    let free = |found: &Found<'_>| {
+        let q = found.positions.first()?;
+        let left = mobility(&held, request.t, q);
+        let n = left.degrees_of_freedom;
+        (n > 0 && left.singular.is_empty()).then_some(n)
+    };
+    if let Some(degrees_of_freedom) = free(&found) {
+        return Err(Failure::Free { degrees_of_freedom });
+    }
+    if !complete {
+        search::search(&held, request.t, &mut found, stop);
+    }
+    if let Some(degrees_of_freedom) = free(&found) {
+        return Err(Failure::Free { degrees_of_freedom });
+    }
+    complete &= found.dropped == 0;
+    let mut states = Vec::new();
+    for q in &found.positions {
+        let v = vec![0.0; q.len()];
+        let near = State { t: request.t, q: q.clone(), v, z: vec![0.0; model.layout.n_z] };
+        let request = Request { state: Some(near), guess: Vec::new(), ..request.clone() };
+        match assemble_until(model, &request, stop) {
+            Ok(one) => states.push(one),
+            Err(failure) if stop() => return Err(Failure::Assembly(failure)),
+            // a position that breaks a requirement of a joint, such as the end of a curve
+            Err(failure) if states.is_empty() && found.positions.len() == 1 => {
+                return Err(Failure::Assembly(failure));
+            }
+            Err(_) => {}
+        }
+    }
+    if states.is_empty() {
+        // the reason is that of the assembly
+        let one = assemble_until(model, request, stop);
+        states.push(one.map_err(Failure::Assembly)?);
+    }
+    Ok(Configurations { states, complete })
+}

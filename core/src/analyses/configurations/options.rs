@@ -1,0 +1,55 @@
+//! Options of the list of configurations.
+
+use crate::analyses::assemble::{targets, Target};
+use crate::analyses::options::{count, name, options, Kind, Reader};
+use crate::elements::{Default, Shape};
+use crate::model::Value;
+
+/// Largest number of configurations, if none is given.
+const LIMIT: usize = 100;
+
+/// Values of coordinates and other position quantities by name.
+#[allow(non_camel_case_types)] // a type in `options!`
+#[derive(Clone, Copy, Debug)]
+pub enum coordinates {}
+
+impl Kind for coordinates {
+    type Value = Vec<Target>;
+    fn shape() -> Shape {
+        Shape::Values
+    }
+
+    fn data(_: &Self::Value) -> Default {
+        Default::Absent
+    }
+
+    fn read(reader: &mut Reader<'_>, key: &'static str, _: &'static str) -> Option<Self::Value> {
+        let Some(Value::Table(fields)) = reader.get(key) else {
+            return reader.refuse(key, "must be a table such as { \"crank.angle\" = \"70 deg\" }");
+        };
+        match targets(reader.model(), key, fields) {
+            Ok(found) => Some(found),
+            Err(problems) => reader.table(key, |inner| {
+                for problem in problems {
+                    let name = problem.path.last().cloned().unwrap_or_default();
+                    inner.report::<()>(&name, problem);
+                }
+                None
+            }),
+        }
+    }
+}
+
+options! {
+    /// All positions in which the mechanism closes, for given values of its drivers and of `set`.
+    Options, "configurations", "Configurations" () {
+        /// Coordinates and other position quantities that hold exactly, as in `start.set`; if absent, those of the
+        /// start.
+        set: coordinates = Vec::new(),
+        /// Largest number of configurations.
+        limit: count = LIMIT,
+        /// State whose time is used: "start", or the name of an earlier analysis for the end of that analysis. If
+        /// absent, the end of the analysis before it.
+        from: Option<name> = None,
+    }
+}

@@ -1,0 +1,111 @@
+//! Starts of Newton's method, and circuits through the positions found.
+
+use super::found::Found;
+use crate::analyses::assemble::{following, place, wind, Targets};
+use crate::analyses::closing::{Closing, Stop};
+use crate::analyses::kinematics::circuit;
+use crate::elements::{holding, Followed, Group};
+use crate::equations::at;
+use crate::equations::kinematics::Motions;
+use crate::expression::Tape;
+use crate::model::Model;
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+/// Largest number of placements from which Newton's method starts, and of starts with arbitrary angles.
+const PLACEMENTS: usize = 128;
+const STARTS: usize = 300;
+/// Number of starts in a row without a new position after which no more are tried.
+const IDLE: usize = 60;
+
+/// Adds the positions that starts and circuits reach.
+pub(super) fn search(model: &Model, t: f64, found: &mut Found<'_>, stop: Stop<'_>) {
+    let mut closing = Closing::new(model, t, stop);
+    let mut next = found.positions.len();
+    let mut try_from = |mut q: Vec<f64>, found: &mut Found<'_>| {
+        wind(model, t, &mut q);
+        let closes = q.iter().all(|x| x.is_finite()) && closing.close(&mut q).1;
+        closes && found.add(q)
+    };
+    let mut targets = Targets::of(model, t);
+    let mut choices = Some(Vec::new());
+    for _ in 0..PLACEMENTS {
+        let Some(taken) = choices.take().filter(|_| !stop() && !found.is_full()) else { break };
+        let placement = place(model, &targets, &taken);
+        choices = following(taken, &placement);
+        try_from(placement.q, found);
+    }
+    follow_new(model, t, found, &mut next, stop);
+    let mut idle = 0;
+    for start in 0..STARTS {
+        if idle == IDLE || stop() || found.is_full() {
+            return;
+        }
+        for (body, soft) in targets.soft.iter_mut().enumerate() {
+            *soft = [None, None, Some(TAU * arbitrary(start, body) - PI)];
+        }
+        idle = if try_from(place(model, &targets, &[]).q, found) { 0 } else { idle + 1 };
+        if idle == 0 {
+            follow_new(model, t, found, &mut next, stop);
+        }
+    }
+}
+
+/// A fixed number in [0, 1) without a pattern.
+fn arbitrary(start: usize, body: usize) -> f64 {
+    (12.9898 * (start as f64 + 1.0) + 78.233 * (body as f64 + 1.0))
+        .sin()
+        .mul_add(43_758.545_3, 0.0)
+        .rem_euclid(1.0)
+}
+
+/// Follows the circuits of all positions from the given one on.
+fn follow_new(model: &Model, t: f64, found: &mut Found<'_>, next: &mut usize, stop: Stop<'_>) {
+    let mut closing = Closing::new(model, t, stop);
+    while *next < found.positions.len() {
+        let q = found.positions[*next].clone();
+        *next += 1;
+        for driver in drivers(model) {
+            if stop() || found.is_full() {
+                return;
+            }
+            let (moving, turns) = moving(model, t, &q, driver);
+            for mut there in circuit(&moving, t, &q, turns) {
+                wind(model, t, &mut there);
+                if closing.close(&mut there).1 {
+                    found.add(there);
+                }
+            }
+        }
+    }
+}
+
+/// The drivers that may be moved; none if a joint follows a law of time, which would move with them.
+fn drivers(model: &Model) -> Vec<usize> {
+    let joint = |item: &crate::model::ConstraintItem| item.group == Group::Joints && item.driven;
+    if model.constraints.iter().any(joint) {
+        return Vec::new();
+    }
+    let items = model.constraints.iter().enumerate();
+    items.filter(|(_, item)| item.element.drives().is_some()).map(|(k, _)| k).collect()
+}
+
+/// The model in which the value of a driver grows with t and all others keep theirs; whether this value is an angle.
+fn moving(model: &Model, t: f64, q: &[f64], driver: usize) -> (Model, bool) {
+    let motions = Motions::at_rest(&model.layout, q);
+    let value = |of: &Followed<Tape>| match of {
+        Followed::Coordinate(of) => {
+            q[model.layout.bodies[of.body.0].first + of.coordinate.column()]
+        }
+        Followed::Quantity(of) => of.value.evaluate(&at(&model.parameters, &motions, &[], t)),
+    };
+    let mut blueprint = (*model.blueprint).clone();
+    for (k, (_, _, constraint)) in blueprint.constraints.iter_mut().enumerate() {
+        let Some(of) = constraint.drives().cloned() else { continue };
+        let rate = if k == driver { 1.0 } else { 0.0 };
+        let now = value(&of);
+        *constraint = holding(of, Tape::line(now, rate, t));
+    }
+    let turns = model.constraints[driver].equations.iter().all(|equation| equation.unit == "rad");
+    (Model::new(&Arc::new(blueprint), &model.parameters), turns)
+}

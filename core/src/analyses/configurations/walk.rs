@@ -1,0 +1,41 @@
+//! All closures of dyads.
+
+use super::found::Found;
+use crate::analyses::assemble::{following, place, Targets};
+use crate::analyses::closing::{Closing, Stop};
+use crate::model::{row_scales, Model};
+
+/// Largest number of combinations.
+const MOST: usize = 20_000;
+/// Largest residual of a position of which all bodies are placed exactly, relative to the size of the mechanism.
+const CLOSED: f64 = 1e-7;
+
+/// Adds the positions of all combinations of closures; returns whether there are no others.
+pub(super) fn walk(model: &Model, t: f64, found: &mut Found<'_>, stop: Stop<'_>) -> bool {
+    let mut targets = Targets::of(model, t);
+    targets.soft.fill([None; 3]);
+    let mut closing = Closing::new(model, t, stop);
+    let scales = row_scales(model);
+    let mut choices = Some(Vec::new());
+    for _ in 0..MOST {
+        let Some(taken) = choices.take() else { return true };
+        let placement = place(model, &targets, &taken);
+        if placement.assumed {
+            return false;
+        }
+        choices = following(taken, &placement);
+        let mut q = placement.q;
+        crate::analyses::assemble::wind(model, t, &mut q);
+        let phi = closing.phi(&q);
+        // joints that no dyad needed must close too
+        let closes = placement.gaps.is_empty()
+            && phi.iter().zip(&scales).all(|(phi, scale)| phi.abs() <= CLOSED * scale);
+        if closes && closing.close(&mut q).1 {
+            found.add(q);
+        }
+        if found.is_full() || stop() {
+            return false;
+        }
+    }
+    false
+}

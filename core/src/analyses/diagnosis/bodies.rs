@@ -1,0 +1,59 @@
+//! Bodies that cannot move, and bodies that nothing holds.
+
+use super::passing::freedoms;
+use crate::analyses::mobility::neighbour;
+use crate::elements::Group;
+use crate::model::Model;
+use std::sync::Arc;
+
+/// Part of a motion, relative to its largest component, that counts as rest.
+const AT_REST: f64 = 1e-7;
+
+/// The bodies that no motion without drivers moves; none where the model is too large to tell.
+pub(super) fn locked(model: &Model, t: f64, q: &[f64]) -> Vec<String> {
+    let Some(here) = resting(model, t, q) else { return Vec::new() };
+    let mut locked = here;
+    // a piston at a dead centre rests there only
+    let near = neighbour(&released(model), t, q, 0, &|| false);
+    if let Some(there) = near.and_then(|near| resting(model, t, &near)) {
+        locked.retain(|body| there.contains(body));
+    }
+    locked.into_iter().map(|body| model.bodies[body].name.clone()).collect()
+}
+
+/// The bodies that have no velocity at a position.
+fn resting(model: &Model, t: f64, q: &[f64]) -> Option<Vec<usize>> {
+    let freedoms = freedoms(model, t, q)?;
+    let rests = |body: &usize| {
+        let columns = model.layout.bodies[*body].range();
+        freedoms.iter().all(|w| columns.clone().all(|k| w[k].abs() <= AT_REST))
+    };
+    Some((1..model.bodies.len()).filter(rests).collect())
+}
+
+/// The model without drivers and joints with a law of time.
+fn released(model: &Model) -> Model {
+    let items = model.constraints.iter().enumerate();
+    let kept: Vec<usize> = items.filter(|(_, item)| !item.driven).map(|(k, _)| k).collect();
+    Model::new(&Arc::new(model.blueprint.keeping(&kept)), &model.parameters)
+}
+
+/// The bodies that no chain of joints connects with ground.
+pub(super) fn loose(model: &Model) -> Vec<String> {
+    let mut held = vec![false; model.bodies.len()];
+    held[0] = true;
+    let joints = || model.constraints.iter().filter(|item| item.group == Group::Joints);
+    loop {
+        let reached: Vec<usize> = joints()
+            .filter(|item| item.bodies.iter().any(|body| held[body.0]))
+            .flat_map(|item| item.bodies.iter().map(|body| body.0))
+            .filter(|body| !held[*body])
+            .collect();
+        if reached.is_empty() {
+            break;
+        }
+        reached.into_iter().for_each(|body| held[body] = true);
+    }
+    let loose = model.bodies.iter().zip(held).filter(|(_, held)| !held);
+    loose.map(|(body, _)| body.name.clone()).collect()
+}

@@ -1,0 +1,156 @@
+//! Closed loops of four pins, and whether their links turn fully (Grashof 1883).
+
+use crate::elements::{Fixes, Group};
+use crate::math::Local;
+use crate::model::Model;
+use std::fmt;
+
+/// Difference of sums of lengths, relative to their size, up to which they are equal.
+const EQUAL: f64 = 1e-9;
+/// Largest number of loops that are listed.
+const MOST: usize = 100;
+
+/// A closed loop of four bodies and four pins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FourBar {
+    /// The bodies, each next to its neighbours; ground first if it takes part.
+    pub bodies: [String; 4],
+    /// The pins: of the first and second body, and so on.
+    pub pins: [String; 4],
+    /// The distances of the two pins of each body, m.
+    pub lengths: [f64; 4],
+    /// Its kind.
+    pub class: Grashof,
+}
+
+/// Kinds of four-bar loops, with the place of the shortest link among the bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grashof {
+    /// The shortest link, beside ground, turns fully.
+    CrankRocker(usize),
+    /// Ground is the shortest: both links beside it turn fully.
+    DoubleCrank(usize),
+    /// The link opposite to ground is the shortest: it turns fully, the links beside ground do not.
+    DoubleRocker(usize),
+    /// The shortest link turns fully; ground does not take part.
+    Grashof(usize),
+    /// No link turns fully against another.
+    TripleRocker,
+    /// The shortest and the longest link together are as long as the others: all links can lie in line.
+    ChangePoint,
+}
+
+impl Grashof {
+    /// The places of the links that turn fully against their neighbours; None if that depends on the branch.
+    pub fn turning(self) -> Option<impl Iterator<Item = usize>> {
+        let places = match self {
+            Self::ChangePoint => return None,
+            Self::TripleRocker => vec![],
+            Self::DoubleCrank(_) => vec![1, 3],
+            Self::CrankRocker(k) | Self::DoubleRocker(k) | Self::Grashof(k) => vec![k],
+        };
+        Some(places.into_iter())
+    }
+}
+
+impl fmt::Display for Grashof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::CrankRocker(_) => "crank-rocker",
+            Self::DoubleCrank(_) => "double crank",
+            Self::DoubleRocker(_) => "double rocker",
+            Self::Grashof(_) => "Grashof",
+            Self::TripleRocker => "triple rocker",
+            Self::ChangePoint => "change point",
+        })
+    }
+}
+
+/// A pin between two bodies.
+struct Pin {
+    constraint: usize,
+    bodies: [usize; 2],
+    at: [Local; 2],
+}
+
+/// The four-bar loops of a model; each once.
+pub(super) fn four_bars(model: &Model) -> Vec<FourBar> {
+    let pins = pins(model);
+    let mut of_body = vec![Vec::new(); model.bodies.len()];
+    for (k, pin) in pins.iter().enumerate() {
+        pin.bodies.iter().for_each(|body| of_body[*body].push(k));
+    }
+    let other = |k: usize, body: usize| pins[k].bodies[usize::from(pins[k].bodies[0] == body)];
+    let mut found = Vec::new();
+    for a in 0..model.bodies.len() {
+        for (first, &ab) in of_body[a].iter().enumerate() {
+            for &da in &of_body[a][first + 1..] {
+                let (b, d) = (other(ab, a), other(da, a));
+                if b <= a || d <= a || b == d {
+                    continue;
+                }
+                for &bc in of_body[b].iter().filter(|k| **k != ab) {
+                    let c = other(bc, b);
+                    if c <= a || c == d {
+                        continue;
+                    }
+                    for &cd in of_body[c].iter().filter(|k| **k != bc && other(**k, c) == d) {
+                        if found.len() < MOST {
+                            found.extend(four_bar(model, &pins, [a, b, c, d], [ab, bc, cd, da]));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The joints that fix two points and nothing else.
+fn pins(model: &Model) -> Vec<Pin> {
+    let joints = model.constraints.iter().enumerate();
+    let pin = |(k, item): (usize, &crate::model::ConstraintItem)| {
+        let fixes = item.element.fixes();
+        let turns = fixes.contains(&Fixes::Points) && !fixes.contains(&Fixes::Direction);
+        let two = item.bodies.len() == 2 && item.group == Group::Joints;
+        (turns && two).then(|| Pin {
+            constraint: k,
+            bodies: [item.bodies[0].0, item.bodies[1].0],
+            at: [0, 1].map(|side| item.element.attachment(side).s),
+        })
+    };
+    joints.filter_map(pin).collect()
+}
+
+/// The loop of four bodies; None if two pins of a body coincide.
+fn four_bar(model: &Model, pins: &[Pin], bodies: [usize; 4], loop_: [usize; 4]) -> Option<FourBar> {
+    let place = |k: usize, body: usize| pins[k].at[usize::from(pins[k].bodies[1] == body)];
+    let lengths: [f64; 4] = std::array::from_fn(|k| {
+        let (one, two) = (loop_[(k + 3) % 4], loop_[k]);
+        (place(one, bodies[k]) - place(two, bodies[k])).norm()
+    });
+    let class = class(&lengths, bodies[0] == 0);
+    lengths.iter().all(|length| *length > 0.0).then(|| FourBar {
+        bodies: bodies.map(|body| model.bodies[body].name.clone()),
+        pins: loop_.map(|k| model.constraints[pins[k].constraint].name.clone()),
+        lengths,
+        class,
+    })
+}
+
+/// Grashof's rule; the first link is ground if `grounded`.
+fn class(lengths: &[f64; 4], grounded: bool) -> Grashof {
+    let place = (0..4).min_by(|a, b| lengths[*a].total_cmp(&lengths[*b])).unwrap_or(0);
+    let mut sorted = *lengths;
+    sorted.sort_by(f64::total_cmp);
+    let [s, p, q, l] = sorted;
+    let excess = s + l - p - q;
+    match place {
+        _ if excess.abs() <= EQUAL * l => Grashof::ChangePoint,
+        _ if excess > 0.0 => Grashof::TripleRocker,
+        _ if !grounded => Grashof::Grashof(place),
+        0 => Grashof::DoubleCrank(0),
+        2 => Grashof::DoubleRocker(2),
+        place => Grashof::CrankRocker(place),
+    }
+}

@@ -1,0 +1,131 @@
+//! What a mechanism can do at a position: freedoms, redundant equations and singular positions with their kinds, bodies
+//! that are locked or loose, and four-bar loops.
+//!
+//! | file | concept |
+//! |---|---|
+//! | `passing` | kinds of singular positions, by the second derivatives of the constraints |
+//! | `bodies` | bodies that cannot move, and bodies that no joint holds |
+//! | `four_bars` | closed loops of four pins, by Grashof's rule |
+
+mod bodies;
+mod four_bars;
+mod passing;
+
+pub use four_bars::{FourBar, Grashof};
+pub use passing::Kind;
+use passing::NEARLY;
+
+use super::dependence;
+use super::mobility::{mobility, Mobility};
+use super::options::{name, options};
+use super::{Dependent, State};
+use crate::equations::constraints;
+use crate::equations::kinematics::Motions;
+use crate::model::Model;
+
+/// Part of a sum of rates that counts as rounding.
+const ROUNDING: f64 = 1e-9;
+
+options! {
+    /// Degrees of freedom, redundant and singular constraints, locked and loose bodies, and four-bar loops.
+    Options, "mobility", "Mobility" () {
+        /// State that is examined: "start", or the name of an earlier analysis for the end of that analysis. If absent,
+        /// the end of the analysis before it.
+        from: Option<name> = None,
+    }
+}
+
+/// What a mechanism can do at a position.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnosis {
+    /// Coordinates less constraint equations, drivers included; negative if there are more equations.
+    pub gruebler: i64,
+    /// Equations of drivers, and of joints with a law of time.
+    pub driven: usize,
+    /// Coordinates less independent constraint equations, and the groups of dependent ones.
+    pub mobility: Mobility,
+    /// Redundant equations.
+    pub redundant: Vec<Redundancy>,
+    /// Equations that depend on others at this position only, and the kind of position.
+    pub singular: Vec<(Redundancy, Kind)>,
+    /// Bodies (names) that cannot move even if the drivers are released.
+    pub locked: Vec<String>,
+    /// Bodies (names) that no chain of joints connects with ground.
+    pub loose: Vec<String>,
+    /// Closed loops of four pins.
+    pub four_bars: Vec<FourBar>,
+}
+
+/// An equation that others imply.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Redundancy {
+    /// The joints and drivers that take part.
+    pub joints: Vec<String>,
+    /// Their equations that take part, such as `C.x`: any single one may be removed.
+    pub equations: Vec<String>,
+    /// One of them, such that the equations of this name in all redundancies may be removed together.
+    pub remove: String,
+    /// Whether the rates that drivers prescribe agree with it; a joint always agrees.
+    pub consistent: bool,
+}
+
+/// Examines a mechanism at an assembled position.
+pub fn diagnose(model: &Model, state: &State) -> Diagnosis {
+    let State { t, q, .. } = state;
+    let mut mobility = mobility(model, *t, q);
+    if mobility.singular_equations.is_empty() {
+        mobility.singular_equations = nearly_dependent(model, state, &mobility.redundant_equations);
+    }
+    let rates = rates_of_drivers(model, *t, q);
+    let described = |one: &Dependent| describe(model, one, &rates);
+    let kinds = passing::kinds(model, *t, q, &mobility);
+    let drivers = model.constraints.iter().filter(|item| item.driven);
+    Diagnosis {
+        gruebler: model.layout.n_q as i64 - model.layout.n_rows as i64,
+        driven: drivers.map(|item| item.equations.len()).sum(),
+        redundant: mobility.redundant_equations.iter().map(described).collect(),
+        singular: mobility.singular_equations.iter().map(described).zip(kinds).collect(),
+        locked: bodies::locked(model, *t, q),
+        loose: bodies::loose(model),
+        four_bars: four_bars::four_bars(model),
+        mobility,
+    }
+}
+
+/// Equations that depend on others within the error of the position: at a dead point, Newton's method finds it to half of
+/// the digits.
+fn nearly_dependent(model: &Model, state: &State, redundant: &[Dependent]) -> Vec<Dependent> {
+    let mut found = dependence::at(model, state.t, &state.q, NEARLY, &|| false);
+    found.retain(|one| redundant.iter().all(|other| other.row != one.row));
+    found
+}
+
+/// The name of an equation, such as `C.x`; that of its joint if it has only one.
+pub(super) fn equation_name(model: &Model, row: usize) -> String {
+    let (k, equation) = model.layout.owner(row);
+    let item = &model.constraints[k];
+    match item.equations.len() {
+        1 => item.name.clone(),
+        _ => format!("{}.{}", item.name, item.equations[equation].name),
+    }
+}
+
+/// Φ_t at a position.
+fn rates_of_drivers(model: &Model, t: f64, q: &[f64]) -> Vec<f64> {
+    let m = model.layout.n_rows;
+    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+    let motions = Motions::at_rest(&model.layout, q);
+    constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+    rate
+}
+
+fn describe(model: &Model, one: &Dependent, rates: &[f64]) -> Redundancy {
+    let parts: Vec<f64> = one.factors.iter().map(|(row, y)| y * rates[*row]).collect();
+    let (sum, size) = parts.iter().fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()));
+    Redundancy {
+        joints: one.group.iter().map(|k| model.constraints[*k].name.clone()).collect(),
+        equations: one.factors.iter().map(|(row, _)| equation_name(model, *row)).collect(),
+        remove: equation_name(model, one.row),
+        consistent: f64::abs(sum) <= ROUNDING * size,
+    }
+}

@@ -1,0 +1,203 @@
+//! Kinds of singular positions.
+//!
+//! Where rows of Φ_q depend on each other, Σ y_k Φ_q,k = 0, a motion q + ε w + … with Φ_q w = 0 must also satisfy
+//! B(w, w) = Σ y_k wᵀ Φ_qq,k w = 0. If B has both signs on the null space, two motions cross: a change point. If it has one
+//! sign, no motion exists in these directions, and the mechanism has play of the first order only. If a driver takes part,
+//! it cannot move the mechanism: a dead point.
+
+use crate::analyses::mobility::Mobility;
+use crate::analyses::Dependent;
+use crate::equations::constraints;
+use crate::equations::kinematics::Motions;
+use crate::model::{column_scales, Model};
+use crate::solve::{normalize_rows, rank};
+use std::fmt;
+
+/// Largest number of coordinates for which freedoms are found.
+const MOST: usize = 300;
+/// Part of the largest entry of a form that counts as zero.
+const ZERO: f64 = 1e-7;
+/// Remainder of a row that counts as dependent at this position.
+pub(super) const NEARLY: f64 = 1e-5;
+
+/// The kind of a singular position.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A driver cannot move the mechanism.
+    DeadPoint,
+    /// Motions cross, or touch: the branch is not determined by the position.
+    ChangePoint,
+    /// Velocities without a motion: play of the first order.
+    Uncertainty,
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::DeadPoint => "dead point",
+            Self::ChangePoint => "change point",
+            Self::Uncertainty => "uncertainty",
+        })
+    }
+}
+
+/// The kind for each of the equations that are dependent at this position only.
+pub(super) fn kinds(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Vec<Kind> {
+    let driven = |one: &Dependent| one.group.iter().any(|k| model.constraints[*k].driven);
+    let equations = &mobility.singular_equations;
+    if equations.is_empty() {
+        return Vec::new();
+    }
+    let of_joints: Vec<&Dependent> = equations.iter().filter(|one| !driven(one)).collect();
+    let kind = of_joints.first().map(|_| crossing(model, t, q, &of_joints));
+    equations
+        .iter()
+        .map(|one| if driven(one) { Kind::DeadPoint } else { kind.unwrap_or(Kind::ChangePoint) })
+        .collect()
+}
+
+/// Directions w of the null space of Φ_q without drivers, scaled to metres and rad, orthonormal if lengths are relative to
+/// the size of the mechanism. None if the model is too large.
+pub(super) fn freedoms(model: &Model, t: f64, q: &[f64]) -> Option<Vec<Vec<f64>>> {
+    let (n, layout) = (model.layout.n_q, &model.layout);
+    if n > MOST || layout.n_rows > MOST {
+        return None;
+    }
+    let mut entries = vec![0.0; layout.n_entries];
+    constraints::jacobian(model, &Motions::at_rest(layout, q), t, &mut entries);
+    let scales = column_scales(model);
+    let joint = |row: usize| !model.constraints[layout.owner(row).0].driven;
+    let rows: Vec<usize> = (0..layout.n_rows).filter(|row| joint(*row)).collect();
+    let m = rows.len();
+    let mut full = vec![0.0; m * n];
+    for (row, column, at) in layout.positions() {
+        if let Ok(row) = rows.binary_search(&row) {
+            full[row * n + column] = entries[at] * scales[column];
+        }
+    }
+    if full.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    normalize_rows(&mut full, n);
+    // the left null space of the transposed matrix
+    let mut transposed = vec![0.0; m * n];
+    (0..m).for_each(|i| (0..n).for_each(|j| transposed[j * m + i] = full[i * n + j]));
+    let mut found = match m {
+        0 => (0..n).map(|k| (0..n).map(|j| f64::from(u8::from(j == k))).collect()).collect(),
+        _ => rank(&transposed, m, NEARLY).left_null,
+    };
+    found.iter_mut().for_each(|w: &mut Vec<f64>| {
+        w.iter_mut().zip(&scales).for_each(|(w, scale)| *w *= scale);
+    });
+    Some(found)
+}
+
+/// The kind of a position at which equations of joints depend on each other.
+fn crossing(model: &Model, t: f64, q: &[f64], equations: &[&Dependent]) -> Kind {
+    let Some(freedoms) = freedoms(model, t, q) else { return Kind::ChangePoint };
+    let forms = independent(forms(model, t, q, equations, &freedoms));
+    let definite = |form: &Vec<f64>| {
+        let [least, most] = signs(form, freedoms.len());
+        least > ZERO || most < -ZERO
+    };
+    // a form with one sign excludes every motion
+    match forms.iter().any(definite) {
+        true => Kind::Uncertainty,
+        false => Kind::ChangePoint,
+    }
+}
+
+/// B on the freedoms, row by row, for each equation.
+fn forms(
+    model: &Model,
+    t: f64,
+    q: &[f64],
+    equations: &[&Dependent],
+    freedoms: &[Vec<f64>],
+) -> Vec<Vec<f64>> {
+    let (m, f) = (model.layout.n_rows, freedoms.len());
+    let gamma = |v: &[f64]| {
+        let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+        let motions = Motions::at(&model.layout, q, v);
+        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+        gamma
+    };
+    let rest = gamma(&vec![0.0; q.len()]);
+    // the part of -γ that is quadratic in the velocities
+    let quadratic = |v: Vec<f64>| -> Vec<f64> {
+        let back: Vec<f64> = v.iter().map(|x| -x).collect();
+        let (one, other) = (gamma(&v), gamma(&back));
+        (0..m).map(|k| rest[k] - 0.5 * (one[k] + other[k])).collect()
+    };
+    let mut found = vec![vec![0.0; f * f]; equations.len()];
+    let alone: Vec<Vec<f64>> = freedoms.iter().map(|w| quadratic(w.clone())).collect();
+    for a in 0..f {
+        for b in 0..=a {
+            let sum = freedoms[a].iter().zip(&freedoms[b]).map(|(x, y)| x + y).collect();
+            let both =
+                if a == b { alone[a].iter().map(|x| 4.0 * x).collect() } else { quadratic(sum) };
+            for (form, equation) in found.iter_mut().zip(equations) {
+                let terms = equation
+                    .factors
+                    .iter()
+                    .map(|(k, y)| 0.5 * y * (both[*k] - alone[a][*k] - alone[b][*k]));
+                let value: f64 = terms.sum();
+                (form[a * f + b], form[b * f + a]) = (value, value);
+            }
+        }
+    }
+    found
+}
+
+/// An orthonormal basis of some forms; a redundant equation has the form zero.
+fn independent(forms: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let largest = forms.iter().map(|form| length(form)).fold(0.0, f64::max);
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for mut form in forms {
+        for earlier in &basis {
+            let part: f64 = form.iter().zip(earlier).map(|(x, y)| x * y).sum();
+            form.iter_mut().zip(earlier).for_each(|(x, y)| *x -= part * y);
+        }
+        let size = length(&form);
+        if size > ZERO * largest && size > 0.0 {
+            form.iter_mut().for_each(|x| *x /= size);
+            basis.push(form);
+        }
+    }
+    basis
+}
+
+/// The least and the largest eigenvalue of a symmetric matrix, by Jacobi's rotations.
+fn signs(form: &[f64], n: usize) -> [f64; 2] {
+    let mut a = form.to_vec();
+    for _ in 0..30 {
+        let mut rest = 0.0;
+        for p in 0..n {
+            for q in p + 1..n {
+                let off = a[p * n + q];
+                rest += off * off;
+                if off.abs() < f64::MIN_POSITIVE {
+                    continue;
+                }
+                let theta = 0.5 * (a[q * n + q] - a[p * n + p]) / off;
+                let tan = theta.signum() / (theta.abs() + theta.hypot(1.0));
+                let cos = 1.0 / tan.hypot(1.0);
+                let sin = tan * cos;
+                for k in 0..n {
+                    let (x, y) = (a[k * n + p], a[k * n + q]);
+                    (a[k * n + p], a[k * n + q]) = (cos * x - sin * y, sin * x + cos * y);
+                }
+                for k in 0..n {
+                    let (x, y) = (a[p * n + k], a[q * n + k]);
+                    (a[p * n + k], a[q * n + k]) = (cos * x - sin * y, sin * x + cos * y);
+                }
+            }
+        }
+        if rest < 1e-30 {
+            break;
+        }
+    }
+    let values = (0..n).map(|k| a[k * n + k]);
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+}

@@ -1,0 +1,126 @@
+//! A circuit: the path of a position by its length, through all limits, until it returns.
+
+use super::path::{Path, Place};
+use super::solution::Solver;
+use crate::elements::BodyId;
+use crate::model::{size, Model};
+use std::f64::consts::TAU;
+
+/// First and longest step of the path, scaled.
+const FIRST: f64 = 1e-3;
+const LONGEST: f64 = 0.05;
+/// Shortest step.
+const SHORTEST: f64 = 1e-8;
+/// Largest number of steps, and of turns.
+const MOST: usize = 4000;
+const MOST_TURNS: f64 = 8.0;
+/// Sizes of the mechanism that a length is followed.
+const FARTHEST: f64 = 20.0;
+/// Largest difference of two positions that are the same, rad, and relative to the size of the mechanism.
+const SAME: f64 = 1e-6;
+
+/// Whether the bodies lie at the same places, whole turns aside.
+pub(in crate::analyses) fn same(model: &Model, a: &[f64], b: &[f64], tolerance: f64) -> bool {
+    let size = size(model);
+    (1..model.bodies.len()).map(BodyId).all(|body| {
+        let columns = model.layout.bodies[body.0];
+        let pairs = columns.range().enumerate();
+        pairs.map(|(c, k)| (c, b[k] - a[k])).all(|(c, d)| match c {
+            2 => (d - TAU * (d / TAU).round()).abs() <= tolerance,
+            _ => d.abs() <= tolerance * size,
+        })
+    })
+}
+
+/// The other positions on the path of a regular position `q` at which t has the same value; whole turns aside if the
+/// driven value is an angle.
+pub(in crate::analyses) fn circuit(model: &Model, t: f64, q: &[f64], turns: bool) -> Vec<Vec<f64>> {
+    let mut found = Vec::new();
+    // a path that does not return is followed from its start both ways
+    if !follow(model, (t, q), turns, 1.0, &mut found) {
+        follow(model, (t, q), turns, -1.0, &mut found);
+    }
+    found
+}
+
+/// Follows the path one way; returns whether it came back.
+fn follow(
+    model: &Model,
+    (t, q): (f64, &[f64]),
+    turns: bool,
+    sign: f64,
+    found: &mut Vec<Vec<f64>>,
+) -> bool {
+    let mut solver = Solver::new(model);
+    let Some(start) = solver.point(t, q.to_vec()) else { return true };
+    let pace = solver.norm(&start.v);
+    let unit = if pace > 0.0 { 1.0 / pace } else { 1.0 };
+    let mut path = Path { solver: &mut solver, unit };
+    let Some(mut place) = path.begin(&start, sign) else { return true };
+    let period = if turns { TAU } else { f64::INFINITY };
+    let farthest = if turns { MOST_TURNS * TAU } else { FARTHEST * size(model) };
+    let mut ds = FIRST;
+    for step in 0..MOST {
+        let Some(next) = path.advance(&place, ds) else {
+            ds *= 0.5;
+            if ds < SHORTEST {
+                return false;
+            }
+            continue;
+        };
+        if let Some(level) = crossed(place.t - t, next.t - t, period).filter(|_| step > 0) {
+            if let Some(there) = at_level(&mut path, &place, &next, (t + level, ds)) {
+                if same(model, &there, q, SAME) && (next.t - place.t) * sign > 0.0 {
+                    return true;
+                }
+                found.push(there);
+            }
+        }
+        if (next.t - t).abs() > farthest {
+            return false;
+        }
+        place = next;
+        ds = (1.3 * ds).min(LONGEST);
+    }
+    false
+}
+
+/// The multiple of the period between two values, if there is one; 0 without a period.
+fn crossed(a: f64, b: f64, period: f64) -> Option<f64> {
+    if period.is_infinite() {
+        return (a * b <= 0.0 && a != b && a != 0.0).then_some(0.0);
+    }
+    let (low, high) = (a.min(b), a.max(b));
+    let level = period * (high / period).floor();
+    (level >= low && level != a).then_some(level)
+}
+
+/// The position between two places at which t has a value.
+fn at_level(
+    path: &mut Path<'_, '_>,
+    from: &Place,
+    to: &Place,
+    (level, ds): (f64, f64),
+) -> Option<Vec<f64>> {
+    let n = from.q.len();
+    let (mut low, mut high) = (from.clone(), to.clone());
+    let (mut from_s, mut to_s) = (0.0, ds);
+    for _ in 0..8 {
+        let share = ((level - low.t) / (high.t - low.t)).clamp(0.0, 1.0);
+        let guess: Vec<f64> = (0..n).map(|k| low.q[k] + share * (high.q[k] - low.q[k])).collect();
+        if let Some(point) = path.solver.point(level, guess.clone()) {
+            let moved: Vec<f64> = (0..n).map(|k| point.q[k] - guess[k]).collect();
+            if path.solver.norm(&moved) <= 0.5 * ds {
+                return Some(point.q);
+            }
+        }
+        let s = 0.5 * (from_s + to_s);
+        let middle = path.advance(from, s)?;
+        if (middle.t - level) * (low.t - level) > 0.0 {
+            (low, from_s) = (middle, s);
+        } else {
+            (high, to_s) = (middle, s);
+        }
+    }
+    None
+}

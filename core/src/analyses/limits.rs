@@ -1,0 +1,210 @@
+//! Limits of motion: how far a driven value can go up and down from a position, or whether it turns fully.
+//!
+//! The motion is followed both ways by the continuation of `kinematics`. It ends at a dead point, which is found exactly,
+//! or at the end of a curve. An angle turns fully if it meets no limit until the mechanism is again as at the
+//! start, after one turn or after several. A length is unlimited if it exceeds [`FARTHEST`] sizes of the mechanism.
+
+use super::curves::Ranges;
+use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason};
+use super::options::{name, options};
+use super::State;
+use crate::integrate::Flow;
+use crate::model::{size, Model};
+use std::f64::consts::TAU;
+
+/// Turns after which an angle without a limit counts as free to turn, even if the mechanism never returns to its start.
+pub const MOST_TURNS: usize = 24;
+/// Sizes of the mechanism after which a length without a limit counts as unlimited.
+pub const FARTHEST: f64 = 100.0;
+/// Largest difference of two positions that are the same, rad, and relative to the size of the mechanism.
+const SAME: f64 = 1e-5;
+/// Width to which the end of a curve is located, as a part of a step.
+const LOCATED: f64 = 1e-14;
+
+options! {
+    /// How far a driver or position quantity can go both ways until a dead point or the end of a curve, or whether it
+    /// turns fully.
+    Options, "limits", "Limits" () {
+        /// A driver, or a position quantity such as `crank.angle`. If absent, the only driver.
+        over: Option<name> = None,
+        /// State at which it starts: "start", or the name of an earlier analysis for the end of that analysis. If
+        /// absent, the end of the analysis before it.
+        from: Option<name> = None,
+    }
+}
+
+/// The limits of a driven value.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// The end of the motion downwards; None without a limit.
+    pub lower: Option<Bound>,
+    /// The end of the motion upwards; None without a limit.
+    pub upper: Option<Bound>,
+    /// Unit of the value, m or rad.
+    pub unit: &'static str,
+    /// Descriptions: of the lower and the upper end, or of the motion without ends.
+    pub reasons: Vec<String>,
+    /// Turns after which the mechanism is as at the start, if it turns fully.
+    pub turns: Option<usize>,
+    /// Values on the way, ascending, with the positions of shape (n_q); both ends included.
+    pub path: Vec<(f64, Vec<f64>)>,
+}
+
+/// An end of a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bound {
+    /// The driven value, m or rad.
+    pub value: f64,
+    /// The position, shape (n_q).
+    pub q: Vec<f64>,
+    /// The reason.
+    pub reason: String,
+}
+
+/// The end of a motion in one direction.
+enum End {
+    At(Bound),
+    /// As at the start after this number of turns.
+    Returned(usize),
+    Never,
+    Stopped,
+}
+
+/// The limits of the value that takes the place of t in a model, from a start whose t is the value there.
+///
+/// `watch` is called with the value after each step and may stop the work; the result then has no meaning.
+///
+/// # Errors
+/// [`Failure`]: drivers leave a freedom, the start does not meet the constraints or is singular, or the motion cannot be
+/// followed although no limit was found.
+pub fn limits(
+    model: &Model,
+    start: &State,
+    mut watch: impl FnMut(f64) -> Flow,
+) -> Result<Limits, Box<Failure>> {
+    let (driven, unit) = driven(model);
+    let mut found = Limits { unit, ..Limits::default() };
+    let mut walk = Walk { model, start, unit, curves: Ranges::of(model), watch: &mut watch };
+    let (down, mut path) = walk.towards(-1.0)?;
+    path.reverse();
+    let described = |end: &End| {
+        match end {
+        End::At(bound) => bound.reason.clone(),
+        End::Returned(1) => format!("{driven} turns fully: the mechanism is the same after 360°"),
+        End::Returned(n) => format!(
+            "{driven} turns fully: it meets no dead point, and the mechanism is the same after {n} turns, {}°",
+            360 * n
+        ),
+        End::Never if unit == "rad" => {
+            format!("{driven} turns fully: it meets no dead point in {MOST_TURNS} turns")
+        }
+        End::Never => format!("{driven} has no limit within {}", written(reach(model), unit)),
+        End::Stopped => String::new(),
+    }
+    };
+    found.reasons.push(described(&down));
+    match down {
+        End::Returned(turns) => {
+            found.turns = Some(turns);
+            found.path = path;
+            found.path.push((start.t, start.q.clone()));
+            return Ok(found);
+        }
+        End::Stopped => return Ok(found),
+        End::At(bound) => found.lower = Some(bound),
+        End::Never => {}
+    }
+    let (up, further) = walk.towards(1.0)?;
+    found.reasons.push(described(&up));
+    path.push((start.t, start.q.clone()));
+    path.extend(further);
+    found.path = path;
+    if let End::At(bound) = up {
+        found.upper = Some(bound);
+    }
+    found.reasons.dedup();
+    Ok(found)
+}
+
+/// The farthest length that is tried, m.
+fn reach(model: &Model) -> f64 {
+    FARTHEST * size(model)
+}
+
+/// The motion from a start, either way.
+struct Walk<'a, W> {
+    model: &'a Model,
+    start: &'a State,
+    unit: &'static str,
+    curves: Ranges,
+    watch: &'a mut W,
+}
+
+type Path = Vec<(f64, Vec<f64>)>;
+
+impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
+    /// The end in a direction, and the way there without the start.
+    fn towards(&mut self, way: f64) -> Result<(End, Path), Box<Failure>> {
+        let mut motion = Continuation::begin(self.model, self.start)?;
+        let mut path = Path::new();
+        let (turns, length) = match self.unit {
+            "rad" => (MOST_TURNS, TAU),
+            _ => (1, reach(self.model)),
+        };
+        for turn in 1..=turns {
+            let goal = self.start.t + way * length * turn as f64;
+            while motion.point().t != goal {
+                let before = (motion.point().t, motion.point().q.clone());
+                if let Err(reason) = motion.step(goal) {
+                    let Reason::Limit(limit) = reason else { return Err(reason.into()) };
+                    let bound = bound(*limit);
+                    path.push((bound.value, bound.q.clone()));
+                    return Ok((End::At(bound), path));
+                }
+                if let Some(bound) = self.end_of_curve(&mut motion, before) {
+                    path.push((bound.value, bound.q.clone()));
+                    return Ok((End::At(bound), path));
+                }
+                path.push((motion.point().t, motion.point().q.clone()));
+                if (self.watch)(motion.point().t) == Flow::Stop {
+                    return Ok((End::Stopped, path));
+                }
+            }
+            if self.unit == "rad" && same(self.model, &self.start.q, &motion.point().q, SAME) {
+                return Ok((End::Returned(turn), path));
+            }
+        }
+        Ok((End::Never, path))
+    }
+
+    /// The end of a curve that a contact left in the last step, by bisection.
+    fn end_of_curve(
+        &self,
+        motion: &mut Continuation<'_>,
+        before: (f64, Vec<f64>),
+    ) -> Option<Bound> {
+        self.curves.beyond(self.model, &motion.point().q)?;
+        let (mut inside, mut outside) = (before, (motion.point().t, motion.point().q.clone()));
+        while (outside.0 - inside.0).abs() > LOCATED * self.start.t.abs().max(1.0) {
+            let t = 0.5 * (inside.0 + outside.0);
+            if t == inside.0 || t == outside.0 {
+                break;
+            }
+            let middle = inside.1.iter().zip(&outside.1).map(|(a, b)| 0.5 * (a + b)).collect();
+            let Some(q) = motion.closed(t, middle) else { break };
+            match self.curves.beyond(self.model, &q) {
+                Some(_) => outside = (t, q),
+                None => inside = (t, q),
+            }
+        }
+        let (name, _) = self.curves.beyond(self.model, &outside.1)?;
+        let (driven, unit) = driven(self.model);
+        let value = written(inside.0, unit);
+        let reason = format!("{driven} cannot pass {value}: {name} is at the end of its curve");
+        Some(Bound { value: inside.0, q: inside.1, reason })
+    }
+}
+
+fn bound(limit: Limit) -> Bound {
+    Bound { value: limit.t, reason: limit.to_string(), q: limit.q }
+}

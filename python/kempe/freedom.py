@@ -1,0 +1,228 @@
+"""Mobility: what a mechanism can do at a position, and which of its constraints are superfluous."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+from kempe import _core
+from kempe.analyses import Progress, refuse_foreign
+from kempe.display_units import display
+from kempe.errors import ModelError
+from kempe.model import Model, compiled_model
+from kempe.names import few
+from kempe.result import Result
+from kempe.state import State
+
+if TYPE_CHECKING:
+    from kempe.compiled import CompiledModel
+
+#: Largest number of redundancies or loops in a report.
+_MOST = 20
+#: What the kinds of singular positions mean.
+_KINDS = {
+    "dead point": "a driver cannot move the mechanism from here",
+    "change point": "motions cross here, so that the branch is not determined",
+    "uncertainty": "there are velocities, but no motion in their direction",
+}
+
+
+@dataclass(frozen=True)
+class Redundancy:
+    """An equation that others imply, permanently or at this position.
+
+    Attributes:
+        joints: the joints and drivers that take part.
+        equations: their equations that take part, such as ``C.x``. Any one of them may be removed.
+        remove: one of them; those of all redundancies together may be removed.
+        consistent: whether the rates that drivers prescribe agree with it.
+        kind: "dead point", "change point" or "uncertainty" if it holds at this position only; empty
+            if it is permanent.
+    """
+
+    joints: tuple[str, ...]
+    equations: tuple[str, ...]
+    remove: str
+    consistent: bool
+    kind: str = ""
+
+
+@dataclass(frozen=True)
+class FourBar:
+    """A closed loop of four bodies and four pins.
+
+    Attributes:
+        bodies: the bodies, each next to its neighbours; ground first if it takes part.
+        pins: the joints: of the first and second body, and so on.
+        lengths: the distances of the two pins of each body, m.
+        kind: "crank-rocker", "double crank", "double rocker", "triple rocker", "change point", or
+            "Grashof" if ground does not take part.
+        turning: the bodies that turn fully against their neighbours; None at a change point, where
+            it depends on the branch.
+    """
+
+    bodies: tuple[str, ...]
+    pins: tuple[str, ...]
+    lengths: tuple[float, ...]
+    kind: str
+    turning: tuple[str, ...] | None
+
+
+class MobilityResult(Result):
+    """What a mechanism can do at a position.
+
+    Attributes:
+        gruebler: coordinates less constraint equations, drivers included.
+        degrees_of_freedom: coordinates less independent constraint equations.
+        rank: number of independent constraint equations.
+        driven: number of equations of drivers.
+        redundant: equations that others imply at every position.
+        singular: equations that others imply at this position only.
+        locked: bodies that cannot move, even if the drivers are released.
+        loose: bodies that no chain of joints connects with ground.
+        four_bars: closed loops of four pins.
+    """
+
+    kind = "mobility"
+
+    def __init__(self, state: State, found: Mapping[str, Any]) -> None:
+        self._state = state
+        self.gruebler: int = found["gruebler"]
+        self.degrees_of_freedom: int = found["degrees_of_freedom"]
+        self.rank: int = found["rank"]
+        self.driven: int = found["driven"]
+        self.redundant = tuple(_redundancy(each) for each in found["redundant"])
+        self.singular = tuple(_redundancy(each) for each in found["singular"])
+        self.locked: tuple[str, ...] = tuple(found["locked"])
+        self.loose: tuple[str, ...] = tuple(found["loose"])
+        self.four_bars = tuple(_four_bar(each) for each in found["four_bars"])
+
+    @property
+    def final(self) -> State:
+        """The state that was examined."""
+        return self._state
+
+    def summary(self) -> dict[str, Any]:
+        """The findings as plain data; lengths in m."""
+        return {
+            "type": self.kind,
+            "gruebler": self.gruebler,
+            "degrees_of_freedom": self.degrees_of_freedom,
+            "rank": self.rank,
+            "driven": self.driven,
+            "redundant": [asdict(each) for each in self.redundant],
+            "singular": [asdict(each) for each in self.singular],
+            "locked": list(self.locked),
+            "loose": list(self.loose),
+            "four_bars": [asdict(each) for each in self.four_bars],
+        }
+
+    def report(self) -> list[str]:
+        """The findings in sentences."""
+        model = self._state.compiled
+        counts = f"{model.n_q} coordinates - {model.n_rows} equations = {self.gruebler} by Grübler"
+        free = _plural(self.degrees_of_freedom, "degree")
+        lines = [f"{counts}; rank {self.rank}: {free} of freedom{self._without_drivers()}"]
+        lines += _limited([line for each in self.redundant for line in _told(each)])
+        lines += _limited([line for each in self.singular for line in _told(each)])
+        if self.locked:
+            lines.append(f"cannot move: {few(self.locked)}")
+        if self.loose:
+            lines.append(f"not connected with ground: {few(self.loose)}")
+        return lines + _limited([_loop(each) for each in self.four_bars])
+
+    def _without_drivers(self) -> str:
+        if not self.driven:
+            return ""
+        dependent = len(self.redundant) + len(self.singular)
+        if dependent:
+            return f", with {_plural(self.driven, 'equation')} of drivers"
+        return f", {self.degrees_of_freedom + self.driven} without its {_drivers(self.driven)}"
+
+    def __repr__(self) -> str:
+        free = _plural(self.degrees_of_freedom, "degree")
+        redundant = f", {len(self.redundant)} redundant" if self.redundant else ""
+        singular = f", {self.singular[0].kind}" if self.singular else ""
+        return f"<MobilityResult: {free} of freedom{redundant}{singular}>"
+
+
+def mobility(model: Model | CompiledModel, state: State) -> MobilityResult:
+    """What a mechanism can do at an assembled position.
+
+    Degrees of freedom by Grübler's count and by rank; redundant equations with all joints that take
+    part; singular positions with their kind; locked and loose bodies; four-bar loops by Grashof.
+    Masses and forces are not needed.
+
+    Args:
+        model: the mechanism. ``redundancy="allow"`` lets one with redundant joints be assembled.
+        state: an assembled state.
+    """
+    return find_mobility(compiled_model(model), state, {}, None)
+
+
+def find_mobility(
+    model: CompiledModel, state: State, _: Mapping[str, Any], __: Progress | None
+) -> MobilityResult:
+    """The mobility as an analysis of a case; see ``mobility``."""
+    if not isinstance(state, State):
+        raise ModelError(f"state: {state!r} is not a State", hint="kp.assemble(model) returns one")
+    refuse_foreign(model, state)
+    found = _core.mobility(model.core, float(state.t), state.q, state.v, state.z)
+    return MobilityResult(state, json.loads(found))
+
+
+def _redundancy(found: Mapping[str, Any]) -> Redundancy:
+    joints, equations = tuple(found["joints"]), tuple(found["equations"])
+    return Redundancy(
+        joints, equations, found["remove"], found["consistent"], found.get("kind", "")
+    )
+
+
+def _four_bar(found: Mapping[str, Any]) -> FourBar:
+    bodies, pins, lengths = (tuple(found[key]) for key in ("bodies", "pins", "lengths"))
+    turning = None if found["turning"] is None else tuple(found["turning"])
+    return FourBar(bodies, pins, lengths, found["kind"], turning)
+
+
+def _told(one: Redundancy) -> list[str]:
+    """The lines about a redundancy."""
+    joints = ", ".join(one.joints)
+    if one.kind:
+        return [f"singular position, {one.kind}: {_KINDS[one.kind]} ({joints})"]
+    verdict = "" if one.consistent else "; the drivers CONTRADICT each other"
+    any_of = ", ".join(one.equations)
+    return [
+        f"one equation too many among {joints}{verdict}",
+        f"  any one of these may be removed: {any_of}; for example {one.remove}",
+    ]
+
+
+def _loop(one: FourBar) -> str:
+    """The line about a four-bar loop."""
+    unit = display("m")
+    pairs = zip(one.bodies, one.lengths, strict=True)
+    links = ", ".join(f"{name} {length / unit.divisor:.4g}" for name, length in pairs)
+    if one.turning is None:
+        turns = "all links can lie in line"
+    elif not one.turning:
+        turns = "no link turns fully"
+    else:
+        verb = "turns" if len(one.turning) == 1 else "turn"
+        turns = f"{' and '.join(one.turning)} {verb} fully"
+    return f"four-bar {'-'.join(one.pins)}: {one.kind}, {turns} ({links} {unit.symbol})"
+
+
+def _limited(lines: list[str]) -> list[str]:
+    if len(lines) <= _MOST:
+        return lines
+    return [*lines[:_MOST], f"and {len(lines) - _MOST} more lines"]
+
+
+def _plural(count: int, word: str) -> str:
+    return f"{count} {word}{'' if count == 1 else 's'}"
+
+
+def _drivers(count: int) -> str:
+    return "driver" if count == 1 else "drivers"

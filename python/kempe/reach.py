@@ -1,0 +1,187 @@
+"""Limits of motion: how far a driver or quantity goes, or whether it turns fully."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from kempe import _core
+from kempe.analyses import Progress, refuse_foreign
+from kempe.arrays import Floats
+from kempe.display_units import display
+from kempe.driven import driven_by
+from kempe.errors import ModelError
+from kempe.model import Model, compiled_model
+from kempe.motion import Motion
+from kempe.options import Limits
+from kempe.result import Result
+from kempe.state import State
+from kempe.table import Column
+
+if TYPE_CHECKING:
+    from kempe.compiled import CompiledModel
+
+
+class LimitsResult(Result):
+    """The limits of a driver or position quantity.
+
+    Attributes:
+        over: the quantity, such as ``"crank.angle"``.
+        unit: its SI unit, "m" or "rad".
+        start: its value at the start.
+        lower: its least value; None if it has no limit.
+        upper: its largest value; None if it has no limit.
+        reasons: why it cannot go further, the lower end first; or why it has no limit.
+        turns: number of turns after which the mechanism is as at the start; None unless it turns
+            fully.
+        path: the motion between both limits; ``path.t`` contains the values, ascending.
+    """
+
+    kind = "limits"
+    path: Motion
+
+    def __init__(
+        self, initial: State, over: str, found: Mapping[str, Any], start: float, path: Motion
+    ) -> None:
+        self._initial = initial
+        self.over, self.start, self.path = over, start, path
+        self.unit: str = found["unit"]
+        self.lower: float | None = found["lower"]
+        self.upper: float | None = found["upper"]
+        self.reasons: tuple[str, ...] = tuple(found["reasons"])
+        self.turns: int | None = found["turns"]
+
+    @property
+    def final(self) -> State:
+        """The state at the start."""
+        return self._initial
+
+    @property
+    def turns_fully(self) -> bool:
+        """Whether an angle has no limit."""
+        return self.unit == "rad" and self.lower is None and self.upper is None
+
+    @property
+    def span(self) -> float | None:
+        """The range of motion, upper - lower; None unless both are limits."""
+        if self.lower is None or self.upper is None:
+            return None
+        return self.upper - self.lower
+
+    def at_lower(self) -> State | None:
+        """The mechanism at the lower limit, ``over`` driven."""
+        return None if self.lower is None else self._at(0)
+
+    def at_upper(self) -> State | None:
+        """The mechanism at the upper limit, ``over`` driven."""
+        return None if self.upper is None else self._at(-1)
+
+    def _at(self, k: int) -> State:
+        path = self.path
+        return State(path.compiled, float(path.t[k]), path.q[k], path.v[k], z=path.z[k])
+
+    def summary(self) -> dict[str, Any]:
+        """The limits as plain data, m or rad."""
+        return {
+            "type": self.kind,
+            "over": self.over,
+            "unit": self.unit,
+            "start": self.start,
+            "lower": self.lower,
+            "upper": self.upper,
+            "turns_fully": self.turns_fully,
+            "turns": self.turns,
+            "reasons": list(self.reasons),
+        }
+
+    def report(self) -> list[str]:
+        """The range and the reasons."""
+        ends = [self.shown(value) for value in (self.lower, self.upper)]
+        if self.turns_fully:
+            found = "turns fully"
+        else:
+            found = f"{ends[0] or 'no limit below'} to {ends[1] or 'no limit above'}"
+        if self.span is not None:
+            found += f", a range of {self.shown(self.span)}"
+        return [f"{self.over}: {found} (start: {self.shown(self.start)})", *self.reasons]
+
+    def shown(self, value: float | None) -> str:
+        """A value with its display unit; empty if there is none."""
+        if value is None:
+            return ""
+        unit = display(self.unit, "deg" if self.unit == "rad" else None)
+        return f"{value / unit.divisor:.7g}{'' if unit.symbol == '°' else ' '}{unit.symbol}"
+
+    def tables(self) -> Mapping[str, Sequence[Column]]:
+        """``limits``: the values on the way and the coordinates of all bodies."""
+        path = self.path
+        names, units = path.compiled.column_names(), path.compiled.column_units()
+        value = Column(self.over, self.unit, np.asarray(path.t))
+        rows = zip(names, units, path.q.T, strict=True)
+        return {"limits": [value, *(Column(name, unit, q) for name, unit, q in rows)]}
+
+    def __repr__(self) -> str:
+        return f"<LimitsResult {self.report()[0]}>"
+
+
+def limits(
+    model: Model | CompiledModel,
+    start: State,
+    *,
+    over: str | None = None,
+    progress: Progress | None = None,
+) -> LimitsResult:
+    """How far a driver or position quantity goes both ways from a state.
+
+    The motion is followed as by ``kinematics``, up and down, until a dead point or the end of a
+    curve, which is found to 1e-9. An angle without a limit turns fully: the mechanism is again as
+    at the start after one turn or several. A length without a limit is followed for 100 times the
+    size of the mechanism. Masses are not needed, and the law of the driver is not used.
+
+    Args:
+        model: the mechanism.
+        start: an assembled state.
+        over: name of a driver, or a position quantity such as ``"crank.angle"``; the only driver
+            if None.
+        progress: function that is called repeatedly with the value reached.
+
+    Raises:
+        SingularityError: the start is a dead point itself, or the motion cannot be followed.
+        AssemblyError: the start does not meet the constraints.
+        ModelError: ``over`` is unknown or missing, or the drivers leave another freedom.
+    """
+    return find_limits(compiled_model(model), start, Limits(over).tree(), progress)
+
+
+def find_limits(
+    model: CompiledModel, start: State, entry: Mapping[str, Any], progress: Progress | None
+) -> LimitsResult:
+    """The limits with the options of an entry of a case; see ``limits``."""
+    if not isinstance(start, State):
+        raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
+    if progress is not None and not callable(progress):
+        raise ModelError(f"progress: {progress!r} is not a function")
+    refuse_foreign(model, start)
+    over = entry.get("over") or _only_driver(model)
+    driven, value, _ = driven_by(model, over, start)
+    text, values, positions = _core.limits(driven.core, value, start.q, start.v, start.z, progress)
+    path = Motion(driven, values, positions, np.zeros_like(positions), _repeated(start.z, values))
+    return LimitsResult(start, over, json.loads(text), value, path)
+
+
+def _only_driver(model: CompiledModel) -> str:
+    drivers = list(model.drivers)
+    if len(drivers) == 1:
+        return drivers[0]
+    told = f"the model has the drivers {', '.join(drivers)}" if drivers else "it has no driver"
+    raise ModelError(
+        f"over: missing; {told}",
+        hint='name a driver or a position quantity, as over = "crank.angle"',
+    )
+
+
+def _repeated(z: Floats, values: Floats) -> Floats:
+    return np.tile(z, (len(values), 1))

@@ -1,0 +1,148 @@
+"""Statics: the rest position of a mechanism, and the stiffness felt at a point."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from kempe import _core
+from kempe.analyses import Progress, refuse_foreign, released
+from kempe.arrays import Floats, fixed
+from kempe.compiled import CompiledModel
+from kempe.errors import ModelError
+from kempe.model import Model, compiled_model
+from kempe.option import core_options
+from kempe.options import Equilibrium
+from kempe.request_cache import encode
+from kempe.rest import EquilibriumResult
+from kempe.state import State
+from kempe.values import Number, texts
+
+__all__ = ["EquilibriumResult", "PointStiffness", "equilibrium", "rest", "stiffness_at"]
+
+#: Compliance in a direction, relative to the largest one, that counts as none.
+_RIGID = 1e-12
+
+
+def equilibrium(
+    model: Model | CompiledModel,
+    start: State,
+    *,
+    hold: Sequence[str] = (),
+    over: str | None = None,
+    range: tuple[Number, Number] | None = None,  # noqa: A002 - as in a file
+    nearest: bool = False,
+    progress: Progress | None = None,
+) -> EquilibriumResult:
+    """The position in which a mechanism comes to rest, or a path of such positions.
+
+    At rest the rates are zero, drivers hold their coordinates at the time of the start, and
+    first-order states such as currents have the value at which they rest. The search goes down the
+    potential from the start, so that it leaves maxima and saddles; a start that is at rest itself
+    is returned, stable or not.
+
+    With ``over`` and ``range``, the path of equilibria over a parameter is followed by its length
+    from the one at the first value. It passes folds, where it turns back, and ends where it leaves
+    the range.
+
+    Args:
+        model: the mechanism.
+        start: an assembled state; its rates do not count.
+        hold: position quantities that a holder keeps at their values of the start, such as
+            ``["crank.angle"]``; ``effort`` gives what the holder must apply.
+        over: a parameter of the model.
+        range: its first and last value, in SI units and rad.
+        nearest: find the equilibrium nearest to the start by plain Newton iteration, stable or not.
+        progress: function that is called repeatedly, with the number of steps or with the value of
+            the parameter.
+
+    Raises:
+        SingularityError: there is no equilibrium within reach, or the position is singular.
+        AssemblyError: the mechanism does not close.
+        ModelError: an argument is invalid.
+    """
+    entry = Equilibrium(hold or None, over, range, nearest).tree()
+    return rest(compiled_model(model), start, entry, progress)
+
+
+def rest(
+    model: CompiledModel, start: State, entry: Mapping[str, Any], progress: Progress | None
+) -> EquilibriumResult:
+    """The equilibrium with the options of an entry of a case; see ``equilibrium``."""
+    model = _checked(model, start)
+    if progress is not None and not callable(progress):
+        raise ModelError(f"progress: {progress!r} is not a function")
+    text = encode(core_options(entry))
+    at = start.t, start.q, start.v, start.z
+    found = json.loads(_core.equilibrium(model.core, *at, text, progress))
+    over = entry.get("over")
+    values = found.get("values", [None])
+    models = [model.variant(([(over, x)], [])) if over else model for x in values]
+    return EquilibriumResult(start, models, entry, found)
+
+
+@dataclass(frozen=True)
+class PointStiffness:
+    """The stiffness felt at a point: a small force moves it by ``compliance @ force``.
+
+    Where the point cannot move, the stiffness is infinite and the compliance zero.
+
+    Attributes:
+        compliance: (2, 2), m/N, global axes.
+        stiffnesses: (2,), N/m, along the principal directions, ascending; ``inf`` where the point
+            cannot move, negative where it runs away.
+        directions: (2, 2), the principal directions as rows, unit vectors.
+    """
+
+    compliance: Floats
+    stiffnesses: Floats
+    directions: Floats
+
+    def along(self, direction: Sequence[float] | Floats) -> float:
+        """Force over displacement along a direction if the force acts along it, N/m."""
+        u = np.asarray(direction, dtype=float)
+        if u.shape != (2,) or not np.any(u):
+            raise ModelError("direction: must be two numbers, not both zero")
+        u = u / np.hypot(*u)
+        gives = float(u @ self.compliance @ u)
+        largest = float(np.abs(self.compliance).max(initial=0.0))
+        return float("inf") if abs(gives) <= _RIGID * largest or gives == 0.0 else 1.0 / gives
+
+
+def stiffness_at(
+    model: Model | CompiledModel, state: State, point: str, *, hold: Sequence[str] = ()
+) -> PointStiffness:
+    """The stiffness felt at a point of a mechanism at rest, by the exact reduced stiffness.
+
+    Args:
+        model: the mechanism.
+        state: a state at rest, such as that of ``equilibrium``.
+        point: a point of a body, such as ``"crank.B"``.
+        hold: position quantities that a holder keeps; the state must be at rest with the holder.
+
+    Raises:
+        ModelError: there is no such point, or the state is not at rest.
+        SingularityError: the point moves without any stiffness.
+    """
+    compiled = _checked(compiled_model(model), state)
+    held = texts(hold, "hold")
+    at = state.t, state.q, state.v, state.z
+    c = np.array(_core.compliance(compiled.core, *at, point, held)).reshape(2, 2)
+    values, vectors = np.linalg.eigh(0.5 * (c + c.T))
+    rigid = np.abs(values) <= _RIGID * np.abs(values).max(initial=0.0)
+    with np.errstate(divide="ignore"):
+        stiffnesses = np.where(rigid, np.inf, 1.0 / np.where(rigid, 1.0, values))
+    order = np.argsort(stiffnesses)
+    return PointStiffness(fixed(c), fixed(stiffnesses[order]), fixed(vectors.T[order]))
+
+
+def _checked(model: CompiledModel, start: State) -> CompiledModel:
+    """The model without the drivers that were released before the start."""
+    if not isinstance(start, State):
+        raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
+    refuse_foreign(model, start)
+    return model.variant(([], released(model, start)))
