@@ -20,8 +20,8 @@ from kempe.plot.pin_loads import pin_load
 from kempe.plot.polygons import acceleration_polygon, velocity_polygon
 from kempe.plot.reactions import all_reactions, reactions
 from kempe.plot.residual import residual
-from kempe.plot.shaking import shaking_force
 from kempe.plot.rest import path, rest_position
+from kempe.plot.shaking import shaking_force
 from kempe.plot.time_axis import transient
 from kempe.plot.torques import torques
 from kempe.plot.transmission import transmission_angle
@@ -43,8 +43,8 @@ __all__ = [
     "mechanism",
     "mode_shape",
     "pages",
-    "pin_load",
     "path",
+    "pin_load",
     "positions",
     "reactions",
     "residual",

@@ -9,8 +9,8 @@ from typing import Any
 from kempe.plot.limits import pages as limit_pages
 from kempe.plot.mode_shapes import mode_pages
 from kempe.plot.page import Page
-from kempe.plot.sheet import pages as sheets
 from kempe.plot.rest import rest_pages
+from kempe.plot.sheet import pages as sheets
 from kempe.result import Result
 
 #: The function that lists the figures of a result, by the type of the analysis. It is called with
