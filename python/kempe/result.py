@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import io
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
-
-import numpy as np
 
 from kempe import files
 
@@ -52,22 +49,14 @@ class Result(ABC):
         Raises:
             FileError: a file cannot be written.
         """
+        from kempe.table import write_columns
+
         where = files.checked_path(folder, "write")
-        return [
-            _write_csv(where / f"{name}.csv", columns) for name, columns in self.tables().items()
-        ]
+        written = []
+        for name, columns in self.tables().items():
+            written.append(where / f"{name}.csv")
+            write_columns(columns, written[-1])
+        return written
 
     def __str__(self) -> str:
         return "\n".join(self.report())
-
-
-def _write_csv(path: Path, columns: Sequence[Column]) -> Path:
-    text = io.StringIO()
-    units = [f" [{column.unit}]" if column.unit else "" for column in columns]
-    header = (
-        files.csv_cell(column.name + unit) for column, unit in zip(columns, units, strict=True)
-    )
-    text.write(",".join(header) + "\n")
-    np.savetxt(text, np.column_stack([column.values for column in columns]), "%.17g", ",")
-    files.write_text(path, text.getvalue())
-    return path

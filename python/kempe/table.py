@@ -47,8 +47,8 @@ class Column:
     @property
     def label(self) -> str:
         """Name and unit, such as ``C.fx_on_rocker [N]``; with a remark if it is not unique."""
-        remark = "" if self.unique else f", {MINIMUM_NORM}"
-        return f"{self.name} [{self.unit}{remark}]"
+        remarks = ", ".join(filter(None, (self.unit, "" if self.unique else MINIMUM_NORM)))
+        return f"{self.name} [{remarks}]" if remarks else self.name
 
 
 @dataclass(frozen=True)
@@ -80,8 +80,8 @@ def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
             continue
         quantity = quantities.named(solution, name)
         owner = name.rpartition(".")[0]
-        found = column(name, quantity.unit, quantity.read())
-        table.append(replace(found, unique=owner not in solution.not_unique))
+        values = column(name, quantity.unit, quantity.read())
+        table.append(replace(values, unique=owner not in solution.not_unique))
     return table
 
 

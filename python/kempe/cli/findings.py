@@ -27,7 +27,7 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     )
     console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
     _show_peaks(console, summary["peaks"], of.unit)
-    _show_measures(console, summary["measures"], of.unit)
+    _show_measures(console, summary["measures"], timed=of.is_time)
     _show_events(console, summary["events"], of.unit)
     _show_accuracy(console, summary, of.unit)
     if of.is_time:
@@ -83,8 +83,8 @@ def _show_minimum_norm(console: Console, reactions: list[dict[str, Any]]) -> Non
         console.print(Text(f"  {text}"))
 
 
-def _show_measures(console: Console, measures: list[dict[str, Any]], at: str) -> None:
-    """The statistics of each measure, in the unit of the measure."""
+def _show_measures(console: Console, measures: list[dict[str, Any]], *, timed: bool) -> None:
+    """The statistics of each measure, in its unit; without times if the motion is over a value."""
     if not measures:
         return
     heading(console, "Measures")
@@ -94,13 +94,16 @@ def _show_measures(console: Console, measures: list[dict[str, Any]], at: str) ->
             of["name"],
             display(of["unit"]).symbol,
             *(_number(of[name], of["unit"]) for name in of_unit),
-            "-" if of["settling"] is None else figure(of["settling"] / _shown(at).divisor),
-            "-" if of["frequency"] is None else figure(of["frequency"]),
+            *((_or_none(of["settling"], "s"), _or_none(of["frequency"], "Hz")) if timed else ()),
         )
         for of in measures
     ]
-    header = ("measure", "unit", *of_unit, f"settled at / {_shown(at).symbol}", "frequency / Hz")
-    table(console, header, rows, left=2)
+    over_time = (_header("settled at", "s"), "frequency / Hz") if timed else ()
+    table(console, ("measure", "unit", *of_unit, *over_time), rows, left=2)
+
+
+def _or_none(value: float | None, unit: str) -> str:
+    return "-" if value is None else _number(value, unit)
 
 
 def _show_events(console: Console, events: dict[str, list[float]], at: str) -> None:

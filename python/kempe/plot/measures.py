@@ -53,5 +53,5 @@ def measure_panel(motion: Motion, name: str) -> Panel:
         line = curve(motion, name, partial(values, name=name), style.line(0))
     unit = info.unit.replace("^2", "²").translate(_PRINTED)
     title = f"{style.short(name, 24)} = {style.short(info.expression, 60)}"
-    of = motion.variable
-    return Panel(style.short(name, 12), unit, [line], title, f"measure {name}", variable=of)
+    short = style.short(name, 12)
+    return Panel(short, unit, [line], title, f"measure {name}", variable=motion.variable)
