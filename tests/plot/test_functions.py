@@ -50,6 +50,22 @@ FUNCTIONS: dict[str, tuple[Draw, str]] = {
     ),
     "instant_centres": (lambda sol, **a: plot.instant_centres(sol, 0.3, **a), "y / m"),
     "pin_load": (lambda sol, **a: plot.pin_load(sol, "C", **a), "$F_{y′}$ / kN"),
+    "rest_position": (
+        lambda sol, **a: plot.rest_position(kp.equilibrium(sol.model, sol.initial), **a),
+        "y / m",
+    ),
+    "path": (
+        lambda sol, **a: plot.path(
+            kp.equilibrium(sol.model, sol.initial, over="k", range=(1e6, 1.1e6)),
+            "crank.angle",
+            **a,
+        ),
+        "crank.angle / °",
+    ),
+    "mode_shape": (
+        lambda sol, **a: plot.mode_shape(kp.modes(sol.model, sol.initial).shape(0), **a),
+        "y / m",
+    ),
     "shaking_force": (plot.shaking_force, "$F_y$ / kN"),
     "free_body": (lambda sol, **a: plot.free_body(sol, "coupler", 0.3, **a), "y / m"),
     "draw_free_body": (
@@ -57,8 +73,17 @@ FUNCTIONS: dict[str, tuple[Draw, str]] = {
         "y / m",
     ),
 }
+#: Functions that draw results which are not motions; their own tests draw them.
+OF_RESULTS = ("mode_shape", "path", "rest_position")
 #: Labels of the horizontal axes.
-ACROSS = ("time t / s", "x / m", "ω / (rad/s)", "$v_x$ / (m/s)", "$a_x$ / (10³ m/s²)")
+ACROSS = (
+    "time t / s",
+    "x / m",
+    "k / SI units",
+    "ω / (rad/s)",
+    "$v_x$ / (m/s)",
+    "$a_x$ / (10³ m/s²)",
+)
 FORCES = ("$F_{x′}$ / kN", "$F_x$ / kN")
 
 
@@ -72,7 +97,7 @@ def test_options_of_the_functions_are_named() -> None:
     drawing = [
         f for f in functions if inspect.isfunction(f) and "ax" in inspect.signature(f).parameters
     ]
-    assert len(drawing) == len(FUNCTIONS)
+    assert {f.__name__ for f in drawing} == {*FUNCTIONS, *OF_RESULTS}
     for function in drawing:
         for name, parameter in inspect.signature(function).parameters.items():
             is_option = name in {

@@ -150,14 +150,14 @@ over = "a.angle"
 range = [0, "90 deg"]
 n = 10
 from = "start"
-[analyses.nine]
+[analyses.rest]
 type = "equilibrium"
 hold = ["a.angle"]
 over = "g"
 range = [9, 10]
 nearest = true
 from = "start"
-[analyses.ten]
+[analyses.nine]
 type = "modes"
 n = 2
 inputs = ["a.angle"]

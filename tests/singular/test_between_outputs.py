@@ -1,11 +1,14 @@
 """Between the outputs, states near change points are as accurate as the outputs."""
 
+from pathlib import Path
+
 import kempe as kp
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from singular.test_change_points import LINKAGES
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 NAMES = ["kite", "parallelogram", "1, 2, 3, 4", "equal slider-crank", "slider at the pivot"]
 METHODS = {"dop853": kp.DOP853(rtol=1e-8), "rk45": kp.RK45(rtol=1e-8), "auto": kp.Auto()}
 
@@ -112,3 +115,19 @@ def test_a_stop_that_projection_does_not_pass_does_not_name_it() -> None:
         with pytest.raises((kp.SingularityError, kp.IntegrationError)) as caught:
             kp.dynamics(m, start, t_end=10, method=kp.RK45(), stabilization=stabilization)
         assert "with stabilization projection passes" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("example", "rate", "t_end"), [("four_bar", "crank.omega", 2.4), ("pendulum", "rod.omega", 3.0)]
+)
+def test_a_state_at_rest_for_an_instant(example: str, rate: str, t_end: float) -> None:
+    case = kp.load(EXAMPLES / f"{example}.toml")
+    start = case.start()
+    sol = kp.dynamics(case.model, start, t_end=t_end, events={"turn": rate})
+    turn = sol.events["turn"]
+    assert len(turn.t) >= 2
+    for t, state in zip(turn.t, turn.states, strict=True):
+        exact = kp.dynamics(case.model, start, t_end=float(t), method=kp.DOP853(rtol=1e-11)).final
+        assert_allclose(state.q, exact.q, atol=1e-5)
+        assert_allclose(sol(float(t)).q, exact.q, atol=1e-5)
+        assert_allclose(sol(np.array([t, t_end])).q[0], exact.q, atol=1e-5)

@@ -8,6 +8,7 @@ mod fifty;
 mod one_freedom;
 mod paths;
 mod refused;
+mod robust;
 
 use kempe::analyses::equilibrium::{equilibrium, Equilibrium, Options, Reason};
 use kempe::analyses::State;

@@ -12,6 +12,9 @@ use crate::stabilize::Projector;
 
 /// Largest change of the rates by projection on the right branch, as a part of the fastest rate.
 pub(super) const TURNED: f64 = 0.1;
+/// Part that the worst pivot keeps of its magnitude beside a singular position; it is of the order of the square of the
+/// distance. Branches that differ by less than a tolerance are far nearer.
+pub(super) const NEAR: f64 = 1e-4;
 /// Distances of the neighbouring states, as parts of the mechanism's size or in rad: first far away, where the
 /// branches are well apart, then nearer, where the error by curvature is smaller.
 const AHEAD: [f64; 3] = [0.2, 0.05, 0.0125];

@@ -92,8 +92,15 @@ impl ReportProjection<'_> {
         }
     }
 
-    /// The same. If it ends on another branch, the state is computed from neighbouring states, if this changes the
-    /// rates less.
+    /// Whether the matrix of the last projection is that of a position at or near a singular one.
+    fn is_near_singular(&self) -> bool {
+        let matrix = &self.workspace.matrix;
+        let kept = matrix.cancellation().map_or(1.0, |(_, kept)| kept);
+        matrix.regularised() || kept < branch_averaging::NEAR
+    }
+
+    /// The same. If it ends on another branch beside a singular position, the state is computed from neighbouring
+    /// states, if this changes the rates less.
     ///
     /// # Errors
     /// [`Breakdown`].
@@ -104,8 +111,9 @@ impl ReportProjection<'_> {
             |solver: &Self, y: &[f64]| solver.turn(layout.split(&given)[1], layout.split(y)[1]);
         self.place(t, y)?;
         let turn = turned(self, y);
-        let Some(projector) = self.projector.as_mut().filter(|_| turn > branch_averaging::TURNED)
-        else {
+        // the rates of a mechanism nearly at rest also change by a large part, but there are no other branches
+        let near = turn > branch_averaging::TURNED && self.is_near_singular();
+        let Some(projector) = self.projector.as_mut().filter(|_| near) else {
             return Ok(());
         };
         let mut other = given.clone();

@@ -78,6 +78,13 @@ impl<'s, 'a> Search<'s, 'a> {
             place = reached;
             self.relaxed += count;
         }
+        if let Some(name) = self.statics.near_singular(&place) {
+            let message = format!(
+                "the search ends at a singular position, near which {name} depends on other joints: the mechanism has \
+                 other freedoms there, so that no stiffness decides where it rests"
+            );
+            return Err(Reason::Singular { name, message });
+        }
         let own = self.statics.freedoms(&place)?.coordinates;
         let moved: Vec<f64> = place.q.iter().zip(&first.q).map(|(b, a)| b - a).collect();
         let left = (place.missing.as_slice(), place.scale);

@@ -16,6 +16,9 @@ use crate::solve::solve_dense;
 /// Iterations for the states of elements; a linear law takes one.
 const ITERATIONS: usize = 30;
 
+/// Part of a pivot below which a position counts as nearly singular.
+const SINGULAR: f64 = 1e-6;
+
 /// A closed position with its forces at rest.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
@@ -162,6 +165,13 @@ impl<'a> Statics<'a> {
             .map_err(|_| Reason::singular(self.model, self.t, &place.q))?;
         let more = factors.multipliers(&loads);
         Ok(place.lam.iter().zip(more).map(|(lam, more)| lam + more).collect())
+    }
+
+    /// The joint whose equations nearly depend on others at a place.
+    pub fn near_singular(&self, place: &Place) -> Option<String> {
+        let factors = LeastNorm::new(self.model, self.t, &place.q, self.redundant).ok()?;
+        let (row, _) = factors.cancellation().filter(|(_, kept)| *kept < SINGULAR)?;
+        Some(self.model.constraints[self.model.layout.owner(row).0].name.clone())
     }
 
     /// The freedoms at a place.

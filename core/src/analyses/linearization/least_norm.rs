@@ -50,6 +50,11 @@ impl<'a> LeastNorm<'a> {
         Ok(Self { model, matrix, scales })
     }
 
+    /// The row of Φ_q that is nearest to dependence, and the part of its pivot that remains.
+    pub fn cancellation(&self) -> Option<(usize, f64)> {
+        self.matrix.cancellation()
+    }
+
     /// (x, λ) for (f, g), in place; shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [f64]) {
         let right = x.to_vec();
