@@ -1,7 +1,5 @@
 """The flagship as it is shipped, and other mechanisms that a figure must bear."""
 
-import warnings
-from collections.abc import Iterator
 from pathlib import Path
 
 import kempe as kp
@@ -75,12 +73,3 @@ def driven() -> kp.Solution:
     m.revolute("A", "ground.A", "a.A")
     m.coordinate_driver("motor", "a.angle", value="1 + 10*t")
     return kp.dynamics(m, kp.assemble(m, set={}), t_end=0.5, output_step=0.01)
-
-
-@pytest.fixture(autouse=True)
-def _nothing_is_left_open() -> Iterator[None]:
-    with warnings.catch_warnings():
-        yield
-    from matplotlib import pyplot
-
-    pyplot.close("all")

@@ -79,7 +79,7 @@ OF_RESULTS = ("mode_shape", "path", "rest_position")
 ACROSS = (
     "time t / s",
     "x / m",
-    "k / SI units",
+    "k, SI units",
     "ω / (rad/s)",
     "$v_x$ / (m/s)",
     "$a_x$ / (10³ m/s²)",

@@ -8,6 +8,7 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
+from kempe import plot
 from kempe.cli import main
 from scipy.optimize import brentq, minimize_scalar
 
@@ -354,16 +355,45 @@ def test_a_torque_on_a_free_wheel_has_no_equilibrium() -> None:
     assert found.effort["wheel.angle"] == pytest.approx(-3, abs=1e-12)
 
 
-def test_progress_is_reported_and_may_stop_the_work() -> None:
-    m = truss()
-    start = kp.assemble(m)
+def hanging(n: int) -> kp.Model:
+    """A chain of n bars that is fixed at its first end, with a force at its last."""
+    m = kp.Model("chain", gravity=(0, -G), parameters={"load": 0.0})
+    m.ground.points(P=(0, 0))
+    before = "ground"
+    for k in range(n):
+        m.bar(f"b{k}", mass=1, length=1, ends=("O", "P"))
+        m.revolute(f"j{k}", f"{before}.P", f"b{k}.O")
+        before = f"b{k}"
+    m.force("push", f"{before}.P", force=["load", 0])
+    return m
 
-    def stop(_: float) -> None:
+
+def test_progress_is_reported_and_may_stop_the_work() -> None:
+    m = hanging(40)
+    start = kp.assemble(m)
+    found = []
+
+    def stop(value: float) -> None:
+        found.append(value)
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        for _ in range(1000):  # a search may end before the first look at the clock
-            kp.equilibrium(m, start, over="load", range=(-40, 40), progress=stop)
+        kp.equilibrium(m, start, over="load", range=(-1000, 1000), progress=stop)
+    assert len(found) == 1
+    assert np.isfinite(found[0])
+
+
+def test_a_path_of_a_mechanism_that_is_held_has_no_page_of_coordinates() -> None:
+    m = pendulum()
+    m.parameters["extra"] = 0.0
+    m.torque("twist", "rod", torque="extra")
+    start = kp.assemble(m, set={"rod.angle": 0.0})
+    found = kp.equilibrium(m, start, hold=["rod.angle"], over="extra", range=(0, 5))
+    assert found.coordinates == ()
+    assert [page.name for page in plot.pages(found)] == ["efforts", "rest"]
+    weight = 2 * G * 0.5
+    values = found.effort["rod.angle"]
+    assert np.allclose(np.sort(values), np.sort(weight - found.path["extra"]), atol=1e-9)
 
 
 def test_results_are_copied_with_their_reactions() -> None:

@@ -51,7 +51,9 @@ def rest_pages(result: EquilibriumResult, index_base: int) -> list[Page]:
     rest = Page(0, "rest", "rest", partial(_rest_figure, result), key=True)
     if result.over is None:
         return [rest]
-    found = [Page(0, "path", "path", partial(_path_figure, result), key=True)]
+    found = []
+    if result.coordinates:  # a mechanism that is held has none
+        found.append(Page(0, "path", "path", partial(_path_figure, result), key=True))
     if result.effort:
         found.append(Page(0, "efforts", "efforts", partial(_effort_figure, result), key=True))
     return [*found, rest]
@@ -156,7 +158,7 @@ def _over_parameter(axes: Axes, result: EquilibriumResult, y: Floats, shown: Sca
         if places:
             chosen = list(places)
             axes.plot(x[chosen], y[chosen], label=label, **look)
-    axes.set_xlabel(f"{style.verbatim(str(result.over))} / SI units")
+    axes.set_xlabel(f"{style.verbatim(str(result.over))}, SI units")
 
 
 def _parts(stable: NDArray[np.bool_]) -> Iterator[tuple[slice, bool]]:
