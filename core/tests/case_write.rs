@@ -112,6 +112,22 @@ impl Dice {
                 };
                 Value::Table((0..self.roll(3)).map(|_| (self.name(used), circle(self))).collect())
             }
+            Shape::Shapes => {
+                let tables = kempe::model::shape_tables();
+                let shape = |own: &mut Self| {
+                    let table = own.pick(&tables);
+                    Value::Table(own.fields(&table, true, used))
+                };
+                Value::List((0..1 + self.roll(2)).map(|_| shape(self)).collect())
+            }
+            Shape::Outline => match self.roll(3) {
+                0 => self.value(Shape::Corners, used),
+                1 => {
+                    Value::Table(vec![("circle".to_string(), self.value(Shape::Triple, used))])
+                }
+                _ => Value::Table(vec![("path".to_string(), Value::Text(self.text()))]),
+            },
+            Shape::Corners => Value::List((0..3 + self.roll(3)).map(|_| self.pair()).collect()),
             Shape::Body | Shape::Point | Shape::Curve | Shape::Coordinate | Shape::Name => {
                 Value::Text(self.text())
             }
@@ -171,10 +187,26 @@ impl Dice {
                 fields.push((field.name.to_string(), self.value(field.shape, used)));
             }
         }
+        if table.name == "body" {
+            self.weigh(&mut fields);
+        }
         if typed {
             fields.insert(self.roll(fields.len() + 1), ("type".to_string(), table.name.into()));
         }
         fields
+    }
+
+    /// A body has shapes, or mass and inertia.
+    fn weigh(&mut self, fields: &mut Vec<(String, Value)>) {
+        if fields.iter().any(|(key, _)| key == "shapes") {
+            fields.retain(|(key, _)| !["mass", "inertia", "center"].contains(&key.as_str()));
+            return;
+        }
+        for key in ["mass", "inertia"] {
+            if fields.iter().all(|(known, _)| known != key) {
+                fields.push((key.to_string(), self.formula()));
+            }
+        }
     }
 
     fn entries(&mut self, tables: &[Table], used: &mut usize) -> Vec<Entry> {

@@ -116,7 +116,7 @@ def element_class(section: str, table: dict[str, Any]) -> str:
     members += [
         f'section: ClassVar[str] = "{section}"',
         f'kind: ClassVar[str] = "{table["name"]}"',
-        "shapes: ClassVar[Mapping[str, str]] = {",
+        "value_kinds: ClassVar[Mapping[str, str]] = {",
         *(f'    "{f["name"]}": "{element_shape(f)}",' for f in fields),
         "}",
     ]

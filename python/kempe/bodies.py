@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from kempe.element import Element
-from kempe.values import Curves, Number, Pair, Points
+from kempe.values import Curves, Number, Outline, Pair, Points, Shapes
 
 
 @dataclass(frozen=True)
@@ -21,6 +21,7 @@ class Bar(Element):
         through: global coordinates of two named points, m; initial placement of the bar.
         points: further named points in the frame of the bar, m.
         curves: named curves in the frame of the bar.
+        outline: what drawings show of it.
     """
 
     mass: Number
@@ -29,15 +30,17 @@ class Bar(Element):
     through: Points | None = None
     points: Points | None = None
     curves: Curves | None = None
+    outline: Outline | None = None
     section: ClassVar[str] = "bodies"
     kind: ClassVar[str] = "bar"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "mass": "number",
         "length": "number",
         "ends": "names",
         "through": "points",
         "points": "points",
         "curves": "curves",
+        "outline": "outline",
     }
 
 
@@ -52,23 +55,29 @@ class Body(Element):
         points: named points in the body's frame, m.
         through: global coordinates of two named points, m; initial placement of the body.
         curves: named curves in the body's frame.
+        shapes: homogeneous pieces, instead of mass, inertia and center.
+        outline: what drawings show of it.
     """
 
-    mass: Number
-    inertia: Number
+    mass: Number | None = None
+    inertia: Number | None = None
     center: Pair = (0.0, 0.0)
     points: Points | None = None
     through: Points | None = None
     curves: Curves | None = None
+    shapes: Shapes | None = None
+    outline: Outline | None = None
     section: ClassVar[str] = "bodies"
     kind: ClassVar[str] = "body"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "mass": "number",
         "inertia": "number",
         "center": "pair",
         "points": "points",
         "through": "points",
         "curves": "curves",
+        "shapes": "shapes",
+        "outline": "outline",
     }
 
 
@@ -79,10 +88,16 @@ class PointMass(Element):
     Attributes:
         mass: kg.
         at: position in the global frame when assembly starts, m.
+        outline: what drawings show of it.
     """
 
     mass: Number
     at: Pair | None = None
+    outline: Outline | None = None
     section: ClassVar[str] = "bodies"
     kind: ClassVar[str] = "point_mass"
-    shapes: ClassVar[Mapping[str, str]] = {"mass": "number", "at": "pair"}
+    value_kinds: ClassVar[Mapping[str, str]] = {
+        "mass": "number",
+        "at": "pair",
+        "outline": "outline",
+    }

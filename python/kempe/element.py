@@ -17,7 +17,7 @@ class Element:
         name: name in the model.
         section: the section of the file, such as ``joints``.
         kind: the ``type`` in the file.
-        shapes: kind of value of each field.
+        value_kinds: kind of value of each field.
 
     Raises:
         ModelError: the value of a field is invalid; the message names the field.
@@ -26,12 +26,12 @@ class Element:
     name: str
     section: ClassVar[str]
     kind: ClassVar[str]
-    shapes: ClassVar[Mapping[str, str]]
+    value_kinds: ClassVar[Mapping[str, str]]
 
     def __post_init__(self) -> None:
         """Check every given field and convert it to JSON data."""
         reference(self.name, f"name of a {self.kind}")
-        for field, shape in self.shapes.items():
+        for field, shape in self.value_kinds.items():
             value = getattr(self, field)
             if value is not None:
                 checked = CHECKS[shape](value, f"{self.section}.{self.name}.{field}")

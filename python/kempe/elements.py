@@ -31,7 +31,7 @@ class Revolute(Element):
     axes: Pair = (0.0, 0.0)
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "revolute"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "axes": "pair",
@@ -59,7 +59,7 @@ class Translational(Element):
     axes: Pair = (0.0, 0.0)
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "translational"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "axes": "pair",
@@ -86,7 +86,7 @@ class Distance(Element):
     length: Number
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "distance"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "length": "law",
@@ -113,7 +113,7 @@ class Weld(Element):
     angle: Number = 0.0
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "weld"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "angle": "number",
@@ -139,7 +139,7 @@ class PinInSlot(Element):
     axis: Number = 0.0
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "pin_in_slot"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "axis": "number",
@@ -179,7 +179,7 @@ class Gear(Element):
     pressure_angle: Number = 0.0
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "gear"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "radii": "pair",
@@ -216,7 +216,7 @@ class Belt(Element):
     offset: Number = 0.0
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "belt"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "radii": "pair",
@@ -250,7 +250,7 @@ class Rack(Element):
     offset: Number = 0.0
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "rack"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "radius": "number",
@@ -284,7 +284,7 @@ class Rolling(Element):
     offset: Number = 0.0
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "rolling"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "radius": "number",
@@ -310,7 +310,7 @@ class PointOnCurve(Element):
     curve: str
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "point_on_curve"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "curve": "curve",
     }
@@ -338,7 +338,7 @@ class RollerOnCurve(Element):
     side: Literal["right", "left"] = "right"
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "roller_on_curve"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "curve": "curve",
         "radius": "number",
@@ -366,7 +366,7 @@ class FlatOnCurve(Element):
     axis: Number = 0.0
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "flat_on_curve"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "curve": "curve",
         "axis": "number",
@@ -393,7 +393,7 @@ class Coupling(Element):
     unit: Literal["m", "rad"] | None = None
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "coupling"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "terms": "terms",
         "value": "law",
         "unit": "word",
@@ -416,7 +416,7 @@ class Constraint(Element):
     units: Words
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "constraint"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "residual": "laws",
         "units": "units",
     }
@@ -442,7 +442,7 @@ class CoordinateDriver(Element):
     release: str | None = None
     section: ClassVar[str] = "drivers"
     kind: ClassVar[str] = "coordinate_driver"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "coordinate": "coordinate",
         "value": "law",
         "release": "condition",
@@ -473,7 +473,7 @@ class TorsionSpring(Element):
     preload: Law = 0.0
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "torsion_spring"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "body",
         "j": "body",
         "stiffness": "law",
@@ -513,7 +513,7 @@ class SpringDamper(Element):
     only: Literal["tension", "compression"] | None = None
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "spring_damper"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "stiffness": "law",
@@ -542,7 +542,7 @@ class Torque(Element):
     i: str = "ground"
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "torque"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "j": "body",
         "torque": "law",
         "i": "body",
@@ -570,7 +570,7 @@ class Force(Element):
     frame: Literal["global", "i", "j"] = "global"
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "force"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "j": "point",
         "force": "law_pair",
         "i": "body",
@@ -597,7 +597,7 @@ class Actuator(Element):
     force: Law
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "actuator"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "force": "law",
@@ -626,7 +626,7 @@ class Bushing(Element):
     damping: Numbers = (0.0, 0.0, 0.0)
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "bushing"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "i": "point",
         "j": "point",
         "stiffness": "triple",
@@ -652,7 +652,7 @@ class GeneralizedForce(Element):
     value: Law
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "generalized_force"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "coordinate": "coordinate",
         "value": "law",
     }
@@ -692,7 +692,7 @@ class Motor(Element):
     i: str = "ground"
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "motor"
-    shapes: ClassVar[Mapping[str, str]] = {
+    value_kinds: ClassVar[Mapping[str, str]] = {
         "j": "body",
         "voltage": "law",
         "resistance": "number",

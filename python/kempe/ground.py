@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from kempe.values import Pair, refuse
+from kempe.values import Outline, Pair, refuse
 
 if TYPE_CHECKING:
     from kempe.model import Model
@@ -32,6 +32,16 @@ class Ground:
             ModelError: the name is taken, or the curve has a value of the wrong kind.
         """
         self._model._ground_curves(curves)
+
+    def outline(self, outline: Outline) -> None:
+        """Draw ground as points, circle or path, m: ``m.ground.outline([(0, 0), (1, 0), (1, -1)])``.
+
+        It changes no number.
+
+        Raises:
+            ModelError: the outline has a value of the wrong kind.
+        """
+        self._model._ground_outline(outline)
 
     def __repr__(self) -> str:
         points = self._model.shown().get("bodies", {}).get("ground", {}).get("points", {})

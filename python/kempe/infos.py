@@ -30,6 +30,8 @@ class BodyInfo:
         points: named points in the body's frame, m.
         curves: named curves, each by points along it in the body's frame, m, and whether it is
             closed.
+        drawn: what drawings show in place of a link around the points: "area", "rod" or "line", and
+            points in the body's frame, m; empty without outline and shapes.
         columns: slice of its coordinates in q: x, y, angle; x, y of a point mass; empty for ground.
     """
 
@@ -41,6 +43,7 @@ class BodyInfo:
     center: Vector
     points: Mapping[str, Vector]
     curves: Mapping[str, tuple[tuple[Vector, ...], bool]]
+    drawn: tuple[tuple[str, tuple[Vector, ...]], ...]
     columns: slice
 
     def __repr__(self) -> str:
@@ -199,6 +202,7 @@ def body(number: int, entry: dict[str, Any]) -> BodyInfo:
         inertia=float(entry["inertia"] or 0.0),
         center=vector(entry["center"]),
         points=MappingProxyType(points),
+        drawn=tuple((part["form"], tuple(map(vector, part["points"]))) for part in entry["drawn"]),
         columns=slice(*entry["columns"]),
     )
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from kempe import _core
-from kempe.bodies import Bar, Body, PointMass
+from kempe.body_methods import BodyMethods
 from kempe.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
 from kempe.elements import E, ElementMethods
 from kempe.errors import ModelError
@@ -20,13 +20,13 @@ from kempe.measure_methods import MeasureMethods
 from kempe.names import few, unknown
 from kempe.tree_methods import TreeMethods
 from kempe.values import (
-    Curves,
     Number,
+    Outline,
     Pair,
-    Points,
     curves,
     mapping,
     numbers,
+    outline,
     pair,
     points,
     refuse,
@@ -41,7 +41,7 @@ SECTIONS = ("bodies", "joints", "drivers", "forces")
 NAMED = (*SECTIONS, "measures")
 
 
-class Model(ElementMethods, MeasureMethods, TreeMethods):
+class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
     """A planar mechanism that is built step by step.
 
     ::
@@ -100,68 +100,6 @@ class Model(ElementMethods, MeasureMethods, TreeMethods):
         """The fixed body."""
         return Ground(self)
 
-    def bar(
-        self,
-        name: str,
-        *,
-        mass: Number,
-        length: Number | None = None,
-        ends: tuple[str, str] | None = None,
-        through: Points | None = None,
-        points: Points | None = None,
-        curves: Curves | None = None,
-    ) -> Bar:
-        """Add a uniform slender bar: frame at its centre, x along it, inertia mass·length²/12.
-
-        Args:
-            name: name of the bar.
-            mass: kg.
-            length: m; optional if ``through`` gives both ends.
-            ends: names of the points at (-length/2, 0) and (length/2, 0).
-            through: global coordinates of two named points, m: ``{"B": (3.4, 9.4), …}``.
-            points: further named points in the frame of the bar, m.
-            curves: named curves in the frame of the bar, for joints on curves; see ``body``.
-        """
-        return self._add(Bar(name, mass, length, ends, through, points, curves))
-
-    def body(
-        self,
-        name: str,
-        *,
-        mass: Number,
-        inertia: Number,
-        center: Pair = (0.0, 0.0),
-        points: Points | None = None,
-        through: Points | None = None,
-        curves: Curves | None = None,
-    ) -> Body:
-        """Add a general rigid body.
-
-        Args:
-            name: name of the body.
-            mass: kg.
-            inertia: about the mass centre, kg·m².
-            center: mass centre in the body's frame, m.
-            points: named points in the body's frame, m.
-            through: global coordinates of two named points, m.
-            curves: named curves in the body's frame, for joints on curves, each in one of the forms
-                ``{"x": "…u…", "y": "…u…", "range": (a, b), "periodic": False}``,
-                ``{"polar": "r(u)"}``, ``{"points": [(x, y), …], "periodic": False,
-                "interpolation": "quintic"}``, ``{"circle": (x, y, r)}`` and
-                ``{"line": [(x, y), (x, y)]}``.
-        """
-        return self._add(Body(name, mass, inertia, center, points, through, curves))
-
-    def point_mass(self, name: str, *, mass: Number, at: Pair | None = None) -> PointMass:
-        """Add a point with mass. It has no angle and one named point, P.
-
-        Args:
-            name: name of the point mass.
-            mass: kg.
-            at: position in the global frame when assembly starts, m.
-        """
-        return self._add(PointMass(name, mass, at))
-
     def _add(self, element: E) -> E:
         self._refuse_taken(element.section, element.name)
         self._tree[element.section][element.name] = element.tree()
@@ -181,6 +119,15 @@ class Model(ElementMethods, MeasureMethods, TreeMethods):
 
     def _ground_curves(self, given: Mapping[str, Mapping[str, Any]]) -> None:
         self._on_ground("curve", given, curves)
+
+    def _ground_outline(self, given: Outline) -> None:
+        checked = outline(given, "bodies.ground.outline")
+        bodies = self._tree["bodies"]
+        ground = {**bodies.get("ground", {}), "outline": checked}
+        self._tree["bodies"] = {"ground": ground} | {
+            name: body for name, body in bodies.items() if name != "ground"
+        }
+        self._changed()
 
     def _on_ground(
         self, what: str, given: Mapping[str, Any], check: Callable[[object, str], dict[str, Any]]

@@ -35,6 +35,11 @@ Points: TypeAlias = "Mapping[str, Sequence[float | str]]"
 #: Named curves of a body, each a mapping in one of the forms that ``Model.body`` lists.
 Curves: TypeAlias = "Mapping[str, Mapping[str, Any]]"
 
+#: Shapes of a body, each a mapping with a type and the fields that ``Model.body`` lists.
+Shapes: TypeAlias = "Sequence[Mapping[str, Any]]"
+#: Points, or a mapping with the key ``circle`` or ``path``.
+Outline: TypeAlias = "Sequence[Sequence[float | str]] | Mapping[str, Any]"
+
 #: Longer texts of wrong values are not part of a message.
 _LONGEST = 80
 #: A float represents every integer up to this limit exactly.
@@ -188,6 +193,32 @@ def curves(value: object, path: str) -> dict[str, dict[str, Any]]:
     }
 
 
+def shapes(value: object, path: str) -> list[dict[str, Any]]:
+    """Shapes of a body; the core checks which keys make a shape."""
+    form = "{'type': 'disc', 'radius': 0.1, 'mass': 1}"
+    if isinstance(value, str | bytes | Mapping) or (found := _listed(value)) is None:
+        refuse(path, f"{value!r}; must be a list of shapes such as {form}")
+    return [
+        {
+            reference(key, f"{path}[{k}]"): _of_curve(entry, f"{path}[{k}].{key}")
+            for key, entry in _items(shape, f"{path}[{k}]", form)
+        }
+        for k, shape in enumerate(found)
+    ]
+
+
+def outline(value: object, path: str) -> Any:
+    """Points without names, or a mapping with a circle or a path; the core checks them."""
+    if isinstance(value, Mapping):
+        return {
+            reference(key, path): _of_curve(entry, f"{path}.{key}") for key, entry in value.items()
+        }
+    if isinstance(value, str | bytes) or (found := _listed(value)) is None:
+        form = "[(x, y), …], {'circle': (x, y, r)} or {'path': 'M 0 0 L …'}"
+        refuse(path, f"{value!r}; must be {form}")
+    return [list(pair(point, f"{path}[{k}]")) for k, point in enumerate(found)]
+
+
 def _of_curve(value: object, path: str) -> Any:
     """A number, a text, a flag, or lists of them to any depth, arrays included."""
     if isinstance(value, bool | str):
@@ -298,6 +329,8 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "names": names,
     "points": points,
     "curves": curves,
+    "shapes": shapes,
+    "outline": outline,
     "curve": reference,
     "condition": reference,
     "name_list": listed_words,

@@ -12,7 +12,7 @@ use kempe::elements::{
 use kempe::equations::reactions::touched;
 use kempe::expression::Table;
 use kempe::math::Local;
-use kempe::model::{Body, Columns, Functions, Model};
+use kempe::model::{Body, Columns, Drawn, Functions, Model};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use serde_json::{json, Map, Value};
@@ -184,8 +184,14 @@ fn body(body: &Body, columns: Columns) -> Value {
         "center": pair(&body.center),
         "points": points,
         "curves": curves,
+        "drawn": body.drawn().iter().map(part).collect::<Vec<_>>(),
         "columns": span(&columns.range()),
     })
+}
+
+/// A line or an area of the drawing of a body.
+fn part(part: &Drawn) -> Value {
+    json!({ "points": part.points.iter().map(pair).collect::<Vec<_>>(), "form": part.form.name() })
 }
 
 fn table(table: &Table) -> Value {

@@ -6,7 +6,7 @@ use kempe::analyses::{declarations, option_families};
 use kempe::elements::{catalogue, Default, Field, Group, Shape, Table};
 use kempe::expression::unit::{Unit, UNITS};
 use kempe::expression::{Function, FUNCTIONS};
-use kempe::model::{body_tables, table_fields};
+use kempe::model::{body_tables, shape_tables, table_fields};
 use serde_json::{json, Map, Value};
 
 fn default(field: &Field) -> Value {
@@ -75,6 +75,7 @@ fn element(group: Group, own: &Table) -> Value {
 pub fn all() -> String {
     let mut sections = Map::new();
     sections.insert("bodies".into(), body_tables().iter().map(table).collect());
+    sections.insert("shapes".into(), shape_tables().iter().map(table).collect());
     sections.insert("tables".into(), json!([table(&table_fields())]));
     for group in [Group::Joints, Group::Drivers, Group::Forces] {
         let tables = catalogue();

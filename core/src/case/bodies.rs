@@ -5,7 +5,7 @@ use super::report::Report;
 use super::tree::Table;
 use crate::elements::Table as Declaration;
 use crate::expression::suggest::closest;
-use crate::model::body_tables;
+use crate::model::{body_tables, INSTEAD_OF_SHAPES};
 
 /// The declarations of bodies.
 pub(super) struct Bodies {
@@ -30,10 +30,42 @@ impl Bodies {
         let typed: Vec<&Declaration> = self.typed.iter().collect();
         let declared = fields::declared(report, table, &typed, "body", general);
         let Some(declared) = declared else { return };
-        fields::check(report, table, declared, true);
-        if declared.name == "bar" {
-            bar(report, table);
+        if declared.name == "body" && !has_shapes(table) {
+            return fields::check(report, table, &without_shapes(declared), true);
         }
+        fields::check(report, table, declared, true);
+        match declared.name {
+            "bar" => bar(report, table),
+            "body" => of_shapes(report, table),
+            _ => {}
+        }
+    }
+}
+
+/// Whether a body has shapes, also with a misspelt key.
+fn has_shapes(table: &Table) -> bool {
+    let meant = |key: &str| key == "shapes" || closest(key, ["shapes"]).is_some();
+    table.entries.iter().any(|(key, _)| meant(key))
+}
+
+/// A body without shapes needs its mass and its moment of inertia.
+fn without_shapes(declared: &Declaration) -> Declaration {
+    let mut declared = declared.clone();
+    for field in &mut declared.fields {
+        if ["mass", "inertia"].contains(&field.name) {
+            field.default = None;
+        }
+    }
+    declared
+}
+
+/// Shapes determine mass, inertia and mass centre.
+fn of_shapes(report: &mut Report, table: &Table) {
+    for key in INSTEAD_OF_SHAPES.into_iter().filter(|key| table.get(key).is_some()) {
+        report.within(key, |report| {
+            let hint = format!("shapes determine it; remove {key}, or remove shapes");
+            report.add(report.here("not together with shapes").hint(hint));
+        });
     }
 }
 

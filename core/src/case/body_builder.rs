@@ -71,6 +71,19 @@ macro_rules! extended {
 }
 extended!(Ground, Bar, General);
 
+/// Methods of all bodies.
+macro_rules! drawn {
+    ($($Type:ident),+) => {
+        $(impl BodyBuilder<'_, $Type> {
+            /// What drawings show: a list of points, or a table with the key `circle` or `path`.
+            pub fn outline(self, outline: impl Into<Value>) -> Self {
+                self.with("outline", outline)
+            }
+        })+
+    };
+}
+drawn!(Ground, Bar, PointMass, General);
+
 /// Methods of all bodies that have mass.
 macro_rules! heavy {
     ($($Type:ident),+) => {
@@ -118,6 +131,19 @@ impl BodyBuilder<'_, PointMass> {
 }
 
 impl BodyBuilder<'_, General> {
+    /// One more shape of a body without mass, inertia and center: its type, and its fields by their keys,
+    /// `[("radius", 0.1.into()), ("mass", 2.0.into())]`.
+    pub fn shape<'k>(self, kind: &str, fields: impl IntoIterator<Item = (&'k str, Value)>) -> Self {
+        let fields = fields.into_iter().map(|(key, value)| (key.to_string(), value));
+        let shape = std::iter::once(("type".to_string(), kind.into())).chain(fields);
+        let shape = Value::Table(shape.collect());
+        match self.entry.fields.iter_mut().find(|(key, _)| key == "shapes") {
+            Some((_, Value::List(shapes))) => shapes.push(shape),
+            _ => self.entry.fields.push(("shapes".to_string(), Value::List(vec![shape]))),
+        }
+        self
+    }
+
     /// Moment of inertia about the mass centre, kg·m²; 0 for a point mass.
     pub fn inertia(self, inertia: impl Into<Number>) -> Self {
         self.with("inertia", inertia.into())

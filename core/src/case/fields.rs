@@ -4,14 +4,14 @@ use super::events::events;
 use super::report::{among, Report};
 use super::tree::{Data, Node, Table};
 use super::values::{
-    count, curves, names, number, numbers, pair, plain_numbers, points, quantities, terms,
-    tolerance, triple, two_columns, two_names, units, word, wrong, TERMS,
+    corners, count, curves, names, number, numbers, outline, pair, plain_numbers, points,
+    quantities, terms, tolerance, triple, two_columns, two_names, units, word, wrong, TERMS,
 };
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
 use crate::elements::{catalogue, Field, Shape, Table as Declaration};
 use crate::expression::suggest::{closest, did_you_mean};
-use crate::model::body_tables;
+use crate::model::{body_tables, shape_tables};
 
 /// The declaration that the `type` of the present table names.
 pub(super) fn declared<'d>(
@@ -105,6 +105,9 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Units, _) => units(report, node),
         (Shape::Points, _) => points(report, node),
         (Shape::Curves, _) => curves(report, node),
+        (Shape::Shapes, _) => shapes(report, node),
+        (Shape::Outline, _) => outline(report, node),
+        (Shape::Corners, _) => corners(report, node),
         (Shape::Names, _) => two_names(report, node),
         (Shape::Numbers, _) => plain_numbers(report, node),
         (Shape::Columns, _) => two_columns(report, node),
@@ -127,6 +130,34 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Condition, _) => wrong(report, node, "a condition \"crank.angle > 270*deg\""),
         (Shape::Events, _) => events(report, node),
         (Shape::Values, _) => terms(report, node, ["{ k = 2e6 }", "{ \"k\": 2e6 }"]),
+    }
+}
+
+/// Shapes of a body; the model checks which fields of each go together.
+fn shapes(report: &mut Report, node: &Node) {
+    let form = report.example(
+        "{ type = \"disc\", radius = 0.1, mass = 1 }",
+        "{ \"type\": \"disc\", \"radius\": 0.1, \"mass\": 1 }",
+    );
+    let items = match &node.data {
+        Data::List(items) if !items.is_empty() => items,
+        Data::List(_) => {
+            return report.say(format!("an empty list; must hold shapes such as {form}"))
+        }
+        _ => return wrong(report, node, &format!("a list of shapes such as [{form}]")),
+    };
+    let known = shape_tables();
+    let known: Vec<&Declaration> = known.iter().collect();
+    for (k, item) in items.iter().enumerate() {
+        report.within(&k.to_string(), |report| {
+            let Data::Table(table) = &item.data else {
+                return wrong(report, item, &format!("a shape such as {form}"));
+            };
+            let noun = format!("shape {}", k + 1);
+            if let Some(declared) = declared(report, table, &known, &noun, None) {
+                check(report, table, declared, true);
+            }
+        });
     }
 }
 

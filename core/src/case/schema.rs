@@ -13,7 +13,7 @@ use crate::elements::{
 };
 use crate::expression::FUNCTIONS;
 use crate::math::Interpolation;
-use crate::model::{body_tables, table_fields};
+use crate::model::{body_tables, shape_tables, table_fields, INSTEAD_OF_SHAPES};
 
 /// The JSON Schema (draft 2020-12) of a case, for editors: sections, types, fields, descriptions and
 /// units.
@@ -196,6 +196,12 @@ fn fields(table: &Table, typed: bool) -> Value {
         complete["if"] = json!({ "not": { "required": ["through"] } });
         complete["then"] = json!({ "required": ["length"] });
     }
+    if table.name == "body" {
+        let instead = INSTEAD_OF_SHAPES.map(|key| (key.to_string(), json!(false)));
+        complete["if"] = json!({ "required": ["shapes"] });
+        complete["then"] = json!({ "properties": Map::from_iter(instead) });
+        complete["else"] = json!({ "required": ["mass", "inertia"] });
+    }
     closed(properties, complete)
 }
 
@@ -211,6 +217,9 @@ fn property(f: &Field) -> Value {
     let schema = match f.shape {
         Shape::Curve => json!({ "type": "string" }),
         Shape::Curves => reference("curves"),
+        Shape::Shapes => reference("shapes"),
+        Shape::Outline => reference("outline"),
+        Shape::Corners => reference("corners"),
         Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name => json!({ "type": "string" }),
         Shape::Condition => json!({ "type": "string" }),
         Shape::NameList | Shape::Quantities => {
@@ -279,6 +288,17 @@ fn curve() -> Value {
     closed(object(properties), json!({ "oneOf": forms }))
 }
 
+/// A polygon, a circle or a path.
+fn outline() -> Value {
+    let path = json!({ "type": "string", "description": "Path data of SVG, in m." });
+    let circle = described(reference("triple"), "Centre x, y and radius (m).");
+    let table = closed(
+        object(json!({ "circle": circle, "path": path })),
+        json!({ "minProperties": 1, "maxProperties": 1 }),
+    );
+    json!({ "if": { "type": "array" }, "then": reference("corners"), "else": table })
+}
+
 /// An event: a condition, or a table with one.
 fn event() -> Value {
     let properties = json!({
@@ -310,6 +330,10 @@ fn definitions() -> Value {
         "names": two_different(names(&[])),
         "count": { "anyOf": [{ "type": "integer", "minimum": 1 }, { "type": "string" }] },
     });
+    definitions["corners"] = json!({ "type": "array", "items": reference("pair"), "minItems": 3 });
+    definitions["outline"] = outline();
+    let shapes = one_of(&shape_tables(), None);
+    definitions["shapes"] = json!({ "type": "array", "items": shapes, "minItems": 1 });
     definitions["curves"] = by_name(curve(), &[]);
     definitions["events"] = by_name(event(), &[]);
     let kinds = TOLERANCES.iter().map(|kind| (kind.to_string(), reference("number")));

@@ -126,6 +126,50 @@ pub(super) fn curves(report: &mut Report, node: &Node) {
     }
 }
 
+/// Points without names, at least three.
+pub(super) fn corners(report: &mut Report, node: &Node) {
+    match &node.data {
+        Data::List(items) if items.len() >= 3 => {
+            for (k, item) in items.iter().enumerate() {
+                report.within(&k.to_string(), |report| pair(report, item));
+            }
+        }
+        Data::List(items) => {
+            report.say(format!(
+                "a list of {}; must be at least three points [[x, y], …]",
+                items.len()
+            ));
+        }
+        _ => wrong(report, node, "a list of points [[x, y], …]"),
+    }
+}
+
+/// Points, a circle or a path; the model checks the text of a path.
+pub(super) fn outline(report: &mut Report, node: &Node) {
+    let Data::Table(table) = &node.data else {
+        if let Data::List(_) = node.data {
+            return corners(report, node);
+        }
+        let circle = report.example("{ circle = [x, y, r] }", "{ \"circle\": [x, y, r] }");
+        let path = report.example("{ path = \"M 0 0 L …\" }", "{ \"path\": \"M 0 0 L …\" }");
+        return wrong(report, node, &format!("points [[x, y], …], {circle} or {path}"));
+    };
+    for (key, value) in &table.entries {
+        report.within(key, |report| match (key.as_str(), &value.data) {
+            ("circle", _) => triple(report, value),
+            ("path", Data::Text(_)) => {}
+            ("path", _) => wrong(report, value, "the path data of SVG as a text"),
+            _ => {
+                let message = format!("unknown field '{}' of an outline", super::shown(key));
+                report.unknown_key(message, key, &["circle", "path"]);
+            }
+        });
+    }
+    if table.entries.len() != 1 {
+        report.say(format!("a table of {}; must have either circle or path", table.entries.len()));
+    }
+}
+
 /// Two different names.
 pub(super) fn two_names(report: &mut Report, node: &Node) {
     let Data::List(items) = &node.data else {

@@ -11,6 +11,12 @@ pub enum Shape {
     Curve,
     /// Names of curves, each with a table.
     Curves,
+    /// Shapes of a body, each a table with a type.
+    Shapes,
+    /// Points, a circle or a path.
+    Outline,
+    /// At least three points without names.
+    Corners,
     /// `body.x`, `body.y` or `body.angle`.
     Coordinate,
     /// Number or expression in the parameters.

@@ -3,7 +3,7 @@
 //! A bar is shorthand: it becomes a general body whose numbers are formulas in its own, such as
 //! J = m L²/12, so that no other file needs bars.
 
-use super::body_fields::POINT_MASS;
+use super::body_fields::{INSTEAD_OF_SHAPES, POINT_MASS};
 use super::definition::{Definition, Entry, Value};
 use super::items::Body;
 use super::problem::Problem;
@@ -70,6 +70,8 @@ impl Reader<'_> {
             center: Local { x: zero(), y: zero() },
             points: Vec::new(),
             curves: super::curves::read(self.entry, self.scope, self.problems),
+            shapes: Vec::new(),
+            outline: super::read_outline::read(self.entry, self.scope, self.problems),
             drawn: None,
             turns: kind != POINT_MASS,
         }
@@ -90,13 +92,9 @@ impl Reader<'_> {
 
     fn general(&mut self) -> Body<Tape> {
         let mut body = self.blank("body");
-        body.mass = self.number("mass", "kg").unwrap_or(body.mass);
-        body.inertia = self.number("inertia", "kg*m^2").unwrap_or(body.inertia);
-        if let Some(value) = self.entry.get("center") {
-            let path = self.path("center");
-            if let Some([x, y]) = self.scope.pair(value, &path, "m", self.problems) {
-                body.center = Local { x, y };
-            }
+        match self.entry.get("shapes") {
+            Some(_) => self.of_shapes(&mut body),
+            None => self.as_given(&mut body),
         }
         body.points = self.points();
         if self.entry.get("through").is_some() {
@@ -104,6 +102,31 @@ impl Reader<'_> {
             self.place(&mut body, &through);
         }
         body
+    }
+
+    /// Mass, inertia and mass centre as they are written.
+    fn as_given(&mut self, body: &mut Body<Tape>) {
+        body.mass = self.number("mass", "kg").unwrap_or(body.mass.clone());
+        body.inertia = self.number("inertia", "kg*m^2").unwrap_or(body.inertia.clone());
+        if let Some(value) = self.entry.get("center") {
+            let path = self.path("center");
+            if let Some([x, y]) = self.scope.pair(value, &path, "m", self.problems) {
+                body.center = Local { x, y };
+            }
+        }
+    }
+
+    /// Shapes instead of mass, inertia and mass centre.
+    fn of_shapes(&mut self, body: &mut Body<Tape>) {
+        body.shapes = super::read_shapes::read(self.entry, self.scope, self.problems);
+        for key in INSTEAD_OF_SHAPES {
+            if self.entry.get(key).is_some() {
+                let message = format!(
+                    "given beside shapes, which determine it; remove {key}, or remove shapes"
+                );
+                self.report(key, &message);
+            }
+        }
     }
 
     /// A uniform slender bar: frame at its centre, x along it, J = m L²/12.

@@ -5,6 +5,9 @@ use crate::elements::{Default, Field, Shape, Table};
 /// The `type` of a body without an angle.
 pub(super) const POINT_MASS: &str = "point_mass";
 
+/// The fields that shapes determine.
+pub(crate) const INSTEAD_OF_SHAPES: [&str; 3] = ["mass", "inertia", "center"];
+
 /// The types of bodies: `body` (the type if none is written), `bar`, `point_mass`, and `ground`, which
 /// is not written as a type but is the body of that name.
 pub fn body_tables() -> Vec<Table> {
@@ -32,17 +35,37 @@ fn mass() -> Field {
     Field::required("mass", Shape::Number, "kg", "Mass.")
 }
 
+fn shapes() -> Field {
+    let doc = "Homogeneous pieces, instead of mass, inertia and center: a list of tables, each with \
+    a type (rod, plate, disc, ring or polygon), its sizes, at, angle, and mass or density with thickness.";
+    Field::optional("shapes", Shape::Shapes, "", Default::Absent, doc)
+}
+
+fn outline() -> Field {
+    let doc =
+        "What drawings show instead of a link around the points: points, circle or SVG path. \
+    It changes no number.";
+    Field::optional("outline", Shape::Outline, "", Default::Absent, doc)
+}
+
 fn body() -> Table {
     Table {
         name: "body",
         doc: "A rigid body of any form.".to_string(),
         fields: vec![
-            mass(),
-            Field::required(
+            Field::optional(
+                "mass",
+                Shape::Number,
+                "kg",
+                Default::Absent,
+                "Mass; required without shapes.",
+            ),
+            Field::optional(
                 "inertia",
                 Shape::Number,
                 "kg*m^2",
-                "Moment of inertia about the mass centre; 0 for a point mass.",
+                Default::Absent,
+                "Moment of inertia about the mass centre; required without shapes; 0 for a point mass.",
             ),
             Field::optional(
                 "center",
@@ -51,9 +74,11 @@ fn body() -> Table {
                 Default::Pair([0.0, 0.0]),
                 "Mass centre, [x, y] in the frame of the body.",
             ),
+            shapes(),
             points(),
             curves(),
             through(),
+            outline(),
         ],
     }
 }
@@ -82,6 +107,7 @@ fn bar() -> Table {
             through(),
             points(),
             curves(),
+            outline(),
         ],
     }
 }
@@ -99,6 +125,7 @@ fn point_mass() -> Table {
                 Default::Absent,
                 "Position in the global frame when assembly starts, [x, y].",
             ),
+            outline(),
         ],
     }
 }
@@ -107,6 +134,6 @@ fn ground() -> Table {
     Table {
         name: "ground",
         doc: "What does not move; its frame is the global frame.".to_string(),
-        fields: vec![points(), curves()],
+        fields: vec![points(), curves(), outline()],
     }
 }

@@ -2,7 +2,9 @@
 
 use super::items::Body;
 use super::model::Model;
+use super::outline::Outline;
 use super::problem::Problem;
+use super::shape_checks;
 use crate::elements::Curve;
 use crate::expression::{Scope as Values, Tape};
 
@@ -18,7 +20,14 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
                 problems.push(Problem::at(&["bodies", &body.name, "curves", name, key], message));
             }
         }
-        if body.name != "ground" {
+        if let Some((key, message)) = body.outline.as_ref().and_then(Outline::fault) {
+            let path = ["bodies", &body.name, "outline"].into_iter();
+            let path: Vec<&str> = path.chain((!key.is_empty()).then_some(key)).collect();
+            problems.push(Problem::at(&path, message));
+        }
+        if !body.shapes.is_empty() {
+            shape_checks::shapes(body, problems);
+        } else if body.name != "ground" {
             positive(body, problems);
         }
     }

@@ -1,9 +1,11 @@
 //! The items of a model, over any scalar: bodies, joints, drivers and forces.
 
+use super::body_shape::BodyShape;
 use super::curves::Curves;
+use super::outline::Outline;
 use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, JointId, OwnState};
 use crate::expression::Tape;
-use crate::math::Local;
+use crate::math::{Local, Real};
 
 /// A rigid body.
 #[derive(Clone, Debug)]
@@ -22,6 +24,10 @@ pub struct Body<S = f64> {
     pub points: Vec<(String, Local<S>)>,
     /// Named curves in the body frame.
     pub curves: Curves<S>,
+    /// The homogeneous pieces that give its mass, mass centre and inertia; none if these are given.
+    pub shapes: Vec<BodyShape<S>>,
+    /// What is drawn of it; none for a link around its points, or its shapes.
+    pub outline: Option<Outline<S>>,
     /// Where it was drawn: x, y, angle; a guess for assembly.
     pub drawn: Option<[S; 3]>,
     /// Whether the angle is a coordinate; a point mass has none.
@@ -44,8 +50,21 @@ impl<S> Body<S> {
             inertia: f(&self.inertia),
             center,
             points,
+            shapes: self.shapes.iter().map(|shape| shape.map(f)).collect(),
+            outline: self.outline.as_ref().map(|outline| outline.map(f)),
             drawn: self.drawn.as_ref().map(|[x, y, angle]| [f(x), f(y), f(angle)]),
             turns: self.turns,
+        }
+    }
+
+    /// Puts the mass, mass centre and inertia of its shapes in, if it has any.
+    pub(super) fn weigh(&mut self)
+    where
+        S: Real,
+    {
+        if !self.shapes.is_empty() {
+            let found = BodyShape::together(&self.shapes);
+            (self.mass, self.center, self.inertia) = (found.mass, found.center, found.inertia);
         }
     }
 

@@ -3,14 +3,14 @@
 use kempe::analyses::{declarations, option_families};
 use kempe::elements::{catalogue, Shape, Table};
 use kempe::expression::unit::Unit;
-use kempe::model::body_tables;
+use kempe::model::{body_tables, shape_tables};
 use std::collections::HashSet;
 
 fn tables() -> Vec<Table> {
     let options = option_families().iter().flat_map(|f| &f.options);
     let options = declarations().iter().chain(options).map(|declared| declared.table.clone());
     let elements = catalogue().into_iter().map(|(_, table)| table);
-    elements.chain(body_tables()).chain(options).collect()
+    elements.chain(body_tables()).chain(shape_tables()).chain(options).collect()
 }
 
 #[test]
@@ -49,7 +49,8 @@ fn quantities_have_units_that_exist_and_references_have_none() {
                 | Shape::Triple
                 | Shape::LawPair
                 | Shape::Laws
-                | Shape::Points => {
+                | Shape::Points
+                | Shape::Corners => {
                     for unit in
                         field.unit.split(['|', ',']).filter(|u| !u.is_empty() && *u != "any")
                     {

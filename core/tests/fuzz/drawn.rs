@@ -66,7 +66,16 @@ impl Drawn<'_> {
     }
 
     fn body(&mut self) -> Vec<(String, Value)> {
-        let mut fields = vec![("mass".to_string(), self.positive())];
+        let mut fields = Vec::new();
+        if self.random.chance(0.2) {
+            fields.push(("outline".into(), self.outline()));
+        }
+        if self.random.chance(0.2) {
+            fields.push(("points".into(), self.points()));
+            fields.push(("shapes".into(), self.shapes()));
+            return fields;
+        }
+        fields.push(("mass".to_string(), self.positive()));
         if self.random.chance(0.6) {
             fields.push(("type".into(), text("bar")));
             fields.push(("length".into(), self.positive()));
@@ -79,6 +88,52 @@ impl Drawn<'_> {
             fields.push(("curves".into(), self.curves()));
         }
         fields
+    }
+
+    /// A disc by its mass, and another shape by its density.
+    fn shapes(&mut self) -> Value {
+        let entry = |key: &str, value: Value| (key.to_string(), value);
+        let disc = vec![
+            entry("type", text("disc")),
+            entry("radius", self.positive()),
+            entry("mass", self.positive()),
+        ];
+        let mut other = match self.random.below(4) {
+            0 => vec![entry("type", text("rod")), entry("length", self.positive())],
+            1 => vec![
+                entry("type", text("plate")),
+                entry("width", self.positive()),
+                entry("height", self.positive()),
+            ],
+            2 => vec![
+                entry("type", text("ring")),
+                entry("inner", self.number()),
+                entry("outer", text("2*L + 3")),
+            ],
+            _ => {
+                let points = (0..3).map(|_| Value::List(vec![self.number(), self.number()]));
+                vec![entry("type", text("polygon")), entry("points", Value::List(points.collect()))]
+            }
+        };
+        let section = if other[0].1 == text("rod") { "area" } else { "thickness" };
+        other.extend([entry("density", self.number()), entry(section, self.positive())]);
+        if self.random.chance(0.5) {
+            other.push(entry("at", Value::List(vec![self.number(), self.number()])));
+            other.push(entry("angle", self.number()));
+        }
+        Value::List(vec![Value::Table(disc), Value::Table(other)])
+    }
+
+    fn outline(&mut self) -> Value {
+        let (key, value) = match self.random.below(3) {
+            0 => {
+                let points = (0..4).map(|_| Value::List(vec![self.number(), self.number()]));
+                return Value::List(points.collect());
+            }
+            1 => ("circle", Value::List(vec![self.number(), self.number(), self.positive()])),
+            _ => ("path", text("M 0 0 l 1 0 a 1 2 30 0 1 1 1 Q 1 2 3 4 T 1 1 Z m 1 1 h 2")),
+        };
+        Value::Table(vec![(key.to_string(), value)])
     }
 
     /// A curve A, and a curve B through points.
@@ -142,6 +197,12 @@ impl Drawn<'_> {
             Shape::Point => text(&format!("{}.{}", self.owner(), self.random.choice(&["A", "B"]))),
             Shape::Curve => text(&format!("{}.{}", self.owner(), self.random.choice(&["A", "B"]))),
             Shape::Curves => self.curves(),
+            Shape::Shapes => self.shapes(),
+            Shape::Outline => self.outline(),
+            Shape::Corners => {
+                let points = (0..4).map(|_| Value::List(vec![self.number(), self.number()]));
+                Value::List(points.collect())
+            }
             Shape::Coordinate => {
                 text(&format!("{}.{}", self.body_name(), self.random.choice(&["x", "y", "angle"])))
             }

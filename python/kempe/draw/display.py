@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.draw import along, items, symbols
+from kempe.draw import along, bodies, items, symbols
 from kempe.draw.geometry import placed
-from kempe.draw.items import Frame, Item, fill, line, metres, on_body, print_points, text, upright
+from kempe.draw.items import Frame, Item, fill, line, print_points, text, upright
 from kempe.draw.labels import Taken, measured, place_labels
 from kempe.draw.palette import one_line
 from kempe.draw.pins import Symbol, dot, support
@@ -33,7 +33,6 @@ _HALF_WAY = {"body": 0.0, "line": 0.5}
 BETWEEN_NAMES = " · "
 #: More names than these do not fit on a drawing.
 MOST_NAMES, MOST_NUMBERS = 60, 40
-_LINK, _EDGE, _CURVE, _TINT = 8.0, 1.0, 1.4, 0.72
 _NUMBER, _RINGED = 7.0, 20.0  # radius of the circle around a number, and of symbols around a pin
 _MOST_OBSTACLES = 60  # corners of one item
 
@@ -80,7 +79,8 @@ class Display:
     def draw_mechanism(self) -> None:
         """Bodies, the symbols of all elements, supports, and points without a symbol."""
         for body in self.scene["bodies"]:
-            self.add(_rims(body))
+            self.add(bodies.rims(body))
+        self.add(bodies.body(self.scene["bodies"][0]))
         self._draw_links()
         places, pinned = Places(self._near), Places(self._near)
         rings = symbols.Rings(lambda symbol: places.index(self._ends(symbol)[-1]))
@@ -101,16 +101,17 @@ class Display:
         drawn = [
             body
             for body in self.scene["bodies"]
-            if body["number"] and not (body["curves"] and len(body["outline"]) == 1)
+            if body["number"]
+            and (body["drawn"] or not (body["curves"] and len(body["outline"]) == 1))
         ]
         for body in drawn:
             if body["number"] in slotted:
-                self.add(_link(body))
+                self.add(bodies.body(body))
         for symbol in slots:
             self.add(symbols.draw(symbol, symbols.Rings()))
         for body in drawn:
             if body["number"] not in slotted:
-                self.add(_link(body))
+                self.add(bodies.body(body))
 
     def _by_element(self) -> list[list[Symbol]]:
         """The symbols of each element together, those with the largest wheels first."""
@@ -236,9 +237,7 @@ class Display:
             body: the body.
             pins: places with the radius around them that is taken.
         """
-        corners = np.array(body["outline"])
-        if body["curves"] and len(corners) == 1:
-            corners = np.array(body["curves"][0]["points"])
+        corners = bodies.corners(body)
         shares = [0.5, 0.35, 0.65, 0.25, 0.75, 0.15, 0.85]
         along = [corners[0] + share * (corners[len(corners) // 2] - corners[0]) for share in shares]
         for at in (corners.mean(axis=0), np.array(body["center"]), *along):
@@ -329,33 +328,6 @@ def _thinned(item: Item) -> items.Rows:
     if item.get("closed"):
         rows = [*rows, rows[0]]
     return rows[:: len(rows) // _MOST_OBSTACLES + 1] if len(rows) > _MOST_OBSTACLES else rows
-
-
-def _link(body: dict[str, Any]) -> Iterator[Item]:
-    """A rounded bar or plate: a wide dark line and a narrower light one in it."""
-    number, corners, of = body["number"], np.array(body["outline"]), body["name"]
-    colour, frame = f"body {number}", on_body(number)
-    if len(corners) == 1:
-        rows = [[*corner, *at] for corner in corners for at in items.circle(_NUMBER)]
-        yield fill(of, frame, rows, colour, layer=items.BODY, tint=_TINT)
-        yield line(of, frame, rows, colour, _EDGE, layer=items.BODY, closed=True)
-        return
-    rows, closed = metres(corners), len(corners) > 2
-    yield line(of, frame, rows, colour, _LINK + 2.0 * _EDGE, layer=items.BODY, closed=closed)
-    if closed:
-        yield fill(of, frame, rows, colour, layer=items.BODY, tint=_TINT)
-    yield line(of, frame, rows, colour, _LINK, layer=items.BODY, closed=closed, tint=_TINT)
-
-
-def _rims(body: dict[str, Any]) -> Iterator[Item]:
-    """The curves of a body: areas, or lines where they are open."""
-    number, of = body["number"], body["name"]
-    frame, colour = on_body(number), f"body {number}" if number else "ground"
-    for curve in body["curves"]:
-        rows, closed = metres(curve["points"]), curve["closed"]
-        if closed and number:
-            yield fill(of, frame, rows, colour, layer=items.GROUND, tint=_TINT)
-        yield line(of, frame, rows, colour, _CURVE, layer=items.GROUND, closed=closed)
 
 
 def _numbered(body: dict[str, Any], at: items.At, number: str) -> list[Item]:

@@ -22,7 +22,7 @@ _GUIDES = ("slide", "slot", "toothed_line", "track")
 
 
 def body(model: CompiledModel, name: str) -> dict[str, Any]:
-    """A body: name, number, kind, named points, mass centre, outline and curves."""
+    """A body: name, number, kind, named points, mass centre, outline, drawn parts and curves."""
     info = model.all_bodies[name]
     return {
         "name": name,
@@ -31,6 +31,7 @@ def body(model: CompiledModel, name: str) -> dict[str, Any]:
         "points": [{"name": point, "at": _numbers(at)} for point, at in info.points.items()],
         "center": _numbers(info.center),
         "outline": plain(outline(model, info)) if info.number else [],
+        "drawn": [{"form": form, "points": plain(np.array(points))} for form, points in info.drawn],
         "curves": [
             {"points": plain(np.array(points)), "closed": closed}
             for points, closed in info.curves.values()
@@ -238,7 +239,7 @@ def own_size(bodies: list[dict[str, Any]], joints: list[dict[str, Any]]) -> floa
     sizes = [0.0]
     for entry in bodies:
         corners = [*entry["outline"], *(point["at"] for point in entry["points"])]
-        corners += [at for curve in entry["curves"] for at in curve["points"]]
+        corners += [at for line in (*entry["curves"], *entry["drawn"]) for at in line["points"]]
         for one in joints:
             pairs = zip(one["bodies"], one["points"], strict=True)
             corners += [at for number, at in pairs if number == entry["number"]]
@@ -257,7 +258,8 @@ def bounds(
     low, high = np.full(2, np.inf), np.full(2, -np.inf)
     for entry in bodies:
         corners = [*entry["outline"], *(point["at"] for point in entry["points"])]
-        corners += [at for curve in entry["curves"] for at in _some(curve["points"])]
+        lines = (*entry["curves"], *entry["drawn"])
+        corners += [at for line in lines for at in _some(line["points"])]
         if entry["number"]:
             corners.append([0.0, 0.0])
         corners += [

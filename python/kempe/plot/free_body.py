@@ -107,7 +107,8 @@ def _alone(found: FreeBody) -> Scene:
     made = scene(found.state)
     own = next(body for body in made["bodies"] if body["name"] == found.body)
     view = found.state.body(found.body)
-    corners = np.array([*own["outline"], *(c for curve in own["curves"] for c in curve["points"])])
+    lines = (*own["curves"], *own["drawn"])
+    corners = np.array([*own["outline"], *(at for line in lines for at in line["points"])])
     places = np.array([view.at((float(x), float(y))).position for x, y in corners])
     loads = np.array([*(load.place for load in found.loads), found.inertia.centre])
     places = np.vstack([places, loads])
@@ -117,7 +118,7 @@ def _alone(found: FreeBody) -> Scene:
     half = np.maximum(half, [1.3 * half[1], 0.0])  # for the names beside an upright body
     bounds = [*map(float, middle - half), *map(float, middle + half)]
     kept = [body for body in made["bodies"] if body is own or not body["number"]]
-    ground = {**kept[0], "points": [], "curves": []}
+    ground = {**kept[0], "points": [], "curves": [], "drawn": []}
     alone: dict[str, Any] = {"bodies": [ground, *kept[1:]], "joints": [], "symbols": []}
     return {**made, **alone, "bounds": bounds, "traces": []}
 
