@@ -114,7 +114,7 @@ impl Dice {
             }
             Shape::Shapes => {
                 let tables = kempe::model::shape_tables();
-                let shape = |own: &mut Self| {
+                let mut shape = |own: &mut Self| {
                     let table = own.pick(&tables);
                     Value::Table(own.fields(&table, true, used))
                 };
@@ -122,9 +122,7 @@ impl Dice {
             }
             Shape::Outline => match self.roll(3) {
                 0 => self.value(Shape::Corners, used),
-                1 => {
-                    Value::Table(vec![("circle".to_string(), self.value(Shape::Triple, used))])
-                }
+                1 => Value::Table(vec![("circle".to_string(), self.value(Shape::Triple, used))]),
                 _ => Value::Table(vec![("path".to_string(), Value::Text(self.text()))]),
             },
             Shape::Corners => Value::List((0..3 + self.roll(3)).map(|_| self.pair()).collect()),

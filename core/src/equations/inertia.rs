@@ -24,7 +24,6 @@ pub(super) fn inertias<S: Real>(
     bodies: &[Body<S>],
     added: &[S],
 ) -> Vec<Inertia<S>> {
-    let zero = |tape: &Tape| tape.constant() == Some(0.0);
     let moving = formulas.iter().zip(bodies).zip(added).skip(1);
     let inertia = |((formula, body), added): ((&Body<Tape>, &Body<S>), &S)| {
         let turning = if body.turns { body.inertia + *added } else { S::one() };
@@ -33,7 +32,7 @@ pub(super) fn inertias<S: Real>(
             inverse: [m, j],
             mass: body.mass,
             center: body.center,
-            coupled: !(zero(&formula.center.x) && zero(&formula.center.y)),
+            coupled: !formula.is_centred(),
         }
     };
     moving.map(inertia).collect()

@@ -5,6 +5,7 @@
 //! sides; they do not depend on the sense of its corners. Coordinates are taken from its first corner, so that
 //! nothing cancels for a polygon far from the origin.
 
+use crate::expression::Tape;
 use crate::math::{Local, Real, Rotation};
 
 /// The form of a piece, in its own frame, m.
@@ -119,6 +120,14 @@ impl<S> BodyShape<S> {
                 }
             },
         }
+    }
+}
+
+impl BodyShape<Tape> {
+    /// Whether its centre is the origin of the body whatever the parameters are.
+    pub(super) fn is_centred(&self) -> bool {
+        let zero = |tape: &Tape| tape.constant() == Some(0.0);
+        !matches!(self.form, Form::Polygon { .. }) && zero(&self.at.x) && zero(&self.at.y)
     }
 }
 

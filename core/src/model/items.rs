@@ -79,6 +79,17 @@ impl<S> Body<S> {
     }
 }
 
+impl Body<Tape> {
+    /// Whether the mass centre is the origin of the frame whatever the parameters are.
+    pub fn is_centred(&self) -> bool {
+        let zero = |tape: &Tape| tape.constant() == Some(0.0);
+        match self.shapes.is_empty() {
+            true => zero(&self.center.x) && zero(&self.center.y),
+            false => self.shapes.iter().all(BodyShape::is_centred),
+        }
+    }
+}
+
 /// A joint or driver in a model.
 #[derive(Clone, Debug)]
 pub struct ConstraintItem<S = f64> {

@@ -101,8 +101,8 @@ fn polygon(points: &[Local]) -> Option<String> {
         }
     }
     let extent = points.iter().map(|p| (*p - points[0]).norm()).fold(0.0, f64::max);
-    let areas = points.windows(2).map(|w| cross(points[0], w[0], w[1]));
-    if areas.sum::<f64>().abs() <= ROUNDING * extent * extent {
+    let triangles = points.windows(2).map(|w| cross(points[0], w[0], w[1]).abs());
+    if triangles.fold(0.0, f64::max) <= ROUNDING * extent * extent {
         return Some("its corners lie on one line; a polygon needs an area".to_string());
     }
     for k in 0..points.len() {

@@ -14,6 +14,8 @@ from kempe.draw.items import Frame, Item, Rows, fill, line, metres, on_body
 #: Radius of a spot, and widths of a link, of its edges, of curves, points of print.
 _SPOT, _LINK, _EDGE, _CURVE = 7.0, 8.0, 1.0, 1.4
 _TINT = 0.72
+#: Places along a body from end to end, where a number is tried in turn.
+_SHARES = (0.5, 0.35, 0.65, 0.25, 0.75, 0.15, 0.85)
 
 
 def body(described: dict[str, Any]) -> Iterator[Item]:
@@ -24,15 +26,33 @@ def body(described: dict[str, Any]) -> Iterator[Item]:
         yield from _link(described)
 
 
-def corners(described: dict[str, Any]) -> Floats:
-    """Corners of what is drawn of a moving body, (n, 2), m; a number is written between them."""
+def middles(described: dict[str, Any]) -> Iterator[Floats]:
+    """Places on a moving body, (2,), m, the best ones for a number first."""
+    areas = [np.array(part["points"]) for part in described["drawn"] if part["form"] == "area"]
     drawn = [at for part in described["drawn"] for at in part["points"]]
-    if drawn:
-        return np.array(drawn)
-    found = np.array(described["outline"])
-    if described["curves"] and len(found) == 1:
-        return np.array(described["curves"][0]["points"])
-    return found
+    corners = np.array(drawn or described["outline"])
+    if not drawn and described["curves"] and len(corners) == 1:
+        corners = np.array(described["curves"][0]["points"])
+    across = [(0, len(corners) // 2)]
+    if areas:
+        largest = max(areas, key=lambda ring: float(np.ptp(ring, axis=0).max()))
+        corners, n = largest, len(largest)
+        across = [(0, n // 2), (n // 4, 3 * n // 4), (n // 8, 5 * n // 8), (3 * n // 8, 7 * n // 8)]
+    found = [corners.mean(axis=0), np.array(described["center"])]
+    for first, last in across:
+        found += [corners[first] + share * (corners[last] - corners[first]) for share in _SHARES]
+    yield from (at for at in found if not areas or winding(areas, at))
+
+
+def winding(rings: Sequence[Floats], at: Floats) -> int:
+    """How many times closed lines, each (n, 2), go around a point, counter-clockwise."""
+    turns = 0.0
+    for ring in rings:
+        away = ring - at
+        angles = np.arctan2(away[:, 1], away[:, 0])
+        steps = np.diff(angles, append=angles[:1])
+        turns += float((steps - 2.0 * np.pi * np.round(steps / (2.0 * np.pi))).sum())
+    return round(turns / (2.0 * np.pi))
 
 
 def rims(described: dict[str, Any]) -> Iterator[Item]:

@@ -237,10 +237,7 @@ class Display:
             body: the body.
             pins: places with the radius around them that is taken.
         """
-        corners = bodies.corners(body)
-        shares = [0.5, 0.35, 0.65, 0.25, 0.75, 0.15, 0.85]
-        along = [corners[0] + share * (corners[len(corners) // 2] - corners[0]) for share in shares]
-        for at in (corners.mean(axis=0), np.array(body["center"]), *along):
+        for at in bodies.middles(body):
             path = self.view.points(self._path(body["number"], at))
             gaps = (float(np.hypot(*(path - pin).T).min()) - wide for pin, wide in pins)
             if min(gaps, default=np.inf) > _NUMBER:
