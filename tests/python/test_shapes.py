@@ -237,7 +237,7 @@ def test_shapes_as_an_array_of_tables(tmp_path: Path) -> None:
 
 
 DISC = {"type": "disc", "radius": 0.1, "mass": 2}
-BOW = [(0, 0), (1, 1), (1, 0), (0, 1)]
+BOW = [(0, 0), (1, 1), (1, 0), (0, 1)]  # its signed area is 0
 
 
 def polygon(*points: tuple[float, float]) -> dict[str, Any]:

@@ -36,6 +36,7 @@ interpolation = "monotone"
 points = { O = [0, 0], P = [1, 0] }
 [bodies.a]
 type = "bar"
+outline = { circle = [0, 0, 1] }
 mass = "3 kg"
 length = 1
 ends = ["A", "B"]
@@ -53,8 +54,36 @@ type = "body"
 mass = 1
 inertia = "0.1/2"
 points = { P = [0, 0] }
+[bodies.f]
+outline = [[0, 0], [1, "0.1*2"], [0, 1]]
+[[bodies.f.shapes]]
+type = "rod"
+length = 1
+mass = 1
+[[bodies.f.shapes]]
+type = "plate"
+width = 1
+height = "20 mm"
+density = -1
+thickness = "1 mm"
+[[bodies.f.shapes]]
+type = "disc"
+radius = 1
+mass = 2
+at = [0, 1]
+[[bodies.f.shapes]]
+type = "ring"
+inner = 1
+outer = 2
+mass = 2
+angle = "30 deg"
+[[bodies.f.shapes]]
+type = "polygon"
+points = [[0, 0], [1, 0], [0, 1]]
+mass = 2
 [bodies.e]
 type = "point_mass"
+outline = { path = "M 0 0 h 1" }
 mass = 1
 at = [0, 1]
 [joints.r]

@@ -11,5 +11,6 @@ mod quantities;
 mod refused;
 mod remedies;
 mod running;
+mod shapes;
 mod symbols;
 mod tables;
