@@ -250,10 +250,10 @@ pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
     })
 }
 
-/// Bodies i and j of a constraint.
+/// Bodies i and j of a constraint; ground twice for a constraint of time alone.
 fn ends(item: &ConstraintItem) -> [usize; 2] {
     let last = item.bodies.len().saturating_sub(1).min(1);
-    [item.bodies[0].0, item.bodies[last].0]
+    [0, last].map(|k| item.bodies.get(k).map_or(0, |body| body.0))
 }
 
 /// The rates that are set or driven cannot be reached.
