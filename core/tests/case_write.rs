@@ -112,20 +112,7 @@ impl Dice {
                 };
                 Value::Table((0..self.roll(3)).map(|_| (self.name(used), circle(self))).collect())
             }
-            Shape::Shapes => {
-                let tables = kempe::model::shape_tables();
-                let mut shape = |own: &mut Self| {
-                    let table = own.pick(&tables);
-                    Value::Table(own.fields(&table, true, used))
-                };
-                Value::List((0..1 + self.roll(2)).map(|_| shape(self)).collect())
-            }
-            Shape::Outline => match self.roll(3) {
-                0 => self.value(Shape::Corners, used),
-                1 => Value::Table(vec![("circle".to_string(), self.value(Shape::Triple, used))]),
-                _ => Value::Table(vec![("path".to_string(), Value::Text(self.text()))]),
-            },
-            Shape::Corners => Value::List((0..3 + self.roll(3)).map(|_| self.pair()).collect()),
+            Shape::Shapes | Shape::Outline | Shape::Corners => self.of_body(shape, used),
             Shape::Body | Shape::Point | Shape::Curve | Shape::Coordinate | Shape::Name => {
                 Value::Text(self.text())
             }
@@ -175,6 +162,27 @@ impl Dice {
                 }
                 Value::Table(fields)
             }
+        }
+    }
+
+    /// Values that only bodies have.
+    fn of_body(&mut self, shape: Shape, used: &mut usize) -> Value {
+        match shape {
+            Shape::Shapes => {
+                let tables = kempe::model::shape_tables();
+                let mut shape = |own: &mut Self| {
+                    let table = own.pick(&tables);
+                    Value::Table(own.fields(&table, true, used))
+                };
+                Value::List((0..1 + self.roll(2)).map(|_| shape(self)).collect())
+            }
+            Shape::Outline => match self.roll(3) {
+                0 => self.value(Shape::Corners, used),
+                1 => Value::Table(vec![("circle".to_string(), self.value(Shape::Triple, used))]),
+                _ => Value::Table(vec![("path".to_string(), Value::Text(self.text()))]),
+            },
+            Shape::Corners => Value::List((0..3 + self.roll(3)).map(|_| self.pair()).collect()),
+            other => self.value(other, used),
         }
     }
 

@@ -37,8 +37,8 @@ The values of fields:
 | numbers | a list of numbers, without units and formulas |
 | columns | two names of columns, `["angle", "lift"]` |
 | curves | a table of [curves](file-format.md#curves), `{ rim = { circle = [x, y, r] } }` |
-| shapes | a list of [shapes](file-format.md#shapes), `[{ type = "disc", radius = 0.1, mass = 2 }]` |
-| outline | an [outline](file-format.md#outlines): points, `{ circle = [x, y, r] }` or `{ path = "M 0 0 L …" }` |
+| shapes | a list of [shapes](file-format.md#shapes), `[{ type = "disc", radius = 1, mass = 2 }]` |
+| outline | an [outline](file-format.md#outlines): points, `{ circle = [x, y, r] }` or a path |
 | corners | points without names, `[[x, y], …]`, at least three |
 | name | a name, such as that of a joint, of a file or of a unit |
 | body, point, curve, coordinate | `"crank"`, `"crank.B"`, `"cam.rim"`, `"crank.angle"` |
@@ -59,7 +59,7 @@ SECTIONS = {
     ),
     "shapes": (
         "Shapes",
-        "Entries of the `shapes` of a body. Each has either mass, or density with a thickness or an "
+        "Entries of the `shapes` of a body. Each has a mass, or a density with a thickness or an "
         "area.",
     ),
     "tables": (

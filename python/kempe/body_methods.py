@@ -75,10 +75,10 @@ class BodyMethods:
                 "length": L}``, ``{"type": "plate", "width": w, "height": h}``, ``{"type": "disc",
                 "radius": r}``, ``{"type": "ring", "inner": a, "outer": b}`` or ``{"type":
                 "polygon", "points": [(x, y), …]}``, each with ``at`` and ``angle`` of its frame in
-                that of the body, and ``mass``, or ``density`` and ``thickness`` (of a rod: ``area``).
-                A hole has a negative mass or density.
-            outline: what drawings show of it: points, circle or path, m; by default the shapes, or a
-                link around its points.
+                that of the body, and ``mass``, or ``density`` and ``thickness`` (of a rod:
+                ``area``). A hole has a negative mass or density.
+            outline: what drawings show of it: points, circle or path, m; by default the shapes, or
+                a link around its points.
         """
         given = (mass, inertia, center, points, through, curves, shapes, outline)
         return self._add(Body(name, *given))

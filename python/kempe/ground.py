@@ -34,7 +34,7 @@ class Ground:
         self._model._ground_curves(curves)
 
     def outline(self, outline: Outline) -> None:
-        """Draw ground as points, circle or path, m: ``m.ground.outline([(0, 0), (1, 0), (1, -1)])``.
+        """Draw ground as points, circle or path, m: ``m.ground.outline({"circle": (0, 0, 1)})``.
 
         It changes no number.
 

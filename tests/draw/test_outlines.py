@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import kempe as kp
@@ -26,7 +27,9 @@ def path(text: str) -> list[tuple[str, np.ndarray]]:
 
 
 def area(ring: np.ndarray) -> float:
-    return 0.5 * float(np.sum(ring[:, 0] * np.roll(ring[:, 1], -1) - np.roll(ring[:, 0], -1) * ring[:, 1]))
+    return 0.5 * float(
+        np.sum(ring[:, 0] * np.roll(ring[:, 1], -1) - np.roll(ring[:, 0], -1) * ring[:, 1])
+    )
 
 
 def test_polygons_and_circles_follow_parameters() -> None:
@@ -59,7 +62,7 @@ def bezier(points: Any, s: np.ndarray) -> np.ndarray:
     """De Casteljau's construction."""
     points = [np.asarray(p, dtype=float)[None] for p in points]
     while len(points) > 1:
-        points = [a + s[:, None] * (b - a) for a, b in zip(points, points[1:], strict=False)]
+        points = [a + s[:, None] * (b - a) for a, b in itertools.pairwise(points)]
     return points[0]
 
 
@@ -131,8 +134,8 @@ def test_parts_of_a_path_start_where_the_last_one_did() -> None:
         ("M 1 1", "draws nothing"),
         ("L 1 1", r"starts with 'L'; must start with M \(character 1\)"),
         ("M 0 0 L 1", r"ends before its last command has all numbers \(character 10\)"),
-        ("M 0 0 X 1 1", r"'X' is no command.*\(character 7\)"),
-        ("M 0 0 L 1 1 Z 2 2", r"'2' is no command.*\(character 15\)"),
+        ("M 0 0 X 1 1", r"'X' is not a command.*\(character 7\)"),
+        ("M 0 0 L 1 1 Z 2 2", r"'2' is not a command.*\(character 15\)"),
         ("M 0 0 L 1 b", r"'b' is not a number \(character 11\)"),
         ("M 0 0 L 1 1e999", r"'1e999' is not a number"),
         ("M 0 0 A 1 1 0 2 1 1 1", r"a flag of an arc must be 0 or 1 \(character 15\)"),
@@ -181,7 +184,6 @@ def test_an_outline_changes_no_number() -> None:
         kp.dynamics(m, kp.assemble(m, set=start), t_end=1, output_step=0.05)
         for m in (rotor(False), rotor(True))
     )
-    np.testing.assert_array_equal(plain.y, outlined.y) if hasattr(plain, "y") else None
     np.testing.assert_array_equal(plain.q, outlined.q)
     np.testing.assert_array_equal(plain["A"].force(on="a"), outlined["A"].force(on="a"))
     one, other = kp.scene(plain), kp.scene(outlined)
@@ -241,7 +243,15 @@ def test_shapes_are_drawn_as_they_are() -> None:
     assert [area(ring) for ring in rings] == pytest.approx(
         [4, np.pi * 4, -np.pi / 4, -0.08], rel=1e-3
     )
-    inside = {(0.9, 0.9): 1, (0, 0): 0, (3, 0): 0, (4.5, 0): 1, (0.95, 0): 1, (1.2, 0): 1, (9, 9): 0}
+    inside = {
+        (0.9, 0.9): 1,
+        (0, 0): 0,
+        (3, 0): 0,
+        (4.5, 0): 1,
+        (0.95, 0): 1,
+        (1.2, 0): 1,
+        (9, 9): 0,
+    }
     rows = [[[x, y, 0.0, 0.0] for x, y in ring] for ring in rings]
     one = np.array(joined(rows))[:, :2]
     for at, wanted in inside.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import pickle
 from collections.abc import Iterator
@@ -48,7 +49,7 @@ def integral(corners: np.ndarray, power: int, times: int) -> float:
         return sum(parts) / (power + 1) * y**times
 
     heights = np.unique(corners[:, 1])
-    return sum(quad(of_strip, a, b)[0] for a, b in zip(heights, heights[1:], strict=False))
+    return sum(quad(of_strip, a, b)[0] for a, b in itertools.pairwise(heights))
 
 
 def moments(corners: np.ndarray) -> tuple[float, np.ndarray, float]:
@@ -86,11 +87,11 @@ def test_discs_and_rings_equal_integrals(inner: float, outer: float) -> None:
     at = (0.3, -0.1)
     found = weighed({**shape, "density": RHO, "thickness": T, "at": at, "angle": 1.0})
 
-    def of(f: Any) -> float:
-        return float(dblquad(lambda r, u: f(r) * r, 0, 2 * np.pi, inner, outer)[0])
+    def moment(power: int) -> float:
+        return float(dblquad(lambda r, _: r ** (power + 1), 0, 2 * np.pi, inner, outer)[0])
 
-    assert found.mass == pytest.approx(RHO * T * of(lambda r: 1.0), rel=1e-12)
-    assert found.inertia == pytest.approx(RHO * T * of(lambda r: r * r), rel=1e-12)
+    assert found.mass == pytest.approx(RHO * T * moment(0), rel=1e-12)
+    assert found.inertia == pytest.approx(RHO * T * moment(2), rel=1e-12)
     np.testing.assert_allclose(found.center, at, rtol=1e-15)
 
 
@@ -271,7 +272,11 @@ def polygon(*points: tuple[float, float]) -> dict[str, Any]:
         ([polygon((0, 0), (1, 0))], "shapes.0.points", "at least three points"),
         ([polygon((0, 0), (1, 0), (2, 0))], "shapes.0.points", "lie on one line"),
         ([polygon((0, 0), (1, 0), (1, 0), (0, 1))], "shapes.0.points", "corners 2 and 3 coincide"),
-        ([DISC, polygon(*BOW)], "shapes.1.points", "shape 2 (polygon): its sides 1-2 and 3-4 cross"),
+        (
+            [DISC, polygon(*BOW)],
+            "shapes.1.points",
+            "shape 2 (polygon): its sides 1-2 and 3-4 cross",
+        ),
         ([DISC, {**DISC, "mass": -3}], "shapes", "sum to -1.000000000 kg"),
         ([DISC, {**DISC, "mass": -2}], "shapes", "make the holes (negative masses) lighter"),
         (

@@ -1,6 +1,6 @@
 //! The items of a model, over any scalar: bodies, joints, drivers and forces.
 
-use super::body_shape::BodyShape;
+use super::body_shape::{BodyShape, Weighed};
 use super::curves::Curves;
 use super::outline::Outline;
 use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, JointId, OwnState};
@@ -57,15 +57,16 @@ impl<S> Body<S> {
         }
     }
 
-    /// Puts the mass, mass centre and inertia of its shapes in, if it has any.
-    pub(super) fn weigh(&mut self)
+    /// The same with the mass, mass centre and inertia of its shapes, if it has any.
+    pub(super) fn weighed(self) -> Self
     where
         S: Real,
     {
-        if !self.shapes.is_empty() {
-            let found = BodyShape::together(&self.shapes);
-            (self.mass, self.center, self.inertia) = (found.mass, found.center, found.inertia);
+        if self.shapes.is_empty() {
+            return self;
         }
+        let Weighed { mass, center, inertia } = BodyShape::together(&self.shapes);
+        Self { mass, center, inertia, ..self }
     }
 
     /// Whether its points are not all known, because a fault of them was reported.

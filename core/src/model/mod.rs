@@ -8,6 +8,7 @@ mod build;
 mod checks;
 mod curves;
 mod definition;
+mod drawing;
 mod functions;
 mod items;
 mod layout;

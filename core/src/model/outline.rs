@@ -1,7 +1,5 @@
-//! What is drawn of a body in place of a link around its points.
+//! Outlines of bodies for drawings.
 
-use super::body_shape::{BodyShape, Form};
-use super::items::Body;
 use crate::math::Local;
 use std::sync::Arc;
 
@@ -90,7 +88,8 @@ impl Outline {
         }
     }
 
-    fn drawn(&self) -> Vec<Drawn> {
+    /// Its lines and areas.
+    pub(super) fn drawn(&self) -> Vec<Drawn> {
         let area = |points| vec![Drawn { points, form: DrawnForm::Area }];
         match self {
             Self::Polygon(points) => area(points.clone()),
@@ -102,64 +101,12 @@ impl Outline {
     }
 }
 
-impl Body {
-    /// What is drawn in place of a link: the outline, else the shapes, else nothing.
-    pub fn drawn(&self) -> Vec<Drawn> {
-        match &self.outline {
-            Some(outline) => outline.drawn(),
-            None => self.shapes.iter().flat_map(shape).collect(),
-        }
-    }
-}
-
-/// The edges of a shape: counter-clockwise, those of holes clockwise. A rod without mass is not drawn.
-fn shape(shape: &BodyShape) -> Vec<Drawn> {
-    let hole = shape.weighed().mass < 0.0;
-    let edges = match &shape.form {
-        Form::Rod { .. } if hole => Vec::new(),
-        Form::Rod { length } => {
-            vec![vec![Local::new(-length / 2.0, 0.0), Local::new(length / 2.0, 0.0)]]
-        }
-        Form::Plate { width, height } => {
-            let (x, y) = (width / 2.0, height / 2.0);
-            let corner = |(x, y): (f64, f64)| Local::new(x, y);
-            vec![[(-x, -y), (x, -y), (x, y), (-x, y)].map(corner).to_vec()]
-        }
-        Form::Disc { radius } => vec![circle(*radius, false)],
-        Form::Ring { inner, outer } if *inner > 0.0 => {
-            vec![circle(*outer, false), circle(*inner, true)]
-        }
-        Form::Ring { outer, .. } => vec![circle(*outer, false)],
-        Form::Polygon { points } => vec![counter_clockwise(points)],
-    };
-    let form = if let Form::Rod { .. } = shape.form { DrawnForm::Rod } else { DrawnForm::Area };
-    let placed = edges.into_iter().map(|mut edge| {
-        if hole {
-            edge.reverse();
-        }
-        Drawn { points: edge.into_iter().map(|s| shape.place(s)).collect(), form }
-    });
-    placed.collect()
-}
-
-fn circle(radius: f64, clockwise: bool) -> Vec<Local> {
+/// Corners of a circle around the origin.
+pub(super) fn circle(radius: f64, clockwise: bool) -> Vec<Local> {
     let turn = if clockwise { -std::f64::consts::TAU } else { std::f64::consts::TAU };
     let at = |k: usize| {
         let (sin, cos) = f64::sin_cos(turn * k as f64 / OF_CIRCLE as f64);
         Local::new(radius * cos, radius * sin)
     };
     (0..OF_CIRCLE).map(at).collect()
-}
-
-fn counter_clockwise(points: &[Local]) -> Vec<Local> {
-    let sides = points.iter().zip(points.iter().cycle().skip(1));
-    let first = points[0];
-    let twice: f64 = sides
-        .map(|(a, b)| (a.x - first.x) * (b.y - first.y) - (b.x - first.x) * (a.y - first.y))
-        .sum();
-    let mut points = points.to_vec();
-    if twice < 0.0 {
-        points.reverse();
-    }
-    points
 }

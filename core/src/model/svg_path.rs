@@ -79,7 +79,8 @@ impl Reader<'_> {
                 Ok(Some((before, start)))
             }
             _ => {
-                let message = format!("'{next}' is no command; must be one of M L H V C S Q T A Z");
+                let message =
+                    format!("'{next}' is not a command; must be one of M L H V C S Q T A Z");
                 Err(Fault { span: start..start + next.len_utf8(), message })
             }
         }
