@@ -74,37 +74,37 @@ def _looks(described: dict[str, Any]) -> tuple[str, Frame, str]:
 def _link(described: dict[str, Any]) -> Iterator[Item]:
     """A rounded bar or plate: a wide dark line and a narrower light one in it."""
     of, frame, colour = _looks(described)
-    ends, look = np.array(described["outline"]), {"layer": items.BODY}
+    ends, layer = np.array(described["outline"]), items.BODY
     if len(ends) == 1:
         rows = [[*end, *at] for end in ends for at in items.circle(_SPOT)]
-        yield fill(of, frame, rows, colour, tint=_TINT, **look)
-        yield line(of, frame, rows, colour, _EDGE, closed=True, **look)
+        yield fill(of, frame, rows, colour, tint=_TINT, layer=layer)
+        yield line(of, frame, rows, colour, _EDGE, closed=True, layer=layer)
         return
     rows, closed = metres(ends), len(ends) > 2
-    yield line(of, frame, rows, colour, _LINK + 2.0 * _EDGE, closed=closed, **look)
+    yield line(of, frame, rows, colour, _LINK + 2.0 * _EDGE, closed=closed, layer=layer)
     if closed:
-        yield fill(of, frame, rows, colour, tint=_TINT, **look)
-    yield line(of, frame, rows, colour, _LINK, closed=closed, tint=_TINT, **look)
+        yield fill(of, frame, rows, colour, tint=_TINT, layer=layer)
+    yield line(of, frame, rows, colour, _LINK, closed=closed, tint=_TINT, layer=layer)
 
 
 def _drawn(described: dict[str, Any]) -> Iterator[Item]:
     """All edges, then all areas over them, so that only the edge of the whole remains."""
     of, frame, colour = _looks(described)
-    look = {"layer": items.BODY if described["number"] else items.GROUND}
+    layer = items.BODY if described["number"] else items.GROUND
     parts = {
         form: [metres(part["points"]) for part in described["drawn"] if part["form"] == form]
         for form in ("area", "rod", "line")
     }
     for rows in parts["area"]:
-        yield line(of, frame, rows, colour, 2.0 * _EDGE, closed=True, **look)
+        yield line(of, frame, rows, colour, 2.0 * _EDGE, closed=True, layer=layer)
     for rows in parts["rod"]:
-        yield line(of, frame, rows, colour, _LINK + 2.0 * _EDGE, **look)
+        yield line(of, frame, rows, colour, _LINK + 2.0 * _EDGE, layer=layer)
     if parts["area"]:
-        yield fill(of, frame, joined(parts["area"]), colour, tint=_TINT, **look)
+        yield fill(of, frame, joined(parts["area"]), colour, tint=_TINT, layer=layer)
     for rows in parts["rod"]:
-        yield line(of, frame, rows, colour, _LINK, tint=_TINT, **look)
+        yield line(of, frame, rows, colour, _LINK, tint=_TINT, layer=layer)
     for rows in parts["line"]:
-        yield line(of, frame, rows, colour, _CURVE, **look)
+        yield line(of, frame, rows, colour, _CURVE, layer=layer)
 
 
 def joined(rings: Sequence[Rows]) -> Rows:

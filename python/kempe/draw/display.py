@@ -238,7 +238,7 @@ class Display:
             pins: places with the radius around them that is taken.
         """
         for at in bodies.middles(body):
-            path = self.view.points(self._path(body["number"], at))
+            path = self.view.points(self._path(body["number"], list(at)))
             gaps = (float(np.hypot(*(path - pin).T).min()) - wide for pin, wide in pins)
             if min(gaps, default=np.inf) > _NUMBER:
                 return [float(x) for x in at]
