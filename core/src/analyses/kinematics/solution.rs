@@ -15,7 +15,7 @@ const MOST: usize = 8;
 /// Least factor by which an iteration must reduce the correction.
 const CONTRACTS: f64 = 0.25;
 /// Damping of redundant rows, relative to their scale.
-const REDUNDANT: f64 = 1e-18;
+const REDUNDANT: f64 = 1e-12;
 /// Part of a pivot that remains where Φ_q counts as regular; less if the mechanism begins with less.
 const REGULAR: f64 = 1e-9;
 /// The same, as a part of that at the first position.
@@ -164,7 +164,22 @@ impl<'a> Solver<'a> {
         upper.fill(0.0);
         lower.iter_mut().zip(&self.terms[term]).for_each(|(x, term)| *x = sign * term);
         self.matrix.solve(&mut self.solution);
-        self.solution[..n].to_vec()
+        let mut x = self.solution[..n].to_vec();
+        if self.model.allow_redundancy {
+            self.correct(&mut x, (term, sign));
+        }
+        x
+    }
+
+    /// One correction of `x` for the damping of redundant rows, of which an error in its proportion is left.
+    fn correct(&mut self, x: &mut [f64], (term, sign): (usize, f64)) {
+        let (upper, lower) = self.solution.split_at_mut(x.len());
+        upper.fill(0.0);
+        constraints::times_all(self.model, self.matrix.jacobian(), x, lower);
+        let wanted = lower.iter_mut().zip(&self.terms[term]);
+        wanted.for_each(|(left, term)| *left = sign * term - *left);
+        self.matrix.solve(&mut self.solution);
+        x.iter_mut().zip(&self.solution).for_each(|(x, dx)| *x += dx);
     }
 
     /// Φ at a position, scaled, for the path by its length.
