@@ -24,12 +24,15 @@ pub(super) fn shapes(body: &Body, problems: &mut Vec<Problem>) {
     }
     let path = ["bodies", &body.name, "shapes"];
     let gross: f64 = body.shapes.iter().map(|shape| shape.weighed().mass.abs()).sum();
-    let message = if !(body.mass.is_finite() && body.inertia.is_finite()) {
-        format!("the masses of the shapes sum to {} kg; must be finite", body.mass)
-    } else if body.mass <= ROUNDING * gross {
-        format!("the masses of the shapes sum to {:.9} kg; must be > 0, so make the holes (negative masses) lighter", body.mass)
+    let holes = "holes (negative masses)";
+    let message = if body.mass <= ROUNDING * gross {
+        let sum = format!("the masses of the shapes sum to {:.9} kg", body.mass);
+        format!("{sum}; must be > 0, so make the {holes} lighter")
+    } else if !(body.mass.is_finite() && body.inertia.is_finite()) {
+        "their mass or moment of inertia is not finite; make them smaller".to_string()
     } else if body.inertia < 0.0 {
-        format!("the moment of inertia of the shapes is {:.9} kg·m²; must not be negative, so place the holes (negative masses) within the other shapes", body.inertia)
+        let found = format!("the moment of inertia of the shapes is {:.9} kg·m²", body.inertia);
+        format!("{found}; must not be negative, so place the {holes} within the other shapes")
     } else {
         return;
     };
