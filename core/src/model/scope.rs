@@ -2,6 +2,7 @@
 
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
+use super::doubt::Doubt;
 use super::functions::Functions;
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
@@ -31,6 +32,8 @@ pub struct Scope {
     pub functions: Option<Functions>,
     /// Units of the laws that were read so far, with their numbers.
     pub units: RefCell<Vec<(usize, String)>>,
+    /// Angles that were read so far and look like degrees.
+    pub doubts: RefCell<Vec<Doubt>>,
     places: Places,
 }
 
@@ -279,6 +282,7 @@ impl Scope {
         (reach, law): (Reach, Option<LawOf<'_>>),
         problems: &mut Vec<Problem>,
     ) -> Option<Tape> {
+        self.doubts.borrow_mut().extend(Doubt::of(value, path, unit));
         let text = match value {
             Value::Number(x) if x.is_finite() => return Some(Tape::from(*x)),
             Value::Number(x) => {
