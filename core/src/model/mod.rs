@@ -15,6 +15,7 @@ mod link;
 #[allow(clippy::module_inception)] // the model of the module `model`
 mod model;
 mod parameters;
+mod places;
 mod problem;
 mod problems;
 mod quantity;

@@ -4,6 +4,7 @@ use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::doubt::Doubt;
 use super::functions::Functions;
+use super::places::{places, Places};
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
 use super::unit_check::check_unit;
@@ -11,7 +12,6 @@ use super::variable::Variable;
 use crate::elements::{states_of, BodyId, Coordinate, Followed, Measured, OwnState};
 use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Table, Tape};
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The names that formulas may use.
@@ -35,25 +35,6 @@ pub struct Scope {
     /// Angles that were read so far and look like degrees.
     pub doubts: RefCell<Vec<Doubt>>,
     places: Places,
-}
-
-/// The places of names, so that a name is found at once in a large model.
-#[derive(Clone, Debug, Default)]
-struct Places {
-    parameters: HashMap<String, usize>,
-    bodies: HashMap<String, usize>,
-    states: HashMap<String, usize>,
-    /// Joints and drivers as they are written.
-    constraints: HashMap<String, usize>,
-    /// Forces as they are written.
-    forces: HashMap<String, usize>,
-}
-
-/// The first place of each name.
-fn places<'n>(names: impl Iterator<Item = &'n String>) -> HashMap<String, usize> {
-    let mut places = HashMap::new();
-    names.enumerate().for_each(|(k, name)| _ = places.entry(name.clone()).or_insert(k));
-    places
 }
 
 /// The first-order states of a force as written.

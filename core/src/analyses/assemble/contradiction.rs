@@ -18,7 +18,7 @@ use crate::analyses::mobility::moved;
 use crate::analyses::Dependent;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::model::{listed, row_scales, Model};
+use crate::model::{listed, row_scales, size, Model};
 use crate::solve::RANK_TOLERANCE;
 use std::sync::Arc;
 
@@ -124,29 +124,30 @@ pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Stop<'_>) -> Opt
     let one = here.iter().find(contradicts)?;
     let name = |k: &usize| model.constraints[*k].name.as_str();
     let names = listed(&one.group.iter().map(name).collect::<Vec<_>>());
-    let miss = |k: &usize| {
-        let rows = model.layout.constraints[*k].rows.clone();
-        rows.map(|row| phi[row] * phi[row]).sum::<f64>().sqrt()
+    // gaps add up to the missing length; where all fit, an angle is missed
+    let miss = |k: &usize, unit: &str| {
+        let first = model.layout.constraints[*k].rows.start;
+        let own = model.constraints[*k].equations.iter().enumerate();
+        let own = own.filter(|(_, equation)| equation.unit == unit);
+        own.map(|(row, _)| phi[first + row] * phi[first + row]).sum::<f64>().sqrt()
     };
-    let worst = *one.group.iter().max_by(|a, b| miss(a).total_cmp(&miss(b)))?;
-    let unit = model.constraints[worst].equations[0].unit;
-    let by = trimmed(miss(&worst), 3);
-    let repeated = if one.group.iter().any(|k| model.constraints[*k].driven) {
-        "driven values"
-    } else {
-        "lengths"
-    };
+    let total = |unit: &str| one.group.iter().map(|k| miss(k, unit)).sum::<f64>();
+    let unit = if total("m") > AGREE * size(model) { "m" } else { "rad" };
+    let by = trimmed(total(unit), 3);
+    let worst = one.group.iter().max_by(|a, b| miss(a, unit).total_cmp(&miss(b, unit)))?;
+    let driven = one.group.iter().any(|k| model.constraints[*k].driven);
+    let values = if driven { "driven values" } else { "lengths" };
     let freed = freed(model, t, q, std::slice::from_ref(one));
     Some(Failure {
         fault: Fault::Open,
-        name: name(&worst).to_string(),
-        gap: if unit == "m" { miss(&worst) } else { 0.0 },
+        name: name(worst).to_string(),
+        gap: if unit == "m" { miss(worst, unit) } else { 0.0 },
         places: one.group.iter().map(|k| place(model, *k)).collect(),
         message: format!(
-            "{names} contradict each other: one of their equations depends on the others, but does not agree with them; {} stays open by {by} {unit}",
-            name(&worst)
+            "{names} contradict each other: they have one equation too many, and stay open by {by} {unit} in all, most at {}",
+            name(worst)
         ),
-        hint: format!("correct the {repeated}, or {freed}"),
+        hint: format!("correct the {values} or the guess, or {freed}"),
     })
 }
 
