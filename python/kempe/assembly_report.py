@@ -149,7 +149,7 @@ class AssemblyReport:
     degrees_of_freedom: int
     modes: tuple[Mode, ...]
     warnings: tuple[str, ...]
-    unset: Unset = Unset()  # noqa: RUF009 - frozen
+    unset: Unset = Unset()
 
     @property
     def alternatives(self) -> int:

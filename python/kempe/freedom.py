@@ -227,9 +227,10 @@ def _told(one: Redundancy) -> list[str]:
     if one.kind:
         return [f"singular position, {one.kind}: {_KINDS[one.kind]} ({joints})"]
     verdict = "" if one.consistent else "; the drivers CONTRADICT each other"
+    any_of = ", ".join(map(str, one.remedies))
     return [
         f"one equation too many among {joints}{verdict}",
-        f"  any one of these may be freed: {', '.join(map(str, one.remedies))}; {_advice(one.example)}",
+        f"  any one of these may be freed: {any_of}; {_advice(one.example)}",
     ]
 
 

@@ -68,7 +68,7 @@ class Drawn:
         return kp.State(model, 0, zeros, zeros)
 
     def jacobian(self) -> np.ndarray:
-        """Velocities of the constraints for velocities of the bodies at the origin, from their geometry."""
+        """Velocities across the constraints for those of the bodies at the origin."""
         rows = []
         for point, i, j in self.pins():
             rows += [self._row(i, j, point, way) for way in (0.0, 90.0)]

@@ -54,7 +54,9 @@ def six_bars() -> dict[str, Drawn]:
         "Watt II": chain(ground="ADG", crank="AB", rod="BC", plate="DCE", link="EF", last="FG"),
         "Stephenson I": chain(ground="AD", left="ACE", right="DBF", rod="CB", link="EH", last="HF"),
         "Stephenson II": chain(ground="AD", left="ABE", one="BC", two="EG", plate="CGF", last="DF"),
-        "Stephenson III": chain(ground="ADG", crank="AB", rod="BCE", arm="DC", link="EF", last="FG"),
+        "Stephenson III": chain(
+            ground="ADG", crank="AB", rod="BCE", arm="DC", link="EF", last="FG"
+        ),
         "Klann's leg": chain(ground="ADG", crank="AB", rod="BCE", arm="DC", upper="GF", leg="EFH"),
     }
 
@@ -164,7 +166,8 @@ def parallel_robots() -> dict[str, Drawn]:
     legs = {"a": "AK", "b": "BL", "c": "CM", "d": "KP", "e": "LQ", "f": "MR"}
     pairs = (("A", "P", "r"), ("B", "Q", "s"), ("C", "R", "t"))
     middle = {
-        s: tuple(0.5 * (u + v) for u, v in zip(feet[a], corners[p], strict=True)) for a, p, s in pairs
+        s: tuple(0.5 * (u + v) for u, v in zip(feet[a], corners[p], strict=True))
+        for a, p, s in pairs
     }
     way = {
         s: float(atan2(corners[p][1] - feet[a][1], corners[p][0] - feet[a][0]) * 180 / pi)
@@ -226,9 +229,7 @@ def geared() -> dict[str, Drawn]:
     wheels = {"ground": "ABC", "one": "A", "two": "B", "three": "C"}
     pairs = (("one", "two", "A", "B"), ("two", "three", "B", "C"))
     return {
-        "Geared five-bar": Drawn(
-            five.points, five.bodies, 1, gears=(("left", "right", "A", "E"),)
-        ),
+        "Geared five-bar": Drawn(five.points, five.bodies, 1, gears=(("left", "right", "A", "E"),)),
         "Gear train": Drawn(train, wheels, 1, gears=pairs),
         "Planetary gear": Drawn(
             {"A": (0.0, 0.0), "B": (0.3, 0.0)},

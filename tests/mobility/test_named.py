@@ -1,4 +1,4 @@
-"""Thirty and more named mechanisms: mobility against their geometry, and the table in the documentation."""
+"""Thirty and more named mechanisms: mobility by their geometry, and the table in the docs."""
 
 import kempe as kp
 import numpy as np

@@ -1,4 +1,4 @@
-"""The start report: what was left unset, what was chosen for it, and angles that look like degrees."""
+"""The start report: what was left unset, what was chosen, and angles that look like degrees."""
 
 import json
 import warnings
@@ -58,14 +58,19 @@ def test_sources_of_positions_and_rates() -> None:
     assert told == "not set: crank.angle = 0° (no guess); crank.omega = 0 (at rest)"
     told = str(kp.assemble(four_bar(), guess={"rocker.angle": 2.0}).report.unset)
     assert told == "not set: rocker.angle = 114.592° (guess); rocker.omega = 0 (at rest)"
-    # the rocker cannot reach 0; the printed angle is that of the state
-    start = kp.assemble(four_bar(), guess={"rocker.angle": "0 deg", "rocker.omega": 3})
+    told = str(kp.assemble(four_bar(), set={"rocker.angle": 2.0}).report.unset)
+    assert told == "not set: rocker.omega = 0 (at rest)"
+    # of two guesses that contradict each other, the one that was met is named
+    start = kp.assemble(four_bar(), guess={"coupler.angle": 0.9, "crank.angle": 1.0})
+    assert start["crank.angle"] == 1.0
+    assert "crank.angle = 57.2958° (guess)" in str(start.report.unset)
+    start = kp.assemble(four_bar(), guess={"coupler.angle": 1.2, "coupler.omega": 3})
     (place,), (rate,) = start.report.unset.coordinates, start.report.unset.rates
-    assert place.source == "near guess"
-    assert place.guess == 0
-    assert place.value == start["rocker.angle"] != 0
-    assert "near its guess of 0°" in str(place)
-    assert (rate.name, rate.value, rate.source) == ("rocker.omega", pytest.approx(3), "guess")
+    assert (place.name, place.source, place.guess) == ("coupler.angle", "near guess", 1.2)
+    assert place.value == start["coupler.angle"] != 1.2
+    assert "near its guess of 68.7549°" in str(place)
+    assert (rate.name, rate.value) == ("coupler.omega", start["coupler.omega"])
+    assert (rate.source, rate.guess) == ("near guess", 3)
     start = kp.assemble(four_bar(), guess={"A.angle": 1.0})
     assert "crank.angle = 57.2958° (from the guesses)" in str(start.report.unset)
     m = kp.Model("drawn")
@@ -152,7 +157,6 @@ def test_angles_that_are_not_doubted(value: float | str) -> None:
 def test_angles_of_elements_that_look_like_degrees() -> None:
     m = pendulums(1)
     m.torsion_spring("spring", "ground", "rod0", stiffness=1, free_angle=-90)
-    m.parameters(rest=12)
     m.coordinate_driver("motor", "rod0.angle", value=270)
     with pytest.warns(kp.AssemblyWarning) as caught:
         kp.assemble(m)
@@ -174,4 +178,4 @@ def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert app.run(["run", file, "--set", "crank.angle=70", *words]) == 0
     out = capsys.readouterr().out
     assert "not set: crank.omega = 0 (at rest)" in out
-    assert 'warning: crank.angle = 70 looks like degrees' in out
+    assert "warning: crank.angle = 70 looks like degrees" in out

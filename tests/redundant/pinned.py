@@ -1,4 +1,4 @@
-"""Classic redundancies of pins, slides and bars: each with its start, and the joints that take part."""
+"""Classic redundancies of pins, slides and bars, each with its start and the joints in it."""
 
 from __future__ import annotations
 

@@ -11,9 +11,7 @@ from kempe.case import parsed
 from kempe.freedom import Remedy
 
 
-def without(
-    model: kp.Model, state: kp.State, remedies: Sequence[tuple[Remedy, str]]
-) -> kp.Model:
+def without(model: kp.Model, state: kp.State, remedies: Sequence[tuple[Remedy, str]]) -> kp.Model:
     """The model without the given equations of some remedies, or the directions of pins."""
     tree = kp.Case(model).tree()
     of_joint: dict[str, list[tuple[Remedy, str]]] = {}

@@ -1,15 +1,16 @@
-"""Classic redundancies: found, with all joints; freeing what is advised leaves the motion unchanged."""
+"""Classic redundancies: all joints are named, and the remedies leave the motion unchanged."""
 
 from functools import cache
 
 import kempe as kp
 import numpy as np
 import pytest
-from examples.n_four_bar import upright, windows
 from kempe.freedom import MobilityResult
 from redundant.pinned import PINNED, Redundant
 from redundant.remedied import without
 from redundant.wheels import WHEELS
+
+from examples.n_four_bar import upright, windows
 
 CLASSICS = PINNED | WHEELS
 METHOD = kp.DOP853(rtol=1e-13, atol=1e-15)

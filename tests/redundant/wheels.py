@@ -63,9 +63,7 @@ def planets(count: int = 3) -> Redundant:
         inner, outer = (f"{wheel}.O" for wheel in ("sun", "ground"))
         offset = -0.15 * angles[k]
         m.gear(f"inner{k}", inner, f"planet{k}.O", radii=(0.1, 0.05), offset=offset)
-        m.gear(
-            f"outer{k}", outer, f"planet{k}.O", radii=(0.2, 0.05), internal=True, offset=offset
-        )
+        m.gear(f"outer{k}", outer, f"planet{k}.O", radii=(0.2, 0.05), internal=True, offset=offset)
         joints |= {f"pin{k}", f"inner{k}", f"outer{k}"}
     return Redundant(m, count - 1, joints, {"carrier.angle": 0.0})
 
@@ -90,7 +88,9 @@ def rack_on_two_pinions() -> Redundant:
     m.rack("left", "table.T", "wheelA.O", radius=-0.1)
     m.rack("right", "table.T", "wheelB.O", radius=-0.1, offset=1)
     m.belt("belt", "wheelA.O", "wheelB.O", radii=(0.1, 0.1))
-    return Redundant(m, 1, {"A", "B", "left", "right", "belt"}, {"table.x": 0.2}, {"wheelA.angle": 0.0})
+    return Redundant(
+        m, 1, {"A", "B", "left", "right", "belt"}, {"table.x": 0.2}, {"wheelA.angle": 0.0}
+    )
 
 
 def locomotive() -> Redundant:

@@ -1,8 +1,9 @@
 //! What the request for an assembly left unset, and what was chosen for it.
 //!
 //! The freedoms that drivers and `set` leave are the null space of Φ_q with their rows. Each of them is named by one
-//! coordinate, such that the coordinates together determine the motion: those that were guessed first, then angles, then
-//! places, in the order of the bodies, unless another coordinate moves ten times as far. The same holds for rates.
+//! coordinate, such that the coordinates together determine the motion: those that were guessed and met first, then angles, then
+//! places, in the order of the bodies, unless another coordinate moves ten times as far. The same holds for rates, where
+//! those of coordinates that were set come first too.
 
 use super::rates::holding_rates;
 use super::request::Request;
@@ -91,14 +92,27 @@ pub(super) fn unset(
         true => 0,
         false => mobility_until(extended, request.t, q, stop).singular_equations.len(),
     };
-    let mut coordinates = named(model, &moving, of_bodies(&request.guess));
+    let column = |of: &CoordinateTarget| (of.body.0, of.coordinate.column());
+    let met_first = |mut all: Vec<CoordinateTarget>, values: &[f64]| {
+        let at = |of: &CoordinateTarget| {
+            let place = model.layout.bodies[of.body.0].first + of.coordinate.column();
+            near(model, of.coordinate, of.value, values[place])
+        };
+        all.sort_by_key(|of| at(of) != Source::Guess);
+        all
+    };
+    let guesses = met_first(of_bodies(&request.guess).cloned().collect(), q);
+    let mut coordinates = named(model, &moving, guesses.iter().map(column));
     coordinates.truncate(moving.len().saturating_sub(passing));
     let guessed = |target: &Target| match target {
         Target::Coordinate(target) => Some(target.clone()),
         _ => None,
     };
-    let guesses: Vec<CoordinateTarget> = of_rates(&request.guess).filter_map(guessed).collect();
-    let rates = named(model, &all(&held), guesses.iter());
+    let guesses = met_first(of_rates(&request.guess).filter_map(guessed).collect(), v);
+    // otherwise the rates of the coordinates that were set or are named
+    let known = coordinates.iter().map(|(_, body, coordinate)| (*body, coordinate.column()));
+    let first = guesses.iter().chain(of_bodies(&request.set)).map(column).chain(known);
+    let rates = named(model, &all(&held), first);
     let still = v.iter().all(|v| *v == 0.0);
     let position = |at| choice(model, at, q, source(model, request, asked, at, q));
     let rate = |(column, body, coordinate): Candidate| {
@@ -119,10 +133,10 @@ pub(super) fn unset(
 }
 
 /// A coordinate for each freedom: those of `first` before angles before places.
-fn named<'a>(
+fn named(
     model: &Model,
     freedoms: &[Vec<f64>],
-    first: impl Iterator<Item = &'a CoordinateTarget>,
+    first: impl Iterator<Item = (usize, usize)>,
 ) -> Vec<Candidate> {
     let count = freedoms.len();
     if count == 0 {
@@ -134,7 +148,7 @@ fn named<'a>(
         let present = column < columns.count;
         present.then(|| (columns.first + column, body, Coordinate::ALL[column]))
     };
-    let guessed = first.filter_map(|target| of(target.body.0, target.coordinate.column()));
+    let guessed = first.filter_map(|(body, column)| of(body, column));
     let angles = bodies.clone().filter_map(|body| of(body, 2));
     let places = bodies.flat_map(|body| [of(body, 0), of(body, 1)]).flatten();
     let candidates: Vec<Candidate> = guessed.chain(angles).chain(places).collect();
