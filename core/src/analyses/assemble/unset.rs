@@ -93,22 +93,14 @@ pub(super) fn unset(
         false => mobility_until(extended, request.t, q, stop).singular_equations.len(),
     };
     let column = |of: &CoordinateTarget| (of.body.0, of.coordinate.column());
-    let met_first = |mut all: Vec<CoordinateTarget>, values: &[f64]| {
-        let at = |of: &CoordinateTarget| {
-            let place = model.layout.bodies[of.body.0].first + of.coordinate.column();
-            near(model, of.coordinate, of.value, values[place])
-        };
-        all.sort_by_key(|of| at(of) != Source::Guess);
-        all
-    };
-    let guesses = met_first(of_bodies(&request.guess).cloned().collect(), q);
+    let guesses = met_first(model, of_bodies(&request.guess).cloned().collect(), q);
     let mut coordinates = named(model, &moving, guesses.iter().map(column));
     coordinates.truncate(moving.len().saturating_sub(passing));
     let guessed = |target: &Target| match target {
         Target::Coordinate(target) => Some(target.clone()),
         _ => None,
     };
-    let guesses = met_first(of_rates(&request.guess).filter_map(guessed).collect(), v);
+    let guesses = met_first(model, of_rates(&request.guess).filter_map(guessed).collect(), v);
     // otherwise the rates of the coordinates that were set or are named
     let known = coordinates.iter().map(|(_, body, coordinate)| (*body, coordinate.column()));
     let first = guesses.iter().chain(of_bodies(&request.set)).map(column).chain(known);
@@ -130,6 +122,19 @@ pub(super) fn unset(
         coordinates: coordinates.into_iter().map(position).collect(),
         rates: rates.into_iter().map(rate).collect(),
     }
+}
+
+/// Guesses, those that were met before the others.
+fn met_first(
+    model: &Model,
+    mut guesses: Vec<CoordinateTarget>,
+    values: &[f64],
+) -> Vec<CoordinateTarget> {
+    guesses.sort_by_key(|of| {
+        let place = model.layout.bodies[of.body.0].first + of.coordinate.column();
+        near(model, of.coordinate, of.value, values[place]) != Source::Guess
+    });
+    guesses
 }
 
 /// A coordinate for each freedom: those of `first` before angles before places.
