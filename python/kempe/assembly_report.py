@@ -16,7 +16,7 @@ MOST_MODES = 20
 MOST_COUNTED = 1_000_000
 #: Most coordinates and rates that a report names.
 _MOST_CHOICES = 4
-#: How a report tells where a value came from.
+#: The remarks about the sources of values, where they are not the names.
 _SOURCES = {
     "guesses": "from the guesses",
     "drawing": "as drawn",
@@ -117,7 +117,8 @@ class Unset:
         coordinates, rates = (
             tuple(Choice(**each) for each in found[key]) for key in ("coordinates", "rates")
         )
-        return cls(*found["count"], coordinates, rates)
+        freedoms, free_rates = found["count"]
+        return cls(freedoms, free_rates, coordinates, rates)
 
     def __str__(self) -> str:
         """One line; empty if everything was set."""

@@ -38,7 +38,7 @@ class Remedy:
         joint: the joint or driver.
         equations: its equations that take part, such as ``B.x``.
         axis: of a pin: the direction that may be freed, rad from the x axis of ``body``. A
-            ``pin_in_slot`` with this axis and ``body`` as body i leaves it free. None of others.
+            A slot with this axis in ``body`` leaves it free. None of others.
         body: the body with which the direction turns, "ground" where it stays; None if it turns
             with neither body, so that ``axis``, from ground, is that of this position only.
         text: as in reports.
@@ -240,8 +240,8 @@ def _advice(remedy: Remedy) -> str:
         return f"for example {remedy.equations[0]}"
     axis = f"axis = {degrees(remedy.axis) + 0.0:.6g} deg"
     if remedy.body is None:
-        return f"for example {remedy.joint} as a pin_in_slot"
-    return f"for example {remedy.joint} as a pin_in_slot in {remedy.body}, {axis}"
+        return f"for example {remedy.joint} as a pin in a slot"
+    return f"for example {remedy.joint} as a pin in a slot of {remedy.body}, {axis}"
 
 
 def _loop(one: FourBar) -> str:
