@@ -73,6 +73,7 @@ if TYPE_CHECKING:
     from kempe.analyses import assemble as assemble
     from kempe.analyses import dynamics as dynamics
     from kempe.archive import load_solution as load_solution
+    from kempe.assembly_report import AssemblyReport as AssemblyReport
     from kempe.case import Case as Case
     from kempe.case import Results as Results
     from kempe.case import load as load
@@ -129,7 +130,6 @@ if TYPE_CHECKING:
     from kempe.reach import limits as limits
     from kempe.solution import Solution as Solution
     from kempe.start import Start as Start
-    from kempe.state import AssemblyReport as AssemblyReport
     from kempe.state import State as State
     from kempe.statics import EquilibriumResult as EquilibriumResult
     from kempe.statics import PointStiffness as PointStiffness
@@ -144,7 +144,7 @@ if TYPE_CHECKING:
 #: Public name → module of kempe that defines it; "" if the name itself is a module.
 _HOME = {
     "AssemblyError": "errors",
-    "AssemblyReport": "state",
+    "AssemblyReport": "assembly_report",
     "AssemblyWarning": "analyses",
     "Auto": "options",
     "Baumgarte": "options",

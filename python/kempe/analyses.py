@@ -11,6 +11,7 @@ import numpy as np
 
 from kempe import _core
 from kempe.arrays import Floats
+from kempe.assembly_report import AssemblyReport
 from kempe.compiled import CompiledModel
 from kempe.errors import ModelError
 from kempe.event import Action, Events, with_actions
@@ -21,7 +22,7 @@ from kempe.options import Auto, Dynamics, Projection
 from kempe.phases import Setting
 from kempe.request_cache import Request, encode, request
 from kempe.solution import Solution
-from kempe.state import AssemblyReport, State
+from kempe.state import State
 from kempe.values import Number, number, numbers
 
 Progress: TypeAlias = "Callable[[float], None]"

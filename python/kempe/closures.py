@@ -10,12 +10,13 @@ import numpy as np
 
 from kempe import _core
 from kempe.analyses import Coordinates, Progress, refuse_foreign, released
+from kempe.assembly_report import AssemblyReport
 from kempe.errors import ModelError
 from kempe.model import Model, compiled_model
 from kempe.options import Configurations
 from kempe.request_cache import encode
 from kempe.result import Result
-from kempe.state import AssemblyReport, State
+from kempe.state import State
 from kempe.table import Column
 from kempe.values import numbers
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from math import degrees
 from typing import TYPE_CHECKING, Any
 
 from kempe import _core
@@ -30,12 +31,37 @@ _KINDS = {
 
 
 @dataclass(frozen=True)
+class Remedy:
+    """What may be freed in one joint of a redundancy; ``str`` of it is such as ``B along x``.
+
+    Attributes:
+        joint: the joint or driver.
+        equations: its equations that take part, such as ``B.x``.
+        axis: of a pin: the direction that may be freed, rad from the x axis of ``body``. A
+            A slot with this axis in ``body`` leaves it free. None of others.
+        body: the body with which the direction turns, "ground" where it stays; None if it turns
+            with neither body, so that ``axis``, from ground, is that of this position only.
+        text: as in reports.
+    """
+
+    joint: str
+    equations: tuple[str, ...]
+    axis: float | None
+    body: str | None
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True)
 class Redundancy:
     """An equation that others imply, permanently or at this position.
 
     Attributes:
         joints: the joints and drivers that take part.
         equations: their equations that take part, such as ``C.x``. Any one of them may be removed.
+        remedies: what may be freed in each joint instead of removing it; one of them is enough.
         remove: one of them; those of all redundancies together may be removed.
         consistent: whether the rates that drivers prescribe agree with it.
         kind: "dead point", "change point" or "uncertainty" if it holds at this position only; empty
@@ -44,9 +70,15 @@ class Redundancy:
 
     joints: tuple[str, ...]
     equations: tuple[str, ...]
+    remedies: tuple[Remedy, ...]
     remove: str
     consistent: bool
     kind: str = ""
+
+    @property
+    def example(self) -> Remedy:
+        """The remedy that removes ``remove``."""
+        return next(each for each in self.remedies if self.remove in each.equations)
 
 
 @dataclass(frozen=True)
@@ -175,9 +207,12 @@ def find_mobility(
 
 def _redundancy(found: Mapping[str, Any]) -> Redundancy:
     joints, equations = tuple(found["joints"]), tuple(found["equations"])
-    return Redundancy(
-        joints, equations, found["remove"], found["consistent"], found.get("kind", "")
+    remedies = tuple(
+        Remedy(each["joint"], tuple(each["equations"]), each["axis"], each["body"], each["text"])
+        for each in found["remedies"]
     )
+    kind = found.get("kind", "")
+    return Redundancy(joints, equations, remedies, found["remove"], found["consistent"], kind)
 
 
 def _four_bar(found: Mapping[str, Any]) -> FourBar:
@@ -192,11 +227,21 @@ def _told(one: Redundancy) -> list[str]:
     if one.kind:
         return [f"singular position, {one.kind}: {_KINDS[one.kind]} ({joints})"]
     verdict = "" if one.consistent else "; the drivers CONTRADICT each other"
-    any_of = ", ".join(one.equations)
+    any_of = ", ".join(map(str, one.remedies))
     return [
         f"one equation too many among {joints}{verdict}",
-        f"  any one of these may be removed: {any_of}; for example {one.remove}",
+        f"  any one of these may be freed: {any_of}; {_advice(one.example)}",
     ]
+
+
+def _advice(remedy: Remedy) -> str:
+    """How to free one direction or equation."""
+    if remedy.axis is None:
+        return f"for example {remedy.equations[0]}"
+    axis = f"axis = {degrees(remedy.axis) + 0.0:.6g} deg"
+    if remedy.body is None:
+        return f"for example {remedy.joint} as a pin in a slot"
+    return f"for example {remedy.joint} as a pin in a slot of {remedy.body}, {axis}"
 
 
 def _loop(one: FourBar) -> str:

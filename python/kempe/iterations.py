@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from kempe.analyses import AssemblyWarning, assemble
 
 if TYPE_CHECKING:
+    from kempe.assembly_report import Iteration
     from kempe.case import Case
-    from kempe.state import Iteration
 
 HEADER = ("iteration", "residual", "step", "damping")
 

@@ -1,13 +1,12 @@
-"""The state of a mechanism at one time, and the report of its assembly."""
+"""The state of a mechanism at one time."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from kempe.arrays import Floats
+from kempe.assembly_report import AssemblyReport
 from kempe.compiled import CompiledModel
 from kempe.display_units import display, heading
 from kempe.matrices import Matrices, matrices
@@ -16,127 +15,6 @@ from kempe.motion import Motion
 from kempe.names import few
 from kempe.values import Number, mapping
 from kempe.views import BodyView, ConstraintView, ForceView
-
-#: Largest number of modes that a report lists.
-MOST_MODES = 20
-#: Numbers of other assemblies from here on are given as a power of two.
-MOST_COUNTED = 1_000_000
-
-
-@dataclass(frozen=True)
-class Iteration:
-    """One iteration of an assembly.
-
-    Attributes:
-        residual: norm of Φ after the iteration, with lengths relative to the size of the mechanism;
-            the first entry is the residual of the start.
-        step: norm of the full Newton step, with lengths relative to the same size; 0 for the start.
-        damping: applied fraction of the full Newton step.
-    """
-
-    residual: float
-    step: float
-    damping: float = 1.0
-
-
-@dataclass(frozen=True)
-class Mode:
-    """The side on which a dyad was closed.
-
-    Attributes:
-        bodies: the bodies of the dyad.
-        joint: the joint between them.
-        anchors: the outer joints of the dyad.
-        side: side of the line from the first to the second anchor on which the joint lies, "left"
-            or "right". If the second anchor is a slide: "ahead" of the first anchor along the
-            slide, or "behind" it.
-        folded: whether the loop is folded: the joint and the pin between the two bodies that carry
-            the dyad lie on the same side of the line between the anchors. None if there is no
-            such pin.
-    """
-
-    bodies: tuple[str, ...]
-    joint: str
-    anchors: tuple[str, ...]
-    side: str
-    folded: bool | None = None
-
-
-@dataclass(frozen=True, repr=False)
-class AssemblyReport:
-    """Report of an assembly.
-
-    Attributes:
-        iterations: the Newton iterations.
-        degrees_of_freedom: number of degrees of freedom.
-        modes: the side of every dyad.
-        warnings: texts of the warnings.
-    """
-
-    iterations: tuple[Iteration, ...]
-    degrees_of_freedom: int
-    modes: tuple[Mode, ...]
-    warnings: tuple[str, ...]
-
-    @property
-    def alternatives(self) -> int:
-        """Number of other combinations of sides, reachable or not: 2 for each dyad, less one."""
-        return int(2 ** len(self.modes) - 1)
-
-    @classmethod
-    def from_json(cls, text: str) -> AssemblyReport:
-        """The report from the JSON text of the core."""
-        report: dict[str, Any] = json.loads(text)
-        return cls(
-            iterations=tuple(
-                Iteration(i["residual"], i["step"], i["damping"]) for i in report["iterations"]
-            ),
-            degrees_of_freedom=report["degrees_of_freedom"],
-            modes=tuple(
-                Mode(tuple(m["bodies"]), m["joint"], tuple(m["anchors"]), m["side"], m["folded"])
-                for m in report["modes"]
-            ),
-            warnings=tuple(report["warnings"]),
-        )
-
-    def __repr__(self) -> str:
-        free = self.degrees_of_freedom
-        count = f"{len(self.iterations)} iteration{'s' * (len(self.iterations) != 1)}"
-        return f"<AssemblyReport: {count}, {free} degree{'s' * (free != 1)} of freedom>"
-
-    def __str__(self) -> str:
-        last = f", residual {self.iterations[-1].residual:.1e}" if self.iterations else ""
-        count = len(self.iterations)
-        lines = [f"{count} iteration{'' if count == 1 else 's'}{last}"]
-        shown = self.modes[:MOST_MODES]
-        lines += [f"{' and '.join(m.bodies)}: {m.joint} lies {_place(m)}" for m in shown]
-        if len(self.modes) > MOST_MODES:
-            lines.append(_others(self.modes[MOST_MODES:]))
-        if 0 < self.alternatives < MOST_COUNTED:
-            lines.append(f"other assemblies exist: {self.alternatives}")
-        elif self.alternatives:
-            lines.append(f"other assemblies exist: up to 2^{len(self.modes)} - 1")
-        return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings)])
-
-
-def _others(modes: Sequence[Mode]) -> str:
-    """``and 244 more, of which 3 are folded: R12, R40, R77``."""
-    folded = [mode.joint for mode in modes if mode.folded]
-    text = f"and {len(modes)} more"
-    if not folded:
-        return text + ", none of them folded"
-    more = ", …" if len(folded) > MOST_MODES else ""
-    return f"{text}, of which {len(folded)} folded: {', '.join(folded[:MOST_MODES])}{more}"
-
-
-def _place(mode: Mode) -> str:
-    """``to the left of A → D, unfolded``, or ``ahead of B along the slide S``."""
-    if mode.side in ("ahead", "behind"):
-        first, slide = mode.anchors
-        return f"{mode.side}{' of' * (mode.side == 'ahead')} {first} along the slide {slide}"
-    folded = {None: "", False: ", unfolded", True: ", folded"}[mode.folded]
-    return f"to the {mode.side} of {' → '.join(mode.anchors)}{folded}"
-
 
 #: Columns of a printed state: quantity, SI unit, and the unit where none was chosen.
 _COLUMNS = (

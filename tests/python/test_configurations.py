@@ -89,6 +89,41 @@ def test_stephensons_chain_driven_at_its_output_is_a_triad(angle: float) -> None
     assert all(np.abs(state.residuals[0]).max() < 1e-10 for state in found)
 
 
+def test_six_positions_of_stephensons_chain_as_many_as_a_triad_may_have() -> None:
+    # driven at its output, the plate is held by three bars: at most 6 positions (Hunt 1978, 1983)
+    m = kp.Model("Stephenson III with six positions")
+    output, angle, ends = 1.27, 2.0, 3.19 + 1.11j
+    tip = ends + output * np.exp(1j * angle)
+    m.ground.points(A=(0, 0), D=(3, 0), G=(ends.real, ends.imag))
+    plate = {"B": (0, 0), "C": (2.93, 0), "E": (-0.55, -0.81)}
+    m.body("coupler", mass=1, inertia=1, points=plate)
+    bars = {"crank": (2.89, "AB"), "rocker": (3.04, "DC"), "link": (2.04, "FE")}
+    for name, (length, pins) in (bars | {"output": (output, "GF")}).items():
+        m.bar(name, mass=1, length=length, ends=tuple(pins))
+    for pin, i, j in (
+        ("A", "ground", "crank"),
+        ("B", "crank", "coupler"),
+        ("C", "coupler", "rocker"),
+        ("D", "ground", "rocker"),
+        ("E", "coupler", "link"),
+        ("F", "link", "output"),
+        ("G", "ground", "output"),
+    ):
+        m.revolute(pin, f"{i}.{pin}", f"{j}.{pin}")
+    found = kp.configurations(m, set={"output.angle": angle})
+    assert len(found) == 6
+    assert not found.complete, "six are all, but that is not proven here"
+    for state in found:
+        # lengths of the three bars by complex numbers
+        at = state["coupler.x"] + 1j * state["coupler.y"]
+        turn = np.exp(1j * state["coupler.angle"])
+        b, c, e = (at + complex(*plate[pin]) * turn for pin in "BCE")
+        assert [abs(b), abs(c - 3), abs(e - tip)] == pytest.approx([2.89, 3.04, 2.04], abs=1e-10)
+    places = [s["coupler.E.x"] + 1j * s["coupler.E.y"] for s in found]
+    apart = [abs(p - q) for k, p in enumerate(places) for q in places[:k]]
+    assert min(apart) > 1e-3
+
+
 def test_refusals_and_limits() -> None:
     m = stephenson()
     with pytest.raises(kp.ModelError, match="1 degree of freedom is left"):

@@ -1,11 +1,14 @@
 """Frames, points and uniqueness of reactions."""
 
+import json
 from pathlib import Path
 
 import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
+from kempe.cli import app
+from kempe.plot.pages import pages
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
 
@@ -164,6 +167,34 @@ def test_values_that_are_not_unique_are_labelled(tmp_path: Path) -> None:
     assert by_name == {"low": False, "high": False, "hook": True, "motor": True}
     assert "minimum norm" in kp.plot.reactions(sol, "low").get_title(loc="left")
     assert "minimum norm" not in kp.plot.reactions(sol, "hook").get_title(loc="left")
+    labels = [line.get_label() for line in kp.plot.all_reactions(sol).get_lines()]
+    assert [", minimum norm" in str(label) for label in labels] == [True, True, False, False]
+    for page in pages(sol):
+        if page.name in ("reactions_low", "reactions_hook"):
+            told = " ".join(text.get_text() for text in page.draw().texts)
+            assert ("not unique: minimum norm" in told) == (page.name == "reactions_low")
+
+
+def test_the_printed_table_marks_values_that_are_not_unique(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "door.json"
+    model = door().model
+    kp.Case(model, {"set": {"lamp.angle": "-90*deg"}}, [kp.Dynamics(t_end=0.1)]).save(file)
+    assert app.run(["run", str(file), "-o", str(tmp_path / "out"), "--no-figures"]) == 0
+    told = capsys.readouterr().out
+    starts = [
+        line.split()[:2] for line in told.splitlines() if " door " in line or " lamp " in line
+    ]
+    assert ["*", "low"] in starts
+    assert ["*", "high"] in starts
+    assert ["hook", "lamp"] in starts
+    assert "* not unique, of the smallest multipliers (minimum norm): low, high" in told
+    summary = json.loads((tmp_path / "out/summary.json").read_text("utf-8"))
+    unique = {found["joint"]: found["unique"] for found in summary["peaks"]["reactions"]}
+    assert unique == {"low": False, "high": False, "hook": True, "motor": True}
+    header = (tmp_path / "out/solution.csv").read_text().split("\n")[0]
+    assert '"low.fy_on_door [N, minimum norm]"' in header
 
 
 def test_reactions_of_a_regular_mechanism_are_unique() -> None:

@@ -5,7 +5,7 @@ use crate::convert::{number, state, tree, Row};
 use crate::errors::{raise_plain, Failure, Kind, Problem};
 use crate::guard::guard;
 use crate::model::PyModel;
-use kempe::analyses::assemble::{self as core, Fault, Report, Request, Target};
+use kempe::analyses::assemble::{self as core, Choice, Fault, Report, Request, Source, Target};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use serde_json::{json, Value};
@@ -50,12 +50,15 @@ pub fn assemble<'py>(
             (Some(q), Some(v), Some(z)) => Some(state(py, &model.model, t, [&q, &v, &z])?),
             _ => None,
         };
+        let mut doubts = core::doubts(&model.model, &tree(py, set)?);
+        doubts.extend(core::doubts(&model.model, &tree(py, guess)?));
         let request = Request {
             set: targets(py, model, "set", set)?,
             guess: targets(py, model, "guess", guess)?,
             state: given,
             t: number(py, "t", t)?,
             from_guess,
+            doubts,
         };
         let core_model = std::sync::Arc::clone(model.active.prepared.model());
         let outcome = attended(py, move |stop| core::assemble_until(&core_model, &request, stop))?;
@@ -103,5 +106,24 @@ pub fn describe(report: &Report) -> Value {
         "degrees_of_freedom": report.degrees_of_freedom,
         "modes": modes.collect::<Vec<_>>(),
         "warnings": report.warnings,
+        "unset": {
+            "count": report.unset.count,
+            "coordinates": report.unset.coordinates.iter().map(choice).collect::<Vec<_>>(),
+            "rates": report.unset.rates.iter().map(choice).collect::<Vec<_>>(),
+        },
     })
+}
+
+/// A coordinate or rate that was not set.
+fn choice(of: &Choice) -> Value {
+    let (source, guess) = match of.source {
+        Source::Guess => ("guess", None),
+        Source::NearGuess(guess) => ("near guess", Some(guess)),
+        Source::Guesses => ("guesses", None),
+        Source::Drawing => ("drawing", None),
+        Source::Nothing => ("nothing", None),
+        Source::Rest => ("rest", None),
+        Source::LeastEnergy => ("least energy", None),
+    };
+    json!({ "name": of.name, "value": of.value, "unit": of.unit, "source": source, "guess": guess })
 }

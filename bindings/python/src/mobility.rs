@@ -4,7 +4,7 @@ use crate::attended::attended;
 use crate::convert::{state, Row};
 use crate::guard::guard;
 use crate::model::PyModel;
-use kempe::analyses::diagnosis::{diagnose, Diagnosis, FourBar, Redundancy};
+use kempe::analyses::diagnosis::{diagnose, Diagnosis, FourBar, Redundancy, Remedy};
 use pyo3::prelude::*;
 use serde_json::{json, Value};
 
@@ -46,8 +46,20 @@ fn described(found: &Diagnosis) -> Value {
 }
 
 fn redundancy(one: &Redundancy) -> Value {
-    let Redundancy { joints, equations, remove, consistent } = one;
-    json!({ "joints": joints, "equations": equations, "remove": remove, "consistent": consistent })
+    let Redundancy { joints, equations, remedies, remove, consistent } = one;
+    let remedies: Vec<Value> = remedies.iter().map(remedy).collect();
+    json!({
+        "joints": joints, "equations": equations, "remedies": remedies, "remove": remove,
+        "consistent": consistent,
+    })
+}
+
+fn remedy(one: &Remedy) -> Value {
+    let (body, axis) = one.along.as_ref().map_or((None, None), |a| (a.body.clone(), Some(a.axis)));
+    json!({
+        "joint": one.joint, "equations": one.equations, "body": body, "axis": axis,
+        "text": one.to_string(),
+    })
 }
 
 fn four_bar(one: &FourBar) -> Value {

@@ -11,6 +11,7 @@ pub mod dynamics;
 pub mod equilibrium;
 mod errors;
 mod event_options;
+mod freedoms;
 pub mod kinematics;
 pub mod limits;
 pub mod linearization;

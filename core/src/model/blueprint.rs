@@ -1,6 +1,7 @@
 //! A model over formulas: the definition with all names linked, before numbers are put in.
 
 use super::definition::{Entry, Value};
+use super::doubt::Doubt;
 use super::functions::Functions;
 use super::items::Body;
 use super::link::Linker;
@@ -38,6 +39,8 @@ pub struct Blueprint {
     pub forces: Vec<(String, &'static [OwnState], ForceElement<Tape>)>,
     /// Laws that a host computes.
     pub functions: Option<Functions>,
+    /// Angles that look like degrees.
+    pub doubts: Vec<Doubt>,
 }
 
 impl Blueprint {

@@ -40,6 +40,7 @@ pub fn build(
         constraints: Vec::new(),
         forces: Vec::new(),
         functions: definition.functions.clone(),
+        doubts: Vec::new(),
     };
     for (group, entries) in [
         (Group::Joints, &definition.joints),
@@ -54,6 +55,7 @@ pub fn build(
         let functions = blueprint.functions.iter_mut();
         functions.for_each(|functions| functions.laws[k].unit.clone_from(&unit));
     }
+    blueprint.doubts = scope.doubts.take();
     let model = Model::new(&Arc::new(blueprint), &values);
     // consequences of a faulty parameter are not reported; all other faults are reported at once
     if values.iter().all(|x| x.is_finite()) {

@@ -178,6 +178,15 @@ impl<S> Model<S> {
     pub fn constraint(&self, name: &str) -> Option<usize> {
         self.constraints.iter().position(|c| c.name == name)
     }
+    /// The name of an equation, such as `C.x`; that of its joint if it has only one.
+    pub fn equation_name(&self, row: usize) -> String {
+        let (k, equation) = self.layout.owner(row);
+        let item = &self.constraints[k];
+        match item.equations.len() {
+            1 => item.name.clone(),
+            _ => format!("{}.{}", item.name, item.equations[equation].name),
+        }
+    }
     /// A force by name.
     pub fn force(&self, name: &str) -> Option<usize> {
         self.forces.iter().position(|f| f.name == name)

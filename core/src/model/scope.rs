@@ -2,7 +2,9 @@
 
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
+use super::doubt::Doubt;
 use super::functions::Functions;
+use super::places::{places, Places};
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
 use super::unit_check::check_unit;
@@ -10,7 +12,6 @@ use super::variable::Variable;
 use crate::elements::{states_of, BodyId, Coordinate, Followed, Measured, OwnState};
 use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Table, Tape};
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The names that formulas may use.
@@ -31,26 +32,9 @@ pub struct Scope {
     pub functions: Option<Functions>,
     /// Units of the laws that were read so far, with their numbers.
     pub units: RefCell<Vec<(usize, String)>>,
+    /// Angles that were read so far and look like degrees.
+    pub doubts: RefCell<Vec<Doubt>>,
     places: Places,
-}
-
-/// The places of names, so that a name is found at once in a large model.
-#[derive(Clone, Debug, Default)]
-struct Places {
-    parameters: HashMap<String, usize>,
-    bodies: HashMap<String, usize>,
-    states: HashMap<String, usize>,
-    /// Joints and drivers as they are written.
-    constraints: HashMap<String, usize>,
-    /// Forces as they are written.
-    forces: HashMap<String, usize>,
-}
-
-/// The first place of each name.
-fn places<'n>(names: impl Iterator<Item = &'n String>) -> HashMap<String, usize> {
-    let mut places = HashMap::new();
-    names.enumerate().for_each(|(k, name)| _ = places.entry(name.clone()).or_insert(k));
-    places
 }
 
 /// The first-order states of a force as written.
@@ -279,6 +263,7 @@ impl Scope {
         (reach, law): (Reach, Option<LawOf<'_>>),
         problems: &mut Vec<Problem>,
     ) -> Option<Tape> {
+        self.doubts.borrow_mut().extend(Doubt::of(value, path, unit));
         let text = match value {
             Value::Number(x) if x.is_finite() => return Some(Tape::from(*x)),
             Value::Number(x) => {

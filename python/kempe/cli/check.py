@@ -27,8 +27,9 @@ from kempe.cli.console import answers, heading
 from kempe.cli.failure import document
 
 if TYPE_CHECKING:
+    from kempe.assembly_report import AssemblyReport
     from kempe.case import Case
-    from kempe.state import AssemblyReport, State
+    from kempe.state import State
 
 EXAMPLES = """Examples:
 

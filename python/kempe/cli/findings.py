@@ -52,7 +52,7 @@ def _show_peaks(console: Console, peaks: dict[str, Any], at: str) -> None:
     reactions, forces = peaks["reactions"], peaks["forces"]
     if reactions:
         heading(console, "Largest reactions")
-        names = ((r["joint"], r["on"]) for r in reactions)
+        names = ((f"{'' if r['unique'] else '* '}{r['joint']}", r["on"]) for r in reactions)
         header, cells = _columns(reactions, at)
         rows = [(*name, *row) for name, row in zip(names, cells, strict=True)]
         table(console, ("joint", "on", *header), rows, left=2)
@@ -79,7 +79,7 @@ def _show_minimum_norm(console: Console, reactions: list[dict[str, Any]]) -> Non
     """The reactions that redundant constraints leave open."""
     names = [r["joint"] for r in reactions if not r["unique"]]
     if names:
-        text = f"not unique, of the smallest multipliers (minimum norm): {few(names)}"
+        text = f"* not unique, of the smallest multipliers (minimum norm): {few(names)}"
         console.print(Text(f"  {text}"))
 
 

@@ -70,8 +70,13 @@ def reactions(
         return axes
 
 
-def force_panel(motion: Motion, joint: str, body: str, frame: ReactionFrame) -> Panel:
-    """Components and magnitude of the force of a joint on a body in a frame."""
+def force_panel(
+    motion: Motion, joint: str, body: str, frame: ReactionFrame, *, remarked: bool = True
+) -> Panel:
+    """Components and magnitude of the force of a joint on a body in a frame.
+
+    ``remarked``: whether the title says that it is not unique.
+    """
 
     def force(at: Motion) -> Floats:
         return at.constraint(joint).force(on=body, frame=frame)
@@ -83,19 +88,20 @@ def force_panel(motion: Motion, joint: str, body: str, frame: ReactionFrame) -> 
         curve(motion, f"$F_{{y{prime}}}$", lambda at: force(at)[..., 1], style.line(1)),
         curve(motion, "|F|", lambda at: np.hypot(*force(at).T), dotted),
     ]
-    title = f"{_beside(joint, body)}, {frame} frame{_remark(motion, joint)}"
+    title = f"{_beside(joint, body)}, {frame} frame"
+    title += remark(motion, joint) if remarked else ""
     return Panel("F", "N", curves, title, title, variable=motion.variable)
 
 
-def torque_panel(motion: Motion, joint: str, body: str) -> Panel:
-    """Torque of a joint on a body about the joint point."""
+def torque_panel(motion: Motion, joint: str, body: str, *, remarked: bool = True) -> Panel:
+    """Torque of a joint on a body about the joint point; ``remarked`` as for a force."""
     line = curve(motion, "T", lambda at: at.constraint(joint).torque(on=body), style.SUM)
-    title = f"{_beside(joint, body)}{_remark(motion, joint)}"
+    title = f"{_beside(joint, body)}{remark(motion, joint) if remarked else ''}"
     named = f"torque of {title}"
     return Panel("T", "N·m", [line], title, named, variable=motion.variable)
 
 
-def _remark(motion: Motion, joint: str) -> str:
+def remark(motion: Motion, joint: str) -> str:
     """The remark at a reaction that redundant constraints leave open."""
     return "" if motion.constraint(joint).unique else f", {MINIMUM_NORM}"
 
@@ -127,7 +133,7 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
     curves: list[Curve] = []
     for name in motion.compiled.constraints:
         magnitude = partial(_magnitude, name)
-        label = f"{style.short(name)}{_remark(motion, name)}"
+        label = f"{style.short(name)}{remark(motion, name)}"
         one = curve(motion, label, magnitude, style.line(len(curves)))
         if name in motion.compiled.joints or one.values.any():
             curves.append(one)

@@ -18,7 +18,7 @@ from kempe.plot.grid import Sheet, sheet_figure
 from kempe.plot.measures import measure
 from kempe.plot.page import Page
 from kempe.plot.panel import Curve, Panel, times
-from kempe.plot.reactions import all_reactions, force_panel
+from kempe.plot.reactions import all_reactions, force_panel, remark
 from kempe.plot.reactions import torque_panel as reaction_torque
 from kempe.plot.residual import residual
 from kempe.plot.still import drawn_and_left_out, largest_values
@@ -100,16 +100,19 @@ class TimePages:
         info = self.solution.constraint(joint).info
         bodies = dict.fromkeys((info.i, info.j))  # a driver of a coordinate acts on one body only
         forces = [
-            force_panel(self.solution, joint, body, frame)
+            force_panel(self.solution, joint, body, frame, remarked=False)
             for body in bodies
             for frame in ("global", "joint")
         ]
-        torques = [reaction_torque(self.solution, joint, body) for body in bodies]
+        torques = [reaction_torque(self.solution, joint, body, remarked=False) for body in bodies]
         if not any(panel.peak for panel in torques):  # a pin has none by its nature
             torques = []
         elif not any(panel.peak for panel in forces):
             forces = []
-        return self._figure([*forces, *torques], columns=2, shared=True, legend=bool(forces))
+        told = remark(self.solution, joint).lstrip(", ")
+        told = f"The reactions of {joint} are not unique: {told}. " if told else ""
+        panels = [*forces, *torques]
+        return self._figure(panels, columns=2, shared=True, legend=bool(forces), before=told)
 
     def _figure(
         self,
@@ -119,9 +122,11 @@ class TimePages:
         title: str = "",
         shared: bool = False,
         legend: bool = False,
+        before: str = "",
     ) -> Figure:
         fixed = {"m": self.length}
         kept, note = drawn_and_left_out(panels, self._largest, fixed)
+        note = before + note
         if title and kept:
             kept = [replace(kept[0], title=title), *kept[1:]]
         elif title:

@@ -5,7 +5,7 @@
 //! that depends on the others at a limit of the motion only, such as a dead point, does not: it is judged at a
 //! neighbouring position too.
 
-use super::failure::{Failure, Fault};
+use super::failure::{freed, Failure, Fault};
 use super::holding::SET;
 use super::request::Request;
 use super::target::trimmed;
@@ -13,10 +13,12 @@ use super::velocities;
 
 use crate::analyses::closing::{Closing, Stop};
 use crate::analyses::dependence;
+use crate::analyses::freedoms::NEARLY;
 use crate::analyses::mobility::moved;
+use crate::analyses::Dependent;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::model::{listed, Model};
+use crate::model::{listed, row_scales, size, Model};
 use crate::solve::RANK_TOLERANCE;
 use std::sync::Arc;
 
@@ -102,6 +104,51 @@ pub(super) fn of_positions(
         return Some(failure(model, request, &found));
     }
     None
+}
+
+/// Joints that contradict each other: their equations depend on each other at every position, but not their values.
+pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Stop<'_>) -> Option<Failure> {
+    if model.layout.n_rows > MOST_ROWS || q.len() != model.layout.n_q {
+        return None;
+    }
+    let phi = Closing::new(model, t, stop).phi(q);
+    let scales = row_scales(model);
+    let here = dependence::at(model, t, q, NEARLY, stop);
+    let there = dependence::at(model, t, &moved(model, q, NEIGHBOUR, 0), RANK_TOLERANCE, stop);
+    let contradicts = |one: &&Dependent| {
+        let parts = one.factors.iter().map(|(row, y)| (y * phi[*row], (y * scales[*row]).abs()));
+        let (sum, size) =
+            parts.fold((0.0, 0.0), |(sum, size), (a, b)| (sum + a, f64::max(size, b)));
+        f64::abs(sum) > AGREE * size && there.iter().any(|other| other.group == one.group)
+    };
+    let one = here.iter().find(contradicts)?;
+    let name = |k: &usize| model.constraints[*k].name.as_str();
+    let names = listed(&one.group.iter().map(name).collect::<Vec<_>>());
+    // gaps add up to the missing length; where all fit, an angle is missed
+    let miss = |k: &usize, unit: &str| {
+        let first = model.layout.constraints[*k].rows.start;
+        let own = model.constraints[*k].equations.iter().enumerate();
+        let own = own.filter(|(_, equation)| equation.unit == unit);
+        own.map(|(row, _)| phi[first + row] * phi[first + row]).sum::<f64>().sqrt()
+    };
+    let total = |unit: &str| one.group.iter().map(|k| miss(k, unit)).sum::<f64>();
+    let unit = if total("m") > AGREE * size(model) { "m" } else { "rad" };
+    let by = trimmed(total(unit), 3);
+    let worst = one.group.iter().max_by(|a, b| miss(a, unit).total_cmp(&miss(b, unit)))?;
+    let driven = one.group.iter().any(|k| model.constraints[*k].driven);
+    let values = if driven { "driven values" } else { "lengths" };
+    let freed = freed(model, t, q, std::slice::from_ref(one));
+    Some(Failure {
+        fault: Fault::Open,
+        name: name(worst).to_string(),
+        gap: if unit == "m" { miss(worst, unit) } else { 0.0 },
+        places: one.group.iter().map(|k| place(model, *k)).collect(),
+        message: format!(
+            "{names} contradict each other: they have one equation too many, and stay open by {by} {unit} in all, most at {}",
+            name(worst)
+        ),
+        hint: format!("correct the {values} or the guess, or {freed}"),
+    })
 }
 
 /// Rates that contradict each other at a position, in a model that contains drivers for those that are set.

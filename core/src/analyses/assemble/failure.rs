@@ -4,13 +4,14 @@ use super::placement::Gap;
 use super::request::Request;
 use super::target::{of_motion, of_rates, trimmed, Target};
 use crate::analyses::closing::Closing;
+use crate::analyses::diagnosis::{remedies, Remedy};
 use crate::analyses::required::Unmet;
-use crate::analyses::Mobility;
+use crate::analyses::{Dependent, Mobility};
 use crate::elements::{Attachment, BodyId, Fixes, Group};
 use crate::equations::kinematics::Motions;
 use crate::equations::{at, constraints};
 use crate::expression::TABLE_ENDS;
-use crate::model::{listed, ConstraintItem, Model};
+use crate::model::{listed, ConstraintItem, Model, MOST_REPORTED};
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -291,33 +292,59 @@ pub(super) fn stopped() -> Failure {
     }
 }
 
-/// Constraints are redundant.
-pub(super) fn redundant(model: &Model, mobility: &Mobility) -> Failure {
+/// Constraints are redundant at a position.
+pub(super) fn redundant(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Failure {
     let group = mobility.redundant.first().cloned().unwrap_or_default();
-    let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
-    let last = names.last().copied().unwrap_or_default();
-    let message = twin(model, &group).unwrap_or_else(|| {
+    let equations = &mobility.redundant_equations;
+    let mut all: Vec<usize> = equations.iter().flat_map(|one| one.group.clone()).collect();
+    all.sort_unstable();
+    all.dedup();
+    let names: Vec<&str> = all.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+    let last = group.last().map_or("", |k| model.constraints[*k].name.as_str());
+    let whole = twin(model, &group, mobility);
+    let freed = match whole {
+        Some(_) => "remove one".to_string(),
+        None => freed(model, t, q, equations),
+    };
+    let message = whole.unwrap_or_else(|| {
+        let count = equations.len();
         format!(
-            "the constraints {} depend on each other: {} of their equations add{} nothing",
+            "the constraints {} depend on each other: {count} of their equations add{} nothing",
             listed(&names),
-            mobility.redundant.len(),
-            if mobility.redundant.len() == 1 { "s" } else { "" },
+            if count == 1 { "s" } else { "" },
         )
     });
-    let which = if names.len() == 2 { "one" } else { "one of them, or free one of its directions" };
     Failure {
         fault: Fault::Redundant,
         name: last.to_string(),
         gap: 0.0,
         message,
-        hint: format!("remove {which}, or pass redundancy='allow'"),
+        hint: format!("{freed}, or pass redundancy='allow'"),
         places: Vec::new(),
     }
 }
 
+/// "free one of A along x, B along x", for each redundancy.
+pub(super) fn freed(model: &Model, t: f64, q: &[f64], equations: &[Dependent]) -> String {
+    let first = &equations[..equations.len().min(MOST_REPORTED)];
+    let of = |remedies: Vec<Remedy>| {
+        let part = remedies.iter().any(|one| one.is_part);
+        let all: Vec<String> = remedies.iter().map(ToString::to_string).collect();
+        let all = listed(&all.iter().map(String::as_str).collect::<Vec<_>>());
+        format!("{} one of {all}", if part { "free" } else { "remove" })
+    };
+    remedies(model, t, q, first).into_iter().map(of).collect::<Vec<_>>().join("; ")
+}
+
 /// "joint D2 repeats joint D: both fix point rocker.D to ground".
-fn twin(model: &Model, group: &[usize]) -> Option<String> {
+///
+/// None if a part of the second one is needed.
+fn twin(model: &Model, group: &[usize], mobility: &Mobility) -> Option<String> {
     let [first, second] = group else { return None };
+    let superfluous = |row: usize| mobility.redundant_equations.iter().any(|one| one.row == row);
+    if !model.layout.constraints[*second].rows.clone().all(superfluous) {
+        return None;
+    }
     let [a, b] = [*first, *second].map(|k| &model.constraints[k]);
     let (kind, other) = (a.group.singular(), b.group.singular());
     let mut message = format!("{other} {} repeats {kind} {}", b.name, a.name);

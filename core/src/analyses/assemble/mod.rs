@@ -30,6 +30,7 @@ mod request;
 mod slider_placement;
 mod target;
 mod targets;
+mod unset;
 mod velocities;
 mod worklist;
 
@@ -43,10 +44,11 @@ pub use placement::{Dyad, Gap, Placement};
 pub(super) use placements::following;
 pub use placer::place;
 pub use report::{Mode, Report};
-pub use request::{targets, Request};
+pub use request::{doubts, targets, Request};
 pub(super) use target::trimmed;
 pub use target::{CoordinateTarget, QuantityTarget, Target};
 pub use targets::Targets;
+pub use unset::{Choice, Source, Unset};
 
 use super::closing::Stop;
 use super::curves;
@@ -95,6 +97,7 @@ fn complete(
     if request.state.is_none() {
         warnings.extend(angle_winding::relax(model, &asked, &mut q));
     }
+    warnings.extend(report::degrees(model, &request.doubts));
     let mut report = Report { iterations, warnings, ..Report::default() };
     if let Some(unmet) = required::missed(model, request.t, &q) {
         return Err(Box::new(failure::unmet(unmet)));
@@ -109,7 +112,9 @@ fn complete(
     if !mobility.redundant.is_empty() && !model.allow_redundancy {
         // drivers that agree on the position may have different rates
         let rates = rates::contradiction(model, request, &q, stop);
-        return Err(Box::new(rates.unwrap_or_else(|| failure::redundant(model, &mobility))));
+        return Err(Box::new(
+            rates.unwrap_or_else(|| failure::redundant(model, request.t, &q, &mobility)),
+        ));
     }
     if let Some(unmet) = required::loose(model, request.t, &q) {
         return Err(Box::new(failure::unmet(unmet)));
@@ -117,6 +122,7 @@ fn complete(
     report.degrees_of_freedom = mobility.degrees_of_freedom;
     report.warnings.extend(report::singular(model, &mobility.singular));
     let v = rates::consistent(model, request, &q, stop)?;
+    report.unset = unset::unset([model, &extended], request, &asked, [&q, &v], stop);
     describe(model, &asked, &q, &mut report);
     Ok((State { t: request.t, q, v, z: states(model, request) }, report))
 }
@@ -202,6 +208,7 @@ fn unclosed(request: &Request, closing: &Closing<'_>, q: &[f64], gap: Option<&Ga
     let undefined = failure::undefined(model, request.t, q);
     undefined
         .or_else(|| contradiction::of_positions(model, request, q, closing.stop()))
+        .or_else(|| contradiction::of_joints(model, request.t, q, closing.stop()))
         .unwrap_or_else(|| failure::open(model, request, closing, q, gap))
 }
 

@@ -22,7 +22,7 @@ pub(super) fn consistent(
     stop: Stop<'_>,
 ) -> Result<Vec<f64>, Box<Failure>> {
     let mut v = wanted(model, request, q);
-    let extended = holding(model, request.t, q, of_rates(&request.set));
+    let extended = holding_rates(model, request, q);
     let left = velocities::project(&extended, request.t, q, &mut v);
     if left <= AGREE && v.iter().all(|v| v.is_finite()) {
         return Ok(v);
@@ -38,8 +38,13 @@ pub(super) fn contradiction(
     q: &[f64],
     stop: Stop<'_>,
 ) -> Option<Failure> {
-    let extended = holding(model, request.t, q, of_rates(&request.set));
+    let extended = holding_rates(model, request, q);
     contradiction::of_rates(&extended, request, q, &wanted(model, request, q), stop)
+}
+
+/// The model with a driver for each rate that is set.
+pub(super) fn holding_rates(model: &Model, request: &Request, q: &[f64]) -> Model {
+    holding(model, request.t, q, of_rates(&request.set))
 }
 
 /// The model with a driver for each of the targets, which are rates.

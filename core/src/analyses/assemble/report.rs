@@ -2,9 +2,10 @@
 
 use super::placement::Dyad;
 use super::placer::ON_LINE;
+use super::unset::Unset;
 use crate::equations::kinematics::Motions;
 use crate::math::{Local, Motion, Rotation, Vec2};
-use crate::model::{listed, Model, MOST_REPORTED};
+use crate::model::{listed, Doubt, Model, MOST_REPORTED};
 use crate::solve::newton::Record;
 
 /// The closure of a dyad, one of two.
@@ -39,6 +40,8 @@ pub struct Report {
     pub alternatives: Option<usize>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
+    /// What was left unset.
+    pub unset: Unset,
 }
 
 /// The closures of dyads at a position.
@@ -94,6 +97,26 @@ pub(super) fn singular(model: &Model, groups: &[Vec<usize>]) -> Vec<String> {
         warnings.push(format!("{more} more groups of constraints depend on each other here"));
     }
     warnings
+}
+
+/// A warning for angles that look like degrees.
+pub(super) fn degrees(model: &Model, given: &[Doubt]) -> Option<String> {
+    let mut all: Vec<&Doubt> = given.iter().collect();
+    let known = |all: &[&Doubt], doubt: &Doubt| all.iter().any(|one| one.place == doubt.place);
+    for doubt in &model.blueprint.doubts {
+        if !known(&all, doubt) {
+            all.push(doubt);
+        }
+    }
+    let first = all.first()?;
+    let written: Vec<String> =
+        all.iter().map(|doubt| format!("{} = {}", doubt.place, doubt.value)).collect();
+    let written = listed(&written.iter().map(String::as_str).collect::<Vec<_>>());
+    let (looks, others) = if all.len() == 1 { ("looks", "") } else { ("look", ", and so on") };
+    Some(format!(
+        "{written} {looks} like degrees, but a number without a unit is in rad; for degrees, write \"{} deg\"{others}",
+        first.value
+    ))
 }
 
 fn point(model: &Model, motions: &[Motion], constraint: usize) -> Vec2 {

@@ -4,7 +4,7 @@ use super::named::{named, Names};
 use super::target::Target;
 use crate::analyses::State;
 use crate::equations::at;
-use crate::model::{Model, Problem, Reach, Scope, Value};
+use crate::model::{Doubt, Model, Problem, Reach, Scope, Value};
 
 /// The request for an assembly.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Request {
     /// Whether Newton's method starts from the guess with open loops, and not from a placement that closes them: the
     /// classical iteration, for teaching.
     pub from_guess: bool,
+    /// Values of `set` and `guess` that look like degrees.
+    pub doubts: Vec<Doubt>,
 }
 
 impl Request {
@@ -66,4 +68,19 @@ pub fn targets(
     } else {
         Err(problems)
     }
+}
+
+/// The angles of `set` or `guess` that look like degrees, as written.
+pub fn doubts(model: &Model, written: &[(String, Value)]) -> Vec<Doubt> {
+    let doubted: Vec<Doubt> =
+        written.iter().filter_map(|(key, value)| Doubt::of(value, &[key.clone()], "rad")).collect();
+    if doubted.is_empty() {
+        return doubted;
+    }
+    let names = Names::of(model);
+    let angle = |doubt: &Doubt| {
+        let found = named(&names, &doubt.place, &[], &mut Vec::new());
+        found.is_some_and(|named| named.unit == "rad")
+    };
+    doubted.into_iter().filter(angle).collect()
 }

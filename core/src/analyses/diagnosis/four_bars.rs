@@ -68,7 +68,7 @@ impl fmt::Display for Grashof {
 
 /// A pin between two bodies.
 struct Pin {
-    constraint: usize,
+    name: String,
     bodies: [usize; 2],
     at: [Local; 2],
 }
@@ -106,20 +106,61 @@ pub(super) fn four_bars(model: &Model) -> Vec<FourBar> {
     found
 }
 
-/// The joints that fix two points and nothing else.
+/// Each two bodies that turn about the same point: joined by a pin, or both to others at this point.
 fn pins(model: &Model) -> Vec<Pin> {
-    let joints = model.constraints.iter().enumerate();
-    let pin = |(k, item): (usize, &crate::model::ConstraintItem)| {
+    let mut found = Vec::new();
+    for hinge in hinges(model) {
+        for (k, (a, at, one)) in hinge.iter().enumerate() {
+            for (b, there, other) in &hinge[k + 1..] {
+                let both = |joint: &&usize| {
+                    let bodies = &model.constraints[**joint].bodies;
+                    [a, b].iter().all(|body| bodies.iter().any(|of| of.0 == **body))
+                };
+                let name = |joint: &usize| model.constraints[*joint].name.clone();
+                let name = match one.iter().find(both) {
+                    Some(joint) => name(joint),
+                    None => format!("{}+{}", name(&one[0]), name(&other[0])),
+                };
+                found.push(Pin { name, bodies: [*a, *b], at: [*at, *there] });
+            }
+        }
+    }
+    found
+}
+
+/// A point about which bodies turn: the bodies, the point on each of them, and its pins there.
+type Hinge = Vec<(usize, Local, Vec<usize>)>;
+
+/// The joints that fix two points and nothing else, those at the same point of a body together.
+fn hinges(model: &Model) -> Vec<Hinge> {
+    let mut hinges: Vec<Hinge> = Vec::new();
+    for (k, item) in model.constraints.iter().enumerate() {
         let fixes = item.element.fixes();
         let turns = fixes.contains(&Fixes::Points) && !fixes.contains(&Fixes::Direction);
-        let two = item.bodies.len() == 2 && item.group == Group::Joints;
-        (turns && two).then(|| Pin {
-            constraint: k,
-            bodies: [item.bodies[0].0, item.bodies[1].0],
-            at: [0, 1].map(|side| item.element.attachment(side).s),
-        })
-    };
-    joints.filter_map(pin).collect()
+        if !turns || item.bodies.len() != 2 || item.group != Group::Joints {
+            continue;
+        }
+        let own =
+            [0, 1].map(|side| (item.bodies[side].0, item.element.attachment(side).s, vec![k]));
+        let touches = |hinge: &Hinge| {
+            own.iter().any(|(body, at, _)| hinge.iter().any(|(b, s, _)| b == body && s == at))
+        };
+        let touched: Vec<usize> =
+            (0..hinges.len()).filter(|place| touches(&hinges[*place])).collect();
+        let place = touched.first().copied().unwrap_or(hinges.len());
+        let mut merged: Hinge = Vec::new();
+        for k in touched.into_iter().rev() {
+            merged.splice(0..0, hinges.remove(k));
+        }
+        for (body, at, joints) in own {
+            match merged.iter_mut().find(|(b, s, _)| *b == body && *s == at) {
+                Some((.., known)) => known.extend(joints),
+                None => merged.push((body, at, joints)),
+            }
+        }
+        hinges.insert(place, merged);
+    }
+    hinges
 }
 
 /// The loop of four bodies; None if two pins of a body coincide.
@@ -132,7 +173,7 @@ fn four_bar(model: &Model, pins: &[Pin], bodies: [usize; 4], loop_: [usize; 4]) 
     let class = class(&lengths, bodies[0] == 0);
     lengths.iter().all(|length| *length > 0.0).then(|| FourBar {
         bodies: bodies.map(|body| model.bodies[body].name.clone()),
-        pins: loop_.map(|k| model.constraints[pins[k].constraint].name.clone()),
+        pins: loop_.map(|k| pins[k].name.clone()),
         lengths,
         class,
     })

@@ -4,18 +4,21 @@
 //! | file | concept |
 //! |---|---|
 //! | `passing` | kinds of singular positions, by the second derivatives of the constraints |
+//! | `remedies` | what may be freed in the joints of a redundancy |
 //! | `bodies` | bodies that cannot move, and bodies that no joint holds |
 //! | `four_bars` | closed loops of four pins, by Grashof's rule |
 
 mod bodies;
 mod four_bars;
 mod passing;
+mod remedies;
 
 pub use four_bars::{FourBar, Grashof};
 pub use passing::Kind;
-use passing::NEARLY;
+pub use remedies::{remedies, Along, Remedy};
 
 use super::dependence;
+use super::freedoms::NEARLY;
 use super::mobility::{mobility, Mobility};
 use super::options::{name, options};
 use super::{Dependent, State};
@@ -63,7 +66,9 @@ pub struct Redundancy {
     pub joints: Vec<String>,
     /// Their equations that take part, such as `C.x`: any single one may be removed.
     pub equations: Vec<String>,
-    /// One of them, such that the equations of this name in all redundancies may be removed together.
+    /// What may be freed in each joint; one of them is enough.
+    pub remedies: Vec<Remedy>,
+    /// One of the equations, such that the equations of this name in all redundancies may be removed together.
     pub remove: String,
     /// Whether the rates that drivers prescribe agree with it; a joint always agrees.
     pub consistent: bool,
@@ -77,14 +82,17 @@ pub fn diagnose(model: &Model, state: &State) -> Diagnosis {
         mobility.singular_equations = nearly_dependent(model, state, &mobility.redundant_equations);
     }
     let rates = rates_of_drivers(model, *t, q);
-    let described = |one: &Dependent| describe(model, one, &rates);
+    let described = |all: &[Dependent]| -> Vec<Redundancy> {
+        let remedies = remedies(model, *t, q, all).into_iter();
+        all.iter().zip(remedies).map(|(one, free)| describe(model, one, free, &rates)).collect()
+    };
     let kinds = passing::kinds(model, *t, q, &mobility);
     let drivers = model.constraints.iter().filter(|item| item.driven);
     Diagnosis {
         gruebler: model.layout.n_q as i64 - model.layout.n_rows as i64,
         driven: drivers.map(|item| item.equations.len()).sum(),
-        redundant: mobility.redundant_equations.iter().map(described).collect(),
-        singular: mobility.singular_equations.iter().map(described).zip(kinds).collect(),
+        redundant: described(&mobility.redundant_equations),
+        singular: described(&mobility.singular_equations).into_iter().zip(kinds).collect(),
         locked: bodies::locked(model, *t, q),
         loose: bodies::loose(model),
         four_bars: four_bars::four_bars(model),
@@ -100,16 +108,6 @@ fn nearly_dependent(model: &Model, state: &State, redundant: &[Dependent]) -> Ve
     found
 }
 
-/// The name of an equation, such as `C.x`; that of its joint if it has only one.
-pub(super) fn equation_name(model: &Model, row: usize) -> String {
-    let (k, equation) = model.layout.owner(row);
-    let item = &model.constraints[k];
-    match item.equations.len() {
-        1 => item.name.clone(),
-        _ => format!("{}.{}", item.name, item.equations[equation].name),
-    }
-}
-
 /// Φ_t at a position.
 fn rates_of_drivers(model: &Model, t: f64, q: &[f64]) -> Vec<f64> {
     let m = model.layout.n_rows;
@@ -119,13 +117,14 @@ fn rates_of_drivers(model: &Model, t: f64, q: &[f64]) -> Vec<f64> {
     rate
 }
 
-fn describe(model: &Model, one: &Dependent, rates: &[f64]) -> Redundancy {
+fn describe(model: &Model, one: &Dependent, remedies: Vec<Remedy>, rates: &[f64]) -> Redundancy {
     let parts: Vec<f64> = one.factors.iter().map(|(row, y)| y * rates[*row]).collect();
     let (sum, size) = parts.iter().fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()));
     Redundancy {
         joints: one.group.iter().map(|k| model.constraints[*k].name.clone()).collect(),
-        equations: one.factors.iter().map(|(row, _)| equation_name(model, *row)).collect(),
-        remove: equation_name(model, one.row),
+        equations: one.factors.iter().map(|(row, _)| model.equation_name(*row)).collect(),
+        remedies,
+        remove: model.equation_name(one.row),
         consistent: f64::abs(sum) <= ROUNDING * size,
     }
 }

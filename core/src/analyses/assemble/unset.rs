@@ -1,0 +1,208 @@
+//! What the request for an assembly left unset, and what was chosen for it.
+//!
+//! The freedoms that drivers and `set` leave are the null space of Φ_q with their rows. Each of them is named by one
+//! coordinate, such that the coordinates together determine the motion: those that were guessed and met first, then angles, then
+//! places, in the order of the bodies, unless another coordinate moves ten times as far. The same holds for rates, where
+//! those of coordinates that were set come first too.
+
+use super::rates::holding_rates;
+use super::request::Request;
+use super::target::{of_bodies, of_quantities, of_rates, CoordinateTarget, Target};
+use super::targets::Targets;
+use crate::analyses::closing::Stop;
+use crate::analyses::freedoms::freedoms;
+use crate::analyses::mobility::mobility_until;
+use crate::elements::Coordinate;
+use crate::model::{column_scales, size, Model};
+use crate::solve::{rank, RANK_TOLERANCE};
+
+/// Largest number of coordinates of a model in which freedoms are named; their cost is cubic.
+const MOST_NAMED: usize = 120;
+/// Largest difference, relative to the size of the mechanism, of a value that equals its guess.
+const EQUAL: f64 = 1e-9;
+
+/// Where the value of a coordinate or rate came from that was not set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// From its guess.
+    Guess,
+    /// As near to its guess, in m, rad or per s, as the joints allow.
+    NearGuess(f64),
+    /// Quantities other than coordinates were guessed.
+    Guesses,
+    /// From the drawn position of the body.
+    Drawing,
+    /// Nothing was given.
+    Nothing,
+    /// A rate: everything is at rest.
+    Rest,
+    /// A rate: the motion with the least kinetic energy, measured from the guessed rates.
+    LeastEnergy,
+}
+
+/// A coordinate or rate that was not set, with the value that was chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// Such as `crank.angle` or `crank.omega`.
+    pub name: String,
+    /// m, rad or per s.
+    pub value: f64,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Where the value came from.
+    pub source: Source,
+}
+
+/// What was left unset.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Unset {
+    /// Number of freedoms, and of rates.
+    pub count: [usize; 2],
+    /// A coordinate for each freedom; empty if the model is too large.
+    pub coordinates: Vec<Choice>,
+    /// A rate for each freedom of the velocities; empty if the model is too large.
+    pub rates: Vec<Choice>,
+}
+
+/// A candidate: its column, and the index of its body with the coordinate.
+type Candidate = (usize, usize, Coordinate);
+
+/// What a request left unset, at its result; `extended` is the model with the positions that are set. Nothing if a state
+/// was given.
+pub(super) fn unset(
+    [model, extended]: [&Model; 2],
+    request: &Request,
+    asked: &Targets,
+    [q, v]: [&[f64]; 2],
+    stop: Stop<'_>,
+) -> Unset {
+    if request.state.is_some() || stop() {
+        return Unset::default();
+    }
+    let held = holding_rates(model, request, q);
+    if q.len() > MOST_NAMED {
+        let left = |m: &Model| mobility_until(m, request.t, q, stop).degrees_of_freedom;
+        return Unset { count: [left(extended), left(&held)], ..Unset::default() };
+    }
+    let all = |model: &Model| freedoms(model, request.t, q, |_| true).unwrap_or_default();
+    let moving = all(extended);
+    // what is free in the first order only, at a singular position, is not free
+    let regular = moving.len() == q.len().saturating_sub(extended.layout.n_rows);
+    let passing = match regular {
+        true => 0,
+        false => mobility_until(extended, request.t, q, stop).singular_equations.len(),
+    };
+    let column = |of: &CoordinateTarget| (of.body.0, of.coordinate.column());
+    let guesses = met_first(model, of_bodies(&request.guess).cloned().collect(), q);
+    let mut coordinates = named(model, &moving, guesses.iter().map(column));
+    coordinates.truncate(moving.len().saturating_sub(passing));
+    let guessed = |target: &Target| match target {
+        Target::Coordinate(target) => Some(target.clone()),
+        _ => None,
+    };
+    let guesses = met_first(model, of_rates(&request.guess).filter_map(guessed).collect(), v);
+    // otherwise the rates of the coordinates that were set or are named
+    let known = coordinates.iter().map(|(_, body, coordinate)| (*body, coordinate.column()));
+    let first = guesses.iter().chain(of_bodies(&request.set)).map(column).chain(known);
+    let rates = named(model, &all(&held), first);
+    let still = v.iter().all(|v| *v == 0.0);
+    let position = |at| choice(model, at, q, source(model, request, asked, at, q));
+    let rate = |(column, body, coordinate): Candidate| {
+        let rate = Coordinate::ALL[coordinate.column() + 3];
+        let of = guesses.iter().find(|of| of.body.0 == body && of.coordinate == rate);
+        let source = match of {
+            Some(of) => near(model, coordinate, of.value, v[column]),
+            None if still => Source::Rest,
+            None => Source::LeastEnergy,
+        };
+        choice(model, (column, body, rate), v, source)
+    };
+    Unset {
+        count: [coordinates.len(), rates.len()],
+        coordinates: coordinates.into_iter().map(position).collect(),
+        rates: rates.into_iter().map(rate).collect(),
+    }
+}
+
+/// Guesses, those that were met before the others.
+fn met_first(
+    model: &Model,
+    mut guesses: Vec<CoordinateTarget>,
+    values: &[f64],
+) -> Vec<CoordinateTarget> {
+    guesses.sort_by_key(|of| {
+        let place = model.layout.bodies[of.body.0].first + of.coordinate.column();
+        near(model, of.coordinate, of.value, values[place]) != Source::Guess
+    });
+    guesses
+}
+
+/// A coordinate for each freedom: those of `first` before angles before places.
+fn named(
+    model: &Model,
+    freedoms: &[Vec<f64>],
+    first: impl Iterator<Item = (usize, usize)>,
+) -> Vec<Candidate> {
+    let count = freedoms.len();
+    if count == 0 {
+        return Vec::new();
+    }
+    let bodies = 1..model.bodies.len();
+    let of = |body: usize, column: usize| {
+        let columns = &model.layout.bodies[body];
+        let present = column < columns.count;
+        present.then(|| (columns.first + column, body, Coordinate::ALL[column]))
+    };
+    let guessed = first.filter_map(|(body, column)| of(body, column));
+    let angles = bodies.clone().filter_map(|body| of(body, 2));
+    let places = bodies.flat_map(|body| [of(body, 0), of(body, 1)]).flatten();
+    let candidates: Vec<Candidate> = guessed.chain(angles).chain(places).collect();
+    let scales = column_scales(model);
+    let rows: Vec<f64> = candidates
+        .iter()
+        .flat_map(|(column, ..)| freedoms.iter().map(|w| w[*column] / scales[*column]))
+        .collect();
+    let found = rank(&rows, count, RANK_TOLERANCE);
+    found.independent.into_iter().map(|k| candidates[k]).collect()
+}
+
+/// Where the value of a coordinate came from.
+fn source(
+    model: &Model,
+    request: &Request,
+    asked: &Targets,
+    (column, body, coordinate): Candidate,
+    q: &[f64],
+) -> Source {
+    let mut guesses = of_bodies(&request.guess);
+    let guess = guesses.find(|of| of.body.0 == body && of.coordinate == coordinate);
+    match (guess, asked.soft[body][coordinate.column()]) {
+        (Some(guess), _) => near(model, coordinate, guess.value, q[column]),
+        (None, Some(_)) => Source::Drawing,
+        (None, None) if of_quantities(&request.guess).next().is_some() => Source::Guesses,
+        (None, None) => Source::Nothing,
+    }
+}
+
+/// Whether a value is that of its guess.
+fn near(model: &Model, coordinate: Coordinate, guess: f64, value: f64) -> Source {
+    let unit = if coordinate.column() == 2 { 1.0 } else { size(model) };
+    match (value - guess).abs() <= EQUAL * unit.max(value.abs()) {
+        true => Source::Guess,
+        false => Source::NearGuess(guess),
+    }
+}
+
+fn choice(
+    model: &Model,
+    (column, body, coordinate): Candidate,
+    values: &[f64],
+    source: Source,
+) -> Choice {
+    Choice {
+        name: format!("{}.{}", model.bodies[body].name, coordinate.name()),
+        value: values[column],
+        unit: coordinate.unit(),
+        source,
+    }
+}

@@ -1,0 +1,30 @@
+//! Angles that look like degrees.
+//!
+//! Angles without a unit are in rad. A plain number beyond a full turn with at most one decimal, such as 70 or 22.5, is
+//! more likely meant in degrees. A formula such as `4*pi` and a computed number such as 12.566370614359172 are not doubted.
+
+use super::definition::Value;
+use std::f64::consts::TAU;
+
+/// An angle that looks like degrees.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Doubt {
+    /// The place in a file, such as `start.set.crank.angle`.
+    pub place: String,
+    /// The number, rad.
+    pub value: f64,
+}
+
+impl Doubt {
+    /// The doubt about a value as written; None if it has no unit rad, or if it looks like rad.
+    pub fn of(value: &Value, path: &[String], unit: &str) -> Option<Self> {
+        let value = match value {
+            Value::Number(x) => *x,
+            Value::Text(text) => text.trim().parse().ok()?,
+            _ => return None,
+        };
+        let short = (10.0 * value - (10.0 * value).round()).abs() < 1e-12 * value.abs();
+        let doubted = unit == "rad" && value.is_finite() && value.abs() > TAU && short;
+        doubted.then(|| Self { place: path.join("."), value })
+    }
+}
