@@ -29,7 +29,7 @@ fn through() -> Field {
 }
 
 fn mass() -> Field {
-    Field::required("mass", Shape::Number, "kg", "Mass.")
+    Field::required("mass", Shape::Number, "kg", "Mass; 0 where the mechanism determines the motion.")
 }
 
 fn body() -> Table {
@@ -42,7 +42,7 @@ fn body() -> Table {
                 "inertia",
                 Shape::Number,
                 "kg*m^2",
-                "Moment of inertia about the mass centre; 0 for a point mass.",
+                "Moment of inertia about the mass centre; may be 0.",
             ),
             Field::optional(
                 "center",

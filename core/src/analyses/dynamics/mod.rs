@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `options`, `option_checks` | options, and the combinations that are refused |
 //! | `absolute_tolerance` | absolute tolerances of lengths, angles and first-order states |
+//! | `massless` | massless bodies whose motion is not determined |
 //! | `start_check` | states from which a run may start |
 //! | `run`, `run_results`, `stepper` | a run through its phases, and its outcome; a stepper for callers |
 //! | `course`, `setting`, `event_list` | phases that follow from events, their models, and the events of a phase |
@@ -60,6 +61,7 @@ mod singularity_forecast;
 mod singularity_handover;
 mod singularity_passage;
 mod stabilizations;
+mod massless;
 mod start_check;
 mod stepper;
 mod stiffness_detection;
