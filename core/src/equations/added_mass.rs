@@ -171,7 +171,10 @@ impl Bodies {
             if self.mass[k] > 0.0 { mass } else { or(mass, [all.mass, most(&self.mass), 1.0]) },
             match self.inertia[k] > 0.0 {
                 true => inertia,
-                false => or(inertia, [self.mass[k].max(all.mass) * arm, most(&self.turning), self.mass[k]]),
+                false => or(
+                    inertia,
+                    [self.mass[k].max(all.mass) * arm, most(&self.turning), self.mass[k]],
+                ),
             },
         ]
     }
@@ -181,7 +184,8 @@ impl Bodies {
         let (mut found, mut next) = (Branch::default(), vec![start]);
         label[start] = name;
         while let Some(body) = next.pop() {
-            let own = Branch { mass: self.mass[body], inertia: self.turning[body], grounded: false };
+            let own =
+                Branch { mass: self.mass[body], inertia: self.turning[body], grounded: false };
             found = found.joined(own);
             for &other in self.of_body[body].iter().flat_map(|joint| &self.joints[*joint].0) {
                 if other == 0 {

@@ -15,7 +15,7 @@ use crate::math::Real;
 use crate::model::{Columns, Model};
 
 /// Remainder at which the steps end, relative to the terms of an equation.
-const SETTLED: f64 = 1e-15;
+const SETTLED: f64 = 3e-15;
 /// pᵀ M p relative to pᵀ (M + E) p of a direction without mass: rounding errors leave about 1e-28.
 const MASSLESS: f64 = 1e-22;
 /// Most steps for each coordinate of E, and some more.

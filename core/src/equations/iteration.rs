@@ -86,7 +86,8 @@ impl Places {
         let diagonal = blocks.iter().enumerate();
         let diagonal = diagonal.map(|(k, b)| (plan.slot(n + k, n + k), b.size)).collect();
         let added = added_mass::added_implicit(model)[1..].to_vec();
-        let lightest = |most: f64, (body, added): (&Body, &Added)| most.max(1.0 / (body.mass + added.mass));
+        let lightest =
+            |most: f64, (body, added): (&Body, &Added)| most.max(1.0 / (body.mass + added.mass));
         let compliance = model.bodies[1..].iter().zip(&added).fold(0.0, lightest);
         let damping = if model.allow_redundancy { REDUNDANT * compliance } else { 0.0 };
         Self {

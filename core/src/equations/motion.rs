@@ -58,10 +58,7 @@ pub struct Workspace<S = f64> {
 const REDUNDANT: f64 = 1e-10;
 
 /// Damping with which the multipliers of redundant constraints become the smallest that balance the loads.
-fn redundant_rows<S: Real>(
-    model: &Model<S>,
-    compiled: &Compiled<S>,
-) -> impl Iterator<Item = S> {
+fn redundant_rows<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> impl Iterator<Item = S> {
     let mu = compiled.compliance() * S::constant(REDUNDANT);
     std::iter::repeat_n(mu, model.layout.n_rows)
 }

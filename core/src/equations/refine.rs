@@ -20,7 +20,7 @@ const FOR_REDUNDANCY: usize = 2;
 /// Most corrections for added mass.
 const MOST: usize = 6;
 /// Remainder of an equation of motion that is rounding, relative to the terms of which it is the difference.
-const ROUNDING: f64 = 2e-15;
+const ROUNDING: f64 = 1e-14;
 /// A larger remainder is left by a coordinate that has no mass.
 const SIGNIFICANT: f64 = 1e-9;
 /// Terms are at least this part of the largest of all, so that bodies without load are not solved to more digits than

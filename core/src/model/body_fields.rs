@@ -29,7 +29,12 @@ fn through() -> Field {
 }
 
 fn mass() -> Field {
-    Field::required("mass", Shape::Number, "kg", "Mass; 0 where the mechanism determines the motion.")
+    Field::required(
+        "mass",
+        Shape::Number,
+        "kg",
+        "Mass; 0 where the mechanism determines the motion.",
+    )
 }
 
 fn body() -> Table {

@@ -39,7 +39,8 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     let compiled = Compiled::new(model);
     matrix.set_mass(&compiled, &motions);
     constraints::jacobian(model, &motions, t, matrix.jacobian_mut());
-    let metric = Metric { matrix: &mut matrix, compliance: compiled.compliance(), mass: Some(&compiled) };
+    let metric =
+        Metric { matrix: &mut matrix, compliance: compiled.compliance(), mass: Some(&compiled) };
     let left = correct(model, t, q, v, (metric, scale));
     if left <= ALIKE {
         return left;

@@ -53,7 +53,11 @@ fn columns(model: &Model) -> Vec<usize> {
     });
     let massless: Vec<usize> = massless.collect();
     let own = model.layout.constraints.iter().flat_map(|slots| slots.own.range());
-    if massless.is_empty() { massless } else { own.chain(massless).collect() }
+    if massless.is_empty() {
+        massless
+    } else {
+        own.chain(massless).collect()
+    }
 }
 
 /// The name of a body, or of a joint with internal coordinates, and a message: nothing resists the motion of this
@@ -77,7 +81,9 @@ pub(super) fn undetermined(model: &Model, t: f64, column: usize) -> (String, Str
             let set = if place == 2 { "inertia" } else { "mass" };
             let leave = match joints.as_str() {
                 "" => "no joint holds it".to_string(),
-                joints => format!("its joints ({joints}) leave it a freedom of its own in this position"),
+                joints => {
+                    format!("its joints ({joints}) leave it a freedom of its own in this position")
+                }
             };
             format!(
                 "the motion of {name} is not determined at t = {t:.6} s: nothing resists {name}.{coordinate}, because \
