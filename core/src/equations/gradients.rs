@@ -15,7 +15,7 @@ use crate::math::Real;
 use crate::model::{Columns, Model};
 
 /// Remainder at which the steps end, relative to the terms of an equation.
-const SETTLED: f64 = 3e-15;
+const SETTLED: f64 = 1e-15;
 /// pᵀ M p relative to pᵀ (M + E) p of a direction without mass: rounding errors leave about 1e-28.
 const MASSLESS: f64 = 1e-22;
 /// Most steps for each coordinate of E, and some more.
@@ -65,10 +65,13 @@ impl<'a, S: Real> Gradients<'a, S> {
         self.undetermined
     }
 
-    /// Turns x = P⁻¹ f into K⁻¹ f. Remainders below rounding of `terms`, shape (n_q), are left.
+    /// Turns x = P⁻¹ f into K⁻¹ f. Remainders below rounding of `terms` are left.
     pub fn take_back(&mut self, x: &mut [S], terms: &[S]) {
         let n = self.model.layout.n_q;
         let mut r = self.additions(&x[..n]);
+        if self.is_settled(&r, terms) {
+            return;
+        }
         let (mut s, mut p) = (vec![S::zero(); n], vec![S::zero(); x.len()]);
         let mut last = S::zero();
         for _ in 0..STEPS * self.light.len() + MORE {

@@ -19,8 +19,8 @@ use crate::solve::Breakdown;
 const FOR_REDUNDANCY: usize = 2;
 /// Most corrections for added mass.
 const MOST: usize = 6;
-/// Remainder of an equation of motion that is rounding, relative to the terms of which it is the difference.
-const ROUNDING: f64 = 1e-14;
+/// Remainder of an equation that is rounding, relative to the terms of which it is the difference.
+const ROUNDING: f64 = 2e-15;
 /// A larger remainder is left by a coordinate that has no mass.
 const SIGNIFICANT: f64 = 1e-9;
 /// Terms are at least this part of the largest of all, so that bodies without load are not solved to more digits than
@@ -72,7 +72,7 @@ pub fn solve<S: Real>(
     }
 }
 
-/// The largest remainder relative to its terms, shape (n_q).
+/// The largest remainder relative to its terms.
 fn largest<S: Real>(remainder: &[S], terms: &[S]) -> f64 {
     let part = |(r, terms): (&S, &S)| S::select(*terms, *r / *terms, S::zero());
     remainder.iter().zip(terms).map(|both| part(both).largest_magnitude()).fold(0.0, f64::max)
@@ -96,7 +96,7 @@ fn remainder<S: Real>(
     out
 }
 
-/// |b| + |M a| + |Φ_qᵀ| |λ|, shape (n_q): the terms of which the remainder is the difference.
+/// |b| + |M a| + |Φ_qᵀ| |λ| and |b| + |Φ_q| |a|: the terms of which the remainder is the difference.
 fn terms<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -106,11 +106,18 @@ fn terms<S: Real>(
 ) -> Vec<S> {
     let n = model.layout.n_q;
     let magnitudes = |x: &[S]| x.iter().map(|x| x.abs()).collect::<Vec<S>>();
-    let mut out = vec![S::zero(); n];
-    mass::add_times(model, motions, &x[..n], &mut out);
-    out.iter_mut().zip(b).for_each(|(out, b)| *out = out.abs() + b.abs());
-    constraints::add_transposed(model, &magnitudes(jacobian), &magnitudes(&x[n..]), &mut out);
-    let least = out.iter().copied().fold(S::zero(), S::max) * S::constant(LEAST);
-    out.iter_mut().for_each(|out| *out = out.max(least));
+    let (entries, sizes) = (magnitudes(jacobian), magnitudes(x));
+    let mut out = vec![S::zero(); x.len()];
+    let (upper, lower) = out.split_at_mut(n);
+    mass::add_times(model, motions, &x[..n], upper);
+    upper.iter_mut().for_each(|out| *out = out.abs());
+    constraints::add_transposed(model, &entries, &sizes[n..], upper);
+    constraints::times_all(model, &entries, &sizes[..n], lower);
+    out.iter_mut().zip(b).for_each(|(out, b)| *out += b.abs());
+    let (upper, lower) = out.split_at_mut(n);
+    for part in [upper, lower] {
+        let least = part.iter().copied().fold(S::zero(), S::max) * S::constant(LEAST);
+        part.iter_mut().for_each(|out| *out = out.max(least));
+    }
     out
 }

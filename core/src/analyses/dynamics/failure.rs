@@ -2,7 +2,7 @@
 
 use super::law_fault::{undefined_law, LawFault};
 use super::law_jump::{owner_name, Jump, SMOOTH};
-use super::massless;
+use super::no_mass;
 use super::run_results::Run;
 use crate::analyses::mobility::dependent;
 use crate::elements::Equation;
@@ -117,7 +117,7 @@ impl Failure {
                 );
                 (name(row), message)
             }
-            Breakdown::Column(column) => massless::undetermined(model, t, column),
+            Breakdown::Column(column) => no_mass::undetermined(model, t, column),
             Breakdown::Open { gap, .. } if gap.is_nan() => return Self::undefined(model, t, q),
             Breakdown::Open { row, gap } => {
                 let message = format!(
