@@ -27,7 +27,9 @@ const FLOOR_IMPLICIT: f64 = 1e-9;
 /// against that of the heavy bodies.
 const FLOOR_REDUNDANT: f64 = 1e-5;
 /// Mass of the internal coordinates of elements, relative to the heaviest body.
-const OWN: f64 = 1e-7;
+const OWN: f64 = 1e-4;
+/// The same in the matrix of implicit methods.
+const OWN_IMPLICIT: f64 = 1e-7;
 
 /// Mass, kg, and moment of inertia about the mass centre, kg·m², that are added to a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,6 +62,11 @@ pub(super) fn added_implicit(model: &Model) -> Vec<Added> {
 pub(super) fn own_mass<S: Real>(bodies: &[Body<S>]) -> f64 {
     let heaviest = bodies.iter().map(|body| number(body.mass)).fold(0.0, f64::max);
     OWN * if heaviest > 0.0 { heaviest } else { 1.0 }
+}
+
+/// The same in the matrix of implicit methods.
+pub(super) fn own_mass_implicit(bodies: &[Body]) -> f64 {
+    own_mass(bodies) * (OWN_IMPLICIT / OWN)
 }
 
 fn additions<S: Real>(model: &Model<S>, light: f64, floor: f64) -> Vec<Added> {

@@ -18,6 +18,8 @@ use crate::model::{Columns, Model};
 const SETTLED: f64 = 1e-15;
 /// pᵀ M p relative to pᵀ (M + E) p of a direction without mass: rounding errors leave about 1e-28.
 const MASSLESS: f64 = 1e-22;
+/// A direction is light where its added mass exceeds its own so many times.
+const LIGHT: f64 = 10.0;
 /// Most steps for each coordinate of E, and some more.
 const STEPS: usize = 2;
 const MORE: usize = 10;
@@ -78,8 +80,12 @@ impl<'a, S: Real> Gradients<'a, S> {
             let mut z = r.clone();
             z.resize(x.len(), S::zero());
             self.matrix.solve(&mut z);
-            let ez = self.additions(&z[..n]);
-            let square = self.energy(&z) + dot(&ez, &z);
+            let (mut own, mut ez) = (self.energy(&z), self.additions(&z[..n]));
+            if !self.damped && above(dot(&ez, &z), own * S::constant(LIGHT)) {
+                self.purify(&mut z);
+                (own, ez) = (self.energy(&z), self.additions(&z[..n]));
+            }
+            let square = own + dot(&ez, &z);
             if self.is_settled(&ez, terms) {
                 x.iter_mut().zip(&z).for_each(|(x, z)| *x += *z);
                 return;
@@ -98,6 +104,17 @@ impl<'a, S: Real> Gradients<'a, S> {
         }
     }
 
+    /// Takes what violates the constraints from z. A long step follows along a direction of hardly any mass, and rounding
+    /// errors of massless coordinates, which the constraints determine, must not be taken for such a direction.
+    fn purify(&self, z: &mut [S]) {
+        let n = self.model.layout.n_q;
+        let mut open = vec![S::zero(); z.len()];
+        constraints::times_all(self.model, self.matrix.jacobian(), &z[..n], &mut open[n..]);
+        open[n..].iter_mut().for_each(|open| *open = -*open);
+        self.matrix.solve(&mut open);
+        z.iter_mut().zip(&open).for_each(|(z, open)| *z += *open);
+    }
+
     /// Adds the multipliers of z = P⁻¹ r to x. What is left of r is (M + E) z.
     fn absorb(&self, x: &mut [S], z: &mut [S], (r, ez): (&mut Vec<S>, Vec<S>)) {
         let n = self.model.layout.n_q;
@@ -113,11 +130,11 @@ impl<'a, S: Real> Gradients<'a, S> {
         let all = own + dot(&self.additions(&p[..self.model.layout.n_q]), p);
         let moves = own - S::constant(MASSLESS) * all;
         let lost = S::select(square, S::select(moves, S::zero(), S::one()), S::zero());
-        if lost.largest_magnitude() > 0.0 {
+        if above(lost, S::zero()) {
             self.undetermined = Some(self.direction(p));
         }
         let alpha = S::select(moves, square / own, S::zero());
-        (alpha.largest_magnitude() > 0.0).then_some(alpha)
+        above(alpha, S::zero()).then_some(alpha)
     }
 
     /// The upper part of K p, with s that of P p. Without damping p has no multipliers, and nothing is cancelled.
@@ -155,10 +172,7 @@ impl<'a, S: Real> Gradients<'a, S> {
     }
 
     fn is_settled(&self, ez: &[S], terms: &[S]) -> bool {
-        let open = |k: &usize| {
-            let left = ez[*k].abs() - terms[*k] * S::constant(SETTLED);
-            S::select(left, S::one(), S::zero()).largest_magnitude() > 0.0
-        };
+        let open = |k: &usize| above(ez[*k].abs(), terms[*k] * S::constant(SETTLED));
         !self.light.iter().any(open)
     }
 
@@ -174,6 +188,11 @@ impl<'a, S: Real> Gradients<'a, S> {
         let most = self.blocks.iter().map(energy).max_by(|a, b| a.0.total_cmp(&b.0));
         most.map_or(0, |(_, column)| column)
     }
+}
+
+/// Whether a > b in any lane.
+fn above<S: Real>(a: S, b: S) -> bool {
+    S::select(a - b, S::one(), S::zero()).largest_magnitude() > 0.0
 }
 
 /// aᵀ b over the coordinates of `a`.

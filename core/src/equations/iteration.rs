@@ -100,7 +100,7 @@ impl Places {
             diagonal,
             damping,
             added,
-            own_mass: compiled.own_mass,
+            own_mass: added_mass::own_mass_implicit(&model.bodies),
         }
     }
 }
