@@ -15,9 +15,9 @@ fn document(text: &str) -> Document {
 #[test]
 fn a_problem_of_a_value_is_shown_below_it() {
     let text = "kempe = 1\n\n\n\n[bodies.crank]\ninertia = 1\nmass = -1\n";
-    let problem = Problem::at(&["bodies", "crank", "mass"], "-1 kg; must be > 0");
+    let problem = Problem::at(&["bodies", "crank", "mass"], "-1 kg; must not be negative");
     let shown = document(text).diagnose(&problem.clone().hint("a mass is positive")).to_string();
-    let wanted = "bodies.crank.mass: -1 kg; must be > 0 (line 7, column 8)\n  \
+    let wanted = "bodies.crank.mass: -1 kg; must not be negative (line 7, column 8)\n  \
                   7 | mass = -1\n    |        ^^\nhint: a mass is positive";
     assert_eq!(shown, wanted);
     let at_key = document(text).diagnose(&problem.at_key());

@@ -7,7 +7,7 @@ use std::ops::Range;
 /// One fault of a text. Displayed as
 ///
 /// ```text
-/// bodies.crank.mass: -1 kg; must be > 0 (line 7, column 8)
+/// bodies.crank.mass: -1 kg; must not be negative (line 7, column 8)
 ///   7 | mass = -1
 ///     |        ^^
 /// hint: ...

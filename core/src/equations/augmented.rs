@@ -61,7 +61,7 @@ impl<S: Real> Augmented<S> {
         (&self.plan, &mut self.saddle)
     }
 
-    /// W = M at the given motions, with the inertia that is added to bodies without their own.
+    /// W = M at the given motions, with what is added to light bodies.
     pub fn set_mass(&mut self, compiled: &Compiled<S>, motions: &[Motion<S>]) {
         self.set_inertia(compiled);
         let Self { plan, saddle, .. } = self;
@@ -81,7 +81,7 @@ impl<S: Real> Augmented<S> {
             let [m, j] = inertia.inverse;
             *mass = InverseMass::diagonal([m, m, j]);
         }
-        own.fill(InverseMass::diagonal([S::one() / compiled.own_mass; 3]));
+        own.fill(InverseMass::diagonal([S::constant(1.0 / compiled.own_mass); 3]));
         let condensed = 0..self.saddle.condensed.len();
         for (k, grounded) in condensed.zip(&compiled.grounded) {
             grounded.set(k, &mut self.saddle);

@@ -3,7 +3,7 @@
 //! A [`Model`] holds no caches. [`Compiled`] is built from it once, and shared by everything that evaluates the same
 //! model over the same scalar.
 
-use super::added_inertia;
+use super::added_mass::{self, Added};
 use super::grounded::{grounded, Grounded};
 use super::inertia::{inertias, Inertia};
 use crate::elements::{ForcePools, JointPools, Place};
@@ -19,11 +19,11 @@ pub struct Compiled<S = f64> {
     pub off_center: Vec<usize>,
     /// Weight of the bodies as generalized force, shape (n_q).
     pub weight: Vec<S>,
-    /// Moments of inertia that are added to bodies without their own while the equations are solved, kg·m²; `refine`
-    /// corrects the solution for them. One for each moving body, zero for most.
-    pub added_inertia: Vec<S>,
+    /// Mass and inertia that are added to light bodies while the equations are solved; `refine` takes them back. One for
+    /// each moving body, zero for most.
+    pub added: Vec<Added>,
     /// Mass that is added to the internal coordinates of elements in the same way, kg.
-    pub own_mass: S,
+    pub own_mass: f64,
     /// Whether anything is added.
     pub adds_mass: bool,
     /// Moving bodies that a joint of two rows holds to ground.
@@ -41,7 +41,7 @@ pub struct Compiled<S = f64> {
 impl<S: Real> Compiled<S> {
     /// Derives the data from a model.
     pub fn new(model: &Model<S>) -> Self {
-        let added_inertia = added_inertia::added(&model.bodies, &model.constraints);
+        let added = added_mass::added(model);
         let (mut joints, mut forces) = (JointPools::default(), ForcePools::default());
         let (mut joints_with_laws, mut forces_with_laws) = (Vec::new(), Vec::new());
         for (k, item) in model.constraints.iter().enumerate() {
@@ -57,7 +57,7 @@ impl<S: Real> Compiled<S> {
                 Some(_) => forces_with_laws.push(k),
             }
         }
-        let inertias = inertias(&model.blueprint.bodies, &model.bodies, &added_inertia);
+        let inertias = inertias(&model.blueprint.bodies, &model.bodies, &added);
         let off_center = (0..inertias.len()).filter(|k| inertias[*k].coupled).collect();
         Self {
             off_center,
@@ -67,12 +67,17 @@ impl<S: Real> Compiled<S> {
             forces,
             forces_with_laws,
             inertias,
-            grounded: grounded(model, &added_inertia),
-            own_mass: added_inertia::own_mass(&model.bodies),
+            grounded: grounded(model, &added),
+            own_mass: added_mass::own_mass(&model.bodies),
             adds_mass: model.layout.owners.len() >= model.bodies.len()
-                || added_inertia.iter().any(|added| added.least_magnitude() > 0.0),
-            added_inertia: added_inertia[1..].to_vec(),
+                || added.iter().any(Added::any),
+            added: added[1..].to_vec(),
         }
+    }
+
+    /// The largest 1/m of the moving bodies, additions included, 1/kg.
+    pub fn compliance(&self) -> S {
+        self.inertias.iter().map(|inertia| inertia.inverse[0]).fold(S::zero(), S::max)
     }
 }
 

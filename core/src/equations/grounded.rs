@@ -1,6 +1,7 @@
 //! Bodies that a joint of two rows holds to ground. Such a body has one degree of freedom. It is condensed to this
 //! degree of freedom before everything else is eliminated (`solve/condensed.rs`).
 
+use super::added_mass::Added;
 use super::inertia::Inertia;
 use super::kinematics::Motions;
 use super::{constraints, mass};
@@ -23,14 +24,14 @@ pub struct Grounded<S = f64> {
 }
 
 /// The bodies that joints hold to ground. If several joints hold one body, the first joint with constant columns is
-/// chosen, otherwise the first joint. Bodies without an inertia of their own, and point masses, are left out.
-pub(super) fn grounded<S: Real>(model: &Model<S>, added: &[S]) -> Vec<Grounded<S>> {
+/// chosen, otherwise the first joint. Light bodies and point masses are left out.
+pub(super) fn grounded<S: Real>(model: &Model<S>, added: &[Added]) -> Vec<Grounded<S>> {
     let mut holds: Vec<Option<(usize, bool)>> = vec![None; model.bodies.len()];
     for (k, (item, slots)) in model.constraints.iter().zip(&model.layout.constraints).enumerate() {
         let Some(body) = held(item, slots) else { continue };
         let pin = slots.blocks[0].sign != 0.0;
         let better = holds[body.0].is_none_or(|(_, held_by_pin)| pin && !held_by_pin);
-        let own_inertia = added[body.0].largest_magnitude() == 0.0 && model.bodies[body.0].turns;
+        let own_inertia = !added[body.0].any() && model.bodies[body.0].turns;
         if better && own_inertia {
             holds[body.0] = Some((k, pin));
         }

@@ -1,5 +1,6 @@
 //! Masses and moments of inertia of the moving bodies, inverted once.
 
+use super::added_mass::Added;
 use crate::expression::Tape;
 use crate::math::{Local, Real};
 use crate::model::Body;
@@ -7,7 +8,7 @@ use crate::model::Body;
 /// Inertia of a moving body.
 #[derive(Clone, Copy, Debug)]
 pub struct Inertia<S = f64> {
-    /// 1/m and 1/J about the mass centre, added inertia included: 1/kg, 1/(kg·m²).
+    /// 1/m and 1/J about the mass centre, additions included: 1/kg, 1/(kg·m²).
     pub inverse: [S; 2],
     /// Mass, kg.
     pub mass: S,
@@ -22,12 +23,13 @@ pub struct Inertia<S = f64> {
 pub(super) fn inertias<S: Real>(
     formulas: &[Body<Tape>],
     bodies: &[Body<S>],
-    added: &[S],
+    added: &[Added],
 ) -> Vec<Inertia<S>> {
     let moving = formulas.iter().zip(bodies).zip(added).skip(1);
-    let inertia = |((formula, body), added): ((&Body<Tape>, &Body<S>), &S)| {
-        let turning = if body.turns { body.inertia + *added } else { S::one() };
-        let (m, j) = (S::one() / body.mass, S::one() / turning);
+    let inertia = |((formula, body), added): ((&Body<Tape>, &Body<S>), &Added)| {
+        let plus = |own: S, added: f64| own + S::constant(added);
+        let turning = if body.turns { plus(body.inertia, added.inertia) } else { S::one() };
+        let (m, j) = (S::one() / plus(body.mass, added.mass), S::one() / turning);
         Inertia {
             inverse: [m, j],
             mass: body.mass,

@@ -7,16 +7,17 @@
 //! ```
 //!
 //! with the [`Tangent`] of the equations of motion, real or complex. The middle row and column belong to the
-//! first-order states of elements; few models have any. M contains the inertia added to bodies without their own.
+//! first-order states of elements; few models have any. M contains what is added to bodies without mass or inertia.
 //! The residual is that of the true equations, so the iteration still converges to their solution. For the same
 //! reason redundant rows may be damped with μ.
 
+use super::added_mass::{self, Added};
 use super::coupling::Participants;
 use super::plan::{groups, row_blocks};
 use super::tangent::{Entry, Tangent};
 use super::Compiled;
 use crate::math::Field;
-use crate::model::{Model, StateLayout};
+use crate::model::{Body, Model, StateLayout};
 use crate::solve::{BlockLu, LuPlan};
 use std::ops::Range;
 
@@ -49,8 +50,8 @@ pub struct Places {
     /// Slot of the diagonal block of each block of rows, and its rows.
     diagonal: Vec<(usize, usize)>,
     damping: f64,
-    /// Inertia added to the bodies, kg·m².
-    added_inertia: Vec<f64>,
+    /// Mass and inertia added to the bodies.
+    added: Vec<Added>,
     /// Mass added to the internal coordinates of elements, kg.
     own_mass: f64,
 }
@@ -84,9 +85,11 @@ impl Places {
         let jacobian = touches().map(slots).collect();
         let diagonal = blocks.iter().enumerate();
         let diagonal = diagonal.map(|(k, b)| (plan.slot(n + k, n + k), b.size)).collect();
-        let compliance = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
+        let added = added_mass::added_implicit(model)[1..].to_vec();
+        let lightest =
+            |most: f64, (body, added): (&Body, &Added)| most.max(1.0 / (body.mass + added.mass));
+        let compliance = model.bodies[1..].iter().zip(&added).fold(0.0, lightest);
         let damping = if model.allow_redundancy { REDUNDANT * compliance } else { 0.0 };
-        let Compiled { added_inertia, own_mass, .. } = compiled;
         Self {
             plan,
             pairs,
@@ -96,8 +99,8 @@ impl Places {
             rows,
             diagonal,
             damping,
-            added_inertia,
-            own_mass,
+            added,
+            own_mass: added_mass::own_mass_implicit(&model.bodies),
         }
     }
 }
@@ -152,11 +155,12 @@ pub fn assemble<F: Field>(
         }
     }
     // the diagonal blocks are the first pairs
-    let masses = tangent.mass.iter().zip(&places.added_inertia).zip(&places.groups);
+    let masses = tangent.mass.iter().zip(&places.added).zip(&places.groups);
     for (((mass, added), &size), &slot) in masses.zip(&places.pairs) {
         let block = lu.block_mut(slot);
-        let (m, b) = (mass.mass, mass.coupling);
-        let full = [[m, 0.0, b.x], [0.0, m, b.y], [b.x, b.y, mass.inertia + added]];
+        // added at the origin of the frame: only the solution counts, and that does not contain it
+        let (m, j, b) = (mass.mass + added.mass, mass.inertia + added.inertia, mass.coupling);
+        let full = [[m, 0.0, b.x], [0.0, m, b.y], [b.x, b.y, j]];
         for (row, full) in block.iter_mut().zip(full).take(size) {
             row.iter_mut().zip(full).take(size).for_each(|(e, full)| *e += c_a * real(full));
         }

@@ -58,3 +58,13 @@ pub fn add_times<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S], y: &
         columns.add(block(body, motion).times(columns.of(x)), y);
     }
 }
+
+/// xᵀ M x as a sum of squares, so that nothing is cancelled.
+pub fn twice_energy<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S]) -> S {
+    let bodies = model.bodies.iter().zip(motions).zip(&model.layout.bodies).skip(1);
+    bodies.fold(S::zero(), |sum, ((body, motion), columns)| {
+        let [x, y, angle] = columns.of(x);
+        let center = Vec2::new(x, y) + motion.pose.global(body.center).perp().scale(angle);
+        sum + body.mass * center.dot(center) + body.inertia * angle * angle
+    })
+}

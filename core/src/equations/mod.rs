@@ -2,7 +2,7 @@
 //!
 //! They are functions of a [`Model`](crate::model::Model) and plain slices; a [`Workspace`] has their scratch memory.
 
-mod added_inertia;
+mod added_mass;
 pub mod augmented;
 pub mod balance;
 mod compiled;
@@ -13,6 +13,7 @@ pub mod energy;
 pub mod forces;
 pub mod formulas;
 mod gains;
+mod gradients;
 mod grounded;
 mod inertia;
 pub mod iteration;
@@ -26,7 +27,7 @@ mod plan;
 mod powers;
 pub mod reactions;
 pub mod reactive;
-mod refine;
+pub mod refine;
 mod residuals;
 mod roles;
 pub mod switches;

@@ -58,10 +58,8 @@ pub struct Workspace<S = f64> {
 const REDUNDANT: f64 = 1e-10;
 
 /// Damping with which the multipliers of redundant constraints become the smallest that balance the loads.
-fn redundant_rows<S: Real>(model: &Model<S>) -> impl Iterator<Item = S> {
-    let compliance = |b: &crate::model::Body<S>| S::one() / b.mass;
-    let largest = model.bodies[1..].iter().map(compliance).fold(S::zero(), S::max);
-    let mu = largest * S::constant(REDUNDANT);
+fn redundant_rows<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> impl Iterator<Item = S> {
+    let mu = compiled.compliance() * S::constant(REDUNDANT);
     std::iter::repeat_n(mu, model.layout.n_rows)
 }
 
@@ -85,7 +83,7 @@ impl<S: Real> Workspace<S> {
         let mut matrix = Augmented::on(plan);
         matrix.set_inertia(&compiled);
         if model.allow_redundancy {
-            matrix.set_damping(redundant_rows(model));
+            matrix.set_damping(redundant_rows(model, &compiled));
         }
         Self {
             motions: Motions::new(&model.layout),
@@ -114,7 +112,7 @@ impl<S: Real> Workspace<S> {
     /// Solves the equations of motion at a state; then [`a`](Self::a), [`lam`](Self::lam).
     ///
     /// # Errors
-    /// [`Breakdown`] where Φ_q loses rank, and where a torque acts on an angle without inertia.
+    /// [`Breakdown`] where Φ_q loses rank, and where a load acts on a coordinate without mass or inertia.
     pub fn accelerate(
         &mut self,
         model: &Model<S>,

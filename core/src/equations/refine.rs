@@ -1,79 +1,81 @@
 //! Solutions of the true equations of motion by factors of modified ones.
 //!
-//! The factors may be those of a matrix W with inertia added to bodies that have none, and with damped
-//! rows where constraints are redundant. With K the true matrix, x ← x + W⁻¹ (b - K x) is repeated. The
-//! remainder is computed with K, so the limit is exact. Each step multiplies the error of an angle with added
-//! inertia ε by ε / (ε + J), where J is the inertia of the bodies that the angle moves through its joints. It
-//! multiplies the error of redundant rows by their damping (the method of multipliers).
+//! The factors may be those of a matrix W = M + E with mass added to light bodies, and with damped rows where constraints
+//! are redundant. Let K be the true matrix and P the factorised one. The additions are taken back by conjugate gradients
+//! with P as preconditioner (`equations/gradients.rs`). Then x ← x + P⁻¹ (b - K x), again with conjugate gradients, takes
+//! back rounding errors, the error of redundant rows, which falls by their damping (the method of multipliers), and near
+//! singular positions the ridge. The remainder is computed with K, so the limit is exact.
 
 use super::augmented::Augmented;
+use super::gradients::Gradients;
 use super::kinematics::Motions;
 use super::{constraints, mass, Compiled};
 use crate::math::Real;
 use crate::model::Model;
 use crate::solve::Breakdown;
 
-/// Steps for redundant rows, whose error falls by ten digits in each, and near singular positions,
-/// where it falls by ε² / (σ² + ε²).
+/// Corrections for redundant rows, whose error falls by ten digits in each, and near singular positions, where it falls
+/// by ε² / (σ² + ε²).
 const FOR_REDUNDANCY: usize = 2;
-/// Most steps for added inertia: an angle that nothing resists does not converge at all.
-const MOST: usize = 50;
-/// Correction of accelerations, relative to the largest, that ends the steps.
-const SETTLED: f64 = 1e-14;
-/// Remainder of the equations that is rounding, relative to the largest load or multiplier. It ends the steps where no
-/// body accelerates, so that corrections have no scale of their own.
-const ROUNDING: f64 = 1e-13;
-/// Correction that is accepted where rounding prevents a smaller one.
-const ACCEPTED: f64 = 1e-9;
+/// Most corrections for added mass.
+const MOST: usize = 6;
+/// Remainder of an equation that is rounding, relative to the terms of which it is the difference.
+const ROUNDING: f64 = 2e-15;
+/// A larger remainder is left by a coordinate that has no mass.
+const SIGNIFICANT: f64 = 1e-9;
+/// Terms are at least this part of the largest of all, so that bodies without load are not solved to more digits than
+/// numbers have.
+const LEAST: f64 = 1e-10;
 
 /// Solves K x = b; `x` contains b at first and the solution afterwards, shape (n_q + n_rows).
 ///
 /// # Errors
-/// The angle of a body without inertia on which a torque acts while no joint prevents its rotation.
-pub(super) fn solve<S: Real>(
+/// A coordinate without mass or inertia on which a load acts while no joint holds it.
+pub fn solve<S: Real>(
     (model, compiled): (&Model<S>, &Compiled<S>),
     motions: &Motions<S>,
     matrix: &Augmented<S>,
     x: &mut [S],
 ) -> Result<(), Breakdown> {
-    let (b, correction) = (x.to_vec(), &mut *vec![S::zero(); x.len()]);
-    let n = model.layout.n_q;
+    let b = x.to_vec();
+    let damped = matrix.regularised() || model.allow_redundancy;
     matrix.solve(x);
-    if matrix.regularised() || !compiled.adds_mass {
+    if !compiled.adds_mass {
         for _ in 0..FOR_REDUNDANCY {
-            step(model, motions, matrix, &b, x, correction);
+            let mut correction = remainder(model, motions, matrix.jacobian(), &b, x);
+            matrix.solve(&mut correction);
+            x.iter_mut().zip(&correction).for_each(|(x, dx)| *x += *dx);
         }
         return Ok(());
     }
+    let mut gradients = Gradients::new((model, compiled), motions, matrix, damped);
+    let terms = |x: &[S]| terms(model, motions, matrix.jacobian(), &b, x);
+    gradients.take_back(x, &terms(x));
     let mut last = f64::INFINITY;
-    for _ in 0..MOST {
-        let left = step(model, motions, matrix, &b, x, correction);
-        let relative = largest(&correction[..n]) / largest(&x[..n]).max(f64::MIN_POSITIVE);
-        if relative <= SETTLED || (relative <= ACCEPTED && relative >= 0.5 * last) {
-            return Ok(());
+    for corrections in 0..MOST {
+        let mut correction = remainder(model, motions, matrix.jacobian(), &b, x);
+        let terms = terms(x);
+        let left = largest(&correction, &terms);
+        let needed = damped && corrections < FOR_REDUNDANCY;
+        if !needed && (left <= ROUNDING || left > 0.5 * last) {
+            last = left.min(last);
+            break;
         }
-        if relative >= 0.5 * last && left <= ROUNDING * largest(&b).max(largest(&x[n..])) {
-            return Ok(());
-        }
-        last = relative;
+        last = left;
+        matrix.solve(&mut correction);
+        gradients.take_back(&mut correction, &terms);
+        x.iter_mut().zip(&correction).for_each(|(x, dx)| *x += *dx);
     }
-    Err(Breakdown::Column(unresisted(model, &compiled.added_inertia, correction)))
+    match gradients.undetermined() {
+        Some(column) if last > SIGNIFICANT => Err(Breakdown::Column(column)),
+        _ => Ok(()),
+    }
 }
 
-/// One correction; returns the largest remainder before it.
-fn step<S: Real>(
-    model: &Model<S>,
-    motions: &Motions<S>,
-    matrix: &Augmented<S>,
-    b: &[S],
-    x: &mut [S],
-    correction: &mut [S],
-) -> f64 {
-    remainder(model, motions, matrix.jacobian(), b, x, correction);
-    let left = largest(correction);
-    matrix.solve(correction);
-    x.iter_mut().zip(correction.iter()).for_each(|(x, dx)| *x += *dx);
-    left
+/// The largest remainder relative to its terms.
+fn largest<S: Real>(remainder: &[S], terms: &[S]) -> f64 {
+    let part = |(r, terms): (&S, &S)| S::select(*terms, *r / *terms, S::zero());
+    remainder.iter().zip(terms).map(|both| part(both).largest_magnitude()).fold(0.0, f64::max)
 }
 
 /// b - K x.
@@ -83,30 +85,39 @@ fn remainder<S: Real>(
     jacobian: &[S],
     b: &[S],
     x: &[S],
-    out: &mut [S],
-) {
+) -> Vec<S> {
     let n = model.layout.n_q;
-    let (a, lam) = x.split_at(n);
-    let (upper, lower) = out.split_at_mut(n);
-    upper.fill(S::zero());
+    let mut out = vec![S::zero(); x.len()];
+    let ((a, lam), (upper, lower)) = (x.split_at(n), out.split_at_mut(n));
     constraints::add_transposed(model, jacobian, lam, upper);
     mass::add_times(model, motions, a, upper);
     constraints::times_all(model, jacobian, a, lower);
     out.iter_mut().zip(b).for_each(|(out, b)| *out = *b - *out);
+    out
 }
 
-/// Largest magnitude over all entries and lanes.
-fn largest<S: Real>(x: &[S]) -> f64 {
-    let one = S::one();
-    x.iter().map(|x| 1.0 / (one / *x).least_magnitude()).fold(0.0, f64::max)
-}
-
-/// The coordinate with added inertia that was corrected most.
-fn unresisted<S: Real>(model: &Model<S>, added: &[S], correction: &[S]) -> usize {
-    let bodies = model.layout.bodies[1..].iter().zip(added);
-    let angles = bodies.filter(|(_, added)| added.least_magnitude() > 0.0);
-    let angles = angles.map(|(columns, _)| columns.first + 2);
-    let own = model.layout.owners[added.len()..].iter().flat_map(|columns| columns.range());
-    let size = |column: &usize| largest(&correction[*column..=*column]);
-    angles.chain(own).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0)
+/// |b| + |M a| + |Φ_qᵀ| |λ| and |b| + |Φ_q| |a|: the terms of which the remainder is the difference.
+fn terms<S: Real>(
+    model: &Model<S>,
+    motions: &Motions<S>,
+    jacobian: &[S],
+    b: &[S],
+    x: &[S],
+) -> Vec<S> {
+    let n = model.layout.n_q;
+    let magnitudes = |x: &[S]| x.iter().map(|x| x.abs()).collect::<Vec<S>>();
+    let (entries, sizes) = (magnitudes(jacobian), magnitudes(x));
+    let mut out = vec![S::zero(); x.len()];
+    let (upper, lower) = out.split_at_mut(n);
+    mass::add_times(model, motions, &x[..n], upper);
+    upper.iter_mut().for_each(|out| *out = out.abs());
+    constraints::add_transposed(model, &entries, &sizes[n..], upper);
+    constraints::times_all(model, &entries, &sizes[..n], lower);
+    out.iter_mut().zip(b).for_each(|(out, b)| *out += b.abs());
+    let (upper, lower) = out.split_at_mut(n);
+    for part in [upper, lower] {
+        let least = part.iter().copied().fold(S::zero(), S::max) * S::constant(LEAST);
+        part.iter_mut().for_each(|out| *out = out.max(least));
+    }
+    out
 }

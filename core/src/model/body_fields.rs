@@ -32,7 +32,12 @@ fn through() -> Field {
 }
 
 fn mass() -> Field {
-    Field::required("mass", Shape::Number, "kg", "Mass.")
+    Field::required(
+        "mass",
+        Shape::Number,
+        "kg",
+        "Mass; 0 where the mechanism determines the motion.",
+    )
 }
 
 fn shapes() -> Field {
@@ -58,14 +63,14 @@ fn body() -> Table {
                 Shape::Number,
                 "kg",
                 Default::Absent,
-                "Mass; required without shapes.",
+                "Mass; required without shapes; 0 where the mechanism determines the motion.",
             ),
             Field::optional(
                 "inertia",
                 Shape::Number,
                 "kg*m^2",
                 Default::Absent,
-                "Moment of inertia about the mass centre; required without shapes; 0 for a point mass.",
+                "Moment of inertia about the mass centre; required without shapes; may be 0.",
             ),
             Field::optional(
                 "center",

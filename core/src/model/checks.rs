@@ -11,7 +11,7 @@ use crate::expression::{Scope as Values, Tape};
 /// Longer lengths, m, have powers that overflow where positions are solved for.
 const LONGEST: f64 = 1e60;
 
-/// Reports bodies without mass, inertia or extent, and everything that is not finite.
+/// Reports negative masses and inertias, bars without length, and everything that is not finite.
 pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
     for body in &model.bodies {
         finite_points(body, problems);
@@ -28,7 +28,7 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         if !body.shapes.is_empty() {
             shape_checks::shapes(body, problems);
         } else if body.name != "ground" {
-            positive(body, problems);
+            possible(body, problems);
         }
     }
     for (k, g) in [model.gravity.x, model.gravity.y].into_iter().enumerate() {
@@ -79,10 +79,12 @@ fn check(path: &[&str], x: f64, problems: &mut Vec<Problem>) {
     }
 }
 
-fn positive(body: &Body, problems: &mut Vec<Problem>) {
+fn possible(body: &Body, problems: &mut Vec<Problem>) {
     let path = |key: &str| ["bodies".to_string(), body.name.clone(), key.to_string()];
-    if !(body.mass.is_finite() && body.mass > 0.0) {
-        problems.push(Problem::at(&path("mass"), format!("{} kg; must be > 0", body.mass)));
+    if !(body.mass.is_finite() && body.mass >= 0.0) {
+        let must = if body.mass < 0.0 { "not be negative" } else { "be finite" };
+        let message = format!("{} kg; must {must}", body.mass);
+        problems.push(Problem::at(&path("mass"), message));
         return; // consequences of the mass are not reported
     }
     if body.kind == "bar" {

@@ -3,7 +3,7 @@
 
 use crate::equations::augmented::Augmented;
 use crate::equations::kinematics::Motions;
-use crate::equations::{constraints, Compiled};
+use crate::equations::{constraints, refine, Compiled};
 use crate::model::{size, Model};
 
 /// Largest velocity residual that is not corrected, relative to the terms of which it is the sum.
@@ -17,6 +17,15 @@ const LEAST: usize = 2;
 /// joint. This ratio is near 1 if heavy bodies are joined to light ones.
 const MOST: usize = 30;
 
+/// A metric of velocities.
+struct Metric<'a> {
+    matrix: &'a mut Augmented,
+    /// Its largest 1/m.
+    compliance: f64,
+    /// The data of the mass matrix, if that is the metric.
+    mass: Option<&'a Compiled>,
+}
+
 /// Makes `v` consistent at `q`; a consistent `v` is unchanged. Returns the largest remaining part of Φ_q q̇ - ν,
 /// relative; it is not near zero if the requested rates contradict each other.
 pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
@@ -27,10 +36,12 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
         return 0.0;
     }
     let mut matrix = Augmented::new(model);
-    matrix.set_mass(&Compiled::new(model), &motions);
+    let compiled = Compiled::new(model);
+    matrix.set_mass(&compiled, &motions);
     constraints::jacobian(model, &motions, t, matrix.jacobian_mut());
-    let lightest = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
-    let left = correct(model, t, q, v, (&mut matrix, lightest, scale));
+    let metric =
+        Metric { matrix: &mut matrix, compliance: compiled.compliance(), mass: Some(&compiled) };
+    let left = correct(model, t, q, v, (metric, scale));
     if left <= ALIKE {
         return left;
     }
@@ -38,7 +49,8 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     let lengths = model.layout.lengths().into_iter();
     let alike: Vec<f64> = lengths.map(|length| if length { 1.0 } else { turning }).collect();
     matrix.set_weights(&alike);
-    correct(model, t, q, v, (&mut matrix, 1.0, scale))
+    let metric = Metric { matrix: &mut matrix, compliance: 1.0, mass: None };
+    correct(model, t, q, v, (metric, scale))
 }
 
 /// Corrects `v` with the weights of the matrix until the residual no longer falls; returns the residual.
@@ -47,7 +59,7 @@ fn correct(
     t: f64,
     q: &[f64],
     v: &mut [f64],
-    (matrix, compliance, scale): (&mut Augmented, f64, f64),
+    (Metric { matrix, compliance, mass }, scale): (Metric<'_>, f64),
 ) -> f64 {
     let m = model.layout.n_rows;
     matrix.set_damping((0..m).map(|_| 0.0));
@@ -69,10 +81,28 @@ fn correct(
         last = left;
         let mut x = vec![0.0; v.len()];
         x.extend(rate.iter().map(|r| -r));
-        matrix.solve(&mut x);
+        nearest(model, &motions, (matrix, mass), &mut x);
         v.iter_mut().zip(&x).for_each(|(v, dv)| *v += dv);
     }
     last
+}
+
+/// Solves for a correction in the metric. Where a massless body has a freedom of its own, each of its rates has the same
+/// energy; the factor, with mass added to it, chooses them.
+fn nearest(
+    model: &Model,
+    motions: &Motions,
+    (matrix, mass): (&Augmented, Option<&Compiled>),
+    x: &mut Vec<f64>,
+) {
+    if let Some(compiled) = mass.filter(|compiled| compiled.adds_mass) {
+        let mut exact = x.clone();
+        if refine::solve((model, compiled), motions, matrix, &mut exact).is_ok() {
+            *x = exact;
+            return;
+        }
+    }
+    matrix.solve(x);
 }
 
 fn largest(rate: &[f64]) -> f64 {

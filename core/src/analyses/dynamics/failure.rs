@@ -2,12 +2,13 @@
 
 use super::law_fault::{undefined_law, LawFault};
 use super::law_jump::{owner_name, Jump, SMOOTH};
+use super::no_mass;
 use super::run_results::Run;
 use crate::analyses::mobility::dependent;
-use crate::elements::{BodyId, Equation};
+use crate::elements::Equation;
 use crate::expression::TABLE_ENDS;
 use crate::integrate::Cause;
-use crate::model::{Model, Slots, Switch};
+use crate::model::{Model, Switch};
 use crate::solve::Breakdown;
 use std::fmt;
 
@@ -116,7 +117,7 @@ impl Failure {
                 );
                 (name(row), message)
             }
-            Breakdown::Column(column) => no_inertia(model, t, column),
+            Breakdown::Column(column) => no_mass::undetermined(model, t, column),
             Breakdown::Open { gap, .. } if gap.is_nan() => return Self::undefined(model, t, q),
             Breakdown::Open { row, gap } => {
                 let message = format!(
@@ -272,46 +273,12 @@ fn apart_in_print(a: f64, b: f64) -> [String; 2] {
     (1..17).map(written).find(|[a, b]| a != b).unwrap_or_else(|| written(1))
 }
 
-/// The joints and drivers of a body.
-fn joined(model: &Model, body: BodyId) -> Vec<&str> {
-    let joints = model.constraints.iter().filter(|item| item.bodies.contains(&body));
-    joints.map(|item| item.name.as_str()).collect()
-}
-
 /// The name and unit of a row of Φ, such as `B.x`.
 fn equation(model: &Model, row: usize) -> (String, &'static str) {
     let (k, equation) = model.layout.owner(row);
     let item = &model.constraints[k];
     let Equation { name, unit } = item.equations[equation];
     (format!("{}.{name}", item.name), unit)
-}
-
-/// The name of a body without inertia on which a torque acts, and a message.
-fn no_inertia(model: &Model, t: f64, column: usize) -> (String, String) {
-    let owner = |slots: &Slots| slots.own.range().contains(&column);
-    if let Some(k) = model.layout.constraints.iter().position(owner) {
-        let name = model.constraints[k].name.clone();
-        let message = format!(
-            "the place of {name} on its curve is not determined at t = {t:.6} s: nothing resists its motion along the curve"
-        );
-        return (name, message);
-    }
-    let id = model.layout.body_of(column).map_or(BodyId::GROUND, |(body, _)| body);
-    let body = &model.bodies[id.0];
-    let (name, inertia) = (body.name.clone(), body.inertia);
-    let (has, set) = match inertia > 0.0 {
-        true => (format!("hardly any moment of inertia ({inertia:.1e} kg·m²)"), "increase"),
-        false => ("no moment of inertia".to_string(), "set"),
-    };
-    let advice = match joined(model, id).join(", ").as_str() {
-        "" => format!("and no joint prevents its rotation; {set} its inertia"),
-        joints => format!(
-            "and its joints ({joints}) add hardly any in this position; {set} its inertia, or increase the \
-             mass of the bodies that they join to it"
-        ),
-    };
-    let message = format!("a torque acts on {name} at t = {t:.6} s, but {name} has {has} {advice}");
-    (name, message)
 }
 
 /// Largest number of bodies whose coordinates a message contains.

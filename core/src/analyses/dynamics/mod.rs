@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `options`, `option_checks` | options, and the combinations that are refused |
 //! | `absolute_tolerance` | absolute tolerances of lengths, angles and first-order states |
+//! | `massless`, `no_mass` | massless bodies whose motion is not determined |
 //! | `start_check` | states from which a run may start |
 //! | `run`, `run_results`, `stepper` | a run through its phases, and its outcome; a stepper for callers |
 //! | `course`, `setting`, `event_list` | phases that follow from events, their models, and the events of a phase |
@@ -40,6 +41,7 @@ mod interpolated_states;
 mod lane_batch;
 mod law_fault;
 mod law_jump;
+mod massless;
 mod method_options;
 mod method_switching;
 mod methods;
@@ -47,6 +49,7 @@ mod model_cache;
 mod motion_dae;
 mod motion_ode;
 mod motion_stepper;
+mod no_mass;
 mod option_checks;
 mod options;
 mod prepared;

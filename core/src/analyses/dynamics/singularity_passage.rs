@@ -152,7 +152,9 @@ impl SingularityPassage {
             };
             twice += square(v);
             pull += square(a);
-            applied += (load[0] * load[0] + load[1] * load[1]) / body.mass;
+            if body.mass > 0.0 {
+                applied += (load[0] * load[0] + load[1] * load[1]) / body.mass;
+            }
             if block.inertia > 0.0 {
                 applied += load[2] * load[2] / block.inertia;
             }

@@ -6,6 +6,7 @@
 
 use super::constraint_violation::{ADRIFT, APART};
 use super::failure::{Failure, Reason};
+use super::massless;
 use super::options::Options;
 use super::stabilizations::Stabilization;
 use crate::analyses::required::{self, Unmet};
@@ -96,7 +97,8 @@ impl StartCheck {
     /// Checks a state.
     ///
     /// # Errors
-    /// [`Failure`] with [`Reason::Start`], which names the joint that is open farthest.
+    /// [`Failure`] with [`Reason::Start`], which names the joint that is open farthest, or with [`Reason::Singular`], which
+    /// names a massless body whose motion is not determined.
     pub fn check(&self, model: &Model, t: f64, state: [&[f64]; 3]) -> Result<(), Box<Failure>> {
         let [q, v, _] = state;
         let m = model.layout.n_rows;
@@ -114,6 +116,7 @@ impl StartCheck {
         if let Some(Unmet { name, message, hint, .. }) = required::missed(model, t, q) {
             return Err(Reason::Start { t, name, message, hint }.into());
         }
+        massless::check(model, t, q)?;
         let Some(limit) = self.rate else { return Ok(()) };
         let pace = largest(model, v).max(1.0);
         let checked = level(&rate, limit * pace, "/s").check(model, t, self.hint);

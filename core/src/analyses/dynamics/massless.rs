@@ -1,0 +1,61 @@
+//! Bodies without mass or inertia whose motion the mechanism does not determine.
+//!
+//! A motion v that the joints admit, Φ_q v = 0, and that moves no mass, M v = 0, has no acceleration of its own: nothing
+//! resists it. It moves massless bodies alone. So it exists if the columns of Φ_q of their coordinates are dependent, and
+//! this is found before the run. Later, at a position in which such a freedom appears, the equations of motion find it.
+
+use super::failure::{Failure, Reason};
+use super::no_mass;
+use crate::equations::constraints;
+use crate::equations::kinematics::Motions;
+use crate::model::Model;
+use crate::solve::{SparseRank, SparseRow, RANK_TOLERANCE};
+
+/// Checks the massless bodies at a position.
+///
+/// A body with mass but without inertia is accepted: an angle on which no torque acts does not accelerate.
+///
+/// # Errors
+/// [`Failure`] with [`Reason::Singular`], which names a massless body with a freedom of its own.
+pub(super) fn check(model: &Model, t: f64, q: &[f64]) -> Result<(), Box<Failure>> {
+    let massless = columns(model);
+    if massless.is_empty() {
+        return Ok(());
+    }
+    let mut entries = vec![0.0; model.layout.n_entries];
+    constraints::jacobian(model, &Motions::at_rest(&model.layout, q), t, &mut entries);
+    let mut all: Vec<SparseRow> = vec![Vec::new(); model.layout.n_q];
+    for (row, column, at) in model.layout.positions().filter(|(_, _, at)| entries[*at] != 0.0) {
+        all[column].push((row, entries[at]));
+    }
+    let normal = |column: &usize| {
+        let mut entries = std::mem::take(&mut all[*column]);
+        entries.sort_unstable_by_key(|(row, _)| *row);
+        let length = entries.iter().map(|(_, x)| x * x).sum::<f64>().sqrt();
+        entries.iter_mut().for_each(|(_, x)| *x /= length);
+        entries
+    };
+    let rows: Vec<SparseRow> = massless.iter().map(normal).collect();
+    let found = SparseRank::new(&rows, model.layout.n_rows, RANK_TOLERANCE, &|| false);
+    let free = found.and_then(|found| found.dependent.first().copied());
+    free.map_or(Ok(()), |k| {
+        let (name, message) = no_mass::undetermined(model, t, massless[k]);
+        Err(Reason::Singular { t, name, message }.into())
+    })
+}
+
+/// The coordinates that move no mass; none if every body has mass.
+fn columns(model: &Model) -> Vec<usize> {
+    let bodies = model.bodies.iter().zip(&model.layout.bodies).skip(1);
+    let massless = bodies.filter(|(body, _)| body.mass == 0.0).flat_map(|(body, columns)| {
+        let turning = body.turns && body.inertia == 0.0;
+        columns.first..columns.first + if turning { 3 } else { 2 }
+    });
+    let massless: Vec<usize> = massless.collect();
+    let own = model.layout.constraints.iter().flat_map(|slots| slots.own.range());
+    if massless.is_empty() {
+        massless
+    } else {
+        own.chain(massless).collect()
+    }
+}

@@ -1,0 +1,61 @@
+//! Messages about coordinates whose motion nothing resists: bodies without mass or inertia.
+
+use crate::elements::BodyId;
+use crate::model::{Model, Slots};
+
+/// The name of a body, or of a joint with internal coordinates, and a message: nothing resists the motion of this
+/// coordinate.
+pub(super) fn undetermined(model: &Model, t: f64, column: usize) -> (String, String) {
+    let owner = |slots: &Slots| slots.own.range().contains(&column);
+    if let Some(k) = model.layout.constraints.iter().position(owner) {
+        let name = model.constraints[k].name.clone();
+        let message = format!(
+            "the place of {name} on its curve is not determined at t = {t:.6} s: nothing resists its motion along the curve"
+        );
+        return (name, message);
+    }
+    let (id, place) = model.layout.body_of(column).unwrap_or((BodyId::GROUND, 0));
+    let name = model.bodies[id.0].name.clone();
+    let joints = joined(model, id).join(", ");
+    let message = match model.bodies[id.0].mass > 0.0 {
+        true => without_inertia(model, t, id, &joints),
+        false => {
+            let coordinate = ["x", "y", "angle"][place];
+            let set = if place == 2 { "inertia" } else { "mass" };
+            let leave = match joints.as_str() {
+                "" => "no joint holds it".to_string(),
+                joints => {
+                    format!("its joints ({joints}) leave it a freedom of its own in this position")
+                }
+            };
+            format!(
+                "the motion of {name} is not determined at t = {t:.6} s: nothing resists {name}.{coordinate}, because \
+                 {name} has no {set} and {leave}; set its {set}, or hold it with a joint or driver"
+            )
+        }
+    };
+    (name, message)
+}
+
+fn without_inertia(model: &Model, t: f64, id: BodyId, joints: &str) -> String {
+    let body = &model.bodies[id.0];
+    let (name, inertia) = (&body.name, body.inertia);
+    let (has, set) = match inertia > 0.0 {
+        true => (format!("hardly any moment of inertia ({inertia:.1e} kg·m²)"), "increase"),
+        false => ("no moment of inertia".to_string(), "set"),
+    };
+    let advice = match joints {
+        "" => format!("and no joint prevents its rotation; {set} its inertia"),
+        joints => format!(
+            "and its joints ({joints}) add hardly any in this position; {set} its inertia, or increase the \
+             mass of the bodies that they join to it"
+        ),
+    };
+    format!("a torque acts on {name} at t = {t:.6} s, but {name} has {has} {advice}")
+}
+
+/// The joints and drivers of a body.
+fn joined(model: &Model, body: BodyId) -> Vec<&str> {
+    let joints = model.constraints.iter().filter(|item| item.bodies.contains(&body));
+    joints.map(|item| item.name.as_str()).collect()
+}

@@ -1,0 +1,201 @@
+//! Conjugate gradients for K = [M Φ_qᵀ; Φ_q -μ] with the factors of P = [M + E Φ_qᵀ; Φ_q -μ] as preconditioner (Gould,
+//! Hribar and Nocedal, *On the solution of equality constrained quadratic programming problems arising in optimization*,
+//! SIAM J. Sci. Comput. 23 (2001) 1376; Dollar, Gould, Schilders and Wathen, SIAM J. Matrix Anal. Appl. 28 (2006) 170).
+//!
+//! The remainder b - K x of x = P⁻¹ b is E x. A part of a remainder in the range of Φ_qᵀ moves nothing: it belongs to the
+//! multipliers, which take it before each step. So r is measured by z = P⁻¹ r, as zᵀ (M + E) z. In exact arithmetic the solution is found in as many steps as the mechanism has degrees of
+//! freedom. In a mechanism whose heavy bodies determine its light ones, each step gains two digits; a light freedom of
+//! its own costs one step, whatever its mass. If it has no mass at all, its direction p has pᵀ M p = 0.
+
+use super::augmented::Augmented;
+use super::kinematics::Motions;
+use super::mass::MassBlock;
+use super::{constraints, mass, Compiled};
+use crate::math::Real;
+use crate::model::{Columns, Model};
+
+/// Remainder at which the steps end, relative to the terms of an equation.
+const SETTLED: f64 = 1e-15;
+/// pᵀ M p relative to pᵀ (M + E) p of a direction without mass: rounding errors leave about 1e-28.
+const MASSLESS: f64 = 1e-22;
+/// A direction is light where its added mass exceeds its own so many times.
+const LIGHT: f64 = 10.0;
+/// Most steps for each coordinate of E, and some more.
+const STEPS: usize = 2;
+const MORE: usize = 10;
+
+/// The additions at a state, and memory.
+pub(super) struct Gradients<'a, S> {
+    model: &'a Model<S>,
+    motions: &'a Motions<S>,
+    matrix: &'a Augmented<S>,
+    /// Whether rows are damped.
+    damped: bool,
+    /// E, block by block.
+    blocks: Vec<(Columns, MassBlock<S>)>,
+    /// The coordinates of E.
+    light: Vec<usize>,
+    undetermined: Option<usize>,
+}
+
+impl<'a, S: Real> Gradients<'a, S> {
+    /// At a state with its factors.
+    pub fn new(
+        (model, compiled): (&'a Model<S>, &Compiled<S>),
+        motions: &'a Motions<S>,
+        matrix: &'a Augmented<S>,
+        damped: bool,
+    ) -> Self {
+        let mut blocks = Vec::new();
+        for (k, added) in compiled.added.iter().enumerate().filter(|(_, added)| added.any()) {
+            let center = model.bodies[k + 1].center;
+            let [mass, inertia] = [added.mass, added.inertia].map(S::constant);
+            let coupling = motions[k + 1].pose.global(center).perp().scale(mass);
+            let inertia = inertia + mass * center.dot(center);
+            blocks.push((model.layout.bodies[k + 1], MassBlock { mass, coupling, inertia }));
+        }
+        let own = S::constant(compiled.own_mass);
+        let coupling = crate::math::Vec2::zero();
+        let block = MassBlock { mass: own, coupling, inertia: own };
+        blocks.extend(model.layout.owners[compiled.added.len()..].iter().map(|c| (*c, block)));
+        let light = blocks.iter().flat_map(|(columns, _)| columns.range()).collect();
+        Self { model, motions, matrix, damped, blocks, light, undetermined: None }
+    }
+
+    /// The coordinate of a direction without mass, if one was met.
+    pub fn undetermined(&self) -> Option<usize> {
+        self.undetermined
+    }
+
+    /// Turns x = P⁻¹ f into K⁻¹ f. Remainders below rounding of `terms` are left.
+    pub fn take_back(&mut self, x: &mut [S], terms: &[S]) {
+        let n = self.model.layout.n_q;
+        let mut r = self.additions(&x[..n]);
+        if self.is_settled(&r, terms) {
+            return;
+        }
+        let (mut s, mut p) = (vec![S::zero(); n], vec![S::zero(); x.len()]);
+        let mut last = S::zero();
+        for _ in 0..STEPS * self.light.len() + MORE {
+            let mut z = r.clone();
+            z.resize(x.len(), S::zero());
+            self.matrix.solve(&mut z);
+            let (mut own, mut ez) = (self.energy(&z), self.additions(&z[..n]));
+            if !self.damped && above(dot(&ez, &z), own * S::constant(LIGHT)) {
+                self.purify(&mut z);
+                (own, ez) = (self.energy(&z), self.additions(&z[..n]));
+            }
+            let square = own + dot(&ez, &z);
+            if self.is_settled(&ez, terms) {
+                x.iter_mut().zip(&z).for_each(|(x, z)| *x += *z);
+                return;
+            }
+            if !self.damped {
+                self.absorb(x, &mut z, (&mut r, ez));
+            }
+            let beta = S::select(last, square / last, S::zero());
+            p.iter_mut().zip(&z).for_each(|(p, z)| *p = *z + beta * *p);
+            s.iter_mut().zip(&r).for_each(|(s, r)| *s = *r + beta * *s);
+            let Some(alpha) = self.step(&p, square) else { return };
+            x.iter_mut().zip(&p).for_each(|(x, p)| *x += alpha * *p);
+            let change = self.product(&p, &s);
+            r.iter_mut().zip(change).for_each(|(r, change)| *r -= alpha * change);
+            last = square;
+        }
+    }
+
+    /// Takes what violates the constraints from z. A long step follows along a direction of hardly any mass, and rounding
+    /// errors of massless coordinates, which the constraints determine, must not be taken for such a direction.
+    fn purify(&self, z: &mut [S]) {
+        let n = self.model.layout.n_q;
+        let mut open = vec![S::zero(); z.len()];
+        constraints::times_all(self.model, self.matrix.jacobian(), &z[..n], &mut open[n..]);
+        open[n..].iter_mut().for_each(|open| *open = -*open);
+        self.matrix.solve(&mut open);
+        z.iter_mut().zip(&open).for_each(|(z, open)| *z += *open);
+    }
+
+    /// Adds the multipliers of z = P⁻¹ r to x. What is left of r is (M + E) z.
+    fn absorb(&self, x: &mut [S], z: &mut [S], (r, ez): (&mut Vec<S>, Vec<S>)) {
+        let n = self.model.layout.n_q;
+        x[n..].iter_mut().zip(&z[n..]).for_each(|(x, z)| *x += *z);
+        z[n..].fill(S::zero());
+        *r = ez;
+        mass::add_times(self.model, self.motions, &z[..n], r);
+    }
+
+    /// The length of a step along p with the square |z|² of the remainder; None if p has no mass in any lane.
+    fn step(&mut self, p: &[S], square: S) -> Option<S> {
+        let own = self.energy(p);
+        let all = own + dot(&self.additions(&p[..self.model.layout.n_q]), p);
+        let moves = own - S::constant(MASSLESS) * all;
+        let lost = S::select(square, S::select(moves, S::zero(), S::one()), S::zero());
+        if above(lost, S::zero()) {
+            self.undetermined = Some(self.direction(p));
+        }
+        let alpha = S::select(moves, square / own, S::zero());
+        above(alpha, S::zero()).then_some(alpha)
+    }
+
+    /// The upper part of K p, with s that of P p. Without damping p has no multipliers, and nothing is cancelled.
+    fn product(&self, p: &[S], s: &[S]) -> Vec<S> {
+        let a = &p[..s.len()];
+        if self.damped {
+            let added = self.additions(a);
+            return s.iter().zip(added).map(|(s, added)| *s - added).collect();
+        }
+        let mut product = vec![S::zero(); a.len()];
+        mass::add_times(self.model, self.motions, a, &mut product);
+        product
+    }
+
+    /// pᵀ K p of a direction that meets the constraints up to their damping; never a difference.
+    fn energy(&self, p: &[S]) -> S {
+        let n = self.model.layout.n_q;
+        let (a, lam) = p.split_at(n);
+        let own = mass::twice_energy(self.model, self.motions, a);
+        if !self.damped {
+            return own;
+        }
+        let mut rows = vec![S::zero(); lam.len()];
+        constraints::times_all(self.model, self.matrix.jacobian(), a, &mut rows);
+        own + dot(&rows, lam)
+    }
+
+    /// E a.
+    fn additions(&self, a: &[S]) -> Vec<S> {
+        let mut product = vec![S::zero(); a.len()];
+        for (columns, block) in &self.blocks {
+            columns.add(block.times(columns.of(a)), &mut product);
+        }
+        product
+    }
+
+    fn is_settled(&self, ez: &[S], terms: &[S]) -> bool {
+        let open = |k: &usize| above(ez[*k].abs(), terms[*k] * S::constant(SETTLED));
+        !self.light.iter().any(open)
+    }
+
+    /// The coordinate that has the largest part in a direction.
+    fn direction(&self, p: &[S]) -> usize {
+        let energy = |(columns, block): &(Columns, MassBlock<S>)| {
+            let own = columns.of(p);
+            let parts = own.iter().zip(block.times(own)).map(|(x, y)| (*x * y).largest_magnitude());
+            let parts: Vec<f64> = parts.take(columns.count).collect();
+            let worst = (0..parts.len()).max_by(|a, b| parts[*a].total_cmp(&parts[*b]));
+            (parts.iter().sum::<f64>(), columns.first + worst.unwrap_or(0))
+        };
+        let most = self.blocks.iter().map(energy).max_by(|a, b| a.0.total_cmp(&b.0));
+        most.map_or(0, |(_, column)| column)
+    }
+}
+
+/// Whether a > b in any lane.
+fn above<S: Real>(a: S, b: S) -> bool {
+    S::select(a - b, S::one(), S::zero()).largest_magnitude() > 0.0
+}
+
+/// aᵀ b over the coordinates of `a`.
+fn dot<S: Real>(a: &[S], b: &[S]) -> S {
+    a.iter().zip(b).fold(S::zero(), |sum, (a, b)| sum.plus_product(*a, *b))
+}
