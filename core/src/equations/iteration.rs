@@ -56,8 +56,8 @@ pub struct Places {
 }
 
 impl Places {
-    /// For a model and the pattern of its tangent.
-    pub fn new(model: &Model, tangent: &Tangent) -> Self {
+    /// For a model and the pattern of its tangent; `redundant` constraints are damped.
+    pub fn new(model: &Model, tangent: &Tangent, redundant: bool) -> Self {
         let compiled = Compiled::new(model);
         let groups: Vec<usize> = groups(model, &compiled).iter().map(|group| group.size).collect();
         let (blocks, _) = row_blocks(&model.layout);
@@ -85,7 +85,7 @@ impl Places {
         let diagonal = blocks.iter().enumerate();
         let diagonal = diagonal.map(|(k, b)| (plan.slot(n + k, n + k), b.size)).collect();
         let compliance = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
-        let damping = if model.allow_redundancy { REDUNDANT * compliance } else { 0.0 };
+        let damping = if redundant { REDUNDANT * compliance } else { 0.0 };
         let Compiled { added_inertia, own_mass, .. } = compiled;
         Self {
             plan,

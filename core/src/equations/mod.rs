@@ -14,6 +14,7 @@ pub mod forces;
 pub mod formulas;
 mod gains;
 mod grounded;
+mod independent;
 mod inertia;
 pub mod iteration;
 pub mod kinematics;

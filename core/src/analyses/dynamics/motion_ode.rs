@@ -1,17 +1,17 @@
 //! The equations of motion as a first-order system y = (q, v, z, works).
 
 use super::options::Options;
+use super::redundant_rows;
 use super::sampling::Sample;
 use super::singularity_passage::{would_pass, SingularityPassage};
 use super::stabilizations::Stabilization;
 use crate::analyses::mobility;
 use crate::equations::augmented::NearSingular;
-use crate::equations::{Gains, Plan, Workspace};
+use crate::equations::{Gains, Workspace};
 use crate::integrate::{all_finite, Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 use crate::model::Model;
 use crate::solve::Breakdown;
 use crate::stabilize::{Projection, Projector, StepwiseBaumgarte};
-use std::sync::Arc;
 
 /// The right side of forward dynamics.
 pub(super) struct MotionOde<'a> {
@@ -27,15 +27,14 @@ pub(super) struct MotionOde<'a> {
 }
 
 impl<'a> MotionOde<'a> {
-    /// Uses the plan of elimination of the model.
-    pub fn new(model: &'a Model, options: &Options, plan: Arc<Plan>) -> Self {
+    /// Uses a workspace of the model, whose plan of elimination is shared by runs.
+    pub fn new(model: &'a Model, options: &Options, mut workspace: Workspace) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
-        let mut workspace = Workspace::on(model, plan);
         // only projection returns a state to its branch
-        let passing = projector.is_some() && !model.allow_redundancy;
+        let passing = projector.is_some();
         if passing {
             workspace.matrix.set_near_singular(NearSingular::Regularise);
         }
@@ -65,6 +64,7 @@ impl<'a> MotionOde<'a> {
         velocities: bool,
         samples: bool,
     ) -> Result<(), Breakdown> {
+        self.exchange_rows(t, y);
         if velocities && self.projector.is_none() {
             let mut projector = Projector::new(self.model, Projection::default());
             let [q, v, ..] = self.model.layout.split_mut(y);
@@ -87,10 +87,26 @@ impl<'a> MotionOde<'a> {
         self.passage.begin(t, &self.workspace);
         let near = self.workspace.matrix.regularised();
         match self.workspace.matrix.cancellation().filter(|_| near) {
-            Some((row, _)) if !mobility(self.model, t, q).redundant.is_empty() => {
-                Err(Breakdown::Row(row))
-            }
+            Some((row, _)) if self.omits_too_few(t, q) => Err(Breakdown::Row(row)),
             _ => Ok(()),
+        }
+    }
+
+    /// Whether more equations are redundant than are left out.
+    fn omits_too_few(&self, t: f64, q: &[f64]) -> bool {
+        let redundant = mobility(self.model, t, q).redundant_equations.len();
+        redundant > self.workspace.matrix.omitted().len()
+    }
+
+    /// Leaves out other redundant rows if the state at the end of a step needs it.
+    pub fn exchange_rows(&mut self, t: f64, y: &[f64]) {
+        let [q, v, z, _] = self.model.layout.split(y);
+        if redundant_rows::exchange(self.model, &mut self.workspace, t, [q, v, z]) {
+            // samples of other rows are no forecast
+            let solved = self.workspace.accelerate(self.model, t, [q, v, z], self.gains);
+            if solved.is_ok() {
+                self.passage.begin(t, &self.workspace);
+            }
         }
     }
 
