@@ -8,8 +8,8 @@
 //!
 //! with the [`Tangent`] of the equations of motion, real or complex. The middle row and column belong to the
 //! first-order states of elements; few models have any. M contains the inertia added to bodies without their own.
-//! The residual is that of the true equations, so the iteration still converges to their solution. For the same
-//! reason redundant rows may be damped with μ.
+//! The residual is that of the true equations, so the iteration still converges to their solution. μ = 0 but for
+//! redundant rows, which are left out by a large one.
 
 use super::coupling::Participants;
 use super::plan::{groups, row_blocks};
@@ -20,8 +20,8 @@ use crate::model::{Model, StateLayout};
 use crate::solve::{BlockLu, LuPlan};
 use std::ops::Range;
 
-/// Damping of redundant rows, relative to the compliance of the bodies.
-const REDUNDANT: f64 = 1e-10;
+/// Damping μ of a redundant row that is left out: its multiplier does not change.
+const OMITTED: f64 = 1e100;
 
 /// Coefficients of the parts of the matrix.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +48,8 @@ pub struct Places {
     rows: Vec<(usize, usize)>,
     /// Slot of the diagonal block of each block of rows, and its rows.
     diagonal: Vec<(usize, usize)>,
-    damping: f64,
+    /// The rows that are left out.
+    omitted: Vec<usize>,
     /// Inertia added to the bodies, kg·m².
     added_inertia: Vec<f64>,
     /// Mass added to the internal coordinates of elements, kg.
@@ -56,8 +57,8 @@ pub struct Places {
 }
 
 impl Places {
-    /// For a model and the pattern of its tangent; `redundant` constraints are damped.
-    pub fn new(model: &Model, tangent: &Tangent, redundant: bool) -> Self {
+    /// For a model and the pattern of its tangent.
+    pub fn new(model: &Model, tangent: &Tangent) -> Self {
         let compiled = Compiled::new(model);
         let groups: Vec<usize> = groups(model, &compiled).iter().map(|group| group.size).collect();
         let (blocks, _) = row_blocks(&model.layout);
@@ -84,8 +85,6 @@ impl Places {
         let jacobian = touches().map(slots).collect();
         let diagonal = blocks.iter().enumerate();
         let diagonal = diagonal.map(|(k, b)| (plan.slot(n + k, n + k), b.size)).collect();
-        let compliance = model.bodies[1..].iter().map(|b| 1.0 / b.mass).fold(0.0, f64::max);
-        let damping = if redundant { REDUNDANT * compliance } else { 0.0 };
         let Compiled { added_inertia, own_mass, .. } = compiled;
         Self {
             plan,
@@ -95,10 +94,16 @@ impl Places {
             states,
             rows,
             diagonal,
-            damping,
+            omitted: Vec::new(),
             added_inertia,
             own_mass,
         }
+    }
+
+    /// Leaves out these rows and no others.
+    pub fn omit(&mut self, rows: &[usize]) {
+        self.omitted.clear();
+        self.omitted.extend_from_slice(rows);
     }
 }
 
@@ -176,7 +181,11 @@ pub fn assemble<F: Field>(
         }
     }
     for &(slot, m) in &places.diagonal {
-        (0..m).for_each(|d| lu.block_mut(slot)[d][d] = real(-places.damping));
+        (0..m).for_each(|d| lu.block_mut(slot)[d][d] = F::zero());
+    }
+    for &row in &places.omitted {
+        let (block, d) = places.rows[row];
+        lu.block_mut(places.plan.slot(block, block))[d][d] = real(-OMITTED);
     }
     add_states(places, tangent, coefficients.states, lu);
 }

@@ -40,8 +40,8 @@ impl<'a> MotionDae<'a> {
             _ => None,
         };
         let tangent = Tangent::new(model);
-        let redundant = !one.matrix.omitted().is_empty();
-        let places = Places::new(model, &tangent, redundant);
+        let mut places = Places::new(model, &tangent);
+        places.omit(one.matrix.omitted());
         Self {
             model,
             workspace: Workspace::like(model, one),
@@ -60,6 +60,7 @@ impl<'a> MotionDae<'a> {
     pub fn hold(&mut self, one: &Workspace) {
         if self.workspace.matrix.omitted() != one.matrix.omitted() {
             self.workspace.omit(one.matrix.omitted());
+            self.places.omit(one.matrix.omitted());
         }
         let pieces = &one.motions.pieces;
         for motions in [&mut self.workspace.motions, &mut self.balance.motions] {

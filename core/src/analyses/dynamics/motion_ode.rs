@@ -87,15 +87,14 @@ impl<'a> MotionOde<'a> {
         self.passage.begin(t, &self.workspace);
         let near = self.workspace.matrix.regularised();
         match self.workspace.matrix.cancellation().filter(|_| near) {
-            Some((row, _)) if self.omits_too_few(t, q) => Err(Breakdown::Row(row)),
+            Some((row, _)) if self.is_redundant(t, q) => Err(Breakdown::Row(row)),
             _ => Ok(()),
         }
     }
 
-    /// Whether more equations are redundant than are left out.
-    fn omits_too_few(&self, t: f64, q: &[f64]) -> bool {
-        let redundant = mobility(self.model, t, q).redundant_equations.len();
-        redundant > self.workspace.matrix.omitted().len()
+    /// Whether constraints are redundant that must not be.
+    fn is_redundant(&self, t: f64, q: &[f64]) -> bool {
+        !self.model.allow_redundancy && !mobility(self.model, t, q).redundant.is_empty()
     }
 
     /// Leaves out other redundant rows if the state at the end of a step needs it.
@@ -164,6 +163,9 @@ impl<'a> MotionOde<'a> {
     /// energy balance shows the change of energy by projection.
     fn project_state(&mut self, t: f64, y: &mut [f64], factored: bool) -> Result<bool, Breakdown> {
         let Some(projector) = &mut self.projector else { return Ok(false) };
+        // rows that are left out may differ from the others by rounding, which must not change with the choice of rows
+        let redundant = !self.workspace.matrix.omitted().is_empty();
+        projector.sharpen(redundant || self.passage.in_reach());
         let [q, v, ..] = self.model.layout.split_mut(y);
         projector.project(&mut self.workspace, t, (q, v), factored)
     }
@@ -213,9 +215,6 @@ impl Manifold for MotionOde<'_> {
 
     /// Uses the factor of the last evaluation, which was near the end of the step.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
-        if let Some(projector) = &mut self.projector {
-            projector.sharpen(self.passage.in_reach());
-        }
         self.project_state(t, y, true)
     }
 
