@@ -227,7 +227,7 @@ impl Manifold for MotionOde<'_> {
     /// freedom has no tangential error; its whole error counts.
     fn project_error(&mut self, dy: &mut [f64]) -> bool {
         let layout = &self.model.layout;
-        let free = layout.n_rows < layout.n_q;
+        let free = layout.n_rows < layout.n_q + self.workspace.matrix.omitted().len();
         let (true, Some(projector)) = (self.passage.near && free, &mut self.projector) else {
             return false;
         };
