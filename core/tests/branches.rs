@@ -2,7 +2,7 @@
 
 mod mechanisms;
 
-use kempe::analyses::kinematics::kinematics;
+use kempe::analyses::kinematics::{kinematics, Point};
 use kempe::analyses::State;
 use kempe::integrate::Flow;
 use kempe::model::Model;
@@ -96,11 +96,10 @@ fn no_pass_near_a_change_point_flips_silently() {
                 failure.motion
             }
         };
-        let n = m.layout.n_q;
         let [coupler, rocker] = ["coupler", "rocker"].map(|body| column(&m, body, 2));
-        for (k, t) in motion.trajectory.t.iter().enumerate() {
+        for Point { t, q, .. } in motion.at_outputs() {
             let exact = pose(links, *t, side).expect("it closes");
-            let found = [coupler, rocker].map(|at| motion.trajectory.q[k * n + at]);
+            let found = [coupler, rocker].map(|at| q[at]);
             for (found, exact) in found.iter().zip(exact) {
                 let off_by = (found - exact) - TAU * ((found - exact) / TAU).round();
                 assert!(off_by.abs() < 1e-6, "{links:?} {off:e} at {t}: {found} {exact}");

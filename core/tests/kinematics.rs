@@ -2,7 +2,7 @@
 
 mod mechanisms;
 
-use kempe::analyses::kinematics::{kinematics, Failure, Limit, Motion, Reason};
+use kempe::analyses::kinematics::{kinematics, recorded, Failure, Limit, Motion, Reason};
 use kempe::integrate::Flow;
 use kempe::model::Model;
 use mechanisms::{column, model, start};
@@ -58,21 +58,22 @@ fn a_slider_crank_over_a_turn() {
     let times = even(50, 2.0);
     let hints = [("piston.x", "0.35")];
     let motion = through(&m, &hints, &times).expect("a motion");
-    assert!(motion.reached && motion.trajectory.t == times);
-    let (n, x) = (m.layout.n_q, column(&m, "piston", 0));
-    for (k, t) in times.iter().enumerate() {
+    assert!(motion.reached && motion.at_outputs().map(|point| point.t).eq(times.iter().copied()));
+    let x = column(&m, "piston", 0);
+    for (point, t) in motion.at_outputs().zip(&times) {
         let (angle, rate) = (0.4 + 3.0 * t + t * t, 3.0 + 2.0 * t);
         let (sin, cos) = angle.sin_cos();
         let root = (l * l - r * r * sin * sin).sqrt();
         let exact = [r * cos + root, -rate * (r * sin + r * r * sin * cos / root)];
-        let found = [motion.trajectory.q[k * n + x], motion.trajectory.v[k * n + x]];
+        let found = [point.q[x], point.v[x]];
         for (found, exact) in found.iter().zip(exact) {
             assert!((found - exact).abs() < 1e-12, "t = {t}: {found} {exact}");
         }
     }
     // the work of the motor is the change of the kinetic energy of all bodies, without gravity
+    let trajectory = recorded(&m, &start(&m, &[], &hints).0, &motion).trajectory;
     let energy = kempe::analyses::dynamics::Prepared::new(&m)
-        .energies(motion.trajectory.states(), &motion.trajectory.works)
+        .energies(trajectory.states(), &trajectory.works)
         .expect("energies");
     for row in energy.chunks(5) {
         assert!((row[0] - energy[0] - row[3]).abs() < 1e-9 * row[0], "{row:?}");
@@ -98,7 +99,7 @@ fn the_limits_of_a_rocker() {
         let mut line = limit.in_line.expect("crank and coupler in line");
         line.sort();
         assert_eq!(line, ["coupler", "crank"]);
-        let last = motion.trajectory.t.last().copied().unwrap_or(0.0);
+        let last = motion.at_outputs().last().map_or(0.0, |point| point.t);
         assert!(last <= limit.t && limit.t - last < 0.04, "{last}");
     }
 }
@@ -126,10 +127,9 @@ fn a_parallelogram_passes_its_change_points() {
         let times = even(n, 4.0 * PI);
         let hints = [("coupler.angle", "0"), ("rocker.angle", "pi/2")];
         let motion = through(&m, &hints, &times).unwrap_or_else(|f| panic!("{n}: {}", f.reason));
-        let (width, rocker) = (m.layout.n_q, column(&m, "rocker", 2));
-        for (k, t) in times.iter().enumerate() {
-            let angle = motion.trajectory.q[k * width + rocker];
-            let rate = motion.trajectory.v[k * width + rocker];
+        let rocker = column(&m, "rocker", 2);
+        for (point, t) in motion.at_outputs().zip(&times) {
+            let (angle, rate) = (point.q[rocker], point.v[rocker]);
             assert!((angle - t - PI / 2.0).abs() < 1e-7, "{n}: {t} {angle}");
             assert!((rate - 1.0).abs() < 1e-5, "{n}: {t} {rate}");
         }
@@ -143,4 +143,23 @@ fn a_freedom_without_a_driver_is_refused() {
     let failure = through(&model(text), &[], &[0.0, 1.0]).expect_err("a free pendulum");
     let text = failure.reason.to_string();
     assert!(text.contains("leave 1 degree of freedom"), "{text}");
+}
+
+/// 360 positions, velocities and accelerations of a six-bar linkage over a turn.
+#[test]
+#[ignore = "a measurement: cargo test --release -p kempe --test kinematics -- --ignored --nocapture"]
+fn the_time_of_a_six_bar() {
+    let text = include_str!("../../examples/six_bar.toml");
+    let m = model(text.split("[start").next().expect("the mechanism"));
+    let hints = [("coupler.angle", "40 deg"), ("plate.angle", "80 deg"), ("link.angle", "20 deg")];
+    let (state, _) = start(&m, &[], &hints);
+    let times = even(359, 1.0);
+    let measure = |_| {
+        let began = std::time::Instant::now();
+        let motion = kinematics(&m, &state, &times, |_| Flow::Continue).expect("a motion");
+        assert_eq!(motion.outputs.len(), 360);
+        began.elapsed().as_secs_f64() * 1e3
+    };
+    let best = (0..2000).map(measure).fold(f64::INFINITY, f64::min);
+    println!("360 positions of a six-bar linkage: {best:.3} ms");
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import re
 from collections.abc import Mapping
@@ -220,6 +221,7 @@ def _forget(tree: dict[str, Any], drivers: Mapping[str, Any]) -> None:
         del measures[name]
 
 
+@functools.cache
 def _driver() -> str:
     """The type of the driver of a coordinate."""
     for table in json.loads(_core.catalogue())["drivers"]:

@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Literal
 
 import kempe as kp
 import numpy as np
@@ -206,3 +207,35 @@ def test_on_the_command_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert app.run(["run", "crank.toml", "--method", "rk4", "--step", "0.01", *options]) == 0
     fall = json.loads(Path("added/fall/summary.json").read_text(encoding="utf-8"))
     assert fall["statistics"]["method"] == "rk4"
+
+
+def test_a_linkage_with_two_drivers_for_one_freedom() -> None:
+    """The sum of both efforts is that of one driver; which part each has is not determined."""
+    length = 0.3
+
+    def parallelogram(redundancy: Literal["refuse", "allow"]) -> kp.Model:
+        m = kp.Model("parallelogram", redundancy=redundancy)
+        m.ground.points(A=(0, 0), D=(1, 0))
+        m.bar("crank", mass=2, length=length, ends=("A", "B"))
+        m.bar("coupler", mass=5, length=1, ends=("B", "C"))
+        m.bar("rocker", mass=3, length=length, ends=("D", "C"))
+        m.revolute("A", "ground.A", "crank.A")
+        m.revolute("B", "crank.B", "coupler.B")
+        m.revolute("C", "coupler.C", "rocker.C")
+        m.revolute("D", "ground.D", "rocker.D")
+        for name in ("crank", "rocker"):
+            m.coordinate_driver(f"{name}_motor", f"{name}.angle", value="1 + t + 0.5*t^2")
+        return m
+
+    guess = {"crank.angle": 1.0, "rocker.angle": 1.0}
+    with pytest.raises(kp.RedundancyError, match="crank_motor, rocker_motor") as caught:
+        kp.assemble(parallelogram("refuse"), guess=guess)
+    assert "1 of their equations adds nothing" in str(caught.value)
+    m = parallelogram("allow")
+    start = kp.assemble(m, guess=guess)
+    sol = kp.inverse_dynamics(m, start, t_end=1, output_step=0.1)
+    assert np.allclose(sol["rocker.angle"], 1 + sol.t + 0.5 * sol.t**2, atol=1e-12)
+    total = sol["crank_motor.effort"] + sol["rocker_motor.effort"]
+    assert np.allclose(total, (2 / 3 + 5 + 3 / 3) * length**2, rtol=1e-9)
+    assert not sol["crank_motor"].unique
+    assert not sol["rocker_motor"].unique

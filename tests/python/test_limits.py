@@ -129,11 +129,20 @@ def test_progress_is_called_and_may_end_the_work() -> None:
     def stop(_: float) -> None:
         raise RuntimeError("enough")
 
-    chain = four_bar(4, 1, 3.5, 2.5)
-    try:
-        kp.limits(chain, kp.assemble(chain, set={"crank.angle": 1}), over="A.angle", progress=stop)
-    except RuntimeError as error:
-        assert str(error) == "enough"
+    n = 600  # long enough that progress is reported
+    chain = kp.Model("four-bars in a row")
+    chain.ground.points(**{f"G{k}": (k, 0) for k in range(n + 1)})
+    for k in range(n + 1):
+        chain.bar(f"c{k}", mass=1, length=0.5 if k else 0.2, ends=("A", "B"))
+        chain.revolute(f"A{k}", f"ground.G{k}", f"c{k}.A")
+    for k in range(n):
+        chain.bar(f"r{k}", mass=1, length=1, ends=("A", "B"))
+        chain.revolute(f"B{k}", f"c{k}.B", f"r{k}.A")
+        chain.revolute(f"C{k}", f"r{k}.B", f"c{k + 1}.B")
+    guess = {f"c{k}.angle": 1.3 for k in range(1, n + 1)} | {f"r{k}.angle": 0.0 for k in range(n)}
+    start = kp.assemble(chain, set={"c0.angle": 1.57}, guess=guess)
+    with pytest.raises(RuntimeError, match="enough"):
+        kp.limits(chain, start, over="c0.angle", progress=stop)
 
 
 def test_in_a_file_on_the_command_line_and_in_figures(

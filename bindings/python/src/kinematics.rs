@@ -50,7 +50,8 @@ pub fn kinematics(
         let began = std::time::Instant::now();
         let outcome = py.detach(|| driven::kinematics(core, &start, &times, |t| watch.look(t)));
         let made = |motion: driven::Motion, message: &str| {
-            PyRun::new(py, model, run(motion, began.elapsed().as_secs_f64()), message)
+            let recorded = py.detach(|| driven::recorded(core, &start, &motion));
+            PyRun::new(py, model, run(&motion, recorded, began.elapsed().as_secs_f64()), message)
         };
         match (outcome, watch.raised) {
             (Ok(motion), None) => made(motion, "the last value was reached"),
@@ -69,14 +70,15 @@ pub fn kinematics(
     })
 }
 
-fn run(motion: driven::Motion, seconds: f64) -> Run {
-    let driven::Motion { trajectory, dense, steps, rejected, reached } = motion;
+fn run(motion: &driven::Motion, recorded: driven::Recorded, seconds: f64) -> Run {
+    let driven::Recorded { trajectory, dense } = recorded;
+    let (steps, rejected) = (motion.steps(), motion.rejected);
     Run {
         trajectory,
         phases: vec![0],
         dense: (!dense.t.is_empty()).then_some(dense),
         statistics: Statistics { steps, rejected, seconds, ..Statistics::default() },
-        reached,
+        reached: motion.reached,
         passing: true,
         projection: Some(Projection::default()),
         ..Run::default()

@@ -1,8 +1,9 @@
 //! Steps along a branch of the motion.
 //!
-//! A step predicts q + h v + h²/2 a and closes the mechanism by Newton's method. It is accepted if the correction and
-//! the change of the velocity that the prediction leaves out are small against the motion over the step. Another branch
-//! would be farther away, or have another velocity. Otherwise half the step is tried.
+//! A step predicts q + h v + h²/2 a + h³/6 j, with j from the last step, and closes the mechanism by Newton's method. It
+//! is accepted if the correction and the change of the velocity that the prediction leaves out are small against the
+//! motion over the step. Another branch would be farther away, or have another velocity. Otherwise half the step is
+//! tried.
 
 use super::failure::{Failure, Reason};
 use super::passage;
@@ -31,11 +32,12 @@ const START: f64 = 1e-9;
 pub(in crate::analyses) struct Continuation<'a> {
     solver: Solver<'a>,
     point: Point,
+    /// The point before, if the motion between is smooth.
+    before: Option<Point>,
     /// The next step, if the last one limits it.
     length: f64,
     /// The sign of det Φ_q at the point, if it is known.
     orientation: Option<f64>,
-    steps: usize,
     rejected: usize,
 }
 
@@ -57,9 +59,9 @@ impl<'a> Continuation<'a> {
             Some(point) => Ok(Self {
                 solver,
                 point,
+                before: None,
                 length: f64::INFINITY,
                 orientation: None,
-                steps: 0,
                 rejected: 0,
             }),
             None => Err(Reason::singular_start(model, *t, q, &freedom).into()),
@@ -71,9 +73,9 @@ impl<'a> Continuation<'a> {
         &self.point
     }
 
-    /// Steps, and steps that were taken again.
-    pub fn counts(&self) -> (usize, usize) {
-        (self.steps, self.rejected)
+    /// Steps that were taken again.
+    pub fn rejected(&self) -> usize {
+        self.rejected
     }
 
     /// The position at `t` that is closed from one nearby.
@@ -91,30 +93,28 @@ impl<'a> Continuation<'a> {
         while h.abs() >= shortest {
             // the last step ends at the goal exactly
             let t = if h == left { goal } else { self.point.t + h };
-            let predicted = self.point.predicted(h);
+            let predicted = self.point.predicted(h, self.before.as_ref());
             if let Some(next) = self.solver.point(t, predicted.clone()) {
                 if self.is_near(&next, &predicted, h) && self.keeps_orientation(&next) {
                     self.length = 2.0 * h.abs();
-                    self.steps += 1;
-                    self.point = next;
+                    self.before = Some(std::mem::replace(&mut self.point, next));
                     return Ok(());
                 }
             }
+            self.before = None;
             self.rejected += 1;
             if h == left && h.abs() <= SHORT * most {
                 if let Some(next) = self.across(goal) {
-                    self.steps += 1;
                     self.point = next;
-                    self.orientation = None;
+                    (self.before, self.orientation) = (None, None);
                     return Ok(());
                 }
             }
             h *= 0.5;
         }
         self.length = f64::INFINITY;
-        self.steps += 1;
         self.point = passage::around(&mut self.solver, &self.point, goal)?;
-        self.orientation = None;
+        (self.before, self.orientation) = (None, None);
         Ok(())
     }
 
@@ -122,7 +122,7 @@ impl<'a> Continuation<'a> {
     /// the motion does not pass it.
     fn across(&mut self, goal: f64) -> Option<Point> {
         let h = 2.0 * (goal - self.point.t);
-        let predicted = self.point.predicted(h);
+        let predicted = self.point.predicted(h, None);
         let beyond = self.solver.point(self.point.t + h, predicted.clone())?;
         if !self.is_near(&beyond, &predicted, h) {
             return None;
@@ -135,6 +135,9 @@ impl<'a> Continuation<'a> {
     /// Whether det Φ_q keeps its sign. It changes only across a singular position, and between branches that nearly meet
     /// at one: a step beside a change point could jump from one to the other.
     fn keeps_orientation(&mut self, next: &Point) -> bool {
+        if self.solver.is_clear() {
+            return true;
+        }
         let before = self.orientation.unwrap_or_else(|| self.solver.orientation(&self.point));
         let after = self.solver.orientation(next);
         let keeps = before * after >= 0.0;

@@ -13,7 +13,7 @@
 //! | `circuit` | the path of a position until it returns |
 //! | `motion` | the result |
 //! | `quintic` | polynomials between two points |
-//! | `works` | works over a step, by quadrature |
+//! | `works` | works over the motion, by quadrature, and the record for solutions |
 //! | `options` | options of kinematics and of inverse dynamics |
 //! | `failure` | reasons for the end of a motion, in terms of the mechanism |
 
@@ -38,12 +38,11 @@ pub use failure::{Failure, Reason};
 pub use motion::Motion;
 pub use options::{InverseOptions, Options};
 pub use solution::Point;
+pub use works::{recorded, Recorded};
 
-use super::dynamics::PiecewiseInterpolant;
 use super::State;
 use crate::integrate::Flow;
 use crate::model::Model;
-use works::Works;
 
 /// The motion from `start` through the `times`, which ascend or descend; the first one may be that of the start.
 ///
@@ -59,26 +58,20 @@ pub fn kinematics(
     mut watch: impl FnMut(f64) -> Flow,
 ) -> Result<Motion, Box<Failure>> {
     let mut continuation = Continuation::begin(model, start)?;
-    let mut works = Works::new(model, start);
-    let dense =
-        PiecewiseInterpolant { t: vec![start.t], degree: quintic::DEGREE, ..Default::default() };
-    let mut motion = Motion { dense, ..Motion::default() };
+    let mut motion = Motion { points: vec![continuation.point().clone()], ..Motion::default() };
     for &t in times {
         while continuation.point().t != t {
-            let before = continuation.point().clone();
             let outcome = continuation.step(t);
-            (motion.steps, motion.rejected) = continuation.counts();
+            motion.rejected = continuation.rejected();
             if let Err(reason) = outcome {
                 return Err(Box::new(Failure { reason, motion }));
             }
-            works.add_step(&before, continuation.point(), &mut motion.dense);
+            motion.points.push(continuation.point().clone());
             if watch(continuation.point().t) == Flow::Stop {
                 return Ok(motion);
             }
         }
-        let Point { q, v, .. } = continuation.point();
-        let y = [&q[..], v, &start.z, &works.total].concat();
-        motion.trajectory.add(&model.layout, t, &y);
+        motion.outputs.push(motion.points.len() - 1);
     }
     motion.reached = true;
     Ok(motion)

@@ -15,11 +15,13 @@ const MOST: usize = 8;
 /// Least factor by which an iteration must reduce the correction.
 const CONTRACTS: f64 = 0.25;
 /// Damping of redundant rows, relative to their scale.
-const REDUNDANT: f64 = 1e-18;
+const REDUNDANT: f64 = 1e-12;
 /// Part of a pivot that remains where Φ_q counts as regular; less if the mechanism begins with less.
 const REGULAR: f64 = 1e-9;
 /// The same, as a part of that at the first position.
 const OF_FIRST: f64 = 1e-4;
+/// Part of a pivot that remains where no singular position is near, so that no other branch is.
+const CLEAR: f64 = 0.01;
 /// Largest number of coordinates for which the orientation is examined.
 const MOST_DENSE: usize = 120;
 
@@ -37,10 +39,16 @@ pub struct Point {
 }
 
 impl Point {
-    /// q + h v + h²/2 a.
-    pub(super) fn predicted(&self, h: f64) -> Vec<f64> {
+    /// q + h v + h²/2 a + h³/6 j, with the change of the acceleration since an earlier point for j.
+    pub(super) fn predicted(&self, h: f64, earlier: Option<&Point>) -> Vec<f64> {
         let all = self.q.iter().zip(&self.v).zip(&self.a);
-        all.map(|((q, v), a)| q + h * (v + 0.5 * h * a)).collect()
+        let mut q: Vec<f64> = all.map(|((q, v), a)| q + h * (v + 0.5 * h * a)).collect();
+        if let Some(earlier) = earlier {
+            let c = h * h * h / (6.0 * (self.t - earlier.t));
+            let change = self.a.iter().zip(&earlier.a);
+            q.iter_mut().zip(change).for_each(|(q, (a, b))| *q += c * (a - b));
+        }
+        q
     }
 }
 
@@ -53,6 +61,8 @@ pub(super) struct Solver<'a> {
     pub columns: Vec<f64>,
     pub rows: Vec<f64>,
     motions: Motions,
+    /// Part of the worst pivot that the last factorisation left.
+    kept: f64,
     /// Least part of a pivot at a regular position; none before the first factorisation.
     regular: Option<f64>,
     /// Φ, its rate and γ.
@@ -70,6 +80,7 @@ impl<'a> Solver<'a> {
             columns,
             rows: row_scales(model),
             motions: Motions::new(&model.layout),
+            kept: 1.0,
             regular: None,
             terms: std::array::from_fn(|_| vec![0.0; m]),
             solution: vec![0.0; n + m],
@@ -87,9 +98,6 @@ impl<'a> Solver<'a> {
     /// once, or Φ_q is singular.
     pub fn point(&mut self, t: f64, q: Vec<f64>) -> Option<Point> {
         let q = self.closed(t, q)?;
-        let n = q.len();
-        let rest = vec![0.0; n];
-        self.evaluate(t, (&q, &rest));
         self.factored(t)?;
         let v = self.solved(1, -1.0);
         self.evaluate(t, (&q, &v));
@@ -97,7 +105,7 @@ impl<'a> Solver<'a> {
         v.iter().chain(&a).all(|x| x.is_finite()).then_some(Point { t, q, v, a })
     }
 
-    /// Newton's method.
+    /// Newton's method; Φ and its rate without velocities belong to the position that it returns.
     fn closed(&mut self, t: f64, mut q: Vec<f64>) -> Option<Vec<f64>> {
         let rest = vec![0.0; q.len()];
         let mut last = f64::INFINITY;
@@ -111,6 +119,7 @@ impl<'a> Solver<'a> {
             let step = self.solved(0, -1.0);
             let size = self.norm(&step);
             if size.is_nan() || size > CONTRACTS * last {
+                // rounding: the position as it was evaluated
                 return (gap <= ROUNDING).then_some(q);
             }
             q.iter_mut().zip(&step).for_each(|(q, dq)| *q += dq);
@@ -143,6 +152,7 @@ impl<'a> Solver<'a> {
         }
         matrix.factor().ok()?;
         let kept = matrix.cancellation().map_or(1.0, |(_, kept)| kept);
+        self.kept = kept;
         let least = *self.regular.get_or_insert(REGULAR.min(OF_FIRST * kept));
         (model.allow_redundancy || kept > least).then_some(())
     }
@@ -154,13 +164,33 @@ impl<'a> Solver<'a> {
         upper.fill(0.0);
         lower.iter_mut().zip(&self.terms[term]).for_each(|(x, term)| *x = sign * term);
         self.matrix.solve(&mut self.solution);
-        self.solution[..n].to_vec()
+        let mut x = self.solution[..n].to_vec();
+        if self.model.allow_redundancy {
+            self.correct(&mut x, (term, sign));
+        }
+        x
+    }
+
+    /// One correction of `x` for the damping of redundant rows, of which an error in its proportion is left.
+    fn correct(&mut self, x: &mut [f64], (term, sign): (usize, f64)) {
+        let (upper, lower) = self.solution.split_at_mut(x.len());
+        upper.fill(0.0);
+        constraints::times_all(self.model, self.matrix.jacobian(), x, lower);
+        let wanted = lower.iter_mut().zip(&self.terms[term]);
+        wanted.for_each(|(left, term)| *left = sign * term - *left);
+        self.matrix.solve(&mut self.solution);
+        x.iter_mut().zip(&self.solution).for_each(|(x, dx)| *x += dx);
     }
 
     /// Φ at a position, scaled, for the path by its length.
     pub fn phi(&mut self, t: f64, q: &[f64]) -> Vec<f64> {
         self.evaluate(t, (q, &vec![0.0; q.len()]));
         self.terms[0].iter().zip(&self.rows).map(|(phi, scale)| phi / scale).collect()
+    }
+
+    /// Whether the last point is far from singular positions.
+    pub fn is_clear(&self) -> bool {
+        self.kept > CLEAR
     }
 
     /// The sign of det Φ_q, which a regular motion keeps; 0 where it is not examined.

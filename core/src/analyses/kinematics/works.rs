@@ -1,8 +1,9 @@
-//! Works over the steps of a motion, by adaptive quadrature of the powers.
+//! Works over a motion, by adaptive quadrature of the powers, and the motion with them as dynamics records it.
 
+use super::motion::Motion;
 use super::quintic::{Quintic, DEGREE};
 use super::solution::Point;
-use crate::analyses::dynamics::PiecewiseInterpolant;
+use crate::analyses::dynamics::{PiecewiseInterpolant, Trajectory};
 use crate::analyses::State;
 use crate::equations::{energy, Gains, Workspace};
 use crate::model::{Model, WORKS};
@@ -15,12 +16,40 @@ const TOLERANCE: f64 = 1e-11;
 /// Largest number of halvings of a step.
 const DEPTH: usize = 8;
 
+/// A motion as dynamics records it.
+#[derive(Clone, Debug, Default)]
+pub struct Recorded {
+    /// States at the chosen times, and works since the start. Without forces, as at a singular position, works are NaN.
+    pub trajectory: Trajectory,
+    /// Polynomials between the steps of the continuation.
+    pub dense: PiecewiseInterpolant,
+}
+
+/// A motion from `start` with the works of its forces and drivers.
+pub fn recorded(model: &Model, start: &State, motion: &Motion) -> Recorded {
+    let mut works = Works::new(model, start);
+    let t = motion.points.first().map(|point| point.t).into_iter().collect();
+    let dense = PiecewiseInterpolant { t, degree: DEGREE, ..PiecewiseInterpolant::default() };
+    let mut made = Recorded { dense, ..Recorded::default() };
+    let mut outputs = motion.outputs.iter().peekable();
+    for (place, point) in motion.points.iter().enumerate() {
+        if let Some(before) = place.checked_sub(1) {
+            works.add_step(&motion.points[before], point, &mut made.dense);
+        }
+        while outputs.next_if_eq(&&place).is_some() {
+            let y = [&point.q[..], &point.v, &start.z, &works.total].concat();
+            made.trajectory.add(&model.layout, point.t, &y);
+        }
+    }
+    made
+}
+
 /// Works since the start: dissipated energy, work of drivers, work of applied forces, J.
-pub(super) struct Works<'a> {
+struct Works<'a> {
     model: &'a Model,
     workspace: Workspace,
     z: Vec<f64>,
-    pub total: Vec<f64>,
+    total: Vec<f64>,
     /// The largest work or kinetic energy so far.
     scale: f64,
 }
@@ -28,13 +57,13 @@ pub(super) struct Works<'a> {
 type Three = [f64; WORKS];
 
 impl<'a> Works<'a> {
-    pub fn new(model: &'a Model, start: &State) -> Self {
+    fn new(model: &'a Model, start: &State) -> Self {
         let (workspace, z) = (Workspace::new(model), start.z.clone());
         Self { model, workspace, z, total: vec![0.0; WORKS], scale: 0.0 }
     }
 
     /// Adds the works of a step, and its polynomials.
-    pub fn add_step(&mut self, from: &Point, to: &Point, dense: &mut PiecewiseInterpolant) {
+    fn add_step(&mut self, from: &Point, to: &Point, dense: &mut PiecewiseInterpolant) {
         let h = to.t - from.t;
         let ends = [self.powers(from), self.powers(to)];
         let kinetic = energy::kinetic(self.model, &self.workspace.motions);
