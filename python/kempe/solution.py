@@ -77,7 +77,7 @@ class Solution(Motion):
         self._run = run
         if len(settings) > 1:
             self._phases = phases(base, settings, len(run.t))
-        self._passing = run.projection is not None and self.compiled.redundancy != "allow"
+        self._passing = run.projection is not None
         self._method = method
         self.variable = variable
         self.status = STATUS[run.status]

@@ -23,9 +23,6 @@ const TURNING: f64 = 0.1;
 const LIGHT_IMPLICIT: f64 = 1e-12;
 /// The mass that it has then.
 const FLOOR_IMPLICIT: f64 = 1e-9;
-/// The same where redundant rows are damped: the damping must exceed the rounding errors of the largest 1/m, and stay small
-/// against that of the heavy bodies.
-const FLOOR_REDUNDANT: f64 = 1e-5;
 /// Mass of the internal coordinates of elements, relative to the heaviest body.
 const OWN: f64 = 1e-4;
 /// The same in the matrix of implicit methods.
@@ -54,8 +51,7 @@ pub(super) fn added<S: Real>(model: &Model<S>) -> Vec<Added> {
 
 /// The same in the matrix of implicit methods.
 pub(super) fn added_implicit(model: &Model) -> Vec<Added> {
-    let floor = if model.allow_redundancy { FLOOR_REDUNDANT } else { FLOOR_IMPLICIT };
-    additions(model, LIGHT_IMPLICIT, floor)
+    additions(model, LIGHT_IMPLICIT, FLOOR_IMPLICIT)
 }
 
 /// Mass added to the internal coordinates of elements, kg.

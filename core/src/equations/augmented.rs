@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// motion for a time in proportion to ε. `docs/performance.md` has the errors for other values.
 pub const RIDGE: f64 = 1e-10;
 
+/// Damping of a row that is left out: beside it every other number is below rounding, and its multiplier is zero.
+const OMITTED: f64 = 1e100;
+
 /// The policy of a factorisation near a singular position, where a row of Φ_q comes near to dependence.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NearSingular {
@@ -34,6 +37,8 @@ pub struct Augmented<S = f64> {
     near_singular: NearSingular,
     /// Whether the current factor has the ridge.
     regularised: bool,
+    /// The rows that are left out.
+    omitted: Vec<usize>,
 }
 
 impl<S: Real> Augmented<S> {
@@ -45,7 +50,8 @@ impl<S: Real> Augmented<S> {
     /// Memory for a plan that was made for the model.
     pub fn on(plan: Arc<Plan>) -> Self {
         let saddle = Saddle::new(&plan.pattern);
-        Self { saddle, plan, near_singular: NearSingular::Ignore, regularised: false }
+        let near_singular = NearSingular::Ignore;
+        Self { saddle, plan, near_singular, regularised: false, omitted: Vec::new() }
     }
 
     /// The plan, for others of the same model.
@@ -120,6 +126,28 @@ impl<S: Real> Augmented<S> {
         assert!(!self.plan.condenses, "condensed rows are not damped");
         self.saddle.damping.clear();
         self.saddle.damping.extend(mu);
+    }
+
+    /// Leaves out these rows and no others: their multipliers vanish, and nothing else depends on them.
+    ///
+    /// # Panics
+    /// If grounded bodies are condensed.
+    pub fn omit(&mut self, rows: &[usize]) {
+        let mut mu = vec![S::zero(); self.plan.pattern.n_rows()];
+        rows.iter().for_each(|row| mu[*row] = S::constant(OMITTED));
+        self.set_damping(mu);
+        self.omitted.clear();
+        self.omitted.extend_from_slice(rows);
+    }
+
+    /// Whether redundant rows are damped, so that none is left out.
+    pub fn damps(&self) -> bool {
+        !self.saddle.damping.is_empty() && self.omitted.is_empty()
+    }
+
+    /// The rows that are left out.
+    pub fn omitted(&self) -> &[usize] {
+        &self.omitted
     }
 
     /// Sets the policy near singular positions.

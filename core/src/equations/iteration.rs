@@ -8,8 +8,8 @@
 //!
 //! with the [`Tangent`] of the equations of motion, real or complex. The middle row and column belong to the
 //! first-order states of elements; few models have any. M contains what is added to bodies without mass or inertia.
-//! The residual is that of the true equations, so the iteration still converges to their solution. For the same
-//! reason redundant rows may be damped with μ.
+//! The residual is that of the true equations, so the iteration still converges to their solution. μ = 0 but for
+//! redundant rows, which are left out by a large one.
 
 use super::added_mass::{self, Added};
 use super::coupling::Participants;
@@ -17,12 +17,12 @@ use super::plan::{groups, row_blocks};
 use super::tangent::{Entry, Tangent};
 use super::Compiled;
 use crate::math::Field;
-use crate::model::{Body, Model, StateLayout};
+use crate::model::{Model, StateLayout};
 use crate::solve::{BlockLu, LuPlan};
 use std::ops::Range;
 
-/// Damping of redundant rows, relative to the compliance of the bodies.
-const REDUNDANT: f64 = 1e-10;
+/// Damping μ of a redundant row that is left out: its multiplier does not change.
+const OMITTED: f64 = 1e100;
 
 /// Coefficients of the parts of the matrix.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +49,8 @@ pub struct Places {
     rows: Vec<(usize, usize)>,
     /// Slot of the diagonal block of each block of rows, and its rows.
     diagonal: Vec<(usize, usize)>,
-    damping: f64,
+    /// The rows that are left out.
+    omitted: Vec<usize>,
     /// Mass and inertia added to the bodies.
     added: Vec<Added>,
     /// Mass added to the internal coordinates of elements, kg.
@@ -85,11 +86,6 @@ impl Places {
         let jacobian = touches().map(slots).collect();
         let diagonal = blocks.iter().enumerate();
         let diagonal = diagonal.map(|(k, b)| (plan.slot(n + k, n + k), b.size)).collect();
-        let added = added_mass::added_implicit(model)[1..].to_vec();
-        let lightest =
-            |most: f64, (body, added): (&Body, &Added)| most.max(1.0 / (body.mass + added.mass));
-        let compliance = model.bodies[1..].iter().zip(&added).fold(0.0, lightest);
-        let damping = if model.allow_redundancy { REDUNDANT * compliance } else { 0.0 };
         Self {
             plan,
             pairs,
@@ -98,10 +94,16 @@ impl Places {
             states,
             rows,
             diagonal,
-            damping,
-            added,
+            omitted: Vec::new(),
+            added: added_mass::added_implicit(model)[1..].to_vec(),
             own_mass: added_mass::own_mass_implicit(&model.bodies),
         }
+    }
+
+    /// Leaves out these rows and no others.
+    pub fn omit(&mut self, rows: &[usize]) {
+        self.omitted.clear();
+        self.omitted.extend_from_slice(rows);
     }
 }
 
@@ -180,7 +182,11 @@ pub fn assemble<F: Field>(
         }
     }
     for &(slot, m) in &places.diagonal {
-        (0..m).for_each(|d| lu.block_mut(slot)[d][d] = real(-places.damping));
+        (0..m).for_each(|d| lu.block_mut(slot)[d][d] = F::zero());
+    }
+    for &row in &places.omitted {
+        let (block, d) = places.rows[row];
+        lu.block_mut(places.plan.slot(block, block))[d][d] = real(-OMITTED);
     }
     add_states(places, tangent, coefficients.states, lu);
 }

@@ -15,6 +15,7 @@ pub mod formulas;
 mod gains;
 mod gradients;
 mod grounded;
+mod independent;
 mod inertia;
 pub mod iteration;
 pub mod kinematics;

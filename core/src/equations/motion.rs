@@ -39,7 +39,7 @@ pub struct Workspace<S = f64> {
     /// The augmented matrix.
     pub matrix: Augmented<S>,
     /// Right side, then solution (q̈, λ).
-    solution: Vec<S>,
+    pub(super) solution: Vec<S>,
     /// Powers of the force elements.
     powers: Powers<S>,
     /// A constant vector that is subtracted from γ; empty if absent.
@@ -47,11 +47,13 @@ pub struct Workspace<S = f64> {
     /// Whether one elimination does not solve the equations: inertia is added, redundant rows are damped, or forces
     /// depend on reactions.
     modified: bool,
+    /// Whether forces depend on reactions.
+    depends: bool,
     /// The rows of the multipliers on which forces, or loads of joints, depend.
     reactive: Vec<usize>,
-    n_q: usize,
+    pub(super) n_q: usize,
     /// Number of unknowns of the solver: n_q, and the padding of a short last group.
-    n_unknowns: usize,
+    pub(super) n_unknowns: usize,
 }
 
 /// Damping of redundant rows, relative to the largest compliance 1/m.
@@ -69,9 +71,14 @@ impl<S: Real> Workspace<S> {
         Self::on(model, Arc::new(Plan::of_motion(model)))
     }
 
-    /// The same with the plan of elimination of `other`, which belongs to the same model over other numbers.
+    /// The same with the plan of elimination of `other`, which belongs to the same model over other numbers, and
+    /// without the rows that `other` leaves out.
     pub fn like<P: Real>(model: &Model<S>, other: &Workspace<P>) -> Self {
-        Self::on(model, Arc::clone(other.matrix.plan()))
+        let mut workspace = Self::on(model, Arc::clone(other.matrix.plan()));
+        if !other.matrix.omitted().is_empty() {
+            workspace.omit(other.matrix.omitted());
+        }
+        workspace
     }
 
     /// The same on the plan of the model's [equations of motion](Plan::of_motion).
@@ -80,9 +87,11 @@ impl<S: Real> Workspace<S> {
         let compiled = Arc::new(Compiled::new(model));
         let roles = Roles::new(model, &compiled, &plan);
         let reactive = reactive::rows(model);
+        let depends = model.forces.iter().any(|force| force.reaction.is_some());
+        let redundant = plan.accepts_redundancy(model);
         let mut matrix = Augmented::on(plan);
         matrix.set_inertia(&compiled);
-        if model.allow_redundancy {
+        if redundant {
             matrix.set_damping(redundant_rows(model, &compiled));
         }
         Self {
@@ -90,9 +99,8 @@ impl<S: Real> Workspace<S> {
             z: vec![S::zero(); model.layout.n_z],
             roles,
             matrix,
-            modified: compiled.adds_mass
-                || model.allow_redundancy
-                || model.forces.iter().any(|force| force.reaction.is_some()),
+            modified: compiled.adds_mass || redundant || depends,
+            depends,
             reactive,
             compiled,
             solution: vec![S::zero(); n_unknowns + m],
@@ -101,6 +109,11 @@ impl<S: Real> Workspace<S> {
             n_q: model.layout.n_q,
             n_unknowns,
         }
+    }
+
+    /// Whether one elimination solves the equations without damped rows.
+    pub(super) fn set_direct(&mut self) {
+        self.modified = self.compiled.adds_mass || self.depends;
     }
 
     /// Sets a constant `term`, shape (n_rows), that is subtracted from γ at every state.

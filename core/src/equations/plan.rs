@@ -30,6 +30,16 @@ impl Plan {
         Self::with(model, !model.allow_redundancy)
     }
 
+    /// The same of a model whose constraints are not redundant, whether or not redundant ones are accepted.
+    pub fn without_redundancy<S: Real>(model: &Model<S>) -> Self {
+        Self::with(model, true)
+    }
+
+    /// Whether redundant constraints are accepted.
+    pub(super) fn accepts_redundancy<S: Real>(&self, model: &Model<S>) -> bool {
+        model.allow_redundancy && !self.condenses
+    }
+
     /// Eliminates bodies first, then the constraints by minimum degree: every pivot is safe while Φ_q has full rank.
     pub fn free<S: Real>(model: &Model<S>) -> Self {
         Self::with(model, false)

@@ -38,7 +38,7 @@ pub fn solve<S: Real>(
     x: &mut [S],
 ) -> Result<(), Breakdown> {
     let b = x.to_vec();
-    let damped = matrix.regularised() || model.allow_redundancy;
+    let damped = matrix.regularised() || matrix.damps();
     matrix.solve(x);
     if !compiled.adds_mass {
         for _ in 0..FOR_REDUNDANCY {

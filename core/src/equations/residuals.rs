@@ -14,6 +14,8 @@ pub struct Residuals<S = f64> {
     pub rows: [Vec<S>; 2],
     /// 1 / scale of each row: lengths over the size of the mechanism, 1/m.
     pub per_scale: Vec<f64>,
+    /// The row with the largest Φ of those that are left out, and this number scaled; NaN is kept.
+    pub omitted: (usize, f64),
     compiled: Compiled<S>,
 }
 
@@ -23,17 +25,32 @@ impl<S: Real> Residuals<S> {
         Self {
             rows: std::array::from_fn(|_| vec![S::zero(); model.layout.n_rows]),
             per_scale: row_scales(model).into_iter().map(|scale| 1.0 / scale).collect(),
+            omitted: (0, 0.0),
             compiled: Compiled::new(model),
         }
     }
 
-    /// Fills the [`rows`](Self::rows) at a state. Returns the largest of Φ and of Φ̇, scaled, over all lanes, or NaN if
-    /// one is NaN.
-    pub fn look(&mut self, model: &Model<S>, motions: &Motions<S>, t: S) -> [f64; 2] {
+    /// Fills the [`rows`](Self::rows) at a state, those that are left out with zeros. Returns the largest of Φ and of Φ̇,
+    /// scaled, over all lanes, or NaN if one is NaN.
+    pub fn look(
+        &mut self,
+        model: &Model<S>,
+        motions: &Motions<S>,
+        t: S,
+        omitted: &[usize],
+    ) -> [f64; 2] {
         let mut look = Look { model, motions, t, rows: &mut self.rows };
         self.compiled.joints.visit(&mut look);
         for &k in &self.compiled.joints_with_laws {
             look.one(k);
+        }
+        self.omitted = (0, 0.0);
+        for &row in omitted {
+            let gap = self.rows[0][row].largest_magnitude() * self.per_scale[row];
+            if gap > self.omitted.1 || gap.is_nan() {
+                self.omitted = (row, gap);
+            }
+            self.rows.iter_mut().for_each(|rows| rows[row] = S::zero());
         }
         let mut largest = [Largest::new(), Largest::new()];
         for (rows, largest) in self.rows.iter().zip(&mut largest) {

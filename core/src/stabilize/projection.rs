@@ -146,7 +146,7 @@ impl<'a, S: Real> Projector<'a, S> {
     ) -> Result<bool, Breakdown> {
         (self.known, self.lowering) = (Known::Nothing, 1.0);
         match self.is_good(workspace, t, (&*q, &*v)) {
-            true => Ok(false),
+            true => self.omitted_hold(workspace, t, (&*q, &*v)).map(|()| false),
             false => self.bring(workspace, t, (q, v), factored),
         }
     }
@@ -187,6 +187,7 @@ impl<'a, S: Real> Projector<'a, S> {
         for level in [Level::Position, Level::Velocity] {
             changed |= self.meet(level, workspace, t, (&mut *q, &mut *v), &mut factored)?;
         }
+        self.omitted_hold(workspace, t, (&*q, &*v))?;
         self.move_bodies(&mut workspace.motions, (q, v));
         Ok(changed)
     }
@@ -243,6 +244,25 @@ impl<'a, S: Real> Projector<'a, S> {
         Err(self.open(level))
     }
 
+    /// Checks that the rows that are left out hold: otherwise the state is on another branch, on which they are not
+    /// redundant.
+    fn omitted_hold(
+        &mut self,
+        workspace: &mut Workspace<S>,
+        t: S,
+        place: (&[S], &[S]),
+    ) -> Result<(), Breakdown> {
+        if workspace.matrix.omitted().is_empty() {
+            return Ok(());
+        }
+        self.look(workspace, t, place);
+        let (row, gap) = self.residuals.omitted;
+        match gap <= CLOSED.max(self.tolerance) {
+            true => Ok(()),
+            false => Err(Breakdown::Open { row, gap: gap / self.residuals.per_scale[row] }),
+        }
+    }
+
     /// The row with the largest residual at the last evaluation.
     fn open(&self, level: Level) -> Breakdown {
         let mut worst = (0, 0.0, 0.0);
@@ -289,7 +309,8 @@ impl<'a, S: Real> Projector<'a, S> {
             return;
         }
         self.move_bodies(&mut workspace.motions, place);
-        self.gaps = self.residuals.look(self.model, &workspace.motions, t);
+        let omitted = workspace.matrix.omitted();
+        self.gaps = self.residuals.look(self.model, &workspace.motions, t, omitted);
         self.known = Known::All;
     }
 

@@ -7,6 +7,7 @@
 use super::failure::Failure;
 use super::lane_batch::are_finite;
 use super::model_cache::ModelCache;
+use super::redundant_rows::{exchange, workspace_at};
 use super::run_results::Run;
 use super::trajectory::States;
 use crate::equations::augmented::NearSingular;
@@ -50,7 +51,13 @@ pub(super) fn accelerations(
     let (n, n_z, count) = (model.layout.n_q, model.layout.n_z, t.len());
     let lengths = [n, n, n_z].map(|width| width * count);
     assert_eq!([q.len(), v.len(), z.len()], lengths, "a row for each time");
-    let mut one = Workspace::on(model, cache.plan(model));
+    let Some(&from) = t.first() else { return Ok(Accelerations::default()) };
+    let start = [&q[..n], &v[..n], &z[..n_z]];
+    let mut one = workspace_at((model, cache), from, start);
+    if !passing && !one.matrix.omitted().is_empty() {
+        // damped rows have a solution at singular positions too
+        one = Workspace::on(model, cache.plan(model, true));
+    }
     if passing {
         one.matrix.set_near_singular(NearSingular::Regularise);
     }
@@ -65,6 +72,9 @@ pub(super) fn accelerations(
         let four = States { t: &t[first..end], q: &q[rows.clone()], v: &v[rows], z: &z[states] };
         if !many.as_mut().is_some_and(|many| many.solve(four, &mut found)) {
             one_by_one(model, &mut one, four, &mut found)?;
+            if let Some(many) = &mut many {
+                many.follow(&one);
+            }
         }
     }
     Ok(found)
@@ -87,6 +97,7 @@ fn one_by_one(
     for (k, &t) in t.iter().enumerate() {
         let row = k * n..(k + 1) * n;
         let (q, v, z) = (&q[row.clone()], &v[row], &z[k * n_z..(k + 1) * n_z]);
+        exchange(model, workspace, t, [q, v, z]);
         workspace
             .react(model, t, [q, v, z])
             .and_then(|()| match [workspace.a(), workspace.lam()].into_iter().all(all_finite) {
@@ -94,6 +105,7 @@ fn one_by_one(
                 false => Err(Breakdown::NotFinite),
             })
             .map_err(|breakdown| Failure::at_state(model, t, q, breakdown))?;
+        workspace.least_multipliers(model);
         found.a.extend_from_slice(workspace.a());
         found.lam.extend_from_slice(workspace.lam());
     }
@@ -119,6 +131,13 @@ impl<'a> Many<'a> {
         Self { model, workspace, q: room(n_q), v: room(n_q), z: room(n_z) }
     }
 
+    /// Leaves out the same rows as `one`.
+    fn follow(&mut self, one: &Workspace) {
+        if self.workspace.matrix.omitted() != one.matrix.omitted() {
+            self.workspace.omit(one.matrix.omitted());
+        }
+    }
+
     /// Solves four states, if there are four and every one is regular.
     fn solve(&mut self, rows: States<'_>, found: &mut Accelerations) -> bool {
         let Ok(t) = rows.t.try_into() else { return false };
@@ -127,6 +146,7 @@ impl<'a> Many<'a> {
         Lanes::from_rows(rows.z, &mut self.z);
         let Self { model, workspace, q, v, z } = self;
         let solved = workspace.react(model, Lanes::new(t), [q, v, z]);
+        workspace.least_multipliers(model);
         let (a, lam) = (workspace.a(), workspace.lam());
         if solved.is_err() || !are_finite([a, lam]) {
             return false;

@@ -21,7 +21,7 @@ impl<'a> ImplicitMotion<'a> {
         span: (f64, f64),
         y: &[f64],
     ) -> Result<Self, Cause<Breakdown>> {
-        let dae = Box::new(MotionDae::new(ode.model, options));
+        let dae = Box::new(MotionDae::new(ode.model, options, &ode.workspace));
         Ok(Self { stepper: method.start(&*dae, span, y)?, dae })
     }
 
@@ -38,7 +38,7 @@ impl<'a> ImplicitMotion<'a> {
 
 impl<'a> Stepper<MotionOde<'a>, Breakdown> for ImplicitMotion<'a> {
     fn step(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
-        self.dae.hold(&ode.workspace.motions.pieces);
+        self.dae.hold(&ode.workspace);
         self.stepper.step(&mut self.dae)
     }
 

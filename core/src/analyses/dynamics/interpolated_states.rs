@@ -4,11 +4,11 @@
 use super::failure::Failure;
 use super::model_cache::ModelCache;
 use super::options::Options;
+use super::redundant_rows::workspace_at;
 use super::report_projection::ReportProjection;
 use super::stabilizations::Stabilization;
 use super::trajectory::States;
 use crate::equations::augmented::NearSingular;
-use crate::equations::Workspace;
 use crate::model::Model;
 use crate::stabilize::Projection;
 
@@ -22,10 +22,9 @@ pub(super) fn project(
     let (n, n_z) = (model.layout.n_q, model.layout.n_z);
     let lengths = [n, n, n_z].map(|width| width * t.len());
     assert_eq!([q.len(), v.len(), z.len()], lengths, "a row for each time");
-    let mut workspace = Workspace::on(model, cache.plan(model));
-    if !model.allow_redundancy {
-        workspace.matrix.set_near_singular(NearSingular::Regularise);
-    }
+    let Some(&first) = t.first() else { return Ok([Vec::new(), Vec::new()]) };
+    let mut workspace = workspace_at((model, cache), first, [&q[..n], &v[..n], &z[..n_z]]);
+    workspace.matrix.set_near_singular(NearSingular::Regularise);
     let stabilization = Stabilization::Projection(projection);
     let options = Options { stabilization, ..Options::new(0.0) };
     let mut placer = ReportProjection::new(model, &options, workspace);
@@ -37,6 +36,8 @@ pub(super) fn project(
         to_q.copy_from_slice(&q[row.clone()]);
         to_v.copy_from_slice(&v[row.clone()]);
         to_z.copy_from_slice(&z[k * n_z..(k + 1) * n_z]);
+        let [of_q, of_v, of_z, _] = model.layout.split(&y);
+        placer.exchange_rows(t, [of_q, of_v, of_z]);
         let placed = placer.place_on_branch(t, &mut y);
         placed.map_err(|breakdown| Failure::at_state(model, t, &q[row.clone()], breakdown))?;
         let [of_q, of_v, ..] = model.layout.split(&y);

@@ -149,6 +149,7 @@ impl<'a> MethodSwitching<'a> {
         }
         let Some(step) = stepper.last_step() else { return };
         self.step = Some((step.t - step.t_old).abs());
+        self.detector.follow(&ode.workspace);
         let predicted = self.detector.predicted.is_some();
         if !self.detector.stiff(&step, self.options.t_end) {
             return;

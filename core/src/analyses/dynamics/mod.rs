@@ -54,6 +54,7 @@ mod option_checks;
 mod options;
 mod prepared;
 mod recorder;
+mod redundant_rows;
 mod report_projection;
 mod run;
 mod run_results;

@@ -9,14 +9,19 @@ use std::sync::{Arc, OnceLock};
 #[derive(Debug, Default)]
 pub(super) struct ModelCache {
     plan: OnceLock<Arc<Plan>>,
+    /// That for redundant constraints.
+    redundant: OnceLock<Arc<Plan>>,
     /// In a box: it has the alignment of vector registers, which allocators of other languages do not provide.
     wide: OnceLock<Box<Model<Lanes>>>,
 }
 
 impl ModelCache {
-    /// The plan of elimination of the equations of motion.
-    pub fn plan(&self, model: &Model) -> Arc<Plan> {
-        Arc::clone(self.plan.get_or_init(|| Arc::new(Plan::of_motion(model))))
+    /// The plan of elimination of the equations of motion, with or without redundant constraints.
+    pub fn plan(&self, model: &Model, redundant: bool) -> Arc<Plan> {
+        Arc::clone(match redundant {
+            true => self.redundant.get_or_init(|| Arc::new(Plan::free(model))),
+            false => self.plan.get_or_init(|| Arc::new(Plan::without_redundancy(model))),
+        })
     }
 
     /// The model over lanes.

@@ -33,16 +33,18 @@ pub(super) struct MotionDae<'a> {
 }
 
 impl<'a> MotionDae<'a> {
-    pub fn new(model: &'a Model, options: &Options) -> Self {
+    /// Uses the plan of elimination of `one`, and leaves out the same rows.
+    pub fn new(model: &'a Model, options: &Options, one: &Workspace) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
         let tangent = Tangent::new(model);
-        let places = Places::new(model, &tangent);
+        let mut places = Places::new(model, &tangent);
+        places.omit(one.matrix.omitted());
         Self {
             model,
-            workspace: Workspace::new(model),
+            workspace: Workspace::like(model, one),
             projector,
             balance: Balance::new(model),
             real: BlockLu::new(&places.plan),
@@ -54,8 +56,13 @@ impl<'a> MotionDae<'a> {
         }
     }
 
-    /// Holds the pieces of switches.
-    pub fn hold(&mut self, pieces: &[f64]) {
+    /// Holds the pieces of switches, and leaves out the same rows as `one`.
+    pub fn hold(&mut self, one: &Workspace) {
+        if self.workspace.matrix.omitted() != one.matrix.omitted() {
+            self.workspace.omit(one.matrix.omitted());
+            self.places.omit(one.matrix.omitted());
+        }
+        let pieces = &one.motions.pieces;
         for motions in [&mut self.workspace.motions, &mut self.balance.motions] {
             motions.pieces.clear();
             motions.pieces.extend_from_slice(pieces);

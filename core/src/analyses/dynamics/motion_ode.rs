@@ -1,17 +1,17 @@
 //! The equations of motion as a first-order system y = (q, v, z, works).
 
 use super::options::Options;
+use super::redundant_rows;
 use super::sampling::Sample;
 use super::singularity_passage::{would_pass, SingularityPassage};
 use super::stabilizations::Stabilization;
 use crate::analyses::mobility;
 use crate::equations::augmented::NearSingular;
-use crate::equations::{Gains, Plan, Workspace};
+use crate::equations::{Gains, Workspace};
 use crate::integrate::{all_finite, Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 use crate::model::Model;
 use crate::solve::Breakdown;
 use crate::stabilize::{Projection, Projector, StepwiseBaumgarte};
-use std::sync::Arc;
 
 /// The right side of forward dynamics.
 pub(super) struct MotionOde<'a> {
@@ -27,15 +27,14 @@ pub(super) struct MotionOde<'a> {
 }
 
 impl<'a> MotionOde<'a> {
-    /// Uses the plan of elimination of the model.
-    pub fn new(model: &'a Model, options: &Options, plan: Arc<Plan>) -> Self {
+    /// Uses a workspace of the model, whose plan of elimination is shared by runs.
+    pub fn new(model: &'a Model, options: &Options, mut workspace: Workspace) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
-        let mut workspace = Workspace::on(model, plan);
         // only projection returns a state to its branch
-        let passing = projector.is_some() && !model.allow_redundancy;
+        let passing = projector.is_some();
         if passing {
             workspace.matrix.set_near_singular(NearSingular::Regularise);
         }
@@ -65,6 +64,7 @@ impl<'a> MotionOde<'a> {
         velocities: bool,
         samples: bool,
     ) -> Result<(), Breakdown> {
+        self.exchange_rows(t, y);
         if velocities && self.projector.is_none() {
             let mut projector = Projector::new(self.model, Projection::default());
             let [q, v, ..] = self.model.layout.split_mut(y);
@@ -87,10 +87,25 @@ impl<'a> MotionOde<'a> {
         self.passage.begin(t, &self.workspace);
         let near = self.workspace.matrix.regularised();
         match self.workspace.matrix.cancellation().filter(|_| near) {
-            Some((row, _)) if !mobility(self.model, t, q).redundant.is_empty() => {
-                Err(Breakdown::Row(row))
-            }
+            Some((row, _)) if self.is_redundant(t, q) => Err(Breakdown::Row(row)),
             _ => Ok(()),
+        }
+    }
+
+    /// Whether constraints are redundant that must not be.
+    fn is_redundant(&self, t: f64, q: &[f64]) -> bool {
+        !self.model.allow_redundancy && !mobility(self.model, t, q).redundant.is_empty()
+    }
+
+    /// Leaves out other redundant rows if the state at the end of a step needs it.
+    pub fn exchange_rows(&mut self, t: f64, y: &[f64]) {
+        let [q, v, z, _] = self.model.layout.split(y);
+        if redundant_rows::exchange(self.model, &mut self.workspace, t, [q, v, z]) {
+            // samples of other rows are no forecast
+            let solved = self.workspace.accelerate(self.model, t, [q, v, z], self.gains);
+            if solved.is_ok() {
+                self.passage.begin(t, &self.workspace);
+            }
         }
     }
 
@@ -148,6 +163,9 @@ impl<'a> MotionOde<'a> {
     /// energy balance shows the change of energy by projection.
     fn project_state(&mut self, t: f64, y: &mut [f64], factored: bool) -> Result<bool, Breakdown> {
         let Some(projector) = &mut self.projector else { return Ok(false) };
+        // rows that are left out may differ from the others by rounding, which must not change with the choice of rows
+        let redundant = !self.workspace.matrix.omitted().is_empty();
+        projector.sharpen(redundant || self.passage.in_reach());
         let [q, v, ..] = self.model.layout.split_mut(y);
         projector.project(&mut self.workspace, t, (q, v), factored)
     }
@@ -197,9 +215,6 @@ impl Manifold for MotionOde<'_> {
 
     /// Uses the factor of the last evaluation, which was near the end of the step.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop> {
-        if let Some(projector) = &mut self.projector {
-            projector.sharpen(self.passage.in_reach());
-        }
         self.project_state(t, y, true)
     }
 
@@ -212,7 +227,7 @@ impl Manifold for MotionOde<'_> {
     /// freedom has no tangential error; its whole error counts.
     fn project_error(&mut self, dy: &mut [f64]) -> bool {
         let layout = &self.model.layout;
-        let free = layout.n_rows < layout.n_q;
+        let free = layout.n_rows < layout.n_q + self.workspace.matrix.omitted().len();
         let (true, Some(projector)) = (self.passage.near && free, &mut self.projector) else {
             return false;
         };

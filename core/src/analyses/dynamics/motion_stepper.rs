@@ -184,7 +184,12 @@ impl<'a> MotionStepper<'a> {
 
     /// Takes the next accepted step of the method.
     fn advance(&mut self) -> Result<(), Cause<Breakdown>> {
-        self.kind.get_mut().step(&mut self.ode)
+        self.kind.get_mut().step(&mut self.ode)?;
+        if !self.ode.workspace.matrix.omitted().is_empty() {
+            let (t, y) = (self.t(), self.y().to_vec());
+            self.ode.exchange_rows(t, &y);
+        }
+        Ok(())
     }
 
     /// Computes the data that only the interpolant needs.

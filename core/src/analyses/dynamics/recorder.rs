@@ -8,6 +8,7 @@ use super::options::Options;
 use super::report_projection::ReportProjection;
 use super::sampling::Sample;
 use super::trajectory::{PiecewiseInterpolant, Trajectory};
+use crate::equations::Workspace;
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
 use crate::model::Model;
@@ -121,6 +122,20 @@ impl<'a> Recorder<'a> {
     pub fn factorisations(&self) -> usize {
         let many = self.many.as_ref().map_or(0, |batch| batch.placer.factorisations());
         self.one.factorisations() + Lanes::WIDTH * many
+    }
+
+    /// Leaves out the rows that the equations of motion leave out; returns whether to go on.
+    pub fn follow(&mut self, workspace: &Workspace) -> Flow {
+        let omitted = workspace.matrix.omitted();
+        if self.one.omitted() == omitted {
+            return Flow::Continue;
+        }
+        let flow = self.flush();
+        self.one.omit(omitted);
+        if let Some(batch) = &mut self.many {
+            batch.placer.omit(omitted);
+        }
+        flow
     }
 
     /// Reports the start. The run stops here if the equations of motion have no solution at the start.

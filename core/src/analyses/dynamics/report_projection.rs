@@ -7,6 +7,7 @@
 use super::branch_averaging;
 use super::constraint_violation::ViolationCheck;
 use super::options::Options;
+use super::redundant_rows;
 use super::stabilizations::Stabilization;
 use crate::equations::{Gains, Workspace};
 use crate::integrate::all_finite;
@@ -35,6 +36,16 @@ impl<'a, S: Real> ReportProjection<'a, S> {
         let projector = projector.map(Projector::for_reports);
         let check = ViolationCheck::new(model, options);
         Self { model, workspace, projector, check, changed: false }
+    }
+
+    /// The rows that are left out.
+    pub fn omitted(&self) -> &[usize] {
+        self.workspace.matrix.omitted()
+    }
+
+    /// Leaves out these rows and no others.
+    pub fn omit(&mut self, rows: &[usize]) {
+        self.workspace.omit(rows);
     }
 
     /// The joint that is open too far at y, if there is one.
@@ -90,6 +101,11 @@ impl ReportProjection<'_> {
             true => Ok(()),
             false => Err(Breakdown::NotFinite),
         }
+    }
+
+    /// Leaves out other redundant rows if the state needs it.
+    pub fn exchange_rows(&mut self, t: f64, state: [&[f64]; 3]) {
+        redundant_rows::exchange(self.model, &mut self.workspace, t, state);
     }
 
     /// Whether the matrix of the last projection is that of a position at or near a singular one.

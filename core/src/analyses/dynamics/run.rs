@@ -8,6 +8,7 @@ use super::motion_ode::MotionOde;
 use super::motion_stepper::MotionStepper;
 use super::options::Options;
 use super::recorder::{self, Recorder};
+use super::redundant_rows::workspace_at;
 use super::run_results::Run;
 use super::stabilizations::Stabilization;
 use super::start_check::StartCheck;
@@ -145,7 +146,8 @@ pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
     let [q, v, z, _] = model.layout.split(&at.y);
     check.check(model, at.t, [q, v, z])?;
     let schedule = Schedule::new(model, (at.t, options.t_end))?;
-    let mut ode = MotionOde::new(model, options, cache.plan(model));
+    let workspace = workspace_at((model, cache), at.t, [q, v, z]);
+    let mut ode = MotionOde::new(model, options, workspace);
     run.phases.push(run.trajectory.t.len());
     run.passing = ode.passing;
     run.projection = match options.stabilization {
@@ -258,7 +260,10 @@ fn next_step<W: FnMut(f64) -> Flow>(
     // a step that is taken again has no sample
     recorder.sample = stepper.sample().cloned();
     let step = stepper.last_step().expect("a step was taken");
-    let mut flow = recorder.step(&step, watch);
+    let mut flow = recorder.follow(&stepper.ode.workspace);
+    if flow == Flow::Continue {
+        flow = recorder.step(&step, watch);
+    }
     for event in &happened {
         let y = recorder.state_in(&step, event.t);
         run.add_event(&model.layout, event.index, event.t, &y);

@@ -7,7 +7,9 @@
 //!   of its size in which the branches cannot be distinguished;
 //! * if its velocity is not tangent to any branch: Φ_q a = γ has no solution.
 
+use super::model_cache::ModelCache;
 use super::options::{Options, Singularity};
+use super::redundant_rows::workspace_at;
 use super::singularity_forecast::SingularityForecast;
 use crate::analyses::mobility;
 use crate::equations::augmented::NearSingular;
@@ -44,10 +46,10 @@ pub(super) struct SingularityPassage {
 
 /// Whether a run with projection passes the singular position at this state.
 pub(super) fn would_pass(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> bool {
-    if model.allow_redundancy || !mobility(model, t, q).redundant.is_empty() {
+    if !model.allow_redundancy && !mobility(model, t, q).redundant.is_empty() {
         return false;
     }
-    let mut work = Workspace::new(model);
+    let mut work = workspace_at((model, &ModelCache::default()), t, [q, v, z]);
     work.matrix.set_near_singular(NearSingular::Regularise);
     let solved = work.accelerate(model, t, [q, v, z], Gains::default());
     let mut passage = SingularityPassage::new(&Options::new(t), true);

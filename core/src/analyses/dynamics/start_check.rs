@@ -7,13 +7,15 @@
 use super::constraint_violation::{ADRIFT, APART};
 use super::failure::{Failure, Reason};
 use super::massless;
+use super::model_cache::ModelCache;
 use super::options::Options;
+use super::redundant_rows::workspace_at;
 use super::stabilizations::Stabilization;
 use crate::analyses::required::{self, Unmet};
 use crate::elements::Group;
 use crate::equations::augmented::NearSingular;
 use crate::equations::kinematics::Motions;
-use crate::equations::{constraints, Gains, Workspace};
+use crate::equations::{constraints, Gains};
 use crate::model::{column_scales, row_scales, Model};
 
 /// Largest opening of a joint: lengths relative to the size of the mechanism, angles in rad.
@@ -157,10 +159,7 @@ fn largest(model: &Model, x: &[f64]) -> f64 {
 }
 
 fn is_near_singular(model: &Model, t: f64, state: [&[f64]; 3]) -> bool {
-    if model.allow_redundancy {
-        return false;
-    }
-    let mut workspace = Workspace::new(model);
+    let mut workspace = workspace_at((model, &ModelCache::default()), t, state);
     workspace.matrix.set_near_singular(NearSingular::Regularise);
     let solved = workspace.accelerate(model, t, state, Gains::default());
     solved.is_ok() && workspace.matrix.regularised()

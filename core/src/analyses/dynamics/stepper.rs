@@ -6,6 +6,7 @@ use super::motion_ode::MotionOde;
 use super::motion_stepper::MotionStepper;
 use super::option_checks::check_lengths;
 use super::options::Options;
+use super::redundant_rows::workspace_at;
 use super::stabilizations::Stabilization;
 use super::start_check::StartCheck;
 use super::switch_schedule::Schedule;
@@ -47,7 +48,9 @@ impl<'a> Stepper<'a> {
         let t = options.t_start.unwrap_or(start.t);
         StartCheck::of_run(options).check(model, t, [&start.q, &start.v, &start.z])?;
         let schedule = Schedule::new(model, (t, options.t_end))?;
-        let mut ode = MotionOde::new(model, options, ModelCache::default().plan(model));
+        let state = [&start.q[..], &start.v, &start.z];
+        let workspace = workspace_at((model, &ModelCache::default()), t, state);
+        let mut ode = MotionOde::new(model, options, workspace);
         let mut y = [&start.q[..], &start.v, &start.z].concat();
         y.resize(model.layout.n_y(), 0.0);
         let outcome = ode.begin_phase(t, &mut y, false, true);

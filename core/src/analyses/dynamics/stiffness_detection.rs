@@ -90,6 +90,13 @@ impl<'a> StiffnessDetector<'a> {
         }
     }
 
+    /// Leaves out the same rows as `one`.
+    pub fn follow(&mut self, one: &Workspace) {
+        if self.workspace.matrix.omitted() != one.matrix.omitted() {
+            self.workspace.omit(one.matrix.omitted());
+        }
+    }
+
     /// Whether the explicit method should stop after this step.
     pub fn stiff(&mut self, step: &Step<'_>, t_end: f64) -> bool {
         self.steps += 1;

@@ -1,0 +1,47 @@
+//! Redundant equations of a run: which are left out, so that the motion is that of independent ones
+//! (`equations/independent.rs`).
+
+use super::model_cache::ModelCache;
+use crate::analyses::mobility;
+use crate::equations::augmented::NearSingular;
+use crate::equations::{Gains, Workspace};
+use crate::model::Model;
+
+/// The rows that repeat others at and near a position; none where redundant constraints are refused.
+pub(super) fn redundant_rows(model: &Model, t: f64, q: &[f64]) -> Vec<usize> {
+    match model.allow_redundancy {
+        true => mobility(model, t, q).redundant_equations.iter().map(|one| one.row).collect(),
+        false => Vec::new(),
+    }
+}
+
+/// A workspace for states near this one: without redundant rows, it is that of the model without the option.
+pub(super) fn workspace_at(
+    (model, cache): (&Model, &ModelCache),
+    t: f64,
+    state: [&[f64]; 3],
+) -> Workspace {
+    let rows = redundant_rows(model, t, state[0]);
+    let mut workspace = Workspace::on(model, cache.plan(model, !rows.is_empty()));
+    if !rows.is_empty() {
+        workspace.omit(&rows);
+        let mut regular = workspace.clone();
+        regular.matrix.set_near_singular(NearSingular::Regularise);
+        if exchange(model, &mut regular, t, state) {
+            workspace.omit(regular.matrix.omitted());
+        }
+    }
+    workspace
+}
+
+/// Leaves out other redundant rows if this state needs it; returns whether they changed.
+pub(super) fn exchange(
+    model: &Model,
+    workspace: &mut Workspace,
+    t: f64,
+    state: [&[f64]; 3],
+) -> bool {
+    !workspace.matrix.omitted().is_empty()
+        && workspace.accelerate(model, t, state, Gains::default()).is_ok()
+        && workspace.exchange_rows(model)
+}

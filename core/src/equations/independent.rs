@@ -1,0 +1,114 @@
+//! Equations of motion on independent rows of Φ, where constraints are redundant.
+//!
+//! With r redundant equations, Yᵀ Φ_q = 0 for r vectors y at every position. r rows are left out, and the others are those
+//! of a mechanism without redundancy: a small pivot is that of a singular position. Each y is that of one omitted row o:
+//! y_o = 1, and 0 for the other omitted rows. The remaining parts follow from the factors,
+//!
+//! ```text
+//! [ M   Φ_qᵀ ] [ 0 ]   [ -Φ_q,oᵀ ]
+//! [ Φ_q  0   ] [ y ] = [    0    ]
+//! ```
+//!
+//! without the omitted rows. Where y_o vanishes relative to another y_k, the rows without o become dependent though all
+//! together do not. So o is exchanged for k before that: rows are exchanged while some |y_k| > 2, which doubles the
+//! volume of the chosen part of Y each time and ends (S. A. Goreinov, I. V. Oseledets, D. V. Savostyanov, E. E.
+//! Tyrtyshnikov, N. L. Zamarashkin, *How to find a good submatrix*, World Scientific, 2010).
+
+use super::motion::Workspace;
+use crate::math::Real;
+use crate::model::{row_scales, Model};
+
+/// Largest part of a row in the dependence of an omitted one.
+const LARGEST: f64 = 2.0;
+
+impl<S: Real> Workspace<S> {
+    /// Leaves out these rows of Φ and no others. The others are then judged as those of a model without redundancy.
+    ///
+    /// # Panics
+    /// If the plan of elimination is [that without redundancy](super::Plan::without_redundancy).
+    pub fn omit(&mut self, rows: &[usize]) {
+        self.matrix.omit(rows);
+        self.set_direct();
+    }
+
+    /// Changes the multipliers of the last evaluation to the smallest that balance the same loads, if rows are left out.
+    pub fn least_multipliers(&mut self, model: &Model<S>) {
+        let mut basis: Vec<Vec<S>> = Vec::new();
+        for mut y in self.dependences(model) {
+            for one in &basis {
+                subtract_part(&mut y, one);
+            }
+            let length = product(&y, &y).sqrt();
+            y.iter_mut().for_each(|y| *y = *y / length);
+            basis.push(y);
+        }
+        let at = self.n_unknowns;
+        basis.iter().for_each(|y| subtract_part(&mut self.solution[at..], y));
+    }
+
+    /// For each omitted row the y with Σ y_k Φ_q,k = 0, with the factors of the last evaluation.
+    fn dependences(&self, model: &Model<S>) -> Vec<Vec<S>> {
+        let (n, layout) = (self.n_q, &model.layout);
+        let of_row = |&row: &usize| {
+            let mut x = vec![S::zero(); n + layout.n_rows];
+            for (_, column, at) in layout.positions().filter(|(of, ..)| *of == row) {
+                x[column] -= self.matrix.jacobian()[at];
+            }
+            self.matrix.solve(&mut x);
+            let mut y = x.split_off(n);
+            self.matrix.omitted().iter().for_each(|other| y[*other] = S::zero());
+            y[row] = S::one();
+            y
+        };
+        self.matrix.omitted().iter().map(of_row).collect()
+    }
+}
+
+impl Workspace {
+    /// Exchanges omitted rows that others depend on too much, with the factors of the last evaluation; returns whether
+    /// there were any. The factors are then those of the rows before.
+    pub fn exchange_rows(&mut self, model: &Model) -> bool {
+        let mut omitted = self.matrix.omitted().to_vec();
+        let mut parts = self.dependences(model);
+        let scales = row_scales(model);
+        for (y, row) in parts.iter_mut().zip(&omitted) {
+            y.iter_mut().zip(&scales).for_each(|(y, scale)| *y *= scale / scales[*row]);
+        }
+        let mut exchanged = false;
+        while let Some((k, row)) = largest(&parts) {
+            let pivot = parts[k][row];
+            parts[k].iter_mut().for_each(|y| *y /= pivot);
+            let chosen = parts[k].clone();
+            for other in (0..parts.len()).filter(|other| *other != k) {
+                let part = parts[other][row];
+                parts[other].iter_mut().zip(&chosen).for_each(|(y, c)| *y -= part * c);
+            }
+            omitted[k] = row;
+            exchanged = true;
+        }
+        if exchanged {
+            omitted.sort_unstable();
+            self.omit(&omitted);
+        }
+        exchanged
+    }
+}
+
+/// The largest part above the limit: its dependence and its row.
+fn largest(parts: &[Vec<f64>]) -> Option<(usize, usize)> {
+    let all = parts.iter().enumerate().flat_map(|(k, y)| y.iter().enumerate().map(move |y| (k, y)));
+    let over = all.map(|(k, (row, y))| (k, row, y.abs())).filter(|(.., y)| *y > LARGEST);
+    over.filter(|(.., y)| y.is_finite())
+        .max_by(|a, b| a.2.total_cmp(&b.2))
+        .map(|(k, row, _)| (k, row))
+}
+
+fn product<S: Real>(a: &[S], b: &[S]) -> S {
+    a.iter().zip(b).fold(S::zero(), |sum, (a, b)| sum + *a * *b)
+}
+
+/// Subtracts the part of x along a unit vector.
+fn subtract_part<S: Real>(x: &mut [S], unit: &[S]) {
+    let part = product(x, unit);
+    x.iter_mut().zip(unit).for_each(|(x, unit)| *x -= part * *unit);
+}
