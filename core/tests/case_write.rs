@@ -105,14 +105,9 @@ impl Dice {
 
     fn value(&mut self, shape: Shape, used: &mut usize) -> Value {
         match shape {
-            Shape::Curves => {
-                let circle = |own: &mut Self| {
-                    let numbers = vec![own.formula(), own.formula(), own.formula()];
-                    Value::Table(vec![("circle".to_string(), Value::List(numbers))])
-                };
-                Value::Table((0..self.roll(3)).map(|_| (self.name(used), circle(self))).collect())
+            Shape::Curves | Shape::Shapes | Shape::Outline | Shape::Corners => {
+                self.of_body(shape, used)
             }
-            Shape::Shapes | Shape::Outline | Shape::Corners => self.of_body(shape, used),
             Shape::Body | Shape::Point | Shape::Curve | Shape::Coordinate | Shape::Name => {
                 Value::Text(self.text())
             }
@@ -168,6 +163,13 @@ impl Dice {
     /// Values that only bodies have.
     fn of_body(&mut self, shape: Shape, used: &mut usize) -> Value {
         match shape {
+            Shape::Curves => {
+                let circle = |own: &mut Self| {
+                    let numbers = vec![own.formula(), own.formula(), own.formula()];
+                    Value::Table(vec![("circle".to_string(), Value::List(numbers))])
+                };
+                Value::Table((0..self.roll(3)).map(|_| (self.name(used), circle(self))).collect())
+            }
             Shape::Shapes => {
                 let tables = kempe::model::shape_tables();
                 let mut shape = |own: &mut Self| {

@@ -93,8 +93,7 @@ impl<S: Real> Model<S> {
         }
         let forces = forces(blueprint, value, &mut switches);
         curve_switches(&mut constraints, &mut switches);
-        let bodies: Vec<Body<S>> =
-            blueprint.bodies.iter().map(|b| b.map(value).weighed()).collect();
+        let bodies: Vec<_> = blueprint.bodies.iter().map(|b| b.map(value).weighed()).collect();
         let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
         let unknowns = bodies[1..].iter().map(|body| if body.turns { 3 } else { 2 });
         let states = forces.iter().map(|item| {

@@ -103,10 +103,9 @@ impl<'a> Reader<'a> {
         match [self.get("mass"), self.get("density"), self.get(other)].map(|v| v.is_some()) {
             [true, true, _] => self.report("density", "given beside mass; remove mass or density"),
             [true, false, true] => {
-                let message = format!(
-                    "has no effect beside mass; remove it, or give density instead of mass"
-                );
-                self.report(other, &message)
+                let message =
+                    "has no effect beside mass; remove it, or give density instead of mass";
+                self.report(other, message)
             }
             [true, false, false] => Some(Matter::Mass(self.length("mass", "kg")?)),
             [false, true, false] => {
