@@ -183,7 +183,6 @@ class AssemblyReport:
         last = f", residual {self.iterations[-1].residual:.1e}" if self.iterations else ""
         count = len(self.iterations)
         lines = [f"{count} iteration{'' if count == 1 else 's'}{last}"]
-        lines += filter(None, [str(self.unset)])
         shown = self.modes[:MOST_MODES]
         lines += [f"{' and '.join(m.bodies)}: {m.joint} lies {_place(m)}" for m in shown]
         if len(self.modes) > MOST_MODES:
@@ -192,6 +191,7 @@ class AssemblyReport:
             lines.append(f"other assemblies exist: {self.alternatives}")
         elif self.alternatives:
             lines.append(f"other assemblies exist: up to 2^{len(self.modes)} - 1")
+        lines += filter(None, [str(self.unset)])
         return "\n".join([*lines, *(f"warning: {text}" for text in self.warnings)])
 
 

@@ -47,6 +47,7 @@ def test_a_ladder_assembles_unfolded_and_the_report_says_so(squares: int) -> Non
     assert report.alternatives == 2**squares - 1
     assert not report.warnings
     lines = str(report).splitlines()
+    assert lines.pop().startswith("not set: ")
     assert re.search("right of P1 → L0, unfolded|left of L0 → P1, unfolded", lines[1])
     if squares > 20:
         assert lines[-2] == f"and {squares - 20} more, none of them folded"

@@ -133,7 +133,7 @@ def test_many_freedoms_are_counted() -> None:
     assert told == "not set: 59 degrees of freedom, 60 rates"
 
 
-@pytest.mark.parametrize("value", [70, "70", 70.0, -60, "-22.5", 7, 360])
+@pytest.mark.parametrize("value", [70, "70", 70.0, -60, "-22.5", 10, 360])
 def test_angles_that_look_like_degrees(value: float | str) -> None:
     with pytest.warns(kp.AssemblyWarning, match="looks like degrees") as caught:
         start = kp.assemble(pendulums(1), set={"rod0.angle": value})
@@ -144,7 +144,7 @@ def test_angles_that_look_like_degrees(value: float | str) -> None:
 
 
 @pytest.mark.parametrize(
-    "value", [6.2, -6.28, "70 deg", "70*deg", "4*pi", 4 * np.pi, "20*2*pi", np.radians(400), 47.123]
+    "value", [6.2, -9.0, "70 deg", "70*deg", "4*pi", 4 * np.pi, "20*2*pi", np.radians(400), 47.123]
 )
 def test_angles_that_are_not_doubted(value: float | str) -> None:
     with warnings.catch_warnings():

@@ -1,10 +1,12 @@
 //! Angles that look like degrees.
 //!
-//! Angles without a unit are in rad. A plain number beyond a full turn with at most one decimal, such as 70 or 22.5, is
-//! more likely meant in degrees. A formula such as `4*pi` and a computed number such as 12.566370614359172 are not doubted.
+//! Angles without a unit are in rad. A plain number of 10 or more with at most one decimal, such as 70 or 22.5, is more
+//! likely meant in degrees. A formula such as `4*pi` and a computed number such as 12.566370614359172 are not doubted.
 
 use super::definition::Value;
-use std::f64::consts::TAU;
+
+/// Least magnitude of a number that is doubted, rad; a turn and a half are less.
+const LEAST: f64 = 10.0;
 
 /// An angle that looks like degrees.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +26,7 @@ impl Doubt {
             _ => return None,
         };
         let short = (10.0 * value - (10.0 * value).round()).abs() < 1e-12 * value.abs();
-        let doubted = unit == "rad" && value.is_finite() && value.abs() > TAU && short;
+        let doubted = unit == "rad" && value.is_finite() && value.abs() >= LEAST && short;
         doubted.then(|| Self { place: path.join("."), value })
     }
 }

@@ -124,7 +124,7 @@ pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Stop<'_>) -> Opt
     let one = here.iter().find(contradicts)?;
     let name = |k: &usize| model.constraints[*k].name.as_str();
     let names = listed(&one.group.iter().map(name).collect::<Vec<_>>());
-    // gaps add up to the missing length; where all fit, an angle is missed
+    // gaps add up to the missing length; where they are small, an angle is missed
     let miss = |k: &usize, unit: &str| {
         let first = model.layout.constraints[*k].rows.start;
         let own = model.constraints[*k].equations.iter().enumerate();
@@ -132,7 +132,7 @@ pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Stop<'_>) -> Opt
         own.map(|(row, _)| phi[first + row] * phi[first + row]).sum::<f64>().sqrt()
     };
     let total = |unit: &str| one.group.iter().map(|k| miss(k, unit)).sum::<f64>();
-    let unit = if total("m") > AGREE * size(model) { "m" } else { "rad" };
+    let unit = if total("m") >= total("rad") * size(model) { "m" } else { "rad" };
     let by = trimmed(total(unit), 3);
     let worst = one.group.iter().max_by(|a, b| miss(a, unit).total_cmp(&miss(b, unit)))?;
     let driven = one.group.iter().any(|k| model.constraints[*k].driven);

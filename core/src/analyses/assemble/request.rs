@@ -72,8 +72,10 @@ pub fn targets(
 
 /// The angles of `set` or `guess` that look like degrees, as written.
 pub fn doubts(model: &Model, written: &[(String, Value)]) -> Vec<Doubt> {
-    let doubted: Vec<Doubt> =
-        written.iter().filter_map(|(key, value)| Doubt::of(value, &[key.clone()], "rad")).collect();
+    let doubted: Vec<Doubt> = written
+        .iter()
+        .filter_map(|(key, value)| Doubt::of(value, std::slice::from_ref(key), "rad"))
+        .collect();
     if doubted.is_empty() {
         return doubted;
     }
