@@ -21,7 +21,9 @@ pub(super) fn undetermined(model: &Model, t: f64, column: usize) -> (String, Str
         true => without_inertia(model, t, id, &joints),
         false => {
             let coordinate = ["x", "y", "angle"][place];
-            let set = if place == 2 { "inertia" } else { "mass" };
+            // the inertia of a bar follows from its mass
+            let turns = place == 2 && model.bodies[id.0].kind == "body";
+            let set = if turns { "inertia" } else { "mass" };
             let leave = match joints.as_str() {
                 "" => "no joint holds it".to_string(),
                 joints => {
