@@ -98,7 +98,9 @@ impl Workspace {
 fn largest(parts: &[Vec<f64>]) -> Option<(usize, usize)> {
     let all = parts.iter().enumerate().flat_map(|(k, y)| y.iter().enumerate().map(move |y| (k, y)));
     let over = all.map(|(k, (row, y))| (k, row, y.abs())).filter(|(.., y)| *y > LARGEST);
-    over.filter(|(.., y)| y.is_finite()).max_by(|a, b| a.2.total_cmp(&b.2)).map(|(k, row, _)| (k, row))
+    over.filter(|(.., y)| y.is_finite())
+        .max_by(|a, b| a.2.total_cmp(&b.2))
+        .map(|(k, row, _)| (k, row))
 }
 
 fn product<S: Real>(a: &[S], b: &[S]) -> S {
