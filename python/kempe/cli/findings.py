@@ -84,11 +84,12 @@ def _show_singular(console: Console, passed: list[dict[str, Any]], at: str) -> N
     names = sorted({name for one in passed for name in one["joints"]})
     first, last = (_place(passed[k]["t"], at) for k in (0, -1))
     where = f"at {first}" if len(passed) == 1 else f"first at {first}, last at {last}"
-    console.print(Text(f"  {len(passed)} singular positions passed ({where}): {few(names)}"))
+    count = "1 singular position" if len(passed) == 1 else f"{len(passed)} singular positions"
+    console.print(Text(f"  {count} passed ({where}): {few(names)}"))
     text = (
-        f"accuracy lost beside them: errors of constraints times 1/sigma^2 = "
-        f"{figure(worst['amplification'])} in accelerations and reactions, about "
-        f"{figure(worst['error'])} at the output at {_place(worst['output'], at)}"
+        f"accelerations and reactions beside it: errors of constraints times 1/sigma^2 = "
+        f"{worst['amplification']:.2g}, about {worst['error']:.1g} at the output at "
+        f"{_place(worst['output'], at)}"
     )
     console.print(Text(f"  {text}"))
 

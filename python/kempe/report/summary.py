@@ -12,6 +12,7 @@ from kempe.arrays import Floats
 from kempe.extrema import unbounded
 from kempe.report.extremes import Sampled
 from kempe.report.settling import settling
+from kempe.report.singular import singular_positions
 from kempe.solution import Solution
 from kempe.values import instance
 
@@ -19,10 +20,6 @@ if TYPE_CHECKING:
     from kempe.motion import Motion
     from kempe.state import State
 
-#: The smallest σ that counts: beside a singular position factors have a ridge of its square.
-_LEAST_SIGMA = 1e-5
-#: Errors of constraints that projection leaves at least.
-_ROUNDING = 1e-15
 #: Angles below this are rounding errors, rad.
 _NO_ANGLE = 1e-9
 
@@ -58,7 +55,7 @@ def summary(solution: Solution) -> dict[str, Any]:
             "residual": residual(sampled),
             "residual_rate": max(_largest_rate(solution), _largest_rate(sampled.steps)),
         },
-        "singular": singular(solution),
+        "singular": singular_positions(solution),
         "energy": energy(sampled),
         "newton_euler": solution.newton_euler.largest,
         "measures": [measure(solution, name) for name in compiled.measures],
@@ -66,24 +63,6 @@ def summary(solution: Solution) -> dict[str, Any]:
         "settling": [settling_of(sampled, name) for name in compiled.bodies],
         "statistics": {k: v for k, v in solution.statistics.items() if k != "singular"},
     }
-
-
-def singular(solution: Solution) -> list[dict[str, Any]]:
-    """The singular positions that a run passed, with the accuracy that is lost beside them.
-
-    An error e of the constraints is an error of about e/σ² in accelerations and reactions, with
-    the smallest singular value σ of Phi_q relative to its rows. ``output`` is the output nearest to
-    the position, ``amplification`` is 1/σ² there, and ``error`` that of the residual.
-    """
-    found = []
-    for of in solution.statistics.get("singular", ()):
-        output = float(solution.t[np.abs(solution.t - of["t"]).argmin()])
-        sigma = max(of["slope"] * abs(output - of["t"]), _LEAST_SIGMA)
-        amplification = max(1.0, sigma**-2)
-        error = amplification * max(of["residual"], _ROUNDING)
-        row = {"t": of["t"], "joints": of["names"], "output": output}
-        found.append({**row, "amplification": amplification, "error": error})
-    return found
 
 
 def measure(solution: Solution, name: str) -> dict[str, Any]:
