@@ -89,6 +89,12 @@ def passes_singular(motion: Motion) -> bool:
     return found is not None and len(found.near) > 0
 
 
+def singular_times(solution: Solution) -> Floats:
+    """Times of positions beside which multipliers mean nothing, s; none without an interpolant."""
+    found = None if fine(solution) is solution else _singular(solution)
+    return np.empty(0) if found is None else np.sort(found.near_t)
+
+
 def _extreme(motion: Motion, quantity: Quantity, sign: float) -> Extreme:
     """The largest value of sign times the quantity."""
     output = _first(motion, sign * np.atleast_1d(quantity(motion)), sign)

@@ -1,7 +1,9 @@
 """Random sets of equal cranks on one rod, through their change points, against a pendulum.
 
+
 Two to five equal and parallel cranks carry a rod, which moves without turning. With the angle φ of
-the cranks, their masses m and length L, the mass M of the rod and a torsional spring k on the first:
+the cranks, their masses m and length L, the mass M of the rod and a torsional spring k on the
+first:
 
     (Σ m L²/3 + M L²) φ'' = -(Σ m L/2 + M L) g cos φ - k (φ - φ0)
 
@@ -22,7 +24,7 @@ from scipy.integrate import solve_ivp
 G = 9.81
 T_END = 4.0
 KINDS = ("free", "spring", "driver")
-#: A larger error of an angle, rad, is another motion; the largest that occurs is about 1e-7.
+#: A larger error of an angle, rad, is another motion; the largest that occurs is 3e-6.
 ASTRAY = 1e-5
 
 

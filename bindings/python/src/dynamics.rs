@@ -47,6 +47,7 @@ pub struct PyRun {
     message: String,
     statistics: core::Statistics,
     choice: Option<core::MethodChoice>,
+    passed: Vec<core::Passed>,
 }
 
 #[pymethods]
@@ -127,6 +128,10 @@ impl PyRun {
             statistics["method"] = json!(choice.method);
             statistics["why"] = json!(choice.why);
         }
+        if !self.passed.is_empty() {
+            let one = |p: &core::Passed| json!({"t": p.t, "names": p.names, "slope": p.slope, "residual": p.residual});
+            statistics["singular"] = self.passed.iter().map(one).collect();
+        }
         statistics.to_string()
     }
 }
@@ -195,6 +200,7 @@ impl PyRun {
             message: message.to_string(),
             statistics: run.statistics,
             choice: run.choice,
+            passed: run.passed,
         })
     }
 }

@@ -4,12 +4,17 @@
 //! them has no unique reaction: its values are those of the smallest λ.
 
 use super::dependence;
+use super::mobility::mobility;
 use crate::model::Model;
 use crate::solve::RANK_TOLERANCE;
 
-/// The constraints (indices) without a unique reaction at a position, ascending.
+/// The constraints (indices) without a unique reaction at a position and near it, ascending. At a singular position the
+/// reactions are those of the motion through it.
 pub fn not_unique(model: &Model, t: f64, q: &[f64]) -> Vec<usize> {
-    let found = dependence::at(model, t, q, RANK_TOLERANCE, &|| false);
+    let mut found = dependence::at(model, t, q, RANK_TOLERANCE, &|| false);
+    if !found.is_empty() {
+        found = mobility(model, t, q).redundant_equations;
+    }
     let mut all: Vec<usize> = found.into_iter().flat_map(|dependent| dependent.group).collect();
     all.sort_unstable();
     all.dedup();

@@ -126,6 +126,11 @@ impl<'a, S: Real> Projector<'a, S> {
         self.fastest.unwrap_or(0.0)
     }
 
+    /// The largest Φ at the last state, scaled.
+    pub fn gap(&self) -> f64 {
+        self.gaps[Level::Position as usize]
+    }
+
     /// Sets whether to project to rounding: near a singular position a residual of Φ appears in accelerations divided
     /// by σ³.
     pub fn sharpen(&mut self, sharp: bool) {

@@ -30,6 +30,7 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     _show_measures(console, summary["measures"], timed=of.is_time)
     _show_events(console, summary["events"], of.unit)
     _show_accuracy(console, summary, of.unit)
+    _show_singular(console, summary["singular"], of.unit)
     if of.is_time:
         _show_settling(console, summary["settling"])
     cost = summary["statistics"]
@@ -73,6 +74,24 @@ def _show_unbounded(console: Console, reactions: list[dict[str, Any]], at: str) 
         span = f"first at {_place(times[0], at)}, last at {_place(times[-1], at)}"
         text = f"without bound at singular positions, not counted here ({span}): {few(names)}"
         console.print(Text(f"  {text}"))
+
+
+def _show_singular(console: Console, passed: list[dict[str, Any]], at: str) -> None:
+    """The singular positions that were passed, and the accuracy that is lost beside them."""
+    if not passed:
+        return
+    worst = max(passed, key=lambda one: float(one["error"]))
+    names = sorted({name for one in passed for name in one["joints"]})
+    first, last = (_place(passed[k]["t"], at) for k in (0, -1))
+    where = f"at {first}" if len(passed) == 1 else f"first at {first}, last at {last}"
+    count = "1 singular position" if len(passed) == 1 else f"{len(passed)} singular positions"
+    console.print(Text(f"  {count} passed ({where}): {few(names)}"))
+    text = (
+        f"accelerations and reactions beside it: errors of constraints times 1/sigma^2 = "
+        f"{worst['amplification']:.2g}, about {worst['error']:.1g} at the output at "
+        f"{_place(worst['output'], at)}"
+    )
+    console.print(Text(f"  {text}"))
 
 
 def _show_minimum_norm(console: Console, reactions: list[dict[str, Any]]) -> None:

@@ -12,6 +12,7 @@ from kempe.arrays import Floats
 from kempe.extrema import unbounded
 from kempe.report.extremes import Sampled
 from kempe.report.settling import settling
+from kempe.report.singular import singular_positions
 from kempe.solution import Solution
 from kempe.values import instance
 
@@ -54,12 +55,13 @@ def summary(solution: Solution) -> dict[str, Any]:
             "residual": residual(sampled),
             "residual_rate": max(_largest_rate(solution), _largest_rate(sampled.steps)),
         },
+        "singular": singular_positions(solution),
         "energy": energy(sampled),
         "newton_euler": solution.newton_euler.largest,
         "measures": [measure(solution, name) for name in compiled.measures],
         "events": {name: event.t.tolist() for name, event in solution.events.items()},
         "settling": [settling_of(sampled, name) for name in compiled.bodies],
-        "statistics": dict(solution.statistics),
+        "statistics": {k: v for k, v in solution.statistics.items() if k != "singular"},
     }
 
 

@@ -17,6 +17,7 @@
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
 //! | `switch_schedule`, `switching` | switches in time, found before a run; switches during a run |
 //! | `singularity_passage`, `singularity_forecast`, `branch_averaging` | singular positions |
+//! | `redundant_rows` | redundant equations that a run leaves out |
 //! | `singularity_handover` | methods that leave singular positions to DOP853 |
 //! | `recorder`, `trajectory`, `report_projection`, `lane_batch` | reported states |
 //! | `interpolated_states` | states between them |
@@ -80,7 +81,7 @@ pub use methods::{Auto, Scheme};
 pub use options::{most_steps, read, Options, Output, Singularity};
 pub use prepared::Prepared;
 pub use run::{Event, Phase};
-pub use run_results::{EventStates, Run, Statistics};
+pub use run_results::{EventStates, Passed, Run, Statistics};
 pub use setting::Setting;
 pub use stabilizations::Stabilization;
 pub use stepper::Stepper;

@@ -6,15 +6,18 @@ use super::method_switching::MethodSwitching;
 use super::methods::Scheme;
 use super::motion_ode::MotionOde;
 use super::options::Options;
+use super::run_results::Passed;
 use super::sampling::Sample;
 use super::singularity_handover::{Method, SingularityHandover};
 use super::stiffness_detection::MethodChoice;
 use super::switch_schedule::Schedule;
 use super::switching::{After, Switching};
+use crate::analyses::mobility::dependent;
 use crate::integrate::{
     BoxedStepper, Cause, Direction, ExplicitMethod, Statistics, Step, StepControl, Stepper,
 };
 use crate::solve::Breakdown;
+use crate::stabilize::Projector;
 
 /// The stepper of a method.
 enum Kind<'a> {
@@ -67,6 +70,8 @@ pub(super) struct MotionStepper<'a> {
     sample: Option<Sample>,
     /// Accepted steps that were taken again.
     taken_again: usize,
+    /// The singular positions that were passed.
+    pub passed: Vec<Passed>,
 }
 
 impl<'a> MotionStepper<'a> {
@@ -107,7 +112,8 @@ impl<'a> MotionStepper<'a> {
             }
         };
         let switching = Switching::new(&mut ode, schedule, t, options.t_end, y).map(Box::new);
-        let mut stepper = Self { ode, kind, switching, sample: None, taken_again: 0 };
+        let mut stepper =
+            Self { ode, kind, switching, sample: None, taken_again: 0, passed: Vec::new() };
         if stepper.switching.is_some() {
             stepper.go_on_from(t, y)?;
         }
@@ -185,11 +191,29 @@ impl<'a> MotionStepper<'a> {
     /// Takes the next accepted step of the method.
     fn advance(&mut self) -> Result<(), Cause<Breakdown>> {
         self.kind.get_mut().step(&mut self.ode)?;
+        if let Some(found) = self.ode.passage.passed.take() {
+            self.note_passed(found);
+        }
         if !self.ode.workspace.matrix.omitted().is_empty() {
             let (t, y) = (self.t(), self.y().to_vec());
             self.ode.exchange_rows(t, &y);
         }
         Ok(())
+    }
+
+    /// Notes a singular position that the last step passed.
+    fn note_passed(&mut self, (at, slope, row): (f64, f64, usize)) {
+        let Some(step) = self.kind.get().last_step() else { return };
+        let (model, ahead) = (self.ode.model, at - step.t);
+        let [q, v, ..] = model.layout.split(step.y);
+        let there: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + ahead * v).collect();
+        // positions of a step that is taken again are found again
+        let direction = step.t - step.t_old;
+        self.passed.retain(|before| (before.t - step.t_old) * direction <= 0.0);
+        let group = dependent(model, at, &there, row);
+        let names = group.into_iter().map(|k| model.constraints[k].name.clone()).collect();
+        let residual = self.ode.projector.as_ref().map_or(0.0, Projector::gap);
+        self.passed.push(Passed { t: at, names, slope, residual });
     }
 
     /// Computes the data that only the interpolant needs.

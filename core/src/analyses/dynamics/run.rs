@@ -217,6 +217,7 @@ fn step_through<W: FnMut(f64) -> Flow>(
     };
     run.statistics.add(stepper.statistics(), stepper.factorisations());
     run.choice = stepper.choice();
+    run.passed.append(&mut stepper.passed);
     at.t = stepper.t();
     at.y.copy_from_slice(stepper.y());
     outcome

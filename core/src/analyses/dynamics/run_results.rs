@@ -48,6 +48,20 @@ pub struct EventStates {
     pub states: Trajectory,
 }
 
+/// A singular position that a run passed. With σ the smallest singular value of Φ_q relative to its rows, an error e of
+/// the constraints beside it is an error of about e/σ² in accelerations and multipliers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Passed {
+    /// Its time, s, within a small part of the step across it.
+    pub t: f64,
+    /// Names of the joints and drivers whose equations depend on each other there.
+    pub names: Vec<String>,
+    /// σ over the time from the position, 1/s.
+    pub slope: f64,
+    /// Largest Φ after the step across, with lengths relative to the size of the mechanism.
+    pub residual: f64,
+}
+
 /// The outcome of forward dynamics.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run {
@@ -72,6 +86,8 @@ pub struct Run {
     pub reached: bool,
     /// Whether it passes singular positions, as runs with projection do.
     pub passing: bool,
+    /// The singular positions that it passed, in order.
+    pub passed: Vec<Passed>,
     /// Projection of its states; None with another stabilization. See [`Prepared::project`](super::Prepared::project).
     pub projection: Option<Projection>,
 }

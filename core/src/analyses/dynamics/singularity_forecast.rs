@@ -75,14 +75,30 @@ impl SingularityForecast {
         self.position
     }
 
-    /// Accepts the last trial with the sample at its end, which the trial evaluated only at a state nearby.
-    pub fn accept(&mut self, end: Option<Sample>) {
+    /// Accepts the last trial with the sample at its end, which the trial evaluated only at a state nearby. Returns the
+    /// time of a singular position that it passed, and the root of the pivot over the time from there.
+    pub fn accept(&mut self, end: Option<Sample>) -> Option<(f64, f64)> {
         self.end = end.or(self.end);
-        if let (Some((from, _)), Some((to, _))) = (self.start, self.end) {
-            self.position = self.position.filter(|t| (t - to) * (to - from) > 0.0);
+        let mut passed = None;
+        if let (Some(start), Some(end)) = (self.start, self.end) {
+            let step = end.0 - start.0;
+            let ahead = self.position.filter(|t| (t - end.0) * step > 0.0);
+            let behind = self.position.filter(|t| (t - end.0) * step <= 0.0);
+            passed =
+                behind.filter(|t| (t - start.0) * step >= 0.0).map(|t| (t, slope(t, start, end)));
+            self.position = ahead;
         }
         self.start = self.end;
+        passed
     }
+}
+
+/// Growth of the root of the pivot from the time at which it vanishes, the mean of both sides.
+fn slope(t: f64, start: Sample, end: Sample) -> f64 {
+    0.5 * [start, end]
+        .map(|(at, pivot)| pivot.sqrt() / (at - t).abs().max(f64::MIN_POSITIVE))
+        .iter()
+        .sum::<f64>()
 }
 
 /// The time at which the pivot vanishes; the samples are in the order of motion.

@@ -34,6 +34,9 @@ const BALANCED: f64 = 1e-9;
 pub(super) struct SingularityPassage {
     /// Whether a stage of the current trial was near a singular position.
     pub near: bool,
+    /// Time of a singular position that the last accepted step passed, the growth of σ from there, and a row that
+    /// depends on others there.
+    pub passed: Option<(f64, f64, usize)>,
     /// Reason and time of the last undecided trial state.
     pub undecided: Option<(f64, Breakdown)>,
     singularity: Singularity,
@@ -62,6 +65,7 @@ impl SingularityPassage {
     pub fn new(options: &Options, passing: bool) -> Self {
         Self {
             near: false,
+            passed: None,
             undecided: None,
             singularity: options.singularity,
             passing,
@@ -132,7 +136,11 @@ impl SingularityPassage {
     /// Accepts the trial of the last forecast; the workspace belongs to its end.
     pub fn accept(&mut self, t: f64, work: &Workspace) {
         if self.passing {
-            self.approach.accept(work.matrix.cancellation().map(|(_, ratio)| (t, ratio)));
+            let end = work.matrix.cancellation();
+            let passed = self.approach.accept(end.map(|(_, ratio)| (t, ratio)));
+            if let (Some((at, slope)), Some((row, _))) = (passed, end) {
+                self.passed = Some((at, slope, row));
+            }
         }
     }
 
