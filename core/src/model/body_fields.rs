@@ -36,7 +36,7 @@ fn mass() -> Field {
 }
 
 fn shapes() -> Field {
-    let doc = "Homogeneous pieces, instead of mass, inertia and center: a list of tables, each with \
+    let doc = "Homogeneous pieces; without them, mass and inertia are required: a list of tables, each with \
     a type (rod, plate, disc, ring or polygon), its sizes, at, angle, and mass or density with thickness.";
     Field::optional("shapes", Shape::Shapes, "", Default::Absent, doc)
 }
@@ -53,19 +53,13 @@ fn body() -> Table {
         name: "body",
         doc: "A rigid body of any form.".to_string(),
         fields: vec![
-            Field::optional(
-                "mass",
-                Shape::Number,
-                "kg",
-                Default::Absent,
-                "Mass; required without shapes.",
-            ),
+            Field::optional("mass", Shape::Number, "kg", Default::Absent, "Mass."),
             Field::optional(
                 "inertia",
                 Shape::Number,
                 "kg*m^2",
                 Default::Absent,
-                "Moment of inertia about the mass centre; required without shapes; 0 for a point mass.",
+                "Moment of inertia about the mass centre; 0 for a point mass.",
             ),
             Field::optional(
                 "center",
