@@ -156,18 +156,25 @@ fn a_second_value_replaces_the_first() {
 fn every_field_of_bodies() {
     let circle = || [("circle", Value::List([0.0, 0.0, 1.0].map(Value::from).into()))];
     let mut m = ModelBuilder::new("all");
-    m.ground().point("O", 0, 0).curve("ring", circle());
-    let bar = m.bar("bar").mass(1).length(1).ends("A", "B").curve("rim", circle());
+    let drawn = || Value::Table(circle().map(|(key, value)| (key.to_string(), value)).into());
+    m.ground().point("O", 0, 0).curve("ring", circle()).outline(drawn());
+    let bar = m.bar("bar").mass(1).length(1).ends("A", "B").curve("rim", circle()).outline(drawn());
     bar.through("A", 0, 0).through("B", 1, 0).point("C", 0, 1);
     let body = m.body("body").mass(1).inertia(1).center(0, 0).point("C", 0, 1);
-    let body = body.curve("rim", circle());
+    let body = body.curve("rim", circle()).outline(drawn());
     body.through("C", 0, 0).through("D", 1, 1);
-    m.point_mass("point_mass").mass(1).at(0.5, 2);
+    m.point_mass("point_mass").mass(1).at(0.5, 2).outline(drawn());
+    // a body has shapes, or mass, inertia and center
+    m.body("of shapes").shape("disc", [("radius", 1.0.into()), ("mass", 1.0.into())]);
     m.build().unwrap();
     for table in body_tables() {
         let entry = m.definition().bodies.iter().find(|b| b.name == table.name).unwrap();
         let mut written: Vec<&str> = entry.fields.iter().map(|(key, _)| key.as_str()).collect();
         written.retain(|key| *key != "type");
+        if table.name == "body" {
+            written.push("shapes");
+            assert!(m.definition().bodies.last().unwrap().get("shapes").is_some());
+        }
         let mut declared: Vec<&str> = table.fields.iter().map(|field| field.name).collect();
         written.sort_unstable();
         declared.sort_unstable();

@@ -46,7 +46,7 @@ def test_options_are_those_of_the_core(table: dict) -> None:
 def test_bodies_are_those_of_the_core(kind: type) -> None:
     (table,) = (table for table in CATALOGUE["bodies"] if table["name"] == kind.kind)
     assert defaults(kind) == declared(table)
-    assert kind.shapes == {field["name"]: field["shape"] for field in table["fields"]}
+    assert kind.value_kinds == {field["name"]: field["shape"] for field in table["fields"]}
 
 
 def test_a_simulation_has_the_fields_of_the_core() -> None:

@@ -41,7 +41,7 @@ fn mass() -> Field {
 }
 
 fn shapes() -> Field {
-    let doc = "Homogeneous pieces, instead of mass, inertia and center: a list of tables, each with \
+    let doc = "Homogeneous pieces; without them, mass and inertia are required: a list of tables, each with \
     a type (rod, plate, disc, ring or polygon), its sizes, at, angle, and mass or density with thickness.";
     Field::optional("shapes", Shape::Shapes, "", Default::Absent, doc)
 }

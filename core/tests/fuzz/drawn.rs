@@ -70,7 +70,7 @@ impl Drawn<'_> {
         if self.random.chance(0.2) {
             fields.push(("outline".into(), self.outline()));
         }
-        if self.random.chance(0.2) {
+        if self.random.chance(0.1) {
             fields.push(("points".into(), self.points()));
             fields.push(("shapes".into(), self.shapes()));
             return fields;
@@ -107,7 +107,7 @@ impl Drawn<'_> {
             ],
             2 => vec![
                 entry("type", text("ring")),
-                entry("inner", self.number()),
+                entry("inner", self.positive()),
                 entry("outer", text("2*L + 3")),
             ],
             _ => {
@@ -116,7 +116,8 @@ impl Drawn<'_> {
             }
         };
         let section = if other[0].1 == text("rod") { "area" } else { "thickness" };
-        other.extend([entry("density", self.number()), entry(section, self.positive())]);
+        let density = if self.random.chance(0.1) { self.number() } else { self.positive() };
+        other.extend([entry("density", density), entry(section, self.positive())]);
         if self.random.chance(0.5) {
             other.push(entry("at", Value::List(vec![self.number(), self.number()])));
             other.push(entry("angle", self.number()));
