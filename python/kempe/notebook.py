@@ -48,7 +48,9 @@ def of_state(state: State) -> str:
     """Drawing of the mechanism in a state, and the motion of its bodies."""
     header, rows = state.table()
     caption = f"{state.compiled.title}, t = {state.t:g} s"
-    return _block(caption, drawing(state), table(header, rows))
+    unset = "" if state.report is None else str(state.report.unset)
+    told = [_paragraph(unset)] if unset else []
+    return _block(caption, drawing(state), table(header, rows), *told)
 
 
 def of_solution(solution: Solution) -> str:

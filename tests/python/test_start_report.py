@@ -166,6 +166,14 @@ def test_angles_of_elements_that_look_like_degrees() -> None:
     assert 'for degrees, write "270 deg"' in told
 
 
+def test_in_a_notebook() -> None:
+    told = kp.assemble(four_bar())._repr_html_()
+    assert "not set: crank.angle = 0° (no guess); crank.omega = 0 (at rest)" in told
+    assert (
+        "not set" not in kp.assemble(four_bar(), from_state=kp.assemble(four_bar()))._repr_html_()
+    )
+
+
 def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = str(ROOT / "examples/four_bar.toml")
     assert app.run(["check", file]) == 0
