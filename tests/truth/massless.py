@@ -133,14 +133,14 @@ def engine(*, crank: float, rod: float, piston: float) -> kp.Model:
 
 def of_light_piston(_: float, y: Vector) -> list[float]:
     a, rate = y
-    f, rates, _ = slider(a, 2.5)
+    f, rates = slider(a, 2.5)[:2]
     parts = [bar(1, 1, FIXED, (1, 0), a), bar(0.5, 2.5, turned(1, a, 1, 0), rates, f)]
     return [rate, acceleration(parts, rate)]
 
 
 def of_light_rod(_: float, y: Vector) -> list[float]:
     a, rate = y
-    _, _, moved = slider(a, 2.5)
+    moved = slider(a, 2.5)[2]
     return [rate, acceleration([bar(1, 1, FIXED, (1, 0), a), Part(0.8, moved)], rate)]
 
 
@@ -182,7 +182,7 @@ def loop(mass: float) -> kp.Model:
 
 def of_loop(_: float, y: Vector) -> list[float]:
     a, rate = y
-    f, _, moved = slider(a, 2)
+    (f, moved) = slider(a, 2)[::2]
     x, x1 = math.cos(a) + 2 * math.cos(f), moved[0].real
     load = (40 * (4.5 - x - 2) - 0.5 * x1 * rate) * x1
     return [rate, acceleration([Part(1, turned(1, a, 1, 0)), Part(2, moved)], rate, load)]
@@ -271,7 +271,8 @@ def slack(mass: float) -> tuple[kp.Model, dict[str, float]]:
 def chain(*masses: float) -> tuple[kp.Model, dict[str, float]]:
     m = kp.Model("chain", gravity=(0, -G))
     m.ground.points(O=(0, 0))
-    last, given = "ground.O", {}
+    last = "ground.O"
+    given: dict[str, float] = {}
     for k, mass in enumerate(masses):
         m.bar(f"b{k}", mass=mass, length=1, ends=("P", "Q"))
         m.revolute(f"j{k}", last, f"b{k}.P")
