@@ -1,6 +1,5 @@
 """Random sets of equal cranks on one rod, through their change points, against a pendulum.
 
-
 Two to five equal and parallel cranks carry a rod, which moves without turning. With the angle φ of
 the cranks, their masses m and length L, the mass M of the rod and a torsional spring k on the
 first:

@@ -8,7 +8,7 @@
 //!
 //! with the [`Tangent`] of the equations of motion, real or complex. The middle row and column belong to the
 //! first-order states of elements; few models have any. M contains what is added to bodies without mass or inertia.
-//! The residual is that of the true equations, so the iteration still converges to their solution. μ = 0 but for
+//! The residual is that of the true equations, so the iteration still converges to their solution. μ = 0 except for
 //! redundant rows, which are left out by a large one.
 
 use super::added_mass::{self, Added};

@@ -101,7 +101,7 @@ impl<'a> MotionOde<'a> {
     pub fn exchange_rows(&mut self, t: f64, y: &[f64]) {
         let [q, v, z, _] = self.model.layout.split(y);
         if redundant_rows::exchange(self.model, &mut self.workspace, t, [q, v, z]) {
-            // samples of other rows are no forecast
+            // a forecast needs samples of the same rows
             let solved = self.workspace.accelerate(self.model, t, [q, v, z], self.gains);
             if solved.is_ok() {
                 self.passage.begin(t, &self.workspace);
