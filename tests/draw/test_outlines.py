@@ -257,3 +257,5 @@ def test_shapes_are_drawn_as_they_are() -> None:
     for at, wanted in inside.items():
         assert winding(rings, np.array(at)) == wanted, at
         assert winding([one], np.array(at)) == wanted, at
+    for at in np.random.default_rng(1).uniform((-1.5, -2.5), (5.5, 2.5), (500, 2)):
+        assert winding(rings, at) == winding([one], at), at
