@@ -147,13 +147,11 @@ impl<'a> Continuation<'a> {
 
     /// Whether a point lies where the last one leads.
     fn is_near(&self, next: &Point, predicted: &[f64], h: f64) -> bool {
-        let norm = |x: Vec<f64>| self.solver.norm(&x);
-        let apart = |a: &[f64], b: &[f64]| norm(a.iter().zip(b).map(|(a, b)| a - b).collect());
-        let moved = apart(&next.q, &self.point.q);
-        let corrected = apart(&next.q, predicted);
+        let moved = self.solver.apart(&next.q, &self.point.q);
+        let corrected = self.solver.apart(&next.q, predicted);
         let expected: Vec<f64> =
             self.point.v.iter().zip(&self.point.a).map(|(v, a)| v + h * a).collect();
-        let turned = apart(&next.v, &expected);
+        let turned = self.solver.apart(&next.v, &expected);
         let fastest = self.solver.norm(&next.v).max(self.solver.norm(&self.point.v));
         moved <= 2.0 * LONGEST
             && corrected <= SMALL.max(CORRECTION * moved)

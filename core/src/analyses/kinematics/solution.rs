@@ -60,6 +60,8 @@ pub(super) struct Solver<'a> {
     /// Scale of each coordinate, and of each row of Φ.
     pub columns: Vec<f64>,
     pub rows: Vec<f64>,
+    /// Velocities of a mechanism at rest.
+    rest: Vec<f64>,
     motions: Motions,
     /// Part of the worst pivot that the last factorisation left.
     kept: f64,
@@ -73,12 +75,19 @@ pub(super) struct Solver<'a> {
 impl<'a> Solver<'a> {
     pub fn new(model: &'a Model) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
-        let columns = column_scales(model);
+        let (columns, rows) = (column_scales(model), row_scales(model));
+        let weights: Vec<f64> = columns.iter().map(|scale| 1.0 / (scale * scale)).collect();
+        let mut matrix = Augmented::new(model);
+        matrix.set_weights(&weights);
+        if model.allow_redundancy {
+            matrix.set_damping(rows.iter().map(|scale| REDUNDANT * scale * scale));
+        }
         Self {
-            matrix: Augmented::new(model),
-            weights: columns.iter().map(|scale| 1.0 / (scale * scale)).collect(),
+            matrix,
+            weights,
             columns,
-            rows: row_scales(model),
+            rows,
+            rest: vec![0.0; n],
             motions: Motions::new(&model.layout),
             kept: 1.0,
             regular: None,
@@ -88,10 +97,15 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// The mean square of x, scaled.
+    /// The root mean square of x, scaled.
     pub fn norm(&self, x: &[f64]) -> f64 {
-        let sum: f64 = x.iter().zip(&self.weights).map(|(x, w)| x * x * w).sum();
-        (sum / x.len().max(1) as f64).sqrt()
+        self.apart(x, &self.rest)
+    }
+
+    /// The same of a - b.
+    pub fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
+        let squares = a.iter().zip(b).zip(&self.weights).map(|((a, b), w)| (a - b) * (a - b) * w);
+        (squares.sum::<f64>() / a.len().max(1) as f64).sqrt()
     }
 
     /// Closes a position that is nearly closed, and solves for its rates. None if Newton's method does not contract at
@@ -100,17 +114,16 @@ impl<'a> Solver<'a> {
         let q = self.closed(t, q)?;
         self.factored(t)?;
         let v = self.solved(1, -1.0);
-        self.evaluate(t, (&q, &v));
+        self.evaluate(t, &q, Some(&v));
         let a = self.solved(2, 1.0);
         v.iter().chain(&a).all(|x| x.is_finite()).then_some(Point { t, q, v, a })
     }
 
     /// Newton's method; Φ and its rate without velocities belong to the position that it returns.
     fn closed(&mut self, t: f64, mut q: Vec<f64>) -> Option<Vec<f64>> {
-        let rest = vec![0.0; q.len()];
         let mut last = f64::INFINITY;
         for _ in 0..MOST {
-            self.evaluate(t, (&q, &rest));
+            self.evaluate(t, &q, None);
             let gap = self.gap();
             if gap <= CLOSED {
                 return Some(q);
@@ -128,10 +141,10 @@ impl<'a> Solver<'a> {
         None
     }
 
-    /// Φ, its rate and γ at a motion.
-    fn evaluate(&mut self, t: f64, (q, v): (&[f64], &[f64])) {
-        let Self { model, motions, terms, .. } = self;
-        motions.place(&model.layout, q, v);
+    /// Φ, its rate and γ at a motion, or at rest.
+    fn evaluate(&mut self, t: f64, q: &[f64], v: Option<&[f64]>) {
+        let Self { model, motions, terms, rest, .. } = self;
+        motions.place(&model.layout, q, v.unwrap_or(rest));
         let [phi, rate, gamma] = terms;
         constraints::velocity_terms(model, motions, t, phi, rate, gamma);
     }
@@ -145,11 +158,7 @@ impl<'a> Solver<'a> {
     /// Factorises at the last motion. None where a pivot is lost.
     fn factored(&mut self, t: f64) -> Option<()> {
         let Self { model, matrix, motions, .. } = self;
-        matrix.set_weights(&self.weights);
         constraints::jacobian(model, motions, t, matrix.jacobian_mut());
-        if model.allow_redundancy {
-            matrix.set_damping(self.rows.iter().map(|scale| REDUNDANT * scale * scale));
-        }
         matrix.factor().ok()?;
         let kept = matrix.cancellation().map_or(1.0, |(_, kept)| kept);
         self.kept = kept;
@@ -184,7 +193,7 @@ impl<'a> Solver<'a> {
 
     /// Φ at a position, scaled, for the path by its length.
     pub fn phi(&mut self, t: f64, q: &[f64]) -> Vec<f64> {
-        self.evaluate(t, (q, &vec![0.0; q.len()]));
+        self.evaluate(t, q, None);
         self.terms[0].iter().zip(&self.rows).map(|(phi, scale)| phi / scale).collect()
     }
 
@@ -207,7 +216,7 @@ impl<'a> Solver<'a> {
 
     /// Φ_q, scaled, with the column Φ_t, row by row, shape (n_rows, n_q + 1). `unit` is the scale of t.
     pub fn extended(&mut self, t: f64, q: &[f64], unit: f64) -> Vec<f64> {
-        self.evaluate(t, (q, &vec![0.0; q.len()]));
+        self.evaluate(t, q, None);
         let Self { model, motions, terms, .. } = self;
         let n = model.layout.n_q;
         let mut entries = vec![0.0; model.layout.n_entries];
