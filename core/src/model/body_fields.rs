@@ -63,14 +63,14 @@ fn body() -> Table {
                 Shape::Number,
                 "kg",
                 Default::Absent,
-                "Mass; required without shapes; 0 where the mechanism determines the motion.",
+                "Mass; 0 where the mechanism determines the motion.",
             ),
             Field::optional(
                 "inertia",
                 Shape::Number,
                 "kg*m^2",
                 Default::Absent,
-                "Moment of inertia about the mass centre; required without shapes; may be 0.",
+                "Moment of inertia about the mass centre; may be 0.",
             ),
             Field::optional(
                 "center",
