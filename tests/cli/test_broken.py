@@ -68,7 +68,7 @@ CONTENTS: dict[str, tuple[Callable[[], bytes], int, str]] = {
     "unknown point": (with_('"crank.B"', '"crank.E"'), BAD_INPUT, "no point 'E'"),
     "unknown parameter": (with_('"L2"', '"L22"'), BAD_INPUT, "L22"),
     "reserved name": (with_("[bodies.crank]", "[bodies.t]"), BAD_INPUT, "reserved"),
-    "negative mass": (with_("mass = 3", "mass = -3"), BAD_INPUT, "must be > 0"),
+    "negative mass": (with_("mass = 3", "mass = -3"), BAD_INPUT, "must not be negative"),
     "nan": (with_("mass = 3", "mass = nan"), BAD_INPUT, "bodies.crank.mass"),
     "huge length": (with_("L2 = 26", "L2 = 1e300"), BAD_INPUT, "must be below"),
     "overflow": (with_("L2 = 26", 'L2 = "10^400"'), BAD_INPUT, "L2"),
